@@ -1,0 +1,16 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace firetwin::bindings {
+
+void init_errors(pybind11::module_& module);
+void init_geo(pybind11::module_ module);
+void init_run(pybind11::module_ module);
+void init_flux(pybind11::module_ module);
+void init_lod(pybind11::module_ module);
+void init_forest(pybind11::module_ module);
+void init_volume(pybind11::module_ module);
+void init_sensor(pybind11::module_ module);
+
+} // namespace firetwin::bindings

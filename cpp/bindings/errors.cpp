@@ -1,0 +1,38 @@
+#include "bindings.hpp"
+#include "error.hpp"
+
+#include <pybind11/gil_safe_call_once.h>
+
+#include <exception>
+
+namespace firetwin::bindings {
+namespace py = pybind11;
+
+void init_errors(py::module_& module) {
+  PYBIND11_CONSTINIT static py::gil_safe_call_once_and_store<py::object> error;
+  PYBIND11_CONSTINIT static py::gil_safe_call_once_and_store<py::object> input_error;
+  error.call_once_and_store_result(
+      [&] { return py::object(py::exception<Error>(module, "Error")); });
+  input_error.call_once_and_store_result([&] {
+    return py::object(py::exception<InputError>(module, "InputError", error.get_stored()));
+  });
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      if (pointer) {
+        std::rethrow_exception(pointer);
+      }
+    } catch (const InputError& e) {
+      const py::object& type = input_error.get_stored();
+      py::object value = type(e.what());
+      value.attr("path") = e.path();
+      value.attr("line") = e.line();
+      value.attr("column") = e.column();
+      value.attr("reason") = e.reason();
+      PyErr_SetObject(type.ptr(), value.ptr());
+    } catch (const Error& e) {
+      py::set_error(error.get_stored(), e.what());
+    }
+  });
+}
+
+} // namespace firetwin::bindings

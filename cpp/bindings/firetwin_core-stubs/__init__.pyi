@@ -1,0 +1,26 @@
+from . import flux as flux
+from . import forest as forest
+from . import geo as geo
+from . import lod as lod
+from . import run as run
+from . import sensor as sensor
+from . import volume as volume
+
+__version__: str
+
+class Error(Exception):
+    """Base of every error that Firetwin raises on purpose."""
+
+class InputError(Error):
+    """Bad input: ``path``, ``line`` and ``column`` (1-based, 0 where none applies), ``reason``."""
+
+    path: str
+    line: int
+    column: int
+    reason: str
+
+def set_threads(threads: int) -> None:
+    """Use at most this many worker threads; 0 uses all cores."""
+
+def build_info() -> dict[str, str]:
+    """Compiler and library versions of this build."""

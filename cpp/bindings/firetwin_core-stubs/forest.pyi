@@ -1,0 +1,65 @@
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+SMALL: int
+MEDIUM: int
+LARGE: int
+
+class Trees:
+    """n trees, in order of their cells."""
+
+    @property
+    def cell(self) -> NDArray[np.int64]: ...
+    @property
+    def position(self) -> NDArray[np.float64]:
+        """(n, 3) east, north, up in metres."""
+    @property
+    def size_class(self) -> NDArray[np.uint8]:
+        """SMALL 0, MEDIUM 1, LARGE 2."""
+    @property
+    def model(self) -> NDArray[np.uint8]:
+        """Index in the class: 0..1 for LARGE, 0..3 for the others."""
+    @property
+    def scale(self) -> NDArray[np.float32]:
+        """Height in metres (the models are one metre tall)."""
+    @property
+    def rotation(self) -> NDArray[np.float32]:
+        """Radians about the vertical."""
+
+class Grass:
+    @property
+    def cell(self) -> NDArray[np.int64]: ...
+    @property
+    def position(self) -> NDArray[np.float64]: ...
+    @property
+    def rotation(self) -> NDArray[np.float32]: ...
+    @property
+    def scale(self) -> NDArray[np.float32]: ...
+
+def trees(
+    canopy_fuel: ArrayLike,
+    latitude: ArrayLike,
+    longitude: ArrayLike,
+    elevation: ArrayLike,
+    frame: object,
+    seed: int = 0,
+    max_fuel: float | None = None,
+    jitter: float = 1.0,
+) -> Trees:
+    """Algorithm 2: canopy_fuel (fy, fx) kg/m2, latitude (fy,), longitude (fx,), elevation (fy, fx) m -> trees.
+
+    `frame` is a geo.LocalFrame. `max_fuel` defaults to the largest finite fuel. `jitter` 1 spreads over the
+    whole cell, 0 keeps the centre. The height of a tree is the bilinear elevation at its jittered place.
+    """
+
+def grass(
+    surface_fuel: ArrayLike,
+    canopy_fuel: ArrayLike,
+    latitude: ArrayLike,
+    longitude: ArrayLike,
+    elevation: ArrayLike,
+    frame: object,
+    seed: int = 0,
+    jitter: float = 1.0,
+) -> Grass:
+    """Algorithm 2's grass: one clump, 0.70 m lower, in each cell with surface fuel, at its tree's place."""

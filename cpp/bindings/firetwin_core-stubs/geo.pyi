@@ -1,0 +1,23 @@
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+class LocalFrame:
+    """WGS84 to local east-north-up metres about one origin (degrees, degrees, metres)."""
+
+    def __init__(self, latitude: float, longitude: float, height: float = 0.0) -> None: ...
+    @property
+    def latitude(self) -> float: ...
+    @property
+    def longitude(self) -> float: ...
+    @property
+    def height(self) -> float: ...
+    def forward(self, latitude: ArrayLike, longitude: ArrayLike, height: ArrayLike) -> NDArray[np.float64]:
+        """Geodetic (n,) degrees, degrees, metres -> (n, 3) east, north, up in metres."""
+    def forward_grid(
+        self, latitude: ArrayLike, longitude: ArrayLike, height: ArrayLike
+    ) -> NDArray[np.float64]:
+        """Rectilinear grid: latitude (ny,), longitude (nx,), height (ny, nx) -> (ny, nx, 3) metres."""
+    def reverse(
+        self, enu: ArrayLike
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """(n, 3) metres -> latitude (n,), longitude (n,), height (n,)."""

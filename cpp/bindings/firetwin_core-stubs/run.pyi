@@ -1,0 +1,70 @@
+from os import PathLike
+
+import numpy as np
+from numpy.typing import NDArray
+
+def read_grid(path: str | PathLike[str]) -> NDArray[np.float32]:
+    """Read a text or .npy grid -> (ny, nx); every value is the float32 nearest to its decimal text."""
+
+def open(folder: str | PathLike[str]) -> Run:
+    """Open a run folder: checks run.toml, the axes and the shape of every field; frames stay on disk."""
+
+class Run:
+    @property
+    def path(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def synthetic(self) -> bool:
+        """True when run.toml says that the run is made up, not model output."""
+    @property
+    def start(self) -> str:
+        """Start of the run, ISO 8601 UTC."""
+    @property
+    def vertical(self) -> str:
+        """Either "orthometric" or "ellipsoidal"."""
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """Model times (nt,), seconds since start, ascending."""
+    @property
+    def latitude(self) -> NDArray[np.float64]:
+        """(ny,) degrees north."""
+    @property
+    def longitude(self) -> NDArray[np.float64]:
+        """(nx,) degrees east."""
+    @property
+    def elevation(self) -> NDArray[np.float32]:
+        """(ny, nx) metres."""
+    @property
+    def fuel_latitude(self) -> NDArray[np.float64]:
+        """(fy,) degrees north."""
+    @property
+    def fuel_longitude(self) -> NDArray[np.float64]:
+        """(fx,) degrees east."""
+    @property
+    def surface_fuel(self) -> NDArray[np.float32]:
+        """(fy, fx) kg/m2."""
+    @property
+    def canopy_fuel(self) -> NDArray[np.float32]:
+        """(fy, fx) kg/m2."""
+    @property
+    def fields(self) -> list[str]:
+        """Names of the fields that the run folder holds."""
+    @property
+    def warnings(self) -> list[str]:
+        """What is odd but usable, one sentence each."""
+    def heat_flux(self, index: int) -> NDArray[np.float32]:
+        """(ny, nx) W/m2 at times[index]."""
+    def temperature(self, index: int) -> NDArray[np.float32]:
+        """(ny, nx) K; Error when the run has none."""
+    def wind(self, index: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        """Eastward and northward (ny, nx) m/s; Error when the run has none."""
+    def flux_range(self) -> tuple[float, float]:
+        """Smallest and largest finite heat flux of the whole run, W/m2."""
+    def arrival_time(self, threshold: float = 0.0) -> NDArray[np.float32]:
+        """(ny, nx) seconds since start when the flux first exceeds threshold (W/m2), NaN where never."""
+    def fuel_arrival_time(self) -> NDArray[np.float32]:
+        """(fy, fx) seconds since start, NaN where never, negative where burned before the start.
+
+        The run's own fuel_arrival_time field where it has one, else arrival_time() resampled bilinearly.
+        """

@@ -1,0 +1,28 @@
+from os import PathLike
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+def radiance(kelvin: ArrayLike, band: tuple[float, float] = (8.0, 14.0)) -> NDArray[np.float64]:
+    """Planck radiance of a black body (K) over a band (micrometres) -> W m-2 sr-1."""
+
+def brightness_temperature(
+    radiance: ArrayLike, band: tuple[float, float] = (8.0, 14.0)
+) -> NDArray[np.float64]:
+    """The inverse of `radiance` -> K."""
+
+def thermal_gradient(kelvin: ArrayLike, low: float, high: float) -> NDArray[np.float32]:
+    """(h, w) K -> (h, w, 3) colour of the thermal gradient (black, purple, red, orange, yellow, white), 0..1."""
+
+def thermal_composite(
+    rgb: ArrayLike, kelvin: ArrayLike, low: float, high: float, strength: float = 1.0
+) -> NDArray[np.float32]:
+    """The paper's thermal view: normalised pixels (h, w, 3) in 0..1 + strength * gradient, clamped to 0..1."""
+
+def read_image(path: str | PathLike[str]) -> NDArray[np.float32]:
+    """PNG, EXR, TIFF or JPEG (by content) -> (h, w, channels)."""
+
+def write_image(
+    path: str | PathLike[str], pixels: ArrayLike, metadata: dict[str, str] | None = None
+) -> None:
+    """Write (h, w) or (h, w, c) pixels; .png as 8-bit, .exr as 32-bit float, to a temporary file then renamed."""

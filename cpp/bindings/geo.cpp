@@ -1,0 +1,8 @@
+#include "bindings.hpp"
+
+namespace firetwin::bindings {
+namespace py = pybind11;
+
+void init_geo(py::module_ module) { module.doc() = ""; }
+
+} // namespace firetwin::bindings

@@ -1,0 +1,55 @@
+#include "bindings.hpp"
+
+#include <oneapi/tbb/global_control.h>
+#include <openvdb/openvdb.h>
+#include <OpenImageIO/imageio.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace py = pybind11;
+
+namespace {
+
+/// Limits the worker threads of every function in this module; 0 means all cores.
+void set_threads(int threads) {
+  static std::unique_ptr<tbb::global_control> limit;
+  if (threads < 0) {
+    throw std::invalid_argument("threads must be 0 (all cores) or more");
+  }
+  limit.reset();
+  if (threads > 0) {
+    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                  static_cast<std::size_t>(threads));
+  }
+}
+
+std::map<std::string, std::string> build_info() {
+  return {{"compiler", __VERSION__},
+          {"openvdb", openvdb::getLibraryAbiVersionString()},
+          {"openimageio", OIIO_VERSION_STRING},
+          {"tbb", TBB_runtime_version()}};
+}
+
+} // namespace
+
+PYBIND11_MODULE(firetwin_core, module) {
+  namespace bindings = firetwin::bindings;
+  module.doc() = "The numbers behind Firetwin: NumPy arrays in, NumPy arrays out.";
+  module.attr("__version__") = FIRETWIN_VERSION;
+  module.def("set_threads", &set_threads, py::arg("threads"),
+             "Use at most this many worker threads; 0 uses all cores.");
+  module.def("build_info", &build_info, "Compiler and library versions of this build.");
+  bindings::init_errors(module);
+  bindings::init_geo(module.def_submodule("geo"));
+  bindings::init_run(module.def_submodule("run"));
+  bindings::init_flux(module.def_submodule("flux"));
+  bindings::init_lod(module.def_submodule("lod"));
+  bindings::init_forest(module.def_submodule("forest"));
+  bindings::init_volume(module.def_submodule("volume"));
+  bindings::init_sensor(module.def_submodule("sensor"));
+}
