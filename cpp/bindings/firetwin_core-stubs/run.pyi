@@ -18,6 +18,9 @@ class Run:
     def synthetic(self) -> bool:
         """True when run.toml says that the run is made up, not model output."""
     @property
+    def event(self) -> str:
+        """Name of the known fire that the run depicts ("king_fire"), empty when run.toml names none."""
+    @property
     def start(self) -> str:
         """Start of the run, ISO 8601 UTC."""
     @property
