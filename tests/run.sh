@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Installs what is needed and runs every test: formatting and lint, the core, and Blender.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+examples/setup.sh --with-tests
+
+echo "== format and lint"
+.venv/bin/ruff format --check addon data tests
+.venv/bin/ruff check addon data tests
+find cpp \( -name '*.cpp' -o -name '*.hpp' \) -print0 | xargs -0 .venv/bin/clang-format --dry-run --Werror
+shellcheck examples/*.sh tests/*.sh .ci/run
+
+echo "== core"
+.venv/bin/python -m pytest tests/core -q -n 2 --dist loadfile
+echo "== blender"
+.venv/bin/python -m pytest tests/blender -q -n 2 --dist loadfile
