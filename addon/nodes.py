@@ -1,0 +1,255 @@
+"""The one way node trees are made: formulas on sockets, looked up by name.
+
+ground, tree = nodes.material("Firetwin Ground")
+age = nodes.model_time(tree) - tree.attribute("arrival_time")
+embers = (age / -3600.0).exp()
+tree.surface(nodes.thermal_switch(tree, tree.emission(colour, embers), kelvin))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import bpy
+
+from . import compat
+
+TIME = "firetwin_time"
+THERMAL = "firetwin_thermal"
+
+
+class Value:
+    """An output socket with arithmetic; every operation adds a Math node to its tree."""
+
+    def __init__(self, tree: Tree, socket: bpy.types.NodeSocket) -> None:
+        self.tree, self.socket = tree, socket
+
+    def __add__(self, other: Any) -> Value:
+        return self.tree.math("ADD", self, other)
+
+    def __radd__(self, other: Any) -> Value:
+        return self.tree.math("ADD", other, self)
+
+    def __sub__(self, other: Any) -> Value:
+        return self.tree.math("SUBTRACT", self, other)
+
+    def __rsub__(self, other: Any) -> Value:
+        return self.tree.math("SUBTRACT", other, self)
+
+    def __mul__(self, other: Any) -> Value:
+        return self.tree.math("MULTIPLY", self, other)
+
+    def __rmul__(self, other: Any) -> Value:
+        return self.tree.math("MULTIPLY", other, self)
+
+    def __truediv__(self, other: Any) -> Value:
+        return self.tree.math("DIVIDE", self, other)
+
+    def __rtruediv__(self, other: Any) -> Value:
+        return self.tree.math("DIVIDE", other, self)
+
+    def __neg__(self) -> Value:
+        return self.tree.math("MULTIPLY", self, -1.0)
+
+    def __gt__(self, other: Any) -> Value:
+        return self.tree.math("GREATER_THAN", self, other)
+
+    def __lt__(self, other: Any) -> Value:
+        return self.tree.math("LESS_THAN", self, other)
+
+    def exp(self) -> Value:
+        """Euler's number to the power of this value."""
+        return self.tree.math("EXPONENT", self)
+
+    def power(self, exponent: Any) -> Value:
+        """This value to the power of `exponent`."""
+        return self.tree.math("POWER", self, exponent)
+
+    def clamp(self) -> Value:
+        """This value held between 0 and 1."""
+        return self.tree.math("ADD", self, 0.0, clamp=True)
+
+    def smoothstep(self, low: Any, high: Any) -> Value:
+        """0 below `low`, 1 above `high` (or the reverse where high < low), smooth between."""
+        return self.tree.output(
+            "ShaderNodeMapRange",
+            {"Value": self, "From Min": low, "From Max": high, "To Min": 0.0, "To Max": 1.0},
+            interpolation_type="SMOOTHSTEP",
+        )
+
+    def ramp(self, low: Any, high: Any, start: Any = 0.0, end: Any = 1.0) -> Value:
+        """Straight line from `start` at `low` to `end` at `high`, held outside."""
+        return self.tree.output(
+            "ShaderNodeMapRange",
+            {"Value": self, "From Min": low, "From Max": high, "To Min": start, "To Max": end},
+            clamp=True,
+        )
+
+
+class Tree:
+    """A node tree being written; sockets, nodes, `Value`s and numbers may all be given as inputs."""
+
+    def __init__(self, node_tree: bpy.types.NodeTree) -> None:
+        self.node_tree = node_tree
+
+    def node(
+        self, kind: str, inputs: Mapping[str | int, Any] | Sequence[Any] = (), **properties: Any
+    ) -> bpy.types.Node:
+        """Add a node: first its properties, then its inputs by name (or in order)."""
+        node = self.node_tree.nodes.new(kind)
+        count = len(self.node_tree.nodes)
+        node.location = (200.0 * (count % 12), -260.0 * (count // 12))
+        for name, value in properties.items():
+            setattr(node, name, value)
+        pairs = inputs.items() if isinstance(inputs, Mapping) else enumerate(inputs)
+        for name, value in pairs:
+            self.connect(value, compat.find_socket(node.inputs, name))
+        return node
+
+    def output(
+        self,
+        kind: str,
+        inputs: Mapping[str | int, Any] | Sequence[Any] = (),
+        name: str | int = 0,
+        **properties: Any,
+    ) -> Value:
+        """Add a node and return one of its outputs, the first unless named."""
+        return self.pick(self.node(kind, inputs, **properties), name)
+
+    def pick(self, node: bpy.types.Node, name: str | int = 0) -> Value:
+        """An output of a node."""
+        return Value(self, compat.find_socket(node.outputs, name))
+
+    def connect(self, value: Any, socket: bpy.types.NodeSocket) -> None:
+        """Link an output to an input socket, or set the input's constant."""
+        if isinstance(value, Value):
+            value = value.socket
+        elif isinstance(value, bpy.types.Node):
+            value = compat.find_socket(value.outputs, 0)
+        if isinstance(value, bpy.types.NodeSocket):
+            self.node_tree.links.new(value, socket)
+        elif socket.type == "RGBA" and isinstance(value, Sequence):
+            socket.default_value = (*value[:3], 1.0)
+        else:
+            socket.default_value = value
+
+    def math(self, operation: str, *operands: Any, clamp: bool = False) -> Value:
+        """A Math node."""
+        return self.output("ShaderNodeMath", operands, operation=operation, use_clamp=clamp)
+
+    def vector(self, operation: str, *operands: Any, name: str | int = 0) -> Value:
+        """A Vector Math node."""
+        return self.output("ShaderNodeVectorMath", operands, name, operation=operation)
+
+    def separate(self, vector: Any) -> tuple[Value, Value, Value]:
+        """x, y and z of a vector."""
+        node = self.node("ShaderNodeSeparateXYZ", [vector])
+        return self.pick(node, "X"), self.pick(node, "Y"), self.pick(node, "Z")
+
+    def combine(self, x: Any, y: Any, z: Any) -> Value:
+        """A vector from its components."""
+        return self.output("ShaderNodeCombineXYZ", [x, y, z])
+
+    def mix(self, factor: Any, a: Any, b: Any) -> Value:
+        """Number: a where factor is 0, b where it is 1."""
+        return self.output("ShaderNodeMix", {0: factor, 1: a, 2: b}, data_type="FLOAT", clamp_factor=True)
+
+    def mix_colour(self, factor: Any, a: Any, b: Any, blend: str = "MIX") -> Value:
+        """Colour: a where factor is 0, b where it is 1."""
+        inputs = {0: factor, 1: a, 2: b}
+        return self.output("ShaderNodeMix", inputs, data_type="RGBA", blend_type=blend, clamp_factor=True)
+
+    def mix_shader(self, factor: Any, a: Any, b: Any) -> Value:
+        """Shader: a where factor is 0, b where it is 1."""
+        return self.output("ShaderNodeMixShader", [factor, a, b])
+
+    def add_shader(self, a: Any, b: Any) -> Value:
+        """Sum of two shaders."""
+        return self.output("ShaderNodeAddShader", [a, b])
+
+    def emission(self, colour: Any, strength: Any = 1.0) -> Value:
+        """A glowing surface or volume."""
+        return self.output("ShaderNodeEmission", {"Color": colour, "Strength": strength})
+
+    def attribute(self, name: str, kind: str = "GEOMETRY", output: str = "Fac") -> Value:
+        """A named attribute: of the GEOMETRY, the INSTANCER, the OBJECT or the VIEW_LAYER."""
+        return self.output("ShaderNodeAttribute", (), output, attribute_name=name, attribute_type=kind)
+
+    def noise(
+        self, position: Any, size: float, octaves: float = 2.0, roughness: float = 0.55, name: str = "Fac"
+    ) -> Value:
+        """Perlin noise 0..1 about 0.5 with features of `size` (units of `position`)."""
+        inputs = {"Vector": position, "Scale": 1.0 / size, "Detail": octaves, "Roughness": roughness}
+        return self.output("ShaderNodeTexNoise", inputs, name)
+
+    def cells(self, position: Any, size: float, name: str = "Distance", **properties: Any) -> Value:
+        """Voronoi cells `size` wide: the distance from their centres (in cells) or their colour."""
+        inputs = {"Vector": position, "Scale": 1.0 / size}
+        return self.output("ShaderNodeTexVoronoi", inputs, name, **properties)
+
+    def colour_ramp(self, factor: Any, stops: Sequence[tuple[float, Sequence[float]]]) -> Value:
+        """Colour along a ramp of (position, (r, g, b)) stops."""
+        node = self.node("ShaderNodeValToRGB", [factor])
+        elements = node.color_ramp.elements
+        while len(elements) < len(stops):
+            elements.new(1.0)
+        for element, (position, colour) in zip(elements, stops, strict=True):
+            element.position, element.color = position, (*colour, 1.0)
+        return self.pick(node)
+
+    def surface(self, shader: Any) -> None:
+        """Make `shader` the surface of this material or world."""
+        world = any(tree.node_tree == self.node_tree for tree in bpy.data.worlds)
+        self.node("ShaderNodeOutputWorld" if world else "ShaderNodeOutputMaterial", {"Surface": shader})
+
+    def volume(self, shader: Any) -> None:
+        """Make `shader` the volume of this material."""
+        self.node("ShaderNodeOutputMaterial", {"Volume": shader})
+
+
+def material(name: str) -> tuple[bpy.types.Material, Tree]:
+    """A new material called `name` in place of any old one, and its empty tree."""
+    old = bpy.data.materials.get(name)
+    if old is not None:
+        bpy.data.materials.remove(old)
+    new = bpy.data.materials.new(name)
+    return new, Tree(compat.node_tree(new))
+
+
+def geometry(name: str, inputs: Mapping[str, str] | None = None) -> tuple[Tree, bpy.types.Node]:
+    """A new geometry node group (geometry in, geometry out) in place of any old one.
+
+    Parameters
+    ----------
+    inputs
+        Further inputs, name -> socket type such as "NodeSocketMaterial".
+
+    Returns
+    -------
+    tree, group input node
+    """
+    old = bpy.data.node_groups.get(name)
+    if old is not None:
+        bpy.data.node_groups.remove(old)
+    group = bpy.data.node_groups.new(name, "GeometryNodeTree")
+    group.is_modifier = True
+    group.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
+    for label, kind in (inputs or {}).items():
+        group.interface.new_socket(label, in_out="INPUT", socket_type=kind)
+    group.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    tree = Tree(group)
+    return tree, tree.node("NodeGroupInput")
+
+
+def model_time(tree: Tree) -> Value:
+    """Current model time (s since run start) in a shader.
+
+    Read from the scene's animated custom property: attributes of type VIEW_LAYER fall back to the scene.
+    """
+    return tree.attribute(TIME, "VIEW_LAYER")
+
+
+def thermal_switch(tree: Tree, shader: Any, kelvin: Any) -> Value:
+    """`shader`, but the temperature (K) as pixel value in view layers with `firetwin_thermal` = 1."""
+    return tree.mix_shader(tree.attribute(THERMAL, "VIEW_LAYER"), shader, tree.emission(kelvin, 1.0))
