@@ -128,3 +128,10 @@ class Project:
     light: Light = field(default_factory=Light)
     cameras: tuple[Camera, ...] = ()
     render: Render = field(default_factory=Render)
+
+
+def load(path: str | Path) -> Project:
+    """Read and check a scene file (see `scene_file.read`)."""
+    from . import scene_file  # it imports this module
+
+    return scene_file.read(path)
