@@ -1,8 +1,70 @@
+#include "arrays.hpp"
 #include "bindings.hpp"
+#include "geo/local_frame.hpp"
+
+#include <tuple>
 
 namespace firetwin::bindings {
 namespace py = pybind11;
+namespace {
 
-void init_geo(py::module_ module) { module.doc() = ""; }
+using geo::LocalFrame;
+
+Array<double> forward(const LocalFrame& frame, const py::object& latitude,
+                      const py::object& longitude, const py::object& height) {
+  const auto lat = to_array<double>(latitude, "latitude", {-1});
+  const auto lon = to_array<double>(longitude, "longitude", {lat.size()});
+  const auto h = to_array<double>(height, "height", {lat.size()});
+  auto enu = new_array<double>({lat.size(), 3});
+  const auto out = writable(enu);
+  const py::gil_scoped_release release;
+  frame.forward(view(lat), view(lon), view(h), out);
+  return enu;
+}
+
+Array<double> forward_grid(const LocalFrame& frame, const py::object& latitude,
+                           const py::object& longitude, const py::object& height) {
+  const auto lat = to_array<double>(latitude, "latitude", {-1});
+  const auto lon = to_array<double>(longitude, "longitude", {-1});
+  const auto h = to_array<double>(height, "height", {lat.size(), lon.size()});
+  auto enu = new_array<double>({lat.size(), lon.size(), 3});
+  const auto out = writable(enu);
+  const py::gil_scoped_release release;
+  frame.forward_grid(view(lat), view(lon), view(h), out);
+  return enu;
+}
+
+std::tuple<Array<double>, Array<double>, Array<double>> reverse(const LocalFrame& frame,
+                                                                const py::object& enu) {
+  const auto points = to_array<double>(enu, "enu", {-1, 3});
+  auto lat = new_array<double>({points.shape(0)});
+  auto lon = new_array<double>({points.shape(0)});
+  auto h = new_array<double>({points.shape(0)});
+  const auto lat_out = writable(lat), lon_out = writable(lon), h_out = writable(h);
+  {
+    const py::gil_scoped_release release;
+    frame.reverse(view(points), lat_out, lon_out, h_out);
+  }
+  return {lat, lon, h};
+}
+
+} // namespace
+
+void init_geo(py::module_ module) {
+  module.doc() = "WGS84 latitude, longitude and height <-> local east-north-up metres.";
+  py::class_<LocalFrame>(module, "LocalFrame",
+                         "WGS84 to local east-north-up metres about one origin.")
+      .def(py::init<double, double, double>(), py::arg("latitude"), py::arg("longitude"),
+           py::arg("height") = 0.0)
+      .def_property_readonly("latitude", &LocalFrame::latitude)
+      .def_property_readonly("longitude", &LocalFrame::longitude)
+      .def_property_readonly("height", &LocalFrame::height)
+      .def("forward", &forward, py::arg("latitude"), py::arg("longitude"), py::arg("height"),
+           "Geodetic (n,) degrees, degrees, metres -> (n, 3) east, north, up in metres.")
+      .def("forward_grid", &forward_grid, py::arg("latitude"), py::arg("longitude"),
+           py::arg("height"), "latitude (ny,), longitude (nx,), height (ny, nx) -> (ny, nx, 3).")
+      .def("reverse", &reverse, py::arg("enu"),
+           "(n, 3) metres -> latitude (n,), longitude (n,), height (n,).");
+}
 
 } // namespace firetwin::bindings

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// NumPy arrays across the border: checked and converted on the way in, handed over without a copy
+/// on the way out.
+namespace firetwin::bindings {
+
+/// C-contiguous array of T.
+template <class T> using Array = pybind11::array_t<T, pybind11::array::c_style>;
+
+[[noreturn]] inline void wrong(const std::string& name, const std::string& what) {
+  throw pybind11::value_error(name + " " + what);
+}
+
+inline std::string shape_text(const pybind11::array& array) {
+  return pybind11::str(array.attr("shape")).cast<std::string>();
+}
+
+/// Anything array-like of real numbers -> contiguous T. Text, complex numbers and objects are
+/// refused.
+template <class T> Array<T> to_array(const pybind11::handle& object, const std::string& name) {
+  namespace py = pybind11;
+  const py::array any = py::array::ensure(object);
+  if (!any) {
+    PyErr_Clear();
+    wrong(name, "is not an array of numbers");
+  }
+  const char kind = any.dtype().kind();
+  if (kind != 'f' && kind != 'i' && kind != 'u' && kind != 'b') {
+    wrong(name, "must hold real numbers, not " + py::str(any.dtype()).cast<std::string>());
+  }
+  return py::array_t<T, py::array::c_style | py::array::forcecast>(any);
+}
+
+/// The same with a required shape; -1 leaves a length open.
+template <class T>
+Array<T> to_array(const pybind11::handle& object, const std::string& name,
+                  const std::vector<pybind11::ssize_t>& shape) {
+  Array<T> array = to_array<T>(object, name);
+  bool same = array.ndim() == static_cast<pybind11::ssize_t>(shape.size());
+  std::string expected;
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    const auto axis = static_cast<pybind11::ssize_t>(i);
+    same = same && (shape[i] < 0 || array.shape(axis) == shape[i]);
+    expected += (i ? ", " : "") + (shape[i] < 0 ? std::string("any") : std::to_string(shape[i]));
+  }
+  if (!same) {
+    wrong(name, "must have shape (" + expected + "), not " + shape_text(array));
+  }
+  return array;
+}
+
+template <class T> std::span<const T> view(const Array<T>& array) {
+  return {array.data(), static_cast<std::size_t>(array.size())};
+}
+
+/// A new array, and its memory as a span.
+template <class T> Array<T> new_array(std::vector<pybind11::ssize_t> shape) {
+  return Array<T>(std::move(shape));
+}
+template <class T> std::span<T> writable(Array<T>& array) {
+  return {array.mutable_data(), static_cast<std::size_t>(array.size())};
+}
+
+/// Hands a vector's memory to NumPy.
+template <class T> Array<T> give(std::vector<T>&& values, std::vector<pybind11::ssize_t> shape) {
+  auto owner = std::make_unique<std::vector<T>>(std::move(values));
+  T* data = owner->data();
+  const pybind11::capsule capsule(owner.get(),
+                                  [](void* p) { delete static_cast<std::vector<T>*>(p); });
+  owner.release();
+  return Array<T>(std::move(shape), data, capsule);
+}
+
+/// A read-only view of memory that `owner` keeps alive.
+template <class T>
+Array<T> lend(std::span<const T> values, std::vector<pybind11::ssize_t> shape,
+              const pybind11::handle& owner) {
+  Array<T> array(std::move(shape), values.data(), owner);
+  array.attr("setflags")(pybind11::arg("write") = false);
+  return array;
+}
+
+inline pybind11::ssize_t length(std::size_t size) {
+  return static_cast<pybind11::ssize_t>(size);
+}
+
+} // namespace firetwin::bindings
