@@ -6,7 +6,7 @@ from os import PathLike
 
 from firetwin_core import Error, InputError
 
-__all__ = ["Error", "InputError", "input_error"]
+__all__ = ["Error", "InputError", "UsageError", "input_error"]
 
 
 def input_error(path: str | PathLike[str], line: int, column: int, reason: str) -> InputError:
@@ -17,3 +17,7 @@ def input_error(path: str | PathLike[str], line: int, column: int, reason: str) 
     error = InputError(f"{place}: {reason}")
     error.path, error.line, error.column, error.reason = str(path), line, column, reason
     return error
+
+
+class UsageError(Exception):
+    """The command line asks for something that is not there."""

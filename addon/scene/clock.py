@@ -6,56 +6,24 @@ began.
 
 from __future__ import annotations
 
-from datetime import UTC, datetime, timedelta
-
 import bpy
-import numpy as np
 from firetwin_core.run import Run
-from numpy.typing import NDArray
 
 from .. import compat, nodes
 from ..project import Project
+from ..times import frame_times, model_time, moment, run_start, seconds, step, window
 
-
-def run_start(run: Run) -> datetime:
-    """Start of the run, UTC."""
-    start = datetime.fromisoformat(run.start.replace("Z", "+00:00"))
-    return start if start.tzinfo else start.replace(tzinfo=UTC)
-
-
-def seconds(run: Run, moment: datetime) -> float:
-    """Model time of a moment; one without a time zone is UTC."""
-    moment = moment if moment.tzinfo else moment.replace(tzinfo=UTC)
-    return (moment - run_start(run)).total_seconds()
-
-
-def moment(run: Run, time: float) -> datetime:
-    """UTC of a model time (s)."""
-    return run_start(run) + timedelta(seconds=time)
-
-
-def window(project: Project, run: Run) -> tuple[float, float]:
-    """Model time (s) of the first and the last frame."""
-    start, end = project.time.start, project.time.end
-    first = float(run.times[0]) if start is None else seconds(run, start)
-    last = float(run.times[-1]) if end is None else seconds(run, end)
-    return first, last
-
-
-def step(project: Project, run: Run) -> float:
-    """Model seconds per frame."""
-    first, last = window(project, run)
-    return (last - first) / max(project.time.frames - 1, 1)
-
-
-def model_time(project: Project, run: Run, frame: float) -> float:
-    """Model time (s) that a Blender frame shows."""
-    return window(project, run)[0] + (frame - 1.0) * step(project, run)
-
-
-def frame_times(project: Project, run: Run) -> NDArray[np.float64]:
-    """Model times (frames,) in seconds of all frames."""
-    return window(project, run)[0] + np.arange(project.time.frames) * step(project, run)
+__all__ = [
+    "build",
+    "frame_times",
+    "geometry_time",
+    "model_time",
+    "moment",
+    "run_start",
+    "seconds",
+    "step",
+    "window",
+]
 
 
 def build(project: Project, run: Run, scene: bpy.types.Scene) -> bpy.types.Scene:

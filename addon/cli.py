@@ -1,0 +1,157 @@
+"""The command line: ``firetwin sample | info | maps | build | bake | render``.
+
+Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage, 130: Ctrl-C.
+Nothing heavy is imported before it is needed, so that help and mistakes answer at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+EPILOG = """\
+a first film, from nothing:
+  firetwin sample sample                 write the sample run (synthetic, King-like)
+  firetwin info sample                   what is in it
+  firetwin render examples/king_fire.toml --out film --resume
+
+`firetwin COMMAND --help` explains a command."""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command and return its exit status."""
+    arguments = _parser().parse_args(argv)
+    try:
+        from . import commands
+
+        return getattr(commands, arguments.command)(arguments) or 0
+    except KeyboardInterrupt:
+        print("\nfiretwin: stopped; what was finished is kept", file=sys.stderr)
+        return 130
+    except BrokenPipeError:  # the reader of our output has gone, as in `firetwin info RUN | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except Exception as error:
+        if arguments.debug:
+            raise
+        return _report(error)
+
+
+def _report(error: Exception) -> int:
+    """One line that says what is wrong and what to do; the exit status for it."""
+    from .errors import Error, UsageError
+
+    if isinstance(error, UsageError):
+        print(f"firetwin: {error}", file=sys.stderr)
+        return 2
+    if isinstance(error, Error):
+        text = str(error)
+    elif isinstance(error, OSError) and error.filename:
+        text = f"{error.filename}: {error.strerror}"
+    elif isinstance(error, ModuleNotFoundError) and error.name == "bpy":
+        text = "Blender's Python module is missing; install it with: pip install 'firetwin[blender]'"
+    else:
+        text = f"unexpected {type(error).__name__}: {error} (run again with --debug for the details)"
+    print(f"firetwin: {text}", file=sys.stderr)
+    return 1
+
+
+def _parser() -> argparse.ArgumentParser:
+    raw = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(
+        prog="firetwin",
+        description="Turn the output of a fire-atmosphere model into a Blender scene, pictures and films.",
+        epilog=EPILOG,
+        formatter_class=raw,
+    )
+    parser.add_argument("--version", action=_Version, nargs=0, help="show the versions and exit")
+    common = argparse.ArgumentParser(add_help=False)
+    common.add_argument("--debug", action="store_true", help="show a traceback when something fails")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+
+    def command(name: str, summary: str, detail: str = "") -> argparse.ArgumentParser:
+        text = f"{summary[0].upper()}{summary[1:]}.\n\n{detail}".strip()
+        return commands.add_parser(
+            name, help=summary, description=text, parents=[common], formatter_class=raw
+        )
+
+    sample = command("sample", "write the synthetic King-like sample run", SAMPLE)
+    sample.add_argument("out", metavar="OUT", type=Path, help="folder to write; made when missing")
+    sample.add_argument("--frames", metavar="N", type=_count, help="only N model times, evenly spread (all)")
+    sample.add_argument("--format", choices=("npy", "text"), default="npy", help="kind of field files (npy)")
+
+    info = command("info", "show what is in a run", INFO)
+    info.add_argument("run", metavar="RUN", type=Path, help="run folder")
+    info.add_argument("--json", action="store_true", help="write JSON for programs")
+
+    maps = command("maps", "draw the fuel map and the fire intensity map", MAPS)
+    maps.add_argument("run", metavar="RUN", type=Path, help="run folder")
+    maps.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the PNG files")
+
+    build = command("build", "build the scene and save it as a .blend file", BUILD)
+    _scene(build)
+    build.add_argument("-o", "--out", metavar="X.blend", type=Path, required=True, help="file to write")
+
+    bake = command("bake", "write the smoke volumes that the scene needs", BAKE)
+    _scene(bake)
+
+    render = command("render", "render pictures and films", RENDER)
+    _scene(render)
+    render.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the pictures")
+    render.add_argument(
+        "--frames", metavar="LIST", default="", help='such as "1-10", "3,5-9" or "1-48:4" (all)'
+    )
+    render.add_argument("--camera", metavar="NAME", help="this camera only (all)")
+    render.add_argument("--passes", metavar="LIST", help="some of rgb,depth,thermal (as the scene file says)")
+    render.add_argument("--resume", action="store_true", help="keep what is finished and still matches")
+    return parser
+
+
+def _scene(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("scene", metavar="SCENE.toml", type=Path, help="scene file")
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"must be a whole number above 0, not {text!r}")
+    return int(text)
+
+
+class _Version(argparse.Action):
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        import firetwin_core
+
+        libraries = ", ".join(f"{name} {version}" for name, version in firetwin_core.build_info().items())
+        print(f"firetwin {firetwin_core.__version__} ({libraries})")
+        parser.exit()
+
+
+SAMPLE = """\
+No output of the fire-atmosphere model for the King Fire is public. This run is made up: the terrain, fuels and
+spread follow what is published about the fire, and everything made from it says that it is synthetic."""
+
+INFO = """\
+Grid and extent, fuels, times, heat flux, energy, burned area (beside the reported acreages where the run
+depicts a known fire), and warnings."""
+
+MAPS = """\
+DIR/fuel.png        fuel load, greener is denser
+DIR/intensity.png   strongest heat flux of the whole run, light yellow to red, over the relief"""
+
+BUILD = "The file needs no add-on to be opened, scrubbed and rendered; the smoke volumes stay in the cache folder."
+
+BAKE = "`render` and `build` do this by themselves; bake alone to spread the work or to look at the volumes."
+
+RENDER = """\
+DIR/CAMERA/rgb/CAMERA_rgb_000001.png         picture, display colours (AgX)
+DIR/CAMERA/rgb/CAMERA_rgb_000001.exr         the same before the view transform, scene-linear, half float
+DIR/CAMERA/depth/CAMERA_depth_000001.exr     metres along the view axis to the ground and trees, 32-bit; sky 1e10
+DIR/CAMERA/thermal/CAMERA_thermal_000001.exr temperature in kelvin, 32-bit
+DIR/CAMERA/thermal/CAMERA_thermal_000001.png thermal picture: the gradient of temperatures added to the picture
+DIR/CAMERA/CAMERA_rgb.mp4, _thermal.mp4      films, with the model time in each frame
+DIR/manifest.json                            settings, versions, input hashes and a hash of every file
+
+Flames and smoke are transparent to depth. Without --resume everything asked for is rendered again."""

@@ -1,0 +1,160 @@
+"""Runs a function of this package in a process of its own, where Blender may be chatty, stop or crash.
+
+The parent writes the arguments to the child's stdin as one JSON line and keeps that pipe open; the child answers
+on its stdout with JSON lines: progress, then a result or an error. Whatever Blender prints goes to a log file.
+The child ends as soon as the parent's end of the pipe closes, whatever ended the parent.
+"""
+
+from __future__ import annotations
+
+import importlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+from pathlib import Path
+from typing import Any
+
+from .progress import Progress, silent
+
+
+def run(task: str, arguments: dict[str, Any], progress: Progress = silent, eevee: bool = False) -> Any:
+    """Call ``module:function`` of this package in a child process, as ``function(progress=..., **arguments)``.
+
+    Parameters
+    ----------
+    arguments
+        Values that JSON can carry.
+    eevee
+        The task draws with EEVEE, which needs OpenGL: without a display it gets one that needs no screen.
+
+    Returns
+    -------
+    What the function returned, as JSON carries it.
+
+    Raises
+    ------
+    InputError, Error
+        What the function raised, or an Error that says how the process ended.
+    """
+    log = tempfile.NamedTemporaryFile(prefix="firetwin-", suffix=".log", delete=False)  # noqa: SIM115
+    package = __package__ or "firetwin"
+    code = f"import importlib; importlib.import_module({package + '.worker'!r}).serve()"
+    with log:
+        child = subprocess.Popen(
+            [sys.executable, "-c", code],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=log,
+            env=_environment(eevee),
+            text=True,
+        )
+    try:
+        answer = _converse(child, {"task": task, "arguments": arguments, "path": sys.path}, progress)
+    finally:
+        _end(child)
+    if "result" in answer:
+        os.unlink(log.name)
+        return answer["result"]
+    from .errors import Error, input_error
+
+    if "input_error" in answer:
+        os.unlink(log.name)
+        raise input_error(*answer["input_error"])
+    if "error" in answer:
+        raise Error(f"{answer['error']} (the log of Blender is {log.name})")
+    raise Error(f"{_ending(child.returncode, eevee)} (the log of Blender is {log.name})")
+
+
+def _converse(child: subprocess.Popen[str], request: dict[str, Any], progress: Progress) -> dict[str, Any]:
+    """Send the request, pass progress on, and return the last answer (empty when none came)."""
+    try:
+        child.stdin.write(json.dumps(request) + "\n")
+        child.stdin.flush()
+    except BrokenPipeError:
+        return {}
+    for line in child.stdout:
+        answer = json.loads(line)
+        if "progress" not in answer:
+            child.wait()
+            return answer
+        progress(*answer["progress"])
+    child.wait()
+    return {}
+
+
+def _end(child: subprocess.Popen[str]) -> None:
+    """Stop the child if it still runs: politely, then for certain."""
+    child.stdout.close()
+    try:
+        child.stdin.close()
+    except BrokenPipeError:
+        pass
+    if child.poll() is None:
+        child.terminate()
+        try:
+            child.wait(timeout=3)
+        except subprocess.TimeoutExpired:
+            child.kill()
+            child.wait()
+
+
+def _environment(eevee: bool) -> dict[str, str]:
+    environment = dict(os.environ)
+    display = environment.get("DISPLAY") or environment.get("WAYLAND_DISPLAY")
+    if eevee and sys.platform == "linux" and not display:
+        environment["EGL_PLATFORM"] = "surfaceless"
+        if not any(Path("/dev/dri").glob("renderD*")) and not Path("/dev/nvidia0").exists():
+            environment["LIBGL_ALWAYS_SOFTWARE"] = "1"
+    return environment
+
+
+def _ending(code: int, eevee: bool) -> str:
+    if code < 0:
+        how = f"stopped on signal {-code} ({signal.Signals(-code).name})"
+    else:
+        how = f"stopped with exit status {code}"
+    if eevee:
+        return f'Blender {how}; EEVEE needs OpenGL (on Debian: libegl1 libgl1-mesa-dri), or use engine = "cycles"'
+    if code == -signal.SIGKILL:
+        return f"Blender {how}; most likely memory ran out: fewer trees, larger voxels or a lower resolution need less"
+    return f"Blender {how}"
+
+
+def serve() -> None:
+    """Do what the parent asks for: the child's side of `run`."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches both; the parent decides
+    channel = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)
+    request = json.loads(sys.stdin.readline())
+    sys.path[:] = request["path"]
+    threading.Thread(target=_watch_parent, daemon=True).start()
+
+    def answer(**message: Any) -> None:
+        print(json.dumps(message), file=channel, flush=True)
+
+    from .errors import Error, InputError
+
+    module, _, function = request["task"].partition(":")
+    try:
+        call = getattr(importlib.import_module(f".{module}", __package__), function)
+        result = call(progress=lambda done, total: answer(progress=[done, total]), **request["arguments"])
+    except InputError as error:
+        answer(input_error=[error.path, error.line, error.column, error.reason])
+    except Exception as error:
+        import traceback
+
+        traceback.print_exc()
+        answer(error=str(error) if isinstance(error, Error | OSError) else f"{type(error).__name__}: {error}")
+    else:
+        answer(result=result)
+    sys.stderr.flush()
+    os._exit(0)  # Blender as a module may crash while the interpreter shuts down
+
+
+def _watch_parent() -> None:
+    sys.stdin.read()
+    os._exit(1)
