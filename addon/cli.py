@@ -1,7 +1,7 @@
 """The command line: ``firetwin sample | info | maps | build | bake | render``.
 
-Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage, 130: Ctrl-C.
-Nothing heavy is imported before it is needed, so that help and mistakes answer at once.
+Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage,
+130: Ctrl-C. Nothing heavy is imported before it is needed, so that help and mistakes answer at once.
 """
 
 from __future__ import annotations
@@ -130,8 +130,8 @@ class _Version(argparse.Action):
 
 
 SAMPLE = """\
-No output of the fire-atmosphere model for the King Fire is public. This run is made up: the terrain, fuels and
-spread follow what is published about the fire, and everything made from it says that it is synthetic."""
+No output of the fire-atmosphere model for the King Fire is public. This run is made up: its terrain, fuels
+and spread follow what is published about the fire, and everything made from it says that it is synthetic."""
 
 INFO = """\
 Grid and extent, fuels, times, heat flux, energy, burned area (beside the reported acreages where the run
@@ -141,17 +141,20 @@ MAPS = """\
 DIR/fuel.png        fuel load, greener is denser
 DIR/intensity.png   strongest heat flux of the whole run, light yellow to red, over the relief"""
 
-BUILD = "The file needs no add-on to be opened, scrubbed and rendered; the smoke volumes stay in the cache folder."
+BUILD = """\
+The file needs no add-on to be opened, scrubbed and rendered; its smoke volumes stay in the cache folder."""
 
-BAKE = "`render` and `build` do this by themselves; bake alone to spread the work or to look at the volumes."
+BAKE = """\
+`render` and `build` do this by themselves; bake alone to spread the work or to look at the volumes."""
 
 RENDER = """\
-DIR/CAMERA/rgb/CAMERA_rgb_000001.png         picture, display colours (AgX)
-DIR/CAMERA/rgb/CAMERA_rgb_000001.exr         the same before the view transform, scene-linear, half float
-DIR/CAMERA/depth/CAMERA_depth_000001.exr     metres along the view axis to the ground and trees, 32-bit; sky 1e10
-DIR/CAMERA/thermal/CAMERA_thermal_000001.exr temperature in kelvin, 32-bit
-DIR/CAMERA/thermal/CAMERA_thermal_000001.png thermal picture: the gradient of temperatures added to the picture
-DIR/CAMERA/CAMERA_rgb.mp4, _thermal.mp4      films, with the model time in each frame
-DIR/manifest.json                            settings, versions, input hashes and a hash of every file
+DIR/CAMERA/rgb/CAMERA_rgb_000001.png           picture in display colours (AgX)
+DIR/CAMERA/rgb/CAMERA_rgb_000001.exr           the same, scene-linear, half float
+DIR/CAMERA/depth/CAMERA_depth_000001.exr       metres along the view axis, 32-bit float; sky 1e10
+DIR/CAMERA/thermal/CAMERA_thermal_000001.exr   kelvin, 32-bit float
+DIR/CAMERA/thermal/CAMERA_thermal_000001.png   the picture with the gradient of temperatures added to it
+DIR/CAMERA/CAMERA_PASS.mp4                     films, with the model time in each frame
+DIR/manifest.json                              settings, versions, input hashes, a hash of every file
 
-Flames and smoke are transparent to depth. Without --resume everything asked for is rendered again."""
+Depth is that of the ground and the trees: flames and smoke do not hide them. The temperature is seen through
+smoke, as long-wave infrared nearly does. Without --resume everything asked for is rendered again."""

@@ -6,8 +6,8 @@ import sys
 import time
 from collections.abc import Callable
 
-Progress = Callable[[int, int], None]
-"""Called with (done, total) as work goes on."""
+Progress = Callable[..., None]
+"""Called as ``progress(done, total)`` or ``progress(done, total, "what is done")`` while work goes on."""
 
 
 def say(text: str) -> None:
@@ -15,48 +15,68 @@ def say(text: str) -> None:
     print(f"firetwin: {text}", file=sys.stderr, flush=True)
 
 
-def silent(done: int, total: int) -> None:
+def silent(done: int, total: int, what: str = "") -> None:
     """Report nothing."""
 
 
-def reporter(what: str, unit: str = "frame") -> Progress:
-    """A callback that shows how far `what` is."""
-    return _Bar(what, unit) if sys.stderr.isatty() else _Lines(what, unit)
+class Reporter:
+    """Shows progress; work that changes its name ends one bar and begins another."""
+
+    def __init__(self, what: str = "working") -> None:
+        self.what = what
+        self.shown: _Bar | _Lines | None = None
+
+    def __call__(self, done: int, total: int, what: str = "") -> None:
+        what = what or self.what
+        if self.shown is None or self.shown.what != what:
+            self.close()
+            self.shown = _Bar(what) if sys.stderr.isatty() else _Lines(what)
+        self.shown.update(done, total)
+
+    def close(self) -> None:
+        """Leave the last bar as it is."""
+        if isinstance(self.shown, _Bar):
+            self.shown.close()
+        self.shown = None
 
 
 class _Bar:
-    def __init__(self, what: str, unit: str) -> None:
-        self.what, self.unit = what, unit
+    def __init__(self, what: str) -> None:
+        self.what = what
         self.bar = None
 
-    def __call__(self, done: int, total: int) -> None:
+    def update(self, done: int, total: int) -> None:
         if self.bar is None:
             from tqdm import tqdm
 
-            self.bar = tqdm(total=total, desc=self.what, unit=self.unit, dynamic_ncols=True, leave=True)
+            shape = "{desc}: {percentage:3.0f}%|{bar}| {n_fmt}/{total_fmt} [{elapsed}, {remaining} left]"
+            self.bar = tqdm(total=total, desc=self.what, initial=done, bar_format=shape, dynamic_ncols=True)
         self.bar.update(done - self.bar.n)
         if done >= total:
+            self.bar.close()
+
+    def close(self) -> None:
+        if self.bar is not None:
             self.bar.close()
 
 
 class _Lines:
     """One line at the start, at most one every two seconds, and one at the end."""
 
-    def __init__(self, what: str, unit: str) -> None:
-        self.what, self.unit = what, unit
+    def __init__(self, what: str) -> None:
+        self.what = what
         self.started: float | None = None
         self.first = 0
         self.last = -10.0
 
-    def __call__(self, done: int, total: int) -> None:
+    def update(self, done: int, total: int) -> None:
         now = time.monotonic()
         if self.started is None:
             self.started, self.first = now, done
         if done < total and now - self.last < 2.0:
             return
         self.last = now
-        plural = "" if total == 1 else "s"
-        line = f"{self.what}: {done} of {total} {self.unit}{plural}"
+        line = f"{self.what}: {done} of {total}"
         if done >= total:
             line += f", took {duration(now - self.started)}"
         elif done > self.first:

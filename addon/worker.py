@@ -1,12 +1,13 @@
 """Runs a function of this package in a process of its own, where Blender may be chatty, stop or crash.
 
-The parent writes the arguments to the child's stdin as one JSON line and keeps that pipe open; the child answers
-on its stdout with JSON lines: progress, then a result or an error. Whatever Blender prints goes to a log file.
-The child ends as soon as the parent's end of the pipe closes, whatever ended the parent.
+The parent writes the arguments to the child's stdin as one JSON line and keeps that pipe open; the child
+answers on its stdout with JSON lines: progress, then a result or an error. Whatever Blender prints goes to a
+log file. The child ends as soon as the parent's end of the pipe closes, whatever ended the parent.
 """
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import json
 import os
@@ -22,7 +23,7 @@ from .progress import Progress, silent
 
 
 def run(task: str, arguments: dict[str, Any], progress: Progress = silent, eevee: bool = False) -> Any:
-    """Call ``module:function`` of this package in a child process, as ``function(progress=..., **arguments)``.
+    """Call ``module:function`` of this package in a child process: ``function(progress=..., **arguments)``.
 
     Parameters
     ----------
@@ -89,10 +90,8 @@ def _converse(child: subprocess.Popen[str], request: dict[str, Any], progress: P
 def _end(child: subprocess.Popen[str]) -> None:
     """Stop the child if it still runs: politely, then for certain."""
     child.stdout.close()
-    try:
+    with contextlib.suppress(BrokenPipeError):
         child.stdin.close()
-    except BrokenPipeError:
-        pass
     if child.poll() is None:
         child.terminate()
         try:
@@ -118,9 +117,10 @@ def _ending(code: int, eevee: bool) -> str:
     else:
         how = f"stopped with exit status {code}"
     if eevee:
-        return f'Blender {how}; EEVEE needs OpenGL (on Debian: libegl1 libgl1-mesa-dri), or use engine = "cycles"'
+        need = "EEVEE needs OpenGL (on Debian: libegl1 libgl1-mesa-dri)"
+        return f'Blender {how}; {need}, or set engine = "cycles" in [render]'
     if code == -signal.SIGKILL:
-        return f"Blender {how}; most likely memory ran out: fewer trees, larger voxels or a lower resolution need less"
+        return f"Blender {how}; most likely memory ran out: larger voxels or a lower resolution need less"
     return f"Blender {how}"
 
 
@@ -141,7 +141,7 @@ def serve() -> None:
     module, _, function = request["task"].partition(":")
     try:
         call = getattr(importlib.import_module(f".{module}", __package__), function)
-        result = call(progress=lambda done, total: answer(progress=[done, total]), **request["arguments"])
+        result = call(progress=lambda *where: answer(progress=where), **request["arguments"])
     except InputError as error:
         answer(input_error=[error.path, error.line, error.column, error.reason])
     except Exception as error:
