@@ -1,8 +1,146 @@
+#include "run/run.hpp"
+
+#include "arrays.hpp"
 #include "bindings.hpp"
+#include "run/grid_file.hpp"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <stdexcept>
 
 namespace firetwin::bindings {
 namespace py = pybind11;
+namespace {
 
-void init_run(py::module_ module) { module.doc() = ""; }
+using run::Run;
+using run::Series;
+
+Array<float> read_grid(const std::filesystem::path& path) {
+  Grid<float> grid;
+  {
+    const py::gil_scoped_release release;
+    grid = run::read_grid(path);
+  }
+  return give(std::move(grid.values), {length(grid.rows), length(grid.columns)});
+}
+
+std::shared_ptr<Run> open(const std::filesystem::path& folder) {
+  const py::gil_scoped_release release;
+  return std::make_shared<Run>(folder);
+}
+
+std::vector<py::ssize_t> grid_shape(const Run& run) {
+  return {length(run.latitude().size()), length(run.longitude().size())};
+}
+
+std::vector<py::ssize_t> fuel_shape(const Run& run) {
+  return {length(run.fuel_latitude().size()), length(run.fuel_longitude().size())};
+}
+
+Array<float> frame(const Run& run, const Series& series, py::ssize_t index) {
+  if (index < 0) {
+    throw std::out_of_range("time index " + std::to_string(index) + " is negative");
+  }
+  auto array = new_array<float>(grid_shape(run));
+  const auto out = writable(array);
+  const py::gil_scoped_release release;
+  series.read(static_cast<std::size_t>(index), out);
+  return array;
+}
+
+py::tuple wind(const Run& run, py::ssize_t index) {
+  return py::make_tuple(frame(run, run.wind_east(), index), frame(run, run.wind_north(), index));
+}
+
+py::tuple flux_range(const Run& run) {
+  std::pair<float, float> range;
+  {
+    const py::gil_scoped_release release;
+    range = run.flux_range();
+  }
+  return py::make_tuple(double{range.first}, double{range.second});
+}
+
+Array<float> arrival_time(const Run& run, double threshold) {
+  std::vector<float> times;
+  {
+    const py::gil_scoped_release release;
+    times = run.arrival_time(threshold);
+  }
+  return give(std::move(times), grid_shape(run));
+}
+
+Array<float> fuel_arrival_time(const Run& run) {
+  std::vector<float> times;
+  {
+    const py::gil_scoped_release release;
+    times = run.fuel_arrival_time();
+  }
+  return give(std::move(times), fuel_shape(run));
+}
+
+using Axis = const std::vector<double>& (Run::*)() const;
+using Field = const std::vector<float>& (Run::*)() const;
+
+/// Read-only views of the run's own memory.
+template <Axis axis> Array<double> axis_view(const py::object& self) {
+  const auto& values = (self.cast<const Run&>().*axis)();
+  return lend<double>(values, {length(values.size())}, self);
+}
+template <Field field> Array<float> grid_view(const py::object& self) {
+  const Run& run = self.cast<const Run&>();
+  return lend<float>((run.*field)(), grid_shape(run), self);
+}
+template <Field field> Array<float> fuel_view(const py::object& self) {
+  const Run& run = self.cast<const Run&>();
+  return lend<float>((run.*field)(), fuel_shape(run), self);
+}
+
+std::string describe(const Run& run) {
+  return "<Run '" + run.manifest().name + "': " + std::to_string(run.latitude().size()) + " x " +
+         std::to_string(run.longitude().size()) + " cells, " + std::to_string(run.times().size()) +
+         " times>";
+}
+
+} // namespace
+
+void init_run(py::module_ module) {
+  module.doc() = "Model runs on disk.";
+  module.def("read_grid", &read_grid, py::arg("path"), "Text or .npy grid -> (ny, nx) float32.");
+  module.def("open", &open, py::arg("folder"),
+             "Open a run folder: checks run.toml, the axes and every field's shape.");
+  py::class_<Run, std::shared_ptr<Run>>(module, "Run", "A model run on disk.")
+      .def_property_readonly("path", [](const Run& r) { return r.path().string(); })
+      .def_property_readonly("name", [](const Run& r) { return r.manifest().name; })
+      .def_property_readonly("synthetic", [](const Run& r) { return r.manifest().synthetic; })
+      .def_property_readonly("event", [](const Run& r) { return r.manifest().event; })
+      .def_property_readonly("start", [](const Run& r) { return r.manifest().start; })
+      .def_property_readonly("vertical", [](const Run& r) { return r.manifest().vertical; })
+      .def_property_readonly("times", &axis_view<&Run::times>)
+      .def_property_readonly("latitude", &axis_view<&Run::latitude>)
+      .def_property_readonly("longitude", &axis_view<&Run::longitude>)
+      .def_property_readonly("elevation", &grid_view<&Run::elevation>)
+      .def_property_readonly("fuel_latitude", &axis_view<&Run::fuel_latitude>)
+      .def_property_readonly("fuel_longitude", &axis_view<&Run::fuel_longitude>)
+      .def_property_readonly("surface_fuel", &fuel_view<&Run::surface_fuel>)
+      .def_property_readonly("canopy_fuel", &fuel_view<&Run::canopy_fuel>)
+      .def_property_readonly("fuel_elevation", &fuel_view<&Run::fuel_elevation>)
+      .def_property_readonly("fields", &Run::fields)
+      .def_property_readonly("warnings", &Run::warnings)
+      .def(
+          "heat_flux", [](const Run& r, py::ssize_t i) { return frame(r, r.heat_flux(), i); },
+          py::arg("index"), "(ny, nx) W/m2 at times[index].")
+      .def(
+          "temperature", [](const Run& r, py::ssize_t i) { return frame(r, r.temperature(), i); },
+          py::arg("index"), "(ny, nx) K at times[index].")
+      .def("wind", &wind, py::arg("index"), "Eastward and northward (ny, nx) m/s at times[index].")
+      .def("flux_range", &flux_range, "Smallest and largest finite heat flux of the run, W/m2.")
+      .def("arrival_time", &arrival_time, py::arg("threshold") = 0.0,
+           "(ny, nx) s since start when the flux first exceeds threshold, NaN where never.")
+      .def("fuel_arrival_time", &fuel_arrival_time, "(fy, fx) s since start, NaN where never.")
+      .def("__repr__", &describe);
+}
 
 } // namespace firetwin::bindings

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace firetwin {
+
+/// Row-major rows x columns.
+template <class T> struct Grid {
+  std::size_t rows = 0;
+  std::size_t columns = 0;
+  std::vector<T> values;
+};
+
+} // namespace firetwin

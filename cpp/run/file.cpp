@@ -1,0 +1,85 @@
+#include "run/file.hpp"
+
+#include "error.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <utility>
+
+namespace firetwin::run {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
+  throw InputError(path.string(), 0, 0, reason);
+}
+
+} // namespace
+
+File::File(std::filesystem::path path) : path_(std::move(path)) {
+  // O_NONBLOCK: opening a named pipe must not wait for a writer.
+  descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor_ < 0) {
+    fail(path_, errno == ENOENT ? "the file is missing; check the folder and the name"
+                                : std::string("cannot be opened: ") + std::strerror(errno));
+  }
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
+    ::close(descriptor_);
+    fail(path_, "is not a regular file; put the data itself there");
+  }
+  size_ = static_cast<std::uint64_t>(status.st_size);
+}
+
+File::~File() {
+  if (descriptor_ >= 0) {
+    ::close(descriptor_);
+  }
+}
+
+File::File(File&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)),
+      size_(other.size_) {}
+
+File& File::operator=(File&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(size_, other.size_);
+  return *this;
+}
+
+void File::read(std::uint64_t offset, std::span<char> out) const {
+  std::size_t done = 0;
+  while (done < out.size()) {
+    const auto n = ::pread(descriptor_, out.data() + done, out.size() - done,
+                           static_cast<off_t>(offset + done));
+    if (n < 0 && errno == EINTR) {
+      continue;
+    }
+    if (n < 0) {
+      fail(path_, std::string("cannot be read: ") + std::strerror(errno));
+    }
+    if (n == 0) {
+      fail(path_, "ends after " + std::to_string(offset + done) + " bytes, " +
+                      std::to_string(out.size() - done) + " too early; copy the file again");
+    }
+    done += static_cast<std::size_t>(n);
+  }
+}
+
+std::vector<char> read_all(const std::filesystem::path& path, std::uint64_t limit) {
+  const File file(path);
+  if (file.size() > limit) {
+    fail(path, "is " + std::to_string(file.size()) + " bytes long, more than the limit of " +
+                   std::to_string(limit) + "; convert it to .npy");
+  }
+  std::vector<char> bytes(file.size());
+  file.read(0, bytes);
+  return bytes;
+}
+
+} // namespace firetwin::run

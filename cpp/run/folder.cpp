@@ -1,0 +1,158 @@
+#include "run/folder.hpp"
+
+#include "error.hpp"
+#include "run/names.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <map>
+#include <system_error>
+
+namespace firetwin::run {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+  throw InputError(path.string(), 0, 0, reason);
+}
+
+/// The time index in a name like 000042.txt.
+std::optional<std::size_t> frame_index(const fs::path& path) {
+  const std::string stem = path.stem().string();
+  const bool data = path.extension() == ".txt" || path.extension() == ".npy";
+  std::size_t index = 0;
+  const auto [end, code] = std::from_chars(stem.data(), stem.data() + stem.size(), index);
+  if (!data || stem.size() != 6 || code != std::errc() || end != stem.data() + stem.size()) {
+    return std::nullopt;
+  }
+  return index;
+}
+
+std::string frame_name(std::size_t index) {
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "%06zu", index);
+  return name.data();
+}
+
+/// Calls `visit` for each entry; an unreadable folder is an InputError.
+template <class Visit> void for_each_entry(const fs::path& folder, Visit visit) {
+  std::error_code code;
+  for (fs::directory_iterator it(folder, code), end; !code && it != end; it.increment(code)) {
+    visit(*it);
+  }
+  if (code) {
+    fail(folder, "cannot be listed: " + code.message());
+  }
+}
+
+} // namespace
+
+Folder::Folder(const fs::path& path) {
+  std::error_code code;
+  path_ = fs::canonical(path, code);
+  if (code) {
+    fail(path, "there is no such run folder; check the path");
+  }
+  if (!fs::is_directory(path_, code)) {
+    fail(path, "is not a folder; give the folder that holds run.toml");
+  }
+  for_each_entry(path_, [this](const fs::directory_entry& entry) { add(entry); });
+  std::sort(fields_.begin(), fields_.end());
+  std::sort(strangers_.begin(), strangers_.end());
+  const auto twice = std::adjacent_find(fields_.begin(), fields_.end());
+  if (twice != fields_.end()) {
+    fail(path_ / *twice, "is there more than once (.txt, .npy or a folder); keep one of them");
+  }
+}
+
+void Folder::add(const fs::directory_entry& entry) {
+  std::error_code code;
+  const fs::path name = entry.path().filename();
+  const bool data = name.extension() == ".txt" || name.extension() == ".npy";
+  if (!data && !entry.is_directory(code)) {
+    return;
+  }
+  const std::string field = data ? name.stem().string() : name.string();
+  if (find_field(field)) {
+    fields_.push_back(field);
+  } else if (data) {
+    strangers_.push_back(name.string());
+  }
+}
+
+bool Folder::has(std::string_view field) const {
+  return std::binary_search(fields_.begin(), fields_.end(), field);
+}
+
+fs::path Folder::inside(const fs::path& path) const {
+  std::error_code code;
+  const fs::path real = fs::canonical(path, code);
+  if (code) {
+    fail(path, "the file is missing; a run folder must hold it");
+  }
+  const auto [end, rest] = std::mismatch(path_.begin(), path_.end(), real.begin(), real.end());
+  if (end != path_.end()) {
+    fail(path, "is a link to a place outside the run folder; put the file itself there");
+  }
+  return real;
+}
+
+fs::path Folder::file(const std::string& name) const {
+  return inside(path_ / name);
+}
+
+fs::path Folder::field_file(const std::string& field) const {
+  std::error_code code;
+  const fs::path npy = path_ / (field + ".npy");
+  if (fs::exists(npy, code)) {
+    return inside(npy);
+  }
+  const fs::path text = path_ / (field + ".txt");
+  if (!fs::exists(text, code)) {
+    fail(text,
+         "the field is missing; a run folder must hold " + field + ".txt or " + field + ".npy");
+  }
+  return inside(text);
+}
+
+std::vector<fs::path> Folder::frames(const fs::path& folder) const {
+  std::map<std::size_t, fs::path> found;
+  for_each_entry(folder, [&](const fs::directory_entry& entry) {
+    if (const auto index = frame_index(entry.path())) {
+      if (!found.emplace(*index, entry.path()).second) {
+        fail(folder / frame_name(*index), "is there as .txt and as .npy; keep one of them");
+      }
+    }
+  });
+  std::vector<fs::path> result;
+  for (const auto& [index, path] : found) {
+    if (index != result.size()) {
+      break;
+    }
+    result.push_back(inside(path));
+  }
+  if (found.empty() || result.size() < found.size()) {
+    fail(folder / (frame_name(result.size()) + ".txt"),
+         "the file is missing; model times are numbered from 000000 on without gaps, as .txt or "
+         ".npy");
+  }
+  return result;
+}
+
+Series Folder::series(const std::string& field, std::size_t rows, std::size_t columns,
+                      std::optional<float> no_data) const {
+  std::error_code code;
+  const fs::path npy = path_ / (field + ".npy");
+  if (fs::exists(npy, code)) {
+    return {NpyFile(inside(npy)), rows, columns, no_data};
+  }
+  const fs::path folder = path_ / field;
+  if (!fs::is_directory(folder, code)) {
+    fail(folder, "the field is missing; a run folder must hold " + field + ".npy or " + field +
+                     "/000000.txt and so on");
+  }
+  return {frames(inside(folder)), rows, columns, no_data};
+}
+
+} // namespace firetwin::run

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "run/series.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace firetwin::run {
+
+/// The files of a run. Links that lead out of the folder are refused.
+class Folder {
+public:
+  /// @throws InputError when it is no readable folder, or a field is there twice (.txt and .npy).
+  explicit Folder(const std::filesystem::path& path);
+
+  const std::filesystem::path& path() const { return path_; }
+  /// Names of the known fields that are there, in alphabetical order.
+  const std::vector<std::string>& fields() const { return fields_; }
+  bool has(std::string_view field) const;
+  /// Data files of no known name, most likely misspelt.
+  const std::vector<std::string>& strangers() const { return strangers_; }
+
+  /// A file that must be there and lie in the folder.
+  std::filesystem::path file(const std::string& name) const;
+  /// The .txt or .npy of a field.
+  std::filesystem::path field_file(const std::string& field) const;
+  Series series(const std::string& field, std::size_t rows, std::size_t columns,
+                std::optional<float> no_data) const;
+
+private:
+  void add(const std::filesystem::directory_entry& entry);
+  std::filesystem::path inside(const std::filesystem::path& path) const;
+  std::vector<std::filesystem::path> frames(const std::filesystem::path& folder) const;
+
+  std::filesystem::path path_;
+  std::vector<std::string> fields_;
+  std::vector<std::string> strangers_;
+};
+
+} // namespace firetwin::run

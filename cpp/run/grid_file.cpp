@@ -1,0 +1,128 @@
+#include "run/grid_file.hpp"
+
+#include "error.hpp"
+#include "run/npy.hpp"
+#include "run/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace firetwin::run {
+namespace {
+
+/// A text grid of 2000 x 2000 needs about 60 MB.
+constexpr std::uint64_t largest_text = 1U << 30;
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
+  throw InputError(path.string(), 0, 0, reason);
+}
+
+bool is_npy(const std::filesystem::path& path) {
+  const File file(path);
+  std::array<char, 6> magic{};
+  if (file.size() < magic.size()) {
+    return false;
+  }
+  file.read(0, magic);
+  return std::memcmp(magic.data(), "\x93NUMPY", magic.size()) == 0;
+}
+
+template <class T> Grid<T> read_npy(const std::filesystem::path& path) {
+  const NpyFile file(path);
+  const auto& shape = file.shape();
+  if (shape.empty() || shape.size() > 2) {
+    fail(path, "has shape " + shape_text(shape) + " where two dimensions are needed");
+  }
+  Grid<T> grid;
+  grid.rows = shape.size() == 2 ? shape[0] : 1;
+  grid.columns = shape.back();
+  if (grid.rows == 0 || grid.columns == 0) {
+    fail(path, "has shape " + shape_text(shape) + " and so holds no numbers");
+  }
+  grid.values.resize(grid.rows * grid.columns);
+  file.read(0, std::span<T>(grid.values));
+  return grid;
+}
+
+template <class T> Grid<T> read_any(const std::filesystem::path& path) {
+  if (path.extension() == ".npy" || is_npy(path)) {
+    return read_npy<T>(path);
+  }
+  return parse_text<T>(read_all(path, largest_text), path.string());
+}
+
+[[noreturn]] void wrong_size(const std::filesystem::path& path, std::size_t rows,
+                             std::size_t columns, const Grid<float>& found) {
+  std::string reason = "expected " + size_text(rows, columns) +
+                       " (latitudes by longitudes), found " + size_text(found.rows, found.columns);
+  if (found.rows == rows && found.columns == 2 * columns) {
+    reason += "; decimal commas must be written as points";
+  } else if (found.rows == columns && found.columns == rows) {
+    reason += "; transpose it so that each row holds one latitude";
+  } else {
+    reason += "; make the field fit the axes";
+  }
+  fail(path, reason);
+}
+
+void check_axis_value(const std::filesystem::path& path, std::size_t index, double value,
+                      double limit) {
+  if (std::abs(value) <= limit) {
+    return;
+  }
+  std::string reason = "value " + std::to_string(index + 1) + " is " + std::to_string(value);
+  reason += std::isfinite(value) ? ", beyond " + std::to_string(static_cast<int>(limit)) +
+                                       " degrees; are latitude and longitude swapped?"
+                                 : "; an axis needs a number for every row and column";
+  fail(path, reason);
+}
+
+} // namespace
+
+Grid<float> read_grid(const std::filesystem::path& path) {
+  return read_any<float>(path);
+}
+
+std::vector<double> read_axis(const std::filesystem::path& path, double limit) {
+  Grid<double> grid = read_any<double>(path);
+  if (grid.rows != 1 && grid.columns != 1) {
+    fail(path,
+         "expected one row or one column of numbers, found " + size_text(grid.rows, grid.columns));
+  }
+  const std::vector<double>& v = grid.values;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    check_axis_value(path, i, v[i], limit);
+    if (i > 0 && (v[i] == v[i - 1] || (v[i] > v[i - 1]) != (v[1] > v[0]))) {
+      fail(path, "value " + std::to_string(i + 1) +
+                     " is not beyond the one before; an axis must "
+                     "ascend or descend throughout, without duplicates");
+    }
+  }
+  return std::move(grid.values);
+}
+
+void read_grid(const std::filesystem::path& path, std::size_t rows, std::size_t columns,
+               std::optional<float> no_data, std::span<float> out) {
+  const Grid<float> grid = read_grid(path);
+  if (grid.rows != rows || grid.columns != columns) {
+    wrong_size(path, rows, columns, grid);
+  }
+  std::copy(grid.values.begin(), grid.values.end(), out.begin());
+  blank(out, no_data);
+}
+
+void blank(std::span<float> values, std::optional<float> no_data) {
+  if (no_data) {
+    std::replace(values.begin(), values.end(), *no_data, std::numeric_limits<float>::quiet_NaN());
+  }
+}
+
+std::string size_text(std::size_t rows, std::size_t columns) {
+  return std::to_string(rows) + (rows == 1 ? " row of " : " rows of ") + std::to_string(columns) +
+         (columns == 1 ? " value" : " values");
+}
+
+} // namespace firetwin::run

@@ -1,0 +1,212 @@
+#include "run/run.hpp"
+
+#include "error.hpp"
+#include "geo/axis.hpp"
+#include "run/grid_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace firetwin::run {
+namespace {
+
+constexpr double latitude_limit = 90.0;
+/// Generous: runs may count eastwards past 180 or 360 degrees.
+constexpr double longitude_limit = 540.0;
+
+template <class Test> std::size_t count(const std::vector<float>& values, Test test) {
+  return static_cast<std::size_t>(std::count_if(values.begin(), values.end(), test));
+}
+
+bool reaches_beyond(const std::vector<double>& fine, const std::vector<double>& coarse) {
+  const auto [low, high] = std::minmax_element(fine.begin(), fine.end());
+  const geo::Extent first = geo::cell_extent(coarse, 0);
+  const geo::Extent last = geo::cell_extent(coarse, coarse.size() - 1);
+  const double slack = 1e-6;
+  return *low < std::min(first.first, last.last) - slack ||
+         *high > std::max(first.first, last.last) + slack;
+}
+
+const Series& need(const std::optional<Series>& series, const std::filesystem::path& folder,
+                   const std::string& name) {
+  if (!series) {
+    throw Error(folder.string() + ": this run has no " + name);
+  }
+  return *series;
+}
+
+} // namespace
+
+Run::Run(const std::filesystem::path& folder)
+    : folder_(folder), manifest_(read_manifest(folder_.file("run.toml"))) {
+  if (manifest_.no_data) {
+    no_data_ = static_cast<float>(*manifest_.no_data);
+  }
+  warnings_ = manifest_.warnings;
+  for (const std::string& name : folder_.strangers()) {
+    warnings_.push_back(name + " is not a field of a run and is ignored");
+  }
+  read_axes();
+  read_grids();
+  open_series();
+  set_times();
+  check_values();
+}
+
+void Run::read_axes() {
+  latitude_ = read_axis(folder_.field_file("latitude"), latitude_limit);
+  longitude_ = read_axis(folder_.field_file("longitude"), longitude_limit);
+  fuel_latitude_ = read_axis(folder_.field_file("fuel_latitude"), latitude_limit);
+  fuel_longitude_ = read_axis(folder_.field_file("fuel_longitude"), longitude_limit);
+}
+
+std::vector<float> Run::read_grid_of(const std::string& field, std::size_t rows,
+                                     std::size_t columns) const {
+  std::vector<float> values(rows * columns);
+  read_grid(folder_.field_file(field), rows, columns, no_data_, values);
+  return values;
+}
+
+void Run::read_grids() {
+  const std::size_t fy = fuel_latitude_.size();
+  const std::size_t fx = fuel_longitude_.size();
+  elevation_ = read_grid_of("elevation", latitude_.size(), longitude_.size());
+  surface_fuel_ = read_grid_of("surface_fuel", fy, fx);
+  canopy_fuel_ = read_grid_of("canopy_fuel", fy, fx);
+  fuel_elevation_ = folder_.has("fuel_elevation") ? read_grid_of("fuel_elevation", fy, fx)
+                                                  : geo::resample(elevation_, latitude_, longitude_,
+                                                                  fuel_latitude_, fuel_longitude_);
+}
+
+std::optional<Series> Run::optional_series(const std::string& field) const {
+  if (!folder_.has(field)) {
+    return std::nullopt;
+  }
+  Series series = folder_.series(field, latitude_.size(), longitude_.size(), no_data_);
+  if (series.size() != heat_flux_->size()) {
+    throw InputError((path() / field).string(), 0, 0,
+                     "has " + std::to_string(series.size()) + " times where heat_flux has " +
+                         std::to_string(heat_flux_->size()) + "; every field needs all times");
+  }
+  return series;
+}
+
+void Run::open_series() {
+  heat_flux_ = folder_.series("heat_flux", latitude_.size(), longitude_.size(), no_data_);
+  temperature_ = optional_series("temperature");
+  wind_east_ = optional_series("wind_east");
+  wind_north_ = optional_series("wind_north");
+  if (wind_east_.has_value() != wind_north_.has_value()) {
+    throw InputError((path() / (wind_east_ ? "wind_north" : "wind_east")).string(), 0, 0,
+                     "the field is missing; wind needs wind_east and wind_north");
+  }
+}
+
+void Run::set_times() {
+  const std::size_t nt = heat_flux_->size();
+  times_ = manifest_.times_s;
+  if (manifest_.interval_s) {
+    times_.resize(nt);
+    for (std::size_t i = 0; i < nt; ++i) {
+      times_[i] = static_cast<double>(i) * *manifest_.interval_s;
+    }
+  }
+  if (times_.size() != nt) {
+    throw InputError((path() / "run.toml").string(), 0, 0,
+                     "times_s lists " + std::to_string(times_.size()) +
+                         " times but heat_flux has " + std::to_string(nt));
+  }
+}
+
+void Run::check_values() {
+  const auto not_finite = [](float v) { return !std::isfinite(v); };
+  const auto negative = [](float v) { return v < 0.0F; };
+  if (const std::size_t n = count(elevation_, not_finite)) {
+    warnings_.push_back("elevation has no value in " + std::to_string(n) + " cells");
+  }
+  for (const auto& [name, fuel] :
+       {std::pair{"surface_fuel", &surface_fuel_}, std::pair{"canopy_fuel", &canopy_fuel_}}) {
+    if (const std::size_t n = count(*fuel, not_finite)) {
+      warnings_.push_back(std::string(name) + " has no value in " + std::to_string(n) + " cells");
+    }
+    if (const std::size_t n = count(*fuel, negative)) {
+      warnings_.push_back(std::string(name) + " is negative in " + std::to_string(n) + " cells");
+    }
+  }
+  if (reaches_beyond(fuel_latitude_, latitude_) || reaches_beyond(fuel_longitude_, longitude_)) {
+    warnings_.push_back("the fuel grid reaches beyond the model grid");
+  }
+}
+
+std::vector<std::string> Run::warnings() const {
+  std::vector<std::string> result = warnings_;
+  const std::lock_guard lock(mutex_);
+  if (scan_ && scan_->not_finite) {
+    result.push_back("heat_flux has no value " + std::to_string(scan_->not_finite) + " times");
+  }
+  if (scan_ && scan_->negative) {
+    result.push_back("heat_flux is negative " + std::to_string(scan_->negative) + " times");
+  }
+  return result;
+}
+
+const Series& Run::temperature() const {
+  return need(temperature_, path(), "temperature");
+}
+const Series& Run::wind_east() const {
+  return need(wind_east_, path(), "wind");
+}
+const Series& Run::wind_north() const {
+  return need(wind_north_, path(), "wind");
+}
+
+std::shared_ptr<const Scan> Run::scan_for(double threshold) const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (scan_ && scan_threshold_ == threshold) {
+      return scan_;
+    }
+  }
+  // Outside the lock: a thread that waits here could be one that the scan needs.
+  auto fresh = std::make_shared<const Scan>(scan(*heat_flux_, threshold));
+  const std::lock_guard lock(mutex_);
+  scan_ = fresh;
+  scan_threshold_ = threshold;
+  return fresh;
+}
+
+std::pair<float, float> Run::flux_range() const {
+  std::shared_ptr<const Scan> scan;
+  {
+    const std::lock_guard lock(mutex_);
+    scan = scan_;
+  }
+  if (!scan) {
+    scan = scan_for(0.0);
+  }
+  if (scan->smallest > scan->largest) {
+    throw InputError((path() / "heat_flux").string(), 0, 0, "has no finite value at any time");
+  }
+  return {scan->smallest, scan->largest};
+}
+
+std::vector<float> Run::arrival_time(double threshold) const {
+  const auto scan = scan_for(threshold);
+  std::vector<float> result(scan->first.size(), std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (scan->first[i] != Scan::never) {
+      result[i] = static_cast<float>(times_[scan->first[i]]);
+    }
+  }
+  return result;
+}
+
+std::vector<float> Run::fuel_arrival_time() const {
+  if (folder_.has("fuel_arrival_time")) {
+    return read_grid_of("fuel_arrival_time", fuel_latitude_.size(), fuel_longitude_.size());
+  }
+  return geo::resample(arrival_time(0.0), latitude_, longitude_, fuel_latitude_, fuel_longitude_);
+}
+
+} // namespace firetwin::run

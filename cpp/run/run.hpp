@@ -1,0 +1,83 @@
+#pragma once
+
+#include "run/folder.hpp"
+#include "run/manifest.hpp"
+#include "run/scan.hpp"
+#include "run/series.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace firetwin::run {
+
+/// A model run on disk. Grids that do not change are in memory; frames are read when asked for.
+/// All of it may be used from several threads.
+class Run {
+public:
+  /// @throws InputError for everything that is wrong with the manifest, the axes, a field's shape
+  /// or
+  ///         the number of model times.
+  explicit Run(const std::filesystem::path& folder);
+
+  const std::filesystem::path& path() const { return folder_.path(); }
+  const Manifest& manifest() const { return manifest_; }
+  const std::vector<std::string>& fields() const { return folder_.fields(); }
+  /// What is odd but usable, one sentence each; scans of the heat flux add to it.
+  std::vector<std::string> warnings() const;
+
+  const std::vector<double>& times() const { return times_; }                   ///< s since start
+  const std::vector<double>& latitude() const { return latitude_; }             ///< [ny] degrees
+  const std::vector<double>& longitude() const { return longitude_; }           ///< [nx] degrees
+  const std::vector<float>& elevation() const { return elevation_; }            ///< [ny nx] m
+  const std::vector<double>& fuel_latitude() const { return fuel_latitude_; }   ///< [fy]
+  const std::vector<double>& fuel_longitude() const { return fuel_longitude_; } ///< [fx]
+  const std::vector<float>& surface_fuel() const { return surface_fuel_; }      ///< [fy fx] kg/m2
+  const std::vector<float>& canopy_fuel() const { return canopy_fuel_; }        ///< [fy fx] kg/m2
+  /// [fy fx] m: the field of that name, or the elevation resampled bilinearly.
+  const std::vector<float>& fuel_elevation() const { return fuel_elevation_; }
+
+  std::size_t cells() const { return latitude_.size() * longitude_.size(); }
+  const Series& heat_flux() const { return *heat_flux_; } ///< W/m2
+  /// @throws Error when the run has none.
+  const Series& temperature() const; ///< K
+  const Series& wind_east() const;   ///< m/s
+  const Series& wind_north() const;  ///< m/s
+
+  /// Smallest and largest finite heat flux of the whole run, W/m2. Reads every frame once.
+  std::pair<float, float> flux_range() const;
+  /// [ny nx] time in s of the first frame whose flux exceeds `threshold` (W/m2), NaN where none
+  /// does.
+  std::vector<float> arrival_time(double threshold) const;
+  /// [fy fx] s, NaN where never: the field of that name, or arrival_time(0) resampled bilinearly.
+  std::vector<float> fuel_arrival_time() const;
+
+private:
+  void read_axes();
+  void read_grids();
+  void open_series();
+  void set_times();
+  void check_values();
+  std::optional<Series> optional_series(const std::string& field) const;
+  std::vector<float> read_grid_of(const std::string& field, std::size_t rows,
+                                  std::size_t columns) const;
+  std::shared_ptr<const Scan> scan_for(double threshold) const;
+
+  Folder folder_;
+  Manifest manifest_;
+  std::optional<float> no_data_;
+  std::vector<double> times_, latitude_, longitude_, fuel_latitude_, fuel_longitude_;
+  std::vector<float> elevation_, surface_fuel_, canopy_fuel_, fuel_elevation_;
+  std::optional<Series> heat_flux_, temperature_, wind_east_, wind_north_;
+  std::vector<std::string> warnings_;
+
+  mutable std::mutex mutex_;
+  mutable std::shared_ptr<const Scan> scan_; ///< of the last threshold asked for
+  mutable double scan_threshold_ = 0.0;
+};
+
+} // namespace firetwin::run

@@ -1,0 +1,44 @@
+#include "run/series.hpp"
+
+#include "error.hpp"
+#include "run/grid_file.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace firetwin::run {
+
+Series::Series(NpyFile file, std::size_t rows, std::size_t columns, std::optional<float> no_data)
+    : file_(std::move(file)), rows_(rows), columns_(columns), no_data_(no_data) {
+  const auto& shape = file_->shape();
+  if (shape.size() != 3 || shape[0] == 0 || shape[1] != rows || shape[2] != columns) {
+    throw InputError(file_->path().string(), 0, 0,
+                     "expected shape (times, " + std::to_string(rows) + ", " +
+                         std::to_string(columns) + "), found " + shape_text(shape) +
+                         "; make the field fit the axes");
+  }
+}
+
+Series::Series(std::vector<std::filesystem::path> frames, std::size_t rows, std::size_t columns,
+               std::optional<float> no_data)
+    : frames_(std::move(frames)), rows_(rows), columns_(columns), no_data_(no_data) {}
+
+const std::filesystem::path& Series::path(std::size_t index) const {
+  return file_ ? file_->path() : frames_.at(index);
+}
+
+void Series::read(std::size_t index, std::span<float> out) const {
+  if (index >= size()) {
+    throw std::out_of_range("time index " + std::to_string(index) + " of a run with " +
+                            std::to_string(size()) + " times");
+  }
+  if (!file_) {
+    read_grid(frames_[index], rows_, columns_, no_data_, out);
+    return;
+  }
+  file_->read(std::uint64_t{index} * cells(), out);
+  blank(out, no_data_);
+}
+
+} // namespace firetwin::run

@@ -1,0 +1,134 @@
+#include "run/text.hpp"
+
+#include "error.hpp"
+#include "run/number.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace firetwin::run {
+namespace {
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+
+template <class T> class Parser {
+public:
+  Parser(std::span<const char> text, const std::string& path)
+      : position_(text.data()), end_(text.data() + text.size()), path_(path) {
+    constexpr const char* mark = "\xEF\xBB\xBF";
+    if (text.size() >= 3 && std::memcmp(text.data(), mark, 3) == 0) {
+      position_ += 3;
+    }
+    line_start_ = position_;
+  }
+
+  Grid<T> parse() {
+    for (; position_ < end_; next_line()) {
+      parse_line();
+    }
+    if (grid_.rows == 0) {
+      throw InputError(path_, 0, 0, "holds no numbers; write one row of the grid per line");
+    }
+    return std::move(grid_);
+  }
+
+private:
+  /// Leaves position_ at the end of the line.
+  void parse_line() {
+    const std::size_t before = grid_.values.size();
+    skip_blanks();
+    while (!at_line_end()) {
+      parse_value();
+    }
+    const std::size_t found = grid_.values.size() - before;
+    if (found > 0) {
+      finish_row(found);
+    }
+  }
+
+  void parse_value() {
+    const char* first = position_;
+    const Number<T> number = parse_number<T>(first, end_);
+    if (number.error == NumberError::malformed) {
+      fail(first, explain_word(first, end_, number.error));
+    }
+    position_ = number.end;
+    if (!at_line_end() && !is_blank(*position_) && *position_ != ',') {
+      fail(first, explain_word(first, end_, NumberError::malformed));
+    }
+    if (number.error == NumberError::too_large) {
+      fail(first, explain_word(first, end_, number.error));
+    }
+    grid_.values.push_back(number.value);
+    skip_separator();
+  }
+
+  /// Blanks with at most one comma, which another value has to follow.
+  void skip_separator() {
+    skip_blanks();
+    if (position_ < end_ && *position_ == ',') {
+      const char* comma = position_++;
+      skip_blanks();
+      if (at_line_end()) {
+        fail(comma, "a value is missing after the comma; remove the comma or write nan");
+      }
+    }
+  }
+
+  void finish_row(std::size_t found) {
+    if (grid_.rows == 0) {
+      grid_.columns = found;
+      const auto line_bytes = static_cast<std::size_t>(position_ - line_start_) + 1;
+      const auto rest = static_cast<std::size_t>(end_ - position_);
+      grid_.values.reserve(found * (rest / line_bytes + 2));
+    } else if (found != grid_.columns) {
+      fail(line_start_, "this row has " + std::to_string(found) + " values where the first has " +
+                            std::to_string(grid_.columns) + "; make all rows equally long");
+    }
+    ++grid_.rows;
+  }
+
+  void skip_blanks() {
+    while (position_ < end_ && is_blank(*position_)) {
+      ++position_;
+    }
+  }
+
+  bool at_line_end() const {
+    if (position_ == end_ || *position_ == '\n' || *position_ == '#') {
+      return true;
+    }
+    return *position_ == '\r' && (position_ + 1 == end_ || position_[1] == '\n');
+  }
+
+  void next_line() {
+    const void* newline = std::memchr(position_, '\n', static_cast<std::size_t>(end_ - position_));
+    position_ = newline ? static_cast<const char*>(newline) + 1 : end_;
+    line_start_ = position_;
+    ++line_;
+  }
+
+  [[noreturn]] void fail(const char* place, const std::string& reason) const {
+    throw InputError(path_, line_, place - line_start_ + 1, reason);
+  }
+
+  const char* position_;
+  const char* end_;
+  const char* line_start_ = nullptr;
+  std::int64_t line_ = 1;
+  const std::string& path_;
+  Grid<T> grid_;
+};
+
+} // namespace
+
+template <class T> Grid<T> parse_text(std::span<const char> text, const std::string& path) {
+  return Parser<T>(text, path).parse();
+}
+
+template Grid<float> parse_text(std::span<const char>, const std::string&);
+template Grid<double> parse_text(std::span<const char>, const std::string&);
+
+} // namespace firetwin::run
