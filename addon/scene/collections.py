@@ -17,14 +17,14 @@ def root(scene: bpy.types.Scene | None = None) -> bpy.types.Collection:
     return collection
 
 
-def fresh(name: str, parent: bpy.types.Collection | None = None) -> bpy.types.Collection:
+def fresh(name: str, scene: bpy.types.Scene | None = None) -> bpy.types.Collection:
     """The empty collection "Firetwin <name>": an old one goes with its objects and their data."""
     full = f"{ROOT} {name}"
     old = bpy.data.collections.get(full)
     if old is not None:
         remove(old)
     collection = bpy.data.collections.new(full)
-    (parent or root()).children.link(collection)
+    root(scene).children.link(collection)
     return collection
 
 

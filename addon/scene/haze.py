@@ -17,7 +17,7 @@ NAME = "Firetwin Haze"
 
 
 def _group() -> bpy.types.NodeTree:
-    """Make the node group (once per file), with the extinction and colour in nodes that `settings` changes."""
+    """Make the node group (once per file); `settings` changes the constants in it."""
     group = bpy.data.node_groups.get(NAME)
     if group is not None:
         return group

@@ -1,0 +1,147 @@
+"""The ground beyond the run's grid, out to the horizon: invented, so that no edge of the world is seen.
+
+Its rows and columns continue those of the grid with growing spacing, so that the whole ground is one mesh.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import noise
+
+GROWTH = 1.16  # each row beyond the grid is this much wider than the one before
+_FORGET = 9_000.0  # m; the heights of the edge fade into the region's within this distance
+
+
+@dataclass(frozen=True)
+class Fields:
+    """Fields on a rectilinear grid, rows from south to north and columns from west to east.
+
+    Attributes
+    ----------
+    latitude, longitude
+        (ny,), (nx,) degrees, ascending.
+    elevation, canopy_fuel, surface_fuel
+        (ny, nx) m, kg/m2, kg/m2.
+    margin
+        How many rows and columns at each side are apron.
+    """
+
+    latitude: NDArray[np.float64]
+    longitude: NDArray[np.float64]
+    elevation: NDArray[np.float64]
+    canopy_fuel: NDArray[np.float64]
+    surface_fuel: NDArray[np.float64]
+    margin: int = 0
+
+
+def extend(fields: Fields, cell: tuple[float, float], half_width: float, seed: int) -> Fields:
+    """`fields` with an apron that reaches `half_width` metres from the middle.
+
+    Parameters
+    ----------
+    cell
+        Size of a cell, north and east, m.
+    """
+    rows, columns = fields.elevation.shape
+    reach = half_width - 0.5 * min(rows * cell[0], columns * cell[1])
+    if reach <= 0.0:
+        return fields
+    count = int(np.ceil(np.log1p(reach * (GROWTH - 1.0) / min(cell)) / np.log(GROWTH)))
+    steps = np.cumsum(GROWTH ** np.arange(1, count + 1))  # distance beyond the edge, in cells
+    latitude, longitude = (_continue(axis, steps) for axis in (fields.latitude, fields.longitude))
+    y, x = _positions(rows, steps) * cell[0], _positions(columns, steps) * cell[1]
+    dy = np.maximum(np.maximum(y[count] - y, y - y[count + rows - 1]), 0.0)
+    dx = np.maximum(np.maximum(x[count] - x, x - x[count + columns - 1]), 0.0)
+    distance = np.hypot(dy[:, None], dx[None, :])
+    spacing = np.maximum(dy[:, None], dx[None, :]) * (GROWTH - 1.0)
+    elevation = _heights(np.pad(fields.elevation, count, "edge"), y, x, distance, spacing, seed)
+    apron = distance > 0.0
+    canopy, surface = (
+        np.where(
+            apron, _fuel(fields.elevation, fuel, elevation, y, x, distance, seed + k), np.pad(fuel, count)
+        )
+        for k, fuel in enumerate((fields.canopy_fuel, fields.surface_fuel))
+    )
+    return Fields(latitude, longitude, elevation, canopy, surface, count)
+
+
+def _continue(axis: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray[np.float64]:
+    """An axis with `steps` (cells beyond its ends) added at both ends."""
+    if len(axis) == 1:
+        raise ValueError("an axis of one value has no spacing to continue")
+    before = axis[0] - steps[::-1] * (axis[1] - axis[0])
+    return np.concatenate([before, axis, axis[-1] + steps * (axis[-1] - axis[-2])])
+
+
+def _positions(count: int, steps: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Row numbers of the continued axis, fractional beyond the grid."""
+    return np.concatenate([-steps[::-1], np.arange(count), count - 1 + steps])
+
+
+def _heights(
+    edge: NDArray[np.float64],
+    y: NDArray[np.float64],
+    x: NDArray[np.float64],
+    distance: NDArray[np.float64],
+    spacing: NDArray[np.float64],
+    seed: int,
+) -> NDArray[np.float64]:
+    """Edge heights that fade into the region's plane with hills; hills finer than the mesh are left out."""
+    inside = distance == 0.0
+    yy, xx = np.broadcast_arrays(y[:, None], x[None, :])
+    design = np.stack([np.ones(inside.sum()), yy[inside], xx[inside]], axis=1)
+    normal = design.T @ design
+    plane = np.linalg.lstsq(normal, design.T @ edge[inside], rcond=None)[0]
+    trend = plane[0] + plane[1] * yy + plane[2] * xx
+    low, high = np.percentile(edge[inside], [2, 98])
+    trend = np.clip(trend, low - 200.0, high + 300.0)
+    relief = float(np.std(edge[inside] - trend[inside]))
+    hills, amplitude = np.zeros_like(edge), 1.0
+    for octave in range(7):
+        size = 14_000.0 / 2.0**octave
+        fine = noise.smoothstep(size / 2.0, size / 4.0, spacing)
+        hills += amplitude * fine * noise.perlin(xx / size, yy / size, seed + octave)
+        amplitude *= 0.5
+    away = 1.0 - np.exp(-distance / _FORGET)
+    small = 1.0 - np.exp(-distance / 1500.0)
+    blur = 1.0 - np.exp(-distance / 600.0)  # else every bump of the edge runs on outwards as a ridge
+    edge = edge + blur * (_blurred_edge(edge, inside) - edge)
+    return edge + away * (trend - edge) + small * 2.2 * relief * hills
+
+
+def _blurred_edge(edge: NDArray[np.float64], inside: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Continue the outermost heights of the grid outwards, averaged along the edge over 41 cells."""
+    rows, columns = np.flatnonzero(inside.any(1)), np.flatnonzero(inside.any(0))
+    core = edge[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    window = np.ones(41) / 41.0
+    smooth = core.copy()
+    for side in (np.s_[0, :], np.s_[-1, :], np.s_[:, 0], np.s_[:, -1]):
+        smooth[side] = np.convolve(np.pad(core[side], 20, "edge"), window, "valid")
+    return np.pad(smooth, (edge.shape[0] - core.shape[0]) // 2, "edge")
+
+
+def _fuel(
+    known_height: NDArray[np.float64],
+    known_fuel: NDArray[np.float64],
+    height: NDArray[np.float64],
+    y: NDArray[np.float64],
+    x: NDArray[np.float64],
+    distance: NDArray[np.float64],
+    seed: int,
+) -> NDArray[np.float64]:
+    """Fuel in the apron: that of the edge at first, farther out what is usual at that height, in patches."""
+    margin = (height.shape[0] - known_height.shape[0]) // 2
+    edges = np.quantile(known_height, np.linspace(0.0, 1.0, 13))
+    band = np.clip(np.searchsorted(edges, known_height) - 1, 0, 11)
+    mean = np.bincount(band.ravel(), known_fuel.ravel(), 12) / np.maximum(
+        np.bincount(band.ravel(), None, 12), 1
+    )
+    usual = np.interp(height, 0.5 * (edges[1:] + edges[:-1]), mean)
+    patches = 0.5 + noise.fractal(x[None, :], y[:, None], 1_700.0, 3, seed + 50)
+    usual = usual * np.clip(0.4 + 1.2 * patches, 0.0, 2.0)
+    near = np.exp(-distance / 2_500.0)
+    return near * np.pad(known_fuel, margin, "edge") + (1.0 - near) * usual

@@ -1,0 +1,42 @@
+"""Builds the whole scene of a project."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+
+import bpy
+from firetwin_core.run import Run
+
+from ..project import Project
+from . import cameras, clock, collections, light, terrain
+from .ground import Ground
+from .paths import Path, eyes, paths
+
+
+def build(project: Project, run: Run, scene: bpy.types.Scene | None = None) -> bpy.types.Scene:
+    """Build everything into `scene` (the current one unless given); what an earlier build made goes first."""
+    scene = scene or bpy.context.scene
+    collections.root(scene)
+    clock.build(project, run, scene)
+    ground, views = survey(project, run)
+    terrain.build(project, run, ground, views)
+    # forest.build(project, run, ground, views)
+    _call("fire", project, run, scene)
+    _call("smoke", project, run, scene)
+    light.build(project, run, scene)
+    cameras.build(project, run, views, scene)
+    _call("sensors", project, run, scene)
+    return scene
+
+
+def survey(project: Project, run: Run) -> tuple[Ground, list[Path]]:
+    """The ground with detail near the cameras, and the paths of the cameras over it."""
+    sketch = paths(project, run)
+    ground = Ground(project, run, eyes(sketch, project.terrain.near_radius))
+    return ground, paths(project, run, ground)
+
+
+def _call(name: str, project: Project, run: Run, scene: bpy.types.Scene) -> None:
+    if importlib.util.find_spec(f"{__package__}.{name}"):
+        importlib.import_module(f".{name}", __package__).build(project, run)

@@ -1,0 +1,202 @@
+"""The ground as a function: its height and fuels at any place, which the mesh, trees and cameras share."""
+
+from __future__ import annotations
+
+import numpy as np
+from firetwin_core.run import Run
+from numpy.typing import ArrayLike, NDArray
+
+from ..project import Project
+from . import apron, noise
+from .frame import local_frame, metres_per_degree
+
+NEVER = 1.0e9  # arrival time of places that never burned, s
+RELIEF = 7.0  # standard deviation of the added relief where slopes are 45 degrees, m
+
+Array = NDArray[np.float64]
+
+
+class Ground:
+    """Height and fuel over the run's fuel grid and the apron round it.
+
+    Within `near_radius` of the given eyes the surface between grid points is smooth (Catmull-Rom) with added
+    relief; farther away it is bilinear, as the tree heights of the core are. The two are blended.
+
+    Parameters
+    ----------
+    eyes
+        (m, 3) camera places in the scene, m; None or empty leaves the ground bilinear everywhere.
+    """
+
+    def __init__(self, project: Project, run: Run, eyes: ArrayLike | None = None) -> None:
+        self.frame = local_frame(run)
+        latitude, longitude = run.fuel_latitude, run.fuel_longitude
+        self._flip = (
+            slice(None, None, -1 if latitude[0] > latitude[-1] else 1),
+            slice(None, None, -1 if longitude[0] > longitude[-1] else 1),
+        )
+        known = apron.Fields(
+            latitude[self._flip[0]],
+            longitude[self._flip[1]],
+            *(
+                np.nan_to_num(field[self._flip].astype(np.float64))
+                for field in (run.fuel_elevation, run.canopy_fuel, run.surface_fuel)
+            ),
+        )
+        north, east = metres_per_degree(self.frame.latitude)
+        self.cell = (
+            north * float(np.mean(np.diff(known.latitude))),
+            east * float(np.mean(np.diff(known.longitude))),
+        )
+        self.fields = apron.extend(known, self.cell, project.terrain.apron, project.seed)
+        self.seed, self.near_radius = project.seed, project.terrain.near_radius
+        self._set_arrival(run.fuel_arrival_time()[self._flip].astype(np.float64))
+        self.eyes = np.empty((0, 3)) if eyes is None else np.asarray(eyes, np.float64).reshape(-1, 3)
+        slope = np.hypot(*np.gradient(self.fields.elevation, *self._metres()))
+        self._slope = np.minimum(slope, 1.0)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of the grid, apron included."""
+        return self.fields.elevation.shape
+
+    def _metres(self) -> tuple[Array, Array]:
+        """Rough metres along both axes, for slopes."""
+        north, east = metres_per_degree(self.frame.latitude)
+        return self.fields.latitude * north, self.fields.longitude * east
+
+    def _set_arrival(self, arrival: Array) -> None:
+        """Continue arrival times a few cells past the last perimeter, so that it can be drawn smoothly."""
+        burned = np.isfinite(arrival)
+        filled, known = np.where(burned, arrival, 0.0), burned.astype(np.float64)
+        for _ in range(3):
+            total, weight = _neighbours(filled * known), _neighbours(known)
+            grow = (known == 0.0) & (weight > 0.0)
+            filled[grow] = total[grow] / weight[grow] + 300.0
+            known[grow] = 1.0
+        filled[known == 0.0] = NEVER
+        margin = self.fields.margin
+        self.arrival = np.pad(np.where(burned, arrival, NEVER), margin, constant_values=NEVER)
+        self.burned = np.pad(burned.astype(np.float64), margin)
+        self.burn_time = np.pad(filled, margin, constant_values=NEVER)
+
+    def indices(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
+        """Fractional row and column of places, held inside the grid."""
+        fields = self.fields
+        row = np.interp(latitude, fields.latitude, np.arange(len(fields.latitude)))
+        return row, np.interp(longitude, fields.longitude, np.arange(len(fields.longitude)))
+
+    def places(self, row: ArrayLike, column: ArrayLike) -> tuple[Array, Array]:
+        """Latitude and longitude of fractional rows and columns."""
+        fields = self.fields
+        latitude = np.interp(row, np.arange(len(fields.latitude)), fields.latitude)
+        return latitude, np.interp(column, np.arange(len(fields.longitude)), fields.longitude)
+
+    def detail(self, east: ArrayLike, north: ArrayLike, up: ArrayLike = 0.0) -> Array:
+        """Weight 0..1 of the near surface: 1 within 0.6 of the near radius of an eye, 0 beyond it."""
+        east, north, up = (np.asarray(v, np.float32) for v in np.broadcast_arrays(east, north, up))
+        nearest = np.full(east.shape, np.inf, np.float32)
+        for eye in self.eyes.astype(np.float32):
+            square = (east - eye[0]) ** 2 + (north - eye[1]) ** 2 + (up - eye[2]) ** 2
+            np.minimum(nearest, square, out=nearest)
+        return noise.smoothstep(self.near_radius, 0.6 * self.near_radius, np.sqrt(nearest))
+
+    def height(self, row: ArrayLike, column: ArrayLike, detail: ArrayLike = 0.0) -> Array:
+        """Height above the datum (m) at fractional rows and columns, given the weight of detail there."""
+        row, column, detail = np.broadcast_arrays(row, column, np.asarray(detail, np.float64))
+        height = bilinear(self.fields.elevation, row, column)
+        near = np.flatnonzero(detail.ravel() > 0.0)
+        if len(near):
+            r, c, w = (v.ravel()[near] for v in (row, column, detail))
+            fine = catmull_rom(self.fields.elevation, r, c) + self._relief(r, c)
+            flat = height.ravel()
+            flat[near] += w * (fine - flat[near])
+            height = flat.reshape(row.shape)
+        return height
+
+    def _relief(self, row: Array, column: Array) -> Array:
+        """Ridges and gullies finer than the grid, stronger on slopes."""
+        y, x = row * self.cell[0], column * self.cell[1]
+        shape = np.zeros_like(row)
+        for octave, (size, weight) in enumerate(((210.0, 1.0), (105.0, 0.55), (52.0, 0.27), (26.0, 0.12))):
+            wave = noise.perlin(x / size, y / size, self.seed + 90 + octave)
+            shape += weight * (1.0 - 2.4 * np.abs(wave))  # sharp ridges, round hollows
+        return RELIEF * (0.25 + bilinear(self._slope, row, column)) * (shape - 0.55)
+
+    def point(self, latitude: ArrayLike, longitude: ArrayLike, above: ArrayLike = 0.0) -> Array:
+        """Scene points (n, 3) at a height above the ground (m) at places (degrees)."""
+        latitude, longitude, above = (
+            np.atleast_1d(np.asarray(v, np.float64)) for v in np.broadcast_arrays(latitude, longitude, above)
+        )
+        row, column = self.indices(latitude, longitude)
+        coarse = self.frame.forward(latitude, longitude, self.height(row, column))
+        weight = self.detail(coarse[:, 0], coarse[:, 1], coarse[:, 2])
+        return self.frame.forward(latitude, longitude, self.height(row, column, weight) + above)
+
+    def geodetic(self, east: ArrayLike, north: ArrayLike) -> tuple[Array, Array]:
+        """Latitude and longitude of the ground at scene coordinates (m); the vertical leans there."""
+        east, north = (np.atleast_1d(np.asarray(v, np.float64)) for v in np.broadcast_arrays(east, north))
+        up = -(east**2 + north**2) / (2.0 * 6_371_000.0)
+        for _ in range(3):
+            latitude, longitude, _height = self.frame.reverse(np.stack([east, north, up], axis=-1))
+            row, column = self.indices(latitude, longitude)
+            up = self.frame.forward(latitude, longitude, self.height(row, column))[:, 2]
+        return latitude, longitude
+
+    def up(self, east: ArrayLike, north: ArrayLike) -> Array:
+        """Scene z (n,) of the ground at scene coordinates (m)."""
+        return self.point(*self.geodetic(east, north))[:, 2]
+
+    def sample(self, field: Array, east: ArrayLike, north: ArrayLike) -> Array:
+        """A field of the grid (apron included), bilinear at scene coordinates (m)."""
+        return bilinear(field, *self.indices(*self.geodetic(east, north)))
+
+    def arrival_at(self, row: ArrayLike, column: ArrayLike) -> Array:
+        """Arrival time (s) at fractional rows and columns; NEVER where most of what is near never burned."""
+        burned = bilinear(self.burned, row, column)
+        return np.where(burned >= 0.5, bilinear(np.minimum(self.burn_time, 1.0e8), row, column), NEVER)
+
+
+def _neighbours(field: Array) -> Array:
+    """Sum over the eight neighbours."""
+    padded = np.pad(field, 1)
+    rows, columns = field.shape
+    windows = (padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3))
+    return sum(windows) - field
+
+
+def _split(index: ArrayLike, count: int) -> tuple[NDArray[np.int64], Array]:
+    """Whole and fractional part of indices into an axis of `count` values."""
+    whole = np.clip(np.floor(index).astype(np.int64), 0, max(count - 2, 0))
+    return whole, np.asarray(index) - whole
+
+
+def bilinear(field: Array, row: ArrayLike, column: ArrayLike) -> Array:
+    """Values of `field` (ny, nx) between its points."""
+    i, v = _split(row, field.shape[0])
+    j, u = _split(column, field.shape[1])
+    i1, j1 = np.minimum(i + 1, field.shape[0] - 1), np.minimum(j + 1, field.shape[1] - 1)
+    low = field[i, j] * (1.0 - u) + field[i, j1] * u
+    return low * (1.0 - v) + (field[i1, j] * (1.0 - u) + field[i1, j1] * u) * v
+
+
+def catmull_rom(field: Array, row: ArrayLike, column: ArrayLike) -> Array:
+    """Values of `field` (ny, nx) between its points, with continuous slope (Catmull and Rom 1974)."""
+    i, v = _split(row, field.shape[0])
+    j, u = _split(column, field.shape[1])
+    total = np.zeros(i.shape)
+    for di, wi in zip(range(-1, 3), _weights(v), strict=True):
+        ii = np.clip(i + di, 0, field.shape[0] - 1)
+        for dj, wj in zip(range(-1, 3), _weights(u), strict=True):
+            total += wi * wj * field[ii, np.clip(j + dj, 0, field.shape[1] - 1)]
+    return total
+
+
+def _weights(t: Array) -> tuple[Array, Array, Array, Array]:
+    """Catmull-Rom weights of the four neighbours at fraction t."""
+    return (
+        0.5 * t * (-1.0 + t * (2.0 - t)),
+        1.0 + 0.5 * t * t * (-5.0 + 3.0 * t),
+        0.5 * t * (1.0 + t * (4.0 - 3.0 * t)),
+        0.5 * t * t * (t - 1.0),
+    )

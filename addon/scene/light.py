@@ -1,0 +1,130 @@
+"""Sun, moon, sky, haze and exposure for the shot's place, date and time.
+
+The values of light are a picture's: a sun of 9 W/m2 at 38 degrees goes with exposure 0. What goes well with
+them in Cycles: diffuse bounces 1, glossy and transmission 0, volume bounces 2, clamp indirect 4, transparent
+bounces 64 near trees.
+"""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from firetwin_core.run import Run
+from mathutils import Vector
+from numpy.typing import NDArray
+
+from .. import compat, nodes
+from ..project import Project
+from . import clock, collections, haze, noise, sun
+
+_KEYS = 25  # the sky changes at this many moments of the shot
+_SUN = 11.1  # W/m2 over the air
+_SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
+_MOON = 0.02  # W/m2
+_MOON_COLOUR = (0.65, 0.78, 1.0)
+_MOON_PLACE = (150.0, 40.0)  # degrees; assumed, the moon of the night is not looked up
+_SKY = 0.2  # strength of the sky texture
+_NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.05
+_DAY_HAZE, _NIGHT_HAZE = np.array([0.50, 0.64, 0.86]) * 0.75, np.array([0.35, 0.45, 0.75]) * 0.008
+THERMAL_SKY = 250.0  # K, a clear sky in the long-wave infrared
+
+
+def build(project: Project, run: Run, scene: bpy.types.Scene) -> bpy.types.Object:
+    """Build the lamp "Firetwin Sun" and the world "Firetwin Sky", both animated over the shot."""
+    first, last = clock.window(project, run)
+    moving = project.time.frames > 1 and last > first
+    frames = np.linspace(1.0, project.time.frames, _KEYS if moving else 1)
+    states = [State(project, *sun.at(run, clock.model_time(project, run, frame))) for frame in frames]
+    lamp = bpy.data.lights.new("Firetwin Sun", "SUN")
+    lamp.angle = np.radians(0.53)
+    thing = collections.add(collections.fresh("Light", scene=scene), "Sun", lamp)
+    thing.rotation_mode = "QUATERNION"
+    sky = _world(scene)
+    _key(thing, "rotation_quaternion", frames, np.array([s.rotation for s in states]))
+    _key(lamp, "energy", frames, np.array([s.power for s in states]))
+    _key(lamp, "color", frames, np.array([s.colour for s in states]))
+    tree = scene.world.node_tree
+    place = f'nodes["{sky.name}"]'
+    compat.set_sky(sky, states[0].sky[0], states[0].sky[1], 1.0)
+    _key(tree, f"{place}.sun_elevation", frames, np.array([s.sky[0] for s in states]))
+    _key(tree, f"{place}.sun_rotation", frames, np.unwrap([s.sky[1] for s in states]))
+    middle = State(project, *sun.at(run, 0.5 * (first + last)))
+    haze.settings(project.light.haze, middle.haze)
+    scene.view_settings.view_transform = "AgX"
+    scene.view_settings.look = "AgX - Medium High Contrast"
+    _key(scene, "view_settings.exposure", frames, np.array([s.exposure for s in states]))
+    return thing
+
+
+class State:
+    """Light for a sun at `bearing` and `height` (degrees).
+
+    Attributes
+    ----------
+    rotation
+        Quaternion of the lamp, which shines along its -z.
+    power, colour
+        Irradiance (W/m2) and colour of the sun, at night of the moon.
+    sky
+        Height and bearing of the sun for the sky texture, radians.
+    """
+
+    def __init__(self, project: Project, bearing: float, height: float) -> None:
+        self.sky = (float(np.radians(height)), float(np.radians(bearing)))
+        day = float(noise.smoothstep(-1.0, 4.0, height))
+        by_sun = height > -1.0
+        place = (bearing, max(height, 0.5)) if by_sun else _MOON_PLACE
+        self.rotation = _facing(sun.direction(*place))
+        sunlight = _SUN * np.exp(-_SUN_DEPTH * air_mass(max(height, 0.0))) * day
+        light = sunlight if by_sun and day > 0.0 else _MOON * np.array(_MOON_COLOUR)
+        self.power = float(light.max())
+        self.colour = light / light.max()
+        blue = float(noise.smoothstep(-10.0, 12.0, height))
+        self.haze = tuple(_NIGHT_HAZE + (_DAY_HAZE - _NIGHT_HAZE) * blue**2)
+        given = project.light.exposure
+        self.exposure = 3.5 * float(noise.smoothstep(3.0, -9.0, height)) if given is None else given
+
+
+def air_mass(height: float) -> float:
+    """Air between us and a sun at `height` degrees, 1 at the zenith (Kasten and Young 1989)."""
+    return float(1.0 / (np.sin(np.radians(height)) + 0.50572 * (height + 6.07995) ** -1.6364))
+
+
+def _facing(direction: NDArray[np.float64]) -> tuple[float, ...]:
+    """Quaternion of a lamp whose light comes from `direction`."""
+    return tuple(Vector((-direction).tolist()).to_track_quat("-Z", "Y"))
+
+
+def _world(scene: bpy.types.Scene) -> bpy.types.ShaderNodeTexSky:
+    """Make the world: sky texture and a little night sky; constant and cold in thermal view layers."""
+    old = bpy.data.worlds.get("Firetwin Sky")
+    if old is not None:
+        bpy.data.worlds.remove(old)
+    world = scene.world = bpy.data.worlds.new("Firetwin Sky")
+    tree = nodes.Tree(compat.node_tree(world))
+    sky = tree.node("ShaderNodeTexSky")
+    sky.name = "Sky"
+    light = tree.vector("SCALE", sky, name=0)
+    compat.find_socket(light.socket.node.inputs, "Scale").default_value = _SKY
+    light = tree.vector("ADD", light, tuple(_NIGHT_SKY))
+    seen = tree.output("ShaderNodeBackground", {"Color": light, "Strength": 1.0})
+    cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": THERMAL_SKY})
+    tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), seen, cold))
+    return sky
+
+
+def _key(thing: bpy.types.ID, data_path: str, frames: NDArray[np.float64], values: NDArray) -> None:
+    """Animate a property (or set it, where there is one moment): values (n,) or (n, channels)."""
+    columns = values.reshape(len(frames), -1)
+    owner, _, name = data_path.rpartition(".")
+    target = thing.path_resolve(owner) if owner else thing
+    setattr(target, name, columns[0] if values.ndim > 1 else float(columns[0, 0]))
+    if len(frames) == 1:
+        return
+    for index in range(columns.shape[1]):
+        curve = compat.new_fcurve(thing, data_path, index)
+        curve.keyframe_points.add(len(frames))
+        for point, frame, value in zip(curve.keyframe_points, frames, columns[:, index], strict=True):
+            point.co = (frame, value)
+            point.interpolation = "LINEAR"
+        curve.update()

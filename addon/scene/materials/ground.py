@@ -1,0 +1,154 @@
+"""Material of the ground: what grows on it, and what the fire has made of it, as a function of time.
+
+age = model time - arrival, so one static mesh shows every minute: flames at the edge, embers, char and ash.
+Reflectances are a picture's, chosen by eye against photographs, not measured.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+from firetwin_core.run import Run
+
+from ... import nodes
+from ...project import Project
+from .. import haze
+from . import heat
+
+FLAME = (1.0, 0.26, 0.035)
+EMBER = (1.0, 0.11, 0.012)
+FLAMING_TIME = 250.0  # s that the edge is in flames
+EMBER_TIME = 3600.0  # s in which embers fade to 1/e
+_JITTER = 130.0  # s; breaks the straight edges of the mesh's triangles
+_FLAME_LIGHT, _EMBER_LIGHT = 14.0, 1.8  # radiance at exposure 0
+
+
+@dataclass
+class _Place:
+    """What the material knows about a point of the ground."""
+
+    position: nodes.Value
+    slope: nodes.Value  # 0 flat, 1 vertical
+    canopy: nodes.Value  # kg/m2
+    surface: nodes.Value  # kg/m2
+    elevation: nodes.Value  # m
+    near: nodes.Value  # 1 where trees are drawn one by one
+    age: nodes.Value  # s since the fire came, negative before
+    burned: nodes.Value  # 0 or 1
+
+
+def build(project: Project, run: Run) -> bpy.types.Material:
+    """Build "Firetwin Ground"."""
+    material, tree = nodes.material("Firetwin Ground")
+    place = _place(tree, project)
+    rock = _rock(tree, place)
+    green, bump = _unburned(tree, place, rock)
+    char = _charred(tree, place, rock)
+    colour = tree.mix_colour(place.burned, green, char)
+    flaming, embers = _glow(tree, place, rock)
+    normal = tree.output("ShaderNodeBump", {"Strength": 0.9, "Distance": 1.0, "Height": bump})
+    matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Roughness": 0.6, "Normal": normal})
+    light = tree.mix_colour(flaming / (flaming + embers + 1.0e-4), EMBER, FLAME)
+    power = flaming * _FLAME_LIGHT + embers * _EMBER_LIGHT
+    shader = haze.apply(tree, tree.add_shader(matt, tree.emission(light, power)))
+    ambient = heat.ambient(tree, project, run, place.elevation, place.canopy)
+    kelvin = heat.burning(tree, ambient, place.age, place.burned, flaming, embers)
+    tree.surface(nodes.thermal_switch(tree, shader, kelvin))
+    material.cycles.emission_sampling = "NONE"  # lit by lamps along the front, not by this
+    return material
+
+
+def _place(tree: nodes.Tree, project: Project) -> _Place:
+    geometry = tree.node("ShaderNodeNewGeometry")
+    position = tree.pick(geometry, "Position")
+    slope = 1.0 - tree.separate(tree.pick(geometry, "True Normal"))[2]
+    distance = tree.output("ShaderNodeCameraData", name="View Distance")
+    radius = project.forest.stand_radius if project.forest.trees else 0.0
+    near = distance.smoothstep(radius, 0.6 * radius) if radius > 0.0 else tree.math("ADD", 0.0, 0.0)
+    wander = tree.noise(position, 170.0, 2.0) + tree.noise(position, 1100.0, 1.0) - 1.0
+    age = nodes.model_time(tree) - tree.attribute("burn_time") + wander * (2.0 * _JITTER)
+    edge = tree.attribute("burned") + (tree.noise(position, 120.0, 3.0) - 0.5) * 0.8
+    island = tree.noise(position, 650.0, 3.0) < 0.63
+    burned = (age > 0.0) * (edge > 0.5) * island
+    return _Place(
+        position,
+        slope,
+        tree.attribute("canopy_fuel"),
+        tree.attribute("surface_fuel"),
+        tree.attribute("elevation"),
+        near,
+        age,
+        burned,
+    )
+
+
+def _rock(tree: nodes.Tree, place: _Place) -> nodes.Value:
+    """Bare rock 0..1: where nothing grows, on cliffs, and in outcrops that grow commoner with height."""
+    ragged = tree.noise(place.position, 260.0, 5.0, 0.62)
+    bare = (place.canopy * 0.6 + place.surface + (ragged - 0.5) * 0.9).smoothstep(0.34, 0.10)
+    cliff = (place.slope + (ragged - 0.5) * 0.35).smoothstep(0.27, 0.36)
+    high = (ragged + place.elevation.ramp(1300.0, 2700.0, -0.12, 0.12)).smoothstep(0.66, 0.74)
+    return tree.math("MAXIMUM", bare, tree.math("MAXIMUM", cliff, high * 0.9))
+
+
+def _unburned(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> tuple[nodes.Value, nodes.Value]:
+    """Colour, and height of the canopy (m) for the bump."""
+    fine = tree.noise(place.position, 24.0, 4.0, 0.65)
+    patch = tree.noise(place.position, 420.0, 4.0, 0.6)
+    crown = tree.cells(place.position, 13.0)
+    tint = tree.separate(tree.cells(place.position, 13.0, "Color"))[0]
+    cover = (place.canopy + (patch - 0.5) * 0.9 + (fine - 0.5) * 0.5).smoothstep(0.05, 0.6)
+    dark = tree.mix_colour(tint, (0.012, 0.022, 0.010), (0.040, 0.056, 0.022))
+    dark = tree.mix_colour(patch.smoothstep(0.35, 0.7), dark, (0.030, 0.050, 0.030), "MIX")
+    canopy = tree.mix_colour(crown.smoothstep(0.30, 0.62), dark, (0.007, 0.011, 0.006))
+    dry = place.elevation.ramp(500.0, 1500.0, 1.0, 0.0)
+    meadow = tree.mix_colour(dry, (0.085, 0.080, 0.040), (0.165, 0.125, 0.058))
+    soil = tree.mix_colour(fine, (0.115, 0.080, 0.050), (0.190, 0.140, 0.095))
+    open_ground = tree.mix_colour(fine.smoothstep(0.38, 0.62), meadow, tree.mix_colour(0.55, meadow, soil))
+    far = tree.mix_colour(cover, open_ground, canopy)
+    litter = tree.mix_colour(fine, (0.030, 0.022, 0.013), (0.085, 0.060, 0.035))
+    scrub = tree.mix_colour(
+        tree.noise(place.position, 5.0, 3.0).smoothstep(0.5, 0.62), litter, (0.030, 0.040, 0.016)
+    )
+    close = tree.mix_colour(cover, open_ground, scrub)
+    colour = tree.mix_colour(place.near, far, close)
+    relief = cover * (1.0 - place.near) * (1.0 - crown) * 9.0 + fine * 2.0
+    return tree.mix_colour(rock, colour, _granite(tree, place)), relief * (1.0 - rock * 0.6)
+
+
+def _granite(tree: nodes.Tree, place: _Place) -> nodes.Value:
+    grain = tree.noise(place.position, 40.0, 5.0, 0.68)
+    stain = tree.noise(tree.vector("MULTIPLY", place.position, (1.0, 1.0, 0.25)), 90.0, 3.0)
+    stone = tree.mix_colour(grain.smoothstep(0.3, 0.7), (0.080, 0.076, 0.070), (0.225, 0.215, 0.200))
+    shrubs = tree.noise(place.position, 16.0, 3.0).smoothstep(0.56, 0.64)
+    stone = tree.mix_colour(stain.smoothstep(0.5, 0.75) * 0.6, stone, (0.070, 0.062, 0.052))
+    return tree.mix_colour(shrubs * 0.8, stone, (0.030, 0.038, 0.018))
+
+
+def _charred(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> nodes.Value:
+    """Char, white ash in streaks, brown scorched crowns where it burned mildly, and rock as it was."""
+    tone = tree.noise(place.position, 90.0, 4.0, 0.62)
+    char = tree.mix_colour(tone.smoothstep(0.3, 0.72), (0.009, 0.008, 0.008), (0.052, 0.046, 0.041))
+    ash = tree.noise(place.position, 33.0, 4.0, 0.6).smoothstep(0.58, 0.70)
+    old = place.age.smoothstep(900.0, 14_400.0)
+    char = tree.mix_colour(ash * old * 0.6, char, (0.150, 0.142, 0.135))
+    mild = tree.noise(place.position, 540.0, 4.0, 0.6).smoothstep(0.54, 0.64) * place.canopy.smoothstep(
+        0.1, 0.6
+    )
+    scorched = tree.mix_colour(tone, (0.035, 0.022, 0.012), (0.085, 0.052, 0.026))
+    char = tree.mix_colour(mild * 0.75, char, scorched)
+    stone = tree.mix_colour(0.45, _granite(tree, place), (0.045, 0.042, 0.040))
+    return tree.mix_colour(rock, char, stone)
+
+
+def _glow(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> tuple[nodes.Value, nodes.Value]:
+    """Flames of the edge and embers behind it, each 0..1."""
+    fuel = place.burned * (1.0 - rock)
+    tongues = tree.noise(place.position, 45.0, 3.0, 0.6).smoothstep(0.44, 0.62)
+    body = place.age.smoothstep(0.0, 30.0) * place.age.smoothstep(FLAMING_TIME, 0.3 * FLAMING_TIME)
+    flaming = fuel * body * tongues
+    speckles = tree.noise(place.position, 28.0, 4.0, 0.7).smoothstep(0.60, 0.72)
+    clusters = tree.noise(place.position, 420.0, 2.0).smoothstep(0.42, 0.66)
+    fading = (-(tree.math("MAXIMUM", place.age, 0.0) / EMBER_TIME)).exp()
+    return flaming, fuel * speckles * clusters * fading

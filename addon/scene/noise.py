@@ -1,0 +1,55 @@
+"""Gradient noise on the plane in NumPy, for relief and patches that geometry needs."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+def _hash(x: NDArray[np.int64], y: NDArray[np.int64], seed: int) -> NDArray[np.uint32]:
+    """Mix lattice coordinates into 32 bits (the finaliser of MurmurHash3)."""
+    h = x.astype(np.uint32) * np.uint32(0x9E3779B1) ^ y.astype(np.uint32) * np.uint32(0x85EBCA77)
+    h ^= np.uint32((seed * 0x27D4EB2F + 0x165667B1) & 0xFFFFFFFF)
+    h = (h ^ (h >> np.uint32(16))) * np.uint32(0x85EBCA6B)
+    h = (h ^ (h >> np.uint32(13))) * np.uint32(0xC2B2AE35)
+    return h ^ (h >> np.uint32(16))
+
+
+def uniform(x: ArrayLike, y: ArrayLike, seed: int) -> NDArray[np.float64]:
+    """Random numbers 0..1 that depend on integers (x, y) and the seed alone."""
+    x, y = np.broadcast_arrays(np.asarray(x, np.int64), np.asarray(y, np.int64))
+    return _hash(x, y, seed) / 2.0**32
+
+
+def perlin(x: ArrayLike, y: ArrayLike, seed: int) -> NDArray[np.float64]:
+    """Gradient noise of wavelength 1, about -1..1 (Perlin 2002: quintic fade)."""
+    x, y = np.broadcast_arrays(np.asarray(x, np.float64), np.asarray(y, np.float64))
+    column, row = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
+    u, v = x - column, y - row
+    corners = []
+    for dy in (0, 1):
+        for dx in (0, 1):
+            angle = _hash(column + dx, row + dy, seed) * (2.0 * np.pi / 2.0**32)
+            corners.append(np.cos(angle) * (u - dx) + np.sin(angle) * (v - dy))
+    fade_u, fade_v = (w * w * w * (w * (6.0 * w - 15.0) + 10.0) for w in (u, v))
+    low = corners[0] + fade_u * (corners[1] - corners[0])
+    high = corners[2] + fade_u * (corners[3] - corners[2])
+    return 1.41 * (low + fade_v * (high - low))
+
+
+def fractal(
+    x: ArrayLike, y: ArrayLike, size: float, octaves: int, seed: int, roughness: float = 0.5
+) -> NDArray[np.float64]:
+    """Octaves of gradient noise, the longest of wavelength `size`; its standard deviation is about 0.4."""
+    total, amplitude = np.zeros(np.broadcast(x, y).shape), 1.0
+    for octave in range(octaves):
+        scale = 2.0**octave / size
+        total += amplitude * perlin(np.asarray(x) * scale, np.asarray(y) * scale, seed + octave)
+        amplitude *= roughness
+    return total
+
+
+def smoothstep(low: float, high: float, x: ArrayLike) -> NDArray[np.float64]:
+    """0 at `low` and below, 1 at `high` and above, smooth between (reversed where high < low)."""
+    w = np.clip((np.asarray(x, np.float64) - low) / (high - low), 0.0, 1.0)
+    return w * w * (3.0 - 2.0 * w)

@@ -1,0 +1,39 @@
+"""Where the sun is: its direction at a place and time."""
+
+from __future__ import annotations
+
+from datetime import datetime
+
+import numpy as np
+from astral import Observer
+from astral.sun import azimuth, elevation
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from ..project import Project
+from . import clock
+
+
+def angles(latitude: float, longitude: float, moment: datetime) -> tuple[float, float]:
+    """Bearing clockwise from north and height over the horizon with refraction, degrees (NOAA)."""
+    observer = Observer(latitude, longitude, 0.0)
+    return azimuth(observer, moment), elevation(observer, moment)
+
+
+def direction(bearing: float, height: float) -> NDArray[np.float64]:
+    """Unit vector (east, north, up) towards a bearing and height in degrees."""
+    bearing, height = np.radians(bearing), np.radians(height)
+    return np.array([np.sin(bearing) * np.cos(height), np.cos(bearing) * np.cos(height), np.sin(height)])
+
+
+def at(run: Run, time: float) -> tuple[float, float]:
+    """Bearing and height (degrees) at the middle of the run's grid at a model time (s)."""
+    latitude = float(run.latitude[0] + run.latitude[-1]) / 2.0
+    longitude = float(run.longitude[0] + run.longitude[-1]) / 2.0
+    return angles(latitude, longitude, clock.moment(run, time))
+
+
+def mean_direction(project: Project, run: Run) -> tuple[NDArray[np.float64], float]:
+    """Direction to the sun and its height (degrees) in the middle of the shot."""
+    bearing, height = at(run, sum(clock.window(project, run)) / 2.0)
+    return direction(bearing, height), height

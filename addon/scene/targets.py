@@ -1,0 +1,92 @@
+"""Moving targets for cameras, from arrival times: the head of the fire and its middle."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .ground import NEVER, Ground
+
+Array = NDArray[np.float64]
+
+RECENT = 1800.0  # s; ground reached within this time belongs to the moving front
+_KNOTS = 24  # the target is worked out at this many moments and is smooth between them
+_BLOCK = 1500.0  # m; parts of the front that are compared
+
+
+def head(ground: Ground, times: Array) -> tuple[Array, Array]:
+    """East and north (frames,) of the part of the front that advances fastest."""
+    east, north, arrival, speed = _burned(ground)
+    return _follow(times, lambda t, last: _head_at(t, last, east, north, arrival, speed))
+
+
+def middle(ground: Ground, times: Array) -> tuple[Array, Array]:
+    """East and north (frames,) of the middle of the ground that burns."""
+    east, north, arrival, _speed = _burned(ground)
+    return _follow(times, lambda t, last: _middle_at(t, last, east, north, arrival))
+
+
+def smoothed(values: Array) -> Array:
+    """Moving average over a fifth of the shot, ends continued."""
+    reach = max(len(values) // 10, 1)
+    window = np.hanning(2 * reach + 3)[1:-1]
+    return np.convolve(np.pad(values, reach, "edge"), window / window.sum(), "valid")
+
+
+def _burned(ground: Ground) -> tuple[Array, Array, Array, Array]:
+    """East, north (m), arrival (s) and rate of spread (m/s) of every cell that burns."""
+    burned = ground.arrival < NEVER
+    with np.errstate(divide="ignore"):
+        slope = np.hypot(
+            *np.gradient(np.where(ground.burn_time < NEVER, ground.burn_time, np.nan), *ground.cell)
+        )
+    row, column = np.nonzero(burned)
+    latitude, longitude = ground.places(row, column)
+    point = ground.frame.forward(latitude, longitude, ground.fields.elevation[row, column])
+    speed = 1.0 / np.clip(np.nan_to_num(slope[burned], nan=10.0), 0.1, 100.0)
+    return point[:, 0], point[:, 1], ground.arrival[burned], np.minimum(speed, 5.0)
+
+
+def _follow(times: Array, place: object) -> tuple[Array, Array]:
+    """Places at a few moments, joined and smoothed over the shot."""
+    knots = np.linspace(times[0], times[-1], min(len(times), _KNOTS))
+    last, found = None, []
+    for time in knots:
+        last = place(time, last)
+        found.append(last)
+    track = np.array(found)
+    return tuple(smoothed(np.interp(times, knots, track[:, axis])) for axis in (0, 1))
+
+
+def _front(time: float, arrival: Array) -> Array:
+    """Indices of the cells reached within RECENT of `time`; the nearest in time where there are none."""
+    recent = np.flatnonzero((arrival <= time) & (arrival > time - RECENT))
+    if len(recent) or len(arrival) == 0:
+        return recent
+    return np.argsort(np.abs(arrival - time))[:50]
+
+
+def _head_at(
+    time: float, last: Array | None, east: Array, north: Array, arrival: Array, speed: Array
+) -> Array:
+    front = _front(time, arrival)
+    if len(front) == 0:
+        return np.zeros(2) if last is None else last
+    e, n = east[front], north[front]
+    weight = speed[front] ** 2 * np.exp((arrival[front] - time) / (0.5 * RECENT))
+    block = np.round(e / _BLOCK).astype(np.int64) * 1_000_003 + np.round(n / _BLOCK).astype(np.int64)
+    blocks, member = np.unique(block, return_inverse=True)
+    total = np.bincount(member, weight, len(blocks))
+    centre = np.stack([np.bincount(member, weight * v, len(blocks)) / total for v in (e, n)], axis=-1)
+    if last is not None:  # stay with the head that is followed unless another is much faster
+        total = total * np.exp(-np.linalg.norm(centre - last, axis=1) / 6000.0)
+    best = centre[np.argmax(total)]
+    near = weight * np.exp(-((e - best[0]) ** 2 + (n - best[1]) ** 2) / (2.0 * _BLOCK**2))
+    return np.array([np.sum(near * e), np.sum(near * n)]) / np.sum(near)
+
+
+def _middle_at(time: float, last: Array | None, east: Array, north: Array, arrival: Array) -> Array:
+    front = _front(time, arrival)
+    if len(front) == 0:
+        return np.zeros(2) if last is None else last
+    return np.array([np.mean(east[front]), np.mean(north[front])])

@@ -1,0 +1,97 @@
+"""The ground: one continuous mesh, finer near the cameras, with its material's inputs as attributes."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from ..project import Project
+from . import collections, grid_mesh, noise
+from .ground import Ground, bilinear
+from .materials import ground as material
+from .paths import Path
+
+_LIMIT = 900_000  # quads of the finer part; more than this and its edge moves nearer
+
+
+def build(project: Project, run: Run, ground: Ground, views: list[Path]) -> bpy.types.Object:
+    """Build "Firetwin Terrain".
+
+    Its mesh carries float point attributes: `arrival_time` (s, 1e9 where never), `burn_time` (arrival
+    continued a little past the last perimeter), `burned` (1 inside the last perimeter), `canopy_fuel`,
+    `surface_fuel` (kg/m2), `elevation` (m) and `detail` (1 near cameras).
+    """
+    mesh = grid_mesh.graded(levels(project, ground, views))
+    coarse = _positions(ground, mesh, 0.0)
+    detail = ground.detail(*coarse.T)
+    positions = _positions(ground, mesh, detail)
+    data = bpy.data.meshes.new("Firetwin Terrain")
+    _fill(data, positions, mesh)
+    for name, values in _attributes(ground, mesh, detail).items():
+        data.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values.astype(np.float32))
+    data.materials.append(material.build(project, run))
+    return collections.add(collections.fresh("Terrain"), "Terrain", data)
+
+
+def levels(project: Project, ground: Ground, views: list[Path]) -> NDArray[np.int64]:
+    """How often each cell of the grid is halved: to `near_spacing` near cameras, less with distance."""
+    rows, columns = ground.shape
+    level = np.zeros((rows - 1, columns - 1), np.int64)
+    finest = max(int(np.ceil(np.log2(max(ground.cell) / project.terrain.near_spacing))), 0)
+    near = [view for view in views if view.perspective]
+    if not near or finest == 0 or project.terrain.near_radius <= 0.0:
+        return level
+    row, column = np.meshgrid(np.arange(rows - 1) + 0.5, np.arange(columns - 1) + 0.5, indexing="ij")
+    latitude, longitude = ground.places(row.ravel(), column.ravel())
+    centre = ground.frame.forward(latitude, longitude, bilinear(ground.fields.elevation, row, column).ravel())
+    distance = np.min([view.distance(centre) for view in near], axis=0)
+    close = np.flatnonzero(distance < project.terrain.near_radius)
+    seen = np.any([view.sees(centre[close], margin=200.0) for view in near], axis=0)
+    close = close[seen]
+    ratio = distance[close] / project.terrain.near_radius
+    while True:  # spacing grows with distance: halved at 0.5, again at 0.25 of the radius
+        wanted = np.clip(finest - np.ceil(np.log2(np.maximum(ratio, 1.0e-3) / 0.3)), 1, finest).astype(
+            np.int64
+        )
+        wanted[ratio >= 1.0] = 0
+        if np.sum(4**wanted) <= _LIMIT or len(ratio) == 0:
+            break
+        ratio = ratio * 1.2
+    level.ravel()[close] = wanted
+    margin = ground.fields.margin
+    if margin:  # the apron is never seen close up
+        inner = np.zeros_like(level)
+        inner[margin:-margin, margin:-margin] = level[margin:-margin, margin:-margin]
+        level = inner
+    return level
+
+
+def _positions(ground: Ground, mesh: grid_mesh.GridMesh, detail: NDArray[np.float64] | float) -> NDArray:
+    latitude, longitude = ground.places(mesh.row, mesh.column)
+    return ground.frame.forward(latitude, longitude, ground.height(mesh.row, mesh.column, detail))
+
+
+def _attributes(ground: Ground, mesh: grid_mesh.GridMesh, detail: NDArray) -> dict[str, NDArray]:
+    fields, at = ground.fields, (mesh.row, mesh.column)
+    return {
+        "arrival_time": ground.arrival_at(*at),
+        "burn_time": bilinear(np.minimum(ground.burn_time, 1.0e7), *at),
+        "burned": bilinear(ground.burned, *at),
+        "canopy_fuel": bilinear(fields.canopy_fuel, *at),
+        "surface_fuel": bilinear(fields.surface_fuel, *at),
+        "elevation": ground.height(*at, detail),
+        "detail": noise.smoothstep(0.0, 1.0, detail),
+    }
+
+
+def _fill(data: bpy.types.Mesh, positions: NDArray[np.float64], mesh: grid_mesh.GridMesh) -> None:
+    """Write vertices and polygons into an empty mesh, smooth shaded."""
+    data.vertices.add(len(positions))
+    data.vertices.foreach_set("co", positions.astype(np.float32).ravel())
+    data.loops.add(len(mesh.loops))
+    data.loops.foreach_set("vertex_index", mesh.loops)
+    data.polygons.add(len(mesh.starts))
+    data.polygons.foreach_set("loop_start", mesh.starts)
+    data.update(calc_edges=True)
