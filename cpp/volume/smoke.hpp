@@ -1,0 +1,33 @@
+#pragma once
+
+#include "puffs.hpp"
+#include "vdb.hpp"
+
+#include <span>
+#include <string>
+
+namespace firetwin {
+
+/// Smoke that counts as dilution 1, kg/m3: 10 mg/m3, as over a crown fire.
+constexpr double kFreshSmoke = 1.0e-5;
+
+/// Light of flames: positions (n, 3) m and powers (n,) W.
+struct Flames {
+  std::span<const double> position;
+  std::span<const double> power;
+};
+
+/// Writes the smoke as grids of one sparse OpenVDB file (half precision):
+/// - `density`: clamp((d + 300 m) / 600 m, 0, 1), d the distance into the union of the balls; 0 and
+///   inactive farther than 200 m outside;
+/// - `dilution`: smoke in units of kFreshSmoke; each puff spread by 15 / (8 pi s^3) (1 - r^2 /
+/// s^2),
+///   s = 1.5 R + 150 m, the whole scaled so that the grid holds the puffs' mass;
+/// - `size`: radius of the ball that the voxel lies in or next to, km, at most 1;
+/// - `temperature`: K, of the air at that height (ISA) plus what the smoke's own heat adds;
+/// - with flames, `glow`: sum of P exp(-r / 1100 m) / (r^2 + (250 m)^2) over its largest value, and
+///   `flame`: power of the flames within 1.5 voxels over its largest value.
+VolumeFrame write_smoke(const std::string& path, const Puffs& puffs, double voxel_size,
+                        const Flames& flames, const Metadata& metadata);
+
+} // namespace firetwin
