@@ -90,6 +90,11 @@ Array<T> lend(std::span<const T> values, std::vector<pybind11::ssize_t> shape,
   return array;
 }
 
+template <class T>
+Array<T> lend_column(const std::vector<T>& values, const pybind11::handle& owner) {
+  return lend<T>(values, {static_cast<pybind11::ssize_t>(values.size())}, owner);
+}
+
 inline pybind11::ssize_t length(std::size_t size) {
   return static_cast<pybind11::ssize_t>(size);
 }

@@ -27,6 +27,7 @@ class Emitters:
     @property
     def invalid(self) -> int:
         """How many cells held NaN and so made no emitter."""
+    def __len__(self) -> int: ...
 
 def emitters(flux: ArrayLike, position: ArrayLike, flux_min: float, flux_max: float) -> Emitters:
     """Algorithm 1: flux (ny, nx) W/m2 and position (ny, nx, 3) metres -> emitters where flux > 0."""

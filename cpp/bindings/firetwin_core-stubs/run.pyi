@@ -51,6 +51,9 @@ class Run:
     def canopy_fuel(self) -> NDArray[np.float32]:
         """(fy, fx) kg/m2."""
     @property
+    def fuel_elevation(self) -> NDArray[np.float32]:
+        """(fy, fx) metres: the run's own fuel_elevation field, else elevation resampled bilinearly."""
+    @property
     def fields(self) -> list[str]:
         """Names of the fields that the run folder holds."""
     @property
