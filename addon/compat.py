@@ -98,3 +98,90 @@ def set_sky(node: bpy.types.ShaderNodeTexSky, elevation: float, rotation: float,
     node.sun_elevation = elevation
     node.sun_rotation = rotation
     setattr(node, "dust_density" if hasattr(node, "dust_density") else "aerosol_density", dust)
+
+
+def compositor_tree(scene: bpy.types.Scene) -> bpy.types.NodeTree:
+    """The scene's compositor tree; from 5.0 it is a node group, before that the scene's own."""
+    if not hasattr(scene, "compositing_node_group"):
+        scene.use_nodes = True
+        return scene.node_tree
+    if scene.compositing_node_group is None:
+        group = bpy.data.node_groups.new("Firetwin Compositor", "CompositorNodeTree")
+        scene.compositing_node_group = group
+    return scene.compositing_node_group
+
+
+def empty_compositor(scene: bpy.types.Scene) -> bpy.types.NodeTree:
+    """The scene's compositor tree without any nodes."""
+    tree = compositor_tree(scene)
+    tree.nodes.clear()
+    if tree.interface.items_tree:
+        tree.interface.clear()
+    return tree
+
+
+def composite(tree: bpy.types.NodeTree, image: bpy.types.NodeSocket) -> None:
+    """Make `image` the picture that the compositor shows and saves."""
+    if hasattr(bpy.types, "CompositorNodeComposite"):
+        output = tree.nodes.new("CompositorNodeComposite")
+    else:
+        tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
+        output = tree.nodes.new("NodeGroupOutput")
+    tree.links.new(image, output.inputs[0])
+
+
+def bloom(tree: bpy.types.NodeTree, image: bpy.types.NodeSocket, **settings: float) -> bpy.types.NodeSocket:
+    """`image` with a low-quality bloom; `settings` are Glare sockets such as Threshold and Strength."""
+    glare = tree.nodes.new("CompositorNodeGlare")
+    if hasattr(glare, "glare_type"):
+        glare.glare_type, glare.quality = "BLOOM", "LOW"
+    else:
+        find_socket(glare.inputs, "Type").default_value = "Bloom"
+        find_socket(glare.inputs, "Quality").default_value = "Low"
+    for name, value in settings.items():
+        find_socket(glare.inputs, name).default_value = value
+    tree.links.new(image, find_socket(glare.inputs, "Image"))
+    return find_socket(glare.outputs, "Image")
+
+
+def exr_output(
+    tree: bpy.types.NodeTree, name: str, image: bpy.types.NodeSocket, grey: bool, bits: int
+) -> bpy.types.Node:
+    """A File Output node called `name` that writes `image` as EXR; `exr_output_path` says where."""
+    node = tree.nodes.new("CompositorNodeOutputFile")
+    node.name = node.label = name
+    if hasattr(node, "file_output_items"):
+        node.format.media_type = "IMAGE"
+        node.file_output_items.new("FLOAT" if grey else "RGBA", "Image")
+    node.format.file_format = "OPEN_EXR"
+    node.format.color_mode, node.format.color_depth = "BW" if grey else "RGB", str(bits)
+    node.format.exr_codec = "ZIP"
+    tree.links.new(image, node.inputs[0])
+    return node
+
+
+def exr_output_path(node: bpy.types.Node, folder: str, stem: str) -> None:
+    """Make an `exr_output` node write ``<folder>/<stem><frame, six digits>.exr``."""
+    if hasattr(node, "file_output_items"):
+        node.directory, node.file_name = folder, stem
+        node.file_output_items[0].name = "######"
+    else:
+        node.base_path = folder
+        node.file_slots[0].path = f"{stem}######"
+
+
+def new_strip(
+    editor: bpy.types.SequenceEditor, name: str, kind: str, channel: int, start: int, length: int
+) -> bpy.types.Strip:
+    """An effect strip of the sequencer; 5.0 takes its length, 4.5 its end."""
+    strips = editor.strips
+    parameters = strips.bl_rna.functions["new_effect"].parameters
+    extent = {"length": length} if "length" in parameters else {"frame_end": start + length}
+    return strips.new_effect(name=name, type=kind, channel=channel, frame_start=start, **extent)
+
+
+def film_settings(render: bpy.types.RenderSettings) -> None:
+    """Make a render write one film file with Blender's own FFmpeg."""
+    if hasattr(render.image_settings, "media_type"):
+        render.image_settings.media_type = "VIDEO"
+    render.image_settings.file_format = "FFMPEG"

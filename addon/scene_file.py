@@ -271,3 +271,8 @@ def _cross_check(project: Project, reader: _Reader) -> None:
                     (*here, "keys", k, "at"),
                     f"cameras.keys.at must rise from key to key, not {before.at:g} then {after.at:g}",
                 )
+
+
+def error_at(path: Path, where: tuple[str | int, ...], reason: str) -> InputError:
+    """An error about the value that the names and indices `where` lead to, found only after reading."""
+    return _Reader(path, path.read_text(encoding="utf-8-sig")).error(where, reason)

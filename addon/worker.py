@@ -136,6 +136,8 @@ def serve() -> None:
     def answer(**message: Any) -> None:
         print(json.dumps(message), file=channel, flush=True)
 
+    import bpy  # noqa: F401 (before the core: the first of two libtbb.so.12 wins, and it must be Blender's)
+
     from .errors import Error, InputError
 
     module, _, function = request["task"].partition(":")

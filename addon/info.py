@@ -1,0 +1,204 @@
+"""What is in a run, as data (for programs) and as a page of text (for people)."""
+
+from __future__ import annotations
+
+import math
+from datetime import datetime
+from typing import Any
+
+import numpy as np
+from firetwin_core.run import Run
+
+from . import areas, times
+from .data import history
+
+ACRE = history.SQUARE_METRES_PER_ACRE
+
+
+def gather(run: Run, zone: str) -> dict[str, Any]:
+    """Everything `firetwin info` shows; lengths in m, areas in m2, power and energy in W and J."""
+    arrival = run.fuel_arrival_time()
+    fuel_area = areas.cell_areas(run.fuel_latitude, run.fuel_longitude)
+    low, high = run.flux_range()
+    seconds = run.times
+    return {
+        "name": run.name,
+        "path": run.path,
+        "synthetic": run.synthetic,
+        "event": run.event,
+        "zone": zone,
+        "grid": _grid(run.latitude, run.longitude)
+        | {"elevation": _range(run.elevation), "vertical": run.vertical},
+        "fuel_grid": _grid(run.fuel_latitude, run.fuel_longitude),
+        "surface_fuel": _fuel(run.surface_fuel, 0.0),
+        "canopy_fuel": _fuel(run.canopy_fuel, 0.01),
+        "times": {
+            "count": len(seconds),
+            "first": _iso(times.moment(run, float(seconds[0]))),
+            "last": _iso(times.moment(run, float(seconds[-1]))),
+            "interval": _range(np.diff(seconds)) if len(seconds) > 1 else None,
+        },
+        "fields": list(run.fields),
+        "heat_flux": {"min": low, "max": high},
+        "energy": energy(run),
+        "burned": {
+            "first": burned(arrival, fuel_area, float(seconds[0])),
+            "last": burned(arrival, fuel_area, float(seconds[-1])),
+        },
+        "reported": _reported(run, arrival, fuel_area),
+        "warnings": list(run.warnings),
+    }
+
+
+def burned(arrival: np.ndarray, area: np.ndarray, time: float) -> float:
+    """Area (m2) of the cells that the fire has reached by `time` (s): arrival (fy, fx), NaN where never."""
+    with np.errstate(invalid="ignore"):
+        return math.fsum(area[arrival <= time])
+
+
+def energy(run: Run) -> float:
+    """Heat released over the run (J): flux times cell area, integrated over time by the trapezoidal rule."""
+    area = areas.cell_areas(run.latitude, run.longitude)
+    power = np.array([np.nansum(run.heat_flux(i) * area) for i in range(len(run.times))])
+    return float(np.sum((power[1:] + power[:-1]) / 2 * np.diff(run.times)))
+
+
+def _grid(latitude: np.ndarray, longitude: np.ndarray) -> dict[str, Any]:
+    dx, dy = areas.spacing(latitude, longitude)
+    return {
+        "shape": [len(latitude), len(longitude)],
+        "latitude": [float(min(latitude)), float(max(latitude))],
+        "longitude": [float(min(longitude)), float(max(longitude))],
+        "spacing": [dx, dy],
+        "extent": [dx * len(longitude), dy * len(latitude)],
+    }
+
+
+def _range(values: np.ndarray) -> dict[str, float]:
+    return {"min": float(np.nanmin(values)), "max": float(np.nanmax(values))}
+
+
+def _fuel(fuel: np.ndarray, above: float) -> dict[str, float]:
+    finite = fuel[np.isfinite(fuel)].astype(np.float64)
+    mean = float(finite.mean()) if finite.size else 0.0
+    return {"above": above, "share": float((finite > above).mean()) if finite.size else 0.0, "mean": mean} | (
+        _range(finite) if finite.size else {"min": 0.0, "max": 0.0}
+    )
+
+
+def _reported(run: Run, arrival: np.ndarray, area: np.ndarray) -> list[dict[str, Any]]:
+    """The dated acreages of the fire that the run depicts, beside the run's own where the run covers them."""
+    if not run.event or run.event not in history.events():
+        return []
+    rows = []
+    for report in history.load(run.event).acreages:
+        at = times.seconds(run, report.time)
+        row = {"time": _iso(report.time), "reported": report.acres * ACRE, "source": report.source}
+        covered = run.times[0] <= at <= run.times[-1]
+        row["run"] = burned(arrival, area, at) if covered else None
+        row["difference"] = row["run"] / row["reported"] - 1 if covered else None
+        rows.append(row)
+    return rows
+
+
+def _iso(moment: datetime) -> str:
+    return moment.strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+def page(info: dict[str, Any]) -> str:
+    """The text that `firetwin info` prints."""
+    return "\n".join(
+        [
+            info["name"] + ("  (SYNTHETIC: made up, not the output of a model)" if info["synthetic"] else ""),
+            info["path"],
+            "",
+            *_rows(_facts(info)),
+            *_acreages(info),
+            *(["", "Warnings", *(f"  - {text}" for text in info["warnings"])] if info["warnings"] else []),
+        ]
+    )
+
+
+def _facts(info: dict[str, Any]) -> list[tuple[str, str]]:
+    grid, fuel, when = info["grid"], info["fuel_grid"], info["times"]
+    zone, height = info["zone"], grid["elevation"]
+    first, last = (datetime.fromisoformat(when[key]) for key in ("first", "last"))
+    interval = ""
+    if when["interval"]:
+        least, most = when["interval"]["min"], when["interval"]["max"]
+        interval = f", every {least:g} s" if most - least < 1e-6 else f", {least:g} to {most:g} s apart"
+    facts = [
+        ("Model grid", _size(grid)),
+        ("", _span(grid["latitude"], "N", "S") + ", " + _span(grid["longitude"], "E", "W")),
+        (
+            "",
+            f"elevation {height['min']:,.0f} to {height['max']:,.0f} m ({grid['vertical']})",
+        ),
+        ("Fuel grid", _size(fuel)),
+        ("Surface fuel", _load(info["surface_fuel"])),
+        ("Canopy fuel", _load(info["canopy_fuel"])),
+        ("Times", f"{when['count']:,}{interval}"),
+        ("  first", f"{times.text(first, zone)}  ({first:%d %b %H:%M} UTC)"),
+        ("  last", f"{times.text(last, zone)}  ({last:%d %b %H:%M} UTC)"),
+        (
+            "Heat flux",
+            f"{info['heat_flux']['min'] / 1e3:,.4g} to {info['heat_flux']['max'] / 1e3:,.4g} kW/m2",
+        ),
+        ("Heat released", _energy(info["energy"])),
+        ("Burned at first", _area(info["burned"]["first"])),
+        ("Burned at last", _area(info["burned"]["last"])),
+        ("Fields", ", ".join(info["fields"])),
+    ]
+    return facts
+
+
+def _acreages(info: dict[str, Any]) -> list[str]:
+    rows = [row for row in info["reported"] if row["run"] is not None]
+    if not info["reported"]:
+        return []
+    lines = ["", f"{'Burned area, acres':<26}{'this run':>10}{'reported':>10}{'difference':>12}  source"]
+    for row in rows:
+        when = times.text(datetime.fromisoformat(row["time"]), info["zone"])
+        lines.append(
+            f"  {when:<24}{row['run'] / ACRE:>10,.0f}{row['reported'] / ACRE:>10,.0f}"
+            f"{row['difference'] * 100:>+10.1f} %  {row['source']}"
+        )
+    outside = len(info["reported"]) - len(rows)
+    if outside:
+        lines.append(f"  {outside} more reports are of times before or after this run")
+    return lines
+
+
+def _rows(facts: list[tuple[str, str]]) -> list[str]:
+    return [f"{label:<17}{text}".rstrip() for label, text in facts]
+
+
+def _size(grid: dict[str, Any]) -> str:
+    (ny, nx), (dx, dy), (width, height) = grid["shape"], grid["spacing"], grid["extent"]
+    cells = f"{ny} x {nx} cells of {dy:.1f} x {dx:.1f} m (north x east)"
+    return f"{cells}, {height / 1e3:.1f} x {width / 1e3:.1f} km"
+
+
+def _span(bounds: list[float], positive: str, negative: str) -> str:
+    letter = positive if bounds[0] >= 0 else negative
+    if bounds[0] < 0 < bounds[1]:
+        return f"{-bounds[0]:.4f} {negative} to {bounds[1]:.4f} {positive}"
+    return f"{abs(bounds[0]):.4f} to {abs(bounds[1]):.4f} {letter}"
+
+
+def _load(fuel: dict[str, float]) -> str:
+    return (
+        f"above {fuel['above']:g} in {fuel['share'] * 100:.1f} % of cells, "
+        f"mean {fuel['mean']:.2f}, at most {fuel['max']:.2f} kg/m2"
+    )
+
+
+def _energy(joules: float) -> str:
+    for factor, unit in ((1e15, "PJ"), (1e12, "TJ"), (1e9, "GJ")):
+        if joules >= factor:
+            return f"{joules / factor:,.4g} {unit}"
+    return f"{joules:,.4g} J"
+
+
+def _area(square_metres: float) -> str:
+    return f"{square_metres / ACRE:,.0f} acres ({square_metres / 1e4:,.0f} ha)"

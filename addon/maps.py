@@ -1,0 +1,205 @@
+"""Printed maps of a run: its fuels, and the strongest heat flux of the whole run over the relief."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import matplotlib
+import numpy as np
+from matplotlib.colors import LightSource, LinearSegmentedColormap, LogNorm, Normalize
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon, Rectangle
+from numpy.typing import NDArray
+
+from . import areas, times
+
+if TYPE_CHECKING:
+    from firetwin_core.run import Run
+    from matplotlib.axes import Axes
+    from matplotlib.collections import QuadMesh
+
+FUEL = LinearSegmentedColormap.from_list(
+    "fuel", ["#f4efe1", "#dfe5b4", "#b4d184", "#7cb45c", "#438f45", "#1f6a36", "#0c4426"]
+)
+INTENSITY = LinearSegmentedColormap.from_list(
+    "intensity", ["#fff7b0", "#ffe566", "#ffc81e", "#ff9a0a", "#f4560b", "#cf1710", "#8b0010"]
+)
+DPI = 160
+
+
+def draw(run: Run, out: Path, zone: str) -> list[Path]:
+    """Write ``fuel.png`` and ``intensity.png`` into the folder `out` and return their paths."""
+    out.mkdir(parents=True, exist_ok=True)
+    paths = [out / "fuel.png", out / "intensity.png"]
+    _save(fuel_map(run), paths[0])
+    _save(intensity_map(run, zone), paths[1])
+    return paths
+
+
+def fuel_map(run: Run) -> Figure:
+    """Surface and canopy fuel together (kg/m2), greener where denser; cells without any are sand-coloured."""
+    fuel = np.nan_to_num(run.surface_fuel) + np.nan_to_num(run.canopy_fuel)
+    figure, axes = _page(run, "Fuel load", "surface and canopy fuel")
+    image = _show(axes, run.fuel_latitude, run.fuel_longitude, fuel, FUEL, Normalize(0, fuel.max() or 1))
+    _relief(axes, run, 0.18)
+    _colour_bar(figure, axes, image, "fuel, kg/m$^2$")
+    return figure
+
+
+def intensity_map(run: Run, zone: str) -> Figure:
+    """Largest heat flux (kW/m2) of each model cell over the whole run, over the relief."""
+    flux = run.heat_flux(0).copy()
+    for index in range(1, len(run.times)):
+        np.fmax(flux, run.heat_flux(index), out=flux)
+    flux = np.ma.masked_less_equal(np.nan_to_num(flux) / 1e3, 0)
+    first, last = (times.text(times.moment(run, float(run.times[i])), zone) for i in (0, -1))
+    figure, axes = _page(run, "Fire intensity", f"strongest heat flux, {first} to {last}")
+    _relief(axes, run, 1.0)
+    high = float(flux.max()) if flux.count() else 1.0
+    norm = LogNorm(high / 300, high, clip=True)
+    image = _show(axes, run.latitude, run.longitude, flux, INTENSITY, norm)
+    _colour_bar(figure, axes, image, "heat flux, kW/m$^2$ (logarithmic)", "min")
+    return figure
+
+
+def _page(run: Run, title: str, subtitle: str) -> tuple[Figure, Axes]:
+    """A figure whose map keeps true proportions at the middle of the run."""
+    matplotlib.rcParams.update({"font.size": 9, "axes.linewidth": 0.8, "svg.hashsalt": "firetwin"})
+    dx, dy = areas.spacing(run.latitude, run.longitude)
+    width, height = dx * len(run.longitude), dy * len(run.latitude)
+    wide = 7.2
+    figure = Figure(figsize=(wide + 1.6, float(np.clip(wide * height / width, 2.5, 14)) + 1.3), dpi=DPI)
+    axes = figure.add_axes((0.09, 0.075, 0.76, 0.80))
+    name = run.name + (" (synthetic)" if run.synthetic and "synthetic" not in run.name.lower() else "")
+    figure.text(0.09, 0.945, title, size=17, weight="bold", va="bottom")
+    figure.text(0.09, 0.915, f"{name}: {subtitle}", size=9.5, va="center", color="#444444")
+    west, east = areas.edges(run.longitude)[[0, -1]]
+    south, north = areas.edges(run.latitude)[[0, -1]]
+    axes.set_xlim(sorted((west, east)) if west != east else (west - 0.01, east + 0.01))
+    axes.set_ylim(sorted((south, north)) if south != north else (south - 0.01, north + 0.01))
+    axes.set_aspect(1 / np.cos(np.radians(np.mean(axes.get_ylim()))), adjustable="box", anchor="SW")
+    axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):.1f}°{'W' if x < 0 else 'E'}")
+    axes.yaxis.set_major_formatter(lambda y, _: f"{abs(y):.1f}°{'S' if y < 0 else 'N'}")
+    axes.locator_params(nbins=6)
+    axes.tick_params(direction="out", length=3, color="#444444")
+    axes.grid(color="black", alpha=0.14, linewidth=0.5, linestyle=(0, (4, 3)), zorder=5)
+    _scale_bar(axes, width)
+    _north_arrow(axes)
+    return figure, axes
+
+
+def _show(
+    axes: Axes,
+    latitude: NDArray[np.float64],
+    longitude: NDArray[np.float64],
+    values: NDArray[np.float32],
+    colours: LinearSegmentedColormap,
+    norm: Normalize,
+) -> QuadMesh:
+    return axes.pcolormesh(
+        _wide(areas.edges(longitude)),
+        _wide(areas.edges(latitude)),
+        values,
+        cmap=colours,
+        norm=norm,
+        rasterized=True,
+        zorder=2,
+    )
+
+
+def _wide(edges: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A single cell has no width of its own: give it some to be seen."""
+    return edges if edges[0] != edges[-1] else edges + np.array([-0.01, 0.01])
+
+
+def _relief(axes: Axes, run: Run, strength: float) -> None:
+    """Hill shading, light from the north-west as on printed maps."""
+    elevation = np.nan_to_num(run.elevation.astype(np.float64))
+    if min(elevation.shape) < 3:
+        return
+    dx, dy = areas.spacing(run.latitude, run.longitude)
+    if run.latitude[0] < run.latitude[-1]:
+        elevation = elevation[::-1]
+    if run.longitude[0] > run.longitude[-1]:
+        elevation = elevation[:, ::-1]
+    shade = LightSource(azdeg=315, altdeg=45).hillshade(elevation, vert_exag=2.0, dx=dx, dy=dy)
+    extent = (*axes.get_xlim(), *axes.get_ylim())
+    grey = np.zeros((*shade.shape, 4))
+    grey[..., 3] = (1 - shade) * (0.65 if strength >= 1 else strength * 2.5)
+    if strength >= 1:
+        axes.set_facecolor("#ece8df")
+    axes.imshow(grey, extent=extent, interpolation="bicubic", zorder=1 if strength >= 1 else 3, aspect="auto")
+    axes.set_aspect(1 / np.cos(np.radians(np.mean(axes.get_ylim()))), adjustable="box", anchor="SW")
+
+
+def _colour_bar(figure: Figure, axes: Axes, image: QuadMesh, label: str, extend: str = "neither") -> None:
+    axes.apply_aspect()
+    box = axes.get_position()
+    bar = figure.colorbar(
+        image, cax=figure.add_axes((box.x1 + 0.02, box.y0, 0.022, box.height * 0.62)), extend=extend
+    )
+    bar.set_label(label)
+    bar.outline.set_linewidth(0.6)
+
+
+def _scale_bar(axes: Axes, width: float) -> None:
+    """A bar of a round number of kilometres, about a fifth of the map, in the lower left corner."""
+    target = width / 1e3 / 5
+    unit = 10.0 ** np.floor(np.log10(target))
+    length = max(step for step in (1, 2, 5) if step * unit <= target) * unit
+    share = length * 1e3 / width
+    x, y, thick = 0.035, 0.035, 0.011
+    axes.add_patch(
+        Rectangle((x - 0.015, y - 0.018), share + 0.075, 0.075, transform=axes.transAxes, **_PLATE, zorder=6)
+    )
+    for part, colour in ((0, "black"), (1, "white")):
+        axes.add_patch(
+            Rectangle(
+                (x + part * share / 2, y),
+                share / 2,
+                thick,
+                transform=axes.transAxes,
+                facecolor=colour,
+                edgecolor="black",
+                linewidth=0.8,
+                zorder=7,
+            )
+        )
+    for at, text in ((0, "0"), (0.5, f"{length / 2:g}"), (1, f"{length:g} km")):
+        axes.text(
+            x + at * share,
+            y + thick + 0.006,
+            text,
+            transform=axes.transAxes,
+            ha="center",
+            va="bottom",
+            size=8,
+            zorder=7,
+        )
+
+
+def _north_arrow(axes: Axes) -> None:
+    axes.add_patch(Rectangle((0.925, 0.875), 0.055, 0.105, transform=axes.transAxes, **_PLATE, zorder=6))
+    axes.text(0.9525, 0.945, "N", transform=axes.transAxes, ha="center", va="bottom", weight="bold", zorder=7)
+    for side, colour in ((-1, "black"), (1, "white")):
+        points = [(0.9525, 0.942), (0.9525 + side * 0.016, 0.885), (0.9525, 0.9)]
+        axes.add_patch(
+            Polygon(
+                points,
+                transform=axes.transAxes,
+                facecolor=colour,
+                edgecolor="black",
+                linewidth=0.8,
+                zorder=7,
+            )
+        )
+
+
+_PLATE = {"facecolor": "white", "alpha": 0.78, "edgecolor": "none"}
+
+
+def _save(figure: Figure, path: Path) -> None:
+    part = path.with_suffix(".part.png")
+    figure.savefig(part, dpi=DPI, metadata={"Software": "Firetwin"})
+    part.replace(path)

@@ -1,0 +1,91 @@
+"""Engine settings: good pictures of smoke and forest for little time.
+
+The values of Cycles are those under "Cost" that change the time and not the picture: light that has bounced
+more than once, or through glass, is not worth its rays in a landscape of ash, leaves and smoke.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import bpy
+from firetwin_core.run import Run
+
+from .. import compat
+from ..project import Project
+
+DEPTH_FILTER = 0.01  # pixels, the narrowest filter Cycles has: one ray through the middle of the pixel
+
+
+def apply(project: Project, scene: bpy.types.Scene) -> None:
+    """Set the size of the picture, the engine and its samples."""
+    render = scene.render
+    render.resolution_x, render.resolution_y = project.render.resolution
+    render.resolution_percentage = 100
+    render.pixel_aspect_x = render.pixel_aspect_y = 1.0
+    render.use_border = render.film_transparent = render.use_motion_blur = False
+    render.use_file_extension = render.use_overwrite = True
+    render.image_settings.file_format = "PNG"
+    render.image_settings.color_mode, render.image_settings.color_depth = "RGB", "8"
+    render.image_settings.compression = 15
+    render.dither_intensity = 0.0
+    if project.render.engine == "eevee":
+        _eevee(project, scene)
+    else:
+        _cycles(project, scene)
+
+
+def _cycles(project: Project, scene: bpy.types.Scene) -> None:
+    scene.render.engine = "CYCLES"
+    cycles = scene.cycles
+    cycles.device = "CPU"
+    cycles.samples = project.render.samples
+    cycles.use_adaptive_sampling = False
+    cycles.seed, cycles.use_animated_seed = project.render.seed, False
+    cycles.use_denoising = project.render.denoise
+    cycles.denoiser, cycles.denoising_prefilter = "OPENIMAGEDENOISE", "FAST"
+    cycles.max_bounces, cycles.diffuse_bounces = 4, 1
+    cycles.glossy_bounces = cycles.transmission_bounces = 0
+    cycles.volume_bounces = volume_bounces(project.render.samples)
+    cycles.transparent_max_bounces = 12
+    cycles.sample_clamp_direct, cycles.sample_clamp_indirect = 0.0, 4.0
+    cycles.caustics_reflective = cycles.caustics_refractive = False
+    cycles.film_exposure = 1.0
+    cycles.pixel_filter_type, cycles.filter_width = "BLACKMAN_HARRIS", 1.5
+
+
+def volume_bounces(samples: int) -> int:
+    """Scattering inside smoke: two for a picture, none for a preview, where noise hides it anyway."""
+    return 2 if samples >= 12 else 1 if samples >= 4 else 0
+
+
+def _eevee(project: Project, scene: bpy.types.Scene) -> None:
+    scene.render.engine = compat.eevee_id()
+    eevee = scene.eevee
+    eevee.taa_render_samples = project.render.samples
+    eevee.use_volume_custom_range = True  # at its own 100 m, smoke kilometres away is silently absent
+    eevee.volumetric_start, eevee.volumetric_end = 1.0, project.terrain.apron
+    eevee.volumetric_tile_size, eevee.volumetric_samples = "4", 128
+
+
+@contextmanager
+def pixel_centres(scene: bpy.types.Scene) -> Iterator[None]:
+    """Within, Cycles sends its rays through the middles of pixels, as a depth image needs it."""
+    before = scene.cycles.pixel_filter_type, scene.cycles.filter_width, scene.render.filter_size
+    scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", DEPTH_FILTER
+    scene.render.filter_size = 0.0
+    try:
+        yield
+    finally:
+        scene.cycles.pixel_filter_type, scene.cycles.filter_width, scene.render.filter_size = before
+
+
+def label(run: Run, scene: bpy.types.Scene) -> None:
+    """Have every image say in its header what it shows, and nothing that differs from render to render."""
+    render = scene.render
+    for name in render.bl_rna.properties.keys():  # noqa: SIM118 (a Blender collection)
+        if name.startswith("use_stamp"):
+            setattr(render, name, False)
+    render.use_stamp_note = True
+    render.stamp_note_text = f"Firetwin: {run.name}" + (" (synthetic)" if run.synthetic else "")

@@ -1,0 +1,92 @@
+"""What decides how a shot looks: the settings whose fingerprint tells whether a file still matches."""
+
+from __future__ import annotations
+
+import hashlib
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import fields, is_dataclass
+from datetime import datetime
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+import firetwin_core
+
+from ..project import Project
+from .manifest import sha256
+from .passes import Shot
+
+
+def inputs(folder: Path) -> dict[str, str]:
+    """SHA-256 of each field of a run folder; of a field with one file per time, that of all their hashes."""
+    files = sorted(
+        path
+        for path in folder.rglob("*")
+        if path.is_file() and not any(part.startswith(".") for part in path.relative_to(folder).parts)
+    )
+    with ThreadPoolExecutor() as pool:
+        hashes = list(pool.map(sha256, files))
+    parts: dict[str, list[str]] = {}
+    for path, digest in zip(files, hashes, strict=True):
+        parts.setdefault(path.relative_to(folder).parts[0], []).append(f"{path.name} {digest}")
+    return {
+        name: lines[0].split()[-1]
+        if len(lines) == 1
+        else hashlib.sha256("\n".join(lines).encode()).hexdigest()
+        for name, lines in parts.items()
+    }
+
+
+def of_shot(project: Project, hashes: dict[str, str], camera: str, name: str) -> dict[str, Any]:
+    """Settings that a camera's frames in one pass depend on, and no others.
+
+    All cameras belong to it: the ground is finer and trees stand closer where any of them flies.
+    """
+    render = project.render
+    settings: dict[str, Any] = {
+        "versions": versions(),
+        "run": hashes,
+        "camera": camera,
+        "pass": name,
+        "cameras": [_plain(c, leave_out=("passes", "frames")) for c in project.cameras],
+        "seed": project.seed,
+        "time": _plain(project.time, leave_out=("fps", "zone")),
+        "terrain": _plain(project.terrain),
+        "forest": _plain(project.forest),
+        "render": {"engine": render.engine, "resolution": list(render.resolution)},
+    }
+    if name != "depth":
+        settings |= {part: _plain(getattr(project, part)) for part in ("fire", "smoke", "light")}
+        settings["render"] |= {"samples": render.samples, "denoise": render.denoise, "seed": render.seed}
+    if name == "thermal":
+        settings["render"] |= {"thermal_low": render.thermal_low, "thermal_high": render.thermal_high}
+    return settings
+
+
+def versions() -> dict[str, str]:
+    """Versions of Firetwin and of Blender, which need not be loaded for it."""
+    if "bpy" in sys.modules:
+        blender = ".".join(str(part) for part in sys.modules["bpy"].app.version)
+    else:
+        try:
+            blender = metadata.version("bpy")
+        except metadata.PackageNotFoundError:
+            blender = "none"
+    return {"firetwin": firetwin_core.__version__, "blender": blender}
+
+
+def by_shot(project: Project, shots: list[Shot]) -> dict[tuple[str, str], dict[str, Any]]:
+    """Settings of every (camera, pass) among the shots, and of rgb, which thermal pictures are made from."""
+    hashes = inputs(project.run)
+    pairs = {(shot.camera, name) for shot in shots for name in (shot.name, "rgb")}
+    return {pair: of_shot(project, hashes, *pair) for pair in sorted(pairs)}
+
+
+def _plain(thing: Any, leave_out: tuple[str, ...] = ()) -> Any:
+    """A dataclass as JSON can carry it."""
+    if is_dataclass(thing):
+        return {f.name: _plain(getattr(thing, f.name)) for f in fields(thing) if f.name not in leave_out}
+    if isinstance(thing, tuple):
+        return [_plain(part) for part in thing]
+    return thing.isoformat() if isinstance(thing, datetime) else thing

@@ -1,0 +1,97 @@
+"""Films from finished frames, by Blender's own sequencer and FFmpeg, with the model time in each frame."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import bpy
+from firetwin_core.run import Run
+
+from .. import compat, times
+from ..progress import Progress, silent
+from ..project import Project
+from . import engine, films, manifest, passes
+from .part import part_folder
+from .passes import Shot
+
+
+def make(project: Project, run: Run, out: Path, progress: Progress = silent) -> None:
+    """Make the films that are missing or older than their frames."""
+    wanted = films.missing(project, run, out)
+    for done, (camera, name, settings) in enumerate(wanted, start=1):
+        _film(project, run, out, camera, name, settings)
+        progress(done, len(wanted), "filming")
+
+
+def _film(project: Project, run: Run, out: Path, camera: str, name: str, settings: dict[str, Any]) -> None:
+    path = out / passes.film(camera, name)
+    scene = bpy.data.scenes.new("Firetwin Film")
+    try:
+        with part_folder(out) as part:
+            made = part / path.name
+            _settings(project, scene, made, len(settings["frames"]))
+            engine.label(run, scene)
+            _strips(project, run, scene, out, camera, name, [frame for frame, _ in settings["frames"]])
+            bpy.ops.render.render(animation=True, scene=scene.name)
+            entry = manifest.describe(made) | {"camera": camera, "pass": name}
+            manifest.publish(made, path)
+            manifest.add(out, settings, {passes.film(camera, name): entry})
+    finally:
+        bpy.data.scenes.remove(scene)
+
+
+def _settings(project: Project, scene: bpy.types.Scene, path: Path, count: int) -> None:
+    """H.264 in MP4; the pictures are in display colours, so the film's view transform changes nothing."""
+    render = scene.render
+    render.resolution_x, render.resolution_y = project.render.resolution
+    render.resolution_percentage = 100
+    render.fps, render.fps_base = project.time.fps, 1.0
+    scene.frame_start, scene.frame_end = 1, count
+    scene.display_settings.display_device = "sRGB"
+    scene.view_settings.view_transform, scene.view_settings.look = "Standard", "None"
+    scene.view_settings.exposure, scene.view_settings.gamma = 0.0, 1.0
+    scene.sequencer_colorspace_settings.name = "sRGB"
+    render.use_sequencer, render.use_compositing = True, False
+    render.dither_intensity = 0.0
+    compat.film_settings(render)
+    render.ffmpeg.format, render.ffmpeg.codec = "MPEG4", "H264"
+    render.ffmpeg.constant_rate_factor, render.ffmpeg.ffmpeg_preset = "HIGH", "GOOD"
+    render.ffmpeg.gopsize = project.time.fps
+    render.ffmpeg.audio_codec = "NONE"
+    render.use_file_extension = False
+    render.filepath = str(path)
+
+
+def _strips(
+    project: Project, run: Run, scene: bpy.types.Scene, out: Path, camera: str, name: str, numbers: list[int]
+) -> None:
+    """One picture after the other, and over each the model time that it shows."""
+    editor = scene.sequence_editor_create()
+    height = project.render.resolution[1]
+    for position, number in enumerate(numbers, start=1):
+        picture = str((out / Shot(camera, number, name).file("png")).resolve())
+        editor.strips.new_image(f"picture {number}", picture, 1, position, fit_method="ORIGINAL")
+        moment = times.moment(run, times.model_time(project, run, number))
+        label = times.text(moment, project.time.zone)
+        _text(editor, label, position, 1, 2, height / 20, (0.025, 0.035), "LEFT")
+    if run.synthetic:
+        _text(editor, "synthetic sample run", 1, len(numbers), 3, height / 30, (0.975, 0.035), "RIGHT")
+
+
+def _text(
+    editor: bpy.types.SequenceEditor,
+    text: str,
+    start: int,
+    length: int,
+    channel: int,
+    size: float,
+    place: tuple[float, float],
+    side: str,
+) -> None:
+    strip = compat.new_strip(editor, text, "TEXT", channel, start, length)
+    strip.text, strip.font_size = text, size
+    strip.color, strip.location = (1.0, 1.0, 1.0, 1.0), place
+    strip.anchor_x, strip.anchor_y, strip.alignment_x = side, "BOTTOM", side
+    strip.use_shadow, strip.shadow_color = True, (0.0, 0.0, 0.0, 0.8)
+    strip.use_outline, strip.outline_color, strip.outline_width = True, (0.0, 0.0, 0.0, 0.7), 0.04
