@@ -9,7 +9,7 @@ import bpy
 from firetwin_core.run import Run
 
 from ..project import Project
-from . import cameras, clock, collections, light, terrain
+from . import cameras, clock, collections, forest, light, terrain
 from .ground import Ground
 from .paths import Path, eyes, paths
 
@@ -21,7 +21,7 @@ def build(project: Project, run: Run, scene: bpy.types.Scene | None = None) -> b
     clock.build(project, run, scene)
     ground, views = survey(project, run)
     terrain.build(project, run, ground, views)
-    # forest.build(project, run, ground, views)
+    forest.build(project, run, ground, views)
     _call("fire", project, run, scene)
     _call("smoke", project, run, scene)
     light.build(project, run, scene)

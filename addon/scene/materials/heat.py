@@ -35,11 +35,14 @@ def ambient(tree: nodes.Tree, project: Project, run: Run, elevation: Any, canopy
     return air + facing * bare * (SUNLIT * day)
 
 
+def cooling(tree: nodes.Tree, background: Any, age: nodes.Value, burned: Any) -> nodes.Value:
+    """Temperature of what has burned, without flames or embers of its own."""
+    return background + (-(tree.math("MAXIMUM", age, 0.0) / COOLING)).exp() * burned * SMOULDER
+
+
 def burning(
-    tree: nodes.Tree, background: Any, age: Any, burned: Any, flaming: Any, embers: Any
+    tree: nodes.Tree, background: Any, age: nodes.Value, burned: Any, flaming: nodes.Value, embers: Any
 ) -> nodes.Value:
-    """Temperature of ground that burns or has burned: flames, embers and cooling ash over `background`."""
-    cooling = (-(tree.math("MAXIMUM", age, 0.0) / COOLING)).exp() * burned
-    ash = background + cooling * SMOULDER
-    glowing = tree.mix(embers, ash, EMBER)
+    """Temperature of what burns or has burned: flames and embers (each 0..1) over the cooling ash."""
+    glowing = tree.mix(embers, cooling(tree, background, age, burned), EMBER)
     return tree.mix(flaming.smoothstep(0.0, 0.5), glowing, flaming.ramp(0.0, 1.0, FLAME_LOW, FLAME_HIGH))

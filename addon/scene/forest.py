@@ -1,0 +1,207 @@
+"""The forest: Algorithm 2's trees and grass, and the stand near the cameras, as instances on points.
+
+A point has float attributes `scale` (height, m), `rotation`, `arrival_time`, `elevation`, `canopy_fuel`,
+`tint`, `dead`, and the numbers of its models, `model` and `snag_model`. Only what a camera can see is made.
+"""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from firetwin_core import forest as core
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from .. import compat, nodes
+from ..project import Project
+from . import clock, collections, noise, stand, trees
+from .ground import NEVER, Ground, bilinear
+from .materials import tree as material
+from .paths import Path
+
+GRASS_DISTANCE = 400.0  # m
+BARE_AFTER = 900.0  # s after the fire came a burned tree is a snag
+_SNAG = 0.85  # part of the burned trees that become snags
+_PIXEL = 25.0  # m; a satellite whose pixels are larger sees no tree
+
+
+def build(project: Project, run: Run, ground: Ground, views: list[Path]) -> list[bpy.types.Object]:
+    """Build "Firetwin Trees", "Firetwin Stand" and "Firetwin Grass", each where there is something to see."""
+    collection = collections.fresh("Forest")
+    made = []
+    if project.forest.trees:
+        library = _tree_models(project, run)
+        for name, points in (
+            ("Trees", algorithm2(project, run, ground, views)),
+            ("Stand", _stand(project, ground, views)),
+        ):
+            made.append(_instances(project, run, collection, name, points, library))
+    if project.forest.grass:
+        library = _grass_models(project, run)
+        made.append(
+            _instances(project, run, collection, "Grass", _grass(project, run, ground, views), library)
+        )
+    return made
+
+
+def algorithm2(project: Project, run: Run, ground: Ground, views: list[Path]) -> dict[str, NDArray]:
+    """Point attributes of those trees of Algorithm 2 that a camera sees.
+
+    East and north are the core's; so is the height but near cameras, where the drawn ground has more relief.
+    """
+    axes = run.fuel_latitude, run.fuel_longitude
+    found = core.trees(run.canopy_fuel, *axes, run.fuel_elevation, ground.frame, seed=project.seed)
+    kept = np.flatnonzero(visible(project, found.position, views, project.forest.draw_distance))
+    cell, position = found.cell[kept], _settled(ground, found.position[kept])
+    first = np.array([trees.FIRST_MODEL[k] for k in (0, 1, 2)])[found.size_class[kept]]
+    model = first + found.model[kept]
+    return _points(project, ground, position, found.scale[kept], found.rotation[kept], model, cell, cell * 0)
+
+
+def visible(project: Project, position: NDArray, views: list[Path], distance: float) -> NDArray[np.bool_]:
+    """Which things at `position` (n, 3) are in some camera's view and not too far away or too small."""
+    seen = np.zeros(len(position), bool)
+    width = project.render.resolution[0]
+    for view in views:
+        if view.perspective:
+            seen |= view.sees(position, reach=distance)
+        elif 2.0 * view.half[0] / width < _PIXEL:
+            seen |= view.sees(position)
+    return seen
+
+
+def _settled(ground: Ground, position: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Positions on the ground as it is drawn."""
+    position = position.copy()
+    near = np.flatnonzero(ground.detail(*position.T) > 0.0)
+    if len(near):
+        position[near, 2] = ground.up(position[near, 0], position[near, 1])
+    return position
+
+
+def _stand(project: Project, ground: Ground, views: list[Path]) -> dict[str, NDArray]:
+    grown = stand.grow(project, ground, views)
+    return _points(project, ground, grown.position, grown.height, grown.rotation, grown.model, *grown.key.T)
+
+
+def _grass(project: Project, run: Run, ground: Ground, views: list[Path]) -> dict[str, NDArray]:
+    axes = run.fuel_latitude, run.fuel_longitude
+    fuels = run.surface_fuel, run.canopy_fuel
+    found = core.grass(*fuels, *axes, run.fuel_elevation, ground.frame, seed=project.seed)
+    kept = np.flatnonzero(visible(project, found.position, views, GRASS_DISTANCE))
+    cell, sunk = found.cell[kept], found.position[kept]
+    position = _settled(ground, sunk)
+    moved = np.abs(position[:, 2] - sunk[:, 2]) > 0.0
+    position[moved, 2] -= 0.7
+    model = (noise.uniform(cell, 7, project.seed) < 0.5).astype(np.int64)
+    return _points(
+        project, ground, position, found.scale[kept], found.rotation[kept], model, cell, cell * 0 + 1
+    )
+
+
+def _points(
+    project: Project,
+    ground: Ground,
+    position: NDArray,
+    scale: NDArray,
+    rotation: NDArray,
+    model: NDArray,
+    key: NDArray,
+    second: NDArray,
+) -> dict[str, NDArray]:
+    """All attributes of n trees; random ones hang on two integers per tree."""
+    row, column = ground.indices(*ground.geodetic(position[:, 0], position[:, 1]))
+    tint, dead, lot = (noise.uniform(key, second, project.seed + 300 + k) for k in range(3))
+    size = np.select([scale > 20.0, scale > 12.0], [0, 1], 2)
+    return {
+        "position": position,
+        "scale": scale,
+        "rotation": rotation,
+        "model": model,
+        "snag_model": np.where(lot < _SNAG, np.array(trees.SNAGS)[size], model),
+        "arrival_time": np.minimum(ground.arrival_at(row, column), NEVER),
+        "elevation": bilinear(ground.fields.elevation, row, column),
+        "canopy_fuel": bilinear(ground.fields.canopy_fuel, row, column),
+        "tint": tint,
+        "dead": dead,
+    }
+
+
+def _instances(
+    project: Project,
+    run: Run,
+    collection: bpy.types.Collection,
+    name: str,
+    points: dict[str, NDArray],
+    library: bpy.types.Collection,
+) -> bpy.types.Object:
+    """Make an object of bare points with the node group that puts models on them."""
+    data = bpy.data.meshes.new(f"Firetwin {name}")
+    data.vertices.add(len(points["position"]))
+    data.vertices.foreach_set("co", points["position"].astype(np.float32).ravel())
+    for key, values in points.items():
+        if key != "position":
+            whole = key.endswith("model")
+            attribute = data.attributes.new(key, "INT" if whole else "FLOAT", "POINT")
+            attribute.data.foreach_set("value", values.astype(np.int32 if whole else np.float32))
+    data.update()
+    thing = collections.add(collection, name, data)
+    modifier = thing.modifiers.new("Firetwin Instances", "NODES")
+    modifier.node_group = _node_group(project, run, f"Firetwin {name}", library)
+    return thing
+
+
+def _node_group(project: Project, run: Run, name: str, library: bpy.types.Collection) -> bpy.types.NodeTree:
+    """A model on every point, which becomes a snag some time after the fire came."""
+    tree, given = nodes.geometry(name)
+    collection = tree.node("GeometryNodeCollectionInfo", transform_space="ORIGINAL")
+    compat.find_socket(collection.inputs, "Collection").default_value = library
+    compat.find_socket(collection.inputs, "Separate Children").default_value = True
+    compat.find_socket(collection.inputs, "Reset Children").default_value = True
+
+    def attribute(key: str, kind: str) -> nodes.Value:
+        return tree.output("GeometryNodeInputNamedAttribute", {"Name": key}, data_type=kind)
+
+    age = clock.geometry_time(tree, project, run) - attribute("arrival_time", "FLOAT")
+    burned = tree.output(
+        "FunctionNodeCompare", [age, BARE_AFTER], data_type="FLOAT", operation="GREATER_THAN"
+    )
+    model = {"Switch": burned, "False": attribute("model", "INT"), "True": attribute("snag_model", "INT")}
+    instances = tree.output(
+        "GeometryNodeInstanceOnPoints",
+        {
+            "Points": tree.pick(given, "Geometry"),
+            "Instance": collection,
+            "Pick Instance": True,
+            "Instance Index": tree.output("GeometryNodeSwitch", model, input_type="INT"),
+            "Rotation": tree.combine(0.0, 0.0, attribute("rotation", "FLOAT")),
+            "Scale": attribute("scale", "FLOAT"),
+        },
+    )
+    tree.node("NodeGroupOutput", {"Geometry": instances})
+    return tree.node_tree
+
+
+def _tree_models(project: Project, run: Run) -> bpy.types.Collection:
+    needles = material.foliage(project, run)
+    wood, char = (material.bark(project, run, charred=charred) for charred in (False, True))
+    return _library("Tree Models", trees.models(needles, wood, char))
+
+
+def _grass_models(project: Project, run: Run) -> bpy.types.Collection:
+    straw = material.grass(project, run)
+    return _library(
+        "Grass Models", [trees.grass(140 + k).mesh(f"Firetwin Grass {k:02d}", (straw,)) for k in (0, 1)]
+    )
+
+
+def _library(name: str, meshes: list[bpy.types.Mesh]) -> bpy.types.Collection:
+    """A collection outside the scene that holds the models; instances are numbered by their names' order."""
+    full = f"{collections.ROOT} {name}"
+    old = bpy.data.collections.get(full)
+    if old is not None:
+        collections.remove(old)
+    library = bpy.data.collections.new(full)
+    for mesh in meshes:
+        library.objects.link(bpy.data.objects.new(mesh.name, mesh))
+    return library

@@ -1,0 +1,127 @@
+"""The stand: trees near the cameras round those of Algorithm 2, whose one tree per cell is no forest yet.
+
+Invented in detail, faithful in the large: as many and as tall trees as the canopy fuel there calls for.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..project import Project
+from . import noise, trees
+from .ground import Ground, bilinear
+from .paths import Path
+
+LIMIT = 60_000  # trees; more than this and far ones are thinned
+CLEARING = 40.0  # m round the cameras where no tree stands: these models are made for 60 m and more
+_DENSE = 0.9  # kg/m2 of canopy fuel at which every place has a tree
+
+
+@dataclass(frozen=True)
+class Stand:
+    """Trees of the stand, n of them.
+
+    Attributes
+    ----------
+    position
+        (n, 3) metres in the scene.
+    height, rotation
+        (n,) metres, radians.
+    model
+        (n,) number of the model in `trees`.
+    key
+        (n, 2) integers that random choices for a tree hang on.
+    """
+
+    position: NDArray[np.float64]
+    height: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    model: NDArray[np.int64]
+    key: NDArray[np.int64]
+
+
+def grow(project: Project, ground: Ground, views: list[Path]) -> Stand:
+    """Place the stand within `stand_radius` of the cameras, where they look."""
+    spacing, radius = project.forest.stand_spacing, project.forest.stand_radius
+    near = [view for view in views if view.perspective]
+    if not near or radius <= 0.0:
+        return _stand(ground, np.empty((0, 3)), np.empty((0, 2), np.int64), project.seed)
+    blocks = _blocks(ground, near, radius)
+    key = _lattice(blocks, spacing)
+    jitter = np.stack([noise.uniform(key[:, 0], key[:, 1], project.seed + 200 + k) for k in (0, 1)], axis=-1)
+    place = (key + 0.5 + 0.85 * (jitter - 0.5)) * spacing
+    canopy = ground.sample(ground.fields.canopy_fuel, place[:, 0], place[:, 1])
+    clumps = noise.fractal(place[:, 0], place[:, 1], 90.0, 2, project.seed + 210)
+    chance = np.clip(canopy / _DENSE, 0.0, 1.0) * np.clip(0.85 + 0.6 * clumps, 0.25, 1.0)
+    luck = noise.uniform(key[:, 0], key[:, 1], project.seed + 202)
+    kept = luck < chance
+    place, key, luck, chance = place[kept], key[kept], luck[kept], chance[kept]
+    position = np.column_stack([place, ground.up(place[:, 0], place[:, 1])])
+    distance = np.min([view.distance(position) for view in near], axis=0)
+    seen = np.any([view.sees(position, margin=60.0, reach=radius) for view in near], axis=0)
+    fade = noise.smoothstep(radius, 0.75 * radius, distance)
+    seen &= (luck < chance * fade) & (distance > CLEARING)
+    if seen.sum() > LIMIT:
+        seen &= luck < chance * fade * _thinning(distance[seen], distance)
+    return _stand(ground, position[seen], key[seen], project.seed)
+
+
+def _blocks(ground: Ground, near: list[Path], radius: float) -> NDArray[np.int64]:
+    """Corners (m, 2), in units of 200 m, of the blocks of ground that a camera sees within `radius`."""
+    places = np.concatenate([view.position for view in near])[:, :2]
+    low = np.floor((places.min(0) - radius) / 200.0).astype(int)
+    high = np.ceil((places.max(0) + radius) / 200.0).astype(int)
+    grid = np.stack(np.meshgrid(np.arange(low[0], high[0]), np.arange(low[1], high[1])), axis=-1).reshape(
+        -1, 2
+    )
+    centre = (grid + 0.5) * 200.0
+    centre = np.column_stack([centre, ground.up(centre[:, 0], centre[:, 1])])
+    seen = np.any([view.sees(centre, margin=250.0, reach=radius + 150.0) for view in near], axis=0)
+    return grid[seen]
+
+
+def _lattice(blocks: NDArray[np.int64], spacing: float) -> NDArray[np.int64]:
+    """Integer places (n, 2) of a lattice of `spacing` metres inside the blocks, each once."""
+    per = int(np.ceil(200.0 / spacing)) + 1
+    first = np.floor(blocks * 200.0 / spacing).astype(np.int64)
+    steps = np.stack(np.meshgrid(np.arange(per), np.arange(per)), axis=-1).reshape(-1, 2)
+    key = (first[:, None, :] + steps[None]).reshape(-1, 2)
+    packed = np.unique((key[:, 0] << 32) + (key[:, 1] & 0xFFFFFFFF))
+    low = packed & 0xFFFFFFFF
+    return np.stack([packed >> 32, np.where(low >= 1 << 31, low - (1 << 32), low)], axis=-1)
+
+
+def _thinning(seen: NDArray, distance: NDArray) -> NDArray[np.float64]:
+    """Chance to keep a tree, 1 near and falling as 1 / distance^2 far away, that leaves about LIMIT trees."""
+    low, high = 1.0, float(seen.max())
+    for _ in range(30):
+        middle = 0.5 * (low + high)
+        total = np.minimum((middle / seen) ** 2, 1.0).sum()
+        low, high = (middle, high) if total < LIMIT else (low, middle)
+    return np.minimum((low / distance) ** 2, 1.0)
+
+
+def _stand(ground: Ground, position: NDArray, key: NDArray[np.int64], seed: int) -> Stand:
+    """Choose heights and models, by Algorithm 2's classes, with oaks in the foothills."""
+
+    def random(use: int) -> NDArray[np.float64]:
+        return noise.uniform(key[:, 0], key[:, 1], seed + 220 + use)
+
+    row, column = ground.indices(*ground.geodetic(position[:, 0], position[:, 1]))
+    canopy = bilinear(ground.fields.canopy_fuel, row, column)
+    elevation = bilinear(ground.fields.elevation, row, column)
+    size = np.where(canopy >= 1.6, 2, np.where(canopy >= 0.8, 1, 0))
+    size = np.where(random(0) < 0.3, np.maximum(size - 1, 0), size)  # all ages stand together
+    count = np.where(size == 2, 2, 4)
+    first = np.array([trees.FIRST_MODEL[k] for k in (0, 1, 2)])[size]
+    model = first + np.minimum((random(1) * count).astype(np.int64), count - 1)
+    fuel = np.clip(canopy / max(float(ground.fields.canopy_fuel.max()), 1.0e-6), 0.0, 1.0)
+    normal = np.sqrt(-2.0 * np.log(np.maximum(random(2), 1.0e-9))) * np.cos(2.0 * np.pi * random(3))
+    height = (8.0 + 14.0 * np.sqrt(fuel)) * np.array([0.75, 1.0, 1.2])[size] * np.exp(0.25 * normal)
+    oak = random(4) < 0.75 * noise.smoothstep(1100.0, 600.0, elevation)
+    model = np.where(oak, trees.OAKS[0] + (random(5) < 0.5), model)
+    height = np.where(oak, 0.5 * height, height)
+    return Stand(position, np.clip(height, 4.0, 30.0), 2.0 * np.pi * random(6), model, key)
