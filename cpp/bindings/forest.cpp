@@ -1,8 +1,100 @@
+#include "arrays.hpp"
 #include "bindings.hpp"
+#include "forest/scatter.hpp"
+
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
 
 namespace firetwin::bindings {
 namespace py = pybind11;
+namespace {
 
-void init_forest(py::module_ module) { module.doc() = ""; }
+using forest::Plants;
+using geo::LocalFrame;
+
+/// Same data, two Python types: trees and grass.
+struct Trees : Plants {};
+struct Grass : Plants {};
+
+/// The arrays of a Site, kept alive and checked against the shape of the fuel.
+struct SiteArrays {
+  Array<double> latitude;
+  Array<double> longitude;
+  Array<float> elevation;
+
+  SiteArrays(const Array<float>& fuel, const py::object& lat, const py::object& lon,
+             const py::object& height)
+      : latitude(to_array<double>(lat, "latitude", {fuel.shape(0)})),
+        longitude(to_array<double>(lon, "longitude", {fuel.shape(1)})),
+        elevation(to_array<float>(height, "elevation", {fuel.shape(0), fuel.shape(1)})) {}
+
+  forest::Site site(const LocalFrame& frame, std::uint64_t seed, double jitter) const {
+    return {view(latitude), view(longitude), view(elevation), &frame, seed, jitter};
+  }
+};
+
+std::shared_ptr<Trees> trees(const py::object& canopy_fuel, const py::object& latitude,
+                             const py::object& longitude, const py::object& elevation,
+                             const LocalFrame& frame, std::uint64_t seed,
+                             std::optional<double> max_fuel, double jitter) {
+  const auto fuel = to_array<float>(canopy_fuel, "canopy_fuel", {-1, -1});
+  const SiteArrays arrays(fuel, latitude, longitude, elevation);
+  const auto site = arrays.site(frame, seed, jitter);
+  const py::gil_scoped_release release;
+  // A grid without canopy has no largest fuel and no tree that would need it.
+  const double largest = double{forest::largest_fuel(view(fuel))};
+  const double scale = max_fuel.value_or(largest > 0.0 ? largest : 1.0);
+  return std::make_shared<Trees>(Trees{forest::trees(view(fuel), site, scale)});
+}
+
+std::shared_ptr<Grass> grass(const py::object& surface_fuel, const py::object& latitude,
+                             const py::object& longitude, const py::object& elevation,
+                             const LocalFrame& frame, std::uint64_t seed, double jitter) {
+  const auto fuel = to_array<float>(surface_fuel, "surface_fuel", {-1, -1});
+  const SiteArrays arrays(fuel, latitude, longitude, elevation);
+  const auto site = arrays.site(frame, seed, jitter);
+  const py::gil_scoped_release release;
+  return std::make_shared<Grass>(Grass{forest::grass(view(fuel), site)});
+}
+
+template <class T, auto member> auto column(const py::object& self) {
+  return lend_column(self.cast<const T&>().*member, self);
+}
+
+template <class T> Array<double> position(const py::object& self) {
+  const auto& plants = self.cast<const T&>();
+  return lend<double>(plants.position, {length(plants.cell.size()), 3}, self);
+}
+
+template <class T> auto bind_plants(py::module_& module, const char* name, const char* doc) {
+  return py::class_<T, std::shared_ptr<T>>(module, name, doc)
+      .def_property_readonly("cell", &column<T, &T::cell>)
+      .def_property_readonly("position", &position<T>)
+      .def_property_readonly("scale", &column<T, &T::scale>)
+      .def_property_readonly("rotation", &column<T, &T::rotation>)
+      .def("__len__", [](const T& plants) { return plants.cell.size(); });
+}
+
+} // namespace
+
+void init_forest(py::module_ module) {
+  module.doc() = "Trees and grass from fuel (Algorithm 2).";
+  module.attr("SMALL") = static_cast<int>(forest::small_tree);
+  module.attr("MEDIUM") = static_cast<int>(forest::medium_tree);
+  module.attr("LARGE") = static_cast<int>(forest::large_tree);
+  bind_plants<Trees>(module, "Trees", "n trees, in order of their cells.")
+      .def_property_readonly("size_class", &column<Trees, &Trees::size_class>)
+      .def_property_readonly("model", &column<Trees, &Trees::model>);
+  bind_plants<Grass>(module, "Grass", "n clumps of grass, in order of their cells.");
+  module.def("trees", &trees, py::arg("canopy_fuel"), py::arg("latitude"), py::arg("longitude"),
+             py::arg("elevation"), py::arg("frame"), py::arg("seed") = 0,
+             py::arg("max_fuel") = py::none(), py::arg("jitter") = 1.0,
+             "Algorithm 2: canopy_fuel (fy, fx) kg/m2 -> trees.");
+  module.def("grass", &grass, py::arg("surface_fuel"), py::arg("latitude"), py::arg("longitude"),
+             py::arg("elevation"), py::arg("frame"), py::arg("seed") = 0, py::arg("jitter") = 1.0,
+             "Algorithm 2's grass: one clump, 0.70 m lower, in each cell with surface fuel.");
+}
 
 } // namespace firetwin::bindings

@@ -1,6 +1,8 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .geo import LocalFrame
+
 SMALL: int
 MEDIUM: int
 LARGE: int
@@ -25,41 +27,50 @@ class Trees:
     @property
     def rotation(self) -> NDArray[np.float32]:
         """Radians about the vertical."""
+    def __len__(self) -> int: ...
 
 class Grass:
+    """n clumps of grass, in order of their cells."""
+
     @property
     def cell(self) -> NDArray[np.int64]: ...
     @property
-    def position(self) -> NDArray[np.float64]: ...
+    def position(self) -> NDArray[np.float64]:
+        """(n, 3) east, north, up in metres."""
     @property
-    def rotation(self) -> NDArray[np.float32]: ...
+    def rotation(self) -> NDArray[np.float32]:
+        """Radians about the vertical."""
     @property
-    def scale(self) -> NDArray[np.float32]: ...
+    def scale(self) -> NDArray[np.float32]:
+        """Always 1."""
+    def __len__(self) -> int: ...
 
 def trees(
     canopy_fuel: ArrayLike,
     latitude: ArrayLike,
     longitude: ArrayLike,
     elevation: ArrayLike,
-    frame: object,
+    frame: LocalFrame,
     seed: int = 0,
     max_fuel: float | None = None,
     jitter: float = 1.0,
 ) -> Trees:
     """Algorithm 2: canopy_fuel (fy, fx) kg/m2, latitude (fy,), longitude (fx,), elevation (fy, fx) m -> trees.
 
-    `frame` is a geo.LocalFrame. `max_fuel` defaults to the largest finite fuel. `jitter` 1 spreads over the
+    `max_fuel` defaults to the largest finite fuel. `jitter` 1 spreads over the
     whole cell, 0 keeps the centre. The height of a tree is the bilinear elevation at its jittered place.
     """
 
 def grass(
     surface_fuel: ArrayLike,
-    canopy_fuel: ArrayLike,
     latitude: ArrayLike,
     longitude: ArrayLike,
     elevation: ArrayLike,
-    frame: object,
+    frame: LocalFrame,
     seed: int = 0,
     jitter: float = 1.0,
 ) -> Grass:
-    """Algorithm 2's grass: one clump, 0.70 m lower, in each cell with surface fuel, at its tree's place."""
+    """Algorithm 2's grass: one clump, 0.70 m lower, in each cell with surface fuel (fy, fx) kg/m2.
+
+    It stands where the tree of its cell stands or would stand (for the same seed and jitter).
+    """

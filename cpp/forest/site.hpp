@@ -1,0 +1,33 @@
+#pragma once
+
+#include "geo/local_frame.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace firetwin::forest {
+
+/// The fuel grid that plants stand on.
+struct Site {
+  std::span<const double> latitude;  ///< [fy] degrees
+  std::span<const double> longitude; ///< [fx] degrees
+  std::span<const float> elevation;  ///< [fy fx] m
+  const geo::LocalFrame* frame;
+  std::uint64_t seed;
+  double jitter; ///< 0 keeps the centre of the cell, 1 spreads over all of it
+};
+
+/// What a cell's random numbers are for; part of their counter, so that they never depend on each
+/// other.
+enum class Use : std::uint64_t { place = 0, tree = 1, grass = 2 };
+
+/// Four numbers in [0, 1) that depend on seed, cell and use alone.
+std::array<double, 4> draw(const Site& site, std::size_t cell, Use use);
+
+/// Where the plant of a cell stands, in local metres: jittered inside the cell, on the bilinear
+/// elevation. Nothing where there is no elevation.
+std::optional<std::array<double, 3>> place(const Site& site, std::size_t y, std::size_t x);
+
+} // namespace firetwin::forest
