@@ -86,8 +86,7 @@ def _stand(project: Project, ground: Ground, views: list[Path]) -> dict[str, NDA
 
 def _grass(project: Project, run: Run, ground: Ground, views: list[Path]) -> dict[str, NDArray]:
     axes = run.fuel_latitude, run.fuel_longitude
-    fuels = run.surface_fuel, run.canopy_fuel
-    found = core.grass(*fuels, *axes, run.fuel_elevation, ground.frame, seed=project.seed)
+    found = core.grass(run.surface_fuel, *axes, run.fuel_elevation, ground.frame, seed=project.seed)
     kept = np.flatnonzero(visible(project, found.position, views, GRASS_DISTANCE))
     cell, sunk = found.cell[kept], found.position[kept]
     position = _settled(ground, sunk)
