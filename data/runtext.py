@@ -1,0 +1,82 @@
+"""Write the fields of a run folder, as .npy arrays or as text."""
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+from numpy.lib.format import open_memmap
+from numpy.typing import NDArray
+
+Put = Callable[[int, Sequence[NDArray]], None]
+
+
+class NpyWriter:
+    """One .npy per field; a series is one memory-mapped float32 array [nt, ny, nx]."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def field(self, name: str, values: NDArray) -> None:
+        """Write a field that does not change with time."""
+        np.save(self.folder / f"{name}.npy", values)
+
+    @contextmanager
+    def series(self, names: Sequence[str], times: int, shape: tuple[int, int]) -> Iterator[Put]:
+        """Give a function put(index, fields), which stores one time of all the named fields."""
+        files = [
+            open_memmap(self.folder / f"{name}.npy", mode="w+", dtype=np.float32, shape=(times, *shape))
+            for name in names
+        ]
+
+        def put(index: int, fields: Sequence[NDArray]) -> None:
+            for file, values in zip(files, fields, strict=True):
+                file[index] = values
+
+        yield put
+        for file in files:
+            file.flush()
+
+
+class TextWriter:
+    """One text file per field, and per time in a series: rows of numbers separated by blanks.
+
+    Text is made by looking numbers up in a table of whole steps, many times faster than formatting each.
+    """
+
+    # Steps of 1 W/m2, 0.01 K and 0.01 m/s: half a step is the error of the text.
+    STEPS = {"heat_flux": 1.0, "temperature": 0.01, "wind_east": 0.01, "wind_north": 0.01}
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.tables: dict[float, dict[int, str]] = {step: {} for step in set(self.STEPS.values())}
+
+    def field(self, name: str, values: NDArray) -> None:
+        """Write a field that does not change with time, digits enough for its type (float32 or float64)."""
+        digits = 10 if values.dtype == np.float64 else 7
+        rows = np.atleast_2d(values) if values.ndim == 2 else values[:, None]
+        text = "\n".join(" ".join(f"{value:.{digits}g}" for value in row) for row in rows.tolist())
+        (self.folder / f"{name}.txt").write_text(text + "\n", encoding="ascii")
+
+    @contextmanager
+    def series(self, names: Sequence[str], times: int, shape: tuple[int, int]) -> Iterator[Put]:
+        """Give a function put(index, fields), which stores one time of all the named fields."""
+        digits = max(6, len(str(times - 1)))
+        for name in names:
+            (self.folder / name).mkdir()
+
+        def put(index: int, fields: Sequence[NDArray]) -> None:
+            for name, values in zip(names, fields, strict=True):
+                path = self.folder / name / f"{index:0{digits}d}.txt"
+                path.write_text(self._text(values, self.STEPS[name]), encoding="ascii")
+
+        yield put
+
+    def _text(self, values: NDArray, step: float) -> str:
+        table = self.tables[step]
+        whole = np.rint(values / step).astype(np.int64)
+        for number in np.unique(whole).tolist():
+            if number not in table:
+                table[number] = f"{number * step:.10g}"
+        look = table.__getitem__
+        return "\n".join(" ".join(map(look, row)) for row in whole.tolist()) + "\n"

@@ -1,0 +1,165 @@
+"""Expand the stored sample fire to a run folder: `firetwin sample OUT`."""
+
+import shutil
+import tempfile
+import tomllib
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import air, heat, runtext, stored, weather
+from .grid import (
+    FUEL_CELL_SIZE,
+    FUEL_CELLS,
+    MODEL_CELL_SIZE,
+    MODEL_CELLS,
+    axes,
+    block_mean,
+)
+from .history import input_error
+
+NAME = "King Fire 2014 (synthetic sample)"
+INTERVAL = 60.0  # s
+FIELDS = ("heat_flux", "temperature", "wind_east", "wind_north")
+FORMATS = ("npy", "text")
+
+
+def write(
+    out: Path,
+    frames: int | None = None,
+    format: str = "npy",
+    progress: Callable[[int, int], None] | None = None,
+) -> None:
+    """Write the sample run to the folder `out`.
+
+    Parameters
+    ----------
+    out
+        Made if missing; an earlier sample run is replaced, anything else is refused.
+    frames
+        Number of output times, spread evenly over the run's 1,858 minutes; all of them if None.
+    format
+        "npy": one array per field. "text": one file per field and time.
+    progress
+        Called with the number of output times done and their total.
+
+    Raises
+    ------
+    firetwin_core.InputError
+        `out` exists and is not a sample run, or `frames` or `format` is out of range.
+    """
+    out = Path(out)
+    _refuse_strangers(out)
+    if format not in FORMATS:
+        raise input_error(out, f"no format is called {format!r}; choose {' or '.join(FORMATS)}")
+    minutes = _minutes(out, frames)
+    out.parent.mkdir(parents=True, exist_ok=True)
+    work = Path(tempfile.mkdtemp(prefix=f".{out.name}.", dir=out.parent))
+    try:
+        work.chmod(0o755)
+        sample = stored.load()
+        writer = runtext.NpyWriter(work) if format == "npy" else runtext.TextWriter(work)
+        for name, values in _static(sample).items():
+            writer.field(name, values)
+        with writer.series(FIELDS, len(minutes), (MODEL_CELLS, MODEL_CELLS)) as put:
+            for done, values in enumerate(frames_of(sample, minutes)):
+                put(done, values)
+                if progress:
+                    progress(done + 1, len(minutes))
+        (work / "run.toml").write_text(_run_toml(minutes), encoding="utf-8")
+        if out.exists():
+            shutil.rmtree(out)
+        work.rename(out)
+    finally:
+        shutil.rmtree(work, ignore_errors=True)
+
+
+def frames_of(sample: stored.Sample, minutes: NDArray[np.int64]) -> Iterator[tuple[NDArray, ...]]:
+    """Yield heat flux, temperature, wind east and north (ny, nx) at each of the ascending `minutes`.
+
+    Heat flux is the mean over the minute that ends at the output time, so that over all minutes heat is conserved.
+    """
+    elevation = block_mean(sample.elevation)
+    released, inflow = heat.Released(heat.burns(sample)), air.Inflow()
+    before = None
+    for minute in minutes:
+        time = minute * INTERVAL
+        if before is None or before != minute - 1:
+            released.until(time - INTERVAL)
+        before = minute
+        flux = released.until(time) / (INTERVAL * MODEL_CELL_SIZE**2)
+        east, north = weather.channelled(*weather.open_wind(time), sample.channel)
+        more_east, more_north = inflow.wind(flux)
+        east, north = east + more_east, north + more_north
+        warm = weather.temperature(time, elevation) + air.warming(flux, np.hypot(east, north))
+        yield flux, warm, east, north
+
+
+def _minutes(out: Path, frames: int | None) -> NDArray[np.int64]:
+    total = stored.MINUTES + 1
+    if frames is None:
+        return np.arange(total)
+    if not 1 <= frames <= total:
+        raise input_error(out, f"{frames} frames asked for; the sample run has 1 to {total}")
+    return np.unique(np.rint(np.linspace(0, stored.MINUTES, frames)).astype(int))
+
+
+def _refuse_strangers(out: Path) -> None:
+    """Leave alone what is not a sample run."""
+    if not out.exists() or (out.is_dir() and not any(out.iterdir())):
+        return
+    try:
+        run = tomllib.loads((out / "run.toml").read_text(encoding="utf-8"))
+        ours = run.get("name") == NAME and run.get("synthetic") is True
+    except (OSError, ValueError):
+        ours = False
+    if not ours:
+        raise input_error(out, "exists and is not a sample run; name another folder or remove this one")
+
+
+def _static(sample: stored.Sample) -> dict[str, NDArray]:
+    latitude, longitude = axes(MODEL_CELLS, MODEL_CELL_SIZE)
+    fuel_latitude, fuel_longitude = axes(FUEL_CELLS, FUEL_CELL_SIZE)
+    return {
+        "latitude": latitude,
+        "longitude": longitude,
+        "elevation": block_mean(sample.elevation).astype(np.float32),
+        "fuel_latitude": fuel_latitude,
+        "fuel_longitude": fuel_longitude,
+        "fuel_elevation": sample.elevation,
+        "fuel_arrival_time": sample.arrival.astype(np.float32),
+        "surface_fuel": sample.surface,
+        "canopy_fuel": sample.canopy,
+    }
+
+
+def _run_toml(minutes: NDArray[np.int64]) -> str:
+    if len(minutes) > 1 and np.ptp(np.diff(minutes)) == 0:
+        times = f"interval_s = {(minutes[1] - minutes[0]) * INTERVAL:.1f}"
+    else:
+        times = f"times_s = [{', '.join(f'{minute * INTERVAL:.1f}' for minute in minutes)}]"
+    return f"""\
+# Synthetic: no output of a fire-atmosphere model of this fire is public. Terrain is fitted to public spot heights
+# and river lines with invented relief between them; fuels and weather are invented; the fire was simulated with
+# pyretechnics and tuned so that burned areas follow the reported ones. Heat flux is the mean over the {INTERVAL:.0f} s
+# that end at each time. Temperature and wind come from scaling laws, not from a flow model.
+name = "{NAME}"
+synthetic = true
+event = "king_fire"
+start = {stored.START:%Y-%m-%dT%H:%M:%SZ}
+{times}
+vertical = "orthometric"
+
+[units]
+elevation = "m"
+fuel_elevation = "m"
+fuel_arrival_time = "s"
+heat_flux = "W/m2"
+temperature = "K"
+wind_east = "m/s"
+wind_north = "m/s"
+surface_fuel = "kg/m2"
+canopy_fuel = "kg/m2"
+"""
