@@ -1,0 +1,149 @@
+#include "sensor/image.hpp"
+
+#include "error.hpp"
+#include "run/file.hpp"
+
+#include <OpenImageIO/imageio.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <string_view>
+
+namespace firetwin::sensor {
+namespace {
+
+constexpr int largest_megabytes = 1024;
+constexpr int most_channels = 64;
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
+  throw InputError(path.string(), 0, 0, reason);
+}
+
+/// OpenImageIO's name of a format, by the first bytes.
+std::string format_of(const std::filesystem::path& path) {
+  using namespace std::string_view_literals;
+  const run::File file(path);
+  std::array<char, 8> start{};
+  const std::size_t have = std::min<std::uint64_t>(file.size(), start.size());
+  file.read(0, std::span(start).first(have));
+  const std::string_view bytes(start.data(), have);
+  if (bytes == "\x89PNG\r\n\x1a\n"sv) {
+    return "png";
+  }
+  if (bytes.starts_with("\x76\x2f\x31\x01"sv)) {
+    return "openexr";
+  }
+  if (bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv)) {
+    return "tiff";
+  }
+  if (bytes.starts_with("\xff\xd8\xff"sv)) {
+    return "jpeg";
+  }
+  fail(path, "is not a PNG, OpenEXR, TIFF or JPEG image");
+}
+
+void set_limits() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    OIIO::attribute("limits:imagesize_MB", largest_megabytes);
+    OIIO::attribute("limits:channels", most_channels);
+  });
+}
+
+OIIO::ImageSpec make_spec(std::size_t height, std::size_t width, std::size_t channels, bool exr,
+                          const std::map<std::string, std::string>& metadata) {
+  OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height),
+                       static_cast<int>(channels),
+                       exr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+  if (exr) {
+    spec.attribute("compression", "zip");
+  }
+  for (const auto& [key, value] : metadata) {
+    spec.attribute(key, value);
+  }
+  return spec;
+}
+
+/// Removes a temporary file unless it was renamed.
+class Temporary {
+public:
+  explicit Temporary(const std::filesystem::path& target)
+      : path_(target.parent_path() / ("." + target.stem().string() + "." +
+                                      std::to_string(::getpid()) + target.extension().string())) {}
+  ~Temporary() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  std::string path() const { return path_.string(); }
+  void rename(const std::filesystem::path& target) const {
+    std::error_code code;
+    std::filesystem::rename(path_, target, code);
+    if (code) {
+      fail(target, "cannot be written: " + code.message());
+    }
+  }
+
+private:
+  std::filesystem::path path_;
+};
+
+void check_size(const std::filesystem::path& path, std::size_t height, std::size_t width,
+                std::size_t channels) {
+  constexpr std::size_t longest = 1U << 20;
+  if (height == 0 || width == 0 || channels == 0 || height > longest || width > longest ||
+      channels > most_channels) {
+    fail(path, "an image needs at least one pixel and at most 64 channels");
+  }
+}
+
+} // namespace
+
+Image read_image(const std::filesystem::path& path) {
+  set_limits();
+  const auto input = OIIO::ImageInput::create(format_of(path));
+  OIIO::ImageSpec spec;
+  if (!input || !input->open(path.string(), spec)) {
+    fail(path, "cannot be read: " + (input ? input->geterror() : OIIO::geterror()));
+  }
+  if (spec.deep || spec.depth > 1) {
+    fail(path, "is a deep or volume image; write it flat");
+  }
+  Image image{static_cast<std::size_t>(spec.height),
+              static_cast<std::size_t>(spec.width),
+              static_cast<std::size_t>(spec.nchannels),
+              {}};
+  image.pixels.resize(image.height * image.width * image.channels);
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
+    fail(path, "cannot be read: " + input->geterror());
+  }
+  return image;
+}
+
+void write_image(const std::filesystem::path& path, std::span<const float> pixels,
+                 std::size_t height, std::size_t width, std::size_t channels,
+                 const std::map<std::string, std::string>& metadata) {
+  const bool exr = path.extension() == ".exr";
+  if (!exr && path.extension() != ".png") {
+    fail(path, "an image file must end in .png or .exr");
+  }
+  check_size(path, height, width, channels);
+  set_limits();
+  const Temporary temporary(path);
+  const auto output = OIIO::ImageOutput::create(exr ? "openexr" : "png");
+  if (!output ||
+      !output->open(temporary.path(), make_spec(height, width, channels, exr, metadata)) ||
+      !output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) || !output->close()) {
+    fail(path, "cannot be written: " + (output ? output->geterror() : OIIO::geterror()));
+  }
+  temporary.rename(path);
+}
+
+} // namespace firetwin::sensor
