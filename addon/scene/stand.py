@@ -16,6 +16,7 @@ from .ground import Ground, bilinear
 from .paths import Path
 
 LIMIT = 60_000  # trees; more than this and far ones are thinned
+_YOUNG = 0.7  # part of the trees that have a young one beside them
 CLEARING = 40.0  # m round the cameras where no tree stands: these models are made for 60 m and more
 _DENSE = 0.9  # kg/m2 of canopy fuel at which every place has a tree
 
@@ -66,7 +67,25 @@ def grow(project: Project, ground: Ground, views: list[Path]) -> Stand:
     seen &= (luck < chance * fade) & (distance > CLEARING)
     if seen.sum() > LIMIT:
         seen &= luck < chance * fade * _thinning(distance[seen], distance)
-    return _stand(ground, position[seen], key[seen], project.seed)
+    return _with_young(ground, _stand(ground, position[seen], key[seen], project.seed), project.seed)
+
+
+def _with_young(ground: Ground, old: Stand, seed: int) -> Stand:
+    """The stand with young trees under it, as many as the limit allows."""
+    lot, turn, reach, grown = (noise.uniform(old.key[:, 0], old.key[:, 1], seed + 240 + k) for k in range(4))
+    room = (LIMIT - len(lot)) / max(len(lot), 1)
+    chosen = np.flatnonzero(lot < min(_YOUNG, room))
+    angle, away = 2.0 * np.pi * turn[chosen], 3.5 + 4.0 * reach[chosen]
+    east = old.position[chosen, 0] + away * np.cos(angle)
+    north = old.position[chosen, 1] + away * np.sin(angle)
+    model = trees.FIRST_MODEL[0] + np.minimum((turn[chosen] * 400.0).astype(np.int64) % 4, 3)
+    return Stand(
+        np.concatenate([old.position, np.column_stack([east, north, ground.up(east, north)])]),
+        np.concatenate([old.height, 4.0 + 7.0 * grown[chosen] ** 2]),
+        np.concatenate([old.rotation, angle]),
+        np.concatenate([old.model, model]),
+        np.concatenate([old.key, old.key[chosen] + 10_000_019]),
+    )
 
 
 def _blocks(ground: Ground, near: list[Path], radius: float) -> NDArray[np.int64]:

@@ -50,12 +50,12 @@ class Conifer:
     irregular: float
 
 
-FIR = Conifer(0.10, 0.17, 15, 6, 0.35, 0.95, 0.18)
-RED_FIR = Conifer(0.22, 0.13, 15, 6, 0.25, 0.80, 0.22)
-PINE = Conifer(0.38, 0.19, 11, 7, -0.10, 0.55, 0.40)
-SUGAR_PINE = Conifer(0.45, 0.24, 9, 6, 0.15, 0.45, 0.50)
-CEDAR = Conifer(0.06, 0.15, 16, 6, 0.55, 0.75, 0.15)
-YOUNG = Conifer(0.04, 0.24, 11, 6, 0.25, 1.0, 0.20)
+FIR = Conifer(0.10, 0.20, 15, 6, 0.35, 0.95, 0.18)
+RED_FIR = Conifer(0.20, 0.17, 15, 6, 0.25, 0.80, 0.22)
+PINE = Conifer(0.34, 0.23, 11, 7, -0.10, 0.55, 0.40)
+SUGAR_PINE = Conifer(0.42, 0.26, 9, 6, 0.15, 0.45, 0.50)
+CEDAR = Conifer(0.06, 0.18, 16, 6, 0.55, 0.75, 0.15)
+YOUNG = Conifer(0.04, 0.28, 11, 6, 0.25, 1.0, 0.20)
 
 # In the order of Algorithm 2: two LARGE, four MEDIUM, four SMALL.
 SPECIES = (SUGAR_PINE, RED_FIR, PINE, FIR, CEDAR, RED_FIR, YOUNG, PINE, CEDAR, FIR)

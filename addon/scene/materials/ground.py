@@ -18,10 +18,11 @@ from . import heat
 
 FLAME = (1.0, 0.26, 0.035)
 EMBER = (1.0, 0.11, 0.012)
-FLAMING_TIME = 250.0  # s that the edge is in flames
+FLAMING_TIME = 100.0, 300.0  # s that the edge is in flames, seen from nearby and from FAR
+FAR = 9000.0  # m; from there the edge is drawn wider, as a picture's pixels are
 EMBER_TIME = 3600.0  # s in which embers fade to 1/e
 _JITTER = 130.0  # s; breaks the straight edges of the mesh's triangles
-_FLAME_LIGHT, _EMBER_LIGHT = 14.0, 1.8  # radiance at exposure 0
+_FLAME_LIGHT, _EMBER_LIGHT = 10.0, 1.8  # radiance at exposure 0
 
 
 @dataclass
@@ -33,6 +34,7 @@ class _Place:
     canopy: nodes.Value  # kg/m2
     surface: nodes.Value  # kg/m2
     elevation: nodes.Value  # m
+    distance: nodes.Value  # m from the camera
     near: nodes.Value  # 1 where trees are drawn one by one
     age: nodes.Value  # s since the fire came, negative before
     burned: nodes.Value  # 0 or 1
@@ -69,14 +71,14 @@ def _place(tree: nodes.Tree, project: Project) -> _Place:
     wander = tree.noise(position, 170.0, 2.0) + tree.noise(position, 1100.0, 1.0) - 1.0
     age = nodes.model_time(tree) - tree.attribute("burn_time") + wander * (2.0 * _JITTER)
     edge = tree.attribute("burned") + (tree.noise(position, 120.0, 3.0) - 0.5) * 0.8
-    island = tree.noise(position, 650.0, 3.0) < 0.63
-    burned = (age > 0.0) * (edge > 0.5) * island
+    burned = (age > 0.0) * (edge > 0.5)
     return _Place(
         position,
         slope,
         tree.attribute("canopy_fuel"),
         tree.attribute("surface_fuel"),
         tree.attribute("elevation"),
+        distance,
         near,
         age,
         burned,
@@ -98,20 +100,24 @@ def _unburned(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> tuple[nodes
     patch = tree.noise(place.position, 420.0, 4.0, 0.6)
     crown = tree.cells(place.position, 13.0)
     tint = tree.separate(tree.cells(place.position, 13.0, "Color"))[0]
-    cover = (place.canopy + (patch - 0.5) * 0.9 + (fine - 0.5) * 0.5).smoothstep(0.05, 0.6)
-    dark = tree.mix_colour(tint, (0.012, 0.022, 0.010), (0.040, 0.056, 0.022))
-    dark = tree.mix_colour(patch.smoothstep(0.35, 0.7), dark, (0.030, 0.050, 0.030), "MIX")
-    canopy = tree.mix_colour(crown.smoothstep(0.30, 0.62), dark, (0.007, 0.011, 0.006))
+    cover = (place.canopy + (patch - 0.5) * 1.1 + (fine - 0.5) * 0.5).smoothstep(0.05, 0.6)
+    floor = (place.canopy + (patch - 0.5) * 0.5 + (fine - 0.5) * 0.4).smoothstep(0.0, 0.35)
+    dark = tree.mix_colour(tint, (0.020, 0.034, 0.013), (0.056, 0.072, 0.028))
+    stands = tree.noise(place.position, 1500.0, 5.0, 0.6)
+    dark = tree.mix_colour(
+        stands.smoothstep(0.40, 0.62), dark, tree.mix_colour(0.6, dark, (0.030, 0.062, 0.024))
+    )
+    canopy = tree.mix_colour(crown.smoothstep(0.34, 0.70), dark, (0.010, 0.015, 0.008))
     dry = place.elevation.ramp(500.0, 1500.0, 1.0, 0.0)
     meadow = tree.mix_colour(dry, (0.085, 0.080, 0.040), (0.165, 0.125, 0.058))
     soil = tree.mix_colour(fine, (0.115, 0.080, 0.050), (0.190, 0.140, 0.095))
     open_ground = tree.mix_colour(fine.smoothstep(0.38, 0.62), meadow, tree.mix_colour(0.55, meadow, soil))
     far = tree.mix_colour(cover, open_ground, canopy)
-    litter = tree.mix_colour(fine, (0.030, 0.022, 0.013), (0.085, 0.060, 0.035))
+    litter = tree.mix_colour(fine, (0.022, 0.017, 0.010), (0.062, 0.044, 0.026))
     scrub = tree.mix_colour(
-        tree.noise(place.position, 5.0, 3.0).smoothstep(0.5, 0.62), litter, (0.030, 0.040, 0.016)
+        tree.noise(place.position, 5.0, 3.0).smoothstep(0.46, 0.6), litter, (0.026, 0.036, 0.014)
     )
-    close = tree.mix_colour(cover, open_ground, scrub)
+    close = tree.mix_colour(floor, open_ground, scrub)
     colour = tree.mix_colour(place.near, far, close)
     relief = cover * (1.0 - place.near) * (1.0 - crown) * 9.0 + fine * 2.0
     return tree.mix_colour(rock, colour, _granite(tree, place)), relief * (1.0 - rock * 0.6)
@@ -145,8 +151,9 @@ def _charred(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> nodes.Value:
 def _glow(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> tuple[nodes.Value, nodes.Value]:
     """Flames of the edge and embers behind it, each 0..1."""
     fuel = place.burned * (1.0 - rock)
-    tongues = tree.noise(place.position, 45.0, 3.0, 0.6).smoothstep(0.44, 0.62)
-    body = place.age.smoothstep(0.0, 30.0) * place.age.smoothstep(FLAMING_TIME, 0.3 * FLAMING_TIME)
+    tongues = tree.noise(place.position, 40.0, 4.0, 0.68).smoothstep(0.46, 0.60)
+    duration = place.distance.ramp(1500.0, FAR, *FLAMING_TIME)
+    body = place.age.smoothstep(0.0, 20.0) * (place.age / duration).smoothstep(1.0, 0.3)
     flaming = fuel * body * tongues
     speckles = tree.noise(place.position, 28.0, 4.0, 0.7).smoothstep(0.60, 0.72)
     clusters = tree.noise(place.position, 420.0, 2.0).smoothstep(0.42, 0.66)
