@@ -22,7 +22,7 @@ from . import history, spread, stored, terrain, valleys
 from .grid import FUEL_CELL_SIZE
 
 # Factors on spread rate that `--tune` found: (minutes after the start at which the period ends, factor).
-FACTORS = ((615, 1.5545), (915, 0.7015), (1275, 0.5551), (1857, 1.8746))
+FACTORS = ((615, 1.3508), (915, 0.4824), (1275, 0.1891), (1335, 0.3317), (1857, 1.7889))
 ACRES_PER_CELL = FUEL_CELL_SIZE**2 / history.SQUARE_METRES_PER_ACRE
 
 
@@ -71,7 +71,7 @@ def reported_acres(event: history.Event) -> dict[float, float]:
 
 def acres_at(minute: float, targets: dict[float, float]) -> float:
     """Acres to aim at: reported, with the shape of the day between reports (slow morning, steady night)."""
-    aims = dict(targets) | {915.0: 20300.0, 1857.0: 71600.0}
+    aims = dict(targets) | {915.0: 20300.0, 1335.0: 31000.0, 1857.0: 71600.0}
     times = sorted(aims)
     return float(np.interp(minute, times, [aims[time] for time in times]))
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from pyretechnics.eulerian_level_set import SpreadState, spread_fire_with_phi_field
 from pyretechnics.space_time_cube import SpaceTimeCube
 
-from . import stored, weather
+from . import corridor, stored, weather
 from .fuels import Fuels
 from .grid import FUEL_CELL_SIZE, FUEL_CELLS, MODEL_CELLS, cell_of
 from .history import Event
@@ -18,12 +18,8 @@ from .weather import Channel
 
 BAND = 30.0  # minutes for which the weather is taken as constant
 BANDS = 62  # 31 hours
-# The way of the 17 September run: from the head of that morning over the Georgetown Divide into the Rubicon canyon.
-CORRIDOR = (
-    (38.815, -120.570), (38.850, -120.575), (38.890, -120.565), (38.930, -120.560), (38.960, -120.545),
-    (38.985, -120.505), (39.015, -120.462), (39.050, -120.420), (39.075, -120.375),
-)  # fmt: skip
-CORRIDOR_WIDTH = 1100.0  # m
+RUN_WIDTH = 650.0  # m, half width of the way of the run of 17 September
+LEAD = {615.0: 1.0, 915.0: 4.0, 1275.0: 12.0, 1335.0: 8.0}
 SPOTTING = {
     "random_seed": 917,
     "firebrands_per_unit_heat": 2e-9,
@@ -58,7 +54,7 @@ class Fire:
     def __init__(self, event: Event, land: Terrain, fuel: Fuels, channel: Channel) -> None:
         self.event = event
         self.burnable = fuel.surface > 0
-        self.corridor = _corridor()
+        self.corridor = corridor.nearness((FUEL_CELLS, FUEL_CELLS), RUN_WIDTH)
         self.cubes = _fuel_cubes(fuel) | _weather_cubes(channel) | {"fuel_spread_adjustment": _cube(_defence())}
 
     def _simulate(
@@ -83,7 +79,7 @@ class Fire:
     def grow_initial(self, acres: float) -> NDArray[np.float64]:
         """Arrival times (fy, fx) in seconds, <= 0, of a perimeter of `acres` grown from the ignition point.
 
-        The shape is simulated in the afternoon's weather; times are then stretched so that the area follows the
+        The shape is simulated in the first night's light wind; times are then stretched so that the area follows the
         reports since the ignition.
         """
         state = SpreadState((BANDS, FUEL_CELLS, FUEL_CELLS))
@@ -93,14 +89,14 @@ class Fire:
         state.ignite_cells((int(row) - 2, int(column) - 2), block)
         cells = round(acres / stored.ACRES_PER_CELL)
         spots: dict = {}
-        start = 15.0 * 60
+        start = 60.0
         while True:
-            done = self._simulate(state, start, 60.0, 2.0, spots, 0, 0.0)
+            done = self._simulate(state, start, 30.0, 5.0, spots, 0, 0.0)
             state, spots, start = done["spread_state"], done["spot_ignitions"], done["stop_time"]
             order = np.array(state.get_full_matrices(["time_of_arrival"])["time_of_arrival"])
             if np.isfinite(order).sum() >= cells:
                 break
-            if start > 30 * 60:
+            if start > 29 * 60:
                 raise RuntimeError(f"only {np.isfinite(order).sum()} of {cells} cells burned in the initial fire")
         flat = order.ravel()
         rank = np.argsort(np.where(np.isfinite(flat), flat, np.inf), kind="stable")[:cells]
@@ -154,7 +150,7 @@ class Fire:
 
 def lead_at(end: float) -> float:
     """How much faster fire goes along the corridor in the period that ends at minute `end`: the 17 September run."""
-    return 9.0 if 915 < end <= 1275 else 2.0 if end > 1275 else 0.0
+    return LEAD.get(end, 0.0)
 
 
 def _burned(state: SpreadState) -> int:
@@ -208,19 +204,6 @@ def _weather_cubes(channel: Channel) -> dict[str, SpaceTimeCube]:
         "fuel_moisture_live_woody": _cube(0.75),
         "foliar_moisture": _cube(0.85),
     }
-
-
-def _corridor() -> NDArray[np.float64]:
-    """1 on the way of the run, falling to 0 beside it (fy, fx); its edges wander."""
-    row, column = (array.astype(float) for array in cell_of(*np.array(CORRIDOR).T))
-    y, x = np.indices((FUEL_CELLS, FUEL_CELLS))
-    distance = np.full(y.shape, np.inf)
-    for i in range(len(row) - 1):
-        dy, dx = row[i + 1] - row[i], column[i + 1] - column[i]
-        t = np.clip(((y - row[i]) * dy + (x - column[i]) * dx) / (dy**2 + dx**2), 0, 1)
-        distance = np.minimum(distance, np.hypot(y - row[i] - t * dy, x - column[i] - t * dx))
-    wander = np.exp(0.3 * fractal(y.shape, 31, 80, 8, 1.2))
-    return np.exp(-((distance * FUEL_CELL_SIZE / (CORRIDOR_WIDTH * wander)) ** 2))
 
 
 def _defence() -> NDArray[np.float64]:
