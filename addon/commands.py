@@ -54,7 +54,6 @@ def build(arguments: argparse.Namespace) -> None:
     from . import worker
 
     project, _ = _load(arguments.scene)
-    say("building the scene")
     out = arguments.out.absolute()
     worker.run("commands:build_in_blender", {"scene": str(project.path), "out": str(out)}, Reporter())
     print(arguments.out)

@@ -76,7 +76,7 @@ class _Lines:
         if done < total and now - self.last < 2.0:
             return
         self.last = now
-        line = f"{self.what}: {done} of {total}"
+        line = self.what if total == 1 else f"{self.what}: {done} of {total}"
         if done >= total:
             line += f", took {duration(now - self.started)}"
         elif done > self.first:

@@ -53,6 +53,9 @@ def _cycles(project: Project, scene: bpy.types.Scene) -> None:
     cycles.caustics_reflective = cycles.caustics_refractive = False
     cycles.film_exposure = 1.0
     cycles.pixel_filter_type, cycles.filter_width = "BLACKMAN_HARRIS", 1.5
+    if scene.world is not None:  # the sky has no sun disc: its own, finer map takes 2 s of every frame
+        scene.world.cycles.sampling_method = "MANUAL"
+        scene.world.cycles.sample_map_resolution = 256
 
 
 def volume_bounces(samples: int) -> int:

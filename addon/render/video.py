@@ -56,7 +56,7 @@ def _settings(project: Project, scene: bpy.types.Scene, path: Path, count: int) 
     render.dither_intensity = 0.0
     compat.film_settings(render)
     render.ffmpeg.format, render.ffmpeg.codec = "MPEG4", "H264"
-    render.ffmpeg.constant_rate_factor, render.ffmpeg.ffmpeg_preset = "HIGH", "GOOD"
+    render.ffmpeg.constant_rate_factor, render.ffmpeg.ffmpeg_preset = "PERC_LOSSLESS", "GOOD"
     render.ffmpeg.gopsize = project.time.fps
     render.ffmpeg.audio_codec = "NONE"
     render.use_file_extension = False

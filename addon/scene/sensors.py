@@ -36,7 +36,7 @@ def build(project: Project, run: Run, scene: bpy.types.Scene | None = None) -> l
         scene.view_layers.remove(other)
     for layer in layers:
         _leave_out(layer, _LEFT_OUT[layer.name])
-        layer[nodes.THERMAL] = 1.0 if layer.name == THERMAL else 0.0
+        layer[nodes.THERMAL] = 0.0 if layer.name == RGB else 1.0  # depth needs no light: the cheaper shader
         layer.cycles.use_denoising = layer.name == RGB and project.render.denoise
         layer.use_pass_z = layer.name == DEPTH
         layer.use = layer.name == RGB or layer.name in project.render.passes
