@@ -21,8 +21,8 @@ def edges(axis: ArrayLike) -> NDArray[np.float64]:
 def cell_areas(latitude: ArrayLike, longitude: ArrayLike) -> NDArray[np.float64]:
     """Area (ny, nx) in m2 of each cell of a latitude-longitude grid (centres, degrees).
 
-    Exact for the ellipsoid: between two parallels lie a^2/2 (q_high - q_low) per radian of longitude, with the
-    q of the authalic latitude (Snyder, Map Projections, USGS Professional Paper 1395, 1987, eq. 3-12).
+    Exact for the ellipsoid: between two parallels lie a^2/2 (q_high - q_low) per radian of longitude, where q
+    is that of the authalic latitude (Snyder, Map Projections, USGS Professional Paper 1395, 1987, eq. 3-12).
     """
     sine = np.sin(np.radians(edges(latitude)))
     e = np.sqrt(E2)

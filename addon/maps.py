@@ -10,9 +10,12 @@ import numpy as np
 from matplotlib.colors import LightSource, LinearSegmentedColormap, LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon, Rectangle
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import FuncFormatter, LogLocator
 from numpy.typing import NDArray
 
 from . import areas, times
+from .data import history
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run
@@ -44,6 +47,7 @@ def fuel_map(run: Run) -> Figure:
     image = _show(axes, run.fuel_latitude, run.fuel_longitude, fuel, FUEL, Normalize(0, fuel.max() or 1))
     _relief(axes, run, 0.18)
     _colour_bar(figure, axes, image, "fuel, kg/m$^2$")
+    _places(axes, run)
     return figure
 
 
@@ -60,7 +64,56 @@ def intensity_map(run: Run, zone: str) -> Figure:
     norm = LogNorm(high / 300, high, clip=True)
     image = _show(axes, run.latitude, run.longitude, flux, INTENSITY, norm)
     _colour_bar(figure, axes, image, "heat flux, kW/m$^2$ (logarithmic)", "min")
+    _burned_before(axes, run)
+    _places(axes, run)
     return figure
+
+
+def _burned_before(axes: Axes, run: Run) -> None:
+    """Hatch what had burned when the run began: it released no heat in it."""
+    with np.errstate(invalid="ignore"):
+        before = (run.fuel_arrival_time() < run.times[0]).astype(np.float32)
+    if min(before.shape) < 2 or before.min() == before.max():
+        return
+    axes.contourf(
+        run.fuel_longitude,
+        run.fuel_latitude,
+        before,
+        levels=[0.5, 1.5],
+        colors=["#4a4541"],
+        alpha=0.55,
+        zorder=3,
+    )
+    hatched = Rectangle((0, 0), 1, 1, facecolor="#4a4541", alpha=0.55, label="burned before this run")
+    axes.legend(handles=[hatched], loc="lower right", framealpha=0.78, edgecolor="none", fontsize=8)
+
+
+def _places(axes: Axes, run: Run) -> None:
+    """Name towns, summits and lakes of the fire that the run depicts, as far as their positions are known."""
+    if run.event not in history.events():
+        return
+    (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
+    margin = 0.02 * (east - west)
+    marks = {"town": "s", "summit": "^", "lake": "o"}
+    for place in history.load(run.event).places:
+        inside = west + margin < place.longitude < east - 6 * margin
+        inside = inside and south + margin < place.latitude < north - margin
+        corner = place.longitude < west + 0.3 * (east - west) and place.latitude < south + 0.1 * (
+            north - south
+        )
+        if place.kind not in marks or place.approximate or corner or not inside:  # the scale bar is there
+            continue
+        style = {"color": "#2166ac" if place.kind == "lake" else "black", "zorder": 8}
+        axes.plot(place.longitude, place.latitude, marks[place.kind], markersize=3.2, **style)
+        text = axes.annotate(
+            place.name,
+            (place.longitude, place.latitude),
+            xytext=(4, 2),
+            textcoords="offset points",
+            size=7,
+            **style,
+        )
+        text.set_path_effects([withStroke(linewidth=2, foreground="white", alpha=0.85)])
 
 
 def _page(run: Run, title: str, subtitle: str) -> tuple[Figure, Axes]:
@@ -140,6 +193,10 @@ def _colour_bar(figure: Figure, axes: Axes, image: QuadMesh, label: str, extend:
         image, cax=figure.add_axes((box.x1 + 0.02, box.y0, 0.022, box.height * 0.62)), extend=extend
     )
     bar.set_label(label)
+    if isinstance(image.norm, LogNorm):
+        bar.ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        bar.ax.minorticks_off()
     bar.outline.set_linewidth(0.6)
 
 

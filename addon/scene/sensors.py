@@ -84,8 +84,11 @@ def _compositor(scene: bpy.types.Scene) -> None:
         node.scene, node.layer = scene, layer
         images[layer] = node.outputs["Depth" if layer == DEPTH else "Image"]
     images[RGB] = compat.bloom(tree, images[RGB], Threshold=2.0, Maximum=20.0, Strength=0.25)
+    kelvin = tree.nodes.new("CompositorNodeSeparateColor")  # all channels hold the same number
+    tree.links.new(images[THERMAL], kelvin.inputs[0])
+    images[THERMAL] = kelvin.outputs[0]
     compat.composite(tree, images[RGB])
     for layer in LAYERS:
         bits = 16 if layer == RGB else 32
-        node = compat.exr_output(tree, f"Firetwin {layer} EXR", images[layer], layer == DEPTH, bits)
+        node = compat.exr_output(tree, f"Firetwin {layer} EXR", images[layer], layer != RGB, bits)
         node.mute = True
