@@ -8,6 +8,10 @@
 namespace firetwin {
 namespace {
 
+constexpr float kGlowReach = 6000.0F; // m; exp(-6000 / 1100) is 0.4 %
+constexpr double kGlowCore = 250.0;   // m
+constexpr double kGlowPower = 1.0e9;  // W
+
 struct Reach {
   float nearest; // m from a ball's centre to the leaf
   float farthest;
@@ -136,18 +140,32 @@ void LeafFields::concentrate(const Puffs& puffs, std::span<const std::uint32_t> 
 }
 
 void LeafFields::light(const Flames& flames) {
+  const float side = voxel_ * static_cast<float>(kSide);
+  std::vector<std::size_t> near;
+  for (std::size_t i = 0; i < flames.power.size(); ++i) {
+    const std::array<float, 3> at{static_cast<float>(flames.position[3 * i]),
+                                  static_cast<float>(flames.position[3 * i + 1]),
+                                  static_cast<float>(flames.position[3 * i + 2])};
+    if (reach(corner_, side, at.data()).nearest < kGlowReach) {
+      near.push_back(i);
+    }
+  }
+  if (near.empty()) {
+    glow_.fill(0.0F);
+    return;
+  }
   interpolate(at_nodes([&](const std::array<double, 3>& at) {
                 double sum = 0.0;
-                for (std::size_t i = 0; i < flames.power.size(); ++i) {
+                for (const std::size_t i : near) {
                   double distance2 = 0.0;
                   for (std::size_t axis = 0; axis < 3; ++axis) {
                     const double d = at[axis] - flames.position[3 * i + axis];
                     distance2 += d * d;
                   }
                   sum += flames.power[i] * std::exp(-std::sqrt(distance2) / 1100.0) /
-                         (distance2 + 250.0 * 250.0);
+                         (distance2 + kGlowCore * kGlowCore);
                 }
-                return sum;
+                return sum * kGlowCore * kGlowCore / kGlowPower;
               }),
               glow_);
 }

@@ -31,7 +31,7 @@ public:
   bool measure(const Puffs& puffs, std::span<const std::uint32_t> balls);
   /// Smoke in kg/m3 from the puffs with mass.
   void concentrate(const Puffs& puffs, std::span<const std::uint32_t> balls);
-  /// Light of the flames, not yet scaled.
+  /// Light of the flames, see write_smoke.
   void light(const Flames& flames);
 
   const Values& distance() const { return distance_; }

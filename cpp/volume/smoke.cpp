@@ -25,7 +25,6 @@ constexpr float kHottest = 1500.0F;      // K
 struct Leaves {
   std::unique_ptr<Leaf> density, dilution, size, temperature, glow;
   double mass = 0.0; // kg, by the sum over active voxels
-  float brightest = 0.0F;
 };
 
 /// A leaf with the voxels of `mask` active and value(voxel) in them.
@@ -79,7 +78,6 @@ Leaves fill(const Puffs& puffs, std::span<const std::uint32_t> balls, const open
   if (!flames.power.empty()) {
     fields.light(flames);
     leaves.glow = make_leaf(origin, mask, [&](std::uint32_t i) { return fields.glow()[i]; });
-    leaves.brightest = *std::max_element(fields.glow().begin(), fields.glow().end());
   }
   return leaves;
 }
@@ -110,7 +108,6 @@ openvdb::FloatGrid::Ptr assemble(std::vector<Leaves>& all, std::unique_ptr<Leaf>
 openvdb::FloatGrid::Ptr flame_grid(const Flames& flames, double voxel_size) {
   openvdb::FloatGrid::Ptr grid = fog_grid("flame", voxel_size, {0.0, 0.0, 0.0}, "1");
   auto accessor = grid->getAccessor();
-  float largest = 0.0F;
   for (std::size_t i = 0; i < flames.power.size(); ++i) {
     const openvdb::Vec3d at(flames.position[3 * i] / voxel_size,
                             flames.position[3 * i + 1] / voxel_size,
@@ -120,14 +117,11 @@ openvdb::FloatGrid::Ptr flame_grid(const Flames& flames, double voxel_size) {
     for (auto voxel = openvdb::CoordBBox(low, high).begin(); voxel; ++voxel) {
       const double rest = 1.0 - ((*voxel).asVec3d() - at).length() / 1.5;
       if (rest > 0.0 && flames.power[i] > 0.0) {
-        const float value = accessor.getValue(*voxel) + static_cast<float>(rest * flames.power[i]);
-        accessor.setValue(*voxel, value);
-        largest = std::max(largest, value);
+        const float value =
+            accessor.getValue(*voxel) + static_cast<float>(rest * flames.power[i] / 1.0e9);
+        accessor.setValue(*voxel, std::min(value, 1.0F));
       }
     }
-  }
-  for (auto voxel = grid->beginValueOn(); voxel; ++voxel) {
-    voxel.setValue(*voxel / largest);
   }
   grid->setSaveFloatAsHalf(true);
   return grid;
@@ -159,10 +153,8 @@ VolumeFrame write_smoke(const std::string& path, const Puffs& puffs, double voxe
   std::erase_if(all, [](const Leaves& leaves) { return !leaves.density; });
 
   double mass = 0.0;
-  float brightest = 0.0F;
   for (const Leaves& leaves : all) {
     mass += leaves.mass;
-    brightest = std::max(brightest, leaves.brightest);
   }
   if (mass > 0.0) {
     scale(all, &Leaves::dilution, static_cast<float>(total / mass / kFreshSmoke));
@@ -173,9 +165,6 @@ VolumeFrame write_smoke(const std::string& path, const Puffs& puffs, double voxe
       assemble(all, &Leaves::size, "size", voxel_size, "km"),
       assemble(all, &Leaves::temperature, "temperature", voxel_size, "K")};
   if (!flames.power.empty()) {
-    if (brightest > 0.0F) {
-      scale(all, &Leaves::glow, 1.0F / brightest);
-    }
     grids.push_back(assemble(all, &Leaves::glow, "glow", voxel_size, "1"));
     grids.push_back(flame_grid(flames, voxel_size));
   }

@@ -25,8 +25,8 @@ struct Flames {
 ///   s = 1.5 R + 150 m, the whole scaled so that the grid holds the puffs' mass;
 /// - `size`: radius of the ball that the voxel lies in or next to, km, at most 1;
 /// - `temperature`: K, of the air at that height (ISA) plus what the smoke's own heat adds;
-/// - with flames, `glow`: sum of P exp(-r / 1100 m) / (r^2 + (250 m)^2) over its largest value, and
-///   `flame`: power of the flames within 1.5 voxels over its largest value.
+/// - with flames, `glow`: sum of P / 1e9 W exp(-r / 1100 m) / (1 + (r / 250 m)^2), so 1 amid flames
+///   of 1 GW, and `flame`: power of the flames within 1.5 voxels in GW, at most 1.
 VolumeFrame write_smoke(const std::string& path, const Puffs& puffs, double voxel_size,
                         const Flames& flames, const Metadata& metadata);
 

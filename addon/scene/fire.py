@@ -1,0 +1,150 @@
+"""Flames in the scene: one mesh of points whose geometry nodes stand cards on the front of the moment."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+import bpy
+import numpy as np
+from firetwin_core.run import Run
+
+from .. import nodes
+from ..project import Project
+from . import burning, clock, collections, flame_material, flames
+from .ground import Ground
+from .paths import Path, eyes, paths
+
+CARDS = 4
+_NAMES = {"length": "flame_length", "width": "flame_width"}
+
+
+def build(
+    project: Project, run: Run, ground: Ground | None = None, views: list[Path] | None = None
+) -> bpy.types.Object | None:
+    """Build "Firetwin Flames"; nothing where flames are off.
+
+    The points carry the attributes of `flames.Points` (`length` as `flame_length`, `width` as `flame_width`).
+    """
+    collection = collections.fresh("Fire")
+    if not project.fire.flames:
+        return None
+    if ground is None or views is None:
+        ground = Ground(project, run, eyes(paths(project, run), project.terrain.near_radius))
+        views = paths(project, run, ground)
+    if project.fire.emitters == "cells":
+        points = flames.cells(project, run, views)
+    else:
+        points = flames.front(project, run, ground, views)
+    thing = collections.add(collection, "Flames", _mesh(points))
+    modifier = thing.modifiers.new("Firetwin Flames", "NODES")
+    modifier.node_group = _node_group(project, run, _cards(flame_material.build(project, run)))
+    _light_only(thing)
+    return thing
+
+
+def _mesh(points: flames.Points) -> bpy.types.Mesh:
+    mesh = bpy.data.meshes.new("Firetwin Flames")
+    mesh.vertices.add(len(points.seed))
+    mesh.vertices.foreach_set("co", points.position.astype(np.float32).ravel())
+    for field in fields(points):
+        if field.name != "position":
+            values = getattr(points, field.name).astype(np.float32)
+            attribute = mesh.attributes.new(_NAMES.get(field.name, field.name), "FLOAT", "POINT")
+            attribute.data.foreach_set("value", values)
+    mesh.update()
+    return mesh
+
+
+def _light_only(thing: bpy.types.Object) -> None:
+    """Flames are seen, but cast no shadow and are not lit or looked up by other light paths."""
+    thing.visible_shadow = thing.visible_diffuse = thing.visible_volume_scatter = False
+
+
+def _cards(material: bpy.types.Material) -> bpy.types.Collection:
+    """Cards one metre high and wide on z = 0: flat, bowed either way and crossed; linked to no scene."""
+    name = "Firetwin Flame Cards"
+    old = bpy.data.collections.get(name)
+    if old is not None:
+        collections.remove(old)
+    collection = bpy.data.collections.new(name)
+    for index in range(CARDS):
+        mesh = bpy.data.meshes.new(f"Firetwin Flame Card {index}")
+        vertices, faces, cards = _card(index)
+        mesh.from_pydata(vertices, [], faces)
+        mesh.attributes.new("card", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", np.ravel(cards))
+        mesh.materials.append(material)
+        thing = collections.add(collection, f"Flame Card {index}", mesh)
+        _light_only(thing)
+    return collection
+
+
+def _card(index: int) -> tuple[list, list, list]:
+    """Vertices, faces and card coordinates of one card."""
+    sheets = [(0.0, 0.0)] if index == 0 else [(0.0, 0.25)] if index == 1 else [(0.0, -0.25)]
+    if index == 3:
+        sheets = [(-0.5, 0.0), (0.7, 0.1)]  # turned about the vertical, bow
+    vertices, faces, cards = [], [], []
+    steps = 4
+    for turn, bow in sheets:
+        start = len(vertices)
+        for i in range(steps + 1):
+            for j in range(steps + 1):
+                across, up = 2.0 * i / steps - 1.0, j / steps
+                x, y = 0.5 * across, bow * (across * across - 0.5) + 0.12 * bow * up
+                vertices.append(
+                    (x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn), up)
+                )
+                cards.append((across, up, 0.0))
+        row = steps + 1
+        faces += [
+            (a, a + row, a + row + 1, a + 1)
+            for a in (start + i * row + j for i in range(steps) for j in range(steps))
+        ]
+    return vertices, faces, cards
+
+
+def _node_group(project: Project, run: Run, cards: bpy.types.Collection) -> bpy.types.NodeTree:
+    """Points that are lit -> cards facing the camera, leaning downwind, growing and dying away."""
+    tree, entry = nodes.geometry("Firetwin Flames")
+
+    def named(name: str) -> nodes.Value:
+        return tree.output("GeometryNodeInputNamedAttribute", {"Name": name}, data_type="FLOAT")
+
+    age = clock.geometry_time(tree, project, run) - named("arrival_time")
+    part = age / named("residence")
+    outside = tree.math("ADD", age < 0.0, tree.math("SUBTRACT", 1.0, part < 1.0), clamp=True)
+    alive = tree.output("GeometryNodeDeleteGeometry", {"Geometry": entry, "Selection": outside > 0.5})
+    life = part.ramp(0.0, 0.2, 0.25, 1.0) * part.ramp(0.6, 1.0, 1.0, 0.2)
+    seed = named("seed")
+    camera = tree.output("GeometryNodeInputActiveCamera")
+    eye = tree.output("GeometryNodeObjectInfo", {"Object": camera}, "Location", transform_space="ORIGINAL")
+    east, north, _ = tree.separate(tree.vector("SUBTRACT", eye, tree.output("GeometryNodeInputPosition")))
+    yaw = tree.math("ARCTAN2", north, east) + (np.pi / 2.0) + (seed - 0.5) * 0.9
+    facing = tree.output("FunctionNodeEulerToRotation", {"Euler": tree.combine(0.0, 0.0, yaw)})
+    first, last = clock.window(project, run)
+    wind = burning.wind_at(run, np.array([0.5 * (first + last)]))[0]
+    axis = (-float(wind[1]), float(wind[0]), 0.0) if np.hypot(*wind) > 0.0 else (1.0, 0.0, 0.0)
+    lean = tree.output("FunctionNodeAxisAngleToRotation", {"Axis": axis, "Angle": named("tilt")})
+    turned = tree.output(
+        "FunctionNodeRotateRotation", {"Rotation": facing, "Rotate By": lean}, rotation_space="GLOBAL"
+    )
+    width = named("flame_width") * life
+    scale = tree.combine(width, width, named("flame_length") * life)
+    shapes = tree.output(
+        "GeometryNodeCollectionInfo",
+        {"Collection": cards, "Separate Children": True, "Reset Children": True},
+    )
+    shape = tree.math("FLOOR", tree.math("FRACT", seed * 977.0) * (CARDS - 0.001))
+    placed = tree.output(
+        "GeometryNodeInstanceOnPoints",
+        {
+            "Points": alive,
+            "Instance": shapes,
+            "Pick Instance": True,
+            "Instance Index": shape,
+            "Rotation": turned,
+            "Scale": scale,
+        },
+    )
+    tree.node("NodeGroupOutput", {"Geometry": placed})
+    return tree.node_tree

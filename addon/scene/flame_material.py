@@ -1,0 +1,51 @@
+"""Material of flames: tongues torn by noise on cards, deep orange, adding their light to what is behind."""
+
+from __future__ import annotations
+
+import bpy
+from firetwin_core.run import Run
+
+from .. import nodes
+from ..project import Project
+from . import clock, haze, light, sun
+
+_RIM, _BODY, _CORE = (1.0, 0.09, 0.008), (1.0, 0.26, 0.035), (1.0, 0.50, 0.16)
+_LIGHT = 20.0  # radiance at exposure 0
+_RISE = 9.0  # m/s at which the pattern rises
+
+
+def brightness(project: Project, run: Run) -> float:
+    """Radiance of flames: less in a longer exposure, as a photographer stops down, else nights burn out."""
+    first, last = clock.window(project, run)
+    return _LIGHT * 2.0 ** (-0.7 * light.State(project, *sun.at(run, 0.5 * (first + last))).exposure)
+
+
+def build(project: Project, run: Run) -> bpy.types.Material:
+    """Build "Firetwin Flame" for the cards of `fire`, whose attribute `card` runs over -1..1 and 0..1."""
+    material, tree = nodes.material("Firetwin Flame")
+    across, up, _ = tree.separate(tree.attribute("card", output="Vector"))
+    seed = tree.attribute("seed", "INSTANCER")
+    length = tree.attribute("flame_length", "INSTANCER")
+    time = nodes.model_time(tree)
+    rise = time * _RISE / tree.math("MAXIMUM", length, 4.0)
+    slow = tree.combine(across * 0.8 + seed * 917.0, up * 1.3 - rise * 0.7, seed * 211.0 + time * 0.11)
+    fast = tree.combine(across * 1.6 + seed * 431.0, up * 2.4 - rise, seed * 97.0 + time * 0.23)
+    sway = tree.noise(slow, 1.0, 1.0) - 0.5
+    tongue = tree.noise(fast, 1.0, 3.0, 0.6)
+    centre = across + sway * up * 1.5
+    narrow = (1.0 - up).power(0.65) * 0.95
+    body = 1.0 - tree.math("ABSOLUTE", centre) / tree.math("MAXIMUM", narrow, 0.02)
+    torn = body + (tongue - 0.5) * 2.6 - up.power(1.5) * 0.75
+    shape = torn.smoothstep(0.05, 0.75) * up.smoothstep(0.0, 0.06) * up.smoothstep(1.0, 0.85)
+    hot = (torn - up * 0.4).smoothstep(0.5, 1.5)
+    colour = tree.mix_colour(shape.smoothstep(0.15, 0.8), _RIM, _BODY)
+    colour = tree.mix_colour(hot, colour, _CORE)
+    strength = shape.power(1.3) * (0.35 + hot * 0.65) * brightness(project, run)
+    part, _air = haze.fraction(tree)
+    behind = 1.0 - shape * 0.5
+    clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(behind, behind, behind)})
+    shader = tree.add_shader(tree.emission(colour, strength * (1.0 - part)), clear)
+    shown = nodes.thermal_switch(tree, shader, tree.attribute("kelvin", "INSTANCER"))
+    tree.surface(tree.mix_shader(shape > 0.12, clear, shown))
+    material.cycles.emission_sampling = "NONE"
+    return material

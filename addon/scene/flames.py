@@ -1,0 +1,239 @@
+"""Where flames stand and how tall they are: points along the fire front, without Blender.
+
+The front is where the arrival time (fuel grid, bilinear between cells) equals the model time. A point flames
+for as long as the front takes to pass it, so at any moment the points in flames form a thin line.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from firetwin_core import flux, lod
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from ..project import Project
+from . import burning, clock
+from .frame import local_frame
+from .ground import Ground, bilinear
+from .paths import Path
+
+SIGHT = 12_000.0  # m; fronts farther than this are the ground's glowing edge alone
+_SPACING = ((2500.0, 8.0), (5000.0, 12.0), (SIGHT, 24.0))  # m from the camera -> m between points
+_LINE = 1.5  # points abreast: a point flames while the front moves on by this many spacings
+_RESIDENCE = (40.0, 900.0)  # s
+_SPREAD = (0.01, 5.0)  # m/s
+_SIZES = 0.45  # standard deviation of the logarithm of flame lengths
+_LENGTHS = (1.0, 75.0)  # m
+_KELVIN = (1000.0, 1500.0)  # flames (Frankman et al. 2008)
+_CELL_FLAME = 40.0  # m; flame of a cell's emitter at scale 100
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Points:
+    """Flames over the whole shot, n of them; one is lit while 0 <= t - arrival_time < residence.
+
+    Attributes
+    ----------
+    position
+        (n, 3) scene metres, on the ground.
+    arrival_time, residence
+        (n,) s.
+    intensity
+        (n,) fireline intensity, kW/m; in the mode "cells" the heat flux of the cell times its width.
+    length, width
+        (n,) flame length and width, m.
+    tilt
+        (n,) angle from the vertical, radians, downwind.
+    kelvin
+        (n,) flame temperature.
+    seed
+        (n,) 0..1.
+    """
+
+    position: Array
+    arrival_time: Array
+    residence: Array
+    intensity: Array
+    length: Array
+    width: Array
+    tilt: Array
+    kelvin: Array
+    seed: Array
+
+    def take(self, chosen: NDArray) -> Points:
+        """Some of the points."""
+        return Points(*(getattr(self, field.name)[chosen] for field in fields(self)))
+
+    def lit(self, time: float) -> NDArray[np.int64]:
+        """Indices of the flames that are lit at `time`."""
+        age = time - self.arrival_time
+        return np.flatnonzero((age >= 0.0) & (age < self.residence))
+
+
+def flame_length(intensity: Array, formula: str = "thomas") -> Array:
+    """Flame length (m) from fireline intensity (kW/m).
+
+    "thomas": 0.0266 I^(2/3) (Thomas 1963); "byram": 0.0775 I^0.46 (Byram 1959), too short for crown fire.
+    """
+    intensity = np.maximum(np.asarray(intensity, np.float64), 0.0)
+    return 0.0266 * intensity ** (2.0 / 3.0) if formula == "thomas" else 0.0775 * intensity**0.46
+
+
+def tilt(wind: float, length: Array) -> Array:
+    """Angle of flames from the vertical (radians): tan A = 1.22 U / sqrt(g L) (Albini 1981), 60 at most."""
+    return np.minimum(np.arctan(1.22 * wind / np.sqrt(9.81 * np.maximum(length, 0.1))), np.pi / 3.0)
+
+
+def kelvin(intensity: Array) -> Array:
+    """Flame temperature from 1000 K at 1 MW/m to 1500 K at 100 MW/m, by the logarithm (assumed)."""
+    place = np.log10(np.maximum(intensity, 1.0) / 1.0e3) / 2.0
+    return _KELVIN[0] + (_KELVIN[1] - _KELVIN[0]) * np.clip(place, 0.0, 1.0)
+
+
+def front(project: Project, run: Run, ground: Ground, views: list[Path]) -> Points:
+    """Flames along the front for every moment of the shot, at most `fire.budget` of them lit at once.
+
+    Fireline intensity is H w R (Byram 1959), with the cell's fuel w and the rate of spread R from the slope
+    of the arrival time.
+    """
+    first, last = clock.window(project, run)
+    near = [view for view in views if view.perspective]
+    row, column, spacing = _candidates(project, ground, near, first, last)
+    arrival = ground.arrival_at(row, column)
+    keep = (arrival <= last) & (arrival > first - _RESIDENCE[1])
+    row, column, spacing, arrival = row[keep], column[keep], spacing[keep], arrival[keep]
+    speed = _spread(ground, row, column)
+    residence = np.clip(_LINE * spacing / speed, *_RESIDENCE)
+    random = np.random.default_rng(project.seed).random((3, len(row)))
+    fuel = bilinear(ground.fields.canopy_fuel + ground.fields.surface_fuel, row, column)
+    lit = (arrival + residence > first) & (fuel > 0.05)
+    row, column, arrival, speed, residence, fuel, spacing = (
+        value[lit] for value in (row, column, arrival, speed, residence, fuel, spacing)
+    )
+    random = random[:, lit]
+    place = ground.point(*ground.places(row, column)) if len(row) else np.empty((0, 3))
+    distance = np.min([view.distance(place) for view in near], axis=0) if near else np.zeros(len(row))
+    intensity = burning.HEAT / 1000.0 * fuel * speed
+    uneven = np.exp(_SIZES * _normal(random[0], random[1]))
+    length = np.clip(flame_length(intensity, project.fire.flame_length) * uneven, *_LENGTHS)
+    thin = lod.Table().multiplier(distance) if len(distance) else np.ones(0)
+    wind = float(np.hypot(*burning.wind_at(run, np.array([0.5 * (first + last)]))[0]))
+    points = Points(
+        place,
+        arrival,
+        residence,
+        intensity,
+        length,
+        np.clip(0.45 * length, 0.6 * spacing, 1.6 * spacing) / np.sqrt(thin),
+        tilt(wind, length),
+        kelvin(intensity),
+        random[2],
+    )
+    kept = random[0] * 0.999 < thin
+    return _within_budget(points.take(np.flatnonzero(kept)), project, run, near)
+
+
+def cells(project: Project, run: Run, views: list[Path]) -> Points:
+    """Algorithm 1's emitters (`flux.emitters`) of every frame, each lit during its own frame alone.
+
+    An emitter is drawn as a flame of 40 m at scale 100 (assumed: the paper gives scales, no sizes).
+    """
+    frame = local_frame(run)
+    position = frame.forward_grid(run.latitude, run.longitude, np.nan_to_num(run.elevation))
+    low, high = run.flux_range()
+    step = clock.step(project, run) or 1.0
+    width = float(np.sqrt(burning.cell_area(run) * run.surface_fuel.size / run.elevation.size))
+    parts = []
+    for time in clock.frame_times(project, run):
+        found = flux.emitters(flux.at_time(run, float(time)), position, low, high)
+        count = len(found.cell)
+        length = found.scale / 100.0 * _CELL_FLAME
+        intensity = found.flux.astype(np.float64) * width / 1000.0
+        seed = (found.cell * 0.6180339887498949) % 1.0  # of the cell: the same in every frame
+        parts.append(
+            Points(
+                found.position,
+                np.full(count, time - 0.5 * step),
+                np.full(count, step),
+                intensity,
+                length,
+                length * 0.8,
+                np.zeros(count),
+                kelvin(intensity),
+                seed,
+            )
+        )
+    merged = Points(*(np.concatenate([getattr(p, field.name) for p in parts]) for field in fields(Points)))
+    return _within_budget(merged, project, run, views)
+
+
+def _candidates(
+    project: Project, ground: Ground, near: list[Path], first: float, last: float
+) -> tuple[Array, Array, Array]:
+    """Rows, columns and spacing (m) of jittered points in the cells that the front crosses in the shot."""
+    arrival = ground.arrival
+    cells_lit = np.argwhere((arrival >= first - _RESIDENCE[1] - 300.0) & (arrival <= last + 300.0))
+    empty = np.empty(0)
+    if len(cells_lit) == 0 or not near:
+        return empty, empty, empty
+    centre = ground.point(*ground.places(cells_lit[:, 0].astype(float), cells_lit[:, 1].astype(float)))
+    distance = np.min([view.distance(centre) for view in near], axis=0)
+    seen = np.any([view.sees(centre, margin=250.0) for view in near], axis=0)
+    random = np.random.default_rng(project.seed + 1)
+    parts = []
+    before = 0.0
+    for limit, spacing in _SPACING:
+        chosen = cells_lit[seen & (distance >= before) & (distance < limit)]
+        before = limit
+        count = max(round(max(ground.cell) / spacing), 1)
+        inside = (np.indices((count, count)).reshape(2, 1, -1) + random.random((2, len(chosen), 1))) / count
+        # One shift per cell and one per point: no rows of flames.
+        inside = inside + (random.random((2, len(chosen), count * count)) - 0.5) / count - 0.5
+        parts.append(
+            (
+                (chosen[:, :1] + inside[0]).ravel(),
+                (chosen[:, 1:] + inside[1]).ravel(),
+                np.full(len(chosen) * count * count, max(ground.cell) / count),
+            )
+        )
+    row, column, spacing = (np.concatenate([part[i] for part in parts]) for i in range(3))
+    rows, columns = ground.shape
+    return np.clip(row, 0.0, rows - 1.0), np.clip(column, 0.0, columns - 1.0), spacing
+
+
+def _spread(ground: Ground, row: Array, column: Array) -> Array:
+    """Rate of spread (m/s): the inverse of the arrival time's slope over one cell."""
+    slope = []
+    for axis, size in enumerate(ground.cell):
+        shift = (0.5, 0.0) if axis == 0 else (0.0, 0.5)
+        times = [
+            bilinear(np.minimum(ground.burn_time, 1.0e8), row + sign * shift[0], column + sign * shift[1])
+            for sign in (1.0, -1.0)
+        ]
+        slope.append((times[0] - times[1]) / size)
+    return np.clip(1.0 / np.maximum(np.hypot(*slope), 1.0e-6), *_SPREAD)
+
+
+def _normal(first: Array, second: Array) -> Array:
+    """Normal deviates from two uniform ones (Box and Muller 1958)."""
+    return np.sqrt(-2.0 * np.log1p(-first * 0.9999)) * np.cos(2.0 * np.pi * second)
+
+
+def _within_budget(points: Points, project: Project, run: Run, views: list[Path]) -> Points:
+    """Drop the farthest flames until no frame lights more than `fire.budget`."""
+    budget = max(project.fire.budget, 0)
+    keep = np.ones(len(points.arrival_time), bool)
+    for index, time in enumerate(clock.frame_times(project, run)):
+        lit = points.lit(float(time))
+        lit = lit[keep[lit]]
+        if len(lit) > budget:
+            eyes = np.array([view.position[index] for view in views]) if views else np.zeros((1, 3))
+            near = lod.select(points.position[lit], np.ascontiguousarray(eyes), budget)
+            drop = np.ones(len(lit), bool)
+            drop[near] = False
+            keep[lit[drop]] = False
+    return points.take(np.flatnonzero(keep))
