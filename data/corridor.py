@@ -1,7 +1,7 @@
 """The way of the fire's run of 17 September 2014: over the Georgetown Divide and up the Rubicon canyon.
 
-That run made its own wind, which neither the schedule of weather.py nor a spread model of the ground knows. Along
-this way the sample's wind is turned and quickened, and the simulated fire spreads faster.
+That run made its own wind, which neither the schedule of weather.py nor a spread model of the ground knows.
+Along this way the sample's wind is turned and quickened, and the simulated fire spreads faster.
 """
 
 import numpy as np

@@ -1,10 +1,10 @@
-"""Valleys in balance with their streams: every cell drains to a river, steeply near divides, gently in valleys.
+"""Valleys in balance with their streams: every cell drains to a river, steeply near divides.
 
-The stream-power law says that in balance a stream's slope is S = ks A^-theta, with A the area that drains through
-it (Flint 1974; Whipple & Tucker 1999, doi 10.1029/1999JB900120). Given S everywhere, the height of a cell is its
-river's height plus the integral of S along the way down, and the way down is the one that makes it lowest: a
-shortest-path problem. Heights give new ways, ways give new areas, areas give new slopes; a few rounds settle it
-(the idea of Tzathas et al. 2024, doi 10.1111/cgf.15033, solved here by Dijkstra's method).
+The stream-power law says that in balance a stream's slope is S = ks A^-theta, with A the area that drains
+through it (Flint 1974; Whipple & Tucker 1999, doi 10.1029/1999JB900120). Given S everywhere, the height of a
+cell is its river's height plus the integral of S along the way down, and the way down is the one that makes
+it lowest: a shortest-path problem. Heights give new ways, ways give new areas, areas give new slopes; a few
+rounds settle it (the idea of Tzathas et al. 2024, doi 10.1111/cgf.15033, solved here by Dijkstra's method).
 """
 
 from collections.abc import Callable
@@ -94,6 +94,8 @@ class Drainage:
         area = first_area
         height, parent = self.heights(slope_of(area, np.full(self.shape, np.inf)))
         for _ in range(rounds):
-            area = np.sqrt(area * self.area(parent))  # halfway in the logarithm: keeps streams from flickering
+            area = np.sqrt(
+                area * self.area(parent)
+            )  # halfway in the logarithm: keeps streams from flickering
             height, parent = self.heights(slope_of(area, height))
         return height, area

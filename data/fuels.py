@@ -1,7 +1,7 @@
-"""Surface and canopy fuel of the King Fire country, from height, aspect, moisture of the ground, and patchiness.
+"""Surface and canopy fuel of the King Fire country, from height, aspect, wetness and patchiness.
 
-Blue oak and grass on the low foothills, mixed conifer in the middle, red fir and granite high. Made up, but of the
-right kind and amount: as many cells carry canopy and surface fuel as in the published King Fire scene
+Blue oak and grass on the low foothills, mixed conifer in the middle, red fir and granite high. Made up, but
+of the right kind and amount: as many cells carry canopy and surface fuel as in the published King Fire scene
 (363,632 trees and 419,048 grass clumps on 518,400 cells).
 """
 

@@ -1,6 +1,7 @@
 """The sample's two grids: 144 x 144 model cells of 370 m and 720 x 720 fuel cells of 74 m over one square.
 
-Both have evenly spaced WGS84 latitudes (ascending) and longitudes; a cell is 370 m or 74 m wide at the centre.
+Both have evenly spaced WGS84 latitudes (ascending) and longitudes; a cell is 370 m or 74 m wide at the
+centre.
 """
 
 from math import cos, radians, sin, sqrt

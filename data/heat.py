@@ -1,9 +1,9 @@
 """Heat from burning fuel: how much, and when it comes out.
 
-A cell of size d is crossed by the front in d / R, R being its speed; each spot of it starts to burn as the front
-passes and its heat release decays exponentially (the form used by WRF-SFIRE for the weight of ground fuel, Mandel
-et al. 2011, doi 10.5194/gmd-4-591-2011). The share released since the front came in is known in closed form, so
-heat summed over output times is exact however short they are.
+A cell of size d is crossed by the front in d / R, R being its speed; each spot of it starts to burn as the
+front passes and its heat release decays exponentially (the form used by WRF-SFIRE for the weight of ground
+fuel, Mandel et al. 2011, doi 10.5194/gmd-4-591-2011). The share released since the front came in is known in
+closed form, so heat summed over output times is exact however short they are.
 """
 
 from dataclasses import dataclass
@@ -24,9 +24,10 @@ OVER = 14.0  # burn-out times after which what is left, e^-14, is not worth a lo
 
 @dataclass(frozen=True)
 class Burns:
-    """Burning cells as flat arrays (n,): cell on the model grid, heat (J), front's arrival and crossing, burn-out (s).
+    """Burning cells as flat arrays (n,).
 
-    A cell with crown fire appears twice, once for each kind of fuel.
+    `cell` is on the model grid, `heat` in J; the front's `arrival` and `crossing` and the `burn_out` in s. A
+    cell with crown fire appears twice, once for each kind of fuel.
     """
 
     cell: NDArray[np.int64]
@@ -40,7 +41,8 @@ class Burns:
         since = np.maximum(time - self.arrival[which], 0)
         crossing, burn_out = self.crossing[which], self.burn_out[which]
         lit = np.minimum(since, crossing)
-        # Mean over the spots lit at times 0..crossing after the arrival of 1 - exp(-(since - lit at) / burn_out).
+        # Mean over the spots lit at times 0..crossing after the arrival of 1 - exp(-(since - lit at) /
+        # burn_out).
         tail = np.exp(-(since - lit) / burn_out) - np.exp(-since / burn_out)
         return (lit - burn_out * tail) / crossing
 
@@ -61,10 +63,14 @@ def burns(sample: Sample) -> Burns:
         np.concatenate([surface, consumed[crowns]]) * joules,
         np.concatenate([arrival, arrival[crowns]]),
         np.concatenate([crossing, crossing[crowns]]),
-        np.concatenate([BURN_OUT_SURFACE[0] + BURN_OUT_SURFACE[1] * surface, np.full(crowns.sum(), BURN_OUT_CANOPY)]),
+        np.concatenate(
+            [BURN_OUT_SURFACE[0] + BURN_OUT_SURFACE[1] * surface, np.full(crowns.sum(), BURN_OUT_CANOPY)]
+        ),
     )
     order = np.argsort(parts.arrival, kind="stable")
-    return Burns(*(field[order] for field in (parts.cell, parts.heat, parts.arrival, parts.crossing, parts.burn_out)))
+    return Burns(
+        *(field[order] for field in (parts.cell, parts.heat, parts.arrival, parts.crossing, parts.burn_out))
+    )
 
 
 def crossing_time(arrival: NDArray) -> NDArray[np.float64]:

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 from numpy.lib.format import open_memmap
@@ -44,16 +45,16 @@ class TextWriter:
     Text is made by looking numbers up in a table of whole steps, many times faster than formatting each.
     """
 
-    # Steps of 1 W/m2, 0.01 K and 0.01 m/s: half a step is the error of the text.
-    STEPS = {"heat_flux": 1.0, "temperature": 0.01, "wind_east": 0.01, "wind_north": 0.01}
+    # Steps of 1 W/m2, 0.1 K and 0.1 m/s: half a step is the error of the text.
+    STEPS: ClassVar = {"heat_flux": 1.0, "temperature": 0.1, "wind_east": 0.1, "wind_north": 0.1}
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.tables: dict[float, dict[int, str]] = {step: {} for step in set(self.STEPS.values())}
+        self.tables = {step: _Numerals(step) for step in set(self.STEPS.values())}
 
     def field(self, name: str, values: NDArray) -> None:
-        """Write a field that does not change with time, digits enough for its type (float32 or float64)."""
-        digits = 10 if values.dtype == np.float64 else 7
+        """Write a field that does not change with time, digits enough to give its bits back."""
+        digits = 17 if values.dtype == np.float64 else 9
         rows = np.atleast_2d(values) if values.ndim == 2 else values[:, None]
         text = "\n".join(" ".join(f"{value:.{digits}g}" for value in row) for row in rows.tolist())
         (self.folder / f"{name}.txt").write_text(text + "\n", encoding="ascii")
@@ -73,10 +74,18 @@ class TextWriter:
         yield put
 
     def _text(self, values: NDArray, step: float) -> str:
-        table = self.tables[step]
-        whole = np.rint(values / step).astype(np.int64)
-        for number in np.unique(whole).tolist():
-            if number not in table:
-                table[number] = f"{number * step:.10g}"
-        look = table.__getitem__
-        return "\n".join(" ".join(map(look, row)) for row in whole.tolist()) + "\n"
+        look = self.tables[step].__getitem__
+        whole = np.rint(values / step).astype(np.int64).tolist()
+        return "\n".join(" ".join(map(look, row)) for row in whole) + "\n"
+
+
+class _Numerals(dict[int, str]):
+    """Whole number of steps -> its text, made when first asked for."""
+
+    def __init__(self, step: float) -> None:
+        super().__init__()
+        self.step = step
+
+    def __missing__(self, number: int) -> str:
+        self[number] = text = f"{number * self.step:.10g}"
+        return text

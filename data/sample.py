@@ -79,7 +79,8 @@ def write(
 def frames_of(sample: stored.Sample, minutes: NDArray[np.int64]) -> Iterator[tuple[NDArray, ...]]:
     """Yield heat flux, temperature, wind east and north (ny, nx) at each of the ascending `minutes`.
 
-    Heat flux is the mean over the minute that ends at the output time, so that over all minutes heat is conserved.
+    Heat flux is the mean over the minute that ends at the output time, so that over all minutes heat is
+    conserved.
     """
     elevation = block_mean(sample.elevation)
     released, inflow = heat.Released(heat.burns(sample)), air.Inflow()
@@ -141,10 +142,11 @@ def _run_toml(minutes: NDArray[np.int64]) -> str:
     else:
         times = f"times_s = [{', '.join(f'{minute * INTERVAL:.1f}' for minute in minutes)}]"
     return f"""\
-# Synthetic: no output of a fire-atmosphere model of this fire is public. Terrain is fitted to public spot heights
-# and river lines with invented relief between them; fuels and weather are invented; the fire was simulated with
-# pyretechnics and tuned so that burned areas follow the reported ones. Heat flux is the mean over the {INTERVAL:.0f} s
-# that end at each time. Temperature and wind come from scaling laws, not from a flow model.
+# Synthetic: no output of a fire-atmosphere model of this fire is public. Terrain is fitted to public spot
+# heights and river lines with invented relief between them; fuels and weather are invented; the fire was
+# simulated with pyretechnics and tuned so that burned areas follow the reported ones. Heat flux is the mean
+# over the {INTERVAL:.0f} s that end at each time. Temperature and wind come from scaling laws, not a flow
+# model.
 name = "{NAME}"
 synthetic = true
 event = "king_fire"

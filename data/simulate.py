@@ -1,11 +1,11 @@
 """Simulate the sample's fire with pyretechnics and store the result: `python -m firetwin.data.simulate`.
 
-Needs the optional extra "simulate". Rothermel surface spread, Cruz crown fire, spotting and a level set on the fuel
-grid, from the perimeter of 16 September 2014 21:45 PDT for 1,857 minutes. Terrain, fuels and weather are made up
-(terrain.py, fuels.py, weather.py). Spread rates are multiplied by factors per period so that burned areas follow
-the reported ones (data/king_fire.toml), and by a corridor that leads the run of 17 September up the Rubicon canyon;
-both stand in for what such a model lacks, chiefly the fire's own wind and the crews' work. `--tune` finds the
-factors again.
+Needs the optional extra "simulate". Rothermel surface spread, Cruz crown fire, spotting and a level set on
+the fuel grid, from the perimeter of 16 September 2014 21:45 PDT for 1,857 minutes. Terrain, fuels and weather
+are made up (terrain.py, fuels.py, weather.py). Spread rates are multiplied by factors per period so that
+burned areas follow the reported ones (data/king_fire.toml), and by a corridor that leads the run of 17
+September up the Rubicon canyon; both stand in for what such a model lacks, chiefly the fire's own wind and
+the crews' work. `--tune` finds the factors again.
 """
 
 import argparse
@@ -15,29 +15,31 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import fuels as fuels_module
 from . import history, spread, stored, terrain, valleys
-from .grid import FUEL_CELL_SIZE
 
 # Factors on spread rate that `--tune` found: (minutes after the start at which the period ends, factor).
-FACTORS = ((615, 1.3508), (915, 0.4824), (1275, 0.1891), (1335, 0.3317), (1857, 1.7889))
-ACRES_PER_CELL = FUEL_CELL_SIZE**2 / history.SQUARE_METRES_PER_ACRE
+FACTORS = ((615, 1.4834), (915, 0.3317), (1275, 0.1532), (1335, 0.3317), (1815, 1.7889), (1857, 0.4))
 
 
 def main() -> int:
     """Run the command line."""
-    parser = argparse.ArgumentParser(prog="python -m firetwin.data.simulate", description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(
+        prog="python -m firetwin.data.simulate", description=__doc__.split("\n")[0]
+    )
     parser.add_argument("--out", type=Path, default=stored.PATH, help="where the result goes")
-    parser.add_argument("--tune", action="store_true", help="search the factors on spread rate, then print them")
+    parser.add_argument(
+        "--tune", action="store_true", help="search the factors on spread rate, then print them"
+    )
     options = parser.parse_args()
 
     event = history.load()
     land = terrain.make(event)
     say(f"terrain: RMS misfit {terrain.rms(land.misfit):.1f} m at {len(land.misfit)} spot heights")
     fuel = fuels_module.make(event, land)
-    say(f"fuels: canopy on {np.mean(fuel.canopy > 0.01):.2%} of cells, surface fuel on {np.mean(fuel.surface > 0):.2%}")
+    canopy, surface = np.mean(fuel.canopy > 0.01), np.mean(fuel.surface > 0)
+    say(f"fuels: canopy on {canopy:.2%} of cells, surface fuel on {surface:.2%}")
     channel = valleys.channel(land.elevation)
     fire = spread.Fire(event, land, fuel, channel)
     targets = reported_acres(event)
@@ -46,15 +48,16 @@ def main() -> int:
     if options.tune:
         periods = [minute for minute, _ in FACTORS]
         wanted = [acres_at(minute, targets) for minute in periods]
-        factors = tuple(fire.tune(before, periods, [acres / ACRES_PER_CELL for acres in wanted], say))
+        factors = tuple(fire.tune(before, periods, [acres / stored.ACRES_PER_CELL for acres in wanted], say))
         say(f"FACTORS = {factors}")
     else:
         factors = FACTORS
     result = fire.run(before, factors)
     stored.save(options.out, land, fuel, channel, result)
     for minute, acres in targets.items():
-        burned = float((result.arrival <= minute * 60).sum() * ACRES_PER_CELL)
-        print(f"minute {minute:6.0f}: {burned:8.0f} acres, reported {acres:6.0f}, error {burned / acres - 1:+.1%}")
+        burned = float((result.arrival <= minute * 60).sum() * stored.ACRES_PER_CELL)
+        error = burned / acres - 1
+        print(f"minute {minute:6.0f}: {burned:8.0f} acres, reported {acres:6.0f}, error {error:+.1%}")
     print(f"{options.out}: {options.out.stat().st_size / 1e6:.2f} MB, sha256 {digest(options.out)}")
     return 0
 

@@ -1,7 +1,7 @@
 """Fire spread over the sample's terrain and fuels with pyretechnics."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ from .weather import Channel
 BAND = 30.0  # minutes for which the weather is taken as constant
 BANDS = 62  # 31 hours
 RUN_WIDTH = 650.0  # m, half width of the way of the run of 17 September
-LEAD = {615.0: 1.0, 915.0: 4.0, 1275.0: 12.0, 1335.0: 8.0}
+LEAD = {615.0: 1.5, 915.0: 8.0, 1275.0: 16.0, 1335.0: 12.0}
 SPOTTING = {
     "random_seed": 917,
     "firebrands_per_unit_heat": 2e-9,
@@ -32,8 +32,7 @@ SPOTTING = {
 }
 
 
-@dataclass(frozen=True)
-class Result:
+class Result(NamedTuple):
     """The fire on the fuel grid.
 
     Attributes
@@ -55,10 +54,19 @@ class Fire:
         self.event = event
         self.burnable = fuel.surface > 0
         self.corridor = corridor.nearness((FUEL_CELLS, FUEL_CELLS), RUN_WIDTH)
-        self.cubes = _fuel_cubes(fuel) | _weather_cubes(channel) | {"fuel_spread_adjustment": _cube(_defence())}
+        self.cubes = (
+            _fuel_cubes(fuel) | _weather_cubes(channel) | {"fuel_spread_adjustment": _cube(_defence())}
+        )
 
     def _simulate(
-        self, state: SpreadState, start: float, minutes: float, factor: float, spots: dict, seed: int, lead: float
+        self,
+        state: SpreadState,
+        start: float,
+        minutes: float,
+        factor: float,
+        spots: dict,
+        seed: int,
+        lead: float,
     ) -> dict:
         adjust = factor * (1 + lead * self.corridor)
         self.cubes["weather_spread_adjustment"] = _cube(adjust)
@@ -76,11 +84,11 @@ class Fire:
             **(first if fresh else {}),
         )
 
-    def grow_initial(self, acres: float) -> NDArray[np.float64]:
-        """Arrival times (fy, fx) in seconds, <= 0, of a perimeter of `acres` grown from the ignition point.
+    def grow_initial(self, acres: float) -> Result:
+        """A fire of `acres` grown from the ignition point, all its arrival times negative.
 
-        The shape is simulated in the first night's light wind; times are then stretched so that the area follows the
-        reports since the ignition.
+        The shape is simulated in the first night's light wind; times are then stretched so that the area
+        follows the reports since the ignition.
         """
         state = SpreadState((BANDS, FUEL_CELLS, FUEL_CELLS))
         origin = self.event.ignitions[0]
@@ -97,36 +105,42 @@ class Fire:
             if np.isfinite(order).sum() >= cells:
                 break
             if start > 29 * 60:
-                raise RuntimeError(f"only {np.isfinite(order).sum()} of {cells} cells burned in the initial fire")
+                raise RuntimeError(
+                    f"only {np.isfinite(order).sum()} of {cells} cells burned in the initial fire"
+                )
         flat = order.ravel()
         rank = np.argsort(np.where(np.isfinite(flat), flat, np.inf), kind="stable")[:cells]
-        since = [(self.event.ignitions[0].time, 0.0)] + [(time, area) for time, area, _ in self.event.acreages]
+        since = [(origin.time, 0.0)] + [(time, area) for time, area, _ in self.event.acreages]
         seconds = [(time - stored.START).total_seconds() for time, _ in since]
         areas = [area / stored.ACRES_PER_CELL for _, area in since]
         arrival = np.full(flat.size, np.nan)
         arrival[rank] = np.minimum(np.interp(np.arange(1, cells + 1), areas, seconds), -1.0)
-        return arrival.reshape(order.shape)
+        return _result(state, arrival.reshape(order.shape))
 
-    def _begin(self, before: NDArray) -> SpreadState:
+    def _begin(self, before: Result) -> SpreadState:
         state = SpreadState((BANDS, FUEL_CELLS, FUEL_CELLS))
-        state.ignite_cells((0, 0), np.where(np.isfinite(before), -1.0, 1.0).astype(np.float32))
+        state.ignite_cells((0, 0), np.where(np.isfinite(before.arrival), -1.0, 1.0).astype(np.float32))
         return state
 
     def tune(
-        self, before: NDArray, periods: Sequence[float], cells: Sequence[float], say: Callable[[str], None]
+        self, before: Result, periods: Sequence[float], cells: Sequence[float], say: Callable[[str], None]
     ) -> list[tuple[float, float]]:
         """Factor per period so that `cells` cells have burned at its end, by bisection on its logarithm."""
         state, start, spots, factors = self._begin(before), 0.0, {}, []
         for number, (end, wanted) in enumerate(zip(periods, cells, strict=True)):
             low, high, best = np.log(0.02), np.log(8.0), None
-            for _ in range(7):
+            for _ in range(12):
                 factor = float(np.round(np.exp((low + high) / 2), 4))
-                trial = self._simulate(state.copy(), start, end - start, factor, _copy(spots), number, lead_at(end))
+                trial = self._simulate(
+                    state.copy(), start, end - start, factor, _copy(spots), number, lead_at(end)
+                )
                 burned = _burned(trial["spread_state"])
                 say(f"until minute {end}: factor {factor} burns {burned} of {wanted:.0f} cells")
                 if best is None or abs(burned - wanted) < abs(best[0] - wanted):
                     best = burned, factor, trial
                 low, high = (low, np.log(factor)) if burned > wanted else (np.log(factor), high)
+                if high - low < 0.04:  # spotting is random, so area is not quite monotone: look around again
+                    low, high = low - 0.15, high + 0.12
                 if abs(burned / wanted - 1) < 0.01:
                     break
             _, factor, done = best
@@ -134,22 +148,29 @@ class Fire:
             state, spots, start = done["spread_state"], done["spot_ignitions"], end
         return factors
 
-    def run(self, before: NDArray, factors: Sequence[tuple[float, float]]) -> Result:
-        """The fire from the perimeter `before` (negative arrival times) to the end of the last period."""
+    def run(self, before: Result, factors: Sequence[tuple[float, float]]) -> Result:
+        """The fire `before` and its spread to the end of the last period."""
         state, start, spots = self._begin(before), 0.0, {}
         for number, (end, factor) in enumerate(factors):
             done = self._simulate(state, start, end - start, factor, spots, number, lead_at(end))
             state, spots, start = done["spread_state"], done["spot_ignitions"], end
-        matrices = {name: np.array(field) for name, field in state.get_full_matrices().items()}
-        inside = np.isfinite(before)
-        arrival = np.where(inside, before, matrices["time_of_arrival"].astype(float) * 60)
-        intensity = np.where(np.isfinite(arrival), matrices["fireline_intensity"], 0).astype(np.float32)
-        crown = np.clip(matrices["fire_type"].astype(int) - 1, 0, 2).astype(np.uint8)
-        return Result(arrival, intensity, crown)
+        minutes = np.array(state.get_full_matrices(["time_of_arrival"])["time_of_arrival"], dtype=float)
+        after = _result(state, minutes * 60)
+        inside = np.isfinite(before.arrival)
+        return Result(*(np.where(inside, old, new) for old, new in zip(before, after, strict=True)))
+
+
+def _result(state: SpreadState, arrival: NDArray) -> Result:
+    """What the state says of the cells that have a time of arrival."""
+    matrices = state.get_full_matrices(["fireline_intensity", "fire_type"])
+    burned = np.isfinite(arrival)
+    intensity = np.where(burned, matrices["fireline_intensity"], 0).astype(np.float32)
+    crown = np.where(burned, np.clip(matrices["fire_type"].astype(int) - 1, 0, 2), 0).astype(np.uint8)
+    return Result(arrival, intensity, crown)
 
 
 def lead_at(end: float) -> float:
-    """How much faster fire goes along the corridor in the period that ends at minute `end`: the 17 September run."""
+    """How much faster fire goes along the corridor in the period that ends at minute `end`."""
     return LEAD.get(end, 0.0)
 
 

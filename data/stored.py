@@ -1,7 +1,8 @@
 """The sample's compact store, `sample.npz`: everything that expanding the run needs, in a few megabytes.
 
-Heights are whole decimetres, fuel loads whole grams per square metre, arrival times whole seconds after the start
-(NEVER: never burned), intensities whole tens of kW/m. All of it is synthetic; `note` in the file says so.
+Heights are whole decimetres, fuel loads whole grams per square metre, arrival times whole seconds after the
+start (NEVER: never burned), intensities whole tens of kW/m. All of it is synthetic; `note` in the file says
+so.
 """
 
 from __future__ import annotations
@@ -28,8 +29,8 @@ MINUTES = 1857  # to 18 September 04:42 PDT: 1,858 output times
 NEVER = np.iinfo(np.int32).max
 ACRES_PER_CELL = FUEL_CELL_SIZE**2 / SQUARE_METRES_PER_ACRE
 NOTE = (
-    "Synthetic. Terrain fitted to public spot heights and river lines of the King Fire country, invented fuels and "
-    "weather, fire spread by pyretechnics 2026.10.20 tuned to the reported acreages. Made by "
+    "Synthetic. Terrain fitted to public spot heights and river lines of the King Fire country, invented "
+    "fuels and weather, fire spread by pyretechnics 2026.10.20 tuned to the reported acreages. Made by "
     "`python -m firetwin.data.simulate`; not CAWFE output and not a record of the fire."
 )
 
@@ -65,7 +66,9 @@ def save(path: Path, land: Terrain, fuel: Fuels, channel: Channel, fire: Result)
         water=land.water,
         surface=np.rint(fuel.surface * 1000).astype(np.uint16),
         canopy=np.rint(fuel.canopy * 1000).astype(np.uint16),
-        arrival=np.where(np.isfinite(fire.arrival), np.rint(np.nan_to_num(fire.arrival)), NEVER).astype(np.int32),
+        arrival=np.where(np.isfinite(fire.arrival), np.rint(np.nan_to_num(fire.arrival)), NEVER).astype(
+            np.int32
+        ),
         intensity=np.rint(np.minimum(fire.intensity, 655000) / 10).astype(np.uint16),
         crown=fire.crown,
         channel=np.array(channel, dtype=np.float16),

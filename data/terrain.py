@@ -1,8 +1,8 @@
 """Terrain of the King Fire country: public spot heights and river lines, with natural relief between them.
 
-Rivers and lakes have their given heights. Between them the land rises as streams would have cut it (drainage.py),
-up to an old, gently rolling upland surface through the spot heights: the west slope of the Sierra Nevada.
-A last smooth correction, none at rivers and lakes, brings the spot heights home.
+Rivers and lakes have their given heights. Between them the land rises as streams would have cut it
+(drainage.py), up to an old, gently rolling upland surface through the spot heights: the west slope of the
+Sierra Nevada. A last smooth correction, none at rivers and lakes, brings the spot heights home.
 """
 
 from dataclasses import dataclass
@@ -17,11 +17,13 @@ from .grid import FUEL_CELL_SIZE, FUEL_CELLS, cell_of, local
 from .history import Event, Place
 from .noise import fractal, smooth
 
-MARGIN = 80  # fuel cells around the domain, so that valleys do not end at its edge and Pyramid Peak is on the map
+MARGIN = (
+    80  # fuel cells around the domain, so that valleys do not end at its edge and Pyramid Peak is on the map
+)
 CELLS = FUEL_CELLS + 2 * MARGIN
 STEEPNESS = 120.0  # ks, so that a stream with 1 km2 above it falls by 0.24
 CONCAVITY = 0.45  # theta, the usual value (Whipple & Tucker 1999)
-STEEPEST = 0.68  # canyon walls, 34 degrees
+STEEPEST = 0.65  # canyon walls, 33 degrees
 BEND = 200.0  # m, standard deviation of the bends given to sketched rivers
 UPLAND_DEPTH = 260.0  # m below the upland surface over which slopes ease
 DRY = ("town", "summit", "ridge")  # kinds of places on the upland
@@ -86,10 +88,6 @@ def _at(field: NDArray, place: Place) -> float:
     return field[row, column]
 
 
-def _on_map(row: NDArray, column: NDArray) -> NDArray[np.bool_]:
-    return (row >= 0) & (row < CELLS) & (column >= 0) & (column < CELLS)
-
-
 def _river_cells(event: Event, seed: int) -> dict[str, tuple[NDArray, NDArray, NDArray]]:
     """Name -> row, column, height of the river's cells, mouth to head, on the map with its margin.
 
@@ -97,26 +95,66 @@ def _river_cells(event: Event, seed: int) -> dict[str, tuple[NDArray, NDArray, N
     heights between the given points follow a monotone cubic (Fritsch & Carlson 1980).
     """
     bend = _bends(event.places, seed)
+    taken: dict[tuple[int, int], float] = {}
     result: dict[str, tuple[NDArray, NDArray, NDArray]] = {}
     for name, points in event.rivers.items():
         latitude, longitude, height = np.array(points).T
         row, column = (array.astype(float) for array in _cells(latitude, longitude))
         along = np.concatenate([[0], np.cumsum(np.hypot(np.diff(row), np.diff(column)))])
         fine = np.arange(0, along[-1], 0.25)
-        row, column = np.interp(fine, along, row), np.interp(fine, along, column)
-        row, column = _bent(row, column, bend)
-        height = PchipInterpolator(along, height)(fine)
-        row, column, height = _join(row, column, height, result)
-        keep = _on_map(row, column)
-        row, column, height = row[keep], column[keep], height[keep]
-        moved = np.concatenate([[True], (np.diff(row) != 0) | (np.diff(column) != 0)])
-        result[name] = row[moved], column[moved], height[moved]
+        row, column = _bent(np.interp(fine, along, row), np.interp(fine, along, column), bend)
+        path = list(zip(row.tolist(), column.tolist(), PchipInterpolator(along, height)(fine), strict=True))
+        path = [step for step in path if 0 <= step[0] < CELLS and 0 <= step[1] < CELLS]
+        path = _without_loops(_joined(path, taken))
+        row, column, height = (np.array(part) for part in zip(*path, strict=True))
+        result[name] = row, column, np.maximum.accumulate(height)
+        taken |= {(r, c): h for r, c, h in zip(*(part.tolist() for part in result[name]), strict=True)}
     return result
 
 
+def _without_loops(path: list[tuple[int, int, float]]) -> list[tuple[int, int, float]]:
+    """The path with every detour that comes back to a cell cut out."""
+    result: list[tuple[int, int, float]] = []
+    place: dict[tuple[int, int], int] = {}
+    for step in path:
+        cell = step[:2]
+        if cell in place:
+            for gone in result[place[cell] + 1 :]:
+                del place[gone[:2]]
+            del result[place[cell] + 1 :]
+        else:
+            place[cell] = len(result)
+            result.append(step)
+    return result
+
+
+def _joined(path: list[tuple[int, int, float]], taken: dict) -> list[tuple[int, int, float]]:
+    """The path from where it last touches earlier rivers, or led to the nearest of them within 2 km."""
+    for i in range(len(path) - 1, -1, -1):
+        if path[i][:2] in taken:
+            level = taken[path[i][:2]]
+            return [(*path[i][:2], level)] + [(r, c, max(h, level)) for r, c, h in path[i + 1 :]]
+    if not taken:
+        return path
+    cells = np.array(list(taken))
+    away = cells - path[0][:2]
+    nearest = int(np.argmin((away**2).sum(axis=1)))
+    distance = float(np.hypot(*away[nearest]))
+    if distance * FUEL_CELL_SIZE > 2000:
+        return path
+    level = taken[tuple(cells[nearest].tolist())]
+    rise = max(path[0][2] - level, 0)
+    steps = int(2 * distance) + 1
+    bridge = [
+        (*np.rint(cells[nearest] - part * away[nearest]).astype(int).tolist(), level + part * rise)
+        for part in np.linspace(0, 1, steps, endpoint=False)
+    ]
+    return bridge + [(r, c, max(h, level)) for r, c, h in path]
+
+
 def _bends(places: list[Place], seed: int) -> list[NDArray]:
-    """How far rivers and lakes are moved north and east to wind (m); not at all at the spot heights on them."""
-    bend = [BEND * fractal((CELLS, CELLS), seed + 10 + axis, 55, 6, 1.2) for axis in (0, 1)]
+    """How far rivers and lakes are moved north and east to wind (m), none at the spot heights on them."""
+    bend = [BEND * fractal((CELLS, CELLS), seed + 10 + axis, 55, 12, 1.2) for axis in (0, 1)]
     row, column = np.indices((CELLS, CELLS))
     for place in places:
         if place.kind in ("lake", "valley"):
@@ -134,31 +172,13 @@ def _bent(row: NDArray, column: NDArray, bend: list[NDArray]) -> tuple[NDArray, 
     return np.rint(row).astype(int), np.rint(column).astype(int)
 
 
-def _join(row: NDArray, column: NDArray, height: NDArray, earlier: dict) -> tuple[NDArray, NDArray, NDArray]:
-    """Lead the mouth to the nearest cell of the earlier rivers where that is within 2 km."""
-    if not earlier:
-        return row, column, height
-    rows, columns, heights = (np.concatenate([line[i] for line in earlier.values()]) for i in range(3))
-    distance = np.hypot(rows - row[0], columns - column[0])
-    nearest = int(np.argmin(distance))
-    if distance[nearest] * FUEL_CELL_SIZE > 2000:
-        return row, column, height
-    steps = int(np.ceil(distance[nearest] * 2)) + 1
-    lead = np.linspace(0, 1, steps, endpoint=False)
-    bridge_row = np.rint(rows[nearest] + lead * (row[0] - rows[nearest])).astype(int)
-    bridge_column = np.rint(columns[nearest] + lead * (column[0] - columns[nearest])).astype(int)
-    level = heights[nearest]
-    bridge = level + lead * max(height[0] - level, 0)
-    height = np.maximum.accumulate(np.concatenate([bridge, np.maximum(height, level)]))
-    return np.concatenate([bridge_row, row]), np.concatenate([bridge_column, column]), height
-
-
-def _fixed_heights(event: Event, rivers: dict, bend: list[NDArray]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+def _fixed_heights(
+    event: Event, rivers: dict, bend: list[NDArray]
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Heights of river and lake cells (NaN elsewhere), and where the lakes are."""
     fixed = np.full((CELLS, CELLS), np.nan)
     for row, column, height in rivers.values():
-        lower = np.fmin(fixed[row, column], height)
-        fixed[row, column] = lower
+        fixed[row, column] = np.fmin(fixed[row, column], height)
     water = np.zeros(fixed.shape, dtype=bool)
     wobble = 0.22 * fractal(fixed.shape, 77, 20, 3, 1.5)
     for lake in event.reservoirs.values():
@@ -166,11 +186,13 @@ def _fixed_heights(event: Event, rivers: dict, bend: list[NDArray]) -> tuple[NDA
         near &= ~(fixed < lake.height - 1)  # the river below the dam
         fixed[near] = lake.height
         water |= near
+    for row, column, _ in rivers.values():  # from head to mouth no cell lies above the one before
+        fixed[row, column] = np.minimum.accumulate(fixed[row, column][::-1])[::-1]
     return fixed, water
 
 
 def _near_line(line: list[tuple[float, float]], bend: list[NDArray]) -> NDArray[np.float64]:
-    """Distance in metres of every cell from a line [(latitude, longitude), ...] that winds like the rivers."""
+    """Distance (m) of every cell from a line [(latitude, longitude), ...] that winds like the rivers."""
     centre = (np.arange(CELLS) - (CELLS - 1) / 2) * FUEL_CELL_SIZE
     x, y = np.meshgrid(centre, centre)
     x, y = x - bend[1], y - bend[0]
@@ -194,7 +216,9 @@ def _spread(points: NDArray, values: NDArray, **options: object) -> NDArray[np.f
     step = 8
     coarse = (np.arange(0, CELLS + step, step) - (CELLS - 1) / 2) * FUEL_CELL_SIZE / 1000
     x, y = np.meshgrid(coarse, coarse)
-    field = RBFInterpolator(points, values, **options)(np.column_stack([x.ravel(), y.ravel()])).reshape(x.shape)
+    field = RBFInterpolator(points, values, **options)(np.column_stack([x.ravel(), y.ravel()])).reshape(
+        x.shape
+    )
     at = np.arange(CELLS) / step
     low = np.floor(at).astype(int)
     part = at - low
@@ -219,7 +243,7 @@ def _weather(height: NDArray, fixed: NDArray, upland: NDArray, seed: int) -> NDA
     height = np.minimum(height, upland + ease) - ease * np.log1p(np.exp(over)) * 0.6
     creep = smooth(height, 0.9)
     high = np.clip((creep - 1500) / 900, 0, 1)
-    rough = fractal(height.shape, seed + 4, 24, 2, 1.3) * (5 + 22 * high)
+    rough = fractal(height.shape, seed + 4, 30, 3, 1.5) * (4 + 16 * high)
     away = np.clip(distance_transform_edt(np.isnan(fixed)) / 6, 0, 1)
     height = creep + rough * away
     return np.where(np.isfinite(fixed), fixed, np.maximum(height, _nearest(fixed)))

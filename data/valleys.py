@@ -14,7 +14,7 @@ DEPTH = 350.0  # m below the surroundings where a valley fully steers the wind
 
 
 def channel(elevation: NDArray) -> Channel:
-    """Valley axes from the structure tensor of the smoothed terrain (Kass & Witkin 1987), fuel grid -> model grid.
+    """Valley axes on the model grid, from the structure tensor of smoothed terrain (Kass & Witkin 1987).
 
     Parameters
     ----------

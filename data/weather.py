@@ -1,6 +1,7 @@
-"""Weather of the sample run: a made-up schedule of a dry late-summer day with south-west wind, and what canyons do to it.
+"""Weather of the sample run: a made-up dry day of south-west wind, and what canyons do to it.
 
-Times are seconds since the run's start, 16 September 2014 21:45 PDT. NumPy only: the expansion of the sample uses it.
+Times are seconds since the run's start, 16 September 2014 21:45 PDT. NumPy only: the expansion of the sample
+uses it.
 """
 
 from typing import NamedTuple
@@ -8,8 +9,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-# Hours since the start, 10 m wind speed (m/s) and the direction it blows from (degrees), air temperature at 1200 m
-# (degrees C), relative humidity (%). 17 September 13:00 PDT is hour 15.25; its afternoon was hot, dry and windy.
+# Hours since the start, 10 m wind speed (m/s) and the direction it blows from (degrees), air temperature at
+# 1200 m (degrees C), relative humidity (%). 17 September 13:00 PDT is hour 15.25; its afternoon was hot, dry
+# and windy.
 _SCHEDULE = np.array(
     [
         [0.0, 2.4, 235, 20.0, 34],
@@ -35,8 +37,8 @@ LAPSE_RATE = 0.0065  # K/m, the standard atmosphere's
 class Channel(NamedTuple):
     """What the land does to the wind, on the model grid (ny, nx).
 
-    `east`, `north`: unit vector along the valley. `along`: 0 in the open to 1 in a canyon that turns the wind.
-    `exposure`: factor on speed, above 1 on ridges and below in sheltered places.
+    `east`, `north`: unit vector along the valley. `along`: 0 in the open to 1 in a canyon that turns the
+    wind. `exposure`: factor on speed, above 1 on ridges and below in sheltered places.
     """
 
     east: NDArray[np.float64]
@@ -63,7 +65,8 @@ def temperature(time: ArrayLike, elevation: ArrayLike) -> NDArray[np.float64]:
 def dead_fuel_moisture(time: ArrayLike) -> NDArray[np.float64]:
     """Moisture of fine dead fuel, kg water per kg dry fuel: the equilibrium moisture content.
 
-    Simard (1968), The moisture content of forest fuels I, Canada FF-X-14, for T in degrees F and H in percent.
+    Simard (1968), The moisture content of forest fuels I, Canada FF-X-14, for T in degrees F and H in
+    percent.
     """
     fahrenheit, humidity = _at(time, 3) * 1.8 + 32, _at(time, 4)
     middle = 2.22749 + 0.160107 * humidity - 0.01478 * fahrenheit
