@@ -16,9 +16,9 @@ from .stored import Sample
 
 HEAT_OF_COMBUSTION = 17.433e6  # J/kg, as in WRF-SFIRE
 CANOPY_SHARE = np.array([0.0, 0.5, 0.95])  # of canopy fuel consumed by surface, passive and active crown fire
-BURN_OUT_SURFACE = (90.0, 210.0)  # s: grass, and what each kg/m2 adds (timber litter and wood burn for long)
-BURN_OUT_CANOPY = 45.0  # s
-CROSSING = (20.0, 3600.0)  # s, limits on the time that the front takes to cross a cell
+BURN_OUT_SURFACE = (120.0, 300.0)  # s: grass, and what each kg/m2 adds (timber litter and wood burn for long)
+BURN_OUT_CANOPY = 90.0  # s
+CROSSING = (60.0, 3600.0)  # s, limits on the time that the front takes to cross a cell
 OVER = 14.0  # burn-out times after which what is left, e^-14, is not worth a look
 
 
