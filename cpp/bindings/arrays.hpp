@@ -38,7 +38,7 @@ template <class T> Array<T> to_array(const pybind11::handle& object, const std::
   if (kind != 'f' && kind != 'i' && kind != 'u' && kind != 'b') {
     wrong(name, "must hold real numbers, not " + py::str(any.dtype()).cast<std::string>());
   }
-  return py::array_t<T, py::array::c_style | py::array::forcecast>(any);
+  return py::array_t < T, py::array::c_style | py::array::forcecast > (any);
 }
 
 /// The same with a required shape; -1 leaves a length open.

@@ -27,7 +27,7 @@ File::File(std::filesystem::path path) : path_(std::move(path)) {
     fail(path_, errno == ENOENT ? "the file is missing; check the folder and the name"
                                 : std::string("cannot be opened: ") + std::strerror(errno));
   }
-  struct stat status {};
+  struct stat status{};
   if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
     ::close(descriptor_);
     fail(path_, "is not a regular file; put the data itself there");

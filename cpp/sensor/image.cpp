@@ -19,6 +19,7 @@ namespace {
 
 constexpr int largest_megabytes = 1024;
 constexpr int most_channels = 64;
+constexpr OIIO::imagesize_t most_values = 256'000'000; // 1 GB of floats
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
   throw InputError(path.string(), 0, 0, reason);
@@ -104,6 +105,19 @@ void check_size(const std::filesystem::path& path, std::size_t height, std::size
   }
 }
 
+/// What a header claims, before memory is given to it (OpenImageIO 2.4 checks only some formats).
+void check_spec(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
+  if (spec.deep || spec.depth > 1) {
+    fail(path, "is a deep or volume image; write it flat");
+  }
+  if (spec.nchannels < 1 || spec.nchannels > most_channels ||
+      spec.image_pixels() > most_values / static_cast<unsigned>(spec.nchannels)) {
+    fail(path, "has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                   " pixels of " + std::to_string(spec.nchannels) +
+                   " channels; the limit is 256 million values and 64 channels");
+  }
+}
+
 } // namespace
 
 Image read_image(const std::filesystem::path& path) {
@@ -113,9 +127,7 @@ Image read_image(const std::filesystem::path& path) {
   if (!input || !input->open(path.string(), spec)) {
     fail(path, "cannot be read: " + (input ? input->geterror() : OIIO::geterror()));
   }
-  if (spec.deep || spec.depth > 1) {
-    fail(path, "is a deep or volume image; write it flat");
-  }
+  check_spec(path, spec);
   Image image{static_cast<std::size_t>(spec.height),
               static_cast<std::size_t>(spec.width),
               static_cast<std::size_t>(spec.nchannels),

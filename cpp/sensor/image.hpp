@@ -17,7 +17,7 @@ struct Image {
 };
 
 /// Reads a PNG, OpenEXR, TIFF or JPEG file, told apart by content; no other reader of OpenImageIO
-/// is ever started. At most 1 GB and 64 channels. @throws InputError
+/// is ever started. At most 256 million values (1 GB) and 64 channels. @throws InputError
 Image read_image(const std::filesystem::path& path);
 
 /// Writes .png (8 bit, values clamped to 0..1) or .exr (32-bit float, ZIP) to a temporary file

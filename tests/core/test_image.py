@@ -1,0 +1,114 @@
+"""Image files: round trips, OpenImageIO's own tool as a second reader, and what is refused."""
+
+import shutil
+import subprocess
+import zlib
+
+import firetwin_core as core
+import numpy as np
+import pytest
+from firetwin_core.sensor import read_image, write_image
+
+needs_oiiotool = pytest.mark.skipif(not shutil.which("oiiotool"), reason="needs openimageio-tools")
+
+
+@pytest.fixture(params=[(5, 7), (5, 7, 1), (5, 7, 3), (5, 7, 4)], ids=str)
+def pixels(request):
+    values = np.random.default_rng(11).random(request.param, np.float32)
+    if values.ndim == 3 and values.shape[2] == 4:
+        values[..., 3] = 1
+    return values
+
+
+def test_exr_gives_every_float_back(tmp_path, pixels):
+    pixels = pixels * np.float32(1e5)
+    pixels[0, 0] = -1.5
+    pixels[1, 1] = np.inf
+    write_image(tmp_path / "a.exr", pixels)
+    np.testing.assert_array_equal(read_image(tmp_path / "a.exr").squeeze(), pixels.squeeze())
+
+
+def test_png_is_within_half_a_level(tmp_path, pixels):
+    write_image(tmp_path / "a.png", pixels)
+    result = read_image(tmp_path / "a.png").reshape(pixels.shape)
+    assert np.abs(result - pixels).max() <= 0.5 / 255 * 1.0001
+    np.testing.assert_array_equal(np.round(result * 255), np.round(pixels.astype(float) * 255))
+
+
+def test_png_clamps(tmp_path):
+    write_image(tmp_path / "a.png", [[-1.0, 0.0, 1.0, 7.0]])
+    assert read_image(tmp_path / "a.png").ravel().tolist() == [0, 0, 1, 1]
+
+
+@needs_oiiotool
+@pytest.mark.parametrize("name", ["a.exr", "a.png"])
+def test_oiiotool_reads_the_same(tmp_path, name):
+    write_image(tmp_path / name, np.full((4, 6, 3), 0.25), {"Firetwin": "model time 60 s"})
+    command = ["oiiotool", "--info", "-v", "--stats", str(tmp_path / name)]
+    text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    assert "6 x    4, 3 channel" in text
+    if name.endswith("exr"):
+        assert "float openexr" in text
+        assert '"zip"' in text
+        assert 'Firetwin: "model time 60 s"' in text
+        assert "Stats Avg: 0.250000 0.250000 0.250000" in text
+
+
+@needs_oiiotool
+@pytest.mark.parametrize("name", ["b.tif", "b.jpg", "b.png", "b.exr"])
+def test_reads_what_oiiotool_writes(tmp_path, name):
+    write_image(tmp_path / "a.png", np.full((4, 6, 3), 0.5))
+    subprocess.run(["oiiotool", str(tmp_path / "a.png"), "-o", str(tmp_path / name)], check=True)
+    result = read_image(tmp_path / name)
+    assert result.shape == (4, 6, 3)
+    np.testing.assert_allclose(result, 128 / 255, atol=1.5 / 255)
+
+
+def test_content_counts_not_the_name(tmp_path):
+    write_image(tmp_path / "a.png", np.zeros((2, 2)))
+    (tmp_path / "a.png").rename(tmp_path / "a.dds")
+    assert read_image(tmp_path / "a.dds").shape == (2, 2, 1)
+
+
+@pytest.mark.parametrize("content", [b"", b"DDS |", b"GIF89a", b"#?RADIANCE\n", b"\x89PNG\r\n"])
+def test_other_formats_are_refused(tmp_path, content):
+    (tmp_path / "a.png").write_bytes(content)
+    with pytest.raises(core.InputError, match="is not a PNG"):
+        read_image(tmp_path / "a.png")
+
+
+@pytest.mark.parametrize("name", ["a.png", "a.exr"])
+def test_damaged_images_are_errors(tmp_path, name):
+    write_image(tmp_path / name, np.random.default_rng(12).random((64, 64, 3)))
+    content = (tmp_path / name).read_bytes()
+    (tmp_path / name).write_bytes(content[: len(content) // 2])
+    with pytest.raises(core.InputError, match="cannot be read"):
+        read_image(tmp_path / name)
+
+
+def test_a_png_that_claims_a_million_by_a_million_pixels(tmp_path):
+    write_image(tmp_path / "a.png", np.zeros((2, 2, 3)))
+    content = bytearray((tmp_path / "a.png").read_bytes())
+    content[16:24] = (1_000_000).to_bytes(4, "big") * 2
+    content[29:33] = zlib.crc32(content[12:29]).to_bytes(4, "big")
+    (tmp_path / "a.png").write_bytes(content)
+    with pytest.raises(core.InputError, match="1000000 x 1000000 pixels"):
+        read_image(tmp_path / "a.png")
+
+
+def test_writing_leaves_no_temporary_file(tmp_path):
+    write_image(tmp_path / "a.png", np.zeros((2, 2)))
+    with pytest.raises(core.InputError):
+        write_image(tmp_path / "none" / "a.png", np.zeros((2, 2)))
+    assert [p.name for p in tmp_path.iterdir()] == ["a.png"]
+
+
+def test_what_cannot_be_written(tmp_path):
+    for name in ("a.jpg", "a.tif", "a"):
+        with pytest.raises(core.InputError, match=r"must end in \.png or \.exr"):
+            write_image(tmp_path / name, np.zeros((2, 2)))
+    for shape in ((0, 2), (2, 0, 3), (2, 2, 65)):
+        with pytest.raises(core.InputError, match="at least one pixel"):
+            write_image(tmp_path / "a.exr", np.zeros(shape))
+    with pytest.raises(ValueError, match="pixels must have shape"):
+        write_image(tmp_path / "a.exr", np.zeros(3))

@@ -1,0 +1,228 @@
+"""Opening runs and what they hold."""
+
+import firetwin_core as core
+import numpy as np
+import pytest
+from firetwin_core import run as runs
+from small_run import RUN_TOML, small_fields
+
+
+@pytest.fixture(params=["npy", "text"])
+def form(request):
+    return request.param
+
+
+def test_every_field_comes_back(make_run, form):
+    run = runs.open(make_run(form))
+    fields = small_fields()
+    for name in [
+        "latitude",
+        "longitude",
+        "elevation",
+        "fuel_latitude",
+        "fuel_longitude",
+        "surface_fuel",
+        "canopy_fuel",
+    ]:
+        np.testing.assert_array_equal(getattr(run, name), fields[name], err_msg=name)
+    for i in range(3):
+        np.testing.assert_array_equal(run.heat_flux(i), fields["heat_flux"][i])
+        np.testing.assert_array_equal(run.temperature(i), fields["temperature"][i])
+        np.testing.assert_array_equal(run.wind(i)[0], fields["wind_east"][i])
+        np.testing.assert_array_equal(run.wind(i)[1], fields["wind_north"][i])
+    assert run.fields == sorted(fields)
+    assert run.warnings == []
+
+
+def test_what_run_toml_says(make_run):
+    run = runs.open(make_run())
+    assert (run.name, run.event, run.synthetic, run.vertical) == ("Small", "king_fire", True, "orthometric")
+    assert run.start == "2014-09-17T04:45:00Z"
+    np.testing.assert_array_equal(run.times, [0.0, 60.0, 120.0])
+    assert run.path.endswith("run")
+
+
+def test_defaults(make_run):
+    run = runs.open(make_run(toml="start = 2014-01-01T00:00:00.5+05:30\ntimes_s = [0, 1.5, 9]\n"))
+    assert (run.name, run.event, run.synthetic, run.vertical) == ("run", "", False, "orthometric")
+    assert run.start == "2013-12-31T18:30:00.500000000Z"
+    np.testing.assert_array_equal(run.times, [0.0, 1.5, 9.0])
+    assert len(run.warnings) == 1
+    assert "vertical" in run.warnings[0]
+
+
+def test_frames_may_be_npy_files_per_time(make_run):
+    folder = make_run(heat_flux=None)
+    (folder / "heat_flux").mkdir()
+    for i, frame in enumerate(small_fields()["heat_flux"]):
+        np.save(folder / "heat_flux" / f"{i:06d}.npy", frame)
+    np.testing.assert_array_equal(runs.open(folder).heat_flux(2), small_fields()["heat_flux"][2])
+
+
+def test_columns_of_text_are_axes_too(make_run):
+    folder = make_run("text")
+    np.savetxt(folder / "latitude.txt", small_fields()["latitude"], fmt="%.17g")
+    np.testing.assert_array_equal(runs.open(folder).latitude, small_fields()["latitude"])
+
+
+def test_no_data_becomes_nan(make_run, form):
+    flux = small_fields()["heat_flux"]
+    flux[0, 0, 0] = -9999
+    canopy = small_fields()["canopy_fuel"]
+    canopy[3, 4] = -9999
+    run = runs.open(make_run(form, heat_flux=flux, canopy_fuel=canopy))
+    assert np.isnan(run.heat_flux(0)[0, 0])
+    assert np.isnan(run.canopy_fuel[3, 4])
+    assert run.flux_range() == (0.0, 2000.25)
+    assert any("canopy_fuel has no value in 1 cells" in w for w in run.warnings)
+    assert any("heat_flux has no value 1 times" in w for w in run.warnings)
+
+
+def test_descending_axes(make_run):
+    fields = small_fields()
+    run = runs.open(
+        make_run(
+            latitude=fields["latitude"][::-1],
+            elevation=fields["elevation"][::-1].copy(),
+            fuel_latitude=fields["fuel_latitude"][::-1],
+        )
+    )
+    other = np.flipud(run.fuel_elevation)
+    ascending = np.array(run.elevation[::-1])
+    assert other[0, 0] == pytest.approx(ascending[0, 0], abs=1e-3)
+
+
+def test_one_cell(make_run):
+    one = np.ones((1, 1), np.float32)
+    run = runs.open(
+        make_run(
+            latitude=np.array([38.9]),
+            longitude=np.array([-120.6]),
+            elevation=one,
+            fuel_latitude=np.array([38.9]),
+            fuel_longitude=np.array([-120.6]),
+            surface_fuel=one,
+            canopy_fuel=one,
+            heat_flux=one[None],
+            temperature=None,
+            wind_east=None,
+            wind_north=None,
+        )
+    )
+    assert run.heat_flux(0).shape == (1, 1)
+    np.testing.assert_array_equal(run.arrival_time(), [[0.0]])
+    np.testing.assert_array_equal(run.fuel_arrival_time(), [[0.0]])
+
+
+def test_flux_range_is_of_the_whole_run_and_skips_what_is_not_finite(make_run, form):
+    flux = small_fields()["heat_flux"]
+    flux[0, 0, :3] = [np.nan, np.inf, -3.5]
+    run = runs.open(make_run(form, heat_flux=flux))
+    assert run.flux_range() == (-3.5, 2000.25)
+    assert any("negative 1 times" in w for w in run.warnings)
+
+
+def test_flux_range_of_nothing(make_run):
+    run = runs.open(make_run(heat_flux=np.full((3, 4, 5), np.nan, np.float32)))
+    with pytest.raises(core.InputError, match="no finite value"):
+        run.flux_range()
+
+
+def test_arrival_time(make_run, form):
+    run = runs.open(make_run(form))
+    expected = np.full((4, 5), np.nan, np.float32)
+    expected[1, 2], expected[2, 2] = 60, 120
+    np.testing.assert_array_equal(run.arrival_time(), expected)
+    expected[1, 2], expected[2, 2] = 120, np.nan
+    np.testing.assert_array_equal(run.arrival_time(1500.0), expected)
+    assert run.flux_range() == (0.0, 2000.25)
+
+
+def test_arrival_time_of_many_frames_does_not_depend_on_threads(make_run, all_threads):
+    rng = np.random.default_rng(7)
+    flux = np.where(rng.random((400, 4, 5)) > 0.99, rng.random((400, 4, 5)), 0).astype(np.float32)
+    expected = np.where((flux > 0).any(axis=0), (flux > 0).argmax(axis=0) * 60.0, np.nan)
+    folder = make_run(heat_flux=flux, temperature=None, wind_east=None, wind_north=None)
+    for threads in (1, 2, 4):
+        core.set_threads(threads)
+        run = runs.open(folder)
+        np.testing.assert_array_equal(run.arrival_time(), expected)
+        assert run.flux_range() == (0.0, float(flux.max()))
+
+
+def test_fuel_arrival_time_is_the_runs_own(make_run):
+    own = np.random.default_rng(8).normal(0, 100, (8, 10)).astype(np.float32)
+    np.testing.assert_array_equal(runs.open(make_run(fuel_arrival_time=own)).fuel_arrival_time(), own)
+
+
+def test_fuel_arrival_time_is_resampled(make_run):
+    """Between two burned cells linear, past the middle towards an unburned one never."""
+    arrival = runs.open(make_run()).fuel_arrival_time()
+    assert arrival.shape == (8, 10)
+    np.testing.assert_allclose(arrival[3:5, 4], [75.0, 105.0], rtol=1e-6)
+    assert np.isfinite(arrival).sum() == 8
+    assert np.isnan(arrival[0, 0])
+
+
+def test_fuel_elevation(make_run):
+    elevation = small_fields()["elevation"]
+    run = runs.open(make_run())
+    assert run.fuel_elevation[0, 0] == elevation[0, 0]
+    quarter = np.array([[0.75, 0.25]])
+    expected = (quarter @ elevation[1:3, 2:4] @ np.array([[0.75], [0.25]])).item()
+    assert run.fuel_elevation[3, 5] == pytest.approx(expected, rel=1e-6)
+
+
+def test_fuel_elevation_is_the_runs_own(make_run):
+    own = np.arange(80, dtype=np.float32).reshape(8, 10)
+    np.testing.assert_array_equal(runs.open(make_run(fuel_elevation=own)).fuel_elevation, own)
+
+
+def test_views_are_read_only_and_outlive_the_run(make_run):
+    elevation = runs.open(make_run()).elevation
+    with pytest.raises(ValueError, match="read-only"):
+        elevation[0, 0] = 0
+    np.testing.assert_array_equal(elevation, small_fields()["elevation"])
+
+
+def test_odd_but_usable(make_run):
+    fields = small_fields()
+    folder = make_run(
+        fuel_latitude=fields["fuel_latitude"] + 0.002,
+        surface_fuel=-fields["surface_fuel"],
+        elevation=np.full((4, 5), np.nan, np.float32),
+    )
+    np.save(folder / "temprature.npy", np.zeros(3))
+    (folder / "README.md").write_text("about this run")
+    warnings = "\n".join(runs.open(folder).warnings)
+    for part in ("temprature.npy", "beyond the model grid", "surface_fuel is negative", "elevation has no"):
+        assert part in warnings
+    assert "README" not in warnings
+
+
+def test_a_run_without_temperature_and_wind(make_run):
+    run = runs.open(make_run(temperature=None, wind_east=None, wind_north=None))
+    with pytest.raises(core.Error, match="no temperature"):
+        run.temperature(0)
+    with pytest.raises(core.Error, match="no wind"):
+        run.wind(0)
+
+
+@pytest.mark.parametrize("index", [-1, 3])
+def test_index_out_of_range(make_run, index):
+    with pytest.raises(IndexError):
+        runs.open(make_run()).heat_flux(index)
+
+
+def test_a_file_that_shrinks_after_opening(make_run):
+    folder = make_run()
+    run = runs.open(folder)
+    path = folder / "heat_flux.npy"
+    path.write_bytes(path.read_bytes()[:-4])
+    with pytest.raises(core.InputError, match="too early"):
+        run.heat_flux(2)
+
+
+def test_units_in_their_usual_spellings(make_run):
+    toml = RUN_TOML + 'temperature = "kelvin"\ncanopy_fuel = "kg m-2"\nwind_east = "m s-1"\n'
+    assert runs.open(make_run(toml=toml)).warnings == []
