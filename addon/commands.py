@@ -176,20 +176,22 @@ def render_in_blender(scene: str, out: str, shots: list[list[Any]], progress: Pr
     todo = [passes.Shot(*shot) for shot in shots]
     if todo:
         made_with = settings.by_shot(project, todo)
-        frames.render(project, run, _built(project, run, progress), Path(out), todo, made_with, progress)
+        smoky = sorted({shot.frame for shot in todo if shot.name != "depth"})
+        scene = _built(project, run, progress, smoky)
+        frames.render(project, run, scene, Path(out), todo, made_with, progress)
     video.make(project, run, Path(out), progress)
 
 
-def _built(project: Project, run: Run, progress: Progress) -> Any:
-    """An otherwise empty Blender with the scene in it, and its smoke on disk."""
+def _built(project: Project, run: Run, progress: Progress, frames: list[int] | None = None) -> Any:
+    """An otherwise empty Blender with the scene in it, and the smoke of these frames (all) on disk."""
     import bpy
 
     from .render import engine
     from .scene import bake, build
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    if project.smoke.enabled:
-        bake.bake(project, run, progress)
+    if project.smoke.enabled and frames != []:
+        bake.bake(project, run, progress, frames)
     progress(0, 1, "building the scene")
     scene = build.build(project, run)
     engine.apply(project, scene)
