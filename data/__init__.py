@@ -1,0 +1,1 @@
+"""Facts about the King Fire, and the synthetic sample run."""

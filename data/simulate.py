@@ -16,8 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import fuels as fuels_module
-from . import history, spread, stored, terrain, valleys
+from . import fuels, history, spread, stored, terrain, valleys
 
 # Factors on spread rate that `--tune` found: (minutes after the start at which the period ends, factor).
 FACTORS = ((615, 1.4834), (915, 0.3317), (1275, 0.1532), (1335, 0.3317), (1815, 1.7889), (1857, 0.4))
@@ -37,7 +36,7 @@ def main() -> int:
     event = history.load()
     land = terrain.make(event)
     say(f"terrain: RMS misfit {terrain.rms(land.misfit):.1f} m at {len(land.misfit)} spot heights")
-    fuel = fuels_module.make(event, land)
+    fuel = fuels.make(event, land)
     canopy, surface = np.mean(fuel.canopy > 0.01), np.mean(fuel.surface > 0)
     say(f"fuels: canopy on {canopy:.2%} of cells, surface fuel on {surface:.2%}")
     channel = valleys.channel(land.elevation)
