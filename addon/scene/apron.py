@@ -52,6 +52,7 @@ def extend(fields: Fields, cell: tuple[float, float], half_width: float, seed: i
         return fields
     count = int(np.ceil(np.log1p(reach * (GROWTH - 1.0) / min(cell)) / np.log(GROWTH)))
     steps = np.cumsum(GROWTH ** np.arange(1, count + 1))  # distance beyond the edge, in cells
+    steps *= reach / min(cell) / steps[-1]
     latitude, longitude = (_continue(axis, steps) for axis in (fields.latitude, fields.longitude))
     y, x = _positions(rows, steps) * cell[0], _positions(columns, steps) * cell[1]
     dy = np.maximum(np.maximum(y[count] - y, y - y[count + rows - 1]), 0.0)

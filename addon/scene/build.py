@@ -32,8 +32,8 @@ def build(project: Project, run: Run, scene: bpy.types.Scene | None = None) -> b
 
 def survey(project: Project, run: Run) -> tuple[Ground, list[Path]]:
     """The ground with detail near the cameras, and the paths of the cameras over it."""
-    sketch = paths(project, run)
-    ground = Ground(project, run, eyes(sketch, project.terrain.near_radius))
+    ground = Ground(project, run)
+    ground.eyes = eyes(paths(project, run, ground), project.terrain.near_radius)
     return ground, paths(project, run, ground)
 
 

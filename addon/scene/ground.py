@@ -52,6 +52,7 @@ class Ground:
         self.seed, self.near_radius = project.seed, project.terrain.near_radius
         self._set_arrival(run.fuel_arrival_time()[self._flip].astype(np.float64))
         self.eyes = np.empty((0, 3)) if eyes is None else np.asarray(eyes, np.float64).reshape(-1, 3)
+        self.bare = _bare(self.fields)
         slope = np.hypot(*np.gradient(self.fields.elevation, *self._metres()))
         self._slope = np.minimum(slope, 1.0)
 
@@ -98,6 +99,8 @@ class Ground:
     def detail(self, east: ArrayLike, north: ArrayLike, up: ArrayLike = 0.0) -> Array:
         """Weight 0..1 of the near surface: 1 within 0.6 of the near radius of an eye, 0 beyond it."""
         east, north, up = (np.asarray(v, np.float32) for v in np.broadcast_arrays(east, north, up))
+        if self.near_radius <= 0.0 or len(self.eyes) == 0:
+            return np.zeros(east.shape)
         nearest = np.full(east.shape, np.inf, np.float32)
         for eye in self.eyes.astype(np.float32):
             square = (east - eye[0]) ** 2 + (north - eye[1]) ** 2 + (up - eye[2]) ** 2
@@ -158,6 +161,14 @@ class Ground:
         """Arrival time (s) at fractional rows and columns; NEVER in islands and where most never burned."""
         burned = bilinear(self.burned, row, column)
         return np.where(burned >= 0.5, bilinear(np.minimum(self.burn_time, 1.0e8), row, column), NEVER)
+
+
+def _bare(fields: apron.Fields) -> Array:
+    """Part of the ground near each grid point without fuel, 0..1: soft, so that noise can break its edge."""
+    bare = ((fields.surface_fuel < 0.05) & (fields.canopy_fuel < 0.01)).astype(np.float64)
+    for _ in range(2):
+        bare = (bare + _neighbours(bare)) / 9.0
+    return bare
 
 
 def _neighbours(field: Array) -> Array:

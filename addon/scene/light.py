@@ -23,7 +23,7 @@ _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, bl
 _MOON = 0.02  # W/m2
 _MOON_COLOUR = (0.65, 0.78, 1.0)
 _MOON_PLACE = (150.0, 40.0)  # degrees; assumed, the moon of the night is not looked up
-_SKY = 0.2  # strength of the sky texture
+_SKY = 0.26  # strength of the sky texture
 _NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.05
 _DAY_HAZE, _NIGHT_HAZE = np.array([0.50, 0.64, 0.86]) * 0.75, np.array([0.35, 0.45, 0.75]) * 0.008
 THERMAL_SKY = 250.0  # K, a clear sky in the long-wave infrared
@@ -82,7 +82,7 @@ class State:
         blue = float(noise.smoothstep(-10.0, 12.0, height))
         self.haze = tuple(_NIGHT_HAZE + (_DAY_HAZE - _NIGHT_HAZE) * blue**2)
         given = project.light.exposure
-        self.exposure = 3.5 * float(noise.smoothstep(3.0, -9.0, height)) if given is None else given
+        self.exposure = 0.3 + 3.2 * float(noise.smoothstep(3.0, -9.0, height)) if given is None else given
 
 
 def air_mass(height: float) -> float:

@@ -21,7 +21,7 @@ def build(project: Project, run: Run, ground: Ground, views: list[Path]) -> bpy.
 
     Its mesh carries float point attributes: `arrival_time` (s, 1e9 where never), `burn_time` (arrival
     continued a little past the last perimeter), `burned` (1 inside the last perimeter), `canopy_fuel`,
-    `surface_fuel` (kg/m2), `elevation` (m) and `detail` (1 near cameras).
+    `surface_fuel` (kg/m2), `bare` (part without fuel), `elevation` (m) and `detail` (1 near cameras).
     """
     mesh = grid_mesh.graded(levels(project, ground, views))
     coarse = _positions(ground, mesh, 0.0)
@@ -81,6 +81,7 @@ def _attributes(ground: Ground, mesh: grid_mesh.GridMesh, detail: NDArray) -> di
         "burned": bilinear(ground.burned, *at),
         "canopy_fuel": bilinear(fields.canopy_fuel, *at),
         "surface_fuel": bilinear(fields.surface_fuel, *at),
+        "bare": bilinear(ground.bare, *at),
         "elevation": ground.height(*at, detail),
         "detail": noise.smoothstep(0.0, 1.0, detail),
     }

@@ -109,6 +109,8 @@ def conifer(kind: Conifer, seed: int) -> Shape:
             droop = kind.droop * (1.0 - 0.7 * up) + random.normal(0.0, 0.08)
             _branch(shape, lean, z, angle, length, droop, 0.36 + 0.1 * (level % 2))
     _leader(shape, lean, kind.width * 0.10)
+    top = max(float(points[:, 2].max()) for points in shape.points)
+    shape.points = [points / top for points in shape.points]
     return shape
 
 

@@ -32,7 +32,7 @@ class _Place:
     position: nodes.Value
     slope: nodes.Value  # 0 flat, 1 vertical
     canopy: nodes.Value  # kg/m2
-    surface: nodes.Value  # kg/m2
+    bare: nodes.Value  # 0..1, part of the ground nearby without fuel
     elevation: nodes.Value  # m
     distance: nodes.Value  # m from the camera
     near: nodes.Value  # 1 where trees are drawn one by one
@@ -76,7 +76,7 @@ def _place(tree: nodes.Tree, project: Project) -> _Place:
         position,
         slope,
         tree.attribute("canopy_fuel"),
-        tree.attribute("surface_fuel"),
+        tree.attribute("bare"),
         tree.attribute("elevation"),
         distance,
         near,
@@ -87,8 +87,8 @@ def _place(tree: nodes.Tree, project: Project) -> _Place:
 
 def _rock(tree: nodes.Tree, place: _Place) -> nodes.Value:
     """Bare rock 0..1: where nothing grows, on cliffs, and in outcrops that grow commoner with height."""
-    ragged = tree.noise(place.position, 260.0, 5.0, 0.62)
-    bare = (place.canopy * 0.6 + place.surface + (ragged - 0.5) * 0.9).smoothstep(0.34, 0.10)
+    ragged = tree.noise(place.position, 260.0, 6.0, 0.66)
+    bare = (place.bare + (ragged - 0.5) * 1.7).smoothstep(0.42, 0.58) * (place.bare > 0.02)
     cliff = (place.slope + (ragged - 0.5) * 0.35).smoothstep(0.27, 0.36)
     high = (ragged + place.elevation.ramp(1300.0, 2700.0, -0.12, 0.12)).smoothstep(0.66, 0.74)
     return tree.math("MAXIMUM", bare, tree.math("MAXIMUM", cliff, high * 0.9))
@@ -102,16 +102,21 @@ def _unburned(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> tuple[nodes
     tint = tree.separate(tree.cells(place.position, 13.0, "Color"))[0]
     cover = (place.canopy + (patch - 0.5) * 1.1 + (fine - 0.5) * 0.5).smoothstep(0.05, 0.6)
     floor = (place.canopy + (patch - 0.5) * 0.5 + (fine - 0.5) * 0.4).smoothstep(0.0, 0.35)
-    dark = tree.mix_colour(tint, (0.020, 0.034, 0.013), (0.056, 0.072, 0.028))
+    dark = tree.mix_colour(tint, (0.026, 0.043, 0.016), (0.072, 0.092, 0.036))
     stands = tree.noise(place.position, 1500.0, 5.0, 0.6)
     dark = tree.mix_colour(
-        stands.smoothstep(0.40, 0.62), dark, tree.mix_colour(0.6, dark, (0.030, 0.062, 0.024))
+        stands.smoothstep(0.40, 0.62), dark, tree.mix_colour(0.6, dark, (0.034, 0.072, 0.026))
     )
+    clumps = tree.noise(place.position, 70.0, 3.0, 0.65).smoothstep(0.36, 0.64)
+    dark = tree.mix_colour(clumps, tree.mix_colour(0.55, dark, (0.010, 0.016, 0.009)), dark)
     canopy = tree.mix_colour(crown.smoothstep(0.34, 0.70), dark, (0.010, 0.015, 0.008))
     dry = place.elevation.ramp(500.0, 1500.0, 1.0, 0.0)
     meadow = tree.mix_colour(dry, (0.085, 0.080, 0.040), (0.165, 0.125, 0.058))
     soil = tree.mix_colour(fine, (0.115, 0.080, 0.050), (0.190, 0.140, 0.095))
+    brush = tree.noise(place.position, 34.0, 5.0, 0.7) + (patch - 0.5) * 0.7 + dry * -0.12
+    shrub = tree.mix_colour(tint, (0.030, 0.038, 0.017), (0.058, 0.062, 0.030))
     open_ground = tree.mix_colour(fine.smoothstep(0.38, 0.62), meadow, tree.mix_colour(0.55, meadow, soil))
+    open_ground = tree.mix_colour(brush.smoothstep(0.43, 0.56) * 0.92, open_ground, shrub)
     far = tree.mix_colour(cover, open_ground, canopy)
     litter = tree.mix_colour(fine, (0.022, 0.017, 0.010), (0.062, 0.044, 0.026))
     scrub = tree.mix_colour(
@@ -120,14 +125,18 @@ def _unburned(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> tuple[nodes
     close = tree.mix_colour(floor, open_ground, scrub)
     colour = tree.mix_colour(place.near, far, close)
     relief = cover * (1.0 - place.near) * (1.0 - crown) * 9.0 + fine * 2.0
-    return tree.mix_colour(rock, colour, _granite(tree, place)), relief * (1.0 - rock * 0.6)
+    boulders = tree.noise(place.position, 9.0, 4.0, 0.6) * 3.0
+    return tree.mix_colour(rock, colour, _granite(tree, place)), tree.mix(rock, relief, boulders)
 
 
 def _granite(tree: nodes.Tree, place: _Place) -> nodes.Value:
-    grain = tree.noise(place.position, 40.0, 5.0, 0.68)
+    grain = tree.noise(place.position, 40.0, 6.0, 0.72)
+    crack = tree.noise(place.position, 34.0, 5.0, 0.62) - 0.5
+    joints = tree.math("ABSOLUTE", crack).smoothstep(0.016, 0.0)
     stain = tree.noise(tree.vector("MULTIPLY", place.position, (1.0, 1.0, 0.25)), 90.0, 3.0)
-    stone = tree.mix_colour(grain.smoothstep(0.3, 0.7), (0.080, 0.076, 0.070), (0.225, 0.215, 0.200))
-    shrubs = tree.noise(place.position, 16.0, 3.0).smoothstep(0.56, 0.64)
+    stone = tree.mix_colour(grain.smoothstep(0.3, 0.7), (0.060, 0.057, 0.053), (0.165, 0.158, 0.148))
+    stone = tree.mix_colour(joints * 0.55, stone, (0.030, 0.029, 0.024))
+    shrubs = tree.noise(place.position, 14.0, 4.0, 0.65).smoothstep(0.53, 0.60)
     stone = tree.mix_colour(stain.smoothstep(0.5, 0.75) * 0.6, stone, (0.070, 0.062, 0.052))
     return tree.mix_colour(shrubs * 0.8, stone, (0.030, 0.038, 0.018))
 

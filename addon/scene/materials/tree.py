@@ -23,7 +23,7 @@ def foliage(project: Project, run: Run) -> bpy.types.Material:
     """Build "Firetwin Foliage"."""
     material, tree = nodes.material("Firetwin Foliage")
     tint = tree.attribute("tint", "INSTANCER")
-    green = tree.mix_colour(tint, (0.016, 0.030, 0.012), (0.050, 0.068, 0.024))
+    green = tree.mix_colour(tint, (0.022, 0.040, 0.015), (0.068, 0.090, 0.032))
     brown = tree.mix_colour(tint, (0.085, 0.048, 0.022), (0.125, 0.080, 0.042))
     living = tree.mix_colour(tree.attribute("dead", "INSTANCER") < _DEAD, green, brown)
     _leaves(tree, project, run, living, _rounded(tree))

@@ -1,0 +1,136 @@
+"""A small run, a project for it, and a clean Blender for every test."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from datetime import UTC, datetime
+
+import numpy as np
+import pytest
+
+bpy = pytest.importorskip("bpy")
+
+from firetwin import project as projects  # noqa: E402
+from firetwin_core import run as runs  # noqa: E402
+
+NY = NX = 24
+FINE = 5
+LATITUDE, LONGITUDE = (38.80, 38.88), (-120.60, -120.50)
+
+
+def _axis(low: float, high: float, count: int) -> np.ndarray:
+    edges = np.linspace(low, high, count + 1)
+    return 0.5 * (edges[1:] + edges[:-1])
+
+
+@pytest.fixture(scope="session")
+def run_folder(tmp_path_factory):
+    """Write a run of 24 x 24 cells of 370 m with fuels on 120 x 120: hills, bare rock, a round fire."""
+    folder = tmp_path_factory.mktemp("run")
+    fy, fx = NY * FINE, NX * FINE
+    y, x = np.meshgrid(np.linspace(-1, 1, fy), np.linspace(-1, 1, fx), indexing="ij")
+    height = 1400 + 300 * np.sin(3 * x + 1) * np.cos(2 * y) + 60 * np.sin(11 * x) * np.sin(9 * y) + 250 * x
+    canopy = np.clip(1.2 + 1.3 * np.sin(5 * x - 2 * y), 0, 2.5)
+    surface = np.clip(0.8 + 0.5 * np.cos(4 * y), 0, 3)
+    rock = np.hypot(x - 0.6, y + 0.6) < 0.15
+    canopy[rock] = surface[rock] = 0.0
+    arrival = 7200.0 * np.hypot(x, y) - 600.0
+    arrival[np.hypot(x, y) > 0.6] = np.nan
+    times = np.arange(11) * 360.0
+    flux = np.zeros((len(times), NY, NX), np.float32)
+    flux[:, 8:16, 8:16] = 5.0e4
+    arrays = {
+        "latitude": _axis(*LATITUDE, NY),
+        "longitude": _axis(*LONGITUDE, NX),
+        "elevation": height.reshape(NY, FINE, NX, FINE).mean((1, 3)),
+        "fuel_latitude": _axis(*LATITUDE, fy),
+        "fuel_longitude": _axis(*LONGITUDE, fx),
+        "fuel_elevation": height,
+        "canopy_fuel": canopy,
+        "surface_fuel": surface,
+        "fuel_arrival_time": arrival,
+        "heat_flux": flux,
+    }
+    for name, array in arrays.items():
+        kind = np.float64 if "itude" in name else np.float32
+        np.save(folder / f"{name}.npy", array.astype(kind))
+    (folder / "run.toml").write_text(
+        'name = "Test"\nsynthetic = true\nstart = 2014-09-17T21:00:00Z\ninterval_s = 360.0\n'
+        'vertical = "orthometric"\n[units]\nelevation = "m"\nfuel_elevation = "m"\nfuel_arrival_time = "s"\n'
+        'heat_flux = "W/m2"\nsurface_fuel = "kg/m2"\ncanopy_fuel = "kg/m2"\n'
+    )
+    return folder
+
+
+@pytest.fixture(scope="session")
+def run(run_folder):
+    return runs.open(run_folder)
+
+
+@pytest.fixture
+def project(run_folder, tmp_path):
+    """A drone over the run's middle, three frames over an hour, no relief or stand, a small apron."""
+    keys = (
+        projects.CameraKey(0.0, 38.825, -120.56, 400.0, "point", 38.845, -120.55, 0.0),
+        projects.CameraKey(1.0, 38.830, -120.57, 500.0, "point", 38.845, -120.55, 0.0),
+    )
+    return projects.Project(
+        path=tmp_path / "scene.toml",
+        run=run_folder,
+        cache=tmp_path / "cache",
+        time=projects.Time(
+            start=datetime(2014, 9, 17, 21, 0, tzinfo=UTC),
+            end=datetime(2014, 9, 17, 22, 0, tzinfo=UTC),
+            frames=3,
+        ),
+        terrain=projects.Terrain(near_radius=0.0, apron=20_000.0),
+        forest=projects.Forest(stand_radius=0.0),
+        smoke=projects.Smoke(enabled=False),
+        cameras=(projects.Camera("drone", keys=keys),),
+        render=projects.Render(resolution=(64, 36), samples=4, denoise=False),
+    )
+
+
+@pytest.fixture
+def near_project(project):
+    """The same with a detailed ground and a stand."""
+    return replace(
+        project,
+        terrain=replace(project.terrain, near_radius=1500.0, near_spacing=20.0),
+        forest=replace(project.forest, stand_radius=900.0, stand_spacing=20.0),
+    )
+
+
+@pytest.fixture(autouse=True)
+def scene():
+    """Blender as from the factory, with an empty scene."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    return bpy.context.scene
+
+
+@pytest.fixture
+def shoot(tmp_path):
+    """Render the scene with Cycles and return its pixels, (height, width, 3), scene-linear."""
+
+    def render(scene, layer: str | None = None) -> np.ndarray:
+        from firetwin_core import sensor
+
+        scene.render.engine = "CYCLES"
+        scene.cycles.use_denoising, scene.cycles.samples = False, 4
+        if scene.render.resolution_x > 64:
+            scene.render.resolution_x, scene.render.resolution_y = 64, 36
+        scene.cycles.use_adaptive_sampling = False
+        scene.cycles.pixel_filter_type = "BOX"
+        scene.render.resolution_percentage = 100
+        if hasattr(scene.render.image_settings, "media_type"):
+            scene.render.image_settings.media_type = "IMAGE"
+        scene.render.image_settings.file_format = "OPEN_EXR"
+        scene.render.image_settings.color_depth = "32"
+        for view_layer in scene.view_layers:
+            view_layer.use = layer is None or view_layer.name == layer
+        scene.render.use_compositing = False
+        scene.render.filepath = str(tmp_path / "shot.exr")
+        bpy.ops.render.render(write_still=True)
+        return np.asarray(sensor.read_image(tmp_path / "shot.exr"))[..., :3]
+
+    return render

@@ -1,0 +1,121 @@
+from dataclasses import replace
+
+import bpy
+import numpy as np
+import pytest
+from firetwin.scene import build, forest, paths, stand, trees
+from firetwin.scene.ground import NEVER
+from firetwin_core import forest as core
+
+
+def _instances(name):
+    """Translation (n, 3), scale (n,) and name of the model of every instance of an object."""
+    graph = bpy.context.evaluated_depsgraph_get()
+    place, scale, model = [], [], []
+    for item in graph.object_instances:
+        if item.is_instance and item.parent.original.name == name:
+            place.append(item.matrix_world.translation[:])
+            scale.append(item.matrix_world.median_scale)
+            model.append(item.object.original.name)
+    return np.array(place), np.array(scale), model
+
+
+def _all_trees(project, run, ground):
+    axes = run.fuel_latitude, run.fuel_longitude
+    return core.trees(run.canopy_fuel, *axes, run.fuel_elevation, ground.frame, seed=project.seed)
+
+
+def test_instances_are_the_cores_trees_that_the_cameras_see(project, run, scene):
+    ground, views = build.survey(project, run)
+    forest.build(project, run, ground, views)
+    place, scale, _model = _instances("Firetwin Trees")
+    wanted = _all_trees(project, run, ground)
+    seen = views[0].sees(wanted.position, reach=project.forest.draw_distance)
+    assert 0 < seen.sum() < len(wanted.cell)
+    assert place == pytest.approx(wanted.position[seen], abs=2e-3)
+    assert scale == pytest.approx(wanted.scale[seen], rel=1e-5)
+
+
+def test_without_a_limit_of_view_every_tree_is_there(project, run, scene):
+    ground, _views = build.survey(project, run)
+    camera = replace(project.cameras[0], name="above", kind="satellite", swath=14_000.0)
+    project = replace(project, cameras=(camera,), render=replace(project.render, resolution=(1000, 1000)))
+    forest.build(project, run, ground, paths.paths(project, run, ground))
+    place, _scale, model = _instances("Firetwin Trees")
+    wanted = _all_trees(project, run, ground)
+    assert len(place) == len(wanted.cell) == np.sum(run.canopy_fuel > 0.01)
+    first = np.array([trees.FIRST_MODEL[k] for k in range(3)])[wanted.size_class]
+    living = [name for name in model if int(name[-2:]) not in trees.SNAGS]
+    assert len(living) > 0.5 * len(model)
+    expected = first + wanted.model
+    for name, number in zip(model, expected, strict=True):
+        assert int(name[-2:]) in (number, *trees.SNAGS)
+
+
+def test_trees_are_four_to_thirty_metres_tall(near_project, run, scene):
+    ground, views = build.survey(near_project, run)
+    forest.build(near_project, run, ground, views)
+    # Algorithm 2's bounds are 6 m x 0.7 x 0.8 and 18 m x 1.4 x 1.2.
+    for name, low, high in (("Firetwin Trees", 3.36, 30.24), ("Firetwin Stand", 4.0, 30.0)):
+        scale = _instances(name)[1]
+        assert len(scale) > 50
+        assert low - 1e-3 <= scale.min() <= scale.max() <= high + 1e-3
+
+
+def test_models_are_one_metre_tall_and_light(project, run):
+    forest.build(project, run, *build.survey(project, run))
+    models = bpy.data.collections["Firetwin Tree Models"].objects
+    assert len(models) == 15
+    for thing in models:
+        top = max(vertex.co.z for vertex in thing.data.vertices)
+        number = int(thing.name[-2:])
+        assert top == pytest.approx(1.0, abs=0.16 if number in (*trees.OAKS, *trees.SNAGS) else 0.01)
+        assert 20 <= sum(len(face.vertices) - 2 for face in thing.data.polygons) <= 1000
+
+
+def test_burned_trees_become_snags_a_quarter_of_an_hour_later(project, run, scene):
+    ground, views = build.survey(project, run)
+    made = forest.build(project, run, ground, views)[0]
+    arrival = np.empty(len(made.data.vertices), np.float32)
+    made.data.attributes["arrival_time"].data.foreach_get("value", arrival)
+    for frame, time in ((1, 0.0), (3, 3600.0)):
+        scene.frame_set(frame)
+        model = np.array([int(name[-2:]) for name in _instances("Firetwin Trees")[2]])
+        snag = np.isin(model, trees.SNAGS)
+        old = time - arrival > forest.BARE_AFTER
+        assert not snag[~old].any()
+        assert old.sum() == 0 or snag[old].mean() == pytest.approx(0.85, abs=0.08)
+    assert old.sum() > 30
+    assert np.any(arrival == NEVER)
+
+
+def test_near_trees_stand_on_the_drawn_ground(near_project, run, scene):
+    ground, views = build.survey(near_project, run)
+    forest.build(near_project, run, ground, views)
+    for name in ("Firetwin Trees", "Firetwin Stand"):
+        place = _instances(name)[0].astype(np.float64)
+        place = place[ground.detail(*place.T) > 0.01]
+        assert len(place) > 20
+        assert place[:, 2] == pytest.approx(ground.up(place[:, 0], place[:, 1]), abs=0.15)
+
+
+def test_the_stand_grows_where_there_is_canopy_and_leaves_cameras_free(near_project, run):
+    ground, views = build.survey(near_project, run)
+    grown = stand.grow(near_project, ground, views)
+    canopy = ground.sample(ground.fields.canopy_fuel, *grown.position[:, :2].T)
+    assert np.mean(canopy > 0.0) > 0.99
+    assert views[0].distance(grown.position).min() >= stand.CLEARING - 8.0
+    again = stand.grow(near_project, ground, views)
+    assert np.array_equal(grown.position, again.position)
+
+
+def test_skipping_what_no_camera_sees_does_not_change_the_picture(project, run, scene, shoot, monkeypatch):
+    build.build(project, run, scene)
+    skipped = shoot(scene, "rgb")
+    count = len(bpy.data.objects["Firetwin Trees"].data.vertices)
+    monkeypatch.setattr(forest, "visible", lambda _project, places, _views, _far: np.ones(len(places), bool))
+    build.build(project, run, scene)
+    full = shoot(scene, "rgb")
+    assert len(bpy.data.objects["Firetwin Trees"].data.vertices) > 1.5 * count
+    assert np.abs(full - skipped).mean() < 0.01 * full.mean()
+    assert np.quantile(np.abs(full - skipped), 0.98) < 0.05 * full.mean()

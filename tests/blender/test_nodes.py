@@ -1,0 +1,72 @@
+import math
+
+import bpy
+import numpy as np
+import pytest
+from firetwin import compat, nodes
+from firetwin.scene import clock
+
+
+@pytest.fixture
+def plate(scene):
+    """A plate that fills the view of a camera above it."""
+    mesh = bpy.data.meshes.new("plate")
+    mesh.from_pydata([(-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0)], [], [(0, 1, 2, 3)])
+    scene.collection.objects.link(bpy.data.objects.new("plate", mesh))
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    camera.location = (0, 0, 5)
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.resolution_x = scene.render.resolution_y = 4
+    scene.cycles.samples = 1
+    return mesh
+
+
+def _show(plate, build):
+    material, tree = nodes.material("test")
+    tree.surface(build(tree))
+    plate.materials.clear()
+    plate.materials.append(material)
+
+
+def test_arithmetic_on_sockets_is_what_it_says(scene, plate, shoot):
+    def formula(tree):
+        two = tree.math("ADD", 2.0, 0.0)
+        red = (3.0 - two) / 4.0 + two * 0.5 - 0.25  # 1.0
+        green = (-two).exp() + two.power(3.0)  # exp(-2) + 8
+        blue = two.smoothstep(0.0, 4.0) + two.ramp(0.0, 4.0, 1.0, 3.0)  # 0.5 + 2
+        return tree.emission(tree.combine(red, green, blue))
+
+    _show(plate, formula)
+    assert shoot(scene)[2, 2] == pytest.approx([1.0, math.exp(-2) + 8.0, 2.5], rel=1e-5)
+
+
+def test_model_time_reaches_shaders_at_every_frame(scene, plate, shoot, project, run):
+    clock.build(project, run, scene)
+    _show(plate, lambda tree: tree.emission((1.0, 1.0, 1.0), nodes.model_time(tree)))
+    for frame, seconds in ((1, 0.0), (2, 1800.0), (3, 3600.0), (5, 7200.0)):
+        scene.frame_set(frame)
+        assert shoot(scene)[2, 2, 0] == pytest.approx(seconds, abs=1e-3)
+        assert clock.model_time(project, run, frame) == pytest.approx(seconds)
+
+
+def test_thermal_layers_show_kelvin_and_others_the_shader(scene, plate, shoot):
+    _show(plate, lambda t: nodes.thermal_switch(t, t.emission((0.2, 0.3, 0.4)), t.math("ADD", 311.5, 0.0)))
+    scene.view_layers[0].name = "rgb"
+    scene.view_layers.new("thermal")[nodes.THERMAL] = 1.0
+    assert shoot(scene, "rgb")[2, 2] == pytest.approx([0.2, 0.3, 0.4], abs=1e-5)
+    assert np.abs(shoot(scene, "thermal") - 311.5).max() < 0.1
+
+
+def test_sockets_are_found_by_name_and_missing_ones_named():
+    tree = nodes.material("test")[1]
+    mix = tree.node("ShaderNodeMix", {"Factor": 0.25}, data_type="RGBA")
+    assert compat.find_socket(mix.inputs, 0).default_value == 0.25
+    with pytest.raises(KeyError, match="no socket 'Nonsense'; there are: Color, Strength"):
+        tree.node("ShaderNodeEmission", {"Nonsense": 1.0})
+
+
+def test_building_a_material_twice_replaces_it():
+    nodes.material("test")
+    nodes.material("test")
+    assert [material.name for material in bpy.data.materials] == ["test"]

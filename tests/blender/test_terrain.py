@@ -1,0 +1,106 @@
+import numpy as np
+import pytest
+from firetwin.scene import build, frame, grid_mesh, terrain
+
+
+def _values(mesh, name):
+    found = np.empty(len(mesh.vertices), np.float32)
+    mesh.attributes[name].data.foreach_get("value", found)
+    return found
+
+
+def _vertices(mesh):
+    found = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", found)
+    return found.reshape(-1, 3)
+
+
+def _polygons(mesh: grid_mesh.GridMesh):
+    return np.split(mesh.loops, mesh.starts[1:])
+
+
+@pytest.fixture
+def plain(project, run):
+    ground, views = build.survey(project, run)
+    return ground, terrain.build(project, run, ground, views).data
+
+
+def test_vertices_are_the_local_frame_of_the_fuel_grid(plain, run):
+    _ground, mesh = plain
+    wanted = frame.local_frame(run).forward_grid(run.fuel_latitude, run.fuel_longitude, run.fuel_elevation)
+    found = _vertices(mesh).astype(np.float64)
+    order = {tuple(np.round(point[:2]).astype(int)): point for point in found}
+    assert len(order) == len(found)
+    for point in wanted[::7, ::7].reshape(-1, 3):
+        match = order[tuple(np.round(point[:2].astype(np.float32)).astype(int))]
+        assert match == pytest.approx(point, abs=2e-3)
+
+
+def test_attributes_carry_the_runs_fields(plain, run):
+    ground, mesh = plain
+    margin, columns = ground.fields.margin, ground.shape[1]
+    inside = slice(margin, margin + 120)
+
+    def grid(name):
+        return _values(mesh, name).reshape(-1, columns)[inside, inside]
+
+    assert grid("canopy_fuel") == pytest.approx(run.canopy_fuel, abs=1e-5)
+    assert grid("surface_fuel") == pytest.approx(run.surface_fuel, abs=1e-5)
+    assert grid("elevation") == pytest.approx(run.fuel_elevation, abs=1e-3)
+    arrival, known = grid("arrival_time"), run.fuel_arrival_time()
+    never = np.isnan(known)
+    assert np.all(arrival[never] == np.float32(1e9))
+    burned = arrival < 1e9  # all but the islands that the fire is said to have spared
+    assert arrival[burned] == pytest.approx(known[burned], abs=0.1)
+    assert burned.sum() > 0.8 * (~never).sum()
+
+
+def test_the_apron_reaches_its_width_and_continues_the_edge(plain, project):
+    ground, mesh = plain
+    places = _vertices(mesh)
+    assert np.abs(places[:, :2]).max() == pytest.approx(project.terrain.apron, rel=0.05)
+    height, margin = ground.fields.elevation, ground.fields.margin
+    for k in range(4):
+        step = np.abs(np.diff(np.rot90(height, k), axis=0))
+        assert step[margin - 1, margin:-margin].max() < 3.0 * step[margin:-margin].max()
+
+
+def test_graded_mesh_is_closed_and_covers_the_grid_once():
+    level = np.random.default_rng(0).integers(0, 4, (6, 7))
+    mesh = grid_mesh.graded(level)
+    edges, area = set(), 0.0
+    for ring in _polygons(mesh):
+        x, y = mesh.column[ring], mesh.row[ring]
+        size = 0.5 * np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))
+        assert size > 0.0
+        area += size
+        for edge in zip(ring.tolist(), np.roll(ring, -1).tolist(), strict=True):
+            assert edge not in edges
+            edges.add(edge)
+    assert area == pytest.approx(42.0)
+    rim = [a for a, b in edges if (b, a) not in edges]
+    assert all(mesh.row[a] in (0, 6) or mesh.column[a] in (0, 7) for a in rim)
+    assert len(mesh.starts) > np.sum(4**level) - 1
+
+
+def test_near_ground_is_finer_and_is_where_the_ground_says(near_project, run):
+    ground, views = build.survey(near_project, run)
+    mesh = terrain.build(near_project, run, ground, views).data
+    places, detail = _vertices(mesh).astype(np.float64), _values(mesh, "detail")
+    near = np.flatnonzero(detail > 0.99)
+    assert len(near) > 1000
+    some = near[:: max(len(near) // 200, 1)]
+    assert ground.up(places[some, 0], places[some, 1]) == pytest.approx(places[some, 2], abs=0.02)
+    lengths = [edge.vertices[:] for edge in mesh.edges if detail[edge.vertices[0]] > 0.99]
+    gaps = np.linalg.norm(places[[a for a, b in lengths], :2] - places[[b for a, b in lengths], :2], axis=1)
+    assert gaps.min() < near_project.terrain.near_spacing
+
+
+def test_ground_between_places_is_the_cores_bilinear_height(project, run):
+    ground, _views = build.survey(project, run)
+    points = ground.point([38.8301, 38.8555], [-120.5512, -120.5333], 12.0)
+    latitude, longitude, height = ground.frame.reverse(points)
+    assert latitude == pytest.approx([38.8301, 38.8555], abs=1e-9)
+    row, column = ground.indices(latitude, longitude)
+    assert height == pytest.approx(ground.height(row, column) + 12.0, abs=1e-6)
+    assert ground.up(points[:, 0], points[:, 1]) == pytest.approx(points[:, 2] - 12.0, abs=0.05)
