@@ -122,7 +122,8 @@ def _page(run: Run, title: str, subtitle: str) -> tuple[Figure, Axes]:
     dx, dy = areas.spacing(run.latitude, run.longitude)
     width, height = dx * len(run.longitude), dy * len(run.latitude)
     wide = 7.2
-    figure = Figure(figsize=(wide + 1.6, float(np.clip(wide * height / width, 2.5, 14)) + 1.3), dpi=DPI)
+    high = wide * height / width if width > 0 and height > 0 else wide
+    figure = Figure(figsize=(wide + 1.6, float(np.clip(high, 2.5, 14)) + 1.3), dpi=DPI)
     axes = figure.add_axes((0.09, 0.075, 0.76, 0.80))
     name = run.name + (" (synthetic)" if run.synthetic and "synthetic" not in run.name.lower() else "")
     figure.text(0.09, 0.945, title, size=17, weight="bold", va="bottom")
@@ -137,7 +138,8 @@ def _page(run: Run, title: str, subtitle: str) -> tuple[Figure, Axes]:
     axes.locator_params(nbins=6)
     axes.tick_params(direction="out", length=3, color="#444444")
     axes.grid(color="black", alpha=0.14, linewidth=0.5, linestyle=(0, (4, 3)), zorder=5)
-    _scale_bar(axes, width)
+    if width > 0:  # a single cell does not say how wide it is
+        _scale_bar(axes, width)
     _north_arrow(axes)
     return figure, axes
 

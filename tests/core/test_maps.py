@@ -1,0 +1,116 @@
+"""`firetwin info` and `firetwin maps` on the small run."""
+
+import json
+
+import numpy as np
+import pytest
+from firetwin import areas, info, maps
+from firetwin_core import run as runs
+from PIL import Image
+from small_run import FX, FY, small_fields
+
+ZONE = "America/Los_Angeles"
+
+TOML_WITHOUT_EVENT = """\
+name = "Other"
+start = 2014-09-16T21:45:00-07:00
+interval_s = 60.0
+vertical = "orthometric"
+[units]
+elevation = "m"
+heat_flux = "W/m2"
+"""
+
+
+@pytest.fixture
+def run(make_run):
+    arrival = np.full((FY, FX), np.nan, np.float32)
+    arrival[0, 0], arrival[3, 4], arrival[5, 5] = -10.0, 60.0, 100.0
+    return runs.open(make_run(fuel_arrival_time=arrival))
+
+
+def test_cells_cover_the_ellipsoid():
+    latitude, longitude = np.linspace(-89.5, 89.5, 180), np.linspace(179.5, -179.5, 360)
+    area = areas.cell_areas(latitude, longitude)
+    assert area.shape == (180, 360)
+    # Area of the WGS84 ellipsoid (NIMA TR8350.2, table 3.3 derives 510 065 621.7 km2).
+    assert area.sum() == pytest.approx(510_065_621.7e6, rel=1e-10)
+
+
+def test_a_small_cell_is_as_large_as_the_radii_of_curvature_say():
+    latitude, longitude = 38.9 + np.array([-1, 0, 1]) * 1e-3, -120.5 + np.array([-1, 0, 1]) * 1e-3
+    dx, dy = areas.spacing(latitude, longitude)
+    assert areas.cell_areas(latitude, longitude)[1, 1] == pytest.approx(dx * dy, rel=1e-9)
+    assert dy == pytest.approx(111.011, abs=0.01)  # 111.0 km per degree at 38.9 N
+
+
+def test_burned_area_energy_and_flux(run):
+    facts = info.gather(run, ZONE)
+    cell = areas.cell_areas(run.fuel_latitude, run.fuel_longitude)
+    assert facts["burned"]["first"] == pytest.approx(cell[0, 0])
+    assert facts["burned"]["last"] == pytest.approx(cell[0, 0] + cell[3, 4] + cell[5, 5])
+    flux, area = small_fields()["heat_flux"].astype(float), areas.cell_areas(run.latitude, run.longitude)
+    power = (flux * area).sum((1, 2))
+    assert facts["energy"] == pytest.approx(60 * (power[0] / 2 + power[1] + power[2] / 2), rel=1e-12)
+    assert facts["heat_flux"] == {"min": 0.0, "max": 2000.25}
+
+
+def test_reported_acreages_stand_beside_those_of_the_run(run):
+    rows = [row for row in info.gather(run, ZONE)["reported"] if row["run"] is not None]
+    assert [row["time"] for row in rows] == ["2014-09-17T04:45:00Z"]  # the run lasts two minutes
+    cell = areas.cell_areas(run.fuel_latitude, run.fuel_longitude)[0, 0]
+    assert rows[0]["reported"] == pytest.approx(11_520 * 4046.8564224)
+    assert rows[0]["difference"] == pytest.approx(cell / (11_520 * 4046.8564224) - 1)
+
+
+def test_the_page_says_what_is_needed(run):
+    page = info.page(info.gather(run, ZONE))
+    assert "Small  (SYNTHETIC" in page
+    assert "16 Sep 2014 21:45 PDT" in page
+    assert "17 Sep 04:45 UTC" in page
+    assert "11,520" in page
+    assert "4 x 5 cells" in page
+    assert all(len(line) == len(line.rstrip()) for line in page.splitlines())
+
+
+def test_facts_are_json(run):
+    assert json.loads(json.dumps(info.gather(run, ZONE), allow_nan=False))["name"] == "Small"
+
+
+def test_a_fire_that_is_not_known_has_no_reports(make_run):
+    run = runs.open(make_run(toml=TOML_WITHOUT_EVENT))
+    facts = info.gather(run, ZONE)
+    assert facts["reported"] == []
+    assert "reported" not in info.page(facts)
+
+
+def test_maps_are_drawn(run, tmp_path):
+    out = tmp_path / "new" / "maps"
+    assert maps.draw(run, out, ZONE) == [out / "fuel.png", out / "intensity.png"]
+    assert sorted(path.name for path in out.iterdir()) == ["fuel.png", "intensity.png"]
+    for path in out.iterdir():
+        pixels = np.asarray(Image.open(path).convert("RGB")).astype(int)
+        assert pixels.shape[1] == round(8.8 * maps.DPI)
+        assert pixels.std() > 20
+    green = np.asarray(Image.open(out / "fuel.png").convert("RGB")).astype(int)
+    assert ((green[..., 1] > green[..., 0] + 30) & (green[..., 1] > green[..., 2] + 30)).mean() > 0.1
+
+
+def test_denser_fuel_is_greener_and_stronger_fire_redder():
+    fuel, fire = (
+        np.array([colours(x)[:3] for x in np.linspace(0, 1, 11)]) for colours in (maps.FUEL, maps.INTENSITY)
+    )
+    brightness = fuel @ [0.2126, 0.7152, 0.0722]
+    assert (np.diff(brightness) < 0).all()
+    assert (np.diff(fire[:, 1]) < 0).all()  # less and less green in the yellow, down to red
+    assert fire[0].min() > 0.6
+    assert fire[-1][0] > 4 * fire[-1][1]
+
+
+def test_maps_of_a_single_cell(make_run, tmp_path):
+    one = {
+        name: field[..., :1, :1] if field.ndim > 1 else field[:1] for name, field in small_fields().items()
+    }
+    run = runs.open(make_run(**one))
+    for path in maps.draw(run, tmp_path, ZONE):
+        assert path.stat().st_size > 10_000
