@@ -33,4 +33,8 @@ def emitters(flux: ArrayLike, position: ArrayLike, flux_min: float, flux_max: fl
     """Algorithm 1: flux (ny, nx) W/m2 and position (ny, nx, 3) metres -> emitters where flux > 0."""
 
 def at_time(run: Run, time: float) -> NDArray[np.float32]:
-    """Heat flux (ny, nx) in W/m2 at any time (seconds since start); zero outside the run."""
+    """Heat flux (ny, nx) in W/m2 at any time (seconds since start); zero outside the run.
+
+    Exact at the model times, linear between them, except that cells which first burn in between stay cold
+    until the moving front reaches them. The first call scans the run for its arrival times.
+    """
