@@ -73,7 +73,7 @@ def bake(arguments: argparse.Namespace) -> None:
 def render(arguments: argparse.Namespace) -> None:
     """Render what is asked for and not finished, then the films."""
     from . import worker
-    from .render import films, plan, settings
+    from .render import films, part, plan, settings
 
     project, run = _load(arguments.scene)
     out = arguments.out
@@ -88,10 +88,14 @@ def render(arguments: argparse.Namespace) -> None:
     elif finished:
         say(f"{finished} of {_count(len(wanted), 'picture')} are finished and match")
     out.mkdir(parents=True, exist_ok=True)
-    if undone or films.missing(project, run, out):
-        cameras = ", ".join(dict.fromkeys(shot.camera for shot in undone))
-        if undone:
-            say(f"rendering {_count(len(undone), 'picture')} of {cameras}")
+    if undone:
+        cameras = " and ".join(dict.fromkeys(shot.camera for shot in undone))
+        say(f"rendering {_count(len(undone), 'picture')} of {cameras}")
+    elif not films.missing(project, run, out):
+        say("nothing to render")
+        _list(project, out)
+        return
+    try:
         worker.run(
             "commands:render_in_blender",
             {
@@ -102,8 +106,8 @@ def render(arguments: argparse.Namespace) -> None:
             Reporter(),
             eevee=project.render.engine == "eevee",
         )
-    else:
-        say("nothing to render")
+    finally:
+        part.sweep(out)
     _list(project, out)
 
 
