@@ -26,10 +26,14 @@ def new_fcurve(datablock: bpy.types.ID, data_path: str, index: int = 0) -> bpy.t
     """
     animation = datablock.animation_data or datablock.animation_data_create()
     if animation.action is None:
-        animation.action = bpy.data.actions.new(f"{datablock.name} action")
+        animation.action = bpy.data.actions.new(_action_name(datablock))
     curve = animation.action.fcurve_ensure_for_datablock(datablock, data_path, index=index)
     curve.keyframe_points.clear()
     return curve
+
+
+def _action_name(datablock: bpy.types.ID) -> str:
+    return f"Firetwin {datablock.name.removeprefix('Firetwin ')} Action"
 
 
 def fcurves(datablock: bpy.types.ID) -> list[bpy.types.FCurve]:

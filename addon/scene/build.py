@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import importlib
-import importlib.util
-
 import bpy
 from firetwin_core.run import Run
 
 from ..project import Project
-from . import cameras, clock, collections, forest, light, terrain
+from . import cameras, clock, collections, fire, forest, light, sensors, smoke, terrain
 from .ground import Ground
 from .paths import Path, eyes, paths
 
@@ -22,11 +19,11 @@ def build(project: Project, run: Run, scene: bpy.types.Scene | None = None) -> b
     ground, views = survey(project, run)
     terrain.build(project, run, ground, views)
     forest.build(project, run, ground, views)
-    _call("fire", project, run, scene)
-    _call("smoke", project, run, scene)
+    fire.build(project, run)
+    smoke.build(project, run)
     light.build(project, run, scene)
     cameras.build(project, run, views, scene)
-    _call("sensors", project, run, scene)
+    sensors.build(project, run, scene)
     return scene
 
 
@@ -35,8 +32,3 @@ def survey(project: Project, run: Run) -> tuple[Ground, list[Path]]:
     ground = Ground(project, run)
     ground.eyes = eyes(paths(project, run, ground), project.terrain.near_radius)
     return ground, paths(project, run, ground)
-
-
-def _call(name: str, project: Project, run: Run, scene: bpy.types.Scene) -> None:
-    if importlib.util.find_spec(f"{__package__}.{name}"):
-        importlib.import_module(f".{name}", __package__).build(project, run)

@@ -32,13 +32,19 @@ def remove(collection: bpy.types.Collection) -> None:
     """Delete a collection, what is in it, and the data that only its objects used."""
     for child in list(collection.children):
         remove(child)
-    for thing in list(collection.objects):
-        data = thing.data
-        action = thing.animation_data.action if thing.animation_data else None
-        bpy.data.objects.remove(thing)
-        unused = [block for block in (data, action) if block is not None and block.users == 0]
-        bpy.data.batch_remove(unused)
+    things = list(collection.objects)
+    data = {thing.data for thing in things if thing.data is not None}
     bpy.data.collections.remove(collection)
+    discard(*things)
+    discard(*(block for block in data if block.users == 0))
+
+
+def discard(*blocks: bpy.types.ID) -> None:
+    """Delete data and the animation that goes with it, also that of its shader nodes."""
+    owners = [*blocks, *(block.node_tree for block in blocks if getattr(block, "node_tree", None))]
+    actions = {owner.animation_data.action for owner in owners if owner.animation_data} - {None}
+    bpy.data.batch_remove(blocks)
+    bpy.data.batch_remove([action for action in actions if action.users == 0])
 
 
 def add(collection: bpy.types.Collection, name: str, data: bpy.types.ID | None) -> bpy.types.Object:

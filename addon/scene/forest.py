@@ -182,25 +182,29 @@ def _node_group(project: Project, run: Run, name: str, library: bpy.types.Collec
 
 
 def _tree_models(project: Project, run: Run) -> bpy.types.Collection:
+    library = _library("Tree Models")
     needles = material.foliage(project, run)
     wood, char = (material.bark(project, run, charred=charred) for charred in (False, True))
-    return _library("Tree Models", trees.models(needles, wood, char))
+    return _fill(library, trees.models(needles, wood, char))
 
 
 def _grass_models(project: Project, run: Run) -> bpy.types.Collection:
+    library = _library("Grass Models")
     straw = material.grass(project, run)
-    return _library(
-        "Grass Models", [trees.grass(140 + k).mesh(f"Firetwin Grass {k:02d}", (straw,)) for k in (0, 1)]
-    )
+    return _fill(library, [trees.grass(140 + k).mesh(f"Firetwin Grass {k:02d}", (straw,)) for k in (0, 1)])
 
 
-def _library(name: str, meshes: list[bpy.types.Mesh]) -> bpy.types.Collection:
-    """A collection outside the scene that holds the models; instances are numbered by their names' order."""
+def _library(name: str) -> bpy.types.Collection:
+    """An empty collection outside the scene, in place of an old one with all its models."""
     full = f"{collections.ROOT} {name}"
     old = bpy.data.collections.get(full)
     if old is not None:
         collections.remove(old)
-    library = bpy.data.collections.new(full)
+    return bpy.data.collections.new(full)
+
+
+def _fill(library: bpy.types.Collection, meshes: list[bpy.types.Mesh]) -> bpy.types.Collection:
+    """Put models into a library; instances are numbered by the order of their names."""
     for mesh in meshes:
         library.objects.link(bpy.data.objects.new(mesh.name, mesh))
     return library

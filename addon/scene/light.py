@@ -35,9 +35,10 @@ def build(project: Project, run: Run, scene: bpy.types.Scene) -> bpy.types.Objec
     moving = project.time.frames > 1 and last > first
     frames = np.linspace(1.0, project.time.frames, _KEYS if moving else 1)
     states = [State(project, *sun.at(run, clock.model_time(project, run, frame))) for frame in frames]
+    collection = collections.fresh("Light", scene=scene)
     lamp = bpy.data.lights.new("Firetwin Sun", "SUN")
     lamp.angle = np.radians(0.53)
-    thing = collections.add(collections.fresh("Light", scene=scene), "Sun", lamp)
+    thing = collections.add(collection, "Sun", lamp)
     thing.rotation_mode = "QUATERNION"
     sky = _world(scene)
     _key(thing, "rotation_quaternion", frames, np.array([s.rotation for s in states]))
@@ -99,7 +100,7 @@ def _world(scene: bpy.types.Scene) -> bpy.types.ShaderNodeTexSky:
     """Make the world: sky texture and a little night sky; constant and cold in thermal view layers."""
     old = bpy.data.worlds.get("Firetwin Sky")
     if old is not None:
-        bpy.data.worlds.remove(old)
+        collections.discard(old)
     world = scene.world = bpy.data.worlds.new("Firetwin Sky")
     tree = nodes.Tree(compat.node_tree(world))
     sky = tree.node("ShaderNodeTexSky")

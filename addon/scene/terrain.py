@@ -23,6 +23,7 @@ def build(project: Project, run: Run, ground: Ground, views: list[Path]) -> bpy.
     continued a little past the last perimeter), `burned` (1 inside the last perimeter), `canopy_fuel`,
     `surface_fuel` (kg/m2), `bare` (part without fuel), `elevation` (m) and `detail` (1 near cameras).
     """
+    collection = collections.fresh("Terrain")
     mesh = grid_mesh.graded(levels(project, ground, views))
     coarse = _positions(ground, mesh, 0.0)
     detail = ground.detail(*coarse.T)
@@ -32,7 +33,7 @@ def build(project: Project, run: Run, ground: Ground, views: list[Path]) -> bpy.
     for name, values in _attributes(ground, mesh, detail).items():
         data.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values.astype(np.float32))
     data.materials.append(material.build(project, run))
-    return collections.add(collections.fresh("Terrain"), "Terrain", data)
+    return collections.add(collection, "Terrain", data)
 
 
 def levels(project: Project, ground: Ground, views: list[Path]) -> NDArray[np.int64]:
