@@ -7,6 +7,7 @@ nothing to do. Every file is complete: it is written under another name and then
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import json
 from dataclasses import dataclass
@@ -54,7 +55,7 @@ def resolution(project: Project, run: Run) -> Resolution:
     """The scene file's voxel size and extinction, where it gives them, else those for the cameras."""
     distance = _distance(project, run)
     voxel = project.smoke.voxel_size or float(np.clip(70.0 * (distance / 4000.0) ** 0.4, 50.0, 160.0))
-    extinction = project.smoke.extinction or float(np.clip(0.3 / (0.22 * voxel), 0.008, 0.03))
+    extinction = project.smoke.extinction or float(np.clip(0.3 / (0.4 * voxel), 0.006, 0.03))
     return Resolution(voxel, 0.3 / extinction, extinction)
 
 
@@ -138,7 +139,7 @@ class Baker:
             max_age=self.project.smoke.max_age,
             burn_time=burning.BURN_TIME,
             seed=self.project.seed,
-            smallest=0.9 * self.resolution.voxel,
+            smallest=1.2 * self.resolution.voxel,
         )
 
     def write(self, path: Path, frame: int) -> volume.Frame:
@@ -198,7 +199,7 @@ def _key(project: Project, run: Run) -> str:
     """Hash of everything that the smoke depends on."""
     drawn = resolution(project, run)
     inputs: dict[str, Any] = {
-        "core": [firetwin_core.__version__, Path(firetwin_core.__file__).stat().st_size],
+        "core": _core(),
         "run": _files(Path(run.path)),
         "times": frame_times(project, run).tolist(),
         "seed": project.seed,
@@ -206,6 +207,13 @@ def _key(project: Project, run: Run) -> str:
         "voxel": round(drawn.voxel, 3),
     }
     return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:16]
+
+
+@functools.cache
+def _core() -> str:
+    """Hash of the compiled core."""
+    with open(firetwin_core.__file__, "rb") as module:
+        return hashlib.file_digest(module, "sha256").hexdigest()
 
 
 def _files(path: Path) -> list[tuple[str, int, int]]:

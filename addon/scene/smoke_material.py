@@ -16,15 +16,18 @@ from .. import nodes
 from ..project import Project
 from . import bake, burning, clock, haze
 
-EXTINCTION_PER_DILUTION = 0.04  # 1/m: 4 m2/g (fresh biomass smoke, Reid et al. 2005) times 10 mg/m3
+OPACITY = 3.0  # times that of dry smoke, for ash and cloud water; chosen by eye
+EXTINCTION_PER_DILUTION = 0.04 * OPACITY  # 1/m: 4 m2/g (fresh biomass smoke, Reid et al. 2005) times 10 mg/m3
 ANISOTROPY = 0.33
 _EDGE = (0.46, 0.55)  # of the clipped distance: 54 m from clear to full
 _AMPLITUDE = 0.40  # of the noise in the distance, 1 = 600 m
 _MEAN_BILLOW = 0.4
-_PERIOD = 300.0  # s for which a layer of noise is carried along before it is drawn anew
+_ALOFT = 1.55  # wind where smoke is over that at 10 m: (h / 10 m)^0.1 at 800 m
+_CLIMB = 1.0  # m/s
+_VEIL = (0.002, 0.005)  # dilution between which thin smoke fades; volumes end at the lower one
 _LOW, _HIGH = (0.62, 0.53, 0.44), (0.95, 0.945, 0.94)  # albedo near the ground and far up
 _GLOW = (1.0, 0.30, 0.06)
-_GLOW_LIGHT = 2.5  # radiance of thick smoke amid flames of 1 GW, exposure 0
+_GLOW_LIGHT = 0.25  # radiance of thick smoke amid flames of 1 GW, exposure 0
 
 
 @dataclass(frozen=True)
@@ -51,49 +54,41 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     material, tree = nodes.material("Firetwin Smoke")
     position = tree.output("ShaderNodeNewGeometry", name="Position")
     above = tree.separate(position)[2] - carried.ground
-    size = tree.attribute("size")
-    billow = _billow(tree, position, above, carried, float(np.clip(4.5 * drawn.voxel, 260.0, 700.0)))
-    reach = tree.math("MINIMUM", size * 0.8, _AMPLITUDE)  # small puffs must not be eaten up
-    edge = (tree.attribute("density") + reach * (billow - _MEAN_BILLOW)).smoothstep(*_EDGE)
-    thickness = tree.attribute("dilution") * (EXTINCTION_PER_DILUTION / drawn.extinction)
-    density = edge * (1.0 - (-thickness).exp()) * drawn.extinction
-    part, air = haze.fraction(tree)
+    depth = tree.attribute("density")
+    dilution = tree.attribute("dilution")
+    thickness = dilution * dilution.smoothstep(*_VEIL) * (EXTINCTION_PER_DILUTION / drawn.extinction)
+    full = (1.0 - (-thickness).exp()) * drawn.extinction
     albedo = tree.mix_colour(above.smoothstep(-200.0, 3200.0), _LOW, _HIGH)
-    seen = tree.mix_colour(part, albedo, (0.0, 0.0, 0.0))
-    scatter = tree.output(
-        "ShaderNodeVolumeScatter", {"Color": seen, "Density": density, "Anisotropy": ANISOTROPY}
-    )
-    absorb = tree.output("ShaderNodeVolumeAbsorption", {"Color": seen, "Density": density})
-    glow = tree.emission(_GLOW, tree.attribute("glow") * density * (1.0 - part) * _GLOW_LIGHT)
-    shader = tree.add_shader(tree.add_shader(scatter, absorb), glow)
-    tree.volume(tree.add_shader(shader, tree.emission(air, part * density)))
+    noise = _billow(tree, position, carried, float(np.clip(4.5 * drawn.voxel, 260.0, 700.0)))
+    reach = tree.math("MINIMUM", tree.attribute("size") * 0.8, _AMPLITUDE)  # small puffs must not be eaten up
+    edge = (depth + reach * (noise - _MEAN_BILLOW)).smoothstep(*_EDGE)
+    part, air = haze.fraction(tree)
+    seen = _smoke(tree, edge * full, tree.mix_colour(part, albedo, (0.0, 0.0, 0.0)))
+    hazy = tree.emission(air, part * edge * full)
+    glow = tree.emission(_GLOW, tree.attribute("glow") * edge * full * (1.0 - part) * _GLOW_LIGHT)
+    detailed = tree.add_shader(tree.add_shader(seen, hazy), glow)
+    # Rays of light through the smoke need no detail, and most steps belong to them.
+    plain = _smoke(tree, depth.smoothstep(*_EDGE) * full, albedo)
+    camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
+    tree.volume(tree.mix_shader(camera, plain, detailed))
     return material
 
 
-def _billow(
-    tree: nodes.Tree, position: nodes.Value, above: nodes.Value, carried: Flow, size: float
-) -> nodes.Value:
-    """Billow noise, about 0..1 with mean 0.4, that travels with the wind at its height.
+def _smoke(tree: nodes.Tree, density: nodes.Value, albedo: nodes.Value) -> nodes.Value:
+    """Scattering and absorption that make `density` (1/m) the extinction and `albedo` its scattered part."""
+    inputs = {"Color": albedo, "Density": density}
+    scatter = tree.output("ShaderNodeVolumeScatter", inputs | {"Anisotropy": ANISOTROPY})
+    return tree.add_shader(scatter, tree.output("ShaderNodeVolumeAbsorption", inputs))
 
-    Two layers are carried along, each for _PERIOD seconds, and drawn anew while the other one shows (the
-    flow maps of water surfaces): so it neither slides against the flow nor shears without end.
+
+def _billow(tree: nodes.Tree, position: nodes.Value, carried: Flow, size: float) -> nodes.Value:
+    """Billow noise, about 0..1 with mean 0.4, that is carried along with the smoke.
+
+    It moves with the wind some hundred metres up; between there and the top of the smoke the wind of the
+    puffs changes by an eighth.
     """
-    height = tree.math("MAXIMUM", above, 10.0)
-    factor = (height / 10.0).power(1.0 / 7.0)  # the wind profile of the puffs
-    velocity = tree.combine(factor * carried.wind[0], factor * carried.wind[1], 1.5)
-    clock_value = nodes.model_time(tree) / _PERIOD
-    layers = []
-    for layer in (0, 1):
-        phase = clock_value + 0.5 * layer
-        turn = tree.math("FLOOR", phase)
-        part = phase - turn
-        age = (part - 0.5) * _PERIOD
-        shift = tree.output("ShaderNodeVectorMath", {0: velocity, "Scale": age}, operation="SCALE")
-        apart = tree.combine(turn * 7919.0 + 3571.0 * layer, turn * -5077.0, turn * 1543.0)
-        moved = tree.vector("ADD", tree.vector("SUBTRACT", position, shift), apart)
-        noise = tree.noise(moved, size, 5.0, 0.6)
-        billow = tree.math("ABSOLUTE", noise * 2.0 - 1.0) * 2.0 - _MEAN_BILLOW
-        weight = 1.0 - tree.math("ABSOLUTE", part * 2.0 - 1.0)
-        layers.append((billow * weight, weight * weight))
-    contrast = tree.math("SQRT", layers[0][1] + layers[1][1])
-    return (layers[0][0] + layers[1][0]) / contrast + _MEAN_BILLOW
+    shift = [speed * _ALOFT for speed in carried.wind]
+    time = nodes.model_time(tree)
+    moved = tree.vector("SUBTRACT", position, tree.combine(time * shift[0], time * shift[1], time * _CLIMB))
+    noise = tree.noise(moved, size, 4.0, 0.6)
+    return tree.math("ABSOLUTE", noise * 2.0 - 1.0) * 2.0

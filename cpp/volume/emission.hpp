@@ -8,7 +8,7 @@
 
 namespace firetwin {
 
-constexpr std::size_t kStems = 12; // parts of an interval that are followed one by one at first
+constexpr std::size_t kStems = 6; // parts of an interval that are followed one by one at first
 
 /// What the cells of one block burn in one interval. The place, wind and powers belong to the whole
 /// interval, also the part still to come, so that they do not depend on the moment looked at.

@@ -50,14 +50,31 @@ bool LeafFields::measure(const Puffs& puffs, std::span<const std::uint32_t> ball
   if (sure >= kInside) {
     return true;
   }
-  bool any = sure > -kOutside;
+  struct Candidate {
+    float deepest; // the most depth that the ball can give to a voxel
+    std::uint32_t ball;
+  };
+  std::vector<Candidate> candidates;
   for (const std::uint32_t ball : balls) {
+    const float deepest =
+        puffs.radius[ball] - reach(corner_, side, &puffs.position[3 * ball]).nearest;
+    if (deepest > sure) {
+      candidates.push_back({deepest, ball});
+    }
+  }
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.deepest != b.deepest ? a.deepest > b.deepest : a.ball < b.ball;
+  });
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (i % 8 == 7) { // no later ball reaches deeper than the shallowest voxel lies already
+      const float shallowest = *std::min_element(distance_.begin(), distance_.end());
+      if (candidates[i].deepest <= std::min(shallowest, kInside)) {
+        break;
+      }
+    }
+    const std::uint32_t ball = candidates[i].ball;
     const float radius = puffs.radius[ball];
     const float* centre = &puffs.position[3 * ball];
-    if (radius - reach(corner_, side, centre).nearest <= sure) {
-      continue;
-    }
-    any = true;
     for (std::size_t x = 0; x < kSide; ++x) {
       const float dx = corner_[0] + static_cast<float>(x) * voxel_ - centre[0];
       for (std::size_t y = 0; y < kSide; ++y) {
@@ -74,7 +91,7 @@ bool LeafFields::measure(const Puffs& puffs, std::span<const std::uint32_t> ball
       }
     }
   }
-  return any;
+  return sure > -kOutside || !candidates.empty();
 }
 
 std::array<double, 3> LeafFields::node(std::size_t x, std::size_t y, std::size_t z) const {

@@ -14,7 +14,7 @@ constexpr float kOutside = 200.0F; // m outside the balls where voxels end
 
 /// How far the mass of a puff of radius R is spread, m.
 inline float spread(float radius) {
-  return 1.5F * radius + 150.0F;
+  return 1.2F * radius + 120.0F;
 }
 
 /// The fields of one 8^3 leaf, z running fastest. Its lowest voxel is centred on `corner`.

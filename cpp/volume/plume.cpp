@@ -14,7 +14,8 @@ constexpr double kAirKelvin = 290.0;  // K
 constexpr double kConvective = 0.7;   // part of the heat that is not radiated away
 constexpr double kBriggsHeight = 300.0;
 constexpr double kLeastWind = 0.5; // m/s; less counts as a calm, as in EMRISE
-constexpr int kSteps = 12;         // of the drift integral: within 0.2 % of the limit
+constexpr double kWindExponent = 0.1;
+constexpr int kSteps = 12; // of the drift integral: within 0.2 % of the limit
 
 } // namespace
 
@@ -24,7 +25,7 @@ double buoyancy_flux(double power) {
 }
 
 double wind_at(double wind10, double height) {
-  return wind10 * std::pow(std::max(height, 10.0) / 10.0, 1.0 / 7.0);
+  return wind10 * std::pow(std::max(height, 10.0) / 10.0, kWindExponent);
 }
 
 Plume::Plume(double power, double wind, double stability)

@@ -12,7 +12,7 @@ namespace firetwin {
 /// Fb = 7.6e-7 Q is a tenth of this and keeps large fires under 2 km.)
 ///
 /// U in Briggs's formulas is the wind 300 m above the ground; the wind grows with height h as
-/// U10 (h / 10 m)^(1/7), the power law of a neutral boundary layer.
+/// U10 (h / 10 m)^0.1, the rural power law of a slightly unstable afternoon (Irwin 1979, class C).
 class Plume {
 public:
   /// `power` in W, `wind` at 10 m in m/s, `stability` s in 1/s2.

@@ -17,6 +17,7 @@ namespace {
 constexpr double kEntrainment = 0.3;
 constexpr double kTurbulentGrowth = 0.02;
 constexpr double kFireFlux = 1.0e5; // W/m2
+constexpr double kFaint = 2.0e-8;   // kg/m3; thinner smoke has no edge to shape
 constexpr int kChildren = 16;
 constexpr int kGrandchildren = 9;
 
@@ -50,7 +51,7 @@ Vector direction(int index, int count, std::uint64_t key) {
 void add_surface(std::vector<Ball>& balls, const Ball& parent, double smallest, int generation) {
   const int count = generation == 1 ? kChildren : kGrandchildren;
   const double least = generation == 1 ? 0.28 : 0.3;
-  if (parent.radius * 0.5 <= smallest) {
+  if (parent.radius * 0.5 <= smallest || parent.density < kFaint) {
     return;
   }
   for (int i = 0; i < count; ++i) {
@@ -59,7 +60,9 @@ void add_surface(std::vector<Ball>& balls, const Ball& parent, double smallest, 
     if (radius <= smallest) {
       continue;
     }
-    radius *= smoothstep(1.0, 1.5, radius / smallest); // none appears at full size
+    // None appears or goes at full size.
+    radius *=
+        smoothstep(1.0, 1.5, radius / smallest) * smoothstep(1.0, 2.0, parent.density / kFaint);
     const Vector way = direction(i, count, parent.identity);
     Ball child = parent;
     for (std::size_t axis = 0; axis < 3; ++axis) {

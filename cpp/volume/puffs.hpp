@@ -16,7 +16,7 @@ struct Burn {
 };
 
 struct PuffSettings {
-  double interval = 120.0;              // s of emission gathered in one puff
+  double interval = 60.0;              // s of emission gathered in one puff
   double max_age = 5400.0;              // s
   double burn_time = 600.0;             // s over which a cell burns out, at an even rate
   double stability = 1.0e-4;            // 1/s2, square of the buoyancy frequency
@@ -48,7 +48,7 @@ struct Puffs {
 ///
 /// Cells are gathered in blocks, and the fuel that a block burns in one interval makes one puff,
 /// born at the start of the interval with neither mass nor size. For its first minutes the puff is
-/// a chain of twelve smaller ones, its stem, so that the column is whole down to the flames; then
+/// a chain of six smaller ones, its stem, so that the column is whole down to the flames; then
 /// the mass passes smoothly to the puff itself. It moves along its plume (see Plume) with the power
 /// of its neighbourhood: sum of P_j exp(-(d_j / merge_radius)^2) over the blocks burning in the
 /// same interval, since fires whose plumes touch rise as one. It grows by entrainment and

@@ -49,16 +49,17 @@ Leaves fill(const Puffs& puffs, std::span<const std::uint32_t> balls, const open
   if (!fields.measure(puffs, balls)) {
     return leaves;
   }
+  fields.concentrate(puffs, balls);
   Leaf::NodeMaskType mask;
   for (std::uint32_t i = 0; i < LeafFields::kVoxels; ++i) {
-    if (fields.distance()[i] > -kOutside) {
+    if (fields.distance()[i] > -kOutside &&
+        fields.concentration()[i] > static_cast<float>(kThinnest * kFreshSmoke)) {
       mask.setOn(i);
     }
   }
   if (mask.isOff()) {
     return leaves;
   }
-  fields.concentrate(puffs, balls);
   for (auto at = mask.beginOn(); at; ++at) {
     leaves.mass += static_cast<double>(fields.concentration()[at.pos()]);
   }

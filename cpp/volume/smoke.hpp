@@ -11,6 +11,9 @@ namespace firetwin {
 /// Smoke that counts as dilution 1, kg/m3: 10 mg/m3, as over a crown fire.
 constexpr double kFreshSmoke = 1.0e-5;
 
+/// Thinner smoke than this times kFreshSmoke is left out.
+constexpr double kThinnest = 2.0e-3;
+
 /// Light of flames: positions (n, 3) m and powers (n,) W.
 struct Flames {
   std::span<const double> position;
@@ -19,10 +22,10 @@ struct Flames {
 
 /// Writes the smoke as grids of one sparse OpenVDB file (half precision):
 /// - `density`: clamp((d + 300 m) / 600 m, 0, 1), d the distance into the union of the balls; 0 and
-///   inactive farther than 200 m outside;
+///   inactive farther than 200 m outside, and where dilution is under 0.002, too thin to be seen;
 /// - `dilution`: smoke in units of kFreshSmoke; each puff spread by 15 / (8 pi s^3) (1 - r^2 /
 /// s^2),
-///   s = 1.5 R + 150 m, the whole scaled so that the grid holds the puffs' mass;
+///   s = 1.2 R + 120 m, the whole scaled so that the grid holds the puffs' mass;
 /// - `size`: radius of the ball that the voxel lies in or next to, km, at most 1;
 /// - `temperature`: K, of the air at that height (ISA) plus what the smoke's own heat adds;
 /// - with flames, `glow`: sum of P / 1e9 W exp(-r / 1100 m) / (1 + (r / 250 m)^2), so 1 amid flames
