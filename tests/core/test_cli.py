@@ -1,0 +1,182 @@
+"""The command line as a person meets it: what it prints where, and its exit status."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+
+def firetwin(*arguments, **options):
+    """Run the command; its result has .returncode, .stdout and .stderr."""
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    command = [sys.executable, "-m", "firetwin", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120, **options)
+
+
+def assert_one_line(result, status, *words):
+    assert result.returncode == status
+    assert result.stdout == ""
+    lines = result.stderr.splitlines()
+    assert len(lines) == 1, result.stderr
+    assert lines[0].startswith("firetwin: ")
+    assert all(word in lines[0] for word in words), lines[0]
+
+
+def test_help_names_every_command():
+    result = firetwin("--help")
+    assert result.returncode == 0
+    assert all(
+        f"    {name}  " in result.stdout for name in ("sample", "info", "maps", "build", "bake", "render")
+    )
+    assert result.stderr == ""
+
+
+def test_help_and_mistakes_load_nothing_heavy():
+    code = """
+import sys
+from firetwin.cli import main
+for line in (["--help"], ["render", "--help"], ["nonsense"], []):
+    try:
+        main(line)
+    except SystemExit:
+        pass
+heavy = {"bpy", "numpy", "matplotlib", "firetwin_core", "tqdm"} & set(sys.modules)
+sys.exit(f"loaded {heavy}" if heavy else 0)
+"""
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
+    assert result.returncode == 0, result.stderr
+
+
+@pytest.mark.parametrize("command", ["sample", "info", "maps", "build", "bake", "render"])
+def test_every_command_explains_itself(command):
+    result = firetwin(command, "--help")
+    assert result.returncode == 0
+    assert result.stdout.startswith(f"usage: firetwin {command} ")
+    assert "--debug" in result.stdout
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        [],
+        ["nonsense"],
+        ["info"],
+        ["render", "x.toml"],
+        ["sample", "x", "--frames", "0"],
+        ["info", "x", "--jsn"],
+    ],
+)
+def test_bad_usage_is_2(line):
+    result = firetwin(*line)
+    assert result.returncode == 2
+    assert result.stdout == ""
+    assert "usage: firetwin" in result.stderr
+
+
+def test_versions():
+    result = firetwin("--version")
+    assert result.returncode == 0
+    assert result.stdout.startswith("firetwin 0")
+
+
+def test_info_as_a_page_and_as_json(make_run):
+    folder = make_run()
+    page = firetwin("info", folder)
+    assert (page.returncode, page.stderr) == (0, "")
+    assert page.stdout.startswith("Small  (SYNTHETIC")
+    facts = json.loads(firetwin("info", folder, "--json").stdout)
+    assert facts["times"]["count"] == 3
+
+
+def test_maps_say_where_they_are(make_run, tmp_path):
+    result = firetwin("maps", make_run(), "--out", tmp_path / "maps")
+    assert result.returncode == 0
+    assert result.stdout.splitlines() == [
+        str(tmp_path / "maps" / name) for name in ("fuel.png", "intensity.png")
+    ]
+
+
+def test_a_reader_that_stops_early_is_no_mistake(make_run):
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    command = f"{sys.executable} -m firetwin info {make_run()} | head -n 1"
+    result = subprocess.run(command, shell=True, capture_output=True, text=True, env=environment)
+    assert result.stdout.startswith("Small")
+    assert result.stderr == ""
+
+
+# The four mistakes that everyone makes once.
+
+
+def test_a_missing_run_and_a_missing_file(tmp_path, make_run):
+    assert_one_line(firetwin("info", tmp_path / "none"), 1, str(tmp_path / "none"))
+    folder = make_run()
+    (folder / "elevation.npy").unlink()
+    assert_one_line(firetwin("info", folder), 1, "elevation")
+
+
+def test_a_field_of_the_wrong_size(make_run):
+    folder = make_run(elevation=np.zeros((4, 6), np.float32))
+    assert_one_line(firetwin("info", folder), 1, "elevation.npy", "4", "6")
+
+
+def test_a_malformed_number(make_run):
+    folder = make_run("text")
+    path = folder / "elevation.txt"
+    lines = path.read_text().splitlines()
+    lines[1] = " ".join(["1.5", "12x4", *lines[1].split()[2:]])
+    path.write_text("\n".join(lines) + "\n")
+    assert_one_line(firetwin("info", folder), 1, f"{path}:2:5")
+
+
+def test_an_unknown_key_of_a_scene_file(tmp_path):
+    (tmp_path / "scene.toml").write_text("[render]\nsample = 3\n")
+    line = ("render", tmp_path / "scene.toml", "--out", tmp_path / "out")
+    assert_one_line(firetwin(*line), 1, "scene.toml:2:1", 'did you mean "samples"?')
+    assert not (tmp_path / "out").exists()
+    with_debug = firetwin(*line, "--debug")
+    assert with_debug.returncode == 1
+    assert "Traceback" in with_debug.stderr
+
+
+@pytest.fixture
+def scene(make_run, tmp_path):
+    """Write a scene file about the small run, with lines added."""
+    run = make_run()
+
+    def write(text=""):
+        path = tmp_path / "scene.toml"
+        camera = (
+            '[[cameras]]\nname = "drone"\nkeys = [{latitude = 38.9, longitude = -120.6, target = "fire"}]\n'
+        )
+        path.write_text(f'run = "{run}"\n{text}\n{camera}')
+        return path
+
+    return write
+
+
+@pytest.mark.parametrize(
+    ("option", "words"),
+    [
+        (["--camera", "drown"], ["--camera", "drone"]),
+        (["--frames", "0-3"], ["--frames", "1-48"]),
+        (["--passes", "rbg"], ["--passes", "rgb"]),
+    ],
+)
+def test_options_that_do_not_fit_the_scene_are_bad_usage(scene, tmp_path, option, words):
+    assert_one_line(firetwin("render", scene(), "--out", tmp_path / "out", *option), 2, *words)
+
+
+def test_a_scene_must_fit_its_run(scene, tmp_path):
+    late = scene("[time]\nend = 2015-01-01T00:00:00Z")
+    assert_one_line(firetwin("bake", late), 1, "scene.toml:3:1", "outside of the run", "2014-09-17T04:47:00Z")
+    path = scene()
+    path.write_text(path.read_text().replace("38.9", "48.9"))
+    assert_one_line(
+        firetwin("build", path, "-o", tmp_path / "x.blend"), 1, "scene.toml:5:10", '"drone"', "110 km"
+    )
+    path.write_text(path.read_text().replace("48.9", "38.9").replace(', target = "fire"', ""))
+    assert_one_line(firetwin("render", path, "--out", tmp_path / "out"), 1, '"drone" looks at')
