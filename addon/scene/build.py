@@ -19,7 +19,7 @@ def build(project: Project, run: Run, scene: bpy.types.Scene | None = None) -> b
     ground, views = survey(project, run)
     terrain.build(project, run, ground, views)
     forest.build(project, run, ground, views)
-    fire.build(project, run)
+    fire.build(project, run, ground, views)
     smoke.build(project, run)
     light.build(project, run, scene)
     cameras.build(project, run, views, scene)

@@ -25,7 +25,7 @@ _MOON_COLOUR = (0.65, 0.78, 1.0)
 _MOON_PLACE = (150.0, 40.0)  # degrees; assumed, the moon of the night is not looked up
 _SKY = 0.26  # strength of the sky texture
 _NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.05
-_DAY_HAZE, _NIGHT_HAZE = np.array([0.50, 0.64, 0.86]) * 0.75, np.array([0.35, 0.45, 0.75]) * 0.008
+_DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.75, np.array([0.35, 0.45, 0.75]) * 0.008
 THERMAL_SKY = 250.0  # K, a clear sky in the long-wave infrared
 
 

@@ -1,7 +1,7 @@
 """Tree models one metre tall: ten conifers for Algorithm 2's classes, foothill oaks, snags, and grass.
 
-Far models of 100 to 600 triangles: drooping, irregular whorls of branches round a trunk that shows. Every
-model is made from its own seed, so a scene's trees are always the same.
+Up to 4,000 triangles, which instances share: uneven whorls of branches with sprays of needles round a trunk
+that shows. Every model is made from its own seed, so a scene's trees are always the same.
 """
 
 from __future__ import annotations
@@ -94,7 +94,7 @@ def conifer(kind: Conifer, seed: int) -> Shape:
     lean = random.normal(0.0, 0.006, 2)
     _trunk(shape, 0.014, lean, 5)
     heights = kind.bare + (0.97 - kind.bare) * np.linspace(0.0, 1.0, kind.whorls) ** 0.92
-    for level, height in enumerate(heights):
+    for height in heights:
         up = (height - kind.bare) / (0.97 - kind.bare)
         reach = kind.width * max((1.0 - up) ** kind.taper, 0.10)
         reach *= min(1.0, 0.55 + 2.2 * up)  # the lowest branches are shaded out
@@ -107,7 +107,7 @@ def conifer(kind: Conifer, seed: int) -> Shape:
             length = reach * np.exp(random.normal(0.0, kind.irregular * 0.6))
             z = height + random.normal(0.0, 0.4) * 0.9 / kind.whorls
             droop = kind.droop * (1.0 - 0.7 * up) + random.normal(0.0, 0.08)
-            _branch(shape, lean, z, angle, length, droop, 0.36 + 0.1 * (level % 2))
+            _branch(shape, lean, z, angle, length, droop, random)
     _leader(shape, lean, kind.width * 0.10)
     top = max(float(points[:, 2].max()) for points in shape.points)
     shape.points = [points / top for points in shape.points]
@@ -129,22 +129,45 @@ def _trunk(shape: Shape, radius: float, lean: Array, sides: int, top: float = 1.
 
 
 def _branch(
-    shape: Shape, lean: Array, z: float, angle: float, length: float, droop: float, width: float
+    shape: Shape,
+    lean: Array,
+    z: float,
+    angle: float,
+    length: float,
+    droop: float,
+    random: np.random.Generator,
 ) -> None:
-    """A spray of needles: a folded blade, narrow at the trunk and pointed at the tip, that bends down."""
-    along = np.array([0.06, 0.55, 1.0])
-    half = np.array([0.10, 1.0, 0.05]) * width * length
-    fall = -droop * along**1.6 * length
+    """A branch that bends down, and sprays of needles along both its sides: folded, pointed blades."""
     out = np.array([np.cos(angle), np.sin(angle), 0.0])
     side = np.array([-np.sin(angle), np.cos(angle), 0.0])
     root = np.array([lean[0] * z, lean[1] * z, z])
-    points = []
-    for s, w, f in zip(along, half, fall, strict=True):
-        spine = root + out * s * length + np.array([0.0, 0.0, f])
-        hang = np.array([0.0, 0.0, -0.55 * w])
-        points += [spine - side * w + hang, spine, spine + side * w + hang]
-    faces = [(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7)]
-    shape.add(np.array(points), faces, _FOLIAGE)
+
+    def spine(s: float) -> Array:
+        return root + out * s * length + np.array([0.0, 0.0, -droop * s**1.6 * length])
+
+    _blade(shape, spine(0.05), spine(1.0), spine(0.6), side * 0.13 * length)
+    for s in (0.22, 0.42, 0.62, 0.82):
+        for hand in (-1.0, 1.0):
+            long = length * 0.52 * (1.12 - s) * random.uniform(0.75, 1.25)
+            turn = np.radians(random.uniform(38.0, 62.0)) * hand
+            ahead = out * np.cos(turn) + side * np.sin(turn)
+            fall = np.array([0.0, 0.0, -random.uniform(0.12, 0.45) - 0.5 * max(droop, 0.0)])
+            across = np.cross(ahead, [0.0, 0.0, 1.0]) * 0.27 * long
+            start = spine(s)
+            _blade(
+                shape,
+                start,
+                start + (ahead + fall) * long,
+                start + (ahead + 0.35 * fall) * 0.5 * long,
+                across,
+            )
+
+
+def _blade(shape: Shape, root: Array, tip: Array, middle: Array, across: Array) -> None:
+    """Two folded faces from root to tip, as wide as 2 `across` in the middle, where the edges hang."""
+    hang = np.array([0.0, 0.0, -0.45 * float(np.linalg.norm(across))])
+    points = np.array([root, middle + across + hang, tip, middle - across + hang, middle])
+    shape.add(points, [(0, 1, 2, 4), (0, 4, 2, 3)], _FOLIAGE)
 
 
 def _leader(shape: Shape, lean: Array, width: float) -> None:

@@ -108,7 +108,7 @@ def _unburned(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> tuple[nodes
         stands.smoothstep(0.40, 0.62), dark, tree.mix_colour(0.6, dark, (0.034, 0.072, 0.026))
     )
     clumps = tree.noise(place.position, 70.0, 3.0, 0.65).smoothstep(0.36, 0.64)
-    dark = tree.mix_colour(clumps, tree.mix_colour(0.55, dark, (0.010, 0.016, 0.009)), dark)
+    dark = tree.mix_colour(clumps, tree.mix_colour(0.75, dark, (0.009, 0.014, 0.008)), dark)
     canopy = tree.mix_colour(crown.smoothstep(0.34, 0.70), dark, (0.010, 0.015, 0.008))
     dry = place.elevation.ramp(500.0, 1500.0, 1.0, 0.0)
     meadow = tree.mix_colour(dry, (0.085, 0.080, 0.040), (0.165, 0.125, 0.058))
