@@ -46,7 +46,7 @@ def run(task: str, arguments: dict[str, Any], progress: Progress = silent, eevee
     code = f"import importlib; importlib.import_module({package + '.worker'!r}).serve()"
     with log:
         child = subprocess.Popen(
-            [sys.executable, "-c", code],
+            _command(code),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=log,
@@ -78,6 +78,8 @@ def _converse(child: subprocess.Popen[str], request: dict[str, Any], progress: P
     except BrokenPipeError:
         return {}
     for line in child.stdout:
+        if not line.startswith("{"):
+            continue  # Blender's own executable greets before it runs anything
         answer = json.loads(line)
         if "progress" not in answer:
             child.wait()
@@ -99,6 +101,12 @@ def _end(child: subprocess.Popen[str]) -> None:
         except subprocess.TimeoutExpired:
             child.kill()
             child.wait()
+
+
+def _command(code: str) -> list[str]:
+    """Python with Blender as a module, or Blender itself where this runs inside it."""
+    blender = sys.modules["bpy"].app.binary_path if "bpy" in sys.modules else ""
+    return [blender, "--background", "--python-expr", code] if blender else [sys.executable, "-c", code]
 
 
 def _environment(eevee: bool) -> dict[str, str]:

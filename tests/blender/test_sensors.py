@@ -1,0 +1,179 @@
+"""View layers and data passes, against what must come out exactly."""
+
+from dataclasses import replace
+
+import bpy
+import numpy as np
+import pytest
+from firetwin import nodes
+from firetwin.render import engine, frames
+from firetwin.render.passes import Shot
+from firetwin.scene import collections, sensors
+from firetwin_core import sensor
+
+HEIGHT, PITCH = 120.0, np.radians(80.0)  # of the camera over the plane; 90 degrees looks at the horizon
+
+
+@pytest.fixture
+def plain(project, run, scene):
+    """A plane of 300 K under a 250 K sky, with a glowing card (800 K) and smoke before the camera."""
+    collections.root(scene)
+    for part in collections.PARTS:
+        collections.fresh(part, scene)
+    _quad(
+        "Terrain",
+        "Ground",
+        [(-9e4, -9e4, 0), (9e4, -9e4, 0), (9e4, 9e4, 0), (-9e4, 9e4, 0)],
+        _surface("Ground", 300.0),
+    )
+    card = [(-8, 60, 60), (-2, 60, 60), (-2, 60, 100), (-8, 60, 100)]
+    _quad("Fire", "Card", card, _surface("Card", 800.0))
+    bpy.ops.mesh.primitive_cube_add(size=30, location=(20, 90, 90))
+    smoke = bpy.context.object
+    smoke.users_collection[0].objects.unlink(smoke)
+    bpy.data.collections["Firetwin Smoke"].objects.link(smoke)
+    material, tree = nodes.material("Firetwin Smoke")
+    tree.volume(tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": 1.0}))
+    smoke.data.materials.append(material)
+    world = scene.world = bpy.data.worlds.new("Firetwin Sky")
+    tree = nodes.Tree(_tree(world))
+    seen = tree.output("ShaderNodeBackground", {"Color": (0.4, 0.5, 0.6), "Strength": 1.0})
+    cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": 250.0})
+    tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), seen, cold))
+    data = bpy.data.cameras.new("Firetwin Camera drone")
+    data.clip_end, data.lens = 3e5, 28.0
+    camera = collections.add(bpy.data.collections["Firetwin Cameras"], "Camera drone", data)
+    camera.location, camera.rotation_euler = (0.0, 0.0, HEIGHT), (PITCH, 0.0, 0.0)
+    sensors.build(project, run, scene)
+    return scene
+
+
+def _tree(world):
+    from firetwin import compat
+
+    return compat.node_tree(world)
+
+
+def _surface(name, kelvin):
+    material, tree = nodes.material(f"Firetwin {name}")
+    shader = tree.output("ShaderNodeBsdfDiffuse", {"Color": (0.2, 0.3, 0.1)})
+    tree.surface(nodes.thermal_switch(tree, shader, (kelvin,) * 3))
+    return material
+
+
+def _quad(part, name, corners, material):
+    mesh = bpy.data.meshes.new(f"Firetwin {name}")
+    mesh.from_pydata(corners, [], [(0, 1, 2, 3)])
+    mesh.materials.append(material)
+    return collections.add(bpy.data.collections[f"Firetwin {part}"], name, mesh)
+
+
+@pytest.fixture
+def render(plain, project, run, tmp_path):
+    """Render passes of frame 2 into a folder and return their images by suffix."""
+
+    def shoot(*names, settings=project):
+        shots = [Shot("drone", 2, name) for name in names]
+        made_with = {("drone", name): {"pass": name} for name in ("rgb", "depth", "thermal")}
+        frames.render(settings, run, plain, tmp_path / "out", shots, made_with)
+        return {
+            path: np.asarray(sensor.read_image(tmp_path / "out" / path)) for s in shots for path in s.files()
+        }
+
+    return shoot
+
+
+def test_depth_is_that_of_an_analytic_plane(render, project):
+    (depth,) = render("depth").values()
+    width, height = project.render.resolution
+    assert depth.shape == (height, width, 1)
+    # A ray through the middle of row r falls by d = cos(pitch) - y sin(pitch) per metre along the axis,
+    # y = (height / 2 - r - 1/2) / focal length in pixels; it meets the plane at depth HEIGHT / d.
+    y = (height / 2 - np.arange(height) - 0.5) / (28.0 / 36.0 * width)
+    fall = np.cos(PITCH) - y * np.sin(PITCH)
+    expected = np.where(fall > 0, HEIGHT / np.where(fall > 0, fall, 1), 1e10)
+    seen = expected < 2e4
+    assert 10 < seen.sum() < height
+    # Cycles' narrowest filter still moves rays by up to half a hundredth of a pixel.
+    shift = 0.005 / (28.0 / 36.0 * width) * np.sin(PITCH) * expected**2 / HEIGHT
+    error = np.abs(depth[..., 0] - expected[:, None])[seen]
+    assert (error <= 1.1 * shift[seen, None] + 1e-5 * expected[seen, None]).all()
+    assert (depth[..., 0][expected > 1e9] == 1e10).all()
+
+
+def test_depth_is_of_the_ground_behind_flames_and_smoke(render):
+    (depth,) = render("depth").values()
+    spread = np.ptp(depth[..., 0], axis=1) / depth[..., 0].mean(axis=1)
+    assert spread.max() < 0.02  # the card at 60 m and the smoke would halve it
+
+
+def test_kelvin_is_exact_and_unseen_through_smoke(render):
+    images = render("thermal")
+    kelvin = next(image for path, image in images.items() if path.endswith("exr"))
+    assert kelvin.dtype == np.float32
+    assert kelvin.shape[2] == 1
+    values = kelvin[..., 0]
+    assert (values[-6:, :8] == 300.0).all()
+    assert (values[0] == 250.0).all()
+    assert values.max() == 800.0
+    pure = np.isin(values, (250.0, 300.0, 800.0))
+    assert pure.mean() > 0.9  # the rest are pixels on an edge
+    assert ((values >= 250.0) & (values <= 800.0)).all()
+
+
+def test_the_denoiser_leaves_temperatures_alone(render, project):
+    denoised = replace(project, render=replace(project.render, denoise=True))
+    kelvin = next(i for path, i in render("thermal", settings=denoised).items() if path.endswith("exr"))
+    assert (kelvin[-6:, :8] == 300.0).all()
+
+
+def test_the_thermal_picture_is_the_blend_of_the_picture_and_the_gradient(render, project):
+    images = render("rgb", "thermal")
+    rgb = images["drone/rgb/drone_rgb_000002.png"]
+    kelvin = images["drone/thermal/drone_thermal_000002.exr"][..., 0]
+    low, high = project.render.thermal_low, project.render.thermal_high
+    expected = np.clip(rgb[..., :3] + sensor.thermal_gradient(kelvin, low, high), 0.0, 1.0)
+    shown = images["drone/thermal/drone_thermal_000002.png"][..., :3]
+    assert np.abs(shown - expected).max() <= 0.5 / 255 + 1e-6
+    assert np.abs(shown - rgb[..., :3]).max() > 0.3
+
+
+def test_smoke_is_in_the_picture_and_the_picture_is_display_colour(render):
+    images = render("rgb")
+    linear = images["drone/rgb/drone_rgb_000002.exr"]
+    shown = images["drone/rgb/drone_rgb_000002.png"]
+    assert linear.shape == (*shown.shape[:2], 3)
+    assert linear[18:30, 38:46].max() < 0.01 < linear[18:30, :8].min()  # the black smoke
+    bright, dark = (
+        np.unravel_index(linear[..., 2].argmax(), linear.shape[:2]),
+        np.unravel_index(linear[..., 2].argmin(), linear.shape[:2]),
+    )
+    assert shown[bright][2] > shown[dark][2]
+    assert not np.allclose(shown[..., :3], linear, atol=0.02)
+
+
+def test_only_the_files_of_the_passes_asked_for_are_made(render, tmp_path):
+    render("depth")
+    files = {
+        str(path.relative_to(tmp_path / "out")) for path in (tmp_path / "out").rglob("*") if path.is_file()
+    }
+    assert files == {"manifest.json", ".lock", "drone/depth/drone_depth_000002.exr"}
+
+
+def test_a_scene_as_built_writes_no_stray_files(plain, project, tmp_path):
+    engine.apply(project, plain)
+    plain.camera = bpy.data.objects["Firetwin Camera drone"]
+    plain.render.filepath = str(tmp_path / "shown.png")
+    before = set(tmp_path.rglob("*"))
+    bpy.ops.render.render(write_still=True)
+    assert {path.name for path in set(tmp_path.rglob("*")) - before} == {"shown.png"}
+
+
+def test_layers_leave_out_what_their_sensor_does_not_see(plain):
+    def left_out(layer):
+        parts = plain.view_layers[layer].layer_collection.children["Firetwin"].children
+        return {part.name for part in parts if part.exclude}
+
+    assert left_out("rgb") == set()
+    assert left_out("thermal") == {"Firetwin Smoke"}
+    assert left_out("depth") == {"Firetwin Smoke", "Firetwin Fire"}
