@@ -55,10 +55,11 @@ def trees(
     max_fuel: float | None = None,
     jitter: float = 1.0,
 ) -> Trees:
-    """Algorithm 2: canopy_fuel (fy, fx) kg/m2, latitude (fy,), longitude (fx,), elevation (fy, fx) m -> trees.
+    """Algorithm 2: canopy_fuel (fy, fx) kg/m2 on latitude (fy,), longitude (fx,) -> trees.
 
-    `max_fuel` defaults to the largest finite fuel. `jitter` 1 spreads over the
-    whole cell, 0 keeps the centre. The height of a tree is the bilinear elevation at its jittered place.
+    `elevation` (fy, fx) m gives a tree its height, bilinear at its jittered place. `max_fuel` defaults to
+    the largest finite fuel. `jitter` 1 spreads over the whole cell, 0 keeps the centre. Cells whose fuel or
+    elevation is not finite have no tree.
     """
 
 def grass(

@@ -12,17 +12,21 @@ def brightness_temperature(
     """The inverse of `radiance` -> K."""
 
 def thermal_gradient(kelvin: ArrayLike, low: float, high: float) -> NDArray[np.float32]:
-    """(h, w) K -> (h, w, 3) colour of the thermal gradient (black, purple, red, orange, yellow, white), 0..1."""
+    """(h, w) K -> (h, w, 3) colour 0..1 (black, purple, red, orange, yellow, white)."""
 
 def thermal_composite(
     rgb: ArrayLike, kelvin: ArrayLike, low: float, high: float, strength: float = 1.0
 ) -> NDArray[np.float32]:
-    """The paper's thermal view: normalised pixels (h, w, 3) in 0..1 + strength * gradient, clamped to 0..1."""
+    """The paper's thermal view: clamp(pixels (h, w, 3) in 0..1 + strength * gradient, 0, 1).
+
+    8-bit pixels are refused: divide them by 255.
+    """
 
 def read_image(path: str | PathLike[str]) -> NDArray[np.float32]:
     """PNG, EXR, TIFF or JPEG (by content) -> (h, w, channels)."""
 
-def write_image(
-    path: str | PathLike[str], pixels: ArrayLike, metadata: dict[str, str] | None = None
-) -> None:
-    """Write (h, w) or (h, w, c) pixels; .png as 8-bit, .exr as 32-bit float, to a temporary file then renamed."""
+def write_image(path: str | PathLike[str], pixels: ArrayLike, metadata: dict[str, str] | None = None) -> None:
+    """Write (h, w) or (h, w, c) pixels to a temporary file that is then renamed.
+
+    .png as 8-bit (values clamped to 0..1), .exr as 32-bit float with ZIP.
+    """
