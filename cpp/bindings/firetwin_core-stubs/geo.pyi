@@ -17,7 +17,5 @@ class LocalFrame:
         self, latitude: ArrayLike, longitude: ArrayLike, height: ArrayLike
     ) -> NDArray[np.float64]:
         """Rectilinear grid: latitude (ny,), longitude (nx,), height (ny, nx) -> (ny, nx, 3) metres."""
-    def reverse(
-        self, enu: ArrayLike
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    def reverse(self, enu: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """(n, 3) metres -> latitude (n,), longitude (n,), height (n,)."""
