@@ -6,7 +6,7 @@ import bpy
 from firetwin_core.run import Run
 
 from ..project import Project
-from . import cameras, clock, collections, fire, forest, light, sensors, smoke, terrain
+from . import cameras, clock, collections, fire, forest, light, sensors, smoke, stand, terrain
 from .ground import Ground
 from .paths import Path, eyes, paths
 
@@ -17,8 +17,9 @@ def build(project: Project, run: Run, scene: bpy.types.Scene | None = None) -> b
     collections.root(scene)
     clock.build(project, run, scene)
     ground, views = survey(project, run)
-    terrain.build(project, run, ground, views)
-    forest.build(project, run, ground, views)
+    grown = stand.grow(project, ground, views) if project.forest.trees else None
+    terrain.build(project, run, ground, views, grown)
+    forest.build(project, run, ground, views, grown)
     fire.build(project, run, ground, views)
     smoke.build(project, run)
     light.build(project, run, scene)

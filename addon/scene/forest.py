@@ -25,15 +25,17 @@ _SNAG = 0.85  # part of the burned trees that become snags
 _PIXEL = 25.0  # m; a satellite whose pixels are larger sees no tree
 
 
-def build(project: Project, run: Run, ground: Ground, views: list[Path]) -> list[bpy.types.Object]:
+def build(
+    project: Project, run: Run, ground: Ground, views: list[Path], grown: stand.Stand | None
+) -> list[bpy.types.Object]:
     """Build "Firetwin Trees", "Firetwin Stand" and "Firetwin Grass", each where there is something to see."""
     collection = collections.fresh("Forest")
     made = []
-    if project.forest.trees:
+    if grown is not None:
         library = _tree_models(project, run)
         for name, points in (
             ("Trees", algorithm2(project, run, ground, views)),
-            ("Stand", _stand(project, ground, views)),
+            ("Stand", _stand(project, ground, grown)),
         ):
             made.append(_instances(project, run, collection, name, points, library))
     if project.forest.grass:
@@ -79,8 +81,7 @@ def _settled(ground: Ground, position: NDArray[np.float64]) -> NDArray[np.float6
     return position
 
 
-def _stand(project: Project, ground: Ground, views: list[Path]) -> dict[str, NDArray]:
-    grown = stand.grow(project, ground, views)
+def _stand(project: Project, ground: Ground, grown: stand.Stand) -> dict[str, NDArray]:
     return _points(project, ground, grown.position, grown.height, grown.rotation, grown.model, *grown.key.T)
 
 

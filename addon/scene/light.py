@@ -83,7 +83,7 @@ class State:
         blue = float(noise.smoothstep(-10.0, 12.0, height))
         self.haze = tuple(_NIGHT_HAZE + (_DAY_HAZE - _NIGHT_HAZE) * blue**2)
         given = project.light.exposure
-        self.exposure = 0.3 + 3.2 * float(noise.smoothstep(3.0, -9.0, height)) if given is None else given
+        self.exposure = 0.5 + 3.0 * float(noise.smoothstep(3.0, -9.0, height)) if given is None else given
 
 
 def air_mass(height: float) -> float:

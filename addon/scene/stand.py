@@ -15,8 +15,9 @@ from . import noise, trees
 from .ground import Ground, bilinear
 from .paths import Path
 
-LIMIT = 60_000  # trees; more than this and far ones are thinned
-_YOUNG = 0.7  # part of the trees that have a young one beside them
+LIMIT = 90_000  # trees; more than this and far ones are thinned
+_YOUNG = 0.7  # part of the near trees that have a young one beside them
+_YOUNG_DISTANCE = 900.0  # m
 CLEARING = 40.0  # m round the cameras where no tree stands: these models are made for 60 m and more
 _DENSE = 0.9  # kg/m2 of canopy fuel at which every place has a tree
 
@@ -35,6 +36,10 @@ class Stand:
         (n,) number of the model in `trees`.
     key
         (n, 2) integers that random choices for a tree hang on.
+    distance
+        (n,) metres from the nearest camera.
+    full, radius
+        Within `full` metres of a camera no tree is left out, beyond `radius` all are.
     """
 
     position: NDArray[np.float64]
@@ -42,6 +47,13 @@ class Stand:
     rotation: NDArray[np.float64]
     model: NDArray[np.int64]
     key: NDArray[np.int64]
+    distance: NDArray[np.float32]
+    full: float
+    radius: float
+
+    def coverage(self, distance: NDArray) -> NDArray[np.float64]:
+        """Part 0..1 of the wanted trees that is drawn at distances (m) from the cameras."""
+        return _kept(distance, self.full) * noise.smoothstep(self.radius, 0.75 * self.radius, distance)
 
 
 def grow(project: Project, ground: Ground, views: list[Path]) -> Stand:
@@ -49,7 +61,7 @@ def grow(project: Project, ground: Ground, views: list[Path]) -> Stand:
     spacing, radius = project.forest.stand_spacing, project.forest.stand_radius
     near = [view for view in views if view.perspective]
     if not near or radius <= 0.0:
-        return _stand(ground, np.empty((0, 3)), np.empty((0, 2), np.int64), project.seed)
+        return _stand(ground, np.empty((0, 3)), np.empty((0, 2), np.int64), np.empty(0), 0.0, project)
     blocks = _blocks(ground, near, radius)
     key = _lattice(blocks, spacing)
     jitter = np.stack([noise.uniform(key[:, 0], key[:, 1], project.seed + 200 + k) for k in (0, 1)], axis=-1)
@@ -65,16 +77,18 @@ def grow(project: Project, ground: Ground, views: list[Path]) -> Stand:
     seen = np.any([view.sees(position, margin=60.0, reach=radius) for view in near], axis=0)
     fade = noise.smoothstep(radius, 0.75 * radius, distance)
     seen &= (luck < chance * fade) & (distance > CLEARING)
-    if seen.sum() > LIMIT:
-        seen &= luck < chance * fade * _thinning(distance[seen], distance)
-    return _with_young(ground, _stand(ground, position[seen], key[seen], project.seed), project.seed)
+    full = _full(distance[seen])
+    seen &= luck < chance * fade * _kept(distance, full)
+    return _with_young(
+        ground, _stand(ground, position[seen], key[seen], distance[seen], full, project), project.seed
+    )
 
 
 def _with_young(ground: Ground, old: Stand, seed: int) -> Stand:
     """The stand with young trees under it, as many as the limit allows."""
     lot, turn, reach, grown = (noise.uniform(old.key[:, 0], old.key[:, 1], seed + 240 + k) for k in range(4))
     room = (LIMIT - len(lot)) / max(len(lot), 1)
-    chosen = np.flatnonzero(lot < min(_YOUNG, room))
+    chosen = np.flatnonzero((lot < min(_YOUNG, room)) & (old.distance < _YOUNG_DISTANCE))
     angle, away = 2.0 * np.pi * turn[chosen], 3.5 + 4.0 * reach[chosen]
     east = old.position[chosen, 0] + away * np.cos(angle)
     north = old.position[chosen, 1] + away * np.sin(angle)
@@ -85,6 +99,9 @@ def _with_young(ground: Ground, old: Stand, seed: int) -> Stand:
         np.concatenate([old.rotation, angle]),
         np.concatenate([old.model, model]),
         np.concatenate([old.key, old.key[chosen] + 10_000_019]),
+        np.concatenate([old.distance, old.distance[chosen]]),
+        old.full,
+        old.radius,
     )
 
 
@@ -113,18 +130,32 @@ def _lattice(blocks: NDArray[np.int64], spacing: float) -> NDArray[np.int64]:
     return np.stack([packed >> 32, np.where(low >= 1 << 31, low - (1 << 32), low)], axis=-1)
 
 
-def _thinning(seen: NDArray, distance: NDArray) -> NDArray[np.float64]:
-    """Chance to keep a tree, 1 near and falling as 1 / distance^2 far away, that leaves about LIMIT trees."""
-    low, high = 1.0, float(seen.max())
+def _kept(distance: NDArray, full: float) -> NDArray[np.float64]:
+    """Chance to keep a tree: 1 up to `full` metres, beyond falling as the area of its picture."""
+    return np.minimum((full / np.maximum(distance, 1.0)) ** 2, 1.0)
+
+
+def _full(distance: NDArray) -> float:
+    """Distance (m) up to which every tree can be kept, for at most LIMIT trees at these distances."""
+    low, high = 1.0, max(float(distance.max(initial=1.0)), 1.0)
+    if len(distance) <= LIMIT:
+        return high
     for _ in range(30):
         middle = 0.5 * (low + high)
-        total = np.minimum((middle / seen) ** 2, 1.0).sum()
-        low, high = (middle, high) if total < LIMIT else (low, middle)
-    return np.minimum((low / distance) ** 2, 1.0)
+        low, high = (middle, high) if _kept(distance, middle).sum() < LIMIT else (low, middle)
+    return low
 
 
-def _stand(ground: Ground, position: NDArray, key: NDArray[np.int64], seed: int) -> Stand:
+def _stand(
+    ground: Ground,
+    position: NDArray,
+    key: NDArray[np.int64],
+    distance: NDArray,
+    full: float,
+    project: Project,
+) -> Stand:
     """Choose heights and models, by Algorithm 2's classes, with oaks in the foothills."""
+    seed = project.seed
 
     def random(use: int) -> NDArray[np.float64]:
         return noise.uniform(key[:, 0], key[:, 1], seed + 220 + use)
@@ -143,4 +174,13 @@ def _stand(ground: Ground, position: NDArray, key: NDArray[np.int64], seed: int)
     oak = random(4) < 0.75 * noise.smoothstep(1100.0, 600.0, elevation)
     model = np.where(oak, trees.OAKS[0] + (random(5) < 0.5), model)
     height = np.where(oak, 0.5 * height, height)
-    return Stand(position, np.clip(height, 4.0, 30.0), 2.0 * np.pi * random(6), model, key)
+    return Stand(
+        position,
+        np.clip(height, 4.0, 30.0),
+        2.0 * np.pi * random(6),
+        model,
+        key,
+        distance,
+        full,
+        project.forest.stand_radius,
+    )

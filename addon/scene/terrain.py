@@ -12,16 +12,20 @@ from . import collections, grid_mesh, noise
 from .ground import Ground, bilinear
 from .materials import ground as material
 from .paths import Path
+from .stand import Stand
 
 _LIMIT = 900_000  # quads of the finer part; more than this and its edge moves nearer
 
 
-def build(project: Project, run: Run, ground: Ground, views: list[Path]) -> bpy.types.Object:
+def build(
+    project: Project, run: Run, ground: Ground, views: list[Path], grown: Stand | None = None
+) -> bpy.types.Object:
     """Build "Firetwin Terrain".
 
     Its mesh carries float point attributes: `arrival_time` (s, 1e9 where never), `burn_time` (arrival
     continued a little past the last perimeter), `burned` (1 inside the last perimeter), `canopy_fuel`,
-    `surface_fuel` (kg/m2), `bare` (part without fuel), `elevation` (m) and `detail` (1 near cameras).
+    `surface_fuel` (kg/m2), `bare` (part without fuel), `elevation` (m), `stand` (part of the forest that is
+    drawn tree by tree) and `detail` (1 near cameras).
     """
     collection = collections.fresh("Terrain")
     mesh = grid_mesh.graded(levels(project, ground, views))
@@ -30,7 +34,9 @@ def build(project: Project, run: Run, ground: Ground, views: list[Path]) -> bpy.
     positions = _positions(ground, mesh, detail)
     data = bpy.data.meshes.new("Firetwin Terrain")
     _fill(data, positions, mesh)
-    for name, values in _attributes(ground, mesh, detail).items():
+    attributes = _attributes(ground, mesh, detail)
+    attributes["stand"] = _stand_cover(positions, views, grown)
+    for name, values in attributes.items():
         data.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values.astype(np.float32))
     data.materials.append(material.build(project, run))
     return collections.add(collection, "Terrain", data)
@@ -86,6 +92,19 @@ def _attributes(ground: Ground, mesh: grid_mesh.GridMesh, detail: NDArray) -> di
         "elevation": ground.height(*at, detail),
         "detail": noise.smoothstep(0.0, 1.0, detail),
     }
+
+
+def _stand_cover(positions: NDArray, views: list[Path], grown: Stand | None) -> NDArray[np.float64]:
+    """Part of the forest's trees that stands there one by one, so that the ground need not draw it."""
+    cover = np.zeros(len(positions))
+    near = [view for view in views if view.perspective]
+    if grown is None or not near:
+        return cover
+    way = np.concatenate([view.position for view in near])
+    inside = np.all((positions > way.min(0) - grown.radius) & (positions < way.max(0) + grown.radius), axis=1)
+    close = np.flatnonzero(inside)
+    cover[close] = grown.coverage(np.min([view.distance(positions[close]) for view in near], axis=0))
+    return cover
 
 
 def _fill(data: bpy.types.Mesh, positions: NDArray[np.float64], mesh: grid_mesh.GridMesh) -> None:

@@ -152,7 +152,7 @@ def _branch(
             turn = np.radians(random.uniform(38.0, 62.0)) * hand
             ahead = out * np.cos(turn) + side * np.sin(turn)
             fall = np.array([0.0, 0.0, -random.uniform(0.12, 0.45) - 0.5 * max(droop, 0.0)])
-            across = np.cross(ahead, [0.0, 0.0, 1.0]) * 0.27 * long
+            across = np.cross(ahead, [0.0, 0.0, 1.0]) * 0.34 * long
             start = spine(s)
             _blade(
                 shape,

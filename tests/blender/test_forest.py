@@ -27,7 +27,7 @@ def _all_trees(project, run, ground):
 
 def test_instances_are_the_cores_trees_that_the_cameras_see(project, run, scene):
     ground, views = build.survey(project, run)
-    forest.build(project, run, ground, views)
+    forest.build(project, run, ground, views, stand.grow(project, ground, views))
     place, scale, _model = _instances("Firetwin Trees")
     wanted = _all_trees(project, run, ground)
     seen = views[0].sees(wanted.position, reach=project.forest.draw_distance)
@@ -40,7 +40,8 @@ def test_without_a_limit_of_view_every_tree_is_there(project, run, scene):
     ground, _views = build.survey(project, run)
     camera = replace(project.cameras[0], name="above", kind="satellite", swath=14_000.0)
     project = replace(project, cameras=(camera,), render=replace(project.render, resolution=(1000, 1000)))
-    forest.build(project, run, ground, paths.paths(project, run, ground))
+    views = paths.paths(project, run, ground)
+    forest.build(project, run, ground, views, stand.grow(project, ground, views))
     place, _scale, model = _instances("Firetwin Trees")
     wanted = _all_trees(project, run, ground)
     assert len(place) == len(wanted.cell) == np.sum(run.canopy_fuel > 0.01)
@@ -54,7 +55,7 @@ def test_without_a_limit_of_view_every_tree_is_there(project, run, scene):
 
 def test_trees_are_four_to_thirty_metres_tall(near_project, run, scene):
     ground, views = build.survey(near_project, run)
-    forest.build(near_project, run, ground, views)
+    forest.build(near_project, run, ground, views, stand.grow(near_project, ground, views))
     # Algorithm 2's bounds are 6 m x 0.7 x 0.8 and 18 m x 1.4 x 1.2.
     for name, low, high in (("Firetwin Trees", 3.36, 30.24), ("Firetwin Stand", 4.0, 30.0)):
         scale = _instances(name)[1]
@@ -63,7 +64,8 @@ def test_trees_are_four_to_thirty_metres_tall(near_project, run, scene):
 
 
 def test_models_are_one_metre_tall_and_light(project, run):
-    forest.build(project, run, *build.survey(project, run))
+    ground, views = build.survey(project, run)
+    forest.build(project, run, ground, views, stand.grow(project, ground, views))
     models = bpy.data.collections["Firetwin Tree Models"].objects
     assert len(models) == 15
     for thing in models:
@@ -75,7 +77,7 @@ def test_models_are_one_metre_tall_and_light(project, run):
 
 def test_burned_trees_become_snags_a_quarter_of_an_hour_later(project, run, scene):
     ground, views = build.survey(project, run)
-    made = forest.build(project, run, ground, views)[0]
+    made = forest.build(project, run, ground, views, stand.grow(project, ground, views))[0]
     arrival = np.empty(len(made.data.vertices), np.float32)
     made.data.attributes["arrival_time"].data.foreach_get("value", arrival)
     for frame, time in ((1, 0.0), (3, 3600.0)):
@@ -91,7 +93,7 @@ def test_burned_trees_become_snags_a_quarter_of_an_hour_later(project, run, scen
 
 def test_near_trees_stand_on_the_drawn_ground(near_project, run, scene):
     ground, views = build.survey(near_project, run)
-    forest.build(near_project, run, ground, views)
+    forest.build(near_project, run, ground, views, stand.grow(near_project, ground, views))
     for name in ("Firetwin Trees", "Firetwin Stand"):
         place = _instances(name)[0].astype(np.float64)
         place = place[ground.detail(*place.T) > 0.01]

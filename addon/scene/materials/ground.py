@@ -43,7 +43,7 @@ class _Place:
 def build(project: Project, run: Run) -> bpy.types.Material:
     """Build "Firetwin Ground"."""
     material, tree = nodes.material("Firetwin Ground")
-    place = _place(tree, project)
+    place = _place(tree)
     rock = _rock(tree, place)
     green, bump = _unburned(tree, place, rock)
     char = _charred(tree, place, rock)
@@ -61,13 +61,11 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     return material
 
 
-def _place(tree: nodes.Tree, project: Project) -> _Place:
+def _place(tree: nodes.Tree) -> _Place:
     geometry = tree.node("ShaderNodeNewGeometry")
     position = tree.pick(geometry, "Position")
     slope = 1.0 - tree.separate(tree.pick(geometry, "True Normal"))[2]
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
-    radius = project.forest.stand_radius if project.forest.trees else 0.0
-    near = distance.smoothstep(radius, 0.6 * radius) if radius > 0.0 else tree.math("ADD", 0.0, 0.0)
     wander = tree.noise(position, 170.0, 2.0) + tree.noise(position, 1100.0, 1.0) - 1.0
     age = nodes.model_time(tree) - tree.attribute("burn_time") + wander * (2.0 * _JITTER)
     edge = tree.attribute("burned") + (tree.noise(position, 120.0, 3.0) - 0.5) * 0.8
@@ -79,7 +77,7 @@ def _place(tree: nodes.Tree, project: Project) -> _Place:
         tree.attribute("bare"),
         tree.attribute("elevation"),
         distance,
-        near,
+        tree.attribute("stand"),
         age,
         burned,
     )
