@@ -15,6 +15,7 @@ from .ground import Ground
 
 SENSOR = 36.0  # mm, width of the film
 SATELLITE_HEIGHT = 60_000.0  # m above the ground, over any smoke
+_HIGHEST = 1500.0  # m; a camera is not raised more than this to see over a ridge
 _VIEWS = 64  # at most this many moments of a path are asked what they see
 
 Array = NDArray[np.float64]
@@ -109,9 +110,12 @@ def _path(project: Project, run: Run, ground: Ground, camera: Camera) -> Path:
     moments = np.linspace(0.0, 1.0, project.time.frames) if project.time.frames > 1 else np.zeros(1)
     base = ground.point(*(_column(keys, name) for name in ("latitude", "longitude", "height")))
     position = np.stack([_smooth(at, base[:, axis], moments) for axis in range(3)], axis=-1)
-    position[:, 2] += _lift(ground, position, 0.35 * _smooth(at, _column(keys, "height"), moments))
     aims = [_aim(project, run, ground, key) for key in keys]
     target = _blend(at, np.array(aims), moments)
+    short = _below(ground, position, 0.35 * _smooth(at, _column(keys, "height"), moments))
+    if any(key.target != "point" for key in keys):  # nobody could know where the fire would be
+        short = np.maximum(short, _hidden(ground, position, target))
+    position[:, 2] += _eased(short)
     half = 0.5 * SENSOR / camera.focal_length
     return Path(camera, position, _look(position, target), target, (half, half * height / width))
 
@@ -158,9 +162,22 @@ def _smooth(at: Array, values: Array, moments: Array) -> Array:
     return a + (b - a) * ease + bend
 
 
-def _lift(ground: Ground, position: Array, clearance: Array) -> Array:
-    """How far to raise the camera (frames,), smoothly, so that hills on its way stay `clearance` below."""
-    short = np.maximum(ground.up(position[:, 0], position[:, 1]) + clearance - position[:, 2], 0.0)
+def _below(ground: Ground, position: Array, clearance: Array) -> Array:
+    """How much higher (frames,) cameras must be for the hills under them to stay `clearance` below."""
+    return np.maximum(ground.up(position[:, 0], position[:, 1]) + clearance - position[:, 2], 0.0)
+
+
+def _hidden(ground: Ground, position: Array, target: Array, margin: float = 40.0) -> Array:
+    """How much higher (frames,) cameras must be to see their target over the ridges between, by `margin`."""
+    part = np.linspace(0.03, 0.85, 40)[:, None, None]  # of the way; near the target any slope hides it
+    way = position + part * (target - position)
+    ridge = ground.up(way[..., 0].ravel(), way[..., 1].ravel()).reshape(way.shape[:2])
+    needed = (ridge + margin - way[..., 2]) / (1.0 - part[..., 0])
+    return np.clip(needed.max(axis=0), 0.0, _HIGHEST)
+
+
+def _eased(short: Array) -> Array:
+    """Heights to add (frames,): at least `short`, changing smoothly over a sixth of the shot."""
     reach = max(len(short) // 12, 1)
     padded = np.pad(short, 2 * reach, "edge")
     highest = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(1)

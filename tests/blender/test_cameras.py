@@ -43,6 +43,21 @@ def test_a_hill_between_keys_lifts_the_camera(project, run):
     assert clear.min() > 5.0
 
 
+def test_a_camera_that_follows_the_fire_sees_it_over_ridges(project, run):
+    keys = tuple(replace(key, height=15.0, target="head") for key in project.cameras[0].keys)
+    many = replace(project, cameras=(replace(project.cameras[0], keys=keys),))
+    many = replace(many, time=replace(many.time, frames=20))
+    ground, (view,) = build.survey(many, run)
+    for part in (0.2, 0.4, 0.6, 0.8):
+        way = view.position + part * (view.target - view.position)
+        assert np.all(way[:, 2] > ground.up(way[:, 0], way[:, 1]))
+    hidden = replace(
+        many, cameras=(replace(many.cameras[0], keys=tuple(replace(k, target="point") for k in keys)),)
+    )
+    low = paths.paths(hidden, run, ground)[0]
+    assert np.max(view.position[:, 2] - low.position[:, 2]) > 20.0
+
+
 def test_what_is_in_the_picture_is_seen_and_what_is_far_beside_it_is_not(project, run, scene):
     ground, (view,), (camera,) = _built(project, run, scene)
     places = ground.point(
