@@ -55,7 +55,7 @@ def build(arguments: argparse.Namespace) -> None:
 
     project, _ = _load(arguments.scene)
     out = arguments.out.absolute()
-    worker.run("commands:build_in_blender", {"scene": str(project.path), "out": str(out)}, Reporter())
+    worker.run(f"{__name__}:build_in_blender", {"scene": str(project.path), "out": str(out)}, Reporter())
     print(arguments.out)
 
 
@@ -67,7 +67,7 @@ def bake(arguments: argparse.Namespace) -> None:
     if not project.smoke.enabled:
         say("this scene has no smoke ([smoke] enabled = false), so there is nothing to bake")
         return
-    print(worker.run("commands:bake_in_blender", {"scene": str(project.path)}, Reporter("smoke")))
+    print(worker.run(f"{__name__}:bake_in_blender", {"scene": str(project.path)}, Reporter("smoke")))
 
 
 def render(arguments: argparse.Namespace) -> None:
@@ -91,17 +91,18 @@ def render(arguments: argparse.Namespace) -> None:
     if undone:
         cameras = " and ".join(dict.fromkeys(shot.camera for shot in undone))
         say(f"rendering {_count(len(undone), 'picture')} of {cameras}")
-    elif not films.missing(project, run, out):
+    elif not films.missing(project, run, out, made_with):
         say("nothing to render")
         _list(project, out)
         return
     try:
         worker.run(
-            "commands:render_in_blender",
+            f"{__name__}:render_in_blender",
             {
                 "scene": str(project.path),
                 "out": str(out.absolute()),
                 "shots": [[shot.camera, shot.frame, shot.name] for shot in undone],
+                "filmed": [list(pair) for pair in made_with],
             },
             Reporter(),
             eevee=project.render.engine == "eevee",
@@ -172,18 +173,20 @@ def bake_in_blender(scene: str, progress: Progress) -> str:
     return str(bake.bake(project, run, progress))
 
 
-def render_in_blender(scene: str, out: str, shots: list[list[Any]], progress: Progress) -> None:
-    """Render these shots and make the films."""
+def render_in_blender(
+    scene: str, out: str, shots: list[list[Any]], filmed: list[list[str]], progress: Progress
+) -> None:
+    """Render these shots, then make the films of these cameras and passes."""
     from .render import frames, passes, settings, video
 
     project, run = _load(scene)
     todo = [passes.Shot(*shot) for shot in shots]
+    made_with = settings.of_pairs(project, [(camera, name) for camera, name in filmed])
     if todo:
-        made_with = settings.by_shot(project, todo)
         smoky = sorted({shot.frame for shot in todo if shot.name != "depth"})
         scene = _built(project, run, progress, smoky)
         frames.render(project, run, scene, Path(out), todo, made_with, progress)
-    video.make(project, run, Path(out), progress)
+    video.make(project, run, Path(out), made_with, progress)
 
 
 def _built(project: Project, run: Run, progress: Progress, frames: list[int] | None = None) -> Any:

@@ -23,7 +23,7 @@ from .progress import Progress, silent
 
 
 def run(task: str, arguments: dict[str, Any], progress: Progress = silent, eevee: bool = False) -> Any:
-    """Call ``module:function`` of this package in a child process: ``function(progress=..., **arguments)``.
+    """Call ``package.module:function`` in a child process, as ``function(progress=..., **arguments)``.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def run(task: str, arguments: dict[str, Any], progress: Progress = silent, eevee
             text=True,
         )
     try:
-        answer = _converse(child, {"task": task, "arguments": arguments, "path": sys.path}, progress)
+        answer = _converse(child, {"task": task, "arguments": arguments}, progress)
     finally:
         _end(child)
     if "result" in answer:
@@ -138,7 +138,6 @@ def serve() -> None:
     channel = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)
     request = json.loads(sys.stdin.readline())
-    sys.path[:] = request["path"]
     threading.Thread(target=_watch_parent, daemon=True).start()
 
     def answer(**message: Any) -> None:
@@ -150,7 +149,7 @@ def serve() -> None:
 
     module, _, function = request["task"].partition(":")
     try:
-        call = getattr(importlib.import_module(f".{module}", __package__), function)
+        call = getattr(importlib.import_module(module), function)
         result = call(progress=lambda *where: answer(progress=where), **request["arguments"])
     except InputError as error:
         answer(input_error=[error.path, error.line, error.column, error.reason])

@@ -17,33 +17,41 @@ Film = tuple[str, str, dict[str, Any]]
 """Camera, pass, and what the film is made from."""
 
 
-def missing(project: Project, run: Run, out: Path) -> list[Film]:
-    """Films of at least two finished frames that are not there, are damaged, or whose frames have changed."""
+def missing(project: Project, run: Run, out: Path, settings: plan.Settings) -> list[Film]:
+    """Films of at least two pictures that are not there, are damaged, or are not of the pictures there are.
+
+    Only pictures made with these `settings`, by camera and pass, belong in a film.
+    """
     if not project.render.video:
         return []
     finished = manifest.load(out)
     found = []
     for camera in project.cameras:
         for name in passes.FILMED:
-            settings = _settings(
-                project, run, finished, camera.name, plan.camera_frames(project, camera), name
-            )
+            if (camera.name, name) not in settings:
+                continue
+            key = fingerprint(settings[camera.name, name])
+            pictures = [
+                [frame, entry["sha256"]]
+                for frame in plan.camera_frames(project, camera)
+                if (entry := finished["files"].get(Shot(camera.name, frame, name).file("png")))
+                and entry["settings"] == key
+            ]
+            film = _settings(project, run, camera.name, name, pictures)
             path = passes.film(camera.name, name)
-            enough = len(settings["frames"]) > 1
-            if enough and not manifest.intact(out, finished, fingerprint(settings), [path]):
-                found.append((camera.name, name, settings))
+            if len(pictures) > 1 and not manifest.intact(out, finished, fingerprint(film), [path]):
+                found.append((camera.name, name, film))
     return found
 
 
 def _settings(
-    project: Project, run: Run, finished: dict[str, Any], camera: str, frames: list[int], name: str
+    project: Project, run: Run, camera: str, name: str, pictures: list[list[Any]]
 ) -> dict[str, Any]:
-    """What decides a film: its finished pictures (frame, hash), its rate and its captions."""
-    pictures = {frame: finished["files"].get(Shot(camera, frame, name).file("png")) for frame in frames}
+    """What decides a film: its pictures (frame, hash), its rate and its captions."""
     return {
         "film": name,
         "camera": camera,
-        "frames": [[frame, entry["sha256"]] for frame, entry in pictures.items() if entry],
+        "frames": pictures,
         "fps": project.time.fps,
         "captions": [*times.window(project, run), project.time.frames, project.time.zone, run.synthetic],
     }

@@ -78,9 +78,13 @@ def versions() -> dict[str, str]:
 
 def by_shot(project: Project, shots: list[Shot]) -> dict[tuple[str, str], dict[str, Any]]:
     """Settings of every (camera, pass) among the shots, and of rgb, which thermal pictures are made from."""
+    return of_pairs(project, [(shot.camera, name) for shot in shots for name in (shot.name, "rgb")])
+
+
+def of_pairs(project: Project, pairs: list[tuple[str, str]]) -> dict[tuple[str, str], dict[str, Any]]:
+    """Settings of each (camera, pass); the run is hashed once."""
     hashes = inputs(project.run)
-    pairs = {(shot.camera, name) for shot in shots for name in (shot.name, "rgb")}
-    return {pair: of_shot(project, hashes, *pair) for pair in sorted(pairs)}
+    return {pair: of_shot(project, hashes, *pair) for pair in sorted(set(pairs))}
 
 
 def _plain(thing: Any, leave_out: tuple[str, ...] = ()) -> Any:

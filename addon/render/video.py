@@ -11,16 +11,16 @@ from firetwin_core.run import Run
 from .. import compat, times
 from ..progress import Progress, silent
 from ..project import Project
-from . import engine, films, manifest, passes
+from . import engine, films, manifest, passes, plan
 from .part import part_folder
 from .passes import Shot
 
 
-def make(project: Project, run: Run, out: Path, progress: Progress = silent) -> None:
-    """Make the films that are missing or older than their frames."""
-    wanted = films.missing(project, run, out)
-    for done, (camera, name, settings) in enumerate(wanted, start=1):
-        _film(project, run, out, camera, name, settings)
+def make(project: Project, run: Run, out: Path, settings: plan.Settings, progress: Progress = silent) -> None:
+    """Make the films of these cameras and passes that are missing or older than their pictures."""
+    wanted = films.missing(project, run, out, settings)
+    for done, (camera, name, film) in enumerate(wanted, start=1):
+        _film(project, run, out, camera, name, film)
         progress(done, len(wanted), "filming")
 
 

@@ -1,7 +1,6 @@
 """The command line as a person meets it: what it prints where, and its exit status."""
 
 import json
-import os
 import subprocess
 import sys
 
@@ -11,9 +10,8 @@ import pytest
 
 def firetwin(*arguments, **options):
     """Run the command; its result has .returncode, .stdout and .stderr."""
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     command = [sys.executable, "-m", "firetwin", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, env=environment, timeout=120, **options)
+    return subprocess.run(command, capture_output=True, text=True, timeout=120, **options)
 
 
 def assert_one_line(result, status, *words):
@@ -46,8 +44,7 @@ for line in (["--help"], ["render", "--help"], ["nonsense"], []):
 heavy = {"bpy", "numpy", "matplotlib", "firetwin_core", "tqdm"} & set(sys.modules)
 sys.exit(f"loaded {heavy}" if heavy else 0)
 """
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert result.returncode == 0, result.stderr
 
 
@@ -101,9 +98,8 @@ def test_maps_say_where_they_are(make_run, tmp_path):
 
 
 def test_a_reader_that_stops_early_is_no_mistake(make_run):
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     command = f"{sys.executable} -m firetwin info {make_run()} | head -n 1"
-    result = subprocess.run(command, shell=True, capture_output=True, text=True, env=environment)
+    result = subprocess.run(command, shell=True, capture_output=True, text=True)
     assert result.stdout.startswith("Small")
     assert result.stderr == ""
 

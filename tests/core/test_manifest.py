@@ -135,8 +135,7 @@ for i in range(20):
     manifest.add(pathlib.Path(sys.argv[1]), {"by": sys.argv[2]}, {sys.argv[2] + str(i): {}})
 """
     command = [sys.executable, "-c", code, str(tmp_path)]
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
-    running = [subprocess.Popen([*command, name], env=environment) for name in "abc"]
+    running = [subprocess.Popen([*command, name]) for name in "abc"]
     assert [process.wait() for process in running] == [0, 0, 0]
     files = json.loads((tmp_path / manifest.NAME).read_text())["files"]
     assert len(files) == 60

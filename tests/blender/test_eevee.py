@@ -1,0 +1,44 @@
+"""The other engine, in a process of its own and without a display."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from firetwin_core import sensor
+
+SCENE = """\
+run = "{run}"
+[time]
+frames = 2
+[terrain]
+near_radius = 0.0
+apron = 20000.0
+[forest]
+trees = false
+grass = false
+[smoke]
+enabled = false
+[render]
+engine = "eevee"
+resolution = [64, 36]
+samples = 1
+passes = ["rgb"]
+[[cameras]]
+name = "drone"
+keys = [{{latitude = 38.825, longitude = -120.56, height = 400, target = "fire"}}]
+"""
+
+
+@pytest.mark.slow
+def test_eevee_renders_the_ground_under_the_sky(run_folder, tmp_path):
+    (tmp_path / "scene.toml").write_text(SCENE.format(run=run_folder))
+    line = ["render", tmp_path / "scene.toml", "--out", tmp_path / "out", "--frames", "2"]
+    result = subprocess.run(
+        [sys.executable, "-m", "firetwin", *map(str, line)], capture_output=True, text=True
+    )
+    assert result.returncode == 0, result.stderr
+    picture = np.asarray(sensor.read_image(tmp_path / "out/drone/rgb/drone_rgb_000002.png"))[..., :3]
+    sky, ground = picture[:4].reshape(-1, 3), picture[-4:].reshape(-1, 3)
+    assert sky.mean() > ground.mean() + 0.1
+    assert sky.mean(0)[2] > sky.mean(0)[0]

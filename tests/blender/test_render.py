@@ -1,0 +1,224 @@
+"""`firetwin render` as a process: what it writes, what --resume keeps, and what a kill leaves."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from firetwin import worker
+from firetwin.errors import Error
+
+FRAMES = 3
+SCENE = """\
+run = "{run}"
+[time]
+frames = {frames}
+[terrain]
+near_radius = 0.0
+apron = 20000.0
+[forest]
+stand_radius = 0.0
+[smoke]
+enabled = false
+[render]
+resolution = [64, 36]
+samples = 1
+denoise = false
+{render}
+[[cameras]]
+name = "drone"
+keys = [{{latitude = 38.825, longitude = -120.56, height = 400, target = "fire"}}]
+[[cameras]]
+name = "satellite"
+kind = "satellite"
+swath = 8000.0
+frames = "2"
+passes = ["depth"]
+"""
+
+
+@pytest.fixture(scope="module")
+def command(run_folder, tmp_path_factory):
+    """Start `firetwin` on a scene file with other [render] lines: command(arguments) -> process."""
+    folder = tmp_path_factory.mktemp("render")
+
+    def start(*arguments, render="", verb="render"):
+        scene = folder / "scene.toml"
+        scene.write_text(SCENE.format(run=run_folder, frames=FRAMES, render=render))
+        return subprocess.Popen(
+            [sys.executable, "-m", "firetwin", verb, scene, *map(str, arguments)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+
+    return start
+
+
+@pytest.fixture(scope="module")
+def firetwin(command):
+    """Run it to its end: (stdout, stderr)."""
+
+    def run(*arguments, status=0, **options):
+        process = command(*arguments, **options)
+        out, err = process.communicate(timeout=300)
+        assert process.returncode == status, err
+        return out, err
+
+    return run
+
+
+@pytest.fixture(scope="module")
+def film(firetwin, tmp_path_factory):
+    """Everything rendered once."""
+    out = tmp_path_factory.mktemp("film")
+    return out, firetwin("--out", out)
+
+
+def _state(out):
+    """Name -> (time of change, inode) of every file."""
+    return {
+        str(path.relative_to(out)): (path.stat().st_mtime_ns, path.stat().st_ino)
+        for path in out.rglob("*")
+        if path.is_file() and path.name != ".lock"
+    }
+
+
+def _changed(before, out):
+    after = _state(out)
+    return {name for name in after if after[name] != before.get(name)}
+
+
+def _files(camera, name, frames, *suffixes):
+    return {f"{camera}/{name}/{camera}_{name}_{frame:06d}.{s}" for frame in frames for s in suffixes}
+
+
+EVERYTHING = (
+    _files("drone", "rgb", (1, 2, 3), "png", "exr")
+    | _files("drone", "depth", (1, 2, 3), "exr")
+    | _files("drone", "thermal", (1, 2, 3), "png", "exr")
+    | _files("satellite", "depth", (2,), "exr")
+    | {"drone/drone_rgb.mp4", "drone/drone_thermal.mp4", "manifest.json"}
+)
+
+
+def test_all_files_are_made_named_and_listed(film):
+    out, (listed, said) = film
+    assert set(_state(out)) == EVERYTHING
+    assert f"{out}/drone/rgb/*.png  3 pictures" in listed
+    assert f"{out}/drone/drone_rgb.mp4" in listed
+    assert all(line.startswith("firetwin: ") for line in said.splitlines())
+
+
+def test_the_manifest_tells_what_made_each_file(film):
+    out, _ = film
+    manifest = json.loads((out / "manifest.json").read_text())
+    assert set(manifest["files"]) == EVERYTHING - {"manifest.json"}
+    entry = manifest["files"]["drone/rgb/drone_rgb_000002.png"]
+    assert (entry["camera"], entry["pass"], entry["frame"]) == ("drone", "rgb", 2)
+    assert entry["time"] == "2014-09-17T21:30:00+00:00"
+    settings = manifest["settings"][entry["settings"]]
+    assert settings["render"]["samples"] == 1
+    assert set(settings["versions"]) == {"firetwin", "blender"}
+    assert len(settings["run"]["heat_flux.npy"]) == 64
+
+
+def test_resume_renders_nothing_twice(film, firetwin):
+    out, _ = film
+    before = _state(out)
+    listed, said = firetwin("--out", out, "--resume")
+    assert _state(out) == before
+    assert "nothing to render" in said
+    assert "drone_rgb.mp4" in listed
+
+
+def test_resume_renders_what_is_damaged_and_no_more(film, firetwin):
+    out, _ = film
+    broken = out / "drone/thermal/drone_thermal_000002.exr"
+    content = bytearray(broken.read_bytes())
+    content[len(content) // 2] ^= 1
+    broken.write_bytes(content)
+    (out / "satellite/depth/satellite_depth_000002.exr").unlink()
+    before = _state(out)
+    _, said = firetwin("--out", out, "--resume")
+    assert "8 of 10 pictures are finished" in said
+    changed = _files("drone", "thermal", (2,), "png", "exr") | _files("satellite", "depth", (2,), "exr")
+    assert _changed(before, out) - {"drone/drone_thermal.mp4"} == changed | {"manifest.json"}
+    assert "nothing to render" in firetwin("--out", out, "--resume")[1]
+
+
+def test_changed_settings_change_their_own_passes(film, firetwin):
+    out, _ = film
+    before = _state(out)
+    firetwin("--out", out, "--resume", "--frames", "1", render="thermal_high = 700.0\nvideo = false")
+    assert _changed(before, out) == _files("drone", "thermal", (1,), "png", "exr") | {"manifest.json"}
+
+
+def test_without_resume_everything_asked_for_is_rendered_again(film, firetwin):
+    out, _ = film
+    firetwin("--out", out, "--resume")
+    before = _state(out)
+    _, said = firetwin("--out", out, "--frames", "3", "--passes", "depth", "--camera", "drone")
+    assert "1 picture again" in said
+    assert "--resume" in said
+    assert _changed(before, out) == _files("drone", "depth", (3,), "exr") | {"manifest.json"}
+
+
+def test_a_killed_render_leaves_nothing_that_resume_accepts_wrongly(command, firetwin, tmp_path):
+    out = tmp_path / "out"
+    process = command("--out", out, render="seed = 1")
+    while not any(out.glob("drone/*/*_000001.*")) and process.poll() is None:
+        time.sleep(0.002)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.communicate()
+    path = out / "manifest.json"
+    finished = set(json.loads(path.read_text())["files"]) if path.exists() else set()
+    assert len(finished) < len(EVERYTHING) - 1
+    before = _state(out)
+    firetwin("--out", out, "--resume", render="seed = 1")
+    assert set(_state(out)) == EVERYTHING
+    assert not finished & _changed(before, out)
+
+
+def test_ctrl_c_stops_cleanly(command, tmp_path):
+    out = tmp_path / "out"
+    process = command("--out", out, render="seed = 2")
+    for line in process.stderr:
+        if "rendering: 0 of" in line:
+            break
+    os.killpg(process.pid, signal.SIGINT)
+    out_text, err = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert err.splitlines()[-1] == "firetwin: stopped; what was finished is kept"
+    assert "Traceback" not in err
+    assert out_text == ""
+    assert not list(out.glob(".part-*"))
+
+
+def test_the_blend_file_is_complete_and_needs_no_add_on(firetwin, tmp_path):
+    import bpy
+
+    path = tmp_path / "scene.blend"
+    listed, _ = firetwin("-o", path, verb="build")
+    assert listed == f"{path}\n"
+    assert [left.name for left in tmp_path.iterdir()] == ["scene.blend"]
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    scene = bpy.context.scene
+    assert {layer.name for layer in scene.view_layers} == {"rgb", "thermal", "depth"}
+    assert (scene.render.resolution_x, scene.render.resolution_y) == (64, 36)
+    assert scene.cycles.samples == 1
+    assert (scene.frame_start, scene.frame_end) == (1, FRAMES)
+    assert not bpy.data.texts
+
+
+def test_a_crash_of_blender_is_one_clear_line(tmp_path, monkeypatch):
+    (tmp_path / "crash.py").write_text("import os\ndef abort(progress):\n    os.abort()\n")
+    path = os.pathsep.join(filter(None, [str(tmp_path), os.environ.get("PYTHONPATH")]))
+    monkeypatch.setenv("PYTHONPATH", path)
+    with pytest.raises(Error, match=r"stopped on signal 6 \(SIGABRT\).* log of Blender is") as caught:
+        worker.run("crash:abort", {}, eevee=True)
+    assert "EEVEE needs OpenGL" in str(caught.value)

@@ -1,0 +1,124 @@
+"""Films: their frames, colours, captions and when they are made again."""
+
+import subprocess
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from firetwin.render import films, manifest, passes, video
+from firetwin.render.passes import Shot
+from firetwin_core import sensor
+
+MADE_WITH = {("drone", "rgb"): {"samples": 1}}
+SIZE = (96, 160)  # rows and columns
+PLAIN = (slice(8, 60), slice(8, 152))  # clear of the captions
+
+
+@pytest.fixture
+def filmed(project, run, tmp_path):
+    """A project of three finished pictures with coloured squares, and its output folder."""
+    out = tmp_path / "out"
+    render = replace(project.render, resolution=SIZE[::-1], passes=("rgb",))
+    made = replace(project, render=render, time=replace(project.time, fps=12))
+    entries = {}
+    for frame in (1, 2, 3):
+        name = Shot("drone", frame, "rgb").file("png")
+        (out / name).parent.mkdir(parents=True, exist_ok=True)
+        sensor.write_image(out / name, _picture(frame))
+        entries[name] = manifest.describe(out / name)
+    manifest.add(out, MADE_WITH["drone", "rgb"], entries)
+    return made, out
+
+
+def _picture(frame):
+    """Large patches, the colours of smoke, sky, forest and flame, brighter from frame to frame."""
+    colours = np.array([[0.62, 0.56, 0.5], [0.45, 0.6, 0.8], [0.1, 0.16, 0.08], [0.95, 0.5, 0.15]])
+    picture = np.repeat(np.repeat(colours[[[0, 1], [2, 3]]], SIZE[0] // 2, 0), SIZE[1] // 2, 1)
+    return (picture * (0.85 + 0.05 * frame)).astype(np.float32)
+
+
+def _decode(path, tmp_path):
+    """Frames of a film as floats 0..1, decoded by ffmpeg."""
+    for left in tmp_path.glob("decoded_*.png"):
+        left.unlink()
+    command = ["ffmpeg", "-v", "error", "-i", path, "-fps_mode", "passthrough", tmp_path / "decoded_%03d.png"]
+    subprocess.run(command, check=True)
+    return [np.asarray(sensor.read_image(p))[..., :3] for p in sorted(tmp_path.glob("decoded_*.png"))]
+
+
+def _probe(path, what):
+    command = ["ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries", f"stream={what}"]
+    result = subprocess.run([*command, "-of", "csv=p=0", path], check=True, capture_output=True, text=True)
+    return result.stdout.strip()
+
+
+@pytest.fixture
+def film(filmed, run):
+    project, out = filmed
+    video.make(project, run, out, MADE_WITH)
+    return out / passes.film("drone", "rgb")
+
+
+def test_a_film_has_the_frames_size_and_rate_of_its_scene(film):
+    what = "codec_name,width,height,sample_aspect_ratio,pix_fmt,r_frame_rate"
+    assert _probe(film, what) == "h264,160,96,1:1,yuv420p,12/1"
+
+
+def test_its_colours_are_those_of_the_pictures(film, tmp_path):
+    decoded = _decode(film, tmp_path)
+    assert len(decoded) == 3
+    for frame, shown in enumerate(decoded, start=1):
+        difference = np.abs(shown - _picture(frame))[PLAIN] * 255
+        assert difference.mean() < 2.0
+        assert np.percentile(difference, 95) < 5.0
+
+
+def test_the_model_time_is_burnt_into_each_frame(film, tmp_path):
+    decoded = _decode(film, tmp_path)
+    captions = [frame[76:, :80] - _picture(i)[76:, :80] for i, frame in enumerate(decoded, start=1)]
+    for caption in captions:
+        assert caption.max() > 0.4  # white letters
+    # 14:00, 14:30 and 15:00 PDT differ from each other far more than coding noise does.
+    for a, b in ((0, 1), (1, 2), (0, 2)):
+        assert np.abs(captions[a] - captions[b]).max() > 0.3
+    synthetic = [frame[80:, 100:] - _picture(i)[80:, 100:] for i, frame in enumerate(decoded, start=1)]
+    assert all(np.abs(note).max() > 0.3 for note in synthetic)
+    assert np.abs(synthetic[0] - synthetic[2]).mean() < 0.03
+
+
+def test_a_film_is_made_again_only_when_it_must_be(filmed, run, film):
+    project, out = filmed
+    written = film.stat().st_mtime_ns
+    assert films.missing(project, run, out, MADE_WITH) == []
+    video.make(project, run, out, MADE_WITH)
+    assert film.stat().st_mtime_ns == written
+    for other in (
+        replace(project, time=replace(project.time, fps=24)),
+        replace(project, time=replace(project.time, zone="UTC")),
+    ):
+        assert [f[:2] for f in films.missing(other, run, out, MADE_WITH)] == [("drone", "rgb")]
+    assert (
+        films.missing(replace(project, render=replace(project.render, video=False)), run, out, MADE_WITH)
+        == []
+    )
+    name = Shot("drone", 2, "rgb").file("png")
+    sensor.write_image(out / name, _picture(5))
+    manifest.add(out, MADE_WITH["drone", "rgb"], {name: manifest.describe(out / name)})
+    assert [f[:2] for f in films.missing(project, run, out, MADE_WITH)] == [("drone", "rgb")]
+    film.write_bytes(film.read_bytes()[:-1])
+    video.make(project, run, out, MADE_WITH)
+    assert films.missing(project, run, out, MADE_WITH) == []
+
+
+def test_one_picture_makes_no_film(filmed, run):
+    project, out = filmed
+    alone = replace(project, cameras=(replace(project.cameras[0], frames="2"),))
+    assert films.missing(alone, run, out, MADE_WITH) == []
+
+
+def test_pictures_made_with_other_settings_stay_out_of_a_film(filmed, run):
+    project, out = filmed
+    name = Shot("drone", 2, "rgb").file("png")
+    manifest.add(out, {"samples": 2}, {name: manifest.describe(out / name)})
+    ((_, _, film),) = films.missing(project, run, out, MADE_WITH)
+    assert [frame for frame, _ in film["frames"]] == [1, 3]
