@@ -27,6 +27,8 @@ from ..project import Project
 from ..times import frame_times
 from . import burning, paths
 
+STABILITY = 3.0e-5  # 1/s2; a deep mixed layer with stable air above, a September afternoon (assumed)
+_STEP_DEPTH = 0.4  # optical depth of a step through thick smoke; much longer ones lose smoke
 _GLOW_BLOCK = 300.0  # m; flames this near each other light the smoke as one
 _GLOW_COUNT = 400
 _FLAME_HEIGHT = 20.0  # m over the ground, where their light comes from
@@ -43,7 +45,7 @@ class Resolution:
     step
         Step along rays through the smoke, m.
     extinction
-        Of thick smoke, 1/m; steps are at most 0.3 of its inverse, or smoke is lost between them.
+        Of thick smoke, 1/m; see _STEP_DEPTH.
     """
 
     voxel: float
@@ -55,8 +57,8 @@ def resolution(project: Project, run: Run) -> Resolution:
     """The scene file's voxel size and extinction, where it gives them, else those for the cameras."""
     distance = _distance(project, run)
     voxel = project.smoke.voxel_size or float(np.clip(70.0 * (distance / 4000.0) ** 0.4, 50.0, 160.0))
-    extinction = project.smoke.extinction or float(np.clip(0.3 / (0.4 * voxel), 0.006, 0.03))
-    return Resolution(voxel, 0.3 / extinction, extinction)
+    extinction = project.smoke.extinction or float(np.clip(_STEP_DEPTH / (0.6 * voxel), 0.006, 0.03))
+    return Resolution(voxel, _STEP_DEPTH / extinction, extinction)
 
 
 def folder(project: Project, run: Run) -> Path:
@@ -138,6 +140,7 @@ class Baker:
             cells.area,
             max_age=self.project.smoke.max_age,
             burn_time=burning.BURN_TIME,
+            stability=STABILITY,
             seed=self.project.seed,
             smallest=1.2 * self.resolution.voxel,
         )
@@ -205,6 +208,7 @@ def _key(project: Project, run: Run) -> str:
         "seed": project.seed,
         "max_age": project.smoke.max_age,
         "voxel": round(drawn.voxel, 3),
+        "plume": [STABILITY, burning.BURN_TIME],
     }
     return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:16]
 

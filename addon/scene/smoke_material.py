@@ -26,8 +26,9 @@ _ALOFT = 1.55  # wind where smoke is over that at 10 m: (h / 10 m)^0.1 at 800 m
 _CLIMB = 1.0  # m/s
 _VEIL = (0.002, 0.005)  # dilution between which thin smoke fades; volumes end at the lower one
 _LOW, _HIGH = (0.62, 0.53, 0.44), (0.95, 0.945, 0.94)  # albedo near the ground and far up
+_MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
 _GLOW = (1.0, 0.30, 0.06)
-_GLOW_LIGHT = 0.25  # radiance of thick smoke amid flames of 1 GW, exposure 0
+_GLOW_LIGHT = 0.1  # radiance of thick smoke amid flames of 1 GW, exposure 0
 
 
 @dataclass(frozen=True)
@@ -54,24 +55,27 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     material, tree = nodes.material("Firetwin Smoke")
     position = tree.output("ShaderNodeNewGeometry", name="Position")
     above = tree.separate(position)[2] - carried.ground
-    depth = tree.attribute("density")
-    dilution = tree.attribute("dilution")
-    thickness = dilution * dilution.smoothstep(*_VEIL) * (EXTINCTION_PER_DILUTION / drawn.extinction)
-    full = (1.0 - (-thickness).exp()) * drawn.extinction
+    full = _extinction(tree.attribute("dilution"), drawn.extinction)
     albedo = tree.mix_colour(above.smoothstep(-200.0, 3200.0), _LOW, _HIGH)
     noise = _billow(tree, position, carried, float(np.clip(4.5 * drawn.voxel, 260.0, 700.0)))
     reach = tree.math("MINIMUM", tree.attribute("size") * 0.8, _AMPLITUDE)  # small puffs must not be eaten up
-    edge = (depth + reach * (noise - _MEAN_BILLOW)).smoothstep(*_EDGE)
+    density = (tree.attribute("density") + reach * (noise - _MEAN_BILLOW)).smoothstep(*_EDGE) * full
     part, air = haze.fraction(tree)
-    seen = _smoke(tree, edge * full, tree.mix_colour(part, albedo, (0.0, 0.0, 0.0)))
-    hazy = tree.emission(air, part * edge * full)
-    glow = tree.emission(_GLOW, tree.attribute("glow") * edge * full * (1.0 - part) * _GLOW_LIGHT)
-    detailed = tree.add_shader(tree.add_shader(seen, hazy), glow)
-    # Rays of light through the smoke need no detail, and most steps belong to them.
-    plain = _smoke(tree, depth.smoothstep(*_EDGE) * full, albedo)
+    seen = _smoke(tree, density, tree.mix_colour(part, albedo, (0.0, 0.0, 0.0)))
+    glow = tree.emission(_GLOW, tree.attribute("glow") * density * (1.0 - part) * _GLOW_LIGHT)
+    detailed = tree.add_shader(tree.add_shader(seen, tree.emission(air, part * density)), glow)
+    # Most steps belong to rays of light through the smoke. They need no detail: one grid is enough.
+    plain = _smoke(tree, _extinction(tree.attribute("shade"), drawn.extinction), _MIDDLE)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     tree.volume(tree.mix_shader(camera, plain, detailed))
+    material.cycles.volume_sampling = "DISTANCE"
     return material
+
+
+def _extinction(dilution: nodes.Value, most: float) -> nodes.Value:
+    """Extinction (1/m) of smoke, levelling off at `most`: thick smoke is opaque with less than it has."""
+    thickness = dilution * dilution.smoothstep(*_VEIL) * (EXTINCTION_PER_DILUTION / most)
+    return (1.0 - (-thickness).exp()) * most
 
 
 def _smoke(tree: nodes.Tree, density: nodes.Value, albedo: nodes.Value) -> nodes.Value:

@@ -10,7 +10,7 @@
 namespace firetwin {
 
 constexpr float kInside = 300.0F;  // m of depth at which density reaches 1
-constexpr float kOutside = 200.0F; // m outside the balls where voxels end
+constexpr float kOutside = 150.0F; // m outside the balls where voxels end
 
 /// How far the mass of a puff of radius R is spread, m.
 inline float spread(float radius) {

@@ -16,7 +16,7 @@ struct Burn {
 };
 
 struct PuffSettings {
-  double interval = 60.0;              // s of emission gathered in one puff
+  double interval = 60.0;               // s of emission gathered in one puff
   double max_age = 5400.0;              // s
   double burn_time = 600.0;             // s over which a cell burns out, at an even rate
   double stability = 1.0e-4;            // 1/s2, square of the buoyancy frequency

@@ -16,6 +16,8 @@ namespace {
 
 using Leaf = openvdb::FloatTree::LeafNodeType;
 
+constexpr float kEdgeLow = 0.46F;
+constexpr float kEdgeHigh = 0.55F;
 constexpr float kGroundKelvin = 288.15F; // International Standard Atmosphere
 constexpr float kLapse = 0.0065F;        // K/m
 constexpr float kHeatOfAir = 1206.0F;    // J/(m3 K)
@@ -23,7 +25,7 @@ constexpr float kHottest = 1500.0F;      // K
 
 /// One leaf of each grid; empty where there is no smoke.
 struct Leaves {
-  std::unique_ptr<Leaf> density, dilution, size, temperature, glow;
+  std::unique_ptr<Leaf> density, dilution, shade, size, temperature, glow;
   double mass = 0.0; // kg, by the sum over active voxels
 };
 
@@ -70,6 +72,11 @@ Leaves fill(const Puffs& puffs, std::span<const std::uint32_t> balls, const open
   });
   leaves.dilution =
       make_leaf(origin, mask, [&](std::uint32_t i) { return fields.concentration()[i]; });
+  leaves.shade = make_leaf(origin, mask, [&](std::uint32_t i) {
+    const float depth = (fields.distance()[i] + kInside) / (2.0F * kInside);
+    const float t = std::clamp((depth - kEdgeLow) / (kEdgeHigh - kEdgeLow), 0.0F, 1.0F);
+    return fields.concentration()[i] * t * t * (3.0F - 2.0F * t);
+  });
   leaves.size = make_leaf(
       origin, mask, [&](std::uint32_t i) { return std::min(fields.radius()[i] / 1000.0F, 1.0F); });
   leaves.temperature = make_leaf(origin, mask, [&](std::uint32_t i) {
@@ -158,11 +165,14 @@ VolumeFrame write_smoke(const std::string& path, const Puffs& puffs, double voxe
     mass += leaves.mass;
   }
   if (mass > 0.0) {
-    scale(all, &Leaves::dilution, static_cast<float>(total / mass / kFreshSmoke));
+    const auto factor = static_cast<float>(total / mass / kFreshSmoke);
+    scale(all, &Leaves::dilution, factor);
+    scale(all, &Leaves::shade, factor);
   }
   openvdb::GridPtrVec grids{
       assemble(all, &Leaves::density, "density", voxel_size, "(m + 300) / 600"),
       assemble(all, &Leaves::dilution, "dilution", voxel_size, "1e-5 kg/m3"),
+      assemble(all, &Leaves::shade, "shade", voxel_size, "1e-5 kg/m3"),
       assemble(all, &Leaves::size, "size", voxel_size, "km"),
       assemble(all, &Leaves::temperature, "temperature", voxel_size, "K")};
   if (!flames.power.empty()) {
