@@ -53,9 +53,9 @@ def fcurves(datablock: bpy.types.ID) -> list[bpy.types.FCurve]:
 
 def node_tree(owner: bpy.types.Material | bpy.types.World | bpy.types.Light) -> bpy.types.NodeTree:
     """The empty shader tree of a new material, world or light (`use_nodes` is deprecated in 5.0)."""
-    if owner.node_tree is None or not owner.use_nodes:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", DeprecationWarning)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)
+        if not owner.use_nodes:
             owner.use_nodes = True
     owner.node_tree.nodes.clear()
     return owner.node_tree

@@ -1,7 +1,8 @@
 """Distance haze in the shaders: no world volume, so it costs next to nothing.
 
-What a camera ray sees at distance d is mixed towards the haze's light by 1 - exp(-d k) (Koschmieder's law,
-air lit alike all along the ray). Other rays are left alone: the haze lights nothing.
+What a camera ray sees at distance d is mixed towards the light of the haze by 1 - exp(-tau) (Koschmieder, air
+lit alike all along the ray). The haze thins with height as exp(-z / H), so a ray from z0 to z1 passes
+tau = k d exp(-z0 / H) (1 - exp(-u)) / u with u = (z1 - z0) / H. Other rays are left alone: it lights nothing.
 """
 
 from __future__ import annotations
@@ -12,7 +13,8 @@ import bpy
 
 from .. import nodes
 
-EXTINCTION = 0.9e-5  # 1/m for a dry September day: a visual range of 3.9 / k = 430 km, clear mountain air
+EXTINCTION = 1.2e-5  # 1/m at z = 0 on a dry September day: clear mountain air
+SCALE_HEIGHT = 5000.0  # m, between that of dust (about 2 km) and of the air itself (8 km)
 NAME = "Firetwin Haze"
 
 
@@ -31,8 +33,14 @@ def _group() -> bpy.types.NodeTree:
     colour = tree.node("ShaderNodeRGB")
     colour.name = "Colour"
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
+    geometry = tree.node("ShaderNodeNewGeometry")
+    low = tree.separate(tree.pick(geometry, "Position"))[2] / SCALE_HEIGHT
+    rise = tree.separate(tree.pick(geometry, "Incoming"))[2] * distance / SCALE_HEIGHT
+    rise = rise + 2.0e-3 * (tree.math("ABSOLUTE", rise) < 1.0e-3)  # never 0, where the mean below is 1
+    mean = (1.0 - (-rise).exp()) / rise
+    depth = distance * extinction * (-low).exp() * mean
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
-    fraction = (1.0 - (-(distance * extinction)).exp()) * camera
+    fraction = (1.0 - (-depth).exp()) * camera
     tree.node("NodeGroupOutput", {"Fraction": fraction, "Colour": colour})
     return group
 

@@ -1,0 +1,51 @@
+import math
+
+import bpy
+import pytest
+from firetwin import nodes
+from firetwin.scene import haze
+
+
+def _look(scene, shoot, height, distance):
+    """Red of a black wall at `height` seen from `distance` above it (level where that is negative)."""
+    material, tree = nodes.material("wall")
+    tree.surface(haze.apply(tree, tree.emission((0.0, 0.0, 0.0))))
+    mesh = bpy.data.meshes.new("wall")
+    size = 10.0 * abs(distance)
+    if distance > 0.0:
+        corners = [(-size, -size, height), (size, -size, height), (size, size, height), (-size, size, height)]
+    else:
+        corners = [
+            (-size, -distance, -size),
+            (size, -distance, -size),
+            (size, -distance, size),
+            (-size, -distance, size),
+        ]
+    mesh.from_pydata(corners, [], [(0, 1, 2, 3)])
+    mesh.materials.append(material)
+    scene.collection.objects.link(bpy.data.objects.new("wall", mesh))
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    camera.data.clip_end, camera.data.lens = 1.0e6, 5000.0  # nearly parallel rays
+    camera.location = (0.0, 0.0, height + max(distance, 0.0))
+    camera.rotation_euler = (0.0 if distance > 0.0 else math.pi / 2.0, 0.0, 0.0)
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.resolution_x = scene.render.resolution_y = 4
+    return shoot(scene)[2, 2, 0]
+
+
+def test_level_rays_fade_by_the_extinction_at_their_height(scene, shoot):
+    haze.settings(1.0, (2.0, 0.0, 0.0))
+    depth = haze.EXTINCTION * 30_000.0 * math.exp(-2000.0 / haze.SCALE_HEIGHT)
+    assert _look(scene, shoot, 2000.0, -30_000.0) == pytest.approx(2.0 * (1.0 - math.exp(-depth)), rel=0.01)
+
+
+def test_from_space_the_whole_air_is_one_scale_height_deep(scene, shoot):
+    haze.settings(1.0, (2.0, 0.0, 0.0))
+    depth = haze.EXTINCTION * haze.SCALE_HEIGHT
+    assert _look(scene, shoot, 0.0, 60_000.0) == pytest.approx(2.0 * (1.0 - math.exp(-depth)), rel=0.01)
+
+
+def test_no_haze_hides_nothing(scene, shoot):
+    haze.settings(0.0, (2.0, 0.0, 0.0))
+    assert _look(scene, shoot, 0.0, 60_000.0) == pytest.approx(0.0, abs=1e-6)
