@@ -144,5 +144,5 @@ def _fuel(
     usual = np.interp(height, 0.5 * (edges[1:] + edges[:-1]), mean)
     patches = 0.5 + noise.fractal(x[None, :], y[:, None], 1_700.0, 3, seed + 50)
     usual = usual * np.clip(0.4 + 1.2 * patches, 0.0, 2.0)
-    near = np.exp(-distance / 2_500.0)
+    near = np.exp(-distance / 500.0)
     return near * np.pad(known_fuel, margin, "edge") + (1.0 - near) * usual
