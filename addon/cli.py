@@ -102,7 +102,10 @@ def _parser() -> argparse.ArgumentParser:
     _scene(render)
     render.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the pictures")
     render.add_argument(
-        "--frames", metavar="LIST", default="", help='such as "1-10", "3,5-9" or "1-48:4" (all)'
+        "--frames",
+        metavar="LIST",
+        default="",
+        help="of each camera's frames, such as 1-10, 3,5-9 or 1-48:4 (all)",
     )
     render.add_argument("--camera", metavar="NAME", help="this camera only (all)")
     render.add_argument("--passes", metavar="LIST", help="some of rgb,depth,thermal (as the scene file says)")

@@ -52,9 +52,13 @@ def maps(arguments: argparse.Namespace) -> None:
 def build(arguments: argparse.Namespace) -> None:
     """Build the scene and save it."""
     from . import worker
+    from .errors import UsageError
 
-    project, _ = _load(arguments.scene)
     out = arguments.out.absolute()
+    if out.suffix != ".blend":
+        raise UsageError(f"-o: {arguments.out} does not end in .blend")
+    project, _ = _load(arguments.scene)
+    out.parent.mkdir(parents=True, exist_ok=True)
     worker.run(f"{__name__}:build_in_blender", {"scene": str(project.path), "out": str(out)}, Reporter())
     print(arguments.out)
 

@@ -157,7 +157,8 @@ def serve() -> None:
         import traceback
 
         traceback.print_exc()
-        answer(error=str(error) if isinstance(error, Error | OSError) else f"{type(error).__name__}: {error}")
+        text = str(error) if isinstance(error, Error | OSError) else f"{type(error).__name__}: {error}"
+        answer(error=" ".join(text.split()))
     else:
         answer(result=result)
     sys.stderr.flush()
