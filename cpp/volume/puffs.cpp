@@ -16,8 +16,9 @@ namespace {
 
 constexpr double kEntrainment = 0.3;
 constexpr double kTurbulentGrowth = 0.02;
-constexpr double kFireFlux = 1.0e5; // W/m2
-constexpr double kFaint = 2.0e-8;   // kg/m3; thinner smoke has no edge to shape
+constexpr double kFireFlux = 1.0e5;       // W/m2
+constexpr double kFaint = 2.0e-8;         // kg/m3; thinner smoke has no edge to shape
+constexpr std::uint64_t kStemKeys = 1000; // apart from the keys of surface balls
 constexpr int kChildren = 16;
 constexpr int kGrandchildren = 9;
 
@@ -93,7 +94,7 @@ public:
         const double stem_age = age - static_cast<double>(i) * step;
         if (stem_age > 0.0) {
           const double size = std::cbrt(1.0 - grown) * smoothstep(0.0, 3.0 * step, stem_age);
-          add(balls, source, mix(source.key, i + 1), stem_age, size,
+          add(balls, source, mix(source.key, kStemKeys + i), stem_age, size,
               source.stems[i] * (1.0 - grown) * fade);
         }
       }

@@ -1,8 +1,11 @@
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from os import PathLike
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+FRESH_SMOKE: float
+"""Smoke that counts as dilution 1, kg/m3."""
 
 class Puffs:
     """Smoke of one moment as n balls; the state at any time needs no frame before it."""
@@ -15,13 +18,23 @@ class Puffs:
         """(n,) metres."""
     @property
     def density(self) -> NDArray[np.float32]:
-        """(n,) dilution 0..1 (1 = fresh smoke)."""
+        """(n,) kg/m3 of the puff's own smoke; of its parent's for a ball on its surface."""
     @property
     def age(self) -> NDArray[np.float32]:
         """(n,) seconds."""
     @property
     def mass(self) -> NDArray[np.float64]:
-        """(n,) kg of smoke."""
+        """(n,) kg of smoke; 0 for the balls that shape the surface of a puff."""
+    @property
+    def identity(self) -> NDArray[np.uint64]:
+        """(n,) the same for the same ball at every time."""
+    @property
+    def emitted(self) -> float:
+        """kg of smoke emitted up to this time."""
+    @property
+    def left(self) -> float:
+        """kg of it that is too old to be shown: emitted = sum of mass + left."""
+    def __len__(self) -> int: ...
 
 def puffs(
     time: float,
@@ -31,29 +44,64 @@ def puffs(
     wind: ArrayLike,
     cell_area: float,
     interval: float = 60.0,
-    max_age: float = 3600.0,
+    max_age: float = 5400.0,
     burn_time: float = 600.0,
     stability: float = 1.0e-4,
     seed: int = 0,
     smoke_fraction: float = 0.02,
     heat_of_combustion: float = 17.433e6,
+    block: float = 400.0,
+    merge_radius: float = 2000.0,
+    smallest: float = 50.0,
+    turbulence: float = 1.0,
 ) -> Puffs:
-    """Closed-form puffs at `time` (s) from cells that burned: arrival (n,) s, fuel (n,) kg/m2 consumed,
-    position (n, 3) m, wind (2,) or (n, 2) m/s. Rise after Briggs; see the C++ header for the formulas."""
+    """Closed-form puffs at `time` (s) from cells that burned.
+
+    Parameters
+    ----------
+    arrival, fuel, position
+        (n,) s, (n,) kg/m2 consumed and (n, 3) m; finite: leave out cells that never burn.
+    wind
+        (2,) or (n, 2) m/s east and north 10 m above the ground, when the cell burned.
+    cell_area
+        m2.
+    interval
+        s of emission that make one puff.
+    burn_time
+        s in which a cell burns out.
+    stability
+        Square of the buoyancy frequency, 1/s2.
+    block, merge_radius, smallest
+        m: side of the squares whose cells share a puff; distance over which plumes rise as one; radius of the
+        smallest surface ball.
+    turbulence
+        0 keeps every puff on the axis of its plume.
+
+    Notes
+    -----
+    Rise after Briggs (1969, 1984), see cpp/volume/plume.hpp; growth, stems and surface balls, see
+    cpp/volume/puffs.hpp.
+
+    Raises
+    ------
+    Error
+        An array has the wrong shape or holds NaN, or a number is not positive.
+    """
 
 class Frame:
     """What one VDB file holds."""
 
     @property
-    def active_voxels(self) -> int: ...
+    def active_voxels(self) -> int:
+        """Of the grid with the most."""
     @property
     def bytes(self) -> int: ...
     @property
     def bounds(self) -> NDArray[np.float64]:
-        """(2, 3) metres, world space."""
+        """(2, 3) metres, world space; zeros for an empty file."""
     @property
     def mass(self) -> float:
-        """kg of smoke in the file, integrated over the `mass` weights before quantisation."""
+        """kg of smoke in the file before its values became half floats."""
 
 def write_smoke(
     path: str | PathLike[str],
@@ -63,17 +111,36 @@ def write_smoke(
     flame_power: ArrayLike | None = None,
     metadata: Mapping[str, str] | None = None,
 ) -> Frame:
-    """Write grids `density` (0..1 clipped signed distance to the puffs: (distance + 300) / 600),
-    `dilution` (0..1), `temperature` (K) and, with flames (n, 3) m and (n,) W, `glow` (0..1) and `flame`
-    (0..1), half precision with Blosc, to a temporary file that is then renamed."""
+    """Write puffs as a sparse volume, half precision with Blosc, to a temporary file that is then renamed.
+
+    Grids: `density` (clipped signed distance (m + 300) / 600), `dilution` (in units of FRESH_SMOKE), `shade`
+    (dilution with a plain edge), `size` (km, of the local ball), `temperature` (K) and, with flames (n, 3) m
+    and (n,) W, `glow` (1 amid 1 GW) and `flame` (GW, at most 1). See cpp/volume/smoke.hpp.
+
+    Raises
+    ------
+    InputError
+        The folder is missing or cannot be written.
+    """
 
 def write(
     path: str | PathLike[str],
     grids: Mapping[str, ArrayLike],
     voxel_size: float,
-    origin: ArrayLike = (0.0, 0.0, 0.0),
+    origin: Sequence[float] = (0.0, 0.0, 0.0),
     half: bool = True,
     tolerance: float = 0.0,
     metadata: Mapping[str, str] | None = None,
 ) -> Frame:
-    """Write dense arrays (nx, ny, nz) as sparse fog volumes of cubic voxels (m); origin is voxel (0,0,0)'s centre."""
+    """Write dense arrays (nx, ny, nz) as sparse fog volumes of cubic voxels (m).
+
+    `origin` is the centre of voxel (0, 0, 0). Voxels within `tolerance` of 0 are left out. `Frame.mass` is
+    the integral of `density`, read as kg/m3.
+
+    Raises
+    ------
+    Error
+        A value is not finite, or too large for half precision.
+    InputError
+        The folder is missing or cannot be written.
+    """

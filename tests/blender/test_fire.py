@@ -1,0 +1,126 @@
+"""Flames in the scene: on the front, within the budget, moving with the time."""
+
+from dataclasses import replace
+
+import bpy
+import numpy as np
+import pytest
+from firetwin import project as projects
+from firetwin.scene import clock, fire, flames
+from firetwin.scene.ground import Ground
+from firetwin.scene.paths import paths
+from firetwin_core import flux
+
+
+@pytest.fixture
+def points(project, run):
+    ground = Ground(project, run)
+    return flames.front(project, run, ground, paths(project, run, ground))
+
+
+def placed(scene, frame):
+    """Places of the flames that Blender draws in a frame."""
+    scene.frame_set(frame)
+    graph = bpy.context.evaluated_depsgraph_get()
+    return np.array([i.matrix_world.translation[:] for i in graph.object_instances if i.is_instance])
+
+
+def test_flame_lengths_are_those_of_the_formulas():
+    assert flames.flame_length(10_000.0, "thomas") == pytest.approx(12.35, abs=0.01)
+    assert flames.flame_length(10_000.0, "byram") == pytest.approx(5.36, abs=0.01)
+    assert flames.flame_length(-1.0) == 0.0
+
+
+def test_flames_lean_more_in_more_wind():
+    angles = [float(flames.tilt(wind, np.array(10.0))) for wind in (0.0, 3.0, 30.0)]
+    assert angles[0] == 0.0
+    assert angles[1] == pytest.approx(np.arctan(1.22 * 3.0 / np.sqrt(98.1)))
+    assert angles[2] <= np.pi / 3
+
+
+def test_lit_flames_stand_on_the_front(points, project, run):
+    """The test fire is round: arrival = 7200 r - 600 s, so the contour's radius is known."""
+    frame = Ground(project, run).frame
+    for time in clock.frame_times(project, run)[1:]:
+        lit = points.take(points.lit(time))
+        assert len(lit.seed) > 20
+        age = time - lit.arrival_time
+        assert np.all((age >= 0.0) & (age < lit.residence))
+        latitude, longitude, _ = frame.reverse(lit.position)
+        fuel_lat, fuel_lon = run.fuel_latitude, run.fuel_longitude
+        y = np.interp(latitude, fuel_lat, np.linspace(-1, 1, len(fuel_lat)))
+        x = np.interp(longitude, fuel_lon, np.linspace(-1, 1, len(fuel_lon)))
+        cells = np.abs(np.hypot(x, y) - (time + 600.0) / 7200.0) * len(fuel_lat) / 2
+        assert cells.max() < 1.0
+
+
+def test_flames_line_the_visible_front_without_large_gaps(points, project, run):
+    time = clock.frame_times(project, run)[1]
+    lit = points.take(points.lit(time)).position[:, :2]
+    gap = np.sort(np.linalg.norm(lit[:, None] - lit[None], axis=-1), axis=1)[:, 1]
+    assert np.median(gap) < 25.0
+
+
+def test_no_frame_has_more_flames_than_the_budget(project, run):
+    ground = Ground(project, run)
+    views = paths(project, run, ground)
+    full = flames.front(project, run, ground, views)
+    few = flames.front(replace(project, fire=replace(project.fire, budget=30)), run, ground, views)
+    times = clock.frame_times(project, run)
+    counts = [len(few.lit(time)) for time in times]
+    assert max(counts) <= 30 < max(len(full.lit(time)) for time in times)
+    for index, (time, count) in enumerate(zip(times, counts, strict=True)):
+        assert count > 0 or index == 0
+        if count == 30:  # those kept are the nearest of that frame
+            eye = views[0].position[index]
+            near = np.sort(np.linalg.norm(full.position[full.lit(time)] - eye, axis=1))[:30]
+            kept = np.linalg.norm(few.position[few.lit(time)] - eye, axis=1)
+            assert kept.max() <= 1.5 * near.max()
+
+
+def test_scrubbing_moves_the_flames(project, run, scene):
+    scene.frame_end = project.time.frames
+    thing = fire.build(project, run)
+    camera = bpy.data.objects.new("eye", bpy.data.cameras.new("eye"))
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    middle, end = placed(scene, 2), placed(scene, 3)
+    assert len(middle) > 20
+    assert len(end) > 20
+    apart = np.linalg.norm(middle[:, None, :2] - end[None, :, :2], axis=-1).min(axis=1)
+    assert np.median(apart) > 200.0
+    assert np.array_equal(placed(scene, 2), middle)
+    assert not thing.visible_shadow
+
+
+def test_cells_are_algorithm_1(project, run):
+    cells = replace(project, fire=projects.Fire(emitters="cells"))
+    found = flames.cells(cells, run, paths(cells, run))
+    low, high = run.flux_range()
+    position = Ground(project, run).frame.forward_grid(
+        run.latitude, run.longitude, np.asarray(run.elevation, np.float64)
+    )
+    for time in clock.frame_times(project, run):
+        expected = flux.emitters(flux.at_time(run, float(time)), position, low, high)
+        lit = found.take(found.lit(time))
+        assert np.array_equal(lit.position, expected.position)
+        assert lit.length == pytest.approx(0.4 * expected.scale)
+
+
+def test_flames_light_the_picture_and_burn_in_the_thermal_layer(project, run, scene, shoot):
+    from firetwin.scene import build
+
+    near = replace(project.cameras[0].keys[0], latitude=38.8395, height=150.0)
+    project = replace(project, cameras=(replace(project.cameras[0], keys=(near,)),))
+    build.build(project, run, scene)
+    scene.frame_set(2)
+    rgb, kelvin = shoot(scene, "rgb"), shoot(scene, "thermal")
+    thing = bpy.data.objects["Firetwin Flames"]
+    thing.hide_render = True
+    assert np.max(rgb - shoot(scene, "rgb")) > 1.0
+    assert np.max(kelvin - shoot(scene, "thermal")) > 100.0  # flames fill only a part of a pixel
+    assert kelvin.max() <= 1501.0
+
+
+def test_flames_off_builds_nothing(project, run, scene):
+    assert fire.build(replace(project, fire=projects.Fire(flames=False)), run) is None
