@@ -54,6 +54,7 @@ def run(task: str, arguments: dict[str, Any], progress: Progress = silent, eevee
             text=True,
         )
     try:
+        _end_on_sigterm()
         answer = _converse(child, {"task": task, "arguments": arguments}, progress)
     finally:
         _end(child)
@@ -68,6 +69,12 @@ def run(task: str, arguments: dict[str, Any], progress: Progress = silent, eevee
     if "error" in answer:
         raise Error(f"{answer['error']} (the log of Blender is {log.name})")
     raise Error(f"{_ending(child.returncode, eevee)} (the log of Blender is {log.name})")
+
+
+def _end_on_sigterm() -> None:
+    """Let a polite kill unwind like Ctrl-C does, so that what is unfinished is cleared away."""
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
 
 
 def _converse(child: subprocess.Popen[str], request: dict[str, Any], progress: Progress) -> dict[str, Any]:
