@@ -181,4 +181,6 @@ def test_a_scene_must_fit_its_run(scene, tmp_path):
 def test_a_blend_file_must_be_named_so_and_its_folder_be_there(scene, tmp_path):
     assert_one_line(firetwin("build", scene(), "-o", tmp_path / "x.blnd"), 2, "x.blnd", ".blend")
     (tmp_path / "file").write_text("")
-    assert_one_line(firetwin("build", scene(), "-o", tmp_path / "file" / "x.blend"), 1, str(tmp_path / "file"))
+    assert_one_line(
+        firetwin("build", scene(), "-o", tmp_path / "file" / "x.blend"), 1, str(tmp_path / "file")
+    )
