@@ -28,7 +28,7 @@ _VEIL = (0.002, 0.005)  # dilution between which thin smoke fades; volumes end a
 _LOW, _HIGH = (0.62, 0.53, 0.44), (0.95, 0.945, 0.94)  # albedo near the ground and far up
 _MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
 _GLOW = (1.0, 0.30, 0.06)
-_GLOW_LIGHT = 0.06  # radiance of thick smoke amid flames of 1 GW, exposure 0
+_GLOW_LIGHT = 0.025  # radiance of thick smoke amid flames of 1 GW, exposure 0
 
 
 @dataclass(frozen=True)
