@@ -28,7 +28,7 @@ from ..times import frame_times
 from . import burning, paths
 
 STABILITY = 3.0e-5  # 1/s2; a deep mixed layer with stable air above, a September afternoon (assumed)
-_STEP_DEPTH = 0.8  # optical depth of a step through thick smoke; a picture of half of it differs by 0.2 %
+_STEP_DEPTH = 0.8  # optical depth of a step through thick smoke; much longer steps lose smoke
 _GLOW_BLOCK = 300.0  # m; flames this near each other light the smoke as one
 _GLOW_COUNT = 400
 _FLAME_HEIGHT = 20.0  # m over the ground, where their light comes from
