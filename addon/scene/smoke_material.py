@@ -59,16 +59,25 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     albedo = tree.mix_colour(above.smoothstep(-200.0, 3200.0), _LOW, _HIGH)
     noise = _billow(tree, position, carried, float(np.clip(4.5 * drawn.voxel, 260.0, 700.0)))
     reach = tree.math("MINIMUM", tree.attribute("size") * 0.8, _AMPLITUDE)  # small puffs must not be eaten up
-    density = (tree.attribute("density") + reach * (noise - _MEAN_BILLOW)).smoothstep(*_EDGE) * full
+    depth = tree.attribute("density")
+    density = (depth + reach * (noise - _MEAN_BILLOW)).smoothstep(*_EDGE) * full
     part, air = haze.fraction(tree)
-    seen = _smoke(tree, density, tree.mix_colour(part, albedo, (0.0, 0.0, 0.0)))
-    glow = tree.emission(_GLOW, tree.attribute("glow") * density * (1.0 - part) * _GLOW_LIGHT)
-    detailed = tree.add_shader(tree.add_shader(seen, tree.emission(air, part * density)), glow)
+    scattered = tree.mix_colour(part, albedo, (0.0, 0.0, 0.0))
+    glow = tree.attribute("glow") * (1.0 - part) * _GLOW_LIGHT
+
+    def seen(density: nodes.Value) -> nodes.Value:
+        light = tree.add_shader(tree.emission(air, part * density), tree.emission(_GLOW, glow * density))
+        return tree.add_shader(_smoke(tree, density, scattered), light)
+
+    # A mix by 0 or 1 evaluates one side only: deep inside, the noise changes nothing and is left out.
+    deep = depth > _EDGE[1] + _AMPLITUDE * _MEAN_BILLOW
+    detailed = tree.mix_shader(deep, seen(density), seen(full))
     # Most steps belong to rays of light through the smoke. They need no detail: one grid is enough.
     plain = _smoke(tree, _extinction(tree.attribute("shade"), drawn.extinction), _MIDDLE)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     tree.volume(tree.mix_shader(camera, plain, detailed))
     material.cycles.volume_sampling = "DISTANCE"
+    material.cycles.emission_sampling = "NONE"
     return material
 
 
@@ -94,5 +103,5 @@ def _billow(tree: nodes.Tree, position: nodes.Value, carried: Flow, size: float)
     shift = [speed * _ALOFT for speed in carried.wind]
     time = nodes.model_time(tree)
     moved = tree.vector("SUBTRACT", position, tree.combine(time * shift[0], time * shift[1], time * _CLIMB))
-    noise = tree.noise(moved, size, 4.0, 0.6)
+    noise = tree.noise(moved, size, 3.0, 0.6)
     return tree.math("ABSOLUTE", noise * 2.0 - 1.0) * 2.0

@@ -34,6 +34,7 @@ def foliage(project: Project, run: Run) -> bpy.types.Material:
 def bark(project: Project, run: Run, *, charred: bool) -> bpy.types.Material:
     """Build "Firetwin Bark", or the char of snags."""
     material, tree = nodes.material("Firetwin Snag" if charred else "Firetwin Bark")
+    material.cycles.emission_sampling = "NONE"
     tint = tree.attribute("tint", "INSTANCER")
     brown = tree.mix_colour(tint, (0.070, 0.046, 0.030), (0.115, 0.075, 0.048))
     black = tree.mix_colour(tint, (0.010, 0.009, 0.009), (0.045, 0.040, 0.036))
