@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 namespace firetwin::forest {
@@ -25,9 +24,5 @@ enum class Use : std::uint64_t { place = 0, tree = 1, grass = 2 };
 
 /// Four numbers in [0, 1) that depend on seed, cell and use alone.
 std::array<double, 4> draw(const Site& site, std::size_t cell, Use use);
-
-/// Where the plant of a cell stands, in local metres: jittered inside the cell, on the bilinear
-/// elevation. Nothing where there is no elevation.
-std::optional<std::array<double, 3>> place(const Site& site, std::size_t y, std::size_t x);
 
 } // namespace firetwin::forest
