@@ -15,6 +15,7 @@ public:
       : values_(std::make_unique_for_overwrite<T[]>(size)), size_(size) {}
 
   std::size_t size() const { return size_; }
+  T* data() { return values_.get(); }
   const T* data() const { return values_.get(); }
   T& operator[](std::size_t i) { return values_[i]; }
   const T& operator[](std::size_t i) const { return values_[i]; }

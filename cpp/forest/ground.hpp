@@ -1,52 +1,52 @@
 #pragma once
 
+#include "buffer.hpp"
 #include "forest/site.hpp"
-#include "geo/axis.hpp"
 #include "geo/ellipsoid.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 namespace firetwin::forest {
 
-/// Where plants stand: jittered inside their cells, on the bilinear elevation.
+/// Where the plants of a whole row of cells stand: jittered inside their cells, on the bilinear
+/// elevation.
 class Ground {
 public:
+  /// @param site must outlive this
   explicit Ground(const Site& site);
 
-  /// Whether place() finds a height in every cell.
-  bool whole() const { return whole_; }
+  /// Whether a plant can stand in a cell.
+  bool holds(std::size_t cell) const { return std::isfinite(site_.elevation[cell]); }
 
-  /// Writes where the plant of a cell stands, in local metres; false where there is no elevation.
-  bool place(std::size_t y, std::size_t x, double* out) const;
+  /// Random numbers in, places in local metres out, one each per column.
+  struct Row {
+    explicit Row(std::size_t columns);
+    Buffer<double> north, east;      ///< in [0, 1): where in the cell, towards the axes' ends
+    Buffer<double> x, y, z;          ///< m
+    Buffer<double> below, on, above; ///< the elevations of three rows, an edge on either side
+  };
+  /// Corners of a cell's ground without elevation are left out (the others' weights grow).
+  void place(std::size_t y, Row& row) const;
 
 private:
-  /// Two neighbouring nodes of an axis.
-  struct Interval {
-    std::size_t lower;
-    std::size_t upper;
-    double start; ///< of the lower one, degrees
-    double width; ///< to the upper one
+  /// One axis, by its nodes.
+  struct Axis {
+    explicit Axis(std::span<const double> nodes);
+    std::span<const double> value; ///< degrees
+    std::vector<double> first;     ///< where the cell begins
+    std::vector<double> width;     ///< of the cell, with its sign
+    std::vector<double> before;    ///< 1 / (previous value - value), 0 without one
+    std::vector<double> after;     ///< 1 / (next value - value), 0 without one
   };
-  /// One row or column of cells.
-  struct Line {
-    double value;         ///< of the axis, degrees
-    geo::Extent extent;   ///< of the cell
-    Interval before;      ///< towards extent.first
-    Interval after;       ///< towards extent.last
-    geo::SineCosine turn; ///< of the latitude, or of the longitude from the origin's
-  };
-  struct Spot;
-
-  static std::vector<Line> lines(std::span<const double> axis);
-  static Spot spot(const Line& line, double random, double jitter, double limit);
-  double height(const geo::Bracket& y, const geo::Bracket& x) const;
+  void copy_row(std::size_t y, Buffer<double>& out) const;
 
   const Site& site_;
   geo::Origin origin_;
-  std::vector<Line> rows_, columns_;
-  bool whole_;
+  Axis latitude_, longitude_;
+  std::vector<double> sine_, cosine_; ///< of the longitudes from the origin's
 };
 
 } // namespace firetwin::forest

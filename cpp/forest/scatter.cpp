@@ -2,6 +2,7 @@
 
 #include "forest/ground.hpp"
 
+#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -14,6 +15,9 @@
 
 namespace firetwin::forest {
 namespace {
+
+using Range = tbb::blocked_range<std::size_t>;
+constexpr std::size_t rows_per_task = 16;
 
 constexpr double least_canopy_fuel = 0.01; // kg/m2
 constexpr double grass_depth = 0.70;       // m
@@ -61,47 +65,70 @@ void write_clump(Plants& plants, std::size_t i, const Site& site) {
 
 /// How many plants stand in the rows before each row, and in all of them.
 template <class Grows>
-std::vector<std::size_t> offsets(const Site& site, const Ground& ground, Grows grows) {
-  const std::size_t columns = site.longitude.size();
-  std::vector<std::size_t> result(site.latitude.size() + 1, 0);
-  tbb::parallel_for(std::size_t{0}, site.latitude.size(), [&](std::size_t y) {
-    std::array<double, 3> unused{};
-    std::size_t count = 0;
-    for (std::size_t x = 0; x < columns; ++x) {
-      const bool fuel = grows(y * columns + x);
-      count += fuel && (ground.whole() || ground.place(y, x, unused.data()));
+std::vector<std::size_t> offsets(std::size_t rows, std::size_t columns, Grows grows) {
+  std::vector<std::size_t> result(rows + 1, 0);
+  tbb::parallel_for(Range(0, rows, rows_per_task), [&](const Range& range) {
+    for (std::size_t y = range.begin(); y < range.end(); ++y) {
+      std::size_t count = 0;
+      for (std::size_t x = 0; x < columns; ++x) {
+        count += grows(y * columns + x);
+      }
+      result[y + 1] = count;
     }
-    result[y + 1] = count;
   });
   std::partial_sum(result.begin(), result.end(), result.begin());
   return result;
 }
 
-/// Places a plant in each cell that `grows`, and has `write(plants, i, cell)` fill in the rest.
-template <class Grows, class Write>
-Plants scatter(const Site& site, bool trees, Grows grows, Write write) {
+/// The columns of a row whose cells grow something. Without branches, which could not be predicted;
+/// so the place after the last is written to as well.
+template <class Grows>
+void list(std::size_t y, std::size_t columns, Grows grows, Buffer<std::uint32_t>& out) {
+  std::size_t n = 0;
+  for (std::size_t x = 0; x < columns; ++x) {
+    out[n] = static_cast<std::uint32_t>(x);
+    n += grows(y * columns + x);
+  }
+}
+
+Plants make_plants(std::size_t n, bool trees) {
+  const std::size_t classed = trees ? n : 0;
+  return {Buffer<std::int64_t>(n),       Buffer<double>(3 * n), Buffer<std::uint8_t>(classed),
+          Buffer<std::uint8_t>(classed), Buffer<float>(n),      Buffer<float>(n)};
+}
+
+/// Places a plant in each cell that has `fuel`, and has `write(plants, i)` fill in the rest.
+template <class Fuel, class Write>
+Plants scatter(const Site& site, bool trees, Fuel fuel, Write write) {
   if (!(site.jitter >= 0.0 && site.jitter <= 1.0)) {
     throw std::invalid_argument("jitter must be between 0 and 1");
   }
   const Ground ground(site);
-  const std::vector<std::size_t> offset = offsets(site, ground, grows);
-  const std::size_t n = offset.back();
-  Plants plants{Buffer<std::int64_t>(n),
-                Buffer<double>(3 * n),
-                Buffer<std::uint8_t>(trees ? n : 0),
-                Buffer<std::uint8_t>(trees ? n : 0),
-                Buffer<float>(n),
-                Buffer<float>(n)};
+  const auto grows = [&](std::size_t cell) {
+    return static_cast<bool>(fuel(cell) & ground.holds(cell));
+  };
   const std::size_t columns = site.longitude.size();
-  tbb::parallel_for(std::size_t{0}, site.latitude.size(), [&](std::size_t y) {
-    std::size_t i = offset[y];
-    for (std::size_t x = 0; x < columns; ++x) {
-      const std::size_t cell = y * columns + x;
-      // Past the last plant there is no place to write to.
-      if (i < offset[y + 1] && grows(cell) && ground.place(y, x, &plants.position[3 * i])) {
-        plants.cell[i] = static_cast<std::int64_t>(cell);
-        write(plants, i, cell);
-        ++i;
+  const std::vector<std::size_t> offset = offsets(site.latitude.size(), columns, grows);
+  Plants plants = make_plants(offset.back(), trees);
+  tbb::parallel_for(Range(0, site.latitude.size(), rows_per_task), [&](const Range& rows) {
+    Ground::Row row(columns);
+    Buffer<std::uint32_t> column(columns + 1);
+    for (std::size_t y = rows.begin(); y < rows.end(); ++y) {
+      const std::size_t n = offset[y + 1] - offset[y];
+      list(y, columns, grows, column);
+      for (std::size_t k = 0; k < n; ++k) {
+        const auto random = draw(site, y * columns + column[k], Use::place);
+        row.north[column[k]] = random[0];
+        row.east[column[k]] = random[1];
+      }
+      ground.place(y, row);
+      for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t i = offset[y] + k, x = column[k];
+        plants.cell[i] = static_cast<std::int64_t>(y * columns + x);
+        plants.position[3 * i] = row.x[x];
+        plants.position[3 * i + 1] = row.y[x];
+        plants.position[3 * i + 2] = row.z[x];
+        write(plants, i);
       }
     }
   });
@@ -122,23 +149,22 @@ Plants trees(std::span<const float> canopy_fuel, const Site& site, double max_fu
   if (!(max_fuel > 0.0) || !std::isfinite(max_fuel)) {
     throw std::invalid_argument("max_fuel must be finite and above 0");
   }
-  return scatter(
-      site, true,
-      [&](std::size_t cell) {
-        return double{canopy_fuel[cell]} > least_canopy_fuel && std::isfinite(canopy_fuel[cell]);
-      },
-      [&](Plants& plants, std::size_t i, std::size_t cell) {
-        write_tree(plants, i, site, double{canopy_fuel[cell]}, max_fuel);
-      });
+  const auto fuel = [canopy_fuel](std::size_t cell) {
+    return static_cast<bool>((double{canopy_fuel[cell]} > least_canopy_fuel) &
+                             std::isfinite(canopy_fuel[cell]));
+  };
+  return scatter(site, true, fuel, [&](Plants& plants, std::size_t i) {
+    const float here = canopy_fuel[static_cast<std::size_t>(plants.cell[i])];
+    write_tree(plants, i, site, double{here}, max_fuel);
+  });
 }
 
 Plants grass(std::span<const float> surface_fuel, const Site& site) {
-  return scatter(
-      site, false,
-      [&](std::size_t cell) {
-        return surface_fuel[cell] > 0.0F && std::isfinite(surface_fuel[cell]);
-      },
-      [&](Plants& plants, std::size_t i, std::size_t) { write_clump(plants, i, site); });
+  const auto fuel = [surface_fuel](std::size_t cell) {
+    return static_cast<bool>((surface_fuel[cell] > 0.0F) & std::isfinite(surface_fuel[cell]));
+  };
+  return scatter(site, false, fuel,
+                 [&](Plants& plants, std::size_t i) { write_clump(plants, i, site); });
 }
 
 } // namespace firetwin::forest

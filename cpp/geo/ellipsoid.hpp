@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -17,8 +20,16 @@ struct Radii {
   double normal_polar; ///< N (1 - e^2), m
 };
 
+/// Semi-major axis (m) and squared eccentricity of WGS84 (NIMA TR8350.2).
+constexpr double semi_major = 6378137.0;
+constexpr double flattening = 1.0 / 298.257223563;
+constexpr double eccentricity2 = flattening * (2.0 - flattening);
+
 /// @param sine of the latitude
-Radii radii(double sine);
+inline Radii radii(double sine) {
+  const double normal = semi_major / std::sqrt(1.0 - eccentricity2 * sine * sine);
+  return {normal, normal * (1.0 - eccentricity2)};
+}
 
 /// @param latitude degrees, NaN beyond 90
 SineCosine parallel(double latitude);
@@ -27,9 +38,22 @@ SineCosine parallel(double latitude);
 /// rounding.
 std::vector<SineCosine> meridians(std::span<const double> longitude, double origin);
 
-/// Sine and cosine of an angle that is `degrees` further on. Taylor series where that is little,
-/// accurate to the rounding of the result.
-SineCosine turned(const SineCosine& from, double degrees);
+/// Sine and cosine of an angle that is `degrees` further on, up to 90 degrees. Taylor series
+/// without branches; what is left out is below (pi/2)^23 / 23! < 2e-18.
+inline SineCosine turned(const SineCosine& from, double degrees) {
+  const double d = degrees * (std::numbers::pi / 180.0);
+  const double d2 = d * d;
+  double sine = 1.0, versine = 1.0; // sin d, 1 - cos d
+#pragma GCC unroll 10
+  for (int k = 20; k >= 2; k -= 2) {
+    sine = 1.0 - d2 * (1.0 / (k * (k + 1))) * sine;
+    versine = 1.0 - d2 * (1.0 / ((k + 1) * (k + 2))) * versine;
+  }
+  sine *= d;
+  versine *= 0.5 * d2;
+  return {from.sine + (from.cosine * sine - from.sine * versine),
+          from.cosine - (from.sine * sine + from.cosine * versine)};
+}
 
 /// Rotation of geocentric differences into the plane of an origin's meridian (IOGP 373-7-2, method
 /// 9837). With r the distance from the Earth's axis, z the height above the equator's plane and d
@@ -40,15 +64,14 @@ class Origin {
 public:
   Origin(double latitude, double height);
 
-  /// @param parallel, radii of the point; meridian: its longitude from the origin's; out: 3 m
-  void to_local(const SineCosine& parallel, const Radii& radii, const SineCosine& meridian,
-                double height, double* out) const {
+  /// @param meridian longitude from the origin's
+  /// @return m
+  std::array<double, 3> to_local(const SineCosine& parallel, const Radii& radii,
+                                 const SineCosine& meridian, double height) const {
     const double r = (radii.normal + height) * parallel.cosine;
     const double dr = r * meridian.cosine - r0_;
     const double dz = (radii.normal_polar + height) * parallel.sine - z0_;
-    out[0] = r * meridian.sine;
-    out[1] = at_.cosine * dz - at_.sine * dr;
-    out[2] = at_.sine * dz + at_.cosine * dr;
+    return {r * meridian.sine, at_.cosine * dz - at_.sine * dr, at_.sine * dz + at_.cosine * dr};
   }
 
 private:

@@ -5,6 +5,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
@@ -56,7 +57,9 @@ void LocalFrame::forward_grid(std::span<const double> latitude, std::span<const 
       const SineCosine row = parallel(latitude[y]);
       const Radii row_radii = radii(row.sine);
       for (std::size_t x = 0; x < nx; ++x) {
-        origin.to_local(row, row_radii, columns[x], height[y * nx + x], &enu[3 * (y * nx + x)]);
+        const std::size_t i = y * nx + x;
+        const auto p = origin.to_local(row, row_radii, columns[x], height[i]);
+        std::copy(p.begin(), p.end(), &enu[3 * i]);
       }
     }
   });

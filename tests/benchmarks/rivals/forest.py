@@ -1,9 +1,11 @@
 """Algorithm 2 in vectorised NumPy: what someone would write without firetwin_core.
 
-Its random numbers are numpy.random.Philox's, drawn in one stream for speed, so it grows another forest of
-the same kind; a forest that does not depend on order, as firetwin_core's, would cost it several times more.
+With `keyed` numbers it grows the same forest as firetwin_core: Philox keyed by seed, cell and use. With
+numbers drawn in `one_stream` by numpy.random.Philox it is faster, and grows another forest of the same kind
+in which a changed cell changes every tree after it.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +13,35 @@ from numpy.typing import NDArray
 
 SEMI_MAJOR, FLATTENING = 6378137.0, 1 / 298.257223563
 ECCENTRICITY2 = FLATTENING * (2 - FLATTENING)
+
+
+PLACE, TREE, GRASS = 0, 1, 2
+Draw = Callable[[int, NDArray, int], NDArray]
+
+
+def one_stream(seed: int, cell: NDArray, use: int) -> NDArray[np.float64]:
+    """Four numbers in [0, 1) per cell -> (4, n), from one stream for each use."""
+    return np.random.Generator(np.random.Philox(key=np.array([seed, use], np.uint64))).random((4, len(cell)))
+
+
+def keyed(seed: int, cell: NDArray, use: int) -> NDArray[np.float64]:
+    """Four numbers in [0, 1) per cell -> (4, n) that depend on seed, cell and use alone (Philox4x64-10)."""
+    half, low = np.uint64(32), np.uint64(0xFFFFFFFF)
+
+    def product(a: int, b: NDArray) -> tuple[NDArray, NDArray]:
+        a_high, a_low, b_high, b_low = np.uint64(a >> 32), np.uint64(a & 0xFFFFFFFF), b >> half, b & low
+        first, second, third = a_low * b_low, a_high * b_low, a_low * b_high
+        middle = (first >> half) + (second & low) + third
+        return a_high * b_high + (second >> half) + (middle >> half), np.uint64(a) * b
+
+    c0 = cell.astype(np.uint64)
+    c1, c2, c3 = np.full_like(c0, use), np.zeros_like(c0), np.zeros_like(c0)
+    k0, k1 = seed, 0
+    for _ in range(10):
+        (a_high, a_low), (b_high, b_low) = product(0xD2E7470EE14C6C93, c0), product(0xCA5A826395121157, c2)
+        c0, c1, c2, c3 = b_high ^ c1 ^ np.uint64(k0), b_low, a_high ^ c3 ^ np.uint64(k1), a_low
+        k0, k1 = (k0 + 0x9E3779B97F4A7C15) % 2**64, (k1 + 0xBB67AE8584CAA73B) % 2**64
+    return (np.stack([c0, c1, c2, c3]) >> np.uint64(11)) * 2.0**-53
 
 
 @dataclass
@@ -40,13 +71,14 @@ def to_local(latitude, longitude, height, origin) -> NDArray[np.float64]:
     return np.stack([r * np.sin(turn), cosine * dz - sine * dr, sine * dz + cosine * dr], axis=1)
 
 
-def place(cell, latitude, longitude, elevation, origin, rng) -> NDArray[np.float64]:
+def place(cell, latitude, longitude, elevation, origin, random) -> NDArray[np.float64]:
     """Jittered places (n, 3) on the bilinear elevation of an even grid (degrees), metres."""
     rows, columns = elevation.shape
-    y = np.clip(cell // columns + rng.random(len(cell)) - 0.5, 0, rows - 1)
-    x = np.clip(cell % columns + rng.random(len(cell)) - 0.5, 0, columns - 1)
-    j, i = np.minimum(y.astype(np.intp), rows - 2), np.minimum(x.astype(np.intp), columns - 2)
-    v, u = y - j, x - i
+    y, x = cell // columns + random[0] - 0.5, cell % columns + random[1] - 0.5
+    inner_y, inner_x = np.clip(y, 0, rows - 1), np.clip(x, 0, columns - 1)
+    j = np.minimum(inner_y.astype(np.intp), rows - 2)
+    i = np.minimum(inner_x.astype(np.intp), columns - 2)
+    v, u = inner_y - j, inner_x - i
     corner = j * columns + i
     h = elevation.ravel()
     low = h[corner] * (1 - u) + h[corner + 1] * u
@@ -56,19 +88,18 @@ def place(cell, latitude, longitude, elevation, origin, rng) -> NDArray[np.float
     return to_local(north, east, low * (1 - v) + high * v, origin)
 
 
-def trees(canopy, latitude, longitude, elevation, origin, seed=0) -> Plants:
+def trees(canopy, latitude, longitude, elevation, origin, seed=0, draw: Draw = one_stream) -> Plants:
     """Algorithm 2's trees from canopy fuel (fy, fx) kg/m2."""
-    rng = np.random.Generator(np.random.Philox(seed))
     cell = np.flatnonzero(canopy > 0.01)
     fuel = canopy.ravel()[cell].astype(float)
     size_class = (fuel >= 0.8).astype(np.uint8) + (fuel >= 1.6)
     low = np.array([0.7, 0.9, 1.1])[size_class]
     models = np.array([4, 4, 2])[size_class]
-    random = rng.random((4, len(cell)))
+    random = draw(seed, cell, TREE)
     height = (6 + 12 * np.minimum(fuel / canopy.max(), 1)) * (low + 0.3 * random[0]) * (0.8 + 0.4 * random[1])
     return Plants(
         cell,
-        place(cell, latitude, longitude, elevation, origin, rng),
+        place(cell, latitude, longitude, elevation, origin, draw(seed, cell, PLACE)),
         height.astype(np.float32),
         (2 * np.pi * random[3]).astype(np.float32),
         size_class,
@@ -76,11 +107,10 @@ def trees(canopy, latitude, longitude, elevation, origin, seed=0) -> Plants:
     )
 
 
-def grass(surface, latitude, longitude, elevation, origin, seed=0) -> Plants:
+def grass(surface, latitude, longitude, elevation, origin, seed=0, draw: Draw = one_stream) -> Plants:
     """Algorithm 2's grass from surface fuel (fy, fx) kg/m2."""
-    rng = np.random.Generator(np.random.Philox(seed))
     cell = np.flatnonzero(surface > 0)
-    position = place(cell, latitude, longitude, elevation, origin, rng)
+    position = place(cell, latitude, longitude, elevation, origin, draw(seed, cell, PLACE))
     position[:, 2] -= 0.70
-    rotation = (2 * np.pi * rng.random(len(cell))).astype(np.float32)
+    rotation = (2 * np.pi * draw(seed, cell, GRASS)[0]).astype(np.float32)
     return Plants(cell, position, np.ones(len(cell), np.float32), rotation)
