@@ -59,7 +59,7 @@ def burned(arrival: np.ndarray, area: np.ndarray, time: float) -> float:
 def energy(run: Run) -> float:
     """Heat released over the run (J): flux times cell area, integrated over time by the trapezoidal rule."""
     area = areas.cell_areas(run.latitude, run.longitude)
-    power = np.array([np.nansum(run.heat_flux(i) * area) for i in range(len(run.times))])
+    power = np.array([np.nansum(flux * area) for flux in run.frames("heat_flux")])
     return float(np.sum((power[1:] + power[:-1]) / 2 * np.diff(run.times)))
 
 

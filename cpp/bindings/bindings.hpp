@@ -10,6 +10,7 @@ void init_run(pybind11::module_ module);
 void init_flux(pybind11::module_ module);
 void init_lod(pybind11::module_ module);
 void init_forest(pybind11::module_ module);
+void init_particles(pybind11::module_ module);
 void init_volume(pybind11::module_ module);
 void init_sensor(pybind11::module_ module);
 

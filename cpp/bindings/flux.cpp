@@ -1,5 +1,6 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "flux/arrival.hpp"
 #include "flux/at_time.hpp"
 #include "flux/emitters.hpp"
 
@@ -28,6 +29,15 @@ Array<float> at_time(const run::Run& run, double time) {
   return give(std::move(flux), {length(run.latitude().size()), length(run.longitude().size())});
 }
 
+Array<float> arrival_time(const run::Run& run, bool averaged) {
+  std::vector<float> times;
+  {
+    const py::gil_scoped_release release;
+    times = flux::arrival_time(run, averaged);
+  }
+  return give(std::move(times), {length(run.latitude().size()), length(run.longitude().size())});
+}
+
 template <auto member> auto column(const py::object& self) {
   return lend_column(self.cast<const Emitters&>().*member, self);
 }
@@ -54,6 +64,8 @@ void init_flux(py::module_ module) {
              py::arg("flux_max"), "Algorithm 1: emitters where flux (ny, nx) W/m2 is above 0.");
   module.def("at_time", &at_time, py::arg("run"), py::arg("time"),
              "Heat flux (ny, nx) in W/m2 at any time (seconds since start); zero outside the run.");
+  module.def("arrival_time", &arrival_time, py::arg("run"), py::arg("averaged") = true,
+             "When each cell begins to burn (ny, nx), s since start, between the model times.");
 }
 
 } // namespace firetwin::bindings

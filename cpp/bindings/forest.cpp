@@ -59,8 +59,12 @@ std::shared_ptr<Grass> grass(const py::object& surface_fuel, const py::object& l
   return std::make_shared<Grass>(Grass{forest::grass(view(fuel), site)});
 }
 
+template <class T> Array<T> lend_buffer(const Buffer<T>& values, const py::object& owner) {
+  return lend<T>(values, {length(values.size())}, owner);
+}
+
 template <class T, auto member> auto column(const py::object& self) {
-  return lend_column(self.cast<const T&>().*member, self);
+  return lend_buffer(self.cast<const T&>().*member, self);
 }
 
 template <class T> Array<double> position(const py::object& self) {

@@ -1,13 +1,16 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "geo/height_field.hpp"
 #include "geo/local_frame.hpp"
 
+#include <memory>
 #include <tuple>
 
 namespace firetwin::bindings {
 namespace py = pybind11;
 namespace {
 
+using geo::HeightField;
 using geo::LocalFrame;
 
 Array<double> forward(const LocalFrame& frame, const py::object& latitude,
@@ -48,6 +51,27 @@ std::tuple<Array<double>, Array<double>, Array<double>> reverse(const LocalFrame
   return {lat, lon, h};
 }
 
+std::shared_ptr<HeightField> height_field(const py::object& x, const py::object& y,
+                                          const py::object& height) {
+  const auto columns = to_array<double>(x, "x", {-1});
+  const auto rows = to_array<double>(y, "y", {-1});
+  const auto h = to_array<float>(height, "height", {rows.size(), columns.size()});
+  const py::gil_scoped_release release;
+  return std::make_shared<HeightField>(view(columns), view(rows), view(h));
+}
+
+Array<double> height_at(const HeightField& field, const py::object& place) {
+  const auto places = to_array<double>(place, "place", {-1, 2});
+  auto result = new_array<double>({places.shape(0)});
+  const auto out = writable(result);
+  const auto in = view(places);
+  const py::gil_scoped_release release;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] = field.at(in[2 * i], in[2 * i + 1]);
+  }
+  return result;
+}
+
 } // namespace
 
 void init_geo(py::module_ module) {
@@ -65,6 +89,10 @@ void init_geo(py::module_ module) {
            py::arg("height"), "latitude (ny,), longitude (nx,), height (ny, nx) -> (ny, nx, 3).")
       .def("reverse", &reverse, py::arg("enu"),
            "(n, 3) metres -> latitude (n,), longitude (n,), height (n,).");
+  py::class_<HeightField, std::shared_ptr<HeightField>>(
+      module, "HeightField", "The ground as heights on a rectilinear grid in local metres.")
+      .def(py::init(&height_field), py::arg("x"), py::arg("y"), py::arg("height"))
+      .def("at", &height_at, py::arg("place"), "(n, 2) metres -> (n,) bilinear height in metres.");
 }
 
 } // namespace firetwin::bindings

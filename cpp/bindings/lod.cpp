@@ -1,10 +1,15 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "broadcast.hpp"
 #include "lod/levels.hpp"
+#include "lod/pool.hpp"
 #include "lod/select.hpp"
+#include "lod/visible.hpp"
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 
 namespace firetwin::bindings {
@@ -52,10 +57,61 @@ Array<std::int64_t> select(const py::object& position, const py::object& camera,
   return give(std::move(chosen), {n});
 }
 
+std::vector<lod::View> views(const Array<double>& camera, const Array<double>& rotation,
+                             const Array<double>& fov) {
+  std::vector<lod::View> path(static_cast<std::size_t>(camera.shape(0)));
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    std::copy_n(camera.data() + 3 * i, 3, path[i].position.begin());
+    std::copy_n(rotation.data() + 9 * i, 9, path[i].to_world.begin());
+    path[i].width = fov.data()[2 * i];
+    path[i].height = fov.data()[2 * i + 1];
+  }
+  return path;
+}
+
+Array<std::int32_t> seen(const py::object& position, const py::object& radius,
+                         const py::object& camera, const py::object& rotation,
+                         const py::object& fov, double near, double far, double margin,
+                         const geo::HeightField* ground) {
+  const auto centres = to_array<double>(position, "position", {-1, 3});
+  const auto radii = spread<double>(radius, "radius", {centres.shape(0)});
+  const auto cameras = to_array<double>(camera, "camera", {-1, 3});
+  const py::ssize_t m = cameras.shape(0);
+  const auto rotations = spread<double>(rotation, "rotation", {m, 3, 3});
+  const auto path = views(cameras, rotations, spread<double>(fov, "fov", {m, 2}));
+  std::vector<std::int32_t> frames;
+  {
+    const py::gil_scoped_release release;
+    frames = lod::seen(view(centres), view(radii), path, {near, far, margin, ground});
+  }
+  return give(std::move(frames), {centres.shape(0), 2});
+}
+
+Array<std::int32_t> assign(lod::Pool& pool, const py::object& cell) {
+  const auto cells = to_array<std::int64_t>(cell, "cell", {-1});
+  auto slots = pool.assign(view(cells));
+  return give(std::move(slots), {cells.size()});
+}
+
+Array<std::uint32_t> seeds(const lod::Pool& pool, const py::object& cell) {
+  const auto cells = to_array<std::int64_t>(cell, "cell");
+  Array<std::uint32_t> result =
+      new_array<std::uint32_t>({cells.shape(), cells.shape() + cells.ndim()});
+  const auto in = view(cells);
+  std::transform(in.begin(), in.end(), writable(result).begin(),
+                 [&pool](std::int64_t c) { return pool.seed(c); });
+  return result;
+}
+
+Array<std::int64_t> held(const lod::Pool& pool) {
+  return give(std::vector<std::int64_t>(pool.cells().begin(), pool.cells().end()),
+              {length(pool.capacity())});
+}
+
 } // namespace
 
 void init_lod(py::module_ module) {
-  module.doc() = "What a shot can see: distance levels and nearest-first budgets.";
+  module.doc() = "What a shot can see: distance levels, budgets, views and stable slots.";
   py::class_<Table>(module, "Table", "Levels of detail by distance.")
       .def(py::init<std::vector<double>, std::vector<double>>(),
            py::arg("thresholds") = std::vector<double>{1500.0, 3500.0},
@@ -70,6 +126,17 @@ void init_lod(py::module_ module) {
       py::arg("distance"), "Level of each distance (m): <= 1500 -> 0, <= 3500 -> 1, else 2.");
   module.def("select", &select, py::arg("position"), py::arg("camera"), py::arg("budget"),
              "Indices of the `budget` positions (n, 3) nearest to any camera (m, 3).");
+  module.def("seen", &seen, py::arg("position"), py::arg("radius"), py::arg("camera"),
+             py::arg("rotation"), py::arg("fov"), py::arg("near") = 0.1,
+             py::arg("far") = std::numeric_limits<double>::infinity(), py::arg("margin") = 1.0,
+             py::arg("ground") = py::none(),
+             "First and last view of a camera path that may see each ball; -1 where none does.");
+  py::class_<lod::Pool>(module, "Pool", "Slots that cells keep for as long as they are shown.")
+      .def(py::init<std::size_t, std::uint64_t>(), py::arg("capacity"), py::arg("seed") = 0)
+      .def_property_readonly("capacity", &lod::Pool::capacity)
+      .def_property_readonly("cells", &held)
+      .def("assign", &assign, py::arg("cell"), "Cells in order of their rank -> their slots.")
+      .def("seeds", &seeds, py::arg("cell"), "A random seed of each cell, always the same.");
 }
 
 } // namespace firetwin::bindings

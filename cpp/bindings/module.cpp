@@ -1,8 +1,8 @@
 #include "bindings.hpp"
 
+#include <OpenImageIO/imageio.h>
 #include <oneapi/tbb/global_control.h>
 #include <openvdb/openvdb.h>
-#include <OpenImageIO/imageio.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -50,6 +50,7 @@ PYBIND11_MODULE(firetwin_core, module) {
   bindings::init_flux(module.def_submodule("flux"));
   bindings::init_lod(module.def_submodule("lod"));
   bindings::init_forest(module.def_submodule("forest"));
+  bindings::init_particles(module.def_submodule("particles"));
   bindings::init_volume(module.def_submodule("volume"));
   bindings::init_sensor(module.def_submodule("sensor"));
 }

@@ -3,11 +3,13 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "run/grid_file.hpp"
+#include "run/read_ahead.hpp"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
+#include <numeric>
 #include <stdexcept>
 
 namespace firetwin::bindings {
@@ -48,6 +50,77 @@ Array<float> frame(const Run& run, const Series& series, py::ssize_t index) {
   const py::gil_scoped_release release;
   series.read(static_cast<std::size_t>(index), out);
   return array;
+}
+
+const Series& series_of(const Run& run, const std::string& field) {
+  if (field == "heat_flux") {
+    return run.heat_flux();
+  }
+  if (field == "temperature") {
+    return run.temperature();
+  }
+  if (field == "wind_east") {
+    return run.wind_east();
+  }
+  if (field == "wind_north") {
+    return run.wind_north();
+  }
+  throw py::value_error("no series is called '" + field +
+                        "'; choose heat_flux, temperature, wind_east or wind_north");
+}
+
+std::vector<std::size_t> chosen(const Series& series, const py::object& indices) {
+  std::vector<std::size_t> result(series.size());
+  std::iota(result.begin(), result.end(), std::size_t{0});
+  if (indices.is_none()) {
+    return result;
+  }
+  const auto given = to_array<std::int64_t>(indices, "indices", {-1});
+  result.clear();
+  for (const std::int64_t index : view(given)) {
+    if (index < 0 || static_cast<std::size_t>(index) >= series.size()) {
+      throw std::out_of_range("time index " + std::to_string(index) + " of a run with " +
+                              std::to_string(series.size()) + " times");
+    }
+    result.push_back(static_cast<std::size_t>(index));
+  }
+  return result;
+}
+
+/// An iterator over frames, with the run that it reads.
+class Frames {
+public:
+  Frames(std::shared_ptr<const Run> run, const std::string& field, const py::object& indices,
+         std::size_t ahead)
+      : run_(std::move(run)),
+        frames_(series_of(*run_, field), chosen(series_of(*run_, field), indices), ahead,
+                ahead_threads) {}
+
+  Array<float> next() {
+    std::optional<std::vector<float>> frame;
+    {
+      const py::gil_scoped_release release;
+      frame = frames_.next();
+    }
+    if (!frame) {
+      throw py::stop_iteration();
+    }
+    return give(std::move(*frame), grid_shape(*run_));
+  }
+
+private:
+  /// Reading is cheap beside most uses of a frame.
+  static constexpr std::size_t ahead_threads = 2;
+  std::shared_ptr<const Run> run_;
+  run::ReadAhead frames_;
+};
+
+std::unique_ptr<Frames> frames(std::shared_ptr<const Run> run, const std::string& field,
+                               const py::object& indices, py::ssize_t ahead) {
+  if (ahead < 1) {
+    wrong("ahead", "must be 1 or more");
+  }
+  return std::make_unique<Frames>(std::move(run), field, indices, static_cast<std::size_t>(ahead));
 }
 
 py::tuple wind(const Run& run, py::ssize_t index) {
@@ -111,6 +184,9 @@ void init_run(py::module_ module) {
   module.def("read_grid", &read_grid, py::arg("path"), "Text or .npy grid -> (ny, nx) float32.");
   module.def("open", &open, py::arg("folder"),
              "Open a run folder: checks run.toml, the axes and every field's shape.");
+  py::class_<Frames>(module, "Frames", "Frames of a series, read ahead.")
+      .def("__iter__", [](const py::object& self) { return self; })
+      .def("__next__", &Frames::next);
   py::class_<Run, std::shared_ptr<Run>>(module, "Run", "A model run on disk.")
       .def_property_readonly("path", [](const Run& r) { return r.path().string(); })
       .def_property_readonly("name", [](const Run& r) { return r.manifest().name; })
@@ -136,6 +212,8 @@ void init_run(py::module_ module) {
           "temperature", [](const Run& r, py::ssize_t i) { return frame(r, r.temperature(), i); },
           py::arg("index"), "(ny, nx) K at times[index].")
       .def("wind", &wind, py::arg("index"), "Eastward and northward (ny, nx) m/s at times[index].")
+      .def("frames", &frames, py::arg("field") = "heat_flux", py::arg("indices") = py::none(),
+           py::arg("ahead") = 8, "Iterate over frames that worker threads read ahead.")
       .def("flux_range", &flux_range, "Smallest and largest finite heat flux of the run, W/m2.")
       .def("arrival_time", &arrival_time, py::arg("threshold") = 0.0,
            "(ny, nx) s since start when the flux first exceeds threshold, NaN where never.")

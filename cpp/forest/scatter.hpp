@@ -1,11 +1,10 @@
 #pragma once
 
+#include "buffer.hpp"
 #include "forest/site.hpp"
 
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <vector>
 
 namespace firetwin::forest {
 
@@ -13,12 +12,12 @@ enum SizeClass : std::uint8_t { small_tree = 0, medium_tree = 1, large_tree = 2 
 
 /// n trees in order of their cells; grass leaves size_class and model empty.
 struct Plants {
-  std::vector<std::int64_t> cell; ///< y fx + x
-  std::vector<double> position;   ///< [3 n] m
-  std::vector<std::uint8_t> size_class;
-  std::vector<std::uint8_t> model; ///< 0..1 for large trees, 0..3 for the others
-  std::vector<float> scale;        ///< height in m: the models are one metre tall
-  std::vector<float> rotation;     ///< radians about the vertical
+  Buffer<std::int64_t> cell; ///< y fx + x
+  Buffer<double> position;   ///< [3 n] m
+  Buffer<std::uint8_t> size_class;
+  Buffer<std::uint8_t> model; ///< 0..1 for large trees, 0..3 for the others
+  Buffer<float> scale;        ///< height in m: the models are one metre tall
+  Buffer<float> rotation;     ///< radians about the vertical
 };
 
 /// The largest finite fuel, 0 where there is none.

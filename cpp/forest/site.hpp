@@ -1,10 +1,10 @@
 #pragma once
 
 #include "geo/local_frame.hpp"
+#include "philox.hpp"
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 namespace firetwin::forest {
@@ -24,10 +24,9 @@ struct Site {
 enum class Use : std::uint64_t { place = 0, tree = 1, grass = 2 };
 
 /// Four numbers in [0, 1) that depend on seed, cell and use alone.
-std::array<double, 4> draw(const Site& site, std::size_t cell, Use use);
-
-/// Where the plant of a cell stands, in local metres: jittered inside the cell, on the bilinear
-/// elevation. Nothing where there is no elevation.
-std::optional<std::array<double, 3>> place(const Site& site, std::size_t y, std::size_t x);
+inline std::array<double, 4> draw(const Site& site, std::size_t cell, Use use) {
+  const auto bits = philox({cell, static_cast<std::uint64_t>(use), 0, 0}, {site.seed, 0});
+  return {unit(bits[0]), unit(bits[1]), unit(bits[2]), unit(bits[3])};
+}
 
 } // namespace firetwin::forest

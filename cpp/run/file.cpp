@@ -71,13 +71,13 @@ void File::read(std::uint64_t offset, std::span<char> out) const {
   }
 }
 
-std::vector<char> read_all(const std::filesystem::path& path, std::uint64_t limit) {
+Buffer<char> read_all(const std::filesystem::path& path, std::uint64_t limit) {
   const File file(path);
   if (file.size() > limit) {
     fail(path, "is " + std::to_string(file.size()) + " bytes long, more than the limit of " +
                    std::to_string(limit) + "; convert it to .npy");
   }
-  std::vector<char> bytes(file.size());
+  Buffer<char> bytes(file.size());
   file.read(0, bytes);
   return bytes;
 }

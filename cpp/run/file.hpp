@@ -1,9 +1,10 @@
 #pragma once
 
+#include "buffer.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <span>
-#include <vector>
 
 namespace firetwin::run {
 
@@ -33,6 +34,6 @@ private:
 };
 
 /// The whole file; files beyond `limit` bytes are refused before anything is allocated.
-std::vector<char> read_all(const std::filesystem::path& path, std::uint64_t limit);
+Buffer<char> read_all(const std::filesystem::path& path, std::uint64_t limit);
 
 } // namespace firetwin::run

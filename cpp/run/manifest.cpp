@@ -204,7 +204,7 @@ private:
 } // namespace
 
 Manifest read_manifest(const std::filesystem::path& path) {
-  const std::vector<char> bytes = read_all(path, largest_manifest);
+  const Buffer<char> bytes = read_all(path, largest_manifest);
   toml::table table;
   try {
     table = toml::parse(std::string_view(bytes.data(), bytes.size()), path.string());

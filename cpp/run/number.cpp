@@ -1,8 +1,10 @@
 #include "run/number.hpp"
 
+#include <fast_float/fast_float.h>
+
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <system_error>
 
@@ -13,42 +15,20 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Decimal exponent of the leading digit of a well-formed number that is neither 0 nor in range:
-/// only its sign matters, so it may saturate.
-long long decimal_order(const char* first, const char* last) {
-  long long order = 0;
-  bool point = false, leading = true;
-  const char* c = first;
-  for (; c < last && (is_digit(*c) || *c == '.' || *c == '-' || *c == '+'); ++c) {
-    if (*c == '.') {
-      point = true;
-    } else if (is_digit(*c)) {
-      leading = leading && *c == '0';
-      order += point ? (leading ? -1 : 0) : (leading ? 0 : 1);
-    }
-  }
-  if (c == last) {
-    return order;
-  }
-  ++c; // the E
-  const bool negative = c < last && *c == '-';
-  long long exponent = 0;
-  for (c += (c < last && !is_digit(*c)) ? 1 : 0; c < last && is_digit(*c); ++c) {
-    exponent = std::min(exponent * 10 + (*c - '0'), 1'000'000'000'000LL);
-  }
-  return order + (negative ? -exponent : exponent);
-}
-
+/// Correctly rounded straight to T (not through double, which rounds twice), with fast_float: twice
+/// as fast as the standard library's std::from_chars here.
 template <class T> Number<T> from_chars(const char* first, const char* last) {
   T value{};
-  const auto [end, code] = std::from_chars(first, last, value);
-  if (code == std::errc::result_out_of_range) {
-    if (decimal_order(first, end) > 0) {
-      return {value, end, NumberError::too_large};
-    }
-    return {*first == '-' ? T(-0.0) : T(0.0), end, NumberError::none};
+  const auto [end, code] = fast_float::from_chars(first, last, value);
+  if (code == std::errc::invalid_argument) {
+    return {T{}, first, NumberError::malformed};
   }
-  return {value, end, code == std::errc() ? NumberError::none : NumberError::malformed};
+  // What is too large comes as an infinity, like "inf" itself, which starts with a letter.
+  const char start = *first == '-' ? first[1] : *first;
+  if (std::isinf(value) && (is_digit(start) || start == '.')) {
+    return {value, end, NumberError::too_large};
+  }
+  return {value, end, NumberError::none};
 }
 
 /// A number whose exponent is written with D, as Fortran does for double precision.

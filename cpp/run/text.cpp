@@ -3,7 +3,10 @@
 #include "error.hpp"
 #include "run/number.hpp"
 
+#include <fast_float/fast_float.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace firetwin::run {
@@ -49,6 +52,27 @@ private:
   }
 
   void parse_value() {
+    if (!parse_plain_value()) {
+      parse_any_value();
+    }
+    skip_separator();
+  }
+
+  /// What nearly every value is: a finite number without a plus in front or a D in it, before a
+  /// blank or the end of the line.
+  bool parse_plain_value() {
+    T value{};
+    const auto [end, code] = fast_float::from_chars(position_, end_, value);
+    if (code != std::errc() || !std::isfinite(value) || end == end_ ||
+        !(is_blank(*end) || *end == '\n')) {
+      return false;
+    }
+    grid_.values.push_back(value);
+    position_ = end;
+    return true;
+  }
+
+  void parse_any_value() {
     const char* first = position_;
     const Number<T> number = parse_number<T>(first, end_);
     if (number.error == NumberError::malformed) {
@@ -62,7 +86,6 @@ private:
       fail(first, explain_word(first, end_, number.error));
     }
     grid_.values.push_back(number.value);
-    skip_separator();
   }
 
   /// Blanks with at most one comma, which another value has to follow.

@@ -2,6 +2,7 @@ from . import flux as flux
 from . import forest as forest
 from . import geo as geo
 from . import lod as lod
+from . import particles as particles
 from . import run as run
 from . import sensor as sensor
 from . import volume as volume

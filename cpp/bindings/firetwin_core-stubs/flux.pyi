@@ -38,3 +38,11 @@ def at_time(run: Run, time: float) -> NDArray[np.float32]:
     Exact at the model times, linear between them, except that cells which first burn in between stay cold
     until the moving front reaches them. The first call scans the run for its arrival times.
     """
+
+def arrival_time(run: Run, averaged: bool = True) -> NDArray[np.float32]:
+    """When each cell begins to burn (ny, nx), s since start and between the model times; NaN where never.
+
+    From how the flux of a cell grows and how the front runs through its neighbours; within the interval before
+    the first model time with flux. `averaged` says whether the run's fluxes are means over the interval that
+    ends at their time, or values at that time. The C++ header has the formulas.
+    """

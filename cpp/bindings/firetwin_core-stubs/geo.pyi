@@ -19,3 +19,13 @@ class LocalFrame:
         """Rectilinear grid: latitude (ny,), longitude (nx,), height (ny, nx) -> (ny, nx, 3) metres."""
     def reverse(self, enu: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """(n, 3) metres -> latitude (n,), longitude (n,), height (n,)."""
+
+class HeightField:
+    """The ground as heights on a rectilinear grid in local metres, bilinear between its nodes.
+
+    `x` (nx,) and `y` (ny,) ascend or descend, `height` (ny, nx) m; there is no ground where it is not finite.
+    """
+
+    def __init__(self, x: ArrayLike, y: ArrayLike, height: ArrayLike) -> None: ...
+    def at(self, place: ArrayLike) -> NDArray[np.float64]:
+        """(n, 2) metres -> (n,) height, that of the nearest edge outside the grid, NaN without ground."""

@@ -3,6 +3,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .geo import HeightField
+
 def levels(distance: ArrayLike) -> NDArray[np.uint8]:
     """Level of each distance (m): <= 1500 -> 0, <= 3500 -> 1, else (and for NaN) 2."""
 
@@ -19,3 +21,41 @@ class Table:
 
 def select(position: ArrayLike, camera: ArrayLike, budget: int) -> NDArray[np.int64]:
     """Indices of the `budget` positions (n, 3) nearest to any camera (m, 3), nearest first, ties by index."""
+
+def seen(
+    position: ArrayLike,
+    radius: ArrayLike,
+    camera: ArrayLike,
+    rotation: ArrayLike,
+    fov: ArrayLike,
+    near: float = 0.1,
+    far: float = float("inf"),
+    margin: float = 1.0,
+    ground: HeightField | None = None,
+) -> NDArray[np.int32]:
+    """(n, 2) first and last view of a camera path that may see each ball; -1, -1 where none does.
+
+    Balls at position (n, 3) of radius (n,) m, all made larger by `margin` m. The path has m views from camera
+    (m, 3) m, with rotation (m, 3, 3) or (3, 3) to world axes (the camera looks along its -z, y is up) and whole
+    angles of view fov (m, 2) or (2,) radians, across and from top to bottom. `ground` hides what lies behind it.
+
+    No ball that a view sees is left out; some that hide just behind an edge are kept. A view with NaN sees
+    nothing, a ball with NaN is never seen, and a camera in the ground sees through it.
+    """
+
+class Pool:
+    """Slots for what is shown: a cell keeps its slot while it is among those asked for, so nothing pops."""
+
+    def __init__(self, capacity: int, seed: int = 0) -> None: ...
+    @property
+    def capacity(self) -> int: ...
+    @property
+    def cells(self) -> NDArray[np.int64]:
+        """(capacity,) the cell in each slot, -1 where it is free."""
+    def assign(self, cell: ArrayLike) -> NDArray[np.int32]:
+        """Cells (n,), the most important first -> slots (n,), -1 for those beyond the capacity.
+
+        Cells that have a slot keep it; new ones take the lowest free slots in their order.
+        """
+    def seeds(self, cell: ArrayLike) -> NDArray[np.uint32]:
+        """A number for each cell that depends on the pool's seed and the cell alone."""

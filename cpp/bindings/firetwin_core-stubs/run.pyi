@@ -1,7 +1,8 @@
+from collections.abc import Iterator
 from os import PathLike
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 def read_grid(path: str | PathLike[str]) -> NDArray[np.float32]:
     """Read a text or .npy grid -> (ny, nx); every value is the float32 nearest to its decimal text."""
@@ -65,6 +66,14 @@ class Run:
         """(ny, nx) K; Error when the run has none."""
     def wind(self, index: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Eastward and northward (ny, nx) m/s; Error when the run has none."""
+    def frames(
+        self, field: str = "heat_flux", indices: ArrayLike | None = None, ahead: int = 8
+    ) -> Iterator[NDArray[np.float32]]:
+        """Frames (ny, nx) of a series, all or those at indices (n,), while worker threads read the next ones.
+
+        At most `ahead` frames wait in memory, however long the run. `field` is "heat_flux", "temperature",
+        "wind_east" or "wind_north". A frame that cannot be read raises InputError when its turn comes.
+        """
     def flux_range(self) -> tuple[float, float]:
         """Smallest and largest finite heat flux of the whole run, W/m2."""
     def arrival_time(self, threshold: float = 0.0) -> NDArray[np.float32]:

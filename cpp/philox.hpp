@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace firetwin::forest {
+namespace firetwin {
 
 /// Philox4x64-10: a counter-based random number generator (Salmon et al. 2011, "Parallel random
 /// numbers: as easy as 1, 2, 3", doi:10.1145/2063384.2063405). The four numbers depend on the key
@@ -29,4 +29,4 @@ constexpr double unit(std::uint64_t bits) {
   return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
-} // namespace firetwin::forest
+} // namespace firetwin

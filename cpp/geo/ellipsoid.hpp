@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+/// What points of one parallel or one meridian share, so that a grid needs its sines once per row
+/// and column.
+namespace firetwin::geo {
+
+struct SineCosine {
+  double sine;
+  double cosine;
+};
+
+struct Radii {
+  double normal;       ///< radius of curvature in the prime vertical N of WGS84, m
+  double normal_polar; ///< N (1 - e^2), m
+};
+
+/// Semi-major axis (m) and squared eccentricity of WGS84 (NIMA TR8350.2).
+constexpr double semi_major = 6378137.0;
+constexpr double flattening = 1.0 / 298.257223563;
+constexpr double eccentricity2 = flattening * (2.0 - flattening);
+
+/// @param sine of the latitude
+inline Radii radii(double sine) {
+  const double normal = semi_major / std::sqrt(1.0 - eccentricity2 * sine * sine);
+  return {normal, normal * (1.0 - eccentricity2)};
+}
+
+/// @param latitude degrees, NaN beyond 90
+SineCosine parallel(double latitude);
+
+/// Sine and cosine of each longitude's difference from the origin's (degrees), reduced without
+/// rounding.
+std::vector<SineCosine> meridians(std::span<const double> longitude, double origin);
+
+/// Sine and cosine of an angle that is `degrees` further on, up to 90 degrees. Taylor series
+/// without branches; what is left out is below (pi/2)^23 / 23! < 2e-18.
+inline SineCosine turned(const SineCosine& from, double degrees) {
+  const double d = degrees * (std::numbers::pi / 180.0);
+  const double d2 = d * d;
+  double sine = 1.0, versine = 1.0; // sin d, 1 - cos d
+#pragma GCC unroll 10
+  for (int k = 20; k >= 2; k -= 2) {
+    sine = 1.0 - d2 * (1.0 / (k * (k + 1))) * sine;
+    versine = 1.0 - d2 * (1.0 / ((k + 1) * (k + 2))) * versine;
+  }
+  sine *= d;
+  versine *= 0.5 * d2;
+  return {from.sine + (from.cosine * sine - from.sine * versine),
+          from.cosine - (from.sine * sine + from.cosine * versine)};
+}
+
+/// Rotation of geocentric differences into the plane of an origin's meridian (IOGP 373-7-2, method
+/// 9837). With r the distance from the Earth's axis, z the height above the equator's plane and d
+/// the longitude from the origin's:
+///   east = r sin d,  dr = r cos d - r0,  dz = z - z0,
+///   north = cos(lat0) dz - sin(lat0) dr,  up = sin(lat0) dz + cos(lat0) dr.
+class Origin {
+public:
+  Origin(double latitude, double height);
+
+  /// @param meridian longitude from the origin's
+  /// @return m
+  std::array<double, 3> to_local(const SineCosine& parallel, const Radii& radii,
+                                 const SineCosine& meridian, double height) const {
+    const double r = (radii.normal + height) * parallel.cosine;
+    const double dr = r * meridian.cosine - r0_;
+    const double dz = (radii.normal_polar + height) * parallel.sine - z0_;
+    return {r * meridian.sine, at_.cosine * dz - at_.sine * dr, at_.sine * dz + at_.cosine * dr};
+  }
+
+private:
+  SineCosine at_;
+  double r0_;
+  double z0_;
+};
+
+} // namespace firetwin::geo

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace firetwin::geo {
+
+/// The ground as heights on a rectilinear grid in local metres, bilinear between its nodes.
+class HeightField {
+public:
+  /// @param x, y strictly ascending or descending, m
+  /// @param height [y x] m; no ground where it is not finite
+  /// @throws std::invalid_argument
+  HeightField(std::span<const double> x, std::span<const double> y, std::span<const float> height);
+
+  const std::vector<double>& x() const { return x_; }
+  const std::vector<double>& y() const { return y_; }
+  double highest() const { return highest_; } ///< -infinity without any ground
+  double smallest_cell() const { return smallest_cell_; }
+
+  /// Height at a place, that of the nearest edge outside the grid; NaN where there is no ground.
+  double at(double x, double y) const;
+
+  /// A height that the ground of the square (x +- half, y +- half) is nowhere below; -infinity when
+  /// the square reaches beyond the grid or to where there is no ground.
+  double lowest(double x, double y, double half) const;
+
+private:
+  /// The lowest node of each block of 2^k x 2^k cells (with its rim), level k = 0 first.
+  struct Level {
+    std::size_t rows;
+    std::size_t columns;
+    std::vector<float> lowest;
+  };
+  void build_levels();
+
+  std::vector<double> x_, y_;
+  std::vector<float> height_; ///< ascending in both axes
+  std::vector<Level> levels_;
+  double highest_;
+  double smallest_cell_;
+};
+
+} // namespace firetwin::geo

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+namespace firetwin::lod {
+
+using Vector = std::array<double, 3>;
+
+inline Vector minus(const Vector& a, const Vector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline double dot(const Vector& a, const Vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+} // namespace firetwin::lod

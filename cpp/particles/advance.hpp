@@ -1,0 +1,34 @@
+#pragma once
+
+#include "geo/height_field.hpp"
+#include "particles/motion.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace firetwin::particles {
+
+/// n particles, changed in place.
+struct Particles {
+  std::span<double> position;     ///< [3 n] m
+  std::span<double> velocity;     ///< [3 n] m/s
+  std::span<std::uint8_t> landed; ///< [n] those that landed stay where they are
+};
+
+/// What acts on each of them during a step.
+struct Forces {
+  std::span<const double> wind;        ///< [3 n] at the beginning of the step, m/s
+  std::span<const double> wind_middle; ///< [3 n] in its middle
+  std::span<const double> wind_end;    ///< [3 n] at its end; it changes as a parabola through them
+  std::span<const double> lift;        ///< [n] weight less buoyancy, upwards, m/s2
+  std::span<const double> relaxation;  ///< [n] tau of the drag, s
+};
+
+/// One step of motion.hpp's exact solution. What meets the ground lies there from then on, without
+/// velocity. Any number of threads gives the same.
+/// @param ground may be null
+/// @throws std::invalid_argument unless step >= 0 is finite and no relaxation is negative or NaN.
+void advance(const Particles& particles, const Forces& forces, double step,
+             const geo::HeightField* ground);
+
+} // namespace firetwin::particles

@@ -1,0 +1,57 @@
+#include "run/read_ahead.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace firetwin::run {
+
+ReadAhead::ReadAhead(const Series& series, std::vector<std::size_t> indices, std::size_t ahead,
+                     std::size_t threads)
+    : series_(series), indices_(std::move(indices)),
+      slots_(std::max<std::size_t>(std::min(ahead, indices_.size()), 1)) {
+  for (std::size_t i = 0; i < std::min(std::max<std::size_t>(threads, 1), slots_.size()); ++i) {
+    threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+  }
+}
+
+ReadAhead::~ReadAhead() = default;
+
+void ReadAhead::work(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  const auto may_start = [this] {
+    return started_ == indices_.size() || started_ < taken_ + slots_.size();
+  };
+  while (free_.wait(lock, stop, may_start) && started_ < indices_.size()) {
+    const std::size_t k = started_++;
+    lock.unlock();
+    Slot read;
+    try {
+      read.frame.resize(series_.cells());
+      series_.read(indices_[k], read.frame);
+    } catch (...) {
+      read.error = std::current_exception();
+    }
+    read.ready = true;
+    lock.lock();
+    slots_[k % slots_.size()] = std::move(read);
+    ready_.notify_all();
+  }
+}
+
+std::optional<std::vector<float>> ReadAhead::next() {
+  std::unique_lock lock(mutex_);
+  if (taken_ == indices_.size()) {
+    return std::nullopt;
+  }
+  Slot& slot = slots_[taken_ % slots_.size()];
+  ready_.wait(lock, [&slot] { return slot.ready; });
+  Slot found = std::exchange(slot, Slot{});
+  ++taken_;
+  free_.notify_all();
+  if (found.error) {
+    std::rethrow_exception(found.error);
+  }
+  return std::move(found.frame);
+}
+
+} // namespace firetwin::run

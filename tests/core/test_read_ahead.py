@@ -1,0 +1,69 @@
+"""Frames that worker threads read while the ones before are used."""
+
+import gc
+
+import firetwin_core as core
+import numpy as np
+import pytest
+from firetwin_core import run as runs
+from small_run import small_fields
+
+
+@pytest.fixture(params=["npy", "text"])
+def run(request, make_run):
+    return runs.open(make_run(request.param))
+
+
+@pytest.mark.parametrize("ahead", [1, 2, 3, 100])
+@pytest.mark.parametrize("field", ["heat_flux", "temperature", "wind_east", "wind_north"])
+def test_all_frames_in_order(run, field, ahead):
+    frames = list(run.frames(field, ahead=ahead))
+    np.testing.assert_array_equal(frames, small_fields()[field])
+
+
+def test_many_frames(make_run):
+    flux = np.random.default_rng(0).random((500, 4, 5)).astype(np.float32)
+    run = runs.open(make_run(heat_flux=flux, temperature=None, wind_east=None, wind_north=None))
+    for ahead in (1, 4):
+        np.testing.assert_array_equal(list(run.frames(ahead=ahead)), flux)
+
+
+def test_chosen_frames(run):
+    flux = small_fields()["heat_flux"]
+    np.testing.assert_array_equal(list(run.frames(indices=[2, 0, 2, 1], ahead=2)), flux[[2, 0, 2, 1]])
+    assert list(run.frames(indices=np.array([], int))) == []
+
+
+def test_ended_iterators_stay_ended_and_keep_their_run(make_run):
+    frames = runs.open(make_run()).frames()
+    gc.collect()
+    assert len(list(frames)) == 3
+    assert list(frames) == []
+
+
+def test_an_unused_iterator_goes_without_waiting(run):
+    frames = run.frames(ahead=1)
+    next(frames)
+    del frames
+    gc.collect()
+
+
+def test_a_bad_frame_is_an_error_in_its_turn(make_run):
+    folder = make_run("text")
+    run = runs.open(folder)
+    (folder / "heat_flux" / "000001.txt").write_text("1 2 x")
+    frames = run.frames(ahead=3)
+    next(frames)
+    with pytest.raises(core.InputError, match="'x' is not a number"):
+        next(frames)
+    np.testing.assert_array_equal(next(frames), small_fields()["heat_flux"][2])
+
+
+def test_wrong_arguments(run, make_run):
+    with pytest.raises(ValueError, match="no series is called 'flux'"):
+        run.frames("flux")
+    with pytest.raises(ValueError, match="ahead"):
+        run.frames(ahead=0)
+    for index in (-1, 3):
+        with pytest.raises(IndexError):
+            run.frames(indices=[index])
