@@ -3,9 +3,8 @@
 #include "error.hpp"
 #include "run/file.hpp"
 #include "run/names.hpp"
-
-#define TOML_ENABLE_FORMATTERS 0
-#include <toml++/toml.h>
+#include "run/toml.hpp"
+#include "run/toml_guard.hpp"
 
 #include <algorithm>
 #include <array>
@@ -205,6 +204,7 @@ private:
 
 Manifest read_manifest(const std::filesystem::path& path) {
   const std::vector<char> bytes = read_all(path, largest_manifest);
+  guard_toml(bytes, path.string());
   toml::table table;
   try {
     table = toml::parse(std::string_view(bytes.data(), bytes.size()), path.string());
