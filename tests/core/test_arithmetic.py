@@ -45,7 +45,8 @@ with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
         "text": read_grid(file.name), "enu": position, "scattered": frame.forward(*places),
         "intensity": fires.intensity, "cell": trees.cell, "tree": trees.position, "scale": trees.scale,
         "model": trees.model, "level": lod.levels(np.linspace(0, 5000, 777)), "radiance": radiance,
-        "brightness": sensor.brightness_temperature(radiance), "near": lod.select(position.reshape(-1, 3), [[0., 0, 0]], 500),
+        "brightness": sensor.brightness_temperature(radiance),
+        "near": lod.select(position.reshape(-1, 3), [[0., 0, 0]], 500),
     }
     libm.fesetround(0)
 np.savez(out, **result)

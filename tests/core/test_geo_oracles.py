@@ -30,7 +30,9 @@ def test_agrees_with_cct(origin):
         for x, y, z in zip(longitude.tolist(), latitude.tolist(), height.tolist(), strict=True)
     ]
     command = ["cct", "-d", "12", *pipeline.split(), *place.split()]
-    output = subprocess.run(command, input="\n".join([*lines, ""]), capture_output=True, text=True, check=True)
+    output = subprocess.run(
+        command, input="\n".join([*lines, ""]), capture_output=True, text=True, check=True
+    )
     expected = np.array([line.split()[:3] for line in output.stdout.splitlines()], float)
     enu = LocalFrame(*origin).forward(latitude, longitude, height)
     np.testing.assert_allclose(enu, expected, rtol=0, atol=NANOMETRES)

@@ -54,7 +54,7 @@ def test_junk_in_place_of_a_file(make_run, file, name):
         assert refusal(folder).path.endswith(file)
         return
     run = runs.open(folder)  # frames stay on disk until they are asked for
-    with pytest.raises(core.InputError, match="000000.txt"):
+    with pytest.raises(core.InputError, match=r"000000\.txt"):
         run.heat_flux(0)
 
 

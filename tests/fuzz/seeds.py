@@ -26,7 +26,8 @@ HEADERS = [
 
 TOML = [
     'name = "Small"\nstart = 2014-09-16T21:45:00-07:00\ninterval_s = 60.0\nvertical = "orthometric"\n'
-    'no_data = -9999.0\nsynthetic = true\nevent = "king_fire"\n[units]\nelevation = "m"\nheat_flux = "W/m2"\n',
+    'no_data = -9999.0\nsynthetic = true\nevent = "king_fire"\n[units]\n'
+    'elevation = "m"\nheat_flux = "W/m2"\n',
     "start = 2014-09-16T21:45:00.25Z\ntimes_s = [0, 60, 1.5e3]\nvertical = 'ellipsoidal'\n",
     "start = 0000-01-01T00:00:00+23:59\ninterval_s = 1e308\n",
     "intervall_s = 60\n",
