@@ -33,7 +33,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Target:
-    """A promise and what was measured; `most` says that the value may be at most the bound, else at least."""
+    """A promise and what was measured; `most`: the value may be at most the bound, else at least."""
 
     subject: str
     promise: str
@@ -75,7 +75,7 @@ class Bench:
     skipped: list[str] = field(default_factory=list)
 
     def best(self, call: Callable[[], Any], times: int = 5) -> float:
-        """Shortest run time of `call` (s) of at most `times` runs, or of those that begin in the first second.
+        """Shortest run time of `call` (s) of `times` runs, or as many as begin within a second.
 
         The shortest is the one least disturbed by other programs.
         """
