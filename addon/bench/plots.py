@@ -85,7 +85,7 @@ def _work_precision(axis: Any, rows: list[Row]) -> None:
     axis.set_xlim(least / 1.6, 10.0 ** math.ceil(math.log10(max(errors, default=none) * 1.2)))
     if least == none:
         axis.axvline(none, color="0.6", linewidth=0.8)
-        axis.annotate("0", (none, 0.02), xycoords=("data", "axes fraction"), ha="center", color="0.4")
+        axis.xaxis.set_major_formatter(lambda value, _: "0" if value <= none else f"{value:g}")
     axis.set_xlabel(f"error, {rows[0].error_unit}")
     axis.set_ylabel(f"seconds per {rows[0].unit}")
 

@@ -67,6 +67,9 @@ def test_wrong_values_are_seen():
     assert text.wrong_share(grid, values) == 0
     values[::2] = np.nextafter(values[::2], np.float32(np.inf))
     assert text.wrong_share(grid, values) == 0.5
+    hard = text.hard_text()
+    by_way_of_double = np.array(hard.split(), float).astype(np.float32)
+    assert 0.4 < text.wrong_share(hard, by_way_of_double) < 0.6
     assert len(text.grid_text(1440).split()) == 1440**2
 
 

@@ -73,7 +73,7 @@ for reader in "${readers[@]}"; do
   say "$reader: ${limit[*]}"
   corpus=$build/corpus/$reader
   mkdir -p "$corpus" "$build/findings"
-  if ! ASAN_OPTIONS=quarantine_size_mb=16 "$build/fuzz_$reader" "${limit[@]}" -max_len=1024 -timeout=10 -rss_limit_mb=1024 \
+  if ! ASAN_OPTIONS=quarantine_size_mb=16 "$build/fuzz_$reader" "${limit[@]}" -max_len=1024 -timeout=60 -rss_limit_mb=1024 \
     -dict="tests/fuzz/$reader.dict" -artifact_prefix="$build/findings/$reader-" -print_final_stats=1 \
     "$corpus" "$build/seeds/$reader" >"$build/$reader.log" 2>&1; then
     tail -n 40 "$build/$reader.log" >&2
