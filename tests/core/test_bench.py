@@ -96,12 +96,13 @@ def test_the_emitter_rival_chooses_the_same():
         assert len(ours) == emitters.BUDGET
 
 
-def test_front_error_and_ripple():
+def test_front_error_and_departure():
     before, after = np.array([[1.0, 0, 0, 0, 0]]), np.array([[1.0, 1, 1, 1, 0]])
     true = np.array([[1.0, 1, 0, 0, 0]])
     assert interpolation.front_error(true, true, before, after) == 0
     assert interpolation.front_error(after, true, before, after) == pytest.approx(200 / 3)
-    assert interpolation.ripple(4 * true, true) == pytest.approx(7)
+    assert interpolation.brightness(4 * true) == pytest.approx(16)
+    assert interpolation.departure(np.array([1.1, 0.9]), np.array([1.0, 1.0])) == pytest.approx(10)
 
 
 def test_the_exact_particle_solves_its_equation():
