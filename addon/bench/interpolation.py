@@ -1,9 +1,9 @@
 """Heat flux between model times, with minutes held out, beside linear blending.
 
 Front error: of the cells that the front crosses in a gap, the percentage that is on its wrong side at the
-removed minute: its error as part of the way that it moves. The integral of F^1.5 drives size and colour of the
-flames. Its ripple is the root mean square of its departure from an even course between the kept minutes, which is
-seen as a pulse once in a model step; its error is the same against the removed minutes' own integrals.
+removed minute: its error as part of the way that it moves. The integral of F^1.5 drives size and colour of
+the flames. Its ripple is the root mean square of its departure from an even course between the kept minutes,
+which is seen as a pulse once in a model step; its error is the same against the removed minutes' own.
 """
 
 from __future__ import annotations
