@@ -121,4 +121,4 @@ def test_the_exact_particle_solves_its_equation():
         d = slope((i + 1) * step, state + step * c)
         state = state + step / 6 * (a + 2 * b + 2 * c + d)
     np.testing.assert_allclose(particles.exact(2.0), state[:3], rtol=0, atol=1e-9)
-    assert np.linalg.norm(particles.euler(240) - particles.exact(particles.SECONDS)) < 0.1
+    assert np.linalg.norm(particles.euler(240, 2) - particles.exact(particles.SECONDS)) < 0.1
