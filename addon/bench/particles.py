@@ -62,8 +62,10 @@ def run(bench: Bench) -> None:
         for rate in rates:
             errors[tool, rate] = error = float(np.linalg.norm(call(rate, 1) - truth))
             seconds = bench.best(lambda: call(rate, PARTICLES), 3)  # noqa: B023
-            steps = round(SECONDS * rate) * PARTICLES
-            bench.row(f"{rate} steps/s", tool, seconds, steps, "particle step", error=error, error_unit="m")
+            simulated = round(SECONDS) * PARTICLES
+            bench.row(
+                f"{rate} steps/s", tool, seconds, simulated, "particle second", error=error, error_unit="m"
+            )
     bench.target(
         f"error at 60 steps/s below Euler's at {PAPER:,}",
         errors[OURS, 60] * 1e3,
