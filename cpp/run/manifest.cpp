@@ -204,9 +204,9 @@ private:
 
 Manifest read_manifest(const std::filesystem::path& path) {
   const std::vector<char> bytes = read_all(path, largest_manifest);
-  guard_toml(bytes, path.string());
   toml::table table;
   try {
+    guard_toml({bytes.data(), bytes.size()}, path.string());
     table = toml::parse(std::string_view(bytes.data(), bytes.size()), path.string());
   } catch (const toml::parse_error& e) {
     const auto& place = e.source().begin;
