@@ -1,4 +1,4 @@
-"""The command line: ``firetwin sample | info | maps | build | bake | render``.
+"""The command line: ``firetwin sample | info | maps | build | bake | render | bench``.
 
 Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage,
 130: Ctrl-C. Nothing heavy is imported before it is needed, so that help and mistakes answer at once.
@@ -110,6 +110,13 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument("--camera", metavar="NAME", help="this camera only (all)")
     render.add_argument("--passes", metavar="LIST", help="some of rgb,depth,thermal (as the scene file says)")
     render.add_argument("--resume", action="store_true", help="keep what is finished and still matches")
+
+    bench = command("bench", "measure run time against error, beside the alternatives", BENCH)
+    bench.add_argument("--out", metavar="DIR", type=Path, help="folder for bench.json and the plots (none)")
+    bench.add_argument("--full", action="store_true", help="more repetitions, rivals at every size (minutes)")
+    form = bench.add_mutually_exclusive_group()
+    form.add_argument("--json", action="store_true", help="write JSON for programs")
+    form.add_argument("--markdown", action="store_true", help="write Markdown tables")
     return parser
 
 
@@ -161,3 +168,7 @@ DIR/manifest.json                              settings, versions, input hashes,
 
 Depth is that of the ground and the trees: flames and smoke do not hide them. The temperature is seen through
 smoke, as long-wave infrared nearly does. Without --resume everything asked for is rendered again."""
+
+BENCH = """\
+Every tool is measured in this run, on this machine, best of several times; rivals that are not installed are
+named and left out (pip install 'firetwin[bench]' brings them). Exit status 1 when a target is missed."""

@@ -116,6 +116,28 @@ def render(arguments: argparse.Namespace) -> None:
     _list(project, out)
 
 
+def bench(arguments: argparse.Namespace) -> int:
+    """Measure, print the tables, and say whether every target is met."""
+    from . import bench
+    from .bench import plots, table
+
+    report = bench.measure(arguments.full, Reporter())
+    text = json.dumps(report.as_json(), indent=1)
+    if arguments.json:
+        print(text)
+    else:
+        print(table.markdown(report) if arguments.markdown else table.page(report))
+    if arguments.out:
+        for path in plots.draw(report, arguments.out):
+            say(f"wrote {path}")
+        part = arguments.out / "bench.part.json"
+        part.write_text(text + "\n", encoding="utf-8")
+        part.replace(arguments.out / "bench.json")
+    missed = sum(not target.met for target in report.targets)
+    say(f"{len(report.targets) - missed} of {len(report.targets)} targets met")
+    return 1 if missed else 0
+
+
 def _list(project: Project, out: Path) -> None:
     """Name what there is, a line per folder of pictures and per film."""
     from .render import manifest

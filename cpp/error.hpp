@@ -13,6 +13,8 @@ public:
 };
 
 /// Bad input: names the file, the place (1-based; 0 where none applies) and what to do about it.
+/// Control characters of the reason are shown as \xNN, and a reason of more than 1,000 bytes is
+/// cut.
 class InputError : public Error {
 public:
   InputError(std::string path, std::int64_t line, std::int64_t column, std::string reason);
@@ -23,6 +25,9 @@ public:
   const std::string& reason() const { return reason_; }
 
 private:
+  struct Clean {}; ///< the reason is printable and short
+  InputError(std::string path, std::int64_t line, std::int64_t column, std::string reason, Clean);
+
   std::string path_;
   std::int64_t line_;
   std::int64_t column_;

@@ -7,10 +7,12 @@ examples/setup.sh --with-tests
 echo "== format and lint"
 .venv/bin/ruff format --check addon data tests
 .venv/bin/ruff check addon data tests
-find cpp \( -name '*.cpp' -o -name '*.hpp' \) -print0 | xargs -0 .venv/bin/clang-format --dry-run --Werror
-shellcheck examples/*.sh tests/*.sh .ci/run
+find cpp tests/fuzz \( -name '*.cpp' -o -name '*.hpp' \) -print0 | xargs -0 .venv/bin/clang-format --dry-run --Werror
+shellcheck examples/*.sh tests/*.sh tests/fuzz/*.sh .ci/run
 
 echo "== core"
 .venv/bin/python -m pytest tests/core -q -n 2 --dist loadfile
+echo "== fuzz"
+tests/fuzz/run.sh --runs 20000
 echo "== blender"
 .venv/bin/python -m pytest tests/blender -q -n 2 --dist loadfile

@@ -4,9 +4,24 @@
 #include <pybind11/gil_safe_call_once.h>
 
 #include <exception>
+#include <string>
 
 namespace firetwin::bindings {
 namespace py = pybind11;
+
+namespace {
+
+/// File names and their contents need not be UTF-8; an error message about them has to be.
+py::str text(const std::string& bytes) {
+  PyObject* decoded = PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()),
+                                           "backslashreplace");
+  if (decoded == nullptr) {
+    throw py::error_already_set();
+  }
+  return py::reinterpret_steal<py::str>(decoded);
+}
+
+} // namespace
 
 void init_errors(py::module_& module) {
   PYBIND11_CONSTINIT static py::gil_safe_call_once_and_store<py::object> error;
@@ -23,14 +38,14 @@ void init_errors(py::module_& module) {
       }
     } catch (const InputError& e) {
       const py::object& type = input_error.get_stored();
-      py::object value = type(e.what());
-      value.attr("path") = e.path();
+      py::object value = type(text(e.what()));
+      value.attr("path") = text(e.path());
       value.attr("line") = e.line();
       value.attr("column") = e.column();
-      value.attr("reason") = e.reason();
+      value.attr("reason") = text(e.reason());
       PyErr_SetObject(type.ptr(), value.ptr());
     } catch (const Error& e) {
-      py::set_error(error.get_stored(), e.what());
+      py::set_error(error.get_stored(), text(e.what()));
     }
   });
 }

@@ -3,9 +3,8 @@
 #include "error.hpp"
 #include "run/file.hpp"
 #include "run/names.hpp"
-
-#define TOML_ENABLE_FORMATTERS 0
-#include <toml++/toml.h>
+#include "run/toml.hpp"
+#include "run/toml_guard.hpp"
 
 #include <algorithm>
 #include <array>
@@ -207,6 +206,7 @@ Manifest read_manifest(const std::filesystem::path& path) {
   const Buffer<char> bytes = read_all(path, largest_manifest);
   toml::table table;
   try {
+    guard_toml({bytes.data(), bytes.size()}, path.string());
     table = toml::parse(std::string_view(bytes.data(), bytes.size()), path.string());
   } catch (const toml::parse_error& e) {
     const auto& place = e.source().begin;

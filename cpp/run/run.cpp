@@ -117,6 +117,10 @@ void Run::set_times() {
                      "times_s lists " + std::to_string(times_.size()) +
                          " times but heat_flux has " + std::to_string(nt));
   }
+  if (!std::isfinite(times_.back())) {
+    throw InputError((path() / "run.toml").string(), 0, 0,
+                     "interval_s is so long that the last time is not a number");
+  }
 }
 
 void Run::check_values() {

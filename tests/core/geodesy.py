@@ -9,7 +9,7 @@ F = 1 / 298.257223563
 E2 = F * (2 - F)
 
 
-def _geocentric(lat: NDArray, lon: NDArray, h: NDArray) -> NDArray:
+def geocentric(lat: NDArray, lon: NDArray, h: NDArray) -> NDArray:
     n = A / np.sqrt(1 - E2 * np.sin(lat) ** 2)
     return np.stack(
         [
@@ -25,7 +25,7 @@ def enu(lat: NDArray, lon: NDArray, h: NDArray, origin: tuple[float, float, floa
     """Degrees and metres -> (..., 3) metres, by rotating geocentric differences (a few nm)."""
     lat, lon = np.radians(lat), np.radians(lon)
     lat0, lon0 = np.radians(origin[0]), np.radians(origin[1])
-    d = _geocentric(lat, lon, np.asarray(h, float)) - _geocentric(lat0, lon0, np.float64(origin[2]))
+    d = geocentric(lat, lon, np.asarray(h, float)) - geocentric(lat0, lon0, np.float64(origin[2]))
     s, c, sl, cl = np.sin(lat0), np.cos(lat0), np.sin(lon0), np.cos(lon0)
     rotation = np.array([[-sl, cl, 0], [-s * cl, -s * sl, c], [c * cl, c * sl, s]])
     return d @ rotation.T

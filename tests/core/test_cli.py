@@ -27,7 +27,8 @@ def test_help_names_every_command():
     result = firetwin("--help")
     assert result.returncode == 0
     assert all(
-        f"    {name}  " in result.stdout for name in ("sample", "info", "maps", "build", "bake", "render")
+        f"    {name}  " in result.stdout
+        for name in ("sample", "info", "maps", "build", "bake", "render", "bench")
     )
     assert result.stderr == ""
 
@@ -48,7 +49,7 @@ sys.exit(f"loaded {heavy}" if heavy else 0)
     assert result.returncode == 0, result.stderr
 
 
-@pytest.mark.parametrize("command", ["sample", "info", "maps", "build", "bake", "render"])
+@pytest.mark.parametrize("command", ["sample", "info", "maps", "build", "bake", "render", "bench"])
 def test_every_command_explains_itself(command):
     result = firetwin(command, "--help")
     assert result.returncode == 0

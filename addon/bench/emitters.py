@@ -1,0 +1,61 @@
+"""One model time -> emitters (Algorithm 1), distance levels and the nearest under a budget."""
+
+from __future__ import annotations
+
+import numpy as np
+from firetwin_core import flux, lod
+from firetwin_core.geo import LocalFrame
+from numpy.typing import NDArray
+
+from .geodesy import ORIGIN
+from .harness import OURS, Bench, threads
+
+SIDES = (36, 144, 720, 2880)
+BUDGET = 1000
+CAMERA = np.array([[500.0, -2000.0, 3000.0]])
+HIGHEST = 1e5  # W/m2
+
+
+def burning(side: int) -> tuple[NDArray, NDArray]:
+    """A broad ring of fire: flux (side, side) W/m2 and positions (side, side, 3) m."""
+    rng = np.random.default_rng(4)
+    y, x = np.mgrid[:side, :side] / side - 0.5
+    flux = np.where(np.abs(np.hypot(y, x) - 0.3) < 0.05, rng.lognormal(9, 1, (side, side)), 0)
+    latitude, longitude = np.linspace(38.69, 39.17, side), np.linspace(-120.85, -120.23, side)
+    position = LocalFrame(*ORIGIN).forward_grid(latitude, longitude, rng.uniform(300, 2900, (side, side)))
+    return flux.astype(np.float32), position
+
+
+def ours(field: NDArray, position: NDArray) -> tuple[NDArray, NDArray]:
+    """Indices of the chosen emitters and their levels."""
+    made = flux.emitters(field, position, 0.0, HIGHEST)
+    chosen = lod.select(made.position, CAMERA, BUDGET)
+    return made.cell[chosen], lod.levels(np.linalg.norm(made.position[chosen] - CAMERA[0], axis=1))
+
+
+def with_numpy(field: NDArray, position: NDArray) -> tuple[NDArray, NDArray]:
+    """The same with NumPy."""
+    cell = np.flatnonzero(field > 0)
+    place = position.reshape(-1, 3)[cell]
+    curved = np.clip(field.ravel()[cell].astype(float) / HIGHEST, 0, 1) ** 1.5
+    scale, colour = 100 + 50 * curved, 100 + 400 * curved
+    assert len(scale) == len(colour)
+    distance = np.linalg.norm(place - CAMERA[0], axis=1)
+    chosen = np.argsort(distance, kind="stable")[:BUDGET]
+    return cell[chosen], np.digitize(distance[chosen], (1500.0, 3500.0), right=True)
+
+
+def run(bench: Bench) -> None:
+    """Grids of growing size."""
+    for side in SIDES:
+        field, position = burning(side)
+        if not all(map(np.array_equal, ours(field, position), with_numpy(field, position))):
+            bench.target("the same emitters as NumPy's", 1, 0, "differences", most=True)
+        for number in (1, 2):
+            with threads(number):
+                seconds = bench.best(lambda: ours(field, position), 50)  # noqa: B023
+            bench.row(f"{side} x {side}", OURS, seconds, side * side, "cell", threads=number)
+            if side == 144 and number == 1:
+                bench.target("emitters, levels and selection of 144 x 144", seconds * 1e3, 1, "ms", most=True)
+        rival = bench.best(lambda: with_numpy(field, position), 20)  # noqa: B023
+        bench.row(f"{side} x {side}", "NumPy", rival, side * side, "cell")

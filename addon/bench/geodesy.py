@@ -1,0 +1,143 @@
+"""Latitude, longitude, height -> local east-north-up, beside NumPy, pymap3d and pyproj."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from firetwin_core.geo import LocalFrame
+from numpy.typing import NDArray
+
+from .harness import OURS, Bench, threads
+
+ORIGIN = (38.93, -120.55, 0.0)
+SIDES = (36, 144, 720, 2880)
+CHECKED = 200
+A, F = 6378137.0, 1 / 298.257223563  # WGS84
+PIPELINE = (
+    "+proj=pipeline +step +proj=unitconvert +xy_in=deg +xy_out=rad +step +proj=cart +ellps=WGS84 "
+    "+step +proj=topocentric +ellps=WGS84 +lat_0={} +lon_0={} +h_0={}"
+)
+Points = tuple[NDArray, NDArray, NDArray]
+
+
+def numpy_enu(latitude: NDArray, longitude: NDArray, height: NDArray) -> NDArray:
+    """The closed form, vectorised: degrees, degrees, metres (n,) -> (n, 3) metres."""
+    lat, lon = np.radians(latitude), np.radians(longitude)
+    lat0, lon0 = np.radians(ORIGIN[:2])
+    e2 = F * (2 - F)
+
+    def centred(lat: Any, lon: Any, h: Any) -> tuple[Any, Any, Any]:
+        n = A / np.sqrt(1 - e2 * np.sin(lat) ** 2)
+        r = (n + h) * np.cos(lat)
+        return r * np.cos(lon), r * np.sin(lon), (n * (1 - e2) + h) * np.sin(lat)
+
+    x, y, z = (a - b for a, b in zip(centred(lat, lon, height), centred(lat0, lon0, ORIGIN[2]), strict=True))
+    s, c, sl, cl = np.sin(lat0), np.cos(lat0), np.sin(lon0), np.cos(lon0)
+    out = cl * x + sl * y
+    return np.stack([cl * y - sl * x, c * z - s * out, c * out + s * z], axis=-1)
+
+
+def error(points: Points, enu: NDArray) -> float | None:
+    """Largest error (m) of any component of CHECKED points against 50-digit arithmetic."""
+    try:
+        import mpmath
+    except ImportError:
+        return None
+    every = max(1, len(enu) // CHECKED)
+    worst = mpmath.mpf(0)
+    with mpmath.workdps(50):
+        for lat, lon, h, found in zip(*(p[::every] for p in points), enu[::every], strict=True):
+            for a, b in zip(_exact(mpmath, lat, lon, h), found, strict=True):
+                worst = max(worst, abs(a - mpmath.mpf(float(b))))
+    return float(worst)
+
+
+def _exact(mp: Any, lat: float, lon: float, h: float) -> list:
+    f = 1 / mp.mpf("298.257223563")
+    e2 = f * (2 - f)
+
+    def centred(lat: float, lon: float, h: float) -> tuple:
+        phi, lam = mp.radians(mp.mpf(float(lat))), mp.radians(mp.mpf(float(lon)))
+        n = mp.mpf(A) / mp.sqrt(1 - e2 * mp.sin(phi) ** 2)
+        r = (n + mp.mpf(float(h))) * mp.cos(phi)
+        return r * mp.cos(lam), r * mp.sin(lam), (n * (1 - e2) + mp.mpf(float(h))) * mp.sin(phi)
+
+    x, y, z = (a - b for a, b in zip(centred(lat, lon, h), centred(*ORIGIN), strict=True))
+    phi, lam = mp.radians(mp.mpf(ORIGIN[0])), mp.radians(mp.mpf(ORIGIN[1]))
+    out = mp.cos(lam) * x + mp.sin(lam) * y
+    north, up = mp.cos(phi) * z - mp.sin(phi) * out, mp.cos(phi) * out + mp.sin(phi) * z
+    return [mp.cos(lam) * y - mp.sin(lam) * x, north, up]
+
+
+def rivals(bench: Bench) -> dict[str, Callable[[Points], NDArray]]:
+    """What else takes scattered points."""
+    tools: dict[str, Callable[[Points], NDArray]] = {"NumPy": lambda points: numpy_enu(*points)}
+    if pymap3d := bench.rival("pymap3d"):
+        tools["pymap3d"] = lambda p: np.stack(pymap3d.geodetic2enu(*p, *ORIGIN), axis=-1)
+    if pyproj := bench.rival("pyproj"):
+        transform = pyproj.Transformer.from_pipeline(PIPELINE.format(*ORIGIN)).transform
+        tools["pyproj"] = lambda p: np.stack(transform(p[1], p[0], p[2]), axis=-1)
+    return tools
+
+
+def run(bench: Bench) -> None:
+    """Grids of growing size; the rivals know no grids and get every point."""
+    frame = LocalFrame(*ORIGIN)
+    others = rivals(bench)
+    for side in SIDES:
+        latitude = np.linspace(38.4, 39.2, side)
+        longitude = np.linspace(-121.1, -120.1, side)
+        height = np.random.default_rng(2).uniform(200, 3000, (side, side))
+        points = np.repeat(latitude, side), np.tile(longitude, side), height.ravel()
+        seconds = {}
+        for number in (1, 2):
+            with threads(number):
+                grid = bench.best(lambda: frame.forward_grid(latitude, longitude, height), 20)  # noqa: B023
+                scattered = bench.best(lambda: frame.forward(*points), 5)  # noqa: B023
+            _keep(bench, side, f"{OURS} (grid)", grid, points, number, frame, (latitude, longitude, height))
+            _keep(bench, side, f"{OURS} (scattered)", scattered, points, number, frame, None)
+            if number == 1:
+                seconds = {"grid": grid, "scattered": scattered}
+        for tool, call in others.items() if side <= 720 or bench.full else ():
+            seconds[tool] = bench.best(lambda: call(points), 3)  # noqa: B023
+            wrong = error(points, call(points))
+            bench.row(
+                f"{side} x {side}", tool, seconds[tool], side * side, "point", error=wrong, error_unit="m"
+            )
+        if side == 720:
+            _targets(bench, seconds, side * side)
+
+
+def _keep(
+    bench: Bench,
+    side: int,
+    tool: str,
+    seconds: float,
+    points: Points,
+    number: int,
+    frame: LocalFrame,
+    grid: Points | None,
+) -> None:
+    enu = frame.forward_grid(*grid).reshape(-1, 3) if grid else frame.forward(*points)
+    wrong = error(points, enu) if number == 1 else None
+    bench.row(
+        f"{side} x {side}",
+        tool,
+        seconds,
+        side * side,
+        "point",
+        error=wrong,
+        error_unit="m",
+        threads=number,
+    )
+    if side == 720 and wrong is not None:
+        bench.target(f"error of {tool.split('(')[1][:-1]} points", wrong * 1e9, 5, "nm", most=True)
+
+
+def _targets(bench: Bench, seconds: dict[str, float], points: int) -> None:
+    bench.target("grid point takes", seconds["grid"] / points * 1e9, 5, "ns", most=True)
+    for tool in ("pymap3d", "pyproj"):
+        if tool in seconds:
+            bench.target(f"grid faster than {tool}", seconds[tool] / seconds["grid"], 15, "x")

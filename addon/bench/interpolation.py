@@ -1,0 +1,124 @@
+"""Heat flux between model times, with minutes held out, beside linear blending.
+
+Front error: of the cells that the front crosses in a gap, the percentage that is on its wrong side at the
+removed minute: its error as part of the way that it moves. The integral of F^1.5 drives size and colour of
+the flames. Its ripple is the root mean square of its departure from an even course between the kept minutes,
+which is seen as a pulse once in a model step; its error is the same against the removed minutes' own.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from firetwin_core import run as runs
+from firetwin_core.flux import at_time
+from numpy.typing import NDArray
+
+from ..data import sample, stored
+from ..data.grid import MODEL_CELL_SIZE, MODEL_CELLS, axes
+from .harness import OURS, Bench
+
+FIRST, MINUTES = 1000, 240  # four hours of the sample's long run up the canyon
+CASES = {
+    "every other minute removed": lambda i: i % 2 == 0,
+    "every fifth minute removed": lambda i: i % 5 != 3,
+    "four of five minutes removed": lambda i: i % 5 == 0,
+}
+Interpolate = Callable[[float], NDArray]
+
+
+def truth(minutes: int) -> NDArray:
+    """Heat flux (minutes + 1, ny, nx) W/m2 of the sample fire."""
+    wanted = np.arange(FIRST, FIRST + minutes + 1)
+    return np.stack([frame[0] for frame in sample.frames_of(stored.load(), wanted)]).astype(np.float32)
+
+
+def write_run(folder: Path, flux: NDArray, seconds: NDArray) -> None:
+    """A run of these minutes on flat ground."""
+    latitude, longitude = axes(MODEL_CELLS, MODEL_CELL_SIZE)
+    still = np.zeros((MODEL_CELLS, MODEL_CELLS), np.float32)
+    for prefix in ("", "fuel_"):
+        np.save(folder / f"{prefix}latitude.npy", latitude)
+        np.save(folder / f"{prefix}longitude.npy", longitude)
+    for name in ("elevation", "surface_fuel", "canopy_fuel"):
+        np.save(folder / f"{name}.npy", still)
+    np.save(folder / "heat_flux.npy", flux)
+    times = ", ".join(str(float(s)) for s in seconds)
+    (folder / "run.toml").write_text(
+        f'start = 2014-09-17T04:45:00Z\nvertical = "orthometric"\ntimes_s = [{times}]\n'
+    )
+
+
+def front_error(found: NDArray, true: NDArray, before: NDArray, after: NDArray) -> float:
+    """Percent of the cells that the front crosses between `before` and `after` that are on its wrong side."""
+    crossed = (before == 0) & (after > 0)
+    return float(100 * ((found > 0) != (true > 0))[crossed].sum() / max(1, crossed.sum()))
+
+
+def brightness(flux: NDArray) -> float:
+    """Sum of F^1.5."""
+    return float(np.sum(np.maximum(flux, 0).astype(float) ** 1.5))
+
+
+def departure(found: NDArray, expected: NDArray) -> float:
+    """Root mean square of the relative difference, in percent."""
+    return 100 * float(np.sqrt(np.mean(np.square(found / expected - 1))))
+
+
+def run(bench: Bench) -> None:
+    """Every way to hold out minutes, both interpolations."""
+    flux = truth(MINUTES)
+    seconds = 60.0 * np.arange(len(flux))
+    for case, keeps in CASES.items():
+        kept = np.array([i for i in range(len(flux)) if keeps(i)])
+        with tempfile.TemporaryDirectory() as folder:
+            write_run(Path(folder), flux[kept], seconds[kept])
+            model = runs.open(folder)
+            tools: dict[str, Interpolate] = {
+                OURS: lambda t: at_time(model, t),  # noqa: B023
+                "linear blending": lambda t: linear(model, t),  # noqa: B023
+            }
+            errors = {
+                tool: _errors(bench, case, tool, call, flux, seconds, kept) for tool, call in tools.items()
+            }
+        for index, (name, unit) in enumerate((("front error", "%"), ("F^1.5 ripple", "%"))):
+            ours, theirs = errors[OURS][index], errors["linear blending"][index]
+            bench.target(f"{name}, {case}: below linear blending", ours, theirs, unit, most=True)
+
+
+def linear(run: runs.Run, time: float) -> NDArray:
+    """Cross-fade of the two model times around `time`."""
+    i = int(np.clip(np.searchsorted(run.times, time, "right") - 1, 0, len(run.times) - 2))
+    w = (time - run.times[i]) / (run.times[i + 1] - run.times[i])
+    return (1 - w) * run.heat_flux(i) + w * run.heat_flux(i + 1)
+
+
+def _errors(
+    bench: Bench,
+    case: str,
+    tool: str,
+    call: Interpolate,
+    flux: NDArray,
+    seconds: NDArray,
+    kept: NDArray,
+) -> tuple[float, float]:
+    removed = [i for i in range(kept[0], kept[-1]) if i not in kept]
+    found = [call(seconds[i]) for i in removed]
+    fronts = []
+    for f, i in zip(found, removed, strict=True):
+        before, after = kept[kept < i][-1], kept[kept > i][0]
+        fronts.append(front_error(f, flux[i], flux[before], flux[after]))
+    front = float(np.mean(fronts))
+    bright = np.array([brightness(f) for f in found])
+    own = np.array([brightness(flux[i]) for i in removed])
+    even = np.interp(removed, kept, [brightness(flux[i]) for i in kept])
+    ripple = departure(bright, even)
+    time = bench.best(lambda: call(seconds[removed[0]]), 10)
+    cells = flux[0].size
+    bench.row(case, tool, time, cells, "cell", error=front, error_unit="% of the front's way")
+    for name, percent in (("ripple", ripple), ("error", departure(bright, own))):
+        bench.row(case, f"{tool}, F^1.5", time, cells, "cell", error=percent, error_unit=f"% {name}")
+    return front, ripple

@@ -1,0 +1,89 @@
+"""A particle with linear drag in a gusting wind, beside explicit Euler, against the exact solution.
+
+dv/dt = (w(t) - v) / r + a, with w(t) = W sin(o t): the exact velocity and place are in closed form.
+"""
+
+from __future__ import annotations
+
+import firetwin_core
+import numpy as np
+from numpy.typing import NDArray
+
+from .harness import OURS, Bench
+
+SECONDS = 10.0
+PARTICLES = 1000
+RELAXATION, LIFT = 0.25, -9.80665  # s, m/s2
+GUST, TURN = np.array([12.0, 5.0, 1.0]), 1.3  # m/s, rad/s
+VELOCITY = np.array([3.0, -1.0, 20.0])  # m/s at the start
+PAPER = 24_000  # steps a second
+
+
+def wind(time: float) -> NDArray:
+    """(3,) m/s."""
+    return GUST * np.sin(TURN * time)
+
+
+def exact(time: float) -> NDArray:
+    """Place (3,) m after `time` s from the origin, by variation of constants."""
+    r, o = RELAXATION, TURN
+    pull = np.array([0.0, 0.0, LIFT])
+    factor = GUST / (1 + (r * o) ** 2)
+    steady = factor * (np.sin(o * time) - r * o * np.cos(o * time)) + r * pull
+    start = -factor * r * o + r * pull
+    decay = VELOCITY - start
+    moved = factor * ((1 - np.cos(o * time)) / o - r * np.sin(o * time)) + r * pull * time
+    assert steady.shape == (3,)
+    return moved + decay * r * (1 - np.exp(-time / r))
+
+
+def euler(rate: int, number: int) -> NDArray:
+    """`number` equal particles with explicit Euler at `rate` steps a second -> place (3,) of the first."""
+    step = 1.0 / rate
+    place, velocity = np.zeros((number, 3)), np.tile(VELOCITY, (number, 1))
+    pull = np.array([0.0, 0.0, LIFT])
+    for i in range(round(SECONDS * rate)):
+        place = place + step * velocity
+        velocity = velocity + step * ((wind(i * step) - velocity) / RELAXATION + pull)
+    return place[0]
+
+
+def run(bench: Bench) -> None:
+    """Steps a second against error after SECONDS, for both."""
+    if not hasattr(firetwin_core, "particles"):
+        bench.skip("this build has no firetwin_core.particles")
+        return
+    truth = exact(SECONDS)
+    errors = {}
+    for tool, call, rates in (
+        (OURS, ours, (24, 60, 240)),
+        ("explicit Euler (NumPy)", euler, (60, 240, 2400, PAPER)),
+    ):
+        for rate in rates:
+            errors[tool, rate] = error = float(np.linalg.norm(call(rate, 1) - truth))
+            seconds = bench.best(lambda: call(rate, PARTICLES), 3)  # noqa: B023
+            simulated = round(SECONDS) * PARTICLES
+            bench.row(
+                f"{rate} steps/s", tool, seconds, simulated, "particle second", error=error, error_unit="m"
+            )
+    bench.target(
+        f"error at 60 steps/s below Euler's at {PAPER:,}",
+        errors[OURS, 60] * 1e3,
+        errors["explicit Euler (NumPy)", PAPER] * 1e3,
+        "mm",
+        most=True,
+    )
+
+
+def ours(rate: int, number: int) -> NDArray:
+    """`number` equal particles with the core at `rate` steps a second -> place (3,) of the first."""
+    from firetwin_core import particles
+
+    step = 1.0 / rate
+    place, velocity = np.zeros((number, 3)), np.tile(VELOCITY, (number, 1))
+    for i in range(round(SECONDS * rate)):
+        begin, middle, end = (wind((i + f) * step) for f in (0, 0.5, 1))
+        place, velocity, _ = particles.advance(
+            place, velocity, begin, step, RELAXATION, LIFT, wind_end=end, wind_middle=middle
+        )
+    return place[0]

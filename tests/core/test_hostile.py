@@ -1,0 +1,241 @@
+"""Hostile and odd inputs: each has one defined outcome, and none ends the process.
+
+What single readers refuse is in test_text, test_npy, test_manifest and test_run_errors; here are whole runs.
+"""
+
+import os
+from pathlib import Path
+
+import firetwin_core as core
+import numpy as np
+import pytest
+from firetwin_core import run as runs
+from firetwin_core.flux import at_time, emitters
+from firetwin_core.geo import LocalFrame
+from small_run import NT, NX, NY, RUN_TOML, small_fields
+
+START = "start = 2014-09-16T21:45:00-07:00"
+JUNK = {
+    "zeros": bytes(512),
+    "random": np.random.default_rng(3).bytes(512),
+    "png": b"\x89PNG\r\n\x1a\n" + bytes(64),
+    "zip": b"PK\x03\x04" + bytes(64),
+    "hdf5": b"\x89HDF\r\n\x1a\n" + bytes(64),
+    "gzip": b"\x1f\x8b\x08" + bytes(64),
+    "utf-16": "1 2\n3 4\n".encode("utf-16"),
+    "html": b"<!DOCTYPE html>\n<p>404</p>\n",
+}
+
+
+def refusal(folder: Path) -> core.InputError:
+    with pytest.raises(core.InputError) as caught:
+        runs.open(folder)
+    error = caught.value
+    assert error.path
+    assert error.reason in str(error)
+    assert len(str(error)) < 2000
+    assert str(error).isprintable()
+    return error
+
+
+def flux_run(make_run, flux: np.ndarray) -> runs.Run:
+    none = dict.fromkeys(("temperature", "wind_east", "wind_north"))
+    return runs.open(make_run(heat_flux=flux, **none))
+
+
+@pytest.mark.parametrize("name", JUNK)
+@pytest.mark.parametrize(
+    "file", ["run.toml", "latitude.txt", "elevation.txt", "heat_flux/000000.txt", "heat_flux.npy"]
+)
+def test_junk_in_place_of_a_file(make_run, file, name):
+    folder = make_run("npy" if file.endswith(".npy") else "text")
+    (folder / file).write_bytes(JUNK[name])
+    if "/" not in file:
+        assert refusal(folder).path.endswith(file)
+        return
+    run = runs.open(folder)  # frames stay on disk until they are asked for
+    with pytest.raises(core.InputError, match=r"000000\.txt"):
+        run.heat_flux(0)
+
+
+@pytest.mark.parametrize(
+    ("toml", "line", "reason"),
+    [
+        ("a" + ".a" * 100_000 + " = 1\n", 1, "more than eight parts"),
+        ("[" + "a." * 100_000 + "a]\n", 1, "more than eight parts"),
+        ('"=".' * 100_000 + "a = 1\n", 1, "more than eight parts"),
+        ('name = """\n""" # \'\'\'\na.a.a.a.a.a.a.a.a = 1\n', 3, "more than eight parts"),
+        ("a = " + "[" * 100_000, 1, "not valid TOML"),
+        ("a = " + "{a=" * 100_000, 1, "not valid TOML"),
+        ("start = 2014-09-16TW\n", 1, "not valid TOML"),
+        ("start = 2014-09-1\u026b\n", 1, "not valid TOML"),
+        ('name = """a\\\n \u00b2"""\n', 0, "start must be a date"),
+        ("start = 2014-02-30T00:00:00Z\n", 1, "not valid TOML"),
+        ("start = 2014-09-16T24:00:00Z\n", 1, "not valid TOML"),
+        ('"two\\nlines" = 1\n', 1, r"unknown key 'two\\x0alines'"),
+        ('"\\u001b[31m" = 1\n', 1, r"unknown key '\\x1b\[31m'"),
+        ('"' + "k" * 100_000 + '" = 1\n', 1, r"unknown key 'kkk.*\.\.\.$"),
+        (f"{START}\ninterval_s = 1e308\n", 0, "interval_s is so long"),
+        (f"{START}\ninterval_s = -60\n", 2, "above 0"),
+        (f"{START}\ntimes_s = []\n", 2, "strictly ascending"),
+        (f"{START}\ntimes_s = [0, nan, 1]\n", 2, "strictly ascending"),
+        (f"{START}\ntimes_s = [{', '.join(map(str, range(100_000)))}]\n", 0, "lists 100000 times"),
+        (f"{START}\ninterval_s = 60\nno_data = inf\n", 3, "no_data must be a number"),
+        (f"{START}\ninterval_s = 60\n[units.heat_flux]\nx = 1\n", 3, "a unit must be a text"),
+        (f"{START}\ninterval_s = 60\nunits = []\n", 3, "units must be a table"),
+    ],
+)
+def test_hostile_run_toml(make_run, toml, line, reason):
+    error = refusal(make_run(toml=toml))
+    assert error.line == line
+    with pytest.raises(core.InputError, match=reason):
+        raise error
+
+
+def test_run_toml_that_is_not_utf8(make_run):
+    folder = make_run()
+    (folder / "run.toml").write_bytes(b'name = "\xff\xfe"\n')
+    assert "not valid TOML" in refusal(folder).reason
+
+
+def test_text_of_other_languages_stays(make_run):
+    toml = RUN_TOML.replace('"Small"', '"""Feuer \u00b2 \u026b \U0001f525"""').replace("W/m2", "W/m\u00b2")
+    assert runs.open(make_run(toml=toml)).name == "Feuer \u00b2 \u026b \U0001f525"
+
+
+def test_a_dotted_name_is_no_key(make_run):
+    toml = RUN_TOML.replace('"Small"', '"' + "a." * 100 + '" # ' + "b." * 100)
+    assert runs.open(make_run(toml=toml)).name == "a." * 100
+
+
+def test_a_folder_whose_name_is_not_utf8(make_run, tmp_path):
+    bad = os.fsencode(tmp_path) + b"/\xff\n"
+    os.rename(make_run(elevation=None), bad)
+    with pytest.raises(core.InputError, match=r"elevation.*missing") as caught:
+        runs.open(os.fsdecode(bad))
+    assert str(caught.value).isprintable()
+
+
+@pytest.mark.parametrize("kind", ["pipe", "folder", "zero", "loop"])
+@pytest.mark.parametrize("name", ["run.toml", "elevation.npy", "heat_flux.npy"])
+def test_what_is_no_file(make_run, name, kind):
+    folder = make_run()
+    path = folder / name
+    path.unlink()
+    if kind == "pipe":
+        os.mkfifo(path)
+    elif kind == "folder":
+        path.mkdir()
+    else:
+        path.symlink_to("/dev/zero" if kind == "zero" else name)
+    assert refusal(folder).path
+
+
+@pytest.mark.parametrize("name", ["run.toml", "elevation.txt"])
+def test_a_file_too_large_is_refused_before_it_is_read(make_run, name):
+    folder = make_run("text")
+    with open(folder / name, "wb") as file:
+        file.truncate(1 << 40)  # a hole: takes no space
+    assert "more than the limit" in refusal(folder).reason
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "reason"),
+    [
+        ("latitude", "38,900 38,903 38,906 38,909", "value 2 is 900|not beyond|ascend"),
+        ("latitude", "38.9\n38.903\n\n\n38.906\n# end\n", None),
+        ("latitude", "38.9 38.903 38.906 38.909 " + " " * 1_000_000, None),
+        ("elevation", ("1 " * NX + "\n") * (NY - 1), "found 3 rows of 5 values"),
+        ("elevation", ("1 " * (NX - 1) + "\n") * NY, "found 4 rows of 4 values"),
+        ("elevation", "1 " * (NX * NY), "found 1 row of 20 values"),
+        ("elevation", ("1,5 " * NX + "\n") * NY, "decimal commas"),
+        ("elevation", ("1 " * NX + "\n") * NY + "****\n", "Fortran format"),
+        ("elevation", ("1 " * NX + "\n") * NY + "\x1a", "is not a number"),
+        ("elevation", "\n" * 1_000_000, "holds no numbers"),
+    ],
+)
+def test_hostile_text_in_a_run(make_run, name, content, reason):
+    folder = make_run("text")
+    (folder / f"{name}.txt").write_text(content)
+    if reason is None and name == "latitude" and content.count("38.") == 3:
+        reason = "expected 3 rows of 5 values"
+    if reason is None:
+        assert runs.open(folder).latitude.tolist() == [38.9, 38.903, 38.906, 38.909]
+        return
+    error = refusal(folder)
+    with pytest.raises(core.InputError, match=reason):
+        raise error
+
+
+@pytest.mark.parametrize(
+    ("values", "first", "last", "emitter_count", "invalid"),
+    [
+        (0.0, 0, 0, 0, 0),
+        (-5.0, -5, -5, 0, 0),
+        (7.0, 7, 7, NY * NX, 0),
+        (2.0**66, 2.0**66, 2.0**66, NY * NX, 0),
+        (np.float32(3.4028235e38), np.float32(3.4028235e38), np.float32(3.4028235e38), NY * NX, 0),
+        (np.float32(1e-45), np.float32(1e-45), np.float32(1e-45), NY * NX, 0),
+    ],
+)
+def test_runs_of_one_flux(make_run, values, first, last, emitter_count, invalid):
+    run = flux_run(make_run, np.full((NT, NY, NX), values, np.float32))
+    assert run.flux_range() == (first, last)
+    made = emitters(run.heat_flux(0), np.zeros((NY, NX, 3)), *run.flux_range())
+    assert (len(made), made.invalid) == (emitter_count, invalid)
+    assert (made.intensity == 1).all()
+    assert np.isfinite(at_time(run, 30.0)).all()
+
+
+def test_one_hot_cell(make_run):
+    flux = np.zeros((NT, NY, NX), np.float32)
+    flux[1, 2, 3] = 1e6
+    run = flux_run(make_run, flux)
+    made = emitters(run.heat_flux(1), np.zeros((NY, NX, 3)), *run.flux_range())
+    assert made.cell.tolist() == [2 * NX + 3]
+    assert made.intensity.tolist() == [1]
+    assert np.flatnonzero(np.isfinite(run.arrival_time())).tolist() == [2 * NX + 3]
+
+
+def test_a_run_of_nothing_but_nan(make_run):
+    run = flux_run(make_run, np.full((NT, NY, NX), np.nan, np.float32))
+    with pytest.raises(core.InputError, match="no finite value"):
+        run.flux_range()
+    assert np.isnan(run.arrival_time()).all()
+    assert any("no value 60 times" in text for text in run.warnings)
+    assert emitters(run.heat_flux(0), np.zeros((NY, NX, 3)), 0, 1).invalid == NY * NX
+
+
+def test_negative_flux_is_counted_and_burns_nothing(make_run):
+    flux = small_fields()["heat_flux"]
+    flux[0, 0, :2] = [-1, -9999]
+    run = flux_run(make_run, flux)
+    assert run.flux_range() == (-1, 2000.25)
+    assert any("negative 1 times" in text for text in run.warnings)
+
+
+def test_a_grid_across_the_antimeridian(make_run):
+    east = 179.99 + 0.004 * np.arange(NX)
+    run = runs.open(make_run(longitude=east, fuel_longitude=np.linspace(179.99, 180.006, 10)))
+    frame = LocalFrame(38.9, 180.0)
+    enu = frame.forward_grid(run.latitude, run.longitude, run.elevation)
+    wrapped = frame.forward_grid(run.latitude, (east + 180) % 360 - 180, run.elevation)
+    np.testing.assert_allclose(enu, wrapped, rtol=0, atol=1e-6)
+    assert (np.diff(enu[..., 0]) > 300).all()
+
+
+@pytest.mark.parametrize("longitude", [541.0, -541.0])
+def test_longitudes_of_no_place(make_run, longitude):
+    axis = longitude + 0.004 * np.arange(NX)
+    assert "beyond 540 degrees" in refusal(make_run(longitude=axis)).reason
+
+
+@pytest.mark.parametrize("latitude", [90.0, -90.0])
+def test_a_grid_at_a_pole(latitude):
+    frame = LocalFrame(latitude, 0.0)
+    enu = frame.forward_grid([latitude], [0.0, 90.0, 180.0], np.zeros((1, 3)))
+    np.testing.assert_allclose(enu, 0, atol=1e-8)
+
+
+def test_no_cells():
+    assert len(emitters(np.zeros((0, 4)), np.zeros((0, 4, 3)), 0, 1)) == 0

@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# Fuzzes the readers: text grids, .npy files, run.toml and whole run folders. Builds into build/fuzz.
+#
+#   tests/fuzz/run.sh                   200,000 executions of each
+#   tests/fuzz/run.sh --runs 10000000   as many of each
+#   tests/fuzz/run.sh --seconds 60      a minute of each
+#   tests/fuzz/run.sh ... text npy      these only
+#
+# An input that breaks a reader is left in build/fuzz/findings; exit status 1.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+say() { echo "fuzz: $*" >&2; }
+usage() {
+  echo "usage: tests/fuzz/run.sh [--runs N | --seconds N] [text|npy|toml|run ...]" >&2
+  exit 2
+}
+
+limit=(-runs=200000)
+readers=()
+while (($#)); do
+  case $1 in
+    --runs | --seconds)
+      [[ ${2-} =~ ^[0-9]+$ ]] || usage
+      if [[ $1 == --runs ]]; then limit=("-runs=$2"); else limit=("-max_total_time=$2"); fi
+      shift 2
+      ;;
+    text | npy | toml | run)
+      readers+=("$1")
+      shift
+      ;;
+    *) usage ;;
+  esac
+done
+if ((${#readers[@]} == 0)); then
+  readers=(text npy toml run)
+fi
+
+find_clang() {
+  local candidate
+  for candidate in clang++ clang++-19 clang++-17 clang++-16 clang++-14; do
+    if command -v "$candidate" >/dev/null && echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' |
+      "$candidate" -fsanitize=fuzzer,address -x c++ - -o /dev/null 2>/dev/null; then
+      echo "$candidate"
+      return
+    fi
+  done
+}
+
+compiler=$(find_clang)
+if [[ -z $compiler ]]; then
+  command -v apt-get >/dev/null || { say "needs clang with its libFuzzer and sanitizer runtimes"; exit 1; }
+  as_root=()
+  ((EUID == 0)) || as_root=(sudo)
+  say "installing clang-14 with apt-get"
+  log=$(mktemp)
+  if ! { "${as_root[@]}" apt-get update -q && "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install \
+    -y -q --no-install-recommends clang-14 libclang-rt-14-dev; } >"$log" 2>&1; then
+    tail -n 20 "$log" >&2
+    say "apt-get failed; its whole output is in $log"
+    exit 1
+  fi
+  rm -f "$log"
+  compiler=$(find_clang)
+fi
+
+build=build/fuzz
+cmake -S tests/fuzz -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=None >/dev/null
+cmake --build "$build" -j 2 >&2
+python3 tests/fuzz/seeds.py "$build/seeds"
+
+for reader in "${readers[@]}"; do
+  say "$reader: ${limit[*]}"
+  corpus=$build/corpus/$reader
+  mkdir -p "$corpus" "$build/findings"
+  if ! ASAN_OPTIONS=quarantine_size_mb=16 "$build/fuzz_$reader" "${limit[@]}" -max_len=1024 -timeout=60 -rss_limit_mb=1024 \
+    -dict="tests/fuzz/$reader.dict" -artifact_prefix="$build/findings/$reader-" -print_final_stats=1 \
+    "$corpus" "$build/seeds/$reader" >"$build/$reader.log" 2>&1; then
+    tail -n 40 "$build/$reader.log" >&2
+    say "$reader: a finding; the input is in $build/findings"
+    exit 1
+  fi
+  grep -a number_of_executed_units "$build/$reader.log" | sed "s/.*units:/fuzz: $reader: no finding, executions:/"
+done

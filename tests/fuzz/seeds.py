@@ -1,0 +1,67 @@
+"""Write the inputs that fuzzing starts from: seeds.py FOLDER makes FOLDER/{text,npy,toml,run}/*."""
+
+import sys
+from pathlib import Path
+
+TEXT = [
+    "1 2\n3 4\n",
+    "1,2\r\n3 , 4\r\n",
+    "# head\n\n  1\t2 # tail\n3 4",
+    "1.0D+03 -2.5d-1 +3 .5 6.",
+    "\ufeff7 nan -Inf infinity",
+    "1e-400 -1e-400 1D-400 3.4028235e38 1.401298464324817e-45 16777217",
+    "12 ****\n",
+    "1,,2\n",
+    "1 2\n3\n",
+    "9" * 400 + "e-400 0." + "0" * 300 + "1",
+]
+
+HEADERS = [
+    "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }",
+    '{"shape":(6,),"fortran_order":False,"descr":"<f8"}',
+    "{'descr': '<f4', 'fortran_order': True, 'shape': (), }",
+    "{'descr': '|O', 'fortran_order': False, 'shape': (0, 3), }",
+    "{'descr': [('a', '<f4')], 'fortran_order': False, 'shape': (18446744073709551615, 2)}",
+]
+
+TOML = [
+    'name = "Small"\nstart = 2014-09-16T21:45:00-07:00\ninterval_s = 60.0\nvertical = "orthometric"\n'
+    'no_data = -9999.0\nsynthetic = true\nevent = "king_fire"\n[units]\n'
+    'elevation = "m"\nheat_flux = "W/m2"\n',
+    "start = 2014-09-16T21:45:00.25Z\ntimes_s = [0, 60, 1.5e3]\nvertical = 'ellipsoidal'\n",
+    "start = 0000-01-01T00:00:00+23:59\ninterval_s = 1e308\n",
+    "intervall_s = 60\n",
+    'units = {elevation = "ft"}\n',
+    "a.b.c = [[[{}]]]\n",
+    "a" + ".a" * 300 + " = 1\n",
+    "start = 2014-09-16T\u026b\n",
+    'name = """a\\\n \u00b2"""\nunits = {elevation = "W/m\u00b2"} # \u00e9\n',
+    "start = 2014-09-17T04:45:00Z\ninterval_s = 60\nno_data = -9999\n",
+]
+
+
+def npy_file(header: str, data: bytes) -> bytes:
+    return b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little") + header.encode() + data
+
+
+def seeds() -> dict[str, list[bytes]]:
+    """Seeds by reader; the formats are those of fuzz_*.cpp."""
+    text = [t.encode() for t in TEXT]
+    data = bytes(range(24))
+    npy = [b"\x01" + h.encode() + b"\n" + data for h in HEADERS]
+    npy += [b"\x00" + npy_file(h, data) for h in HEADERS]
+    toml = [t.encode() for t in TOML]
+    whole = [b"\x00" + t for t in toml[-2:]] + [bytes([i]) + t for i in range(1, 10) for t in text[:4]]
+    whole += [bytes([i]) + npy_file(HEADERS[0], data) for i in (3, 6, 8)]
+    return {"text": text, "npy": npy, "toml": toml, "run": whole}
+
+
+def main(folder: Path) -> None:
+    for reader, inputs in seeds().items():
+        (folder / reader).mkdir(parents=True, exist_ok=True)
+        for index, content in enumerate(inputs):
+            (folder / reader / f"{index:02d}").write_bytes(content)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Builds the core with AddressSanitizer and UndefinedBehaviourSanitizer and runs tests/core with it.
+# Arguments go to pytest. Needs .venv (examples/setup.sh --with-tests), or PYTHON set to another one.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+python=${PYTHON:-.venv/bin/python}
+build=build/sanitize
+
+cmake -S . -B "$build" -G Ninja -DFIRETWIN_SANITIZE=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 \
+  -DPython_EXECUTABLE="$python" -Dpybind11_DIR="$("$python" -m pybind11 --cmakedir)" >/dev/null
+cmake --build "$build" -j 2 >&2
+
+# The package as it is installed, with the sanitized module beside it.
+package=$build/package
+rm -rf "$package"
+mkdir -p "$package"
+cp -r addon "$package/firetwin"
+cp -r data "$package/firetwin/data"
+cp "$build"/firetwin_core*.so "$package"
+
+libraries="$(g++ -print-file-name=libasan.so) $(g++ -print-file-name=libubsan.so) $(g++ -print-file-name=libstdc++.so.6)"
+# Leaks are not looked for: Python itself leaves plenty behind when it ends.
+export ASAN_OPTIONS=detect_leaks=0:abort_on_error=1:strict_string_checks=1:detect_stack_use_after_return=1
+export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
+export PYTHONMALLOC=malloc PYTHONPATH=$package LD_PRELOAD=$libraries
+exec "$python" -m pytest tests/core -q -p no:cacheprovider "$@"
