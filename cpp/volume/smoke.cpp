@@ -91,7 +91,7 @@ Leaves fill(const Puffs& puffs, std::span<const std::uint32_t> balls, const open
 }
 
 /// Multiplies the active voxels of one leaf each.
-void scale(std::vector<Leaves>& all, std::unique_ptr<Leaf> Leaves::*member, float factor) {
+void scale(std::vector<Leaves>& all, std::unique_ptr<Leaf> Leaves::* member, float factor) {
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
     if (const auto& leaf = all[i].*member) {
       float* buffer = leaf->buffer().data();
@@ -100,7 +100,7 @@ void scale(std::vector<Leaves>& all, std::unique_ptr<Leaf> Leaves::*member, floa
   });
 }
 
-openvdb::FloatGrid::Ptr assemble(std::vector<Leaves>& all, std::unique_ptr<Leaf> Leaves::*member,
+openvdb::FloatGrid::Ptr assemble(std::vector<Leaves>& all, std::unique_ptr<Leaf> Leaves::* member,
                                  const std::string& name, double voxel_size,
                                  const std::string& units) {
   openvdb::FloatGrid::Ptr grid = fog_grid(name, voxel_size, {0.0, 0.0, 0.0}, units);
