@@ -97,6 +97,8 @@ def publish(part: Path, path: Path) -> None:
 
 
 def _write(path: Path, text: str) -> None:
+    for left in path.parent.glob(f"{path.name}.part-*"):  # of a killed process: who writes holds the lock
+        left.unlink(missing_ok=True)
     part = path.with_name(f"{path.name}.part-{os.getpid()}")
     part.write_text(text, encoding="utf-8")
     publish(part, path)

@@ -45,9 +45,9 @@ def command(run_folder, tmp_path_factory):
     """Start `firetwin` on a scene file with other [render] lines: command(arguments) -> process."""
     folder = tmp_path_factory.mktemp("render")
 
-    def start(*arguments, render="", verb="render"):
+    def start(*arguments, render="", verb="render", frames=FRAMES):
         scene = folder / "scene.toml"
-        scene.write_text(SCENE.format(run=run_folder, frames=FRAMES, render=render))
+        scene.write_text(SCENE.format(run=run_folder, frames=frames, render=render))
         return subprocess.Popen(
             [sys.executable, "-m", "firetwin", verb, scene, *map(str, arguments)],
             stdout=subprocess.PIPE,
@@ -186,7 +186,7 @@ def test_a_killed_render_leaves_nothing_that_resume_accepts_wrongly(command, fir
 
 def test_ctrl_c_stops_cleanly(command, tmp_path):
     out = tmp_path / "out"
-    process = command("--out", out, render="seed = 2")
+    process = command("--out", out, render="seed = 2", frames=500)  # minutes, were it not stopped
     for line in process.stderr:
         if "rendering: 0 of" in line:
             break
