@@ -49,7 +49,7 @@ class Fire:
     flames: bool = True
     flame_length: str = "thomas"  # or "byram"
     budget: int = 20_736  # most flames or emitters drawn at once, nearest first
-    embers: bool = True
+    embers: bool = True  # spots that glow in the ash; the thermal view shows their heat in any case
 
 
 @dataclass(frozen=True)

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from firetwin.scene import build, frame, grid_mesh, terrain
@@ -104,3 +106,15 @@ def test_ground_between_places_is_the_cores_bilinear_height(project, run):
     row, column = ground.indices(latitude, longitude)
     assert height == pytest.approx(ground.height(row, column) + 12.0, abs=1e-6)
     assert ground.up(points[:, 0], points[:, 1]) == pytest.approx(points[:, 2] - 12.0, abs=0.05)
+
+
+def test_embers_glow_only_where_the_scene_file_wants_them(project, run, scene, shoot):
+    no_flames = replace(project, fire=replace(project.fire, flames=False))
+    pictures = []
+    for embers in (True, False):
+        built = build.build(replace(no_flames, fire=replace(no_flames.fire, embers=embers)), run, scene)
+        built.frame_set(2)
+        built.render.resolution_x, built.render.resolution_y = 320, 180
+        pictures.append(shoot(built, "rgb"))
+    assert np.all(pictures[0] >= pictures[1] - 1e-4)
+    assert np.max(pictures[0] - pictures[1]) > 0.05

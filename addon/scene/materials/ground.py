@@ -52,12 +52,12 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     normal = tree.output("ShaderNodeBump", {"Strength": 0.9, "Distance": 1.0, "Height": bump})
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Roughness": 0.6, "Normal": normal})
     light = tree.mix_colour(flaming / (flaming + embers + 1.0e-4), EMBER, FLAME)
-    power = flaming * _FLAME_LIGHT + embers * _EMBER_LIGHT
+    power = flaming * _FLAME_LIGHT + embers * (_EMBER_LIGHT if project.fire.embers else 0.0)
     shader = haze.apply(tree, tree.add_shader(matt, tree.emission(light, power)))
     ambient = heat.ambient(tree, project, run, place.elevation, place.canopy)
     kelvin = heat.burning(tree, ambient, place.age, place.burned, flaming, embers)
     tree.surface(nodes.thermal_switch(tree, shader, kelvin))
-    material.cycles.emission_sampling = "NONE"  # lit by lamps along the front, not by this
+    material.cycles.emission_sampling = "NONE"  # as lamps, its small lights would be noise
     return material
 
 
