@@ -54,6 +54,8 @@ def command(run_folder, tmp_path_factory):
             stderr=subprocess.PIPE,
             text=True,
             start_new_session=True,
+            # Background jobs of shells ignore Ctrl-C and hand that on; a person's command does not.
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
         )
 
     return start
