@@ -188,16 +188,6 @@ class Tree:
         inputs = {"Vector": position, "Scale": 1.0 / size}
         return self.output("ShaderNodeTexVoronoi", inputs, name, **properties)
 
-    def colour_ramp(self, factor: Any, stops: Sequence[tuple[float, Sequence[float]]]) -> Value:
-        """Colour along a ramp of (position, (r, g, b)) stops."""
-        node = self.node("ShaderNodeValToRGB", [factor])
-        elements = node.color_ramp.elements
-        while len(elements) < len(stops):
-            elements.new(1.0)
-        for element, (position, colour) in zip(elements, stops, strict=True):
-            element.position, element.color = position, (*colour, 1.0)
-        return self.pick(node)
-
     def surface(self, shader: Any) -> None:
         """Make `shader` the surface of this material or world."""
         world = any(tree.node_tree == self.node_tree for tree in bpy.data.worlds)

@@ -6,7 +6,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import NamedTuple
 
-from firetwin_core import InputError
+from ..errors import input_error
 
 SQUARE_METRES_PER_ACRE = 4046.8564224  # international acre
 
@@ -78,18 +78,11 @@ def load(event: str = "king_fire") -> Event:
     """
     path = Path(__file__).parent / f"{event}.toml"
     if event not in events():
-        raise input_error(path, f"no fire is called {event!r}; known are: {', '.join(events())}")
+        raise input_error(path, 0, 0, f"no fire is called {event!r}; known are: {', '.join(events())}")
     try:
         return _parse(tomllib.loads(path.read_text(encoding="utf-8")))
     except (tomllib.TOMLDecodeError, KeyError, TypeError, ValueError) as error:
-        raise input_error(path, f"not a description of a fire: {error!r}") from error
-
-
-def input_error(path: Path, reason: str) -> InputError:
-    """`InputError` about a whole file or folder, with the same attributes as one raised by the core."""
-    error = InputError(f"{path}: {reason}")
-    error.path, error.line, error.column, error.reason = str(path), 0, 0, reason
-    return error
+        raise input_error(path, 0, 0, f"not a description of a fire: {error!r}") from error
 
 
 def _parse(table: dict) -> Event:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import input_error
 from . import air, heat, runtext, stored, weather
 from .grid import (
     FUEL_CELL_SIZE,
@@ -18,7 +19,6 @@ from .grid import (
     axes,
     block_mean,
 )
-from .history import input_error
 
 NAME = "King Fire 2014 (synthetic sample)"
 INTERVAL = 60.0  # s
@@ -53,7 +53,7 @@ def write(
     out = Path(out)
     _refuse_strangers(out)
     if format not in FORMATS:
-        raise input_error(out, f"no format is called {format!r}; choose {' or '.join(FORMATS)}")
+        raise input_error(out, 0, 0, f"no format is called {format!r}; choose {' or '.join(FORMATS)}")
     minutes = _minutes(out, frames)
     out.parent.mkdir(parents=True, exist_ok=True)
     work = Path(tempfile.mkdtemp(prefix=f".{out.name}.", dir=out.parent))
@@ -103,7 +103,7 @@ def _minutes(out: Path, frames: int | None) -> NDArray[np.int64]:
     if frames is None:
         return np.arange(total)
     if not 1 <= frames <= total:
-        raise input_error(out, f"{frames} frames asked for; the sample run has 1 to {total}")
+        raise input_error(out, 0, 0, f"{frames} frames asked for; the sample run has 1 to {total}")
     return np.unique(np.rint(np.linspace(0, stored.MINUTES, frames)).astype(int))
 
 
@@ -117,7 +117,7 @@ def _refuse_strangers(out: Path) -> None:
     except (OSError, ValueError):
         ours = False
     if not ours:
-        raise input_error(out, "exists and is not a sample run; name another folder or remove this one")
+        raise input_error(out, 0, 0, "exists and is not a sample run; name another folder or remove this one")
 
 
 def _static(sample: stored.Sample) -> dict[str, NDArray]:
