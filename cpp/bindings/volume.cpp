@@ -157,6 +157,7 @@ void bind_types(py::module_& module) {
       .def("__len__", &Puffs::size);
   py::class_<VolumeFrame>(module, "Frame", "What one VDB file holds.")
       .def_readonly("active_voxels", &VolumeFrame::active_voxels)
+      .def_readonly("voxels", &VolumeFrame::voxels)
       .def_readonly("bytes", &VolumeFrame::bytes)
       .def_readonly("mass", &VolumeFrame::mass)
       .def_property_readonly("bounds", [](const VolumeFrame& frame) {

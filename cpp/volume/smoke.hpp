@@ -1,9 +1,9 @@
 #pragma once
 
 #include "puffs.hpp"
+#include "smooth.hpp"
 #include "vdb.hpp"
 
-#include <span>
 #include <string>
 
 namespace firetwin {
@@ -13,12 +13,6 @@ constexpr double kFreshSmoke = 1.0e-5;
 
 /// Thinner smoke than this times kFreshSmoke is left out.
 constexpr double kThinnest = 2.0e-3;
-
-/// Light of flames: positions (n, 3) m and powers (n,) W.
-struct Flames {
-  std::span<const double> position;
-  std::span<const double> power;
-};
 
 /// Writes the smoke as grids of one sparse OpenVDB file (half precision):
 /// - `density`: clamp((d + 300 m) / 600 m, 0, 1), d the distance into the union of the balls; 0 and
