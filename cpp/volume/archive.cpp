@@ -1,6 +1,7 @@
 #include "archive.hpp"
 
 #include "error.hpp"
+#include "lanes.hpp"
 
 #include <openvdb/io/Compression.h>
 #include <openvdb/io/GridDescriptor.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -65,18 +67,69 @@ void require_folder(const fs::path& target) {
   }
 }
 
-/// What LeafNode::writeBuffers writes when all inactive values are the background.
-void write_leaf(std::ostream& stream, const LeafMask& mask, const LeafValues& values,
-                std::uint32_t compression) {
-  LeafValues active;
-  openvdb::Index count = 0;
-  for (auto voxel = mask.beginOn(); voxel; ++voxel) {
-    active[count++] = values[voxel.pos()];
+using HalfValues = std::array<std::uint16_t, kLeafVoxels>;
+
+/// Rounds to half floats, nearest or even, as Imath's half does, but without branches: exponents
+/// too small for half are made by adding 1/2 (the sum's last bits are the half's), others by moving
+/// the exponent.
+FIRETWIN_CLONES void to_half(const float* values, std::uint16_t* halves) {
+  constexpr std::uint32_t kSmallest = 113U << 23;  // 2^-14
+  constexpr std::uint32_t kInfinite = 0x477ff000U; // 65520
+  for (std::size_t i = 0; i < kLeafVoxels; ++i) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, values + i, sizeof bits);
+    const std::uint32_t sign = bits >> 16 & 0x8000U;
+    bits &= 0x7fffffffU;
+    float magnitude = 0.0F;
+    std::memcpy(&magnitude, &bits, sizeof magnitude);
+    const float small = magnitude + 0.5F;
+    std::uint32_t denormal = 0;
+    std::memcpy(&denormal, &small, sizeof denormal);
+    denormal -= 0x3f000000U;
+    const std::uint32_t normal = (bits - (112U << 23) + 0xfffU + (bits >> 13 & 1U)) >> 13;
+    std::uint32_t half = bits < kSmallest ? denormal : normal;
+    half = bits >= kInfinite ? 0x7c00U : half;
+    half = bits > 0x7f800000U ? 0x7e00U : half;
+    halves[i] = static_cast<std::uint16_t>(half | sign);
   }
-  mask.save(stream);
-  stream.put(openvdb::io::NO_MASK_OR_INACTIVE_VALS);
-  openvdb::io::HalfWriter<true, float>::write(stream, active.data(), count, compression);
 }
+
+/// Values of one grid, leaf after leaf, as LeafNode::writeBuffers writes them when all values that
+/// are not active are the background.
+class LeafWriter {
+public:
+  void write(const LeafMask& mask, std::span<const openvdb::Index> active,
+             const LeafValues& values) {
+    to_half(values.data(), halves_.data());
+    if (active.size() < kLeafVoxels) {
+      for (std::size_t i = 0; i < active.size(); ++i) {
+        halves_[i] = halves_[active[i]];
+      }
+    }
+    mask.save(stream_);
+    stream_.put(openvdb::io::NO_MASK_OR_INACTIVE_VALS);
+    const std::size_t bytes = active.size() * sizeof(std::uint16_t);
+    if (active.size() == known_count_ && std::memcmp(halves_.data(), known_.data(), bytes) == 0) {
+      stream_ << known_bytes_; // deep smoke and its shade are the same for leaves on end
+      return;
+    }
+    const auto before = static_cast<std::size_t>(stream_.tellp());
+    openvdb::io::bloscToStream(stream_, reinterpret_cast<const char*>(halves_.data()),
+                               sizeof(std::uint16_t), active.size());
+    known_bytes_ = stream_.view().substr(before);
+    known_ = halves_;
+    known_count_ = active.size();
+  }
+
+  std::string take() { return std::move(stream_).str(); }
+
+private:
+  std::ostringstream stream_{std::ios_base::binary};
+  HalfValues halves_;
+  HalfValues known_;
+  std::size_t known_count_ = 0;
+  std::string known_bytes_;
+};
 
 } // namespace
 
@@ -136,16 +189,22 @@ void VolumeArchive::add(const std::vector<GridName>& grids, double voxel_size,
   }
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
     std::vector<LeafValues> values(grids.size());
-    std::vector<std::ostringstream> streams(grids.size());
+    std::vector<LeafWriter> writers(grids.size());
+    std::vector<openvdb::Index> active;
     const std::size_t last = std::min((chunk + 1) * kChunk, order.size());
     for (std::size_t i = chunk * kChunk; i < last; ++i) {
+      const LeafMask& mask = leaves.masks[order[i]];
+      active.clear();
+      for (auto voxel = mask.beginOn(); voxel; ++voxel) {
+        active.push_back(voxel.pos());
+      }
       fill(order[i], values);
       for (std::size_t g = 0; g < grids.size(); ++g) {
-        write_leaf(streams[g], leaves.masks[order[i]], values[g], compression());
+        writers[g].write(mask, active, values[g]);
       }
     }
     for (std::size_t g = 0; g < grids.size(); ++g) {
-      grids_[first + g].pieces[1 + chunk] = std::move(streams[g]).str();
+      grids_[first + g].pieces[1 + chunk] = writers[g].take();
     }
   });
 }
