@@ -38,6 +38,15 @@ Corner corner_of(const openvdb::Coord& origin, float voxel) {
           static_cast<float>(origin.z()) * voxel};
 }
 
+/// Integral over active voxels.
+double mass_of(const LeafMask& mask, const LeafValues& values, double voxel_size) {
+  double sum = 0.0;
+  for (auto voxel = mask.beginOn(); voxel; ++voxel) {
+    sum += static_cast<double>(values[voxel.pos()]);
+  }
+  return sum * voxel_size * voxel_size * voxel_size;
+}
+
 /// Blocks of 2^3 voxels with one that is thick enough, as DepthMeter wants them.
 std::uint64_t thick_blocks(const LeafValues& concentration) {
   std::uint64_t blocks = 0;
@@ -81,12 +90,11 @@ std::vector<std::unique_ptr<Leaf>> fill(const Puffs& puffs, double voxel_size) {
     for (openvdb::Index at = 0; at < kLeafVoxels; ++at) {
       if (leaf->depth[at] > -kOutside && leaf->concentration[at] > kThinnestSmoke) {
         leaf->mask.setOn(at);
-        leaf->mass += static_cast<double>(leaf->concentration[at]);
       }
     }
     if (!leaf->mask.isOff()) {
       leaf->origin = origin;
-      leaf->mass *= std::pow(voxel_size, 3);
+      leaf->mass = mass_of(leaf->mask, leaf->concentration, voxel_size);
       leaves[i] = std::move(leaf);
     }
   });
@@ -187,11 +195,13 @@ VolumeFrame write_smoke(const std::string& path, const Puffs& puffs, double voxe
   if (!flames.power.empty()) {
     names.push_back({"glow", "1"});
   }
+  std::vector<double> written(all.size()); // kg, of the values that go into the file
   VolumeArchive archive;
   archive.add(names, voxel_size, shared, [&](std::size_t i, std::span<LeafValues> out) {
     const Leaf& leaf = *all[i];
     values.density(leaf, out[0]);
     values.dilution(leaf, out[1]);
+    written[i] = mass_of(leaf.mask, out[1], voxel_size) * kFreshSmoke;
     values.shade(leaf, out[2]);
     values.size(leaf, out[3]);
     values.temperature(leaf, out[4]);
@@ -203,7 +213,7 @@ VolumeFrame write_smoke(const std::string& path, const Puffs& puffs, double voxe
     archive.add({flame_grid(flames, voxel_size)});
   }
   VolumeFrame frame = archive.write(path, metadata);
-  frame.mass = mass > 0.0 ? total : 0.0;
+  frame.mass = std::accumulate(written.begin(), written.end(), 0.0);
   return frame;
 }
 

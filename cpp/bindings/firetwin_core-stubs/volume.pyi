@@ -95,13 +95,16 @@ class Frame:
     def active_voxels(self) -> int:
         """Of the grid with the most."""
     @property
+    def voxels(self) -> int:
+        """Active voxels of all grids together."""
+    @property
     def bytes(self) -> int: ...
     @property
     def bounds(self) -> NDArray[np.float64]:
         """(2, 3) metres, world space; zeros for an empty file."""
     @property
     def mass(self) -> float:
-        """kg of smoke in the file before its values became half floats."""
+        """kg of smoke: the integral of what is written, before it is rounded to half floats."""
 
 def write_smoke(
     path: str | PathLike[str],
