@@ -2,6 +2,7 @@
 
 #include "archive.hpp"
 #include "bins.hpp"
+#include "grids.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -16,12 +17,7 @@ namespace firetwin {
 namespace {
 
 constexpr auto kThinnestSmoke = static_cast<float>(kThinnest * kFreshSmoke); // kg/m3
-constexpr float kEdgeLow = 0.46F;
-constexpr float kEdgeHigh = 0.55F;
-constexpr float kGroundKelvin = 288.15F; // International Standard Atmosphere
-constexpr float kLapse = 0.0065F;        // K/m
-constexpr float kHeatOfAir = 1206.0F;    // J/(m3 K)
-constexpr float kHottest = 1500.0F;      // K
+constexpr float kHeatOfAir = 1206.0F;                                        // J/(m3 K)
 
 /// What is known of a leaf with smoke before the mass of the whole is.
 struct Leaf {
@@ -30,22 +26,6 @@ struct Leaf {
   LeafValues depth, radius, concentration;
   double mass = 0.0; // kg, by the sum over active voxels
 };
-
-using Corner = std::array<float, 3>;
-
-Corner corner_of(const openvdb::Coord& origin, float voxel) {
-  return {static_cast<float>(origin.x()) * voxel, static_cast<float>(origin.y()) * voxel,
-          static_cast<float>(origin.z()) * voxel};
-}
-
-/// Integral over active voxels.
-double mass_of(const LeafMask& mask, const LeafValues& values, double voxel_size) {
-  double sum = 0.0;
-  for (auto voxel = mask.beginOn(); voxel; ++voxel) {
-    sum += static_cast<double>(values[voxel.pos()]);
-  }
-  return sum * voxel_size * voxel_size * voxel_size;
-}
 
 /// Blocks of 2^3 voxels with one that is thick enough, as DepthMeter wants them.
 std::uint64_t thick_blocks(const LeafValues& concentration) {
@@ -78,7 +58,7 @@ std::vector<std::unique_ptr<Leaf>> fill(const Puffs& puffs, double voxel_size) {
       return;
     }
     const openvdb::Coord origin = box.origin(i);
-    const Corner corner = corner_of(origin, voxel);
+    const std::array<float, 3> corner = corner_of(origin, voxel);
     const Nodes nodes = smoke.at_nodes(corner, voxel, with_mass.balls(i));
     if (largest(nodes) <= static_cast<double>(kThinnestSmoke)) {
       return;
@@ -120,8 +100,7 @@ public:
   }
   void shade(const Leaf& leaf, LeafValues& out) const {
     for (std::size_t i = 0; i < kLeafVoxels; ++i) {
-      const float t = std::clamp((part(leaf, i) - kEdgeLow) / (kEdgeHigh - kEdgeLow), 0.0F, 1.0F);
-      out[i] = leaf.concentration[i] * t * t * (3.0F - 2.0F * t) * factor_;
+      out[i] = leaf.concentration[i] * smoothstep(kEdgeLow, kEdgeHigh, part(leaf, i)) * factor_;
     }
   }
   void size(const Leaf& leaf, LeafValues& out) const {
@@ -133,8 +112,7 @@ public:
     const float low = static_cast<float>(leaf.origin.z()) * voxel_;
     for (std::size_t i = 0; i < kLeafVoxels; ++i) {
       const float height = low + static_cast<float>(i % kLeafSide) * voxel_;
-      const float air = kGroundKelvin - kLapse * height;
-      out[i] = std::min(air + heat_ * leaf.concentration[i], kHottest);
+      out[i] = std::min(air_kelvin(height) + heat_ * leaf.concentration[i], kHottest);
     }
   }
 
@@ -147,28 +125,6 @@ private:
   float factor_;
   float heat_;
 };
-
-openvdb::FloatGrid::Ptr flame_grid(const Flames& flames, double voxel_size) {
-  openvdb::FloatGrid::Ptr grid = fog_grid("flame", voxel_size, {0.0, 0.0, 0.0}, "1");
-  auto accessor = grid->getAccessor();
-  for (std::size_t i = 0; i < flames.power.size(); ++i) {
-    const openvdb::Vec3d at(flames.position[3 * i] / voxel_size,
-                            flames.position[3 * i + 1] / voxel_size,
-                            flames.position[3 * i + 2] / voxel_size);
-    const openvdb::Coord low = openvdb::Coord::round(at - openvdb::Vec3d(1.5));
-    const openvdb::Coord high = openvdb::Coord::round(at + openvdb::Vec3d(1.5));
-    for (auto voxel = openvdb::CoordBBox(low, high).begin(); voxel; ++voxel) {
-      const double rest = 1.0 - ((*voxel).asVec3d() - at).length() / 1.5;
-      if (rest > 0.0 && flames.power[i] > 0.0) {
-        const float value =
-            accessor.getValue(*voxel) + static_cast<float>(rest * flames.power[i] / 1.0e9);
-        accessor.setValue(*voxel, std::min(value, 1.0F));
-      }
-    }
-  }
-  grid->setSaveFloatAsHalf(true);
-  return grid;
-}
 
 } // namespace
 
@@ -187,28 +143,21 @@ VolumeFrame write_smoke(const std::string& path, const Puffs& puffs, double voxe
   const double factor = mass > 0.0 ? total / mass / kFreshSmoke : 0.0;
   const auto voxel = static_cast<float>(voxel_size);
   const Values values(voxel, static_cast<float>(factor), static_cast<float>(puffs.heat_per_smoke));
-  std::vector<GridName> names{{"density", "(m + 300) / 600"},
-                              {"dilution", "1e-5 kg/m3"},
-                              {"shade", "1e-5 kg/m3"},
-                              {"size", "km"},
-                              {"temperature", "K"}};
-  if (!flames.power.empty()) {
-    names.push_back({"glow", "1"});
-  }
   std::vector<double> written(all.size()); // kg, of the values that go into the file
   VolumeArchive archive;
-  archive.add(names, voxel_size, shared, [&](std::size_t i, std::span<LeafValues> out) {
-    const Leaf& leaf = *all[i];
-    values.density(leaf, out[0]);
-    values.dilution(leaf, out[1]);
-    written[i] = mass_of(leaf.mask, out[1], voxel_size) * kFreshSmoke;
-    values.shade(leaf, out[2]);
-    values.size(leaf, out[3]);
-    values.temperature(leaf, out[4]);
-    if (!flames.power.empty()) {
-      interpolate(glow_at_nodes(corner_of(leaf.origin, voxel), voxel, flames), out[5]);
-    }
-  });
+  archive.add(smoke_grids(!flames.power.empty(), "(m + 300) / 600"), voxel_size, shared,
+              [&](std::size_t i, std::span<LeafValues> out) {
+                const Leaf& leaf = *all[i];
+                values.density(leaf, out[0]);
+                values.dilution(leaf, out[1]);
+                written[i] = mass_of(leaf.mask, out[1], voxel_size) * kFreshSmoke;
+                values.shade(leaf, out[2]);
+                values.size(leaf, out[3]);
+                values.temperature(leaf, out[4]);
+                if (!flames.power.empty()) {
+                  glow(leaf.origin, voxel, flames, out[5]);
+                }
+              });
   if (!flames.power.empty()) {
     archive.add({flame_grid(flames, voxel_size)});
   }

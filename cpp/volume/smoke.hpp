@@ -1,18 +1,11 @@
 #pragma once
 
+#include "grids.hpp"
 #include "puffs.hpp"
-#include "smooth.hpp"
-#include "vdb.hpp"
 
 #include <string>
 
 namespace firetwin {
-
-/// Smoke that counts as dilution 1, kg/m3: 10 mg/m3, as over a crown fire.
-constexpr double kFreshSmoke = 1.0e-5;
-
-/// Thinner smoke than this times kFreshSmoke is left out.
-constexpr double kThinnest = 2.0e-3;
 
 /// Writes the smoke as grids of one sparse OpenVDB file (half precision):
 /// - `density`: clamp((d + 300 m) / 600 m, 0, 1), d the distance into the union of the balls; 0 and
