@@ -52,6 +52,8 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     flaming, embers = _glow(tree, place, rock)
     normal = tree.output("ShaderNodeBump", {"Strength": 0.9, "Distance": 1.0, "Height": bump})
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Roughness": 0.6, "Normal": normal})
+    lake = tree.attribute("water") > 0.5
+    matt = tree.mix_shader(lake, matt, _water(tree, place))
     light = tree.mix_colour(flaming / (flaming + embers + 1.0e-4), EMBER, FLAME)
     power = flaming * _FLAME_LIGHT + embers * (_EMBER_LIGHT if project.fire.embers else 0.0)
     # Lamps and the smoke's glow carry the light of flames: rays that happen to meet the edge would be noise.
@@ -148,6 +150,15 @@ def _granite(tree: nodes.Tree, place: _Place) -> nodes.Value:
     shrubs = tree.noise(place.position, 14.0, 4.0, 0.65).smoothstep(0.53, 0.60)
     stone = tree.mix_colour(stain.smoothstep(0.5, 0.75) * 0.6, stone, (0.070, 0.062, 0.052))
     return tree.mix_colour(shrubs * 0.8, stone, (0.030, 0.038, 0.018))
+
+
+def _water(tree: nodes.Tree, place: _Place) -> nodes.Value:
+    """Dark water that mirrors the sky, more at grazing angles, ruffled by the wind."""
+    ripples = tree.noise(place.position, 7.0, 2.0) * 0.05
+    normal = tree.output("ShaderNodeBump", {"Strength": 0.5, "Distance": 1.0, "Height": ripples})
+    deep = tree.output("ShaderNodeBsdfDiffuse", {"Color": (0.010, 0.022, 0.024)})
+    mirror = tree.output("ShaderNodeBsdfGlossy", {"Roughness": 0.22, "Normal": normal})
+    return tree.mix_shader(tree.output("ShaderNodeFresnel", {"IOR": 1.33}), deep, mirror)
 
 
 def _charred(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> nodes.Value:
