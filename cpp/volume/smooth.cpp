@@ -29,7 +29,7 @@ Ticks ticks(const std::array<float, 3>& corner, float voxel_size) {
   return result;
 }
 
-/// Adds weight max(0, 1 - r^2 inverse) of one puff at all nodes.
+/// weight max(0, 1 - (r^2 inverse)^2) of one puff at all nodes.
 struct Puff {
   const double* position;
   double inverse;
@@ -47,7 +47,8 @@ FIRETWIN_CLONES void add_puffs(const Puff* puffs, std::size_t count, const Ticks
     for (std::size_t row = 0; row < kRows; ++row) {
       const double dx = at[0][row / 3] - puff.position[0];
       const double dy = at[1][row % 3] - puff.position[1];
-      const WideLanes rest = 1.0 - (dz2 + (dx * dx + dy * dy)) * puff.inverse;
+      const WideLanes part2 = (dz2 + (dx * dx + dy * dy)) * puff.inverse;
+      const WideLanes rest = 1.0 - part2 * part2;
       const WideLanes none{};
       rows[row] += (rest > none ? rest : none) * puff.weight;
     }
@@ -154,7 +155,7 @@ Smoke::Smoke(const Puffs& puffs) : sources_(puffs.size()) {
       sources_[i].position[axis] = static_cast<double>(puffs.position[3 * i + axis]);
     }
     sources_[i].inverse = 1.0 / (reach * reach);
-    sources_[i].weight = puffs.mass[i] * 15.0 / (8.0 * std::numbers::pi) / (reach * reach * reach);
+    sources_[i].weight = puffs.mass[i] * 21.0 / (16.0 * std::numbers::pi) / (reach * reach * reach);
   }
 }
 

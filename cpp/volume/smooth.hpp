@@ -16,9 +16,10 @@ struct Flames {
   std::span<const double> power;
 };
 
-/// How far the mass of a puff of radius R is spread, m.
+/// How far the mass of a puff of radius R is spread, m: to the far side of the balls on its
+/// surface.
 inline float spread(float radius) {
-  return 1.2F * radius + 120.0F;
+  return 1.5F * radius + 60.0F;
 }
 
 /// A smooth field on 3^3 nodes, four voxels apart, that neighbouring leaves share. Each row of
@@ -30,8 +31,8 @@ class Smoke {
 public:
   explicit Smoke(const Puffs& puffs);
 
-  /// kg/m3 at the nodes of the leaf whose lowest voxel is centred on `corner`: each puff is 15 M /
-  /// (8 pi s^3) (1 - r^2 / s^2), s = spread(radius). `balls` are numbers of puffs.
+  /// kg/m3 at the nodes of the leaf whose lowest voxel is centred on `corner`: each puff is 21 M /
+  /// (16 pi s^3) (1 - r^4 / s^4), s = spread(radius). `balls` are numbers of puffs.
   Nodes at_nodes(const std::array<float, 3>& corner, float voxel_size,
                  std::span<const std::uint32_t> balls) const;
 
