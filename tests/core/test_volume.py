@@ -151,7 +151,7 @@ def test_density_is_the_clipped_distance_into_the_balls(tmp_path):
 
 @pytest.mark.parametrize("voxel", [40.0, 70.0, 130.0, 300.0])
 def test_every_voxel_of_small_smoke_is_right(tmp_path, voxel):
-    """Few, small puffs, whose balls reach farther than their mass: all that is thick enough, and only that."""
+    """Few, small puffs, whose balls reach farther than their mass."""
     puffs = smoke(900.0, cells=burn(6), smallest=60.0)
     path = tmp_path / "smoke.vdb"
     volume.write_smoke(path, puffs, voxel)
