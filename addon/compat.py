@@ -188,7 +188,7 @@ def new_strip(
 
 
 def march_through_volumes(cycles: bpy.types.PropertyGroup) -> None:
-    """Make Cycles march through volumes in steps, as 4.5 always does; 5.0 offers an unbiased way beside it."""
+    """Make Cycles march through volumes in steps, as 4.5 always does; 5.0 has an unbiased way beside it."""
     if hasattr(cycles, "volume_biased"):
         cycles.volume_biased = True
 
