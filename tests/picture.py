@@ -1,7 +1,7 @@
 """The example's drone frame by one Blender, and how far the frames of several Blenders differ.
 
 picture.py render RUN OUT         with the Python that has Firetwin and Blender
-picture.py compare OUT OUT ...    with the Python that has flip-evaluator; the first is what others are held to
+    picture.py compare OUT OUT ...    with one that has flip-evaluator; the first is what others are held to
 """
 
 from __future__ import annotations
