@@ -195,7 +195,8 @@ def _distance(project: Project, run: Run) -> float:
 
 
 def _cache(project: Project) -> Path:
-    return project.cache if project.cache.is_absolute() else project.path.parent / project.cache
+    """The project's cache folder, absolute: Blender takes other paths for places beside the .blend file."""
+    return project.cache.absolute()
 
 
 def _key(project: Project, run: Run) -> str:
