@@ -57,7 +57,7 @@ def _voxel_sizes(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
             frame.active_voxels,
             "voxel",
             error=abs(mass / exact - 1),
-            error_unit="relative, mass",
+            error_unit="of the mass",
             threads=2,
             bytes=frame.bytes,
         )
@@ -73,12 +73,12 @@ def _precisions(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
         frame = write()
         mass = mass_in(openvdb, path, "density", 1.0) if openvdb else frame.mass
         bench.row(
-            f"array of {DENSE} x {DENSE} x {DENSE // 3}, {'half' if half else 'single'} precision",
+            f"dense array in {'half' if half else 'single'} precision",
             OURS,
             seconds,
             frame.active_voxels,
             "voxel",
             error=abs(mass / exact - 1),
-            error_unit="relative, mass",
+            error_unit="of the mass",
             bytes=frame.bytes,
         )
