@@ -30,11 +30,11 @@ def moment(run: Run, time: float) -> datetime:
 
 
 def window(project: Project, run: Run) -> tuple[float, float]:
-    """Model time (s) of the first and the last frame."""
+    """Model time (s) of the first and the last frame; one frame is the first."""
     start, end = project.time.start, project.time.end
     first = float(run.times[0]) if start is None else seconds(run, start)
     last = float(run.times[-1]) if end is None else seconds(run, end)
-    return first, last
+    return first, last if project.time.frames > 1 else first
 
 
 def step(project: Project, run: Run) -> float:

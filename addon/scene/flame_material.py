@@ -17,7 +17,7 @@ _RISE = 9.0  # m/s at which the pattern rises
 def brightness(project: Project, run: Run) -> float:
     """Radiance of flames: less in a longer exposure, as a photographer stops down, else nights burn out."""
     first, last = clock.window(project, run)
-    return _LIGHT * 2.0 ** (-0.7 * light.State(project, *sun.at(run, 0.5 * (first + last))).exposure)
+    return _LIGHT * 2.0 ** (-0.85 * light.State(project, *sun.at(run, 0.5 * (first + last))).exposure)
 
 
 def build(project: Project, run: Run) -> bpy.types.Material:
