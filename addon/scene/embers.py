@@ -83,7 +83,8 @@ class Launches:
 def updraft(intensity: Array) -> Array:
     """Speed (m/s) of the gas over a line fire of `intensity` kW/m: (g I / (rho cp T))^(1/3).
 
-    On the axis of the plume it is about twice that (assumed). It does not depend on height (Yokoi 1960; Lee and Emmons 1961; J. Fluid Mech. 11, 353).
+    That does not depend on height (Yokoi 1960; Lee and Emmons 1961, J. Fluid Mech. 11, 353). On the axis of
+    the plume it is about twice that (assumed).
     """
     return np.cbrt(9.81 * np.asarray(intensity, np.float64) * 1000.0 / _AIR)
 
@@ -140,8 +141,7 @@ def _launched(
     def random(use: int) -> Array:
         return noise.uniform(source, number, seed + use)
 
-    normal = np.sqrt(-2.0 * np.log(np.maximum(random(1), 1.0e-9))) * np.cos(2.0 * np.pi * random(2))
-    size = np.clip(_SIZE * np.exp(_SIZES * normal), *_SIZE_RANGE)
+    size = np.clip(_SIZE * np.exp(_SIZES * noise.normal(random(1), random(2))), *_SIZE_RANGE)
     side = 0.5 * points.width[source]
     place = points.position[source] + np.stack(
         [

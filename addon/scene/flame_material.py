@@ -10,7 +10,7 @@ from ..project import Project
 from . import clock, haze, light, sun
 
 _RIM, _BODY, _CORE = (1.0, 0.09, 0.008), (1.0, 0.26, 0.035), (1.0, 0.50, 0.16)
-_LIGHT = 20.0  # radiance at exposure 0
+_LIGHT = 13.0  # radiance at exposure 0
 _RISE = 9.0  # m/s at which the pattern rises
 
 

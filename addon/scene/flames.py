@@ -123,7 +123,7 @@ def front(
     place = ground.point(*ground.places(row, column)) if len(row) else np.empty((0, 3))
     distance = np.min([view.distance(place) for view in near], axis=0) if near else np.zeros(len(row))
     intensity = burning.HEAT / 1000.0 * fuel * speed
-    uneven = np.exp(_SIZES * _normal(random[0], random[1]))
+    uneven = np.exp(_SIZES * noise.normal(random[0], random[1]))
     length = np.clip(flame_length(intensity, project.fire.flame_length) * uneven, *_LENGTHS)
     thin = lod.Table().multiplier(distance) if len(distance) else np.ones(0)
     wind = float(np.hypot(*burning.wind_at(run, np.array([0.5 * (first + last)]))[0]))
@@ -147,8 +147,8 @@ def front(
 def torches(project: Project, ground: Ground, grown: Stand, wind: float, first: float, last: float) -> Points:
     """Crowns of the stand that flare up when the front reaches them: tall, thin and short-lived.
 
-    A crown burns for half a minute to a minute, with a flame of up to twice the tree's height (both assumed).
-    The denser the canopy the more crowns do.
+    A crown burns for half a minute to a minute, up to twice the tree's height (assumed), and the denser the
+    canopy the more crowns do.
     """
     near = np.flatnonzero((grown.distance < _TORCH_SIGHT) & (grown.height > 6.0))
     row, column = ground.indices(*ground.geodetic(*grown.position[near, :2].T))
@@ -189,9 +189,8 @@ def power(points: Points, run: Run, time: float) -> tuple[Array, heat.Sources]:
     lit = points.lit(time)
     cell = model.fuel_cell_at(points.position[lit])
     weight = points.intensity[lit] * points.width[lit]
-    cells_of_all = run.surface_fuel.size
-    total = np.bincount(cell, weight, cells_of_all)
-    flaming = np.zeros(cells_of_all)
+    total = np.bincount(cell, weight, run.surface_fuel.size)
+    flaming = np.zeros(run.surface_fuel.size)
     shared = np.flatnonzero((sources.fuel_cell >= 0) & (total[sources.fuel_cell] > 0.0))
     flaming[sources.fuel_cell[shared]] = sources.flaming[shared]
     found = np.zeros(len(points.seed))
@@ -284,11 +283,6 @@ def _spread(ground: Ground, row: Array, column: Array) -> Array:
         ]
         slope.append((times[0] - times[1]) / size)
     return np.clip(1.0 / np.maximum(np.hypot(*slope), 1.0e-6), *_SPREAD)
-
-
-def _normal(first: Array, second: Array) -> Array:
-    """Normal deviates from two uniform ones (Box and Muller 1958)."""
-    return np.sqrt(-2.0 * np.log1p(-first * 0.9999)) * np.cos(2.0 * np.pi * second)
 
 
 def _within_budget(points: Points, project: Project, run: Run, views: list[Path]) -> Points:

@@ -154,42 +154,45 @@ def lights(sources: Sources, block: float = 300.0, count: int = 400) -> Sources:
     """Sources merged into at most `count`, without losing heat and without jumps from moment to moment.
 
     Each is shared between the four nearest nodes of a fixed grid, `block` metres apart, by bilinear weights.
-    Where more than `count` nodes are left, the weak ones hand their heat to strong ones nearby. How much they
-    hand on, and to whom, changes gradually with their powers, so no light comes or goes at once.
+    Half of `count` is for the strongest nodes; what the others have goes to a grid twice as coarse, half of
+    what is left of `count` is for that, and so on. A node becomes one of the strongest gradually, between
+    the power of the strongest that is not and twice that, so no light comes or goes at once.
     """
-    lit = np.flatnonzero(sources.power > 0.0)
-    low = np.floor(sources.position[lit, :2] / block).astype(np.int64)
-    part = sources.position[lit, :2] / block - low
-    node, weight, member = [], [], []
-    for east in (0, 1):
-        for north in (0, 1):
-            node.append(low + np.array([east, north]))
-            weight.append(np.abs(1 - east - part[:, 0]) * np.abs(1 - north - part[:, 1]))
-            member.append(lit)
-    weight, member = np.concatenate(weight), np.concatenate(member)
-    key = np.concatenate(node) @ np.array([1 << 32, 1])
+    kept: list[Sources] = []
+    rest = sources.take(np.flatnonzero(sources.power > 0.0))
+    while count > 0 and len(rest.power):
+        nodes = _on_grid(rest, block) if count > 1 else _gathered(rest, np.zeros(len(rest.power), np.int64))
+        room = (count + 1) // 2
+        if len(nodes.power) <= room:
+            kept.append(nodes)
+            break
+        edge = float(np.partition(nodes.power, -room - 1)[-room - 1])
+        part = np.clip(nodes.power / edge - 1.0, 0.0, 1.0)
+        strong, weak = np.flatnonzero(part > 0.0), np.flatnonzero(part < 1.0)
+        kept.append(_gathered(nodes, np.arange(len(strong)), part[strong], strong))
+        rest = _gathered(nodes, np.arange(len(weak)), 1.0 - part[weak], weak)
+        count, block = count - room, 2.0 * block
+    if not kept:
+        return sources.take(np.empty(0, np.int64))
+    return Sources(*(np.concatenate([getattr(k, field.name) for k in kept]) for field in fields(Sources)))
+
+
+def _on_grid(sources: Sources, block: float) -> Sources:
+    """Sources shared between the nodes of a grid, `block` metres apart, by bilinear weights."""
+    low = np.floor(sources.position[:, :2] / block).astype(np.int64)
+    part = sources.position[:, :2] / block - low
+    corners = [(east, north) for east in (0, 1) for north in (0, 1)]
+    weight = [np.abs(1 - e - part[:, 0]) * np.abs(1 - n - part[:, 1]) for e, n in corners]
+    key = np.concatenate([low + np.array(corner) for corner in corners]) @ np.array([1 << 32, 1])
     _, group = np.unique(key, return_inverse=True)
-    merged = _gathered(sources, group, weight, member)
-    if count <= 0:
-        return merged.take(np.empty(0, np.int64))
-    if len(merged.power) <= count:
-        return merged
-    edge = float(np.partition(merged.power, -count - 1)[-count - 1])
-    rank = np.clip(merged.power / edge - 1.0, 0.0, 1.0)
-    kept = np.flatnonzero(rank > 0.0)
-    if len(kept) == 0:  # all alike
-        kept, rank = np.argsort(-merged.power, kind="stable")[:count], np.ones(len(rank))
-        rank[np.setdiff1d(np.arange(len(rank)), kept)] = 0.0
-    gap = merged.position[:, None, :2] - merged.position[None, kept, :2]
-    pull = (merged.power * rank)[kept] / (np.einsum("ijk,ijk->ij", gap, gap) / block**2 + 0.25) ** 2
-    pull *= ((1.0 - rank) / pull.sum(axis=1))[:, None]
-    pull[kept, np.arange(len(kept))] += rank[kept]
-    giver, taker = np.nonzero(pull > 0.0)
-    return _gathered(merged, taker, pull[giver, taker], giver)
+    return _gathered(sources, group, np.concatenate(weight), np.tile(np.arange(len(low)), 4))
 
 
 def _gathered(
-    sources: Sources, group: NDArray[np.int64], weight: Array, member: NDArray[np.int64]
+    sources: Sources,
+    group: NDArray[np.int64],
+    weight: Array | float = 1.0,
+    member: NDArray | slice = slice(None),
 ) -> Sources:
     """Sums of parts `weight` of the sources `member` in each `group`, at their centres of power."""
     power = sources.power[member] * weight

@@ -15,13 +15,15 @@ from numpy.typing import NDArray
 
 from .. import compat
 from ..project import Project
-from . import clock, collections, flame_material, heat, sun
+from . import clock, collections, heat, noise, sun
 from .ground import Ground
 from .paths import Path
 
-DAY = 8.0  # degrees; under a sun higher than this lamps change no pixel that anyone could see
+# Degrees of the sun: under the lower one flames light the ground fully, over the upper one not at all. By day
+# sunlight drowns their light by more than the few stops that exposures of day and night differ here.
+NIGHT, DAY = -6.0, 6.0
 COLOUR = (1.0, 0.32, 0.07)  # light of flames of 1300 K as AgX shows it
-LIGHT = 2.2e-4  # W of light for each W of heat and unit of the flames' radiance; chosen by eye
+LIGHT = 6.0e-4  # W of light for each luminous W of heat by night; chosen by eye
 _REACH = 9000.0  # m from a camera; light on ground farther away is not seen
 _NEAR = 150.0  # m; nearer than this the distance from the camera does not make lamps closer to each other
 _KEYS = 25  # at most this many moments of the shot
@@ -60,10 +62,10 @@ def build(
     """Build "Firetwin Lamp 00" and so on in the collection "Firetwin Lamps"; none by day."""
     collection = collections.fresh("Lamps", parent=parent)
     first, last = clock.window(project, run)
-    if project.light.lamps == 0 or min(sun.at(run, t)[1] for t in np.linspace(first, last, 5)) > DAY:
+    if project.light.lamps == 0 or np.all(darkness(run, np.linspace(first, last, 9)) == 0.0):
         return []
     found = place(project, run, ground, views)
-    strength = LIGHT * flame_material.brightness(project, run)
+    strength = LIGHT * darkness(run, found.time)
     frames = 1.0 + (found.time - first) / (clock.step(project, run) or 1.0)
     return [
         _lamp(
@@ -76,6 +78,11 @@ def build(
         )
         for i in range(len(found.radius))
     ]
+
+
+def darkness(run: Run, times: Array) -> Array:
+    """0 by day to 1 by night at model times (n,), s; it begins too gently to be seen."""
+    return noise.smoothstep(DAY, NIGHT, [sun.at(run, float(time))[1] for time in times]) ** 2
 
 
 def place(project: Project, run: Run, ground: Ground, views: list[Path]) -> Lamps:
