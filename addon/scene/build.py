@@ -20,7 +20,7 @@ def build(project: Project, run: Run, scene: bpy.types.Scene | None = None) -> b
     grown = stand.grow(project, ground, views) if project.forest.trees else None
     terrain.build(project, run, ground, views, grown)
     forest.build(project, run, ground, views, grown)
-    fire.build(project, run, ground, views)
+    fire.build(project, run, ground, views, grown)
     smoke.build(project, run)
     light.build(project, run, scene)
     cameras.build(project, run, views, scene)
