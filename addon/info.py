@@ -119,6 +119,37 @@ def page(info: dict[str, Any]) -> str:
     )
 
 
+def brief(info: dict[str, Any]) -> list[tuple[str, str]]:
+    """The most important facts in short: labels and texts for a narrow panel."""
+    grid, fuel, when = info["grid"], info["fuel_grid"], info["times"]
+    burned = [info["burned"][key] / ACRE for key in ("first", "last")]
+    interval = f", every {when['interval']['min']:g} s" if _even(when) else ""
+    return [
+        *([("", "Synthetic: not a model's output")] if info["synthetic"] else []),
+        ("Grid", _cells(grid)),
+        ("Fuels", _cells(fuel)),
+        ("Extent", f"{grid['extent'][1] / 1e3:.1f} x {grid['extent'][0] / 1e3:.1f} km"),
+        ("Heights", f"{grid['elevation']['min']:,.0f} to {grid['elevation']['max']:,.0f} m"),
+        ("Times", f"{when['count']:,}{interval}"),
+        *(
+            (label, times.text(datetime.fromisoformat(when[key]), info["zone"]))
+            for label, key in (("First", "first"), ("Last", "last"))
+        ),
+        ("Burned", f"{burned[0]:,.0f} to {burned[1]:,.0f} acres"),
+        ("Heat flux", f"up to {info['heat_flux']['max'] / 1e3:,.4g} kW/m2"),
+    ]
+
+
+def _cells(grid: dict[str, Any]) -> str:
+    (ny, nx), (dx, dy) = grid["shape"], grid["spacing"]
+    return f"{ny} x {nx} cells of {(dx * dy) ** 0.5:.0f} m"
+
+
+def _even(when: dict[str, Any]) -> bool:
+    """Whether all times are equally far apart."""
+    return when["interval"] is not None and when["interval"]["max"] - when["interval"]["min"] < 1e-6
+
+
 def _facts(info: dict[str, Any]) -> list[tuple[str, str]]:
     grid, fuel, when = info["grid"], info["fuel_grid"], info["times"]
     zone, height = info["zone"], grid["elevation"]
@@ -126,7 +157,7 @@ def _facts(info: dict[str, Any]) -> list[tuple[str, str]]:
     interval = ""
     if when["interval"]:
         least, most = when["interval"]["min"], when["interval"]["max"]
-        interval = f", every {least:g} s" if most - least < 1e-6 else f", {least:g} to {most:g} s apart"
+        interval = f", every {least:g} s" if _even(when) else f", {least:g} to {most:g} s apart"
     facts = [
         ("Model grid", _size(grid)),
         ("", _span(grid["latitude"], "N", "S") + ", " + _span(grid["longitude"], "E", "W")),
