@@ -158,7 +158,11 @@ def _end(child: subprocess.Popen[str]) -> None:
 def _command(code: str) -> list[str]:
     """Python with Blender as a module, or Blender itself where this runs inside it."""
     blender = sys.modules["bpy"].app.binary_path if "bpy" in sys.modules else ""
-    return [blender, "--background", "--python-expr", code] if blender else [sys.executable, "-c", code]
+    return (
+        [blender, "--background", "--disable-autoexec", "--python-expr", code]
+        if blender
+        else [sys.executable, "-c", code]
+    )
 
 
 def _environment(eevee: bool) -> dict[str, str]:
