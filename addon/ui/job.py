@@ -161,7 +161,7 @@ def abandon() -> None:
     if Job.current is not None:
         Job.current.stop.now()
         Job.current = None
-        bpy.context.workspace.status_text_set(None)
+        _show(bpy.context, None)
 
 
 class Working:
@@ -236,8 +236,13 @@ class Working:
 def _show(context: bpy.types.Context, work: Job | None) -> None:
     """Draw the sidebars and the status bar anew."""
     if context.workspace is not None:
-        context.workspace.status_text_set(f"{work.text}    Esc stops" if work else None)
-    for window in context.window_manager.windows:
+        context.workspace.status_text_set(f"{work.name}: {work.text}    Esc stops" if work else None)
+    redraw()
+
+
+def redraw() -> None:
+    """Draw the 3D views and their sidebars anew."""
+    for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
                 area.tag_redraw()

@@ -89,15 +89,15 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup):
         description="Which frames to render",
         items=(
             ("frame", "This frame", "The frame that is shown"),
-            ("list", "Frames", "A list of frames"),
+            ("list", "List", "A list of frames"),
             ("all", "All", "Every frame of the cameras"),
         ),
     )
     frame_list: bpy.props.StringProperty(
-        name="List", description="Frames such as 7, 1-10, 3,5-9 or 1-48:4", default="1-10"
+        name="Frames", description="Frames such as 7, 1-10, 3,5-9 or 1-48:4", default="1-10"
     )
     resume: bpy.props.BoolProperty(
-        name="Keep what is finished",
+        name="Keep finished",
         description="Render only what is missing or was made with other settings",
         default=True,
     )

@@ -9,6 +9,7 @@ import bpy
 from . import job, run
 from .job import Away, Steps, Working
 
+NO_OUTPUT = "Save the .blend file or choose an output folder first"
 _items: list[tuple[str, str, str]] = []  # Blender keeps no reference of its own to these texts
 
 
@@ -37,7 +38,7 @@ class FIRETWIN_OT_render(Working, bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         settings = context.scene.firetwin
         if settings.run and not run.output(settings):
-            cls.poll_message_set("Save the .blend file or choose an output folder first")
+            cls.poll_message_set(NO_OUTPUT)
             return False
         if settings.run and not settings.passes:
             cls.poll_message_set("Choose at least one pass")
@@ -81,16 +82,22 @@ class FIRETWIN_PT_render(bpy.types.Panel):
         column.prop(settings, "output")
         column.prop(settings, "engine")
         column.prop(settings, "camera")
-        column.row(align=True).prop(settings, "passes")
-        column.row(align=True).prop(settings, "which", expand=True)
+        column.prop(settings, "resume")
+        for name in ("passes", "which"):
+            row = column.row(align=True)
+            row.use_property_split = False
+            row.prop(settings, name, expand=True)
         if settings.which == "list":
             column.prop(settings, "frame_list")
-        column.prop(settings, "resume")
         row = layout.row(align=True)
         row.scale_y = 1.3
         row.operator(FIRETWIN_OT_render.bl_idname, icon="RENDER_STILL")
         out = run.output(settings)
-        row.operator("wm.path_open", text="", icon="FILE_FOLDER").filepath = out
+        folder = row.row(align=True)
+        folder.enabled = bool(out)
+        folder.operator("wm.path_open", text="", icon="FILE_FOLDER").filepath = out
+        if not out:
+            run.paragraph(context, layout.column(align=True), NO_OUTPUT, "INFO")
 
 
 classes = (FIRETWIN_OT_render, FIRETWIN_PT_render)

@@ -18,6 +18,7 @@ def chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> Non
     settings.facts = settings.problem = ""
     if settings.run and job.Job.current is None:
         _inspect(settings)
+    job.redraw()
 
 
 def scene_file_chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
@@ -31,6 +32,7 @@ def scene_file_chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Cont
         settings.run = str(project.load(absolute(settings.scene_file)).run)
     except Exception as error:
         settings.problem = job.words(error)
+        job.redraw()
 
 
 def _inspect(settings: bpy.types.PropertyGroup) -> None:
@@ -139,6 +141,9 @@ class FIRETWIN_PT_run(bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.firetwin, self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        job.draw(layout)
         column = layout.column()
         column.enabled = job.Job.current is None
         column.prop(settings, "scene_file", placeholder="Optional")
@@ -148,20 +153,32 @@ class FIRETWIN_PT_run(bpy.types.Panel):
         if settings.problem:
             box = layout.box().column(align=True)
             paragraph(context, box, settings.problem, "ERROR")
-        if settings.facts:
-            _facts(context, layout, read(settings.facts))
-        job.draw(layout)
 
 
-def _facts(context: bpy.types.Context, layout: bpy.types.UILayout, found: dict[str, Any]) -> None:
-    box = layout.box().column(align=True)
-    paragraph(context, box, found["name"])
-    for label, text in found["rows"]:
-        line = box.split(factor=0.3)
-        line.label(text=label)
-        line.label(text=text)
-    for warning in found["warnings"]:
-        paragraph(context, box, warning, "ERROR")
+class FIRETWIN_PT_facts(bpy.types.Panel):
+    """Grids, extent, times, burned area and warnings of the run"""
+
+    bl_idname = "FIRETWIN_PT_facts"
+    bl_label = "What It Holds"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Firetwin"
+    bl_parent_id = "FIRETWIN_PT_run"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return bool(context.scene.firetwin.facts)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        found = read(context.scene.firetwin.facts)
+        column = self.layout.column(align=True)
+        paragraph(context, column, found["name"])
+        for label, text in found["rows"]:
+            line = column.split(factor=0.3)
+            line.label(text=label)
+            line.label(text=text)
+        for warning in found["warnings"]:
+            paragraph(context, column, warning, "ERROR")
 
 
 def paragraph(context: bpy.types.Context, layout: bpy.types.UILayout, text: str, icon: str = "NONE") -> None:
@@ -174,4 +191,4 @@ def paragraph(context: bpy.types.Context, layout: bpy.types.UILayout, text: str,
         layout.label(text=line, icon=icon if number == 0 else ("BLANK1" if icon != "NONE" else "NONE"))
 
 
-classes = (FIRETWIN_OT_inspect, FIRETWIN_PT_run)
+classes = (FIRETWIN_OT_inspect, FIRETWIN_PT_run, FIRETWIN_PT_facts)

@@ -8,7 +8,17 @@ from pathlib import Path
 
 import bpy
 
-_OWNERS = ("Scene", "Object", "WindowManager", "Screen", "Window", "Collection", "World", "Camera", "Preferences")
+_OWNERS = (
+    "Scene",
+    "Object",
+    "WindowManager",
+    "Screen",
+    "Window",
+    "Collection",
+    "World",
+    "Camera",
+    "Preferences",
+)
 
 
 def take(folder: Path) -> dict[str, list[str]]:

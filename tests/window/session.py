@@ -240,7 +240,11 @@ def leave(before: dict[str, list[str]]) -> Iterator[object]:
     bpy.ops.preferences.addon_disable(module=MODULE)
     yield 2
     check(not hasattr(bpy.types.Scene, "firetwin"), "disabled")
-    remains = [name for name in inventory.left(before, inventory.take(USER)) if not name.startswith(("files", "search"))]
+    remains = [
+        name
+        for name in inventory.left(before, inventory.take(USER))
+        if not name.startswith(("files", "search"))
+    ]
     check(not remains, f"disabling leaves nothing registered {remains or ''}")
     picture("16-disabled")
     bpy.ops.preferences.addon_enable(module=MODULE)
