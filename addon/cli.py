@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -53,6 +54,9 @@ def _report(error: Exception) -> int:
         text = f"{error.filename}: {error.strerror}"
     elif isinstance(error, ModuleNotFoundError) and error.name == "bpy":
         text = "Blender's Python module is missing; install it with: pip install 'firetwin[blender]'"
+    elif isinstance(error, ModuleNotFoundError) and error.name == "matplotlib":  # not in Blender
+        pip = f"{shlex.quote(sys.executable)} -m pip install matplotlib"
+        text = f"maps and plots need matplotlib; install it with: {pip}"
     else:
         text = f"unexpected {type(error).__name__}: {error} (run again with --debug for the details)"
     print(f"firetwin: {text}", file=sys.stderr)
