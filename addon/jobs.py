@@ -144,7 +144,8 @@ def _built(project: Project, run: Run, progress: Progress, frames: list[int] | N
     from .render import engine
     from .scene import bake, build
 
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    # Not read_factory_settings: its preferences enable no extension, and Blender then deletes their wheels.
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     if project.smoke.enabled and frames != []:
         bake.bake(project, run, progress, frames)
     progress(0, 1, "building the scene")

@@ -17,16 +17,17 @@ _SOUTH_WEST = np.array([1.0, 1.0]) / np.sqrt(2.0)  # direction of a wind that no
 def cameras(run: Run) -> tuple[Camera, ...]:
     """A drone that looks at the fire and stays, and a satellite that sees the whole run."""
     latitude, longitude = np.asarray(run.latitude), np.asarray(run.longitude)
-    dx, dy = areas.spacing(latitude[[0, -1]], longitude[[0, -1]])  # m from the first to the last
-    one_degree = np.array([dx / np.ptp(longitude), dy / np.ptp(latitude)])
     (west, south), (east, north) = burned(run)
     middle = np.array([(west + east) / 2, (south + north) / 2])
+    one_degree = np.array(areas.spacing(middle[1] + [-0.5, 0.5], middle[0] + [-0.5, 0.5]))  # m east, north
     length = max(float(np.hypot(*((east - west, north - south) * one_degree))), _LEAST)
+    width, height = np.array([np.ptp(longitude), np.ptp(latitude)]) * one_degree
+    swath = max(width, height * 16 / 9, _LEAST) * 1.05
     place = middle - _DISTANCE * length * blowing(run) / one_degree
     key = CameraKey(0.0, float(place[1]), float(place[0]), _HEIGHT * length, "point", *middle[::-1].tolist())
     return (
         Camera("overview", keys=(key,)),
-        Camera("satellite", kind="satellite", swath=float(max(dx, dy * 16 / 9) * 1.05)),
+        Camera("satellite", kind="satellite", swath=float(swath)),
     )
 
 

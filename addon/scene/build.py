@@ -8,7 +8,7 @@ import bpy
 from firetwin_core.run import Run
 
 from ..project import Project
-from . import cameras, clock, collections, fire, forest, light, sensors, smoke, stand, terrain
+from . import cameras, clock, collections, display, fire, forest, light, sensors, smoke, stand, terrain
 from .ground import Ground
 from .paths import Path, eyes, paths
 
@@ -41,6 +41,7 @@ def steps(project: Project, run: Run, scene: bpy.types.Scene) -> Iterator[str]:
     light.build(project, run, scene)
     cameras.build(project, run, views, scene)
     sensors.build(project, run, scene)
+    display.build()
 
 
 def survey(project: Project, run: Run) -> tuple[Ground, list[Path]]:

@@ -7,6 +7,7 @@ from datetime import datetime, timedelta
 import bpy
 
 from .. import times
+from . import run
 
 
 def position(settings: bpy.types.PropertyGroup) -> float:
@@ -54,12 +55,14 @@ class FIRETWIN_PT_clock(bpy.types.Panel):
         settings, layout = context.scene.firetwin, self.layout
         now = moment(settings)
         local = times.text(now, settings.zone)
-        layout.prop(settings, "model_time", text=f"Frame {context.scene.frame_current}", slider=True)
+        layout.prop(settings, "model_time", text=local.split(maxsplit=3)[-1], slider=True)
         column = layout.column(align=True)
-        for label, text in (("Local", local), ("UTC", f"{now.day} {now:%b %Y %H:%M}")):
-            line = column.split(factor=0.3)
-            line.label(text=label)
-            line.label(text=text)
+        for label, text in (
+            ("Local", local),
+            ("UTC", f"{now.day} {now:%b %Y %H:%M}"),
+            ("Frame", f"{context.scene.frame_current} of {settings.frames}"),
+        ):
+            run.labelled(column, label).label(text=text)
 
 
 classes = (FIRETWIN_PT_clock,)

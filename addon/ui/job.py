@@ -54,7 +54,6 @@ class Job:
         self._thread: threading.Thread | None = None
         self._outcome: dict[str, Any] = {}
         self._shown = False
-        self._next: Any = None
 
     def run(self) -> str:
         """Take all steps at once; what there is to tell."""
@@ -97,18 +96,19 @@ class Job:
 
     def _step(self, wait: bool) -> bool:
         if self._thread is not None:
+            self._thread.join()
             self._thread = None
-            if "error" in self._outcome:
-                raise self._outcome["error"]
-            self._next = self._outcome.get("result")
+        outcome, self._outcome = self._outcome, {}
         if self.stop.asked:
-            raise StoppedError
+            outcome.setdefault("error", StoppedError())
         try:
-            step = self.steps.send(self._next)
+            if "error" in outcome:
+                step = self.steps.throw(outcome["error"])
+            else:
+                step = self.steps.send(outcome.get("result"))
         except StopIteration as end:
             self.told = end.value or ""
             return True
-        self._next = None
         self.what, self.done, self.total, self._since = _label(step), 0, 1, time.monotonic()
         if isinstance(step, Away):
             self._send_away(step.function)
@@ -241,11 +241,13 @@ def _show(context: bpy.types.Context, work: Job | None) -> None:
 
 
 def redraw() -> None:
-    """Draw the 3D views and their sidebars anew."""
+    """Draw the sidebars anew; the 3D views themselves may take long."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
-                area.tag_redraw()
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()
 
 
 def draw(layout: bpy.types.UILayout) -> None:

@@ -141,14 +141,13 @@ class FIRETWIN_PT_run(bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.firetwin, self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
         job.draw(layout)
         column = layout.column()
         column.enabled = job.Job.current is None
-        column.prop(settings, "scene_file", placeholder="Optional")
-        row = column.row(align=True)
-        row.prop(settings, "run")
+        row = labelled(column, "Scene file")
+        row.prop(settings, "scene_file", text="", placeholder="Optional")
+        row = labelled(column, "Run")
+        row.prop(settings, "run", text="")
         row.operator(FIRETWIN_OT_inspect.bl_idname, text="", icon="FILE_REFRESH")
         if settings.problem:
             box = layout.box().column(align=True)
@@ -174,11 +173,16 @@ class FIRETWIN_PT_facts(bpy.types.Panel):
         column = self.layout.column(align=True)
         paragraph(context, column, found["name"])
         for label, text in found["rows"]:
-            line = column.split(factor=0.3)
-            line.label(text=label)
-            line.label(text=text)
+            labelled(column, label).label(text=text)
         for warning in found["warnings"]:
             paragraph(context, column, warning, "ERROR")
+
+
+def labelled(layout: bpy.types.UILayout, label: str) -> bpy.types.UILayout:
+    """A row after a label that takes less room than Blender's own."""
+    line = layout.split(factor=0.3)
+    line.label(text=label)
+    return line.row(align=True)
 
 
 def paragraph(context: bpy.types.Context, layout: bpy.types.UILayout, text: str, icon: str = "NONE") -> None:

@@ -32,11 +32,11 @@ def look(context: bpy.types.Context, scene: bpy.types.Scene, whole: bool = False
             continue
         if scene.camera is not None and not whole:
             region.view_perspective = "CAMERA"
-            region.view_camera_zoom, region.view_camera_offset = 20.0, (0.0, 0.0)
+            region.view_camera_zoom, region.view_camera_offset = 10.0, (0.1, 0.0)  # beside the sidebar
             continue
         region.view_perspective = "PERSP"
         region.view_location = (0.0, 0.0, scene.firetwin.height)
-        region.view_distance = 1.5 * scene.firetwin.extent
+        region.view_distance = 1.8 * scene.firetwin.extent
         region.view_rotation = Euler((_TILT, 0.0, 0.0)).to_quaternion()
 
 

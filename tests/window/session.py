@@ -98,7 +98,9 @@ def built() -> list[str]:
 
 def install() -> Iterator[object]:
     bpy.ops.screen.userpref_show(section="EXTENSIONS")
-    yield 2
+    yield 1
+    subprocess.run(["xdotool", "search", "--name", "Preferences", "windowmove", "100", "60"], check=False)
+    yield 1
     window = bpy.context.window_manager.windows[-1]
     with bpy.context.temp_override(window=window, area=window.screen.areas[0]):
         done = bpy.ops.extensions.package_install_files(
