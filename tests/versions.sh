@@ -104,7 +104,7 @@ compare() {
   local venv=build/versions/flip version
   if [[ ! -f $venv/stamp ]]; then
     python3 -m venv "$venv"
-    "$venv/bin/pip" install --quiet --disable-pip-version-check "flip-evaluator==1.7" >&2
+    "$venv/bin/pip" install --quiet --disable-pip-version-check "flip-evaluator==1.7" numpy >&2
     touch "$venv/stamp"
   fi
   "$venv/bin/python" tests/picture.py compare "$@"
@@ -114,7 +114,7 @@ flip=build/versions/flip
 install_flip() {
   if [[ ! -f $flip/stamp ]]; then
     .venv/bin/python -m venv "$flip"
-    "$flip/bin/pip" install --quiet --disable-pip-version-check "flip-evaluator==1.7" >&2
+    "$flip/bin/pip" install --quiet --disable-pip-version-check "flip-evaluator==1.7" numpy >&2
     touch "$flip/stamp"
   fi
 }

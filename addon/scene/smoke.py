@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 from firetwin_core.run import Run
 
+from .. import compat
 from ..project import Project
 from . import bake, collections, smoke_material
 
@@ -33,4 +34,7 @@ def build(project: Project, run: Run) -> bpy.types.Object | None:
     for scene in bpy.data.scenes:
         scene.cycles.volume_step_rate = 1.0
         scene.cycles.volume_max_steps = _MAX_STEPS
-    return collections.add(collection, "Smoke", volume)
+    thing = collections.add(collection, "Smoke", volume)
+    shift = compat.volume_shift(bpy.context.scene.cycles, bake.resolution(project, run).voxel)
+    thing.location = (shift, shift, shift)
+    return thing

@@ -146,12 +146,13 @@ void LeafFields::concentrate(const Puffs& puffs, std::span<const std::uint32_t> 
         distance2 += d * d;
       }
       const double reach_m = static_cast<double>(spread(puffs.radius[ball]));
-      const double rest = 1.0 - distance2 / (reach_m * reach_m);
+      const double part2 = distance2 / (reach_m * reach_m);
+      const double rest = 1.0 - part2 * part2;
       if (rest > 0.0) {
         sum += puffs.mass[ball] * rest / (reach_m * reach_m * reach_m);
       }
     }
-    return sum * 15.0 / (8.0 * std::numbers::pi);
+    return sum * 21.0 / (16.0 * std::numbers::pi);
   });
   interpolate(nodes, concentration_);
 }

@@ -12,9 +12,9 @@ namespace firetwin {
 constexpr float kInside = 300.0F;  // m of depth at which density reaches 1
 constexpr float kOutside = 150.0F; // m outside the balls where voxels end
 
-/// How far the mass of a puff of radius R is spread, m.
+/// How far the mass of a puff of radius R is spread, m: to the far side of the balls on its surface.
 inline float spread(float radius) {
-  return 1.2F * radius + 120.0F;
+  return 1.5F * radius + 60.0F;
 }
 
 /// The fields of one 8^3 leaf, z running fastest. Its lowest voxel is centred on `corner`.
