@@ -6,7 +6,7 @@ import bpy
 
 _COLOURS = {  # red, green, blue in the view
     "Firetwin Ground": (0.30, 0.26, 0.17),
-    "Firetwin Foliage": (0.09, 0.19, 0.05),
+    "Firetwin Foliage": (0.16, 0.32, 0.10),
     "Firetwin Bark": (0.12, 0.08, 0.05),
     "Firetwin Snag": (0.05, 0.05, 0.05),
     "Firetwin Grass": (0.42, 0.38, 0.16),

@@ -11,7 +11,9 @@ from mathutils import Euler
 
 from .. import areas
 
-NEAR, FAR = 1.0, 500_000.0  # m, as far as views see; Blender's own 1000 m shows nothing of such a world
+# m. Blender's own 1000 m show nothing of such a world, and nearer than 20 m leaves depths too coarse to tell far
+# smoke from the ground.
+NEAR, FAR = 20.0, 500_000.0
 _TILT = 0.9  # rad from straight down
 
 

@@ -123,13 +123,13 @@ def panel() -> Iterator[object]:
     picture("03-panel")
     check(not bpy.ops.firetwin.build.poll(), "Build scene waits for a run")
     settings().scene_file = str(FOLDER / "broken.toml")
-    yield 1
+    yield 3
     check("broken.toml:2:" in settings().problem, f"a broken scene file: {settings().problem}")
     picture("04-broken-scene-file")
     settings().scene_file = str(FOLDER / "scene.toml")
     yield 0.5
     yield idle
-    yield 1
+    yield 3
     check(settings().facts != "", "the run is known")
     picture("05-run")
 
@@ -138,7 +138,7 @@ def build() -> Iterator[object]:
     names = sorted(thing.name for thing in bpy.context.scene.objects)
     check(names == ["Camera", "Cube", "Light"], f"the startup scene: {', '.join(names)}")
     call(bpy.ops.firetwin.build)
-    yield 4
+    yield 6
     check(busy(), "building goes on beside the window")
     picture("06-building")
     yield idle
