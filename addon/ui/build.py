@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import clock, run, view
+from . import clock, job, run, view
 from .job import Away, Steps, Working
 
 
@@ -56,9 +56,12 @@ class FIRETWIN_PT_build(bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.firetwin
-        row = layout.row()
-        row.operator(FIRETWIN_OT_build.bl_idname, icon="WORLD")
-        row.prop(settings, "smoke")
+        row = layout.row(align=True)
+        row.scale_y = 1.3
+        job.button(row, FIRETWIN_OT_build, "WORLD")
+        column = layout.column()
+        column.enabled = job.Job.current is None
+        column.prop(settings, "smoke")
         row = layout.row(align=True)
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Through camera", icon="CAMERA_DATA").whole = False
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Whole run", icon="WORLD_DATA").whole = True

@@ -250,12 +250,13 @@ def redraw() -> None:
                         region.tag_redraw()
 
 
-def draw(layout: bpy.types.UILayout) -> None:
-    """How far the work is, where there is any."""
-    if Job.current is not None:
-        row = layout.row(align=True)
-        row.progress(factor=Job.current.factor, text=Job.current.text)
-        row.operator(FIRETWIN_OT_stop.bl_idname, text="", icon="CANCEL")
+def button(layout: bpy.types.UILayout, operator: type[bpy.types.Operator], icon: str) -> None:
+    """The button of a work; while it goes on, how far it is and a button to stop it, in the same place."""
+    if Job.current is not None and Job.current.name == operator.bl_label:
+        layout.progress(factor=Job.current.factor, text=Job.current.text)
+        layout.operator(FIRETWIN_OT_stop.bl_idname, text="", icon="CANCEL")
+    else:
+        layout.operator(operator.bl_idname, icon=icon)
 
 
 class FIRETWIN_OT_stop(bpy.types.Operator):

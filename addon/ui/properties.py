@@ -38,8 +38,8 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup):
     facts: bpy.props.StringProperty(options={"HIDDEN"})
     problem: bpy.props.StringProperty(options={"HIDDEN"})
     smoke: bpy.props.BoolProperty(
-        name="Smoke",
-        description="Write the smoke of every frame first, which can take minutes. "
+        name="Smoke of every frame",
+        description="Write the smoke of all frames first, which can take minutes. "
         "Without it the scene is there sooner, and Render writes the smoke that it needs",
         default=True,
     )

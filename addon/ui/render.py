@@ -91,7 +91,7 @@ class FIRETWIN_PT_render(bpy.types.Panel):
             column.prop(settings, "frame_list")
         row = layout.row(align=True)
         row.scale_y = 1.3
-        row.operator(FIRETWIN_OT_render.bl_idname, icon="RENDER_STILL")
+        job.button(row, FIRETWIN_OT_render, "RENDER_STILL")
         out = run.output(settings)
         folder = row.row(align=True)
         folder.enabled = bool(out)

@@ -141,7 +141,6 @@ class FIRETWIN_PT_run(bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.firetwin, self.layout
-        job.draw(layout)
         column = layout.column()
         column.enabled = job.Job.current is None
         row = labelled(column, "Scene file")

@@ -11,8 +11,8 @@ from mathutils import Euler
 
 from .. import areas
 
-# m. Blender's own 1000 m show nothing of such a world; nearer than 20 m, depths are too coarse to tell far smoke
-# from the ground.
+# m. Blender's own 1000 m show nothing of such a world; nearer than 20 m, depths are too coarse to tell far
+# smoke from the ground.
 NEAR, FAR = 20.0, 500_000.0
 _TILT = 0.9  # rad from straight down
 

@@ -31,9 +31,9 @@ commands() {
   firetwin 1 info nowhere
   firetwin 2 render scene.toml
   firetwin 0 build scene.toml -o scene.blend
-  firetwin 0 render scene.toml --out film --frames 3 --passes rgb
+  firetwin 0 render scene.toml --out film --frames 2 --passes rgb
   firetwin 1 render broken.toml --out film
-  firetwin 0 render scene.toml --out film --frames 3 --passes rgb --resume
+  firetwin 0 render scene.toml --out film --frames 2 --passes rgb --resume
   blender --command extension remove firetwin >>commands.log 2>&1
   if [[ -n $(find user/extensions -iname '*firetwin*' -print -quit) ]]; then
     find user/extensions -iname '*firetwin*' >&2
