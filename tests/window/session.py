@@ -42,6 +42,10 @@ def check(good: bool, text: str) -> None:
 
 
 def picture(name: str) -> None:
+    """Draw what is new, then take the whole screen."""
+    window = bpy.context.window_manager.windows[0]
+    with bpy.context.temp_override(window=window, screen=window.screen):
+        bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
     path = FOLDER / f"{name}.png"
     subprocess.run(["import", "-window", "root", str(path)], check=True)
     say(f"picture {path.name}")
