@@ -1,6 +1,7 @@
 #include "vdb.hpp"
 
 #include "error.hpp"
+#include "system.hpp"
 
 #include <openvdb/io/File.h>
 #include <openvdb/tools/Dense.h>
@@ -9,7 +10,6 @@
 #include <filesystem>
 #include <mutex>
 #include <system_error>
-#include <unistd.h>
 
 namespace firetwin {
 namespace {
@@ -22,7 +22,7 @@ constexpr double kLargestHalf = 65504.0;
 class Temporary {
 public:
   explicit Temporary(const fs::path& target)
-      : path_(target.string() + "." + std::to_string(::getpid()) + ".tmp") {}
+      : path_(target.string() + "." + std::to_string(system::process()) + ".tmp") {}
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;
   ~Temporary() {
