@@ -228,3 +228,12 @@ def film_settings(render: bpy.types.RenderSettings) -> None:
     if hasattr(render.image_settings, "media_type"):
         render.image_settings.media_type = "VIDEO"
     render.image_settings.file_format = "FFMPEG"
+
+
+def set_denoising(cycles: Any, wanted: bool) -> None:
+    """Have Cycles denoise with OpenImageDenoise; a Blender built without it, such as Debian's, cannot."""
+    try:
+        cycles.denoiser, cycles.denoising_prefilter = "OPENIMAGEDENOISE", "ACCURATE"
+    except TypeError:
+        wanted = False
+    cycles.use_denoising = wanted
