@@ -7,6 +7,7 @@ Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: f
 from __future__ import annotations
 
 import argparse
+import io
 import os
 import shlex
 import sys
@@ -25,6 +26,8 @@ a first film, from nothing:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status."""
     arguments = _parser().parse_args(argv)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="surrogateescape")  # names of files go out byte for byte
     try:
         from . import commands
 

@@ -30,9 +30,11 @@ def moment(run: Run, time: float) -> datetime:
 
 
 def window(project: Project, run: Run) -> tuple[float, float]:
-    """Model time (s) of the first and the last frame."""
+    """Model time (s) of the first and the last frame; a still has one moment, its start."""
     start, end = project.time.start, project.time.end
     first = float(run.times[0]) if start is None else seconds(run, start)
+    if project.time.frames == 1:
+        return first, first
     last = float(run.times[-1]) if end is None else seconds(run, end)
     return first, last
 

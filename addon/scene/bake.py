@@ -25,9 +25,8 @@ from ..errors import input_error
 from ..progress import Progress, silent
 from ..project import Project
 from ..times import frame_times
-from . import burning, paths
+from . import air, burning, paths
 
-STABILITY = 3.0e-5  # 1/s2; a deep mixed layer with stable air above, a September afternoon (assumed)
 _STEP_DEPTH = 0.8  # optical depth of a step through thick smoke; much longer steps lose smoke
 _GLOW_BLOCK = 300.0  # m; flames this near each other light the smoke as one
 _GLOW_COUNT = 400
@@ -140,7 +139,8 @@ class Baker:
             cells.area,
             max_age=self.project.smoke.max_age,
             burn_time=burning.BURN_TIME,
-            stability=STABILITY,
+            stability=air.stability(self.run, float(self.times[frame - 1])),
+            merge_radius=air.MERGE,
             seed=self.project.seed,
             smallest=1.2 * self.resolution.voxel,
         )
@@ -195,7 +195,8 @@ def _distance(project: Project, run: Run) -> float:
 
 
 def _cache(project: Project) -> Path:
-    return project.cache if project.cache.is_absolute() else project.path.parent / project.cache
+    """The project's cache folder, absolute: Blender takes other paths for places beside the .blend file."""
+    return project.cache.absolute()
 
 
 def _key(project: Project, run: Run) -> str:
@@ -208,7 +209,7 @@ def _key(project: Project, run: Run) -> str:
         "seed": project.seed,
         "max_age": project.smoke.max_age,
         "voxel": round(drawn.voxel, 3),
-        "plume": [STABILITY, burning.BURN_TIME],
+        "plume": [air.DAY, air.NIGHT, air.MERGE, burning.BURN_TIME],
     }
     return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()[:16]
 

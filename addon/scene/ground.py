@@ -11,6 +11,7 @@ from . import apron, noise
 from .frame import local_frame, metres_per_degree
 
 NEVER = 1.0e9  # arrival time of places that never burned, s
+_LEVEL = 0.05  # m
 RELIEF = 7.0  # standard deviation of the added relief where slopes are 45 degrees, m
 
 Array = NDArray[np.float64]
@@ -52,7 +53,7 @@ class Ground:
         self.seed, self.near_radius = project.seed, project.terrain.near_radius
         self._set_arrival(run.fuel_arrival_time()[self._flip].astype(np.float64))
         self.eyes = np.empty((0, 3)) if eyes is None else np.asarray(eyes, np.float64).reshape(-1, 3)
-        self.bare = _bare(self.fields)
+        self.bare, self.water = _bare(self.fields), _water(self.fields)
         slope = np.hypot(*np.gradient(self.fields.elevation, *self._metres()))
         self._slope = np.minimum(slope, 1.0)
 
@@ -127,7 +128,8 @@ class Ground:
         for octave, (size, weight) in enumerate(((210.0, 1.0), (105.0, 0.55), (52.0, 0.27), (26.0, 0.12))):
             wave = noise.perlin(x / size, y / size, self.seed + 90 + octave)
             shape += weight * (1.0 - 2.4 * np.abs(wave))  # sharp ridges, round hollows
-        return RELIEF * (0.25 + bilinear(self._slope, row, column)) * (shape - 0.55)
+        dry = 1.0 - bilinear(self.water, row, column)
+        return RELIEF * dry * (0.25 + bilinear(self._slope, row, column)) * (shape - 0.55)
 
     def point(self, latitude: ArrayLike, longitude: ArrayLike, above: ArrayLike = 0.0) -> Array:
         """Scene points (n, 3) at a height above the ground (m) at places (degrees)."""
@@ -163,9 +165,24 @@ class Ground:
         return np.where(burned >= 0.5, bilinear(np.minimum(self.burn_time, 1.0e8), row, column), NEVER)
 
 
+def _fuelless(fields: apron.Fields) -> NDArray[np.bool_]:
+    return (fields.surface_fuel < 0.05) & (fields.canopy_fuel < 0.01)
+
+
+def _water(fields: apron.Fields) -> Array:
+    """Lakes, 0 or 1: ground without fuel that is as level as only water is, 5 cm over three cells."""
+    if min(fields.elevation.shape) < 3:
+        return np.zeros(fields.elevation.shape)
+    patches = np.lib.stride_tricks.sliding_window_view(np.pad(fields.elevation, 1, "edge"), (3, 3))
+    level = np.ptp(patches, axis=(2, 3)) < _LEVEL
+    bare = _fuelless(fields)
+    inner = (level & bare).astype(np.float64)
+    return np.where(bare & (inner + _neighbours(inner) > 0.0), 1.0, 0.0)
+
+
 def _bare(fields: apron.Fields) -> Array:
     """Part of the ground near each grid point without fuel, 0..1: soft, so that noise can break its edge."""
-    bare = ((fields.surface_fuel < 0.05) & (fields.canopy_fuel < 0.01)).astype(np.float64)
+    bare = _fuelless(fields).astype(np.float64)
     for _ in range(2):
         bare = (bare + _neighbours(bare)) / 9.0
     return bare

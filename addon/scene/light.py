@@ -20,7 +20,7 @@ from . import clock, collections, haze, noise, sun
 _KEYS = 25  # the sky changes at this many moments of the shot
 _SUN = 11.1  # W/m2 over the air
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
-_MOON = 0.02  # W/m2
+_MOON = 0.035  # W/m2
 _MOON_COLOUR = (0.65, 0.78, 1.0)
 _MOON_PLACE = (150.0, 40.0)  # degrees; assumed, the moon of the night is not looked up
 _SKY = 0.26  # strength of the sky texture

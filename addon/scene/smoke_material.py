@@ -14,10 +14,12 @@ from firetwin_core.run import Run
 
 from .. import nodes
 from ..project import Project
-from . import bake, burning, clock, haze
+from . import bake, burning, clock, haze, sun
+from .noise import smoothstep
 
-OPACITY = 3.0  # times that of dry smoke, for ash and cloud water; chosen by eye
-EXTINCTION_PER_DILUTION = 0.04 * OPACITY  # 1/m: 4 m2/g (fresh biomass smoke, Reid et al. 2005) times 10 mg/m3
+EXTINCTION_PER_DILUTION = 0.04  # 1/m: 4 m2/g (fresh biomass smoke, Reid et al. 2005) times 10 mg/m3
+OPACITY = 6.0, 18.0  # times that, for ash near the ground and for cloud water aloft; chosen by eye
+_CLOUD = (700.0, 2600.0)  # m above the ground between which cloud water condenses in it
 ANISOTROPY = 0.33
 _EDGE = (0.46, 0.55)  # of the clipped distance: 54 m from clear to full
 _AMPLITUDE = 0.40  # of the noise in the distance, 1 = 600 m
@@ -27,8 +29,8 @@ _CLIMB = 1.0  # m/s
 _VEIL = (0.002, 0.005)  # dilution between which thin smoke fades; volumes end at the lower one
 _LOW, _HIGH = (0.62, 0.53, 0.44), (0.95, 0.945, 0.94)  # albedo near the ground and far up
 _MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
-_GLOW = (1.0, 0.30, 0.06)
-_GLOW_LIGHT = 0.025  # radiance of thick smoke amid flames of 1 GW, exposure 0
+_GLOW = (1.0, 0.25, 0.04)
+_GLOW_LIGHT = 0.006, 0.09  # radiance of thick smoke amid flames of 1 GW, exposure 0, by day and by night
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,8 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     material, tree = nodes.material("Firetwin Smoke")
     position = tree.output("ShaderNodeNewGeometry", name="Position")
     above = tree.separate(position)[2] - carried.ground
-    full = _extinction(tree.attribute("dilution"), drawn.extinction)
+    opacity = above.ramp(*_CLOUD, *OPACITY)
+    full = _extinction(tree.attribute("dilution"), opacity, drawn.extinction)
     albedo = tree.mix_colour(above.smoothstep(-200.0, 3200.0), _LOW, _HIGH)
     noise = _billow(tree, position, carried, float(np.clip(4.5 * drawn.voxel, 260.0, 700.0)))
     reach = tree.math("MINIMUM", tree.attribute("size") * 0.8, _AMPLITUDE)  # small puffs must not be eaten up
@@ -63,7 +66,7 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     density = (depth + reach * (noise - _MEAN_BILLOW)).smoothstep(*_EDGE) * full
     part, air = haze.fraction(tree)
     scattered = tree.mix_colour(part, albedo, (0.0, 0.0, 0.0))
-    glow = tree.attribute("glow") * (1.0 - part) * _GLOW_LIGHT
+    glow = tree.attribute("glow") * (1.0 - part) * _glow_light(run, project)
 
     def seen(density: nodes.Value) -> nodes.Value:
         light = tree.add_shader(tree.emission(air, part * density), tree.emission(_GLOW, glow * density))
@@ -73,7 +76,7 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     deep = depth > _EDGE[1] + _AMPLITUDE * _MEAN_BILLOW
     detailed = tree.mix_shader(deep, seen(density), seen(full))
     # Most steps belong to rays of light through the smoke. They need no detail: one grid is enough.
-    plain = _smoke(tree, _extinction(tree.attribute("shade"), drawn.extinction), _MIDDLE)
+    plain = _smoke(tree, _extinction(tree.attribute("shade"), opacity, drawn.extinction), _MIDDLE)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     tree.volume(tree.mix_shader(camera, plain, detailed))
     material.cycles.volume_sampling = "DISTANCE"
@@ -81,9 +84,15 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     return material
 
 
-def _extinction(dilution: nodes.Value, most: float) -> nodes.Value:
+def _glow_light(run: Run, project: Project) -> float:
+    """Light of the flames on smoke in the middle of the shot: by day the sky's drowns it."""
+    height = sun.mean_direction(project, run)[1]
+    return float(_GLOW_LIGHT[1] + (_GLOW_LIGHT[0] - _GLOW_LIGHT[1]) * smoothstep(-8.0, 8.0, height))
+
+
+def _extinction(dilution: nodes.Value, opacity: nodes.Value, most: float) -> nodes.Value:
     """Extinction (1/m) of smoke, levelling off at `most`: thick smoke is opaque with less than it has."""
-    thickness = dilution * dilution.smoothstep(*_VEIL) * (EXTINCTION_PER_DILUTION / most)
+    thickness = dilution * dilution.smoothstep(*_VEIL) * opacity * (EXTINCTION_PER_DILUTION / most)
     return (1.0 - (-thickness).exp()) * most
 
 

@@ -23,9 +23,9 @@ def build(
     """Build "Firetwin Terrain".
 
     Its mesh carries float point attributes: `arrival_time` (s, 1e9 where never), `burn_time` (arrival
-    continued a little past the last perimeter), `burned` (1 inside the last perimeter), `canopy_fuel`,
-    `surface_fuel` (kg/m2), `bare` (part without fuel), `elevation` (m), `stand` (part of the forest that is
-    drawn tree by tree) and `detail` (1 near cameras).
+    continued a little past the last perimeter), `burned` (1 inside it), `canopy_fuel`, `surface_fuel`
+    (kg/m2), `bare` (part without fuel), `water` (1 on lakes), `elevation` (m), `stand` (part of
+    the forest that is drawn tree by tree) and `detail` (1 near cameras).
     """
     collection = collections.fresh("Terrain")
     mesh = grid_mesh.graded(levels(project, ground, views))
@@ -89,6 +89,7 @@ def _attributes(ground: Ground, mesh: grid_mesh.GridMesh, detail: NDArray) -> di
         "canopy_fuel": bilinear(fields.canopy_fuel, *at),
         "surface_fuel": bilinear(fields.surface_fuel, *at),
         "bare": bilinear(ground.bare, *at),
+        "water": bilinear(ground.water, *at),
         "elevation": ground.height(*at, detail),
         "detail": noise.smoothstep(0.0, 1.0, detail),
     }

@@ -1,8 +1,10 @@
+import shutil
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from firetwin.scene import build, frame, grid_mesh, terrain
+from firetwin_core import run as runs
 
 
 def _values(mesh, name):
@@ -118,3 +120,20 @@ def test_embers_glow_only_where_the_scene_file_wants_them(project, run, scene, s
         pictures.append(shoot(built, "rgb"))
     assert np.all(pictures[0] >= pictures[1] - 1e-4)
     assert np.max(pictures[0] - pictures[1]) > 0.05
+
+
+def test_level_ground_without_fuel_is_a_lake(near_project, run_folder, tmp_path):
+    folder = tmp_path / "lake"
+    shutil.copytree(run_folder, folder)
+    lake = np.zeros(np.load(folder / "fuel_elevation.npy").shape, bool)
+    lake[70:90, 30:60] = True
+    for name, value in {"fuel_elevation": 1380.0, "canopy_fuel": 0.0, "surface_fuel": 0.0}.items():
+        field = np.load(folder / f"{name}.npy")
+        field[lake] = value
+        np.save(folder / f"{name}.npy", field)
+    ground, _views = build.survey(near_project, runs.open(folder))
+    margin = ground.fields.margin
+    found = ground.water[margin:-margin, margin:-margin] == 1.0
+    assert np.array_equal(found, lake)  # and not the bare rock, which slopes
+    row, column = np.meshgrid(np.linspace(72, 87, 40), np.linspace(32, 57, 40), indexing="ij")
+    assert ground.height(row + margin, column + margin, 1.0) == pytest.approx(1380.0, abs=1e-9)

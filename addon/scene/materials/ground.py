@@ -21,6 +21,7 @@ EMBER = (1.0, 0.11, 0.012)
 FLAMING_TIME = 100.0, 300.0  # s that the edge is in flames, seen from nearby and from FAR
 FAR = 9000.0  # m; from there the edge is drawn wider, as a picture's pixels are
 EMBER_TIME = 3600.0  # s in which embers fade to 1/e
+_CROWNS_SEEN = (5000.0, 15_000.0)  # m from the camera at which crowns are full and gone
 _JITTER = 130.0  # s; breaks the straight edges of the mesh's triangles
 _FLAME_LIGHT, _EMBER_LIGHT = 10.0, 1.8  # radiance at exposure 0
 
@@ -51,9 +52,13 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     flaming, embers = _glow(tree, place, rock)
     normal = tree.output("ShaderNodeBump", {"Strength": 0.9, "Distance": 1.0, "Height": bump})
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Roughness": 0.6, "Normal": normal})
+    lake = tree.attribute("water") > 0.5
+    matt = tree.mix_shader(lake, matt, _water(tree, place))
     light = tree.mix_colour(flaming / (flaming + embers + 1.0e-4), EMBER, FLAME)
     power = flaming * _FLAME_LIGHT + embers * (_EMBER_LIGHT if project.fire.embers else 0.0)
-    shader = haze.apply(tree, tree.add_shader(matt, tree.emission(light, power)))
+    # Lamps and the smoke's glow carry the light of flames: rays that happen to meet the edge would be noise.
+    seen = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
+    shader = haze.apply(tree, tree.add_shader(matt, tree.emission(light, power * seen)))
     ambient = heat.ambient(tree, project, run, place.elevation, place.canopy)
     kelvin = heat.burning(tree, ambient, place.age, place.burned, flaming, embers)
     tree.surface(nodes.thermal_switch(tree, shader, kelvin))
@@ -96,9 +101,16 @@ def _unburned(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> tuple[nodes
     """Colour, and height of the canopy (m) for the bump."""
     fine = tree.noise(place.position, 24.0, 4.0, 0.65)
     patch = tree.noise(place.position, 420.0, 4.0, 0.6)
-    crown = tree.cells(place.position, 13.0)
-    tint = tree.separate(tree.cells(place.position, 13.0, "Color"))[0]
-    cover = (place.canopy + (patch - 0.5) * 1.1 + (fine - 0.5) * 0.5).smoothstep(0.05, 0.6)
+    # From afar a crown is less than a pixel: its mean is shown, for what is left would be grain.
+    sharp = place.distance.ramp(*_CROWNS_SEEN, 1.0, 0.2)
+    crown = tree.mix(sharp, 0.52, tree.cells(place.position, 13.0).smoothstep(0.34, 0.70))
+    tint, lone, _ = tree.separate(tree.cells(place.position, 13.0, "Color"))
+    tint = tree.mix(sharp, 0.5, tint)
+    groups = tree.noise(place.position, 120.0, 3.0, 0.7)
+    cover = place.canopy + (patch - 0.5) * 0.9 + (groups - 0.5) * 1.6 + (fine - 0.5) * 0.6
+    cover = cover.smoothstep(0.0, 0.7)
+    alone = tree.mix(sharp, 0.25, (lone + (groups - 0.5) * 0.8) > 0.72)  # trees amid brush and on rock
+    cover = tree.math("MAXIMUM", cover, alone * 0.85)
     floor = (place.canopy + (patch - 0.5) * 0.5 + (fine - 0.5) * 0.4).smoothstep(0.0, 0.35)
     dark = tree.mix_colour(tint, (0.026, 0.043, 0.016), (0.072, 0.092, 0.036))
     stands = tree.noise(place.position, 1500.0, 5.0, 0.6)
@@ -107,14 +119,14 @@ def _unburned(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> tuple[nodes
     )
     clumps = tree.noise(place.position, 70.0, 3.0, 0.65).smoothstep(0.36, 0.64)
     dark = tree.mix_colour(clumps, tree.mix_colour(0.75, dark, (0.009, 0.014, 0.008)), dark)
-    canopy = tree.mix_colour(crown.smoothstep(0.34, 0.70), dark, (0.010, 0.015, 0.008))
+    canopy = tree.mix_colour(crown, dark, (0.010, 0.015, 0.008))
     dry = place.elevation.ramp(500.0, 1500.0, 1.0, 0.0)
-    meadow = tree.mix_colour(dry, (0.085, 0.080, 0.040), (0.165, 0.125, 0.058))
+    meadow = tree.mix_colour(dry, (0.070, 0.070, 0.040), (0.110, 0.092, 0.052))
     soil = tree.mix_colour(fine, (0.115, 0.080, 0.050), (0.190, 0.140, 0.095))
     brush = tree.noise(place.position, 34.0, 5.0, 0.7) + (patch - 0.5) * 0.7 + dry * -0.12
-    shrub = tree.mix_colour(tint, (0.030, 0.038, 0.017), (0.058, 0.062, 0.030))
+    shrub = tree.mix_colour(tint, (0.030, 0.038, 0.017), (0.052, 0.058, 0.028))
     open_ground = tree.mix_colour(fine.smoothstep(0.38, 0.62), meadow, tree.mix_colour(0.55, meadow, soil))
-    open_ground = tree.mix_colour(brush.smoothstep(0.43, 0.56) * 0.92, open_ground, shrub)
+    open_ground = tree.mix_colour(brush.smoothstep(0.36, 0.52) * 0.92, open_ground, shrub)
     far = tree.mix_colour(cover, open_ground, canopy)
     litter = tree.mix_colour(fine, (0.016, 0.015, 0.009), (0.045, 0.036, 0.021))
     scrub = tree.mix_colour(
@@ -124,7 +136,8 @@ def _unburned(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> tuple[nodes
     colour = tree.mix_colour(place.near, far, close)
     relief = cover * (1.0 - place.near) * (1.0 - crown) * 9.0 + fine * 2.0
     boulders = tree.noise(place.position, 9.0, 4.0, 0.6) * 3.0
-    return tree.mix_colour(rock, colour, _granite(tree, place)), tree.mix(rock, relief, boulders)
+    stone = tree.mix_colour(alone * (1.0 - place.near) * 0.8, _granite(tree, place), canopy)
+    return tree.mix_colour(rock, colour, stone), tree.mix(rock, relief, boulders)
 
 
 def _granite(tree: nodes.Tree, place: _Place) -> nodes.Value:
@@ -137,6 +150,15 @@ def _granite(tree: nodes.Tree, place: _Place) -> nodes.Value:
     shrubs = tree.noise(place.position, 14.0, 4.0, 0.65).smoothstep(0.53, 0.60)
     stone = tree.mix_colour(stain.smoothstep(0.5, 0.75) * 0.6, stone, (0.070, 0.062, 0.052))
     return tree.mix_colour(shrubs * 0.8, stone, (0.030, 0.038, 0.018))
+
+
+def _water(tree: nodes.Tree, place: _Place) -> nodes.Value:
+    """Dark water that mirrors the sky, more at grazing angles, ruffled by the wind."""
+    ripples = tree.noise(place.position, 7.0, 2.0) * 0.05
+    normal = tree.output("ShaderNodeBump", {"Strength": 0.5, "Distance": 1.0, "Height": ripples})
+    deep = tree.output("ShaderNodeBsdfDiffuse", {"Color": (0.010, 0.022, 0.024)})
+    mirror = tree.output("ShaderNodeBsdfGlossy", {"Roughness": 0.22, "Normal": normal})
+    return tree.mix_shader(tree.output("ShaderNodeFresnel", {"IOR": 1.33}), deep, mirror)
 
 
 def _charred(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> nodes.Value:
