@@ -9,6 +9,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 here=$PWD/cpp/portable
 portable=$(realpath -m "${FIRETWIN_PORTABLE:-build/portable}")
 export FIRETWIN_PORTABLE=$portable
+pythons="3.11 3.13"
 
 # shellcheck source=cpp/portable/logged.sh
 source "$here/logged.sh"
@@ -42,15 +43,17 @@ make_tools() {
   "$portable/tools/bin/pip" install --quiet --disable-pip-version-check --requirement "$here/tools.txt"
 }
 
-compile() { # python-version build-folder
-  local headers=$portable/python$1/usr/include
-  cmake -S . -B "$2" -G Ninja --toolchain "$here/toolchain.cmake" -DCMAKE_BUILD_TYPE=Release \
-    -DFIRETWIN_LIBRARIES=portable -DFIRETWIN_VERSION="$version" -DPython_INCLUDE_DIR="$headers/python$1" \
-    -DCMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES="$headers" -DPython_SOABI="cpython-${1/./}-x86_64-linux-gnu" \
-    -Dpybind11_DIR="$("$portable/tools/bin/python" -m pybind11 --cmakedir)"
-  cmake --build "$2" -j "${FIRETWIN_JOBS:-$(nproc)}"
-  rm -rf "$2/stage"
-  cmake --install "$2" --component core --prefix "$2/stage"
+compile() {
+  local build=$portable/module python
+  cmake -S . -B "$build" -G Ninja --toolchain "$here/toolchain.cmake" -DCMAKE_BUILD_TYPE=Release \
+    -DFIRETWIN_LIBRARIES=portable -DFIRETWIN_VERSION="$version" -DFIRETWIN_PYTHONS="${pythons// /;}" \
+    -DFIRETWIN_PYTHON_HEADERS="$portable" -Dpybind11_DIR="$("$portable/tools/bin/python" -m pybind11 --cmakedir)"
+  cmake --build "$build" -j "${FIRETWIN_JOBS:-$(nproc)}"
+  for python in $pythons; do
+    rm -rf "$build/stage-$python"
+    cmake --install "$build" --component core --prefix "$build/stage-$python"
+    cmake --install "$build" --component "core-$python" --prefix "$build/stage-$python"
+  done
 }
 
 start=$SECONDS
@@ -61,11 +64,11 @@ once tools "$(sha256sum <"$here/tools.txt")" make_tools
 say "libraries ready after $((SECONDS - start)) s"
 
 version=$("$portable/tools/bin/python" -c 'import tomllib; print(tomllib.load(open("pyproject.toml", "rb"))["project"]["version"])')
+logged firetwin_core "$portable/logs/module.log" compile
 rm -rf "$portable/wheels"
-for python in 3.11 3.13; do
-  logged "firetwin_core for Python $python" "$portable/logs/module-$python.log" compile "$python" "$portable/module-$python"
-  "$portable/tools/bin/python" "$here/pack.py" "$portable/module-$python/stage" "$python" "$version" \
-    "$portable/licenses" "$portable/wheels"
+for python in $pythons; do
+  "$portable/tools/bin/python" "$here/pack.py" "$portable/module/stage-$python" "$python" "$version" "$portable/licenses" \
+    "$portable/wheels"
 done
 "$here/check.sh" "$portable"
 say "done after $((SECONDS - start)) s"
