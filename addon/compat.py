@@ -6,6 +6,7 @@ Features are looked for, version numbers are not compared.
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import Any
 
 import bpy
@@ -34,6 +35,19 @@ def new_fcurve(datablock: bpy.types.ID, data_path: str, index: int = 0) -> bpy.t
 
 def _action_name(datablock: bpy.types.ID) -> str:
     return f"Firetwin {datablock.name.removeprefix('Firetwin ')} Action"
+
+
+def animate(
+    datablock: bpy.types.ID, data_path: str, index: int, frames: Sequence[float], values: Sequence[float]
+) -> None:
+    """Make a property go through `values` at `frames`, both (n,), in straight lines."""
+    curve = new_fcurve(datablock, data_path, index)
+    curve.keyframe_points.add(len(frames))
+    pairs = [number for pair in zip(frames, values, strict=True) for number in pair]
+    curve.keyframe_points.foreach_set("co", pairs)
+    linear = bpy.types.Keyframe.bl_rna.properties["interpolation"].enum_items["LINEAR"].value
+    curve.keyframe_points.foreach_set("interpolation", [linear] * len(frames))
+    curve.update()
 
 
 def fcurves(datablock: bpy.types.ID) -> list[bpy.types.FCurve]:
@@ -224,3 +238,12 @@ def film_settings(render: bpy.types.RenderSettings) -> None:
     if hasattr(render.image_settings, "media_type"):
         render.image_settings.media_type = "VIDEO"
     render.image_settings.file_format = "FFMPEG"
+
+
+def set_denoising(cycles: Any, wanted: bool) -> None:
+    """Have Cycles denoise with OpenImageDenoise; a Blender built without it, such as Debian's, cannot."""
+    try:
+        cycles.denoiser, cycles.denoising_prefilter = "OPENIMAGEDENOISE", "ACCURATE"
+    except TypeError:
+        wanted = False
+    cycles.use_denoising = wanted

@@ -44,8 +44,7 @@ def _cycles(project: Project, scene: bpy.types.Scene) -> None:
     cycles.use_adaptive_sampling = False
     cycles.sampling_pattern = "BLUE_NOISE"  # named, for what Blender starts with differs between versions
     cycles.seed, cycles.use_animated_seed = project.render.seed, False
-    cycles.use_denoising = project.render.denoise
-    cycles.denoiser, cycles.denoising_prefilter = "OPENIMAGEDENOISE", "ACCURATE"
+    compat.set_denoising(cycles, project.render.denoise)
     cycles.max_bounces, cycles.diffuse_bounces = 4, 1
     cycles.glossy_bounces = cycles.transmission_bounces = 0
     cycles.volume_bounces = volume_bounces(project.render.samples)

@@ -10,14 +10,14 @@ from ..project import Project
 from . import clock, haze, light, sun
 
 _RIM, _BODY, _CORE = (1.0, 0.09, 0.008), (1.0, 0.26, 0.035), (1.0, 0.50, 0.16)
-_LIGHT = 20.0  # radiance at exposure 0
+_LIGHT = 13.0  # radiance at exposure 0
 _RISE = 9.0  # m/s at which the pattern rises
 
 
 def brightness(project: Project, run: Run) -> float:
     """Radiance of flames: less in a longer exposure, as a photographer stops down, else nights burn out."""
     first, last = clock.window(project, run)
-    return _LIGHT * 2.0 ** (-0.7 * light.State(project, *sun.at(run, 0.5 * (first + last))).exposure)
+    return _LIGHT * 2.0 ** (-0.85 * light.State(project, *sun.at(run, 0.5 * (first + last))).exposure)
 
 
 def build(project: Project, run: Run) -> bpy.types.Material:

@@ -28,6 +28,8 @@ def build(project: Project, run: Run) -> bpy.types.Object | None:
     volume.sequence_mode = "CLIP"
     volume.render.space = "WORLD"
     volume.render.step_size = bake.resolution(project, run).step
+    volume.display.density = bake.resolution(project, run).extinction  # in the solid view, like the render's
+    volume.display.wireframe_type = "NONE"
     volume.materials.append(smoke_material.build(project, run))
     for scene in bpy.data.scenes:
         scene.cycles.volume_step_rate = 1.0

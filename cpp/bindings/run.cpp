@@ -52,6 +52,40 @@ Array<float> frame(const Run& run, const Series& series, py::ssize_t index) {
   return array;
 }
 
+using Levels = const run::LevelSeries& (Run::*)() const;
+
+Array<float> new_levels(const Run& run, const run::LevelSeries& series) {
+  std::vector<py::ssize_t> shape = grid_shape(run);
+  shape.insert(shape.begin(), length(series.levels()));
+  return new_array<float>(shape);
+}
+
+/// A field on levels at times[index].
+template <Levels field> Array<float> levels(const Run& run, py::ssize_t index) {
+  if (index < 0) {
+    throw std::out_of_range("time index " + std::to_string(index) + " is negative");
+  }
+  const run::LevelSeries& series = (run.*field)();
+  auto array = new_levels(run, series);
+  const auto out = writable(array);
+  const py::gil_scoped_release release;
+  series.read(static_cast<std::size_t>(index), out);
+  return array;
+}
+
+/// A field on levels at a time between the first and the last.
+template <Levels field> Array<float> levels_at(const Run& run, double time) {
+  const run::LevelSeries& series = (run.*field)();
+  if (!(time >= run.times().front() && time <= run.times().back())) {
+    throw py::value_error("time " + std::to_string(time) + " s is outside of the run");
+  }
+  auto array = new_levels(run, series);
+  const auto out = writable(array);
+  const py::gil_scoped_release release;
+  series.read_at(time, run.times(), out);
+  return array;
+}
+
 const Series& series_of(const Run& run, const std::string& field) {
   if (field == "heat_flux") {
     return run.heat_flux();
@@ -171,10 +205,29 @@ template <Field field> Array<float> fuel_view(const py::object& self) {
   return lend<float>((run.*field)(), fuel_shape(run), self);
 }
 
-std::string describe(const Run& run) {
-  return "<Run '" + run.manifest().name + "': " + std::to_string(run.latitude().size()) + " x " +
-         std::to_string(run.longitude().size()) + " cells, " + std::to_string(run.times().size()) +
-         " times>";
+/// The path as Python has it, which opens the folder whatever bytes its name is made of.
+py::object path_of(const Run& run) {
+  const std::string bytes = run.path().string();
+  PyObject* decoded =
+      PyUnicode_DecodeFSDefaultAndSize(bytes.data(), static_cast<py::ssize_t>(bytes.size()));
+  if (decoded == nullptr) {
+    throw py::error_already_set();
+  }
+  return py::reinterpret_steal<py::object>(decoded);
+}
+
+py::list warnings(const Run& run) {
+  py::list result;
+  for (const std::string& warning : run.warnings()) {
+    result.append(readable(warning));
+  }
+  return result;
+}
+
+py::str describe(const Run& run) {
+  return readable("<Run '" + run.manifest().name + "': " + std::to_string(run.latitude().size()) +
+                  " x " + std::to_string(run.longitude().size()) + " cells, " +
+                  std::to_string(run.times().size()) + " times>");
 }
 
 } // namespace
@@ -188,8 +241,8 @@ void init_run(py::module_ module) {
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", &Frames::next);
   py::class_<Run, std::shared_ptr<Run>>(module, "Run", "A model run on disk.")
-      .def_property_readonly("path", [](const Run& r) { return r.path().string(); })
-      .def_property_readonly("name", [](const Run& r) { return r.manifest().name; })
+      .def_property_readonly("path", &path_of)
+      .def_property_readonly("name", [](const Run& r) { return readable(r.manifest().name); })
       .def_property_readonly("synthetic", [](const Run& r) { return r.manifest().synthetic; })
       .def_property_readonly("event", [](const Run& r) { return r.manifest().event; })
       .def_property_readonly("start", [](const Run& r) { return r.manifest().start; })
@@ -204,7 +257,7 @@ void init_run(py::module_ module) {
       .def_property_readonly("canopy_fuel", &fuel_view<&Run::canopy_fuel>)
       .def_property_readonly("fuel_elevation", &fuel_view<&Run::fuel_elevation>)
       .def_property_readonly("fields", &Run::fields)
-      .def_property_readonly("warnings", &Run::warnings)
+      .def_property_readonly("warnings", &warnings)
       .def(
           "heat_flux", [](const Run& r, py::ssize_t i) { return frame(r, r.heat_flux(), i); },
           py::arg("index"), "(ny, nx) W/m2 at times[index].")
@@ -212,6 +265,14 @@ void init_run(py::module_ module) {
           "temperature", [](const Run& r, py::ssize_t i) { return frame(r, r.temperature(), i); },
           py::arg("index"), "(ny, nx) K at times[index].")
       .def("wind", &wind, py::arg("index"), "Eastward and northward (ny, nx) m/s at times[index].")
+      .def("has", &Run::has, py::arg("field"), "Whether the run folder holds a field.")
+      .def("smoke_3d", &levels<&Run::smoke_3d>, py::arg("index"), "(nz, ny, nx) kg/m3.")
+      .def("height_3d", &levels<&Run::height_3d>, py::arg("index"), "(nz, ny, nx) m.")
+      .def("temperature_3d", &levels<&Run::temperature_3d>, py::arg("index"), "(nz, ny, nx) K.")
+      .def("smoke_3d_at", &levels_at<&Run::smoke_3d>, py::arg("time"), "(nz, ny, nx) kg/m3.")
+      .def("height_3d_at", &levels_at<&Run::height_3d>, py::arg("time"), "(nz, ny, nx) m.")
+      .def("temperature_3d_at", &levels_at<&Run::temperature_3d>, py::arg("time"),
+           "(nz, ny, nx) K.")
       .def("frames", &frames, py::arg("field") = "heat_flux", py::arg("indices") = py::none(),
            py::arg("ahead") = 8, "Iterate over frames that worker threads read ahead.")
       .def("flux_range", &flux_range, "Smallest and largest finite heat flux of the run, W/m2.")

@@ -1,6 +1,7 @@
 #include "bindings.hpp"
 
 #include "error.hpp"
+#include "volume/levels.hpp"
 #include "volume/puffs.hpp"
 #include "volume/smoke.hpp"
 #include "volume/vdb.hpp"
@@ -99,21 +100,71 @@ Puffs make_puffs(double time, const Array<double>& arrival, const Array<double>&
   return puffs(time, burn, settings);
 }
 
+/// Flames of two arrays that stay alive, or none.
+Flames make_flames(const std::optional<Array<double>>& position,
+                   const std::optional<Array<double>>& power) {
+  if (position.has_value() != power.has_value()) {
+    throw Error("give flame_position and flame_power together");
+  }
+  if (!power) {
+    return {};
+  }
+  require(*power, {power->size()}, "flame_power");
+  require(*position, {power->size(), 3}, "flame_position");
+  return {view(*position), view(*power)};
+}
+
 VolumeFrame smoke_file(const std::filesystem::path& path, const Puffs& smoke, double voxel_size,
                        const std::optional<Array<double>>& position,
                        const std::optional<Array<double>>& power,
                        const std::optional<Metadata>& metadata) {
-  if (position.has_value() != power.has_value()) {
-    throw Error("give flame_position and flame_power together");
-  }
-  Flames flames;
-  if (power) {
-    require(*power, {power->size()}, "flame_power");
-    require(*position, {power->size(), 3}, "flame_position");
-    flames = {view(*position), view(*power)};
-  }
+  const Flames flames = make_flames(position, power);
   const py::gil_scoped_release release;
   return write_smoke(path.string(), smoke, voxel_size, flames, metadata.value_or(Metadata{}));
+}
+
+/// Throws unless `array` has `shape`.
+void require_shape(const Array<float>& array, const std::vector<py::ssize_t>& shape,
+                   const std::string& name) {
+  const std::vector<py::ssize_t> found(array.shape(), array.shape() + array.ndim());
+  if (found != shape) {
+    throw Error(name + " must fit latitude, longitude and height (nz, ny, nx)");
+  }
+}
+
+VolumeFrame levels_file(const std::filesystem::path& path, const geo::LocalFrame& frame,
+                        const Array<double>& latitude, const Array<double>& longitude,
+                        const Array<float>& ground, const Array<float>& height,
+                        const Array<float>& smoke, double voxel_size,
+                        const std::optional<Array<float>>& temperature,
+                        const std::optional<Array<double>>& position,
+                        const std::optional<Array<double>>& power,
+                        const std::optional<Metadata>& metadata) {
+  const py::ssize_t ny = latitude.size();
+  const py::ssize_t nx = longitude.size();
+  require(latitude, {ny}, "latitude");
+  require(longitude, {nx}, "longitude");
+  if (height.ndim() != 3 || height.shape(0) < 2 || ny < 2 || nx < 2) {
+    throw Error("height must have shape (nz, ny, nx), each 2 or more");
+  }
+  const py::ssize_t nz = height.shape(0);
+  require_shape(ground, {ny, nx}, "ground");
+  require_shape(height, {nz, ny, nx}, "height");
+  require_shape(smoke, {nz, ny, nx}, "smoke");
+  if (temperature) {
+    require_shape(*temperature, {nz, ny, nx}, "temperature");
+  }
+  const Flames flames = make_flames(position, power);
+  const Levels levels{view(latitude),
+                      view(longitude),
+                      view(ground),
+                      view(height),
+                      view(smoke),
+                      temperature ? view(*temperature) : std::span<const float>{},
+                      static_cast<std::size_t>(nz)};
+  const py::gil_scoped_release release;
+  return write_levels(path.string(), frame, levels, voxel_size, flames,
+                      metadata.value_or(Metadata{}));
 }
 
 VolumeFrame dense_file(const std::filesystem::path& path,
@@ -157,6 +208,7 @@ void bind_types(py::module_& module) {
       .def("__len__", &Puffs::size);
   py::class_<VolumeFrame>(module, "Frame", "What one VDB file holds.")
       .def_readonly("active_voxels", &VolumeFrame::active_voxels)
+      .def_readonly("voxels", &VolumeFrame::voxels)
       .def_readonly("bytes", &VolumeFrame::bytes)
       .def_readonly("mass", &VolumeFrame::mass)
       .def_property_readonly("bounds", [](const VolumeFrame& frame) {
@@ -194,6 +246,12 @@ void init_volume(py::module_ module) {
   module.def("write_smoke", &smoke_file, py::arg("path"), py::arg("puffs"), py::arg("voxel_size"),
              py::arg("flame_position") = py::none(), py::arg("flame_power") = py::none(),
              py::arg("metadata") = py::none(), "Write the puffs as a smoke volume.");
+  module.def("write_levels", &levels_file, py::arg("path"), py::arg("frame"), py::arg("latitude"),
+             py::arg("longitude"), py::arg("ground"), py::arg("height"), py::arg("smoke"),
+             py::arg("voxel_size"), py::arg("temperature") = py::none(),
+             py::arg("flame_position") = py::none(), py::arg("flame_power") = py::none(),
+             py::arg("metadata") = py::none(),
+             "Write smoke on terrain-following levels as a smoke volume.");
   module.def("write", &dense_file, py::arg("path"), py::arg("grids"), py::arg("voxel_size"),
              py::arg("origin") = std::array<double, 3>{0.0, 0.0, 0.0}, py::arg("half") = true,
              py::arg("tolerance") = 0.0F, py::arg("metadata") = py::none(),

@@ -116,6 +116,16 @@ fs::path Folder::field_file(const std::string& field) const {
   return inside(text);
 }
 
+fs::path Folder::npy_file(const std::string& field) const {
+  std::error_code code;
+  const fs::path npy = path_ / (field + ".npy");
+  if (!fs::exists(npy, code)) {
+    fail(npy,
+         "the file is missing; " + field + " is read as one .npy only, save it with numpy.save");
+  }
+  return inside(npy);
+}
+
 std::vector<fs::path> Folder::frames(const fs::path& folder) const {
   std::map<std::size_t, fs::path> found;
   for_each_entry(folder, [&](const fs::directory_entry& entry) {

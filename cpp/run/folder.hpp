@@ -27,6 +27,8 @@ public:
   std::filesystem::path file(const std::string& name) const;
   /// The .txt or .npy of a field.
   std::filesystem::path field_file(const std::string& field) const;
+  /// The .npy of a field that is read from nothing else.
+  std::filesystem::path npy_file(const std::string& field) const;
   Series series(const std::string& field, std::size_t rows, std::size_t columns,
                 std::optional<float> no_data) const;
 

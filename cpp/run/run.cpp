@@ -28,8 +28,9 @@ bool reaches_beyond(const std::vector<double>& fine, const std::vector<double>& 
          *high > std::max(first.first, last.last) + slack;
 }
 
-const Series& need(const std::optional<Series>& series, const std::filesystem::path& folder,
-                   const std::string& name) {
+template <class Field>
+const Field& need(const std::optional<Field>& series, const std::filesystem::path& folder,
+                  const std::string& name) {
   if (!series) {
     throw Error(folder.string() + ": this run has no " + name);
   }
@@ -50,6 +51,7 @@ Run::Run(const std::filesystem::path& folder)
   read_axes();
   read_grids();
   open_series();
+  open_levels();
   set_times();
   check_values();
 }
@@ -100,6 +102,35 @@ void Run::open_series() {
   if (wind_east_.has_value() != wind_north_.has_value()) {
     throw InputError((path() / (wind_east_ ? "wind_north" : "wind_east")).string(), 0, 0,
                      "the field is missing; wind needs wind_east and wind_north");
+  }
+}
+
+std::optional<LevelSeries> Run::optional_levels(const std::string& field, bool steady) const {
+  if (!folder_.has(field)) {
+    return std::nullopt;
+  }
+  return LevelSeries(NpyFile(folder_.npy_file(field)), heat_flux_->size(), latitude_.size(),
+                     longitude_.size(), steady, no_data_);
+}
+
+void Run::open_levels() {
+  smoke_3d_ = optional_levels("smoke_3d", false);
+  temperature_3d_ = optional_levels("temperature_3d", false);
+  height_3d_ = optional_levels("height_3d", true);
+  for (const std::optional<LevelSeries>* field : {&smoke_3d_, &temperature_3d_}) {
+    if (!*field) {
+      continue;
+    }
+    if (!height_3d_) {
+      throw InputError((path() / "height_3d.npy").string(), 0, 0,
+                       "the field is missing; fields on levels need the heights of the levels");
+    }
+    if ((*field)->levels() != height_3d_->levels()) {
+      throw InputError((*field)->path().string(), 0, 0,
+                       "has " + std::to_string((*field)->levels()) +
+                           " levels where height_3d has " + std::to_string(height_3d_->levels()) +
+                           "; save both on the same levels");
+    }
   }
 }
 
@@ -163,6 +194,16 @@ const Series& Run::wind_east() const {
 }
 const Series& Run::wind_north() const {
   return need(wind_north_, path(), "wind");
+}
+
+const LevelSeries& Run::smoke_3d() const {
+  return need(smoke_3d_, path(), "smoke_3d");
+}
+const LevelSeries& Run::height_3d() const {
+  return need(height_3d_, path(), "height_3d");
+}
+const LevelSeries& Run::temperature_3d() const {
+  return need(temperature_3d_, path(), "temperature_3d");
 }
 
 std::shared_ptr<const Scan> Run::scan_for(double threshold) const {

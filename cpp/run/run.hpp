@@ -1,6 +1,7 @@
 #pragma once
 
 #include "run/folder.hpp"
+#include "run/levels.hpp"
 #include "run/manifest.hpp"
 #include "run/scan.hpp"
 #include "run/series.hpp"
@@ -48,6 +49,13 @@ public:
   const Series& wind_east() const;   ///< m/s
   const Series& wind_north() const;  ///< m/s
 
+  bool has(const std::string& field) const { return folder_.has(field); }
+  /// On terrain-following levels; height_3d (m) is there where one of the others is.
+  /// @throws Error when the run has none.
+  const LevelSeries& smoke_3d() const;       ///< kg/m3
+  const LevelSeries& height_3d() const;      ///< m
+  const LevelSeries& temperature_3d() const; ///< K
+
   /// Smallest and largest finite heat flux of the whole run, W/m2. Reads every frame once.
   std::pair<float, float> flux_range() const;
   /// [ny nx] time in s of the first frame whose flux exceeds `threshold` (W/m2), NaN where none
@@ -62,7 +70,9 @@ private:
   void open_series();
   void set_times();
   void check_values();
+  void open_levels();
   std::optional<Series> optional_series(const std::string& field) const;
+  std::optional<LevelSeries> optional_levels(const std::string& field, bool steady) const;
   std::vector<float> read_grid_of(const std::string& field, std::size_t rows,
                                   std::size_t columns) const;
   std::shared_ptr<const Scan> scan_for(double threshold) const;
@@ -73,6 +83,7 @@ private:
   std::vector<double> times_, latitude_, longitude_, fuel_latitude_, fuel_longitude_;
   std::vector<float> elevation_, surface_fuel_, canopy_fuel_, fuel_elevation_;
   std::optional<Series> heat_flux_, temperature_, wind_east_, wind_north_;
+  std::optional<LevelSeries> smoke_3d_, height_3d_, temperature_3d_;
   std::vector<std::string> warnings_;
 
   mutable std::mutex mutex_;

@@ -2,72 +2,111 @@
 
 #include "error.hpp"
 
-#include <algorithm>
+#include <tbb/parallel_for.h>
+
+#include <array>
 #include <cmath>
 
 namespace firetwin {
 namespace {
 
+constexpr int kLeaf = 8;
 constexpr std::size_t kMostLeaves = 100'000'000;
 
 struct Range {
-  openvdb::Coord low;
-  openvdb::Coord high;
+  std::array<std::int32_t, 3> low;
+  std::array<std::int32_t, 3> high;
 };
 
 Range leaves(const Puffs& puffs, std::size_t ball, float reach, double side) {
   Range range;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double centre = static_cast<double>(puffs.position[3 * ball + axis]);
-    const auto at = static_cast<int>(axis);
-    range.low[at] = static_cast<int>(std::floor((centre - static_cast<double>(reach)) / side));
-    range.high[at] = static_cast<int>(std::floor((centre + static_cast<double>(reach)) / side));
+    range.low[axis] = static_cast<int>(std::floor((centre - static_cast<double>(reach)) / side));
+    range.high[axis] = static_cast<int>(std::floor((centre + static_cast<double>(reach)) / side));
   }
   return range;
 }
 
 } // namespace
 
-Bins::Bins(const Puffs& puffs, const std::vector<float>& reach, double voxel_size) {
+LeafBox::LeafBox(const Puffs& puffs, std::span<const float> reach, double voxel_size)
+    : low(0), count(0) {
   const double side = voxel_size * kLeaf;
   openvdb::CoordBBox box;
   for (std::size_t i = 0; i < reach.size(); ++i) {
     if (reach[i] > 0.0F) {
       const Range range = leaves(puffs, i, reach[i], side);
-      box.expand(range.low);
-      box.expand(range.high);
+      box.expand(openvdb::Coord(range.low[0], range.low[1], range.low[2]));
+      box.expand(openvdb::Coord(range.high[0], range.high[1], range.high[2]));
     }
   }
   if (box.empty()) {
     return;
   }
-  low_ = box.min();
-  count_ = box.dim();
-  const std::size_t total = static_cast<std::size_t>(count_.x()) *
-                            static_cast<std::size_t>(count_.y()) *
-                            static_cast<std::size_t>(count_.z());
-  if (total > kMostLeaves) {
+  low = box.min();
+  count = box.dim();
+  if (size() > kMostLeaves) {
     throw Error("voxels of " + std::to_string(voxel_size) +
                 " m are too small for smoke this wide; use larger ones");
   }
-  const auto visit = [&](auto&& act) {
-    for (std::size_t i = 0; i < reach.size(); ++i) {
-      if (reach[i] <= 0.0F) {
-        continue;
-      }
-      const Range range = leaves(puffs, i, reach[i], side);
-      for (int x = range.low.x(); x <= range.high.x(); ++x) {
-        for (int y = range.low.y(); y <= range.high.y(); ++y) {
-          for (int z = range.low.z(); z <= range.high.z(); ++z) {
-            const openvdb::Coord at = openvdb::Coord(x, y, z) - low_;
-            act(static_cast<std::size_t>((at.x() * count_.y() + at.y())) *
-                        static_cast<std::size_t>(count_.z()) +
-                    static_cast<std::size_t>(at.z()),
-                static_cast<std::uint32_t>(i));
-          }
-        }
+}
+
+std::size_t LeafBox::size() const {
+  return static_cast<std::size_t>(count.x()) * static_cast<std::size_t>(count.y()) *
+         static_cast<std::size_t>(count.z());
+}
+
+openvdb::Coord LeafBox::origin(std::size_t leaf) const {
+  const auto number = static_cast<std::int64_t>(leaf);
+  const std::int64_t z = number % count.z();
+  const std::int64_t y = number / count.z() % count.y();
+  const std::int64_t x = number / count.z() / count.y();
+  return openvdb::Coord((low.x() + static_cast<int>(x)) * kLeaf,
+                        (low.y() + static_cast<int>(y)) * kLeaf,
+                        (low.z() + static_cast<int>(z)) * kLeaf);
+}
+
+Bins::Bins(const LeafBox& box, const Puffs& puffs, std::span<const float> reach,
+           double voxel_size) {
+  const double side = voxel_size * kLeaf;
+  const std::size_t total = box.size();
+  std::vector<Range> ranges(reach.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, reach.size(), 4096), [&](const auto& part) {
+    for (std::size_t i = part.begin(); i < part.end(); ++i) {
+      ranges[i] = {{1, 1, 1}, {0, 0, 0}};
+      if (reach[i] > 0.0F) {
+        ranges[i] = leaves(puffs, i, reach[i], side);
       }
     }
+  });
+  // Every task has the leaves of some planes to itself and looks through all the balls for them.
+  const auto visit = [&](auto&& act) {
+    const auto planes = static_cast<std::size_t>(box.count.x());
+    const std::size_t grain = std::max<std::size_t>(1, planes / 8);
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, planes, grain),
+        [&](const auto& slab) {
+          const int first = box.low.x() + static_cast<int>(slab.begin());
+          const int last = box.low.x() + static_cast<int>(slab.end()) - 1;
+          for (std::size_t i = 0; i < ranges.size(); ++i) {
+            const Range& range = ranges[i];
+            const int low = std::max(range.low[0], first);
+            const int high = std::min(range.high[0], last);
+            for (int x = low; x <= high; ++x) {
+              for (int y = range.low[1]; y <= range.high[1]; ++y) {
+                const auto row = static_cast<std::size_t>(
+                    (static_cast<std::int64_t>(x - box.low.x()) * box.count.y() + y - box.low.y()) *
+                    box.count.z());
+                for (int z = range.low[2]; z <= range.high[2]; ++z) {
+                  act(row + static_cast<std::size_t>(z - box.low.z()),
+                      static_cast<std::uint32_t>(i));
+                }
+              }
+            }
+          }
+        },
+        tbb::simple_partitioner());
   };
   starts_.assign(total + 1, 0);
   visit([&](std::size_t leaf, std::uint32_t) { ++starts_[leaf + 1]; });
@@ -77,16 +116,6 @@ Bins::Bins(const Puffs& puffs, const std::vector<float>& reach, double voxel_siz
   balls_.resize(starts_[total]);
   std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
   visit([&](std::size_t leaf, std::uint32_t ball) { balls_[next[leaf]++] = ball; });
-}
-
-openvdb::Coord Bins::origin(std::size_t leaf) const {
-  const auto number = static_cast<std::int64_t>(leaf);
-  const std::int64_t z = number % count_.z();
-  const std::int64_t y = number / count_.z() % count_.y();
-  const std::int64_t x = number / count_.z() / count_.y();
-  return openvdb::Coord((low_.x() + static_cast<int>(x)) * kLeaf,
-                        (low_.y() + static_cast<int>(y)) * kLeaf,
-                        (low_.z() + static_cast<int>(z)) * kLeaf);
 }
 
 } // namespace firetwin

@@ -10,24 +10,29 @@
 
 namespace firetwin {
 
-/// Which balls reach which 8^3 leaf: lists of ball numbers per leaf, for a box of leaves.
-class Bins {
-public:
-  static constexpr int kLeaf = 8;
+/// The box of leaves (8^3 voxels) that balls reach.
+struct LeafBox {
+  openvdb::Coord low;
+  openvdb::Coord count;
 
   /// `reach[i]` is how far ball i matters, m; 0 leaves it out.
-  Bins(const Puffs& puffs, const std::vector<float>& reach, double voxel_size);
+  LeafBox(const Puffs& puffs, std::span<const float> reach, double voxel_size);
 
-  std::size_t size() const { return starts_.empty() ? 0 : starts_.size() - 1; }
+  std::size_t size() const;
+  /// First voxel of a leaf.
+  openvdb::Coord origin(std::size_t leaf) const;
+};
+
+/// Which balls reach which leaf of a box: lists of ball numbers, ascending.
+class Bins {
+public:
+  Bins(const LeafBox& box, const Puffs& puffs, std::span<const float> reach, double voxel_size);
+
   std::span<const std::uint32_t> balls(std::size_t leaf) const {
     return {balls_.data() + starts_[leaf], balls_.data() + starts_[leaf + 1]};
   }
-  /// First voxel of a leaf.
-  openvdb::Coord origin(std::size_t leaf) const;
 
 private:
-  openvdb::Coord low_;
-  openvdb::Coord count_;
   std::vector<std::size_t> starts_;
   std::vector<std::uint32_t> balls_;
 };

@@ -1,30 +1,18 @@
 #pragma once
 
+#include "grids.hpp"
 #include "puffs.hpp"
-#include "vdb.hpp"
 
-#include <span>
 #include <string>
 
 namespace firetwin {
-
-/// Smoke that counts as dilution 1, kg/m3: 10 mg/m3, as over a crown fire.
-constexpr double kFreshSmoke = 1.0e-5;
-
-/// Thinner smoke than this times kFreshSmoke is left out.
-constexpr double kThinnest = 2.0e-3;
-
-/// Light of flames: positions (n, 3) m and powers (n,) W.
-struct Flames {
-  std::span<const double> position;
-  std::span<const double> power;
-};
 
 /// Writes the smoke as grids of one sparse OpenVDB file (half precision):
 /// - `density`: clamp((d + 300 m) / 600 m, 0, 1), d the distance into the union of the balls; 0 and
 ///   inactive farther than 150 m outside, and where dilution is under 0.002, too thin to be seen;
 /// - `dilution`: smoke in units of kFreshSmoke; each puff spread by
-///   21 / (16 pi s^3) (1 - r^4 / s^4), s = 1.5 R + 60 m, the whole scaled so that the grid holds the puffs' mass;
+///   21 / (16 pi s^3) (1 - r^4 / s^4), s = 1.5 R + 60 m, the whole
+///   scaled so that the grid holds the puffs' mass;
 /// - `shade`: `dilution`, but falling to 0 as a smoothstep of density from 0.46 to 0.55: smoke with
 /// a
 ///   plain edge in one grid, for rays of light, whose cost is looking grids up;

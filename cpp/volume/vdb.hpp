@@ -15,6 +15,7 @@ using Metadata = std::map<std::string, std::string>;
 /// What one VDB file holds.
 struct VolumeFrame {
   std::uint64_t active_voxels = 0; // of the grid with the most
+  std::uint64_t voxels = 0;        // active ones of all grids
   std::uint64_t bytes = 0;
   std::array<double, 6> bounds{}; // m: lowest corner, highest corner; zeros when empty
   double mass = 0.0;              // kg of smoke
@@ -29,11 +30,6 @@ struct DenseField {
 /// An empty fog volume of cubic voxels; voxel (0, 0, 0) is centred on `origin`.
 openvdb::FloatGrid::Ptr fog_grid(const std::string& name, double voxel_size,
                                  const std::array<double, 3>& origin, const std::string& units);
-
-/// Writes the grids (Blosc, active mask) to a temporary file beside `path` and renames it.
-/// Throws InputError when the folder or file cannot be written.
-VolumeFrame write_grids(const std::string& path, const openvdb::GridPtrVec& grids,
-                        const Metadata& metadata);
 
 /// Writes dense arrays as sparse fog volumes: voxels within `tolerance` of 0 are left out.
 /// `mass` is the sum of `density` (kg/m3) over voxels times their volume, where there is such a

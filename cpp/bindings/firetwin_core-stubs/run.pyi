@@ -66,6 +66,20 @@ class Run:
         """(ny, nx) K; Error when the run has none."""
     def wind(self, index: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Eastward and northward (ny, nx) m/s; Error when the run has none."""
+    def has(self, field: str) -> bool:
+        """Whether the run folder holds a field."""
+    def smoke_3d(self, index: int) -> NDArray[np.float32]:
+        """(nz, ny, nx) kg/m3 on terrain-following levels at times[index]; Error when the run has none."""
+    def height_3d(self, index: int) -> NDArray[np.float32]:
+        """(nz, ny, nx) m, heights of the levels, in the run's vertical; Error when the run has none."""
+    def temperature_3d(self, index: int) -> NDArray[np.float32]:
+        """(nz, ny, nx) K; Error when the run has none."""
+    def smoke_3d_at(self, time: float) -> NDArray[np.float32]:
+        """smoke_3d at a time (s) within the run, linear between the two model times around it."""
+    def height_3d_at(self, time: float) -> NDArray[np.float32]:
+        """height_3d at a time (s) within the run."""
+    def temperature_3d_at(self, time: float) -> NDArray[np.float32]:
+        """temperature_3d at a time (s) within the run."""
     def frames(
         self, field: str = "heat_flux", indices: ArrayLike | None = None, ahead: int = 8
     ) -> Iterator[NDArray[np.float32]]:

@@ -4,6 +4,8 @@ from os import PathLike
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .geo import LocalFrame
+
 FRESH_SMOKE: float
 """Smoke that counts as dilution 1, kg/m3."""
 
@@ -95,13 +97,16 @@ class Frame:
     def active_voxels(self) -> int:
         """Of the grid with the most."""
     @property
+    def voxels(self) -> int:
+        """Active voxels of all grids together."""
+    @property
     def bytes(self) -> int: ...
     @property
     def bounds(self) -> NDArray[np.float64]:
         """(2, 3) metres, world space; zeros for an empty file."""
     @property
     def mass(self) -> float:
-        """kg of smoke in the file before its values became half floats."""
+        """kg of smoke: the integral of what is written, before it is rounded to half floats."""
 
 def write_smoke(
     path: str | PathLike[str],
@@ -119,6 +124,46 @@ def write_smoke(
 
     Raises
     ------
+    InputError
+        The folder is missing or cannot be written.
+    """
+
+def write_levels(
+    path: str | PathLike[str],
+    frame: LocalFrame,
+    latitude: ArrayLike,
+    longitude: ArrayLike,
+    ground: ArrayLike,
+    height: ArrayLike,
+    smoke: ArrayLike,
+    voxel_size: float,
+    temperature: ArrayLike | None = None,
+    flame_position: ArrayLike | None = None,
+    flame_power: ArrayLike | None = None,
+    metadata: Mapping[str, str] | None = None,
+) -> Frame:
+    """Write smoke on terrain-following levels as a volume with the grids of `write_smoke`.
+
+    Parameters
+    ----------
+    frame
+        The local frame of the voxels.
+    latitude, longitude
+        (ny,), (nx,) degrees.
+    ground
+        (ny, nx) m: under it there is no smoke; the lowest level's smoke reaches down to it.
+    height, smoke, temperature
+        (nz, ny, nx) m, ascending with the levels; kg/m3; K, without it that of the standard atmosphere.
+
+    Notes
+    -----
+    Linear functions of height are kept exactly. `density` is a smoothstep of `dilution`, for a model gives
+    no surface; see cpp/volume/levels.hpp.
+
+    Raises
+    ------
+    Error
+        Shapes that do not fit, or heights that do not ascend.
     InputError
         The folder is missing or cannot be written.
     """

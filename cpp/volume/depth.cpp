@@ -1,0 +1,225 @@
+#include "depth.hpp"
+
+#include "lanes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace firetwin {
+namespace {
+
+constexpr float kNowhere = -std::numeric_limits<float>::infinity();
+
+struct View {
+  const float* x;
+  const float* y;
+  const float* z;
+  const float* radius;
+  std::size_t count; // whole lanes
+};
+
+/// Depths of one point in all the balls; returns the largest.
+FIRETWIN_CLONES float depths_at(const View& balls, const float* point, float* depths) {
+  Lanes most = Lanes{} + kNowhere;
+  for (std::size_t i = 0; i < balls.count; i += kLanes) {
+    Lanes x;
+    Lanes y;
+    Lanes z;
+    Lanes radius;
+    std::memcpy(&x, balls.x + i, sizeof x);
+    std::memcpy(&y, balls.y + i, sizeof y);
+    std::memcpy(&z, balls.z + i, sizeof z);
+    std::memcpy(&radius, balls.radius + i, sizeof radius);
+    x -= point[0];
+    y -= point[1];
+    z -= point[2];
+    Lanes depth = x * x + y * y + z * z;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      depth[lane] = std::sqrt(depth[lane]);
+    }
+    depth = radius - depth;
+    std::memcpy(depths + i, &depth, sizeof depth);
+    most = depth > most ? depth : most;
+  }
+  float largest = kNowhere;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    largest = std::max(largest, most[lane]);
+  }
+  return largest;
+}
+
+/// Depth of eight points in their deepest ball and its radius.
+FIRETWIN_CLONES void deepest(const View& balls, const float* points, float* depths, float* radii) {
+  Lanes px;
+  Lanes py;
+  Lanes pz;
+  std::memcpy(&px, points, sizeof px);
+  std::memcpy(&py, points + kLanes, sizeof py);
+  std::memcpy(&pz, points + 2 * kLanes, sizeof pz);
+  Lanes most = Lanes{} - kOutside;
+  Lanes chosen{};
+  for (std::size_t i = 0; i < balls.count; ++i) {
+    const Lanes x = px - balls.x[i];
+    const Lanes y = py - balls.y[i];
+    const Lanes z = pz - balls.z[i];
+    Lanes depth = x * x + y * y + z * z;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      depth[lane] = std::sqrt(depth[lane]);
+    }
+    const Lanes radius = Lanes{} + balls.radius[i];
+    depth = radius - depth;
+    const auto deeper = depth > most;
+    chosen = deeper ? radius : chosen;
+    most = deeper ? depth : most;
+  }
+  std::memcpy(depths, &most, sizeof most);
+  std::memcpy(radii, &chosen, sizeof chosen);
+}
+
+std::size_t voxel_at(std::size_t x, std::size_t y, std::size_t z) {
+  return (x * kLeafSide + y) * kLeafSide + z;
+}
+
+} // namespace
+
+void DepthMeter::Balls::reserve(std::size_t most) {
+  if (x.size() < most + kLanes) {
+    for (std::vector<float>* column : {&x, &y, &z, &radius}) {
+      column->resize(most + kLanes);
+    }
+  }
+  count = 0;
+}
+
+void DepthMeter::Balls::add(float ball_x, float ball_y, float ball_z, float ball_radius) {
+  x[count] = ball_x;
+  y[count] = ball_y;
+  z[count] = ball_z;
+  radius[count] = ball_radius;
+  ++count;
+}
+
+void DepthMeter::Balls::fill_up() {
+  for (std::size_t i = count; i < count + kLanes; ++i) {
+    x[i] = y[i] = z[i] = 0.0F;
+    radius[i] = kNowhere;
+  }
+}
+
+void DepthMeter::measure(const Puffs& puffs, std::span<const std::uint32_t> balls,
+                         const std::array<float, 3>& corner, float voxel_size, std::uint64_t wanted,
+                         LeafValues& depth, LeafValues& radius) {
+  corner_ = corner;
+  voxel_ = voxel_size;
+  depth_ = &depth;
+  radius_ = &radius;
+  depth.fill(-kOutside);
+  radius.fill(0.0F);
+  for (Balls& level : balls_) {
+    level.reserve(balls.size());
+  }
+  if (depths_.size() < balls.size() + kLanes) {
+    depths_.resize(balls.size() + kLanes);
+  }
+  for (const std::uint32_t ball : balls) {
+    const float* centre = &puffs.position[3 * ball];
+    balls_[0].add(centre[0], centre[1], centre[2], puffs.radius[ball]);
+  }
+  balls_[0].fill_up();
+  refine({{0, 0, 0}, kLeafSide, 0}, wanted);
+}
+
+std::array<float, 3> DepthMeter::place(const Block& block, float offset) const {
+  std::array<float, 3> point{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    point[axis] = corner_[axis] + (static_cast<float>(block.origin[axis]) + offset) * voxel_;
+  }
+  return point;
+}
+
+void DepthMeter::refine(const Block& block, std::uint64_t wanted) {
+  const Balls& from = balls_[block.level];
+  Balls& left = balls_[block.level + 1];
+  const float middle = 0.5F * static_cast<float>(block.side - 1);
+  // From the centre to the outermost voxels, and a little for rounding.
+  const float half = middle * voxel_ * std::numbers::sqrt3_v<float> * 1.0001F + 0.1F;
+  const std::size_t lanes = (from.count + kLanes - 1) / kLanes * kLanes;
+  const View view{from.x.data(), from.y.data(), from.z.data(), from.radius.data(), lanes};
+  const float most = depths_at(view, place(block, middle).data(), depths_.data());
+  if (most < -kOutside - half) {
+    return;
+  }
+  if (most - half >= kInside) {
+    const auto ball = static_cast<std::size_t>(
+        std::find(depths_.begin(), depths_.begin() + static_cast<std::ptrdiff_t>(from.count),
+                  most) -
+        depths_.begin());
+    for (std::size_t x = 0; x < block.side; ++x) {
+      for (std::size_t y = 0; y < block.side; ++y) {
+        const std::size_t row = voxel_at(block.origin[0] + x, block.origin[1] + y, block.origin[2]);
+        std::fill_n(depth_->begin() + static_cast<std::ptrdiff_t>(row), block.side, most - half);
+        std::fill_n(radius_->begin() + static_cast<std::ptrdiff_t>(row), block.side,
+                    from.radius[ball]);
+      }
+    }
+    return;
+  }
+  const float limit = std::max(most - 2.0F * half, -kOutside - half);
+  left.count = 0;
+  for (std::size_t i = 0; i < from.count; ++i) {
+    left.x[left.count] = from.x[i];
+    left.y[left.count] = from.y[i];
+    left.z[left.count] = from.z[i];
+    left.radius[left.count] = from.radius[i];
+    left.count += depths_[i] >= limit ? 1 : 0;
+  }
+  left.fill_up();
+  if (block.side == 2) {
+    measure_voxels(block, left);
+    return;
+  }
+  const std::size_t half_side = block.side / 2;
+  const std::size_t count = half_side / 2; // blocks of 2^3 along a part
+  for (std::size_t part = 0; part < 8; ++part) {
+    Block next{block.origin, half_side, block.level + 1};
+    next.origin[0] += (part >> 2 & 1) * half_side;
+    next.origin[1] += (part >> 1 & 1) * half_side;
+    next.origin[2] += (part & 1) * half_side;
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < count * count * count; ++i) {
+      const std::size_t x = next.origin[0] / 2 + i / (count * count);
+      const std::size_t y = next.origin[1] / 2 + i / count % count;
+      const std::size_t z = next.origin[2] / 2 + i % count;
+      bits |= std::uint64_t{1} << ((x * 4 + y) * 4 + z);
+    }
+    if ((wanted & bits) != 0) {
+      refine(next, wanted);
+    }
+  }
+}
+
+void DepthMeter::measure_voxels(const Block& block, const Balls& balls) {
+  std::array<float, 3 * kLanes> points{};
+  std::array<std::size_t, kLanes> voxels{};
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const std::array<std::size_t, 3> at{block.origin[0] + (lane >> 2 & 1),
+                                        block.origin[1] + (lane >> 1 & 1),
+                                        block.origin[2] + (lane & 1)};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      points[axis * kLanes + lane] = corner_[axis] + static_cast<float>(at[axis]) * voxel_;
+    }
+    voxels[lane] = voxel_at(at[0], at[1], at[2]);
+  }
+  std::array<float, kLanes> depths{};
+  std::array<float, kLanes> radii{};
+  deepest({balls.x.data(), balls.y.data(), balls.z.data(), balls.radius.data(), balls.count},
+          points.data(), depths.data(), radii.data());
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    (*depth_)[voxels[lane]] = depths[lane];
+    (*radius_)[voxels[lane]] = radii[lane];
+  }
+}
+
+} // namespace firetwin

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "depth.hpp"
+#include "puffs.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace firetwin {
+
+/// Light of flames: positions (n, 3) m and powers (n,) W.
+struct Flames {
+  std::span<const double> position;
+  std::span<const double> power;
+};
+
+/// How far the mass of a puff of radius R is spread, m: to the far side of the balls on its
+/// surface.
+inline float spread(float radius) {
+  return 1.5F * radius + 60.0F;
+}
+
+/// A smooth field on 3^3 nodes, four voxels apart, that neighbouring leaves share. Each row of
+/// three along z ends with a fourth value that means nothing.
+using Nodes = std::array<double, 9 * 4>;
+
+/// Smoke of puffs with mass, ready to be summed at many places.
+class Smoke {
+public:
+  explicit Smoke(const Puffs& puffs);
+
+  /// kg/m3 at the nodes of the leaf whose lowest voxel is centred on `corner`: each puff is 21 M /
+  /// (16 pi s^3) (1 - r^4 / s^4), s = spread(radius). `balls` are numbers of puffs.
+  Nodes at_nodes(const std::array<float, 3>& corner, float voxel_size,
+                 std::span<const std::uint32_t> balls) const;
+
+private:
+  struct Source {
+    std::array<double, 3> position;
+    double inverse; // 1 / s^2, 1/m2
+    double weight;  // kg/m3 in the middle
+  };
+  std::vector<Source> sources_;
+};
+
+/// Glow of flames at the nodes of a leaf, see write_smoke.
+Nodes glow_at_nodes(const std::array<float, 3>& corner, float voxel_size, const Flames& flames);
+
+/// Largest value at a node.
+double largest(const Nodes& nodes);
+
+/// Trilinear values in between.
+void interpolate(const Nodes& nodes, LeafValues& values);
+
+} // namespace firetwin
