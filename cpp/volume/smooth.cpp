@@ -47,8 +47,8 @@ FIRETWIN_CLONES void add_puffs(const Puff* puffs, std::size_t count, const Ticks
     for (std::size_t row = 0; row < kRows; ++row) {
       const double dx = at[0][row / 3] - puff.position[0];
       const double dy = at[1][row % 3] - puff.position[1];
-      const WideLanes part = (dz2 + (dx * dx + dy * dy)) * puff.inverse;
-      const WideLanes rest = 1.0 - part * part;
+      const WideLanes part2 = (dz2 + (dx * dx + dy * dy)) * puff.inverse;
+      const WideLanes rest = 1.0 - part2 * part2;
       const WideLanes none{};
       rows[row] += (rest > none ? rest : none) * puff.weight;
     }
