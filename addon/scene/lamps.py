@@ -67,17 +67,12 @@ def build(
     found = place(project, run, ground, views)
     strength = LIGHT * darkness(run, found.time)
     frames = 1.0 + (found.time - first) / (clock.step(project, run) or 1.0)
-    return [
-        _lamp(
-            collection,
-            f"Lamp {i:02d}",
-            found.position[i],
-            found.radius[i],
-            frames,
-            strength * found.heat[:, i],
-        )
-        for i in range(len(found.radius))
-    ]
+    made = []
+    for i, (position, radius) in enumerate(zip(found.position, found.radius, strict=True)):
+        thing = _lamp(collection, f"Lamp {i:02d}", position, radius, frames, strength * found.heat[:, i])
+        thing.data.use_shadow = project.render.engine == "cycles"  # EEVEE would draw six maps for each
+        made.append(thing)
+    return made
 
 
 def darkness(run: Run, times: Array) -> Array:
