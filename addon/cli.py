@@ -7,7 +7,9 @@ Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: f
 from __future__ import annotations
 
 import argparse
+import io
 import os
+import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -24,6 +26,8 @@ a first film, from nothing:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit status."""
     arguments = _parser().parse_args(argv)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="surrogateescape")  # names of files go out byte for byte
     try:
         from . import commands
 
@@ -53,6 +57,9 @@ def _report(error: Exception) -> int:
         text = f"{error.filename}: {error.strerror}"
     elif isinstance(error, ModuleNotFoundError) and error.name == "bpy":
         text = "Blender's Python module is missing; install it with: pip install 'firetwin[blender]'"
+    elif isinstance(error, ModuleNotFoundError) and error.name == "matplotlib":  # not in Blender
+        pip = f"{shlex.quote(sys.executable)} -m pip install matplotlib"
+        text = f"maps and plots need matplotlib; install it with: {pip}"
     else:
         text = f"unexpected {type(error).__name__}: {error} (run again with --debug for the details)"
     print(f"firetwin: {text}", file=sys.stderr)

@@ -6,14 +6,14 @@ import argparse
 import json
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from .progress import Progress, Reporter, say
+from .progress import Reporter, say
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run
 
-    from .project import Project
+    from .choice import Choice
 
 
 def sample(arguments: argparse.Namespace) -> None:
@@ -51,69 +51,33 @@ def maps(arguments: argparse.Namespace) -> None:
 
 def build(arguments: argparse.Namespace) -> None:
     """Build the scene and save it."""
-    from . import worker
+    from . import jobs
     from .errors import UsageError
 
-    out = arguments.out.absolute()
-    if out.suffix != ".blend":
+    if arguments.out.suffix != ".blend":
         raise UsageError(f"-o: {arguments.out} does not end in .blend")
-    project, _ = _load(arguments.scene)
-    out.parent.mkdir(parents=True, exist_ok=True)
-    worker.run(f"{__name__}:build_in_blender", {"scene": str(project.path), "out": str(out)}, Reporter())
+    jobs.build(_choice(arguments), arguments.out, Reporter())
     print(arguments.out)
 
 
 def bake(arguments: argparse.Namespace) -> None:
     """Write the smoke volumes."""
-    from . import worker
+    from . import jobs
 
-    project, _ = _load(arguments.scene)
-    if not project.smoke.enabled:
+    place = jobs.bake(_choice(arguments), Reporter("smoke"))
+    if place is None:
         say("this scene has no smoke ([smoke] enabled = false), so there is nothing to bake")
-        return
-    print(worker.run(f"{__name__}:bake_in_blender", {"scene": str(project.path)}, Reporter("smoke")))
+    else:
+        print(place)
 
 
 def render(arguments: argparse.Namespace) -> None:
     """Render what is asked for and not finished, then the films."""
-    from . import worker
-    from .render import films, part, plan, settings
+    from . import jobs
 
-    project, run = _load(arguments.scene)
-    out = arguments.out
-    wanted = plan.shots(project, arguments.frames, arguments.camera, arguments.passes)
-    made_with = settings.by_shot(project, wanted)
-    undone = plan.missing(out, wanted, made_with)
-    finished = len(wanted) - len(undone)
-    if not arguments.resume:
-        if finished:
-            say(f"rendering {_count(finished, 'picture')} again that match; --resume would keep them")
-        undone = wanted
-    elif finished:
-        say(f"{finished} of {_count(len(wanted), 'picture')} are finished and match")
-    out.mkdir(parents=True, exist_ok=True)
-    if undone:
-        cameras = " and ".join(dict.fromkeys(shot.camera for shot in undone))
-        say(f"rendering {_count(len(undone), 'picture')} of {cameras}")
-    elif not films.missing(project, run, out, made_with):
-        say("nothing to render")
-        _list(project, out)
-        return
-    try:
-        worker.run(
-            f"{__name__}:render_in_blender",
-            {
-                "scene": str(project.path),
-                "out": str(out.absolute()),
-                "shots": [[shot.camera, shot.frame, shot.name] for shot in undone],
-                "filmed": [list(pair) for pair in made_with],
-            },
-            Reporter(),
-            eevee=project.render.engine == "eevee",
-        )
-    finally:
-        part.sweep(out)
-    _list(project, out)
+    asked = jobs.Asked(arguments.out, arguments.frames, arguments.camera, arguments.passes, arguments.resume)
+    jobs.render(_choice(arguments), asked, Reporter(), tell=say)
+    _list(arguments.out)
 
 
 def bench(arguments: argparse.Namespace) -> int:
@@ -138,9 +102,10 @@ def bench(arguments: argparse.Namespace) -> int:
     return 1 if missed else 0
 
 
-def _list(project: Project, out: Path) -> None:
+def _list(out: Path) -> None:
     """Name what there is, a line per folder of pictures and per film."""
     from .render import manifest
+    from .wording import count
 
     files = manifest.load(out)["files"]
     folders: dict[str, int] = {}
@@ -149,15 +114,11 @@ def _list(project: Project, out: Path) -> None:
             kind = f"{Path(name).parent}/*{Path(name).suffix}"
             folders[kind] = folders.get(kind, 0) + 1
     for kind, number in folders.items():
-        print(f"{out / kind}  {_count(number, 'picture')}")
+        print(f"{out / kind}  {count(number, 'picture')}")
     for name in files:
         if name.endswith(".mp4"):
             print(out / name)
     print(out / manifest.NAME)
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number:,} {noun}" + ("" if number == 1 else "s")
 
 
 def _open(folder: Path) -> Run:
@@ -166,67 +127,7 @@ def _open(folder: Path) -> Run:
     return run.open(folder)
 
 
-def _load(scene: str | Path) -> tuple[Project, Run]:
-    """Read the scene file and open its run; they must fit each other."""
-    from . import check, project
+def _choice(arguments: argparse.Namespace) -> Choice:
+    from .choice import Choice
 
-    loaded = project.load(scene)
-    run = _open(loaded.run)
-    check.against_run(loaded, run)
-    return loaded, run
-
-
-# What follows runs in the worker process, where Blender is.
-
-
-def build_in_blender(scene: str, out: str, progress: Progress) -> None:
-    """Build the scene and save it under a temporary name that it then loses."""
-    import bpy
-
-    project, run = _load(scene)
-    _built(project, run, progress)
-    part = Path(out).with_suffix(".part.blend")
-    bpy.context.preferences.filepaths.save_version = 0
-    bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True, relative_remap=False)
-    part.replace(out)
-
-
-def bake_in_blender(scene: str, progress: Progress) -> str:
-    """Bake and return the folder of the volumes."""
-    from .scene import bake
-
-    project, run = _load(scene)
-    return str(bake.bake(project, run, progress))
-
-
-def render_in_blender(
-    scene: str, out: str, shots: list[list[Any]], filmed: list[list[str]], progress: Progress
-) -> None:
-    """Render these shots, then make the films of these cameras and passes."""
-    from .render import frames, passes, settings, video
-
-    project, run = _load(scene)
-    todo = [passes.Shot(*shot) for shot in shots]
-    made_with = settings.of_pairs(project, [(camera, name) for camera, name in filmed])
-    if todo:
-        smoky = sorted({shot.frame for shot in todo if shot.name != "depth"})
-        scene = _built(project, run, progress, smoky)
-        frames.render(project, run, scene, Path(out), todo, made_with, progress)
-    video.make(project, run, Path(out), made_with, progress)
-
-
-def _built(project: Project, run: Run, progress: Progress, frames: list[int] | None = None) -> Any:
-    """An otherwise empty Blender with the scene in it, and the smoke of these frames (all) on disk."""
-    import bpy
-
-    from .render import engine
-    from .scene import bake, build
-
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    if project.smoke.enabled and frames != []:
-        bake.bake(project, run, progress, frames)
-    progress(0, 1, "building the scene")
-    scene = build.build(project, run)
-    engine.apply(project, scene)
-    progress(1, 1, "building the scene")
-    return scene
+    return Choice(scene=str(arguments.scene))

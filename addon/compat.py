@@ -5,7 +5,8 @@ Features are looked for, version numbers are not compared.
 
 from __future__ import annotations
 
-import warnings
+import os
+from collections.abc import Sequence
 from typing import Any
 
 import bpy
@@ -36,6 +37,19 @@ def _action_name(datablock: bpy.types.ID) -> str:
     return f"Firetwin {datablock.name.removeprefix('Firetwin ')} Action"
 
 
+def animate(
+    datablock: bpy.types.ID, data_path: str, index: int, frames: Sequence[float], values: Sequence[float]
+) -> None:
+    """Make a property go through `values` at `frames`, both (n,), in straight lines."""
+    curve = new_fcurve(datablock, data_path, index)
+    curve.keyframe_points.add(len(frames))
+    pairs = [number for pair in zip(frames, values, strict=True) for number in pair]
+    curve.keyframe_points.foreach_set("co", pairs)
+    linear = bpy.types.Keyframe.bl_rna.properties["interpolation"].enum_items["LINEAR"].value
+    curve.keyframe_points.foreach_set("interpolation", [linear] * len(frames))
+    curve.update()
+
+
 def fcurves(datablock: bpy.types.ID) -> list[bpy.types.FCurve]:
     """All F-curves that animate `datablock`."""
     animation = datablock.animation_data
@@ -52,11 +66,12 @@ def fcurves(datablock: bpy.types.ID) -> list[bpy.types.FCurve]:
 
 
 def node_tree(owner: bpy.types.Material | bpy.types.World | bpy.types.Light) -> bpy.types.NodeTree:
-    """The empty shader tree of a new material, world or light (`use_nodes` is deprecated in 5.0)."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)
-        if not owner.use_nodes:
-            owner.use_nodes = True
+    """The empty shader tree of a new material, world or light.
+
+    Materials and worlds have one from the start in 5.0, where their `use_nodes` is deprecated.
+    """
+    if owner.node_tree is None:
+        owner.use_nodes = True
     owner.node_tree.nodes.clear()
     return owner.node_tree
 
@@ -87,7 +102,9 @@ def find_socket(sockets: bpy.types.bpy_prop_collection, name: str | int) -> bpy.
 
 
 def set_sky(node: bpy.types.ShaderNodeTexSky, elevation: float, rotation: float, dust: float) -> None:
-    """Make a sky texture a physical sky without sun disc.
+    """Make a sky texture a physical sky of singly scattered light, seen from sea level, without sun disc.
+
+    Nishita's model, which 4.5 calls by that name, is single scattering from 5.0 on.
 
     Parameters
     ----------
@@ -97,10 +114,11 @@ def set_sky(node: bpy.types.ShaderNodeTexSky, elevation: float, rotation: float,
         Aerosol density, 1 for urban haze.
     """
     kinds = node.bl_rna.properties["sky_type"].enum_items
-    node.sky_type = "NISHITA" if "NISHITA" in kinds else "MULTIPLE_SCATTERING"
+    node.sky_type = "NISHITA" if "NISHITA" in kinds else "SINGLE_SCATTERING"
     node.sun_disc = False
     node.sun_elevation = elevation
     node.sun_rotation = rotation
+    node.altitude = 0.0
     setattr(node, "dust_density" if hasattr(node, "dust_density") else "aerosol_density", dust)
 
 
@@ -184,8 +202,48 @@ def new_strip(
     return strips.new_effect(name=name, type=kind, channel=channel, frame_start=start, **extent)
 
 
+def march_through_volumes(cycles: bpy.types.PropertyGroup) -> None:
+    """Make Cycles march through volumes in steps, as 4.5 always does; 5.0 has an unbiased way beside it."""
+    if hasattr(cycles, "volume_biased"):
+        cycles.volume_biased = True
+
+
+def volume_shift(cycles: bpy.types.PropertyGroup, voxel: float) -> float:
+    """How far (m) along each axis a volume must be moved to be drawn where its grids say.
+
+    4.5 draws grids half a voxel too far along +x, +y and +z, in both engines; 5.0, whose new way through
+    volumes `volume_biased` switches off, draws them in their place with either.
+    """
+    return 0.0 if hasattr(cycles, "volume_biased") else -0.5 * voxel
+
+
+def still_settings(render: bpy.types.RenderSettings) -> None:
+    """Make a render write one PNG file per frame; from 5.0 that is not possible while films are chosen."""
+    if hasattr(render.image_settings, "media_type"):
+        render.image_settings.media_type = "IMAGE"
+    render.image_settings.file_format = "PNG"
+
+
+def typeface() -> bpy.types.VectorFont | None:
+    """Blender's own typeface from its file, or None where that is not installed.
+
+    The built-in one is the same, but 5.2 loses it when it opens a second file without a window.
+    """
+    path = os.path.join(bpy.utils.system_resource("DATAFILES", path="fonts"), "Inter.woff2")
+    return bpy.data.fonts.load(path, check_existing=True) if os.path.isfile(path) else None
+
+
 def film_settings(render: bpy.types.RenderSettings) -> None:
     """Make a render write one film file with Blender's own FFmpeg."""
     if hasattr(render.image_settings, "media_type"):
         render.image_settings.media_type = "VIDEO"
     render.image_settings.file_format = "FFMPEG"
+
+
+def set_denoising(cycles: Any, wanted: bool) -> None:
+    """Have Cycles denoise with OpenImageDenoise; a Blender built without it, such as Debian's, cannot."""
+    try:
+        cycles.denoiser, cycles.denoising_prefilter = "OPENIMAGEDENOISE", "ACCURATE"
+    except TypeError:
+        wanted = False
+    cycles.use_denoising = wanted

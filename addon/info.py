@@ -119,14 +119,43 @@ def page(info: dict[str, Any]) -> str:
     )
 
 
+def brief(info: dict[str, Any]) -> list[tuple[str, str]]:
+    """The most important facts in short: labels and texts for a narrow panel."""
+    grid, fuel, when = info["grid"], info["fuel_grid"], info["times"]
+    burned = [info["burned"][key] / ACRE for key in ("first", "last")]
+    return [
+        *([("Kind", "synthetic, made up")] if info["synthetic"] else []),
+        ("Grid", _cells(grid)),
+        ("Fuels", _cells(fuel)),
+        ("Extent", f"{grid['extent'][1] / 1e3:.1f} x {grid['extent'][0] / 1e3:.1f} km"),
+        ("Heights", f"{grid['elevation']['min']:,.0f} to {grid['elevation']['max']:,.0f} m"),
+        ("Times", f"{when['count']:,}{_interval(when)}"),
+        *(
+            (label, times.text(datetime.fromisoformat(when[key]), info["zone"]))
+            for label, key in (("First", "first"), ("Last", "last"))
+        ),
+        ("Burned", f"{burned[0]:,.0f} to {burned[1]:,.0f} acres"),
+        ("Heat flux", f"up to {info['heat_flux']['max'] / 1e3:,.4g} kW/m2"),
+    ]
+
+
+def _cells(grid: dict[str, Any]) -> str:
+    (ny, nx), (dx, dy) = grid["shape"], grid["spacing"]
+    return f"{ny} x {nx} cells of {(dx * dy) ** 0.5:.0f} m"
+
+
+def _interval(when: dict[str, Any]) -> str:
+    """How far apart the times are."""
+    if when["interval"] is None:
+        return ""
+    least, most = when["interval"]["min"], when["interval"]["max"]
+    return f", every {least:g} s" if most - least < 1e-6 else f", {least:g} to {most:g} s apart"
+
+
 def _facts(info: dict[str, Any]) -> list[tuple[str, str]]:
     grid, fuel, when = info["grid"], info["fuel_grid"], info["times"]
     zone, height = info["zone"], grid["elevation"]
     first, last = (datetime.fromisoformat(when[key]) for key in ("first", "last"))
-    interval = ""
-    if when["interval"]:
-        least, most = when["interval"]["min"], when["interval"]["max"]
-        interval = f", every {least:g} s" if most - least < 1e-6 else f", {least:g} to {most:g} s apart"
     facts = [
         ("Model grid", _size(grid)),
         ("", _span(grid["latitude"], "N", "S") + ", " + _span(grid["longitude"], "E", "W")),
@@ -137,7 +166,7 @@ def _facts(info: dict[str, Any]) -> list[tuple[str, str]]:
         ("Fuel grid", _size(fuel)),
         ("Surface fuel", _load(info["surface_fuel"])),
         ("Canopy fuel", _load(info["canopy_fuel"])),
-        ("Times", f"{when['count']:,}{interval}"),
+        ("Times", f"{when['count']:,}{_interval(when)}"),
         ("  first", f"{times.text(first, zone)}  ({first:%d %b %H:%M} UTC)"),
         ("  last", f"{times.text(last, zone)}  ({last:%d %b %H:%M} UTC)"),
         (

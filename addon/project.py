@@ -43,13 +43,15 @@ class Forest:
 
 @dataclass(frozen=True)
 class Fire:
-    """Flames and the glowing ground."""
+    """Flames, firebrands and the glowing ground."""
 
     emitters: str = "front"  # "front": along the fire line; "cells": Algorithm 1, one per model cell
     flames: bool = True
     flame_length: str = "thomas"  # or "byram"
     budget: int = 20_736  # most flames or emitters drawn at once, nearest first
     embers: bool = True  # spots that glow in the ash; the thermal view shows their heat in any case
+    firebrands: int = 3000  # most glowing pieces in the air at once, near the cameras
+    torches: bool = True  # crowns near the cameras that flare up as the front reaches them
 
 
 @dataclass(frozen=True)
@@ -65,10 +67,11 @@ class Smoke:
 
 @dataclass(frozen=True)
 class Light:
-    """Sun, sky, haze and exposure."""
+    """Sun, sky, haze, exposure and the light of the flames."""
 
     haze: float = 1.0  # 0 none, 1 a dry September day
     exposure: float | None = None  # stops; None: from the height of the sun
+    lamps: int = 48  # at most this many light ground and trees in place of the flames, when the sun is low
 
 
 @dataclass(frozen=True)

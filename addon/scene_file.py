@@ -76,9 +76,10 @@ CHECKS: dict[type, dict[str, Check]] = {
         "emitters": _one_of("front", "cells"),
         "flame_length": _one_of("thomas", "byram"),
         "budget": _between(0),
+        "firebrands": _between(0, 100_000),
     },
     Smoke: {"voxel_size": _between(0), "max_age": _above(0), "extinction": _between(0)},
-    Light: {"haze": _between(0), "exposure": _between(-20, 20)},
+    Light: {"haze": _between(0), "exposure": _between(-20, 20), "lamps": _between(0, 500)},
     Camera: {
         "name": _file_name,
         "kind": _one_of("drone", "satellite"),

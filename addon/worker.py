@@ -22,7 +22,43 @@ from typing import Any
 from .progress import Progress, silent
 
 
-def run(task: str, arguments: dict[str, Any], progress: Progress = silent, eevee: bool = False) -> Any:
+class StoppedError(Exception):
+    """The work was ended by `Stop.now`."""
+
+
+class Stop:
+    """Ends a `run` from another thread."""
+
+    def __init__(self) -> None:
+        self.asked = False
+        self._child: subprocess.Popen[str] | None = None
+        self._lock = threading.Lock()
+
+    def now(self) -> None:
+        """End the child; a `run` that has not begun ends as it begins."""
+        with self._lock:
+            self.asked = True
+            if self._child is not None and self._child.poll() is None:
+                self._child.terminate()
+                sure = threading.Timer(3.0, self._child.kill)
+                sure.daemon = True
+                sure.start()
+
+    def watch(self, child: subprocess.Popen[str]) -> None:
+        """Know which child to end."""
+        with self._lock:
+            self._child = child
+        if self.asked:
+            self.now()
+
+
+def run(
+    task: str,
+    arguments: dict[str, Any],
+    progress: Progress = silent,
+    eevee: bool = False,
+    stop: Stop | None = None,
+) -> Any:
     """Call ``package.module:function`` in a child process, as ``function(progress=..., **arguments)``.
 
     Parameters
@@ -31,6 +67,8 @@ def run(task: str, arguments: dict[str, Any], progress: Progress = silent, eevee
         Values that JSON can carry.
     eevee
         The task draws with EEVEE, which needs OpenGL: without a display it gets one that needs no screen.
+    stop
+        What another thread can end it by.
 
     Returns
     -------
@@ -40,6 +78,8 @@ def run(task: str, arguments: dict[str, Any], progress: Progress = silent, eevee
     ------
     InputError, Error
         What the function raised, or an Error that says how the process ended.
+    StoppedError
+        `stop` was used.
     """
     log = tempfile.NamedTemporaryFile(prefix="firetwin-", suffix=".log", delete=False)  # noqa: SIM115
     package = __package__ or "firetwin"
@@ -55,12 +95,17 @@ def run(task: str, arguments: dict[str, Any], progress: Progress = silent, eevee
         )
     try:
         _end_on_sigterm()
+        if stop is not None:
+            stop.watch(child)
         answer = _converse(child, {"task": task, "arguments": arguments}, progress)
     finally:
         _end(child)
     if "result" in answer:
         os.unlink(log.name)
         return answer["result"]
+    if stop is not None and stop.asked:
+        os.unlink(log.name)
+        raise StoppedError
     from .errors import Error, input_error
 
     if "input_error" in answer:
@@ -113,7 +158,11 @@ def _end(child: subprocess.Popen[str]) -> None:
 def _command(code: str) -> list[str]:
     """Python with Blender as a module, or Blender itself where this runs inside it."""
     blender = sys.modules["bpy"].app.binary_path if "bpy" in sys.modules else ""
-    return [blender, "--background", "--python-expr", code] if blender else [sys.executable, "-c", code]
+    return (
+        [blender, "--background", "--disable-autoexec", "--python-expr", code]
+        if blender
+        else [sys.executable, "-c", code]
+    )
 
 
 def _environment(eevee: bool) -> dict[str, str]:

@@ -5,19 +5,35 @@
 
 namespace firetwin {
 
+/// A number of 128 bits.
+struct Wide {
+  std::uint64_t high, low;
+};
+
+constexpr Wide product(std::uint64_t a, std::uint64_t b) {
+#ifdef __SIZEOF_INT128__
+  __extension__ using Number = unsigned __int128;
+  const Number whole = Number{a} * b;
+  return {static_cast<std::uint64_t>(whole >> 64), static_cast<std::uint64_t>(whole)};
+#else // by halves of 32 bits: Visual C++
+  constexpr std::uint64_t half = 0xFFFFFFFF;
+  const std::uint64_t low = (a & half) * (b & half);
+  const std::uint64_t left = (a >> 32) * (b & half) + (low >> 32);
+  const std::uint64_t right = (a & half) * (b >> 32) + (left & half);
+  return {(a >> 32) * (b >> 32) + (left >> 32) + (right >> 32), (right << 32) | (low & half)};
+#endif
+}
+
 /// Philox4x64-10: a counter-based random number generator (Salmon et al. 2011, "Parallel random
 /// numbers: as easy as 1, 2, 3", doi:10.1145/2063384.2063405). The four numbers depend on the key
 /// and the counter alone, so that any thread can draw any of them. numpy.random.Philox gives the
 /// same.
 constexpr std::array<std::uint64_t, 4> philox(std::array<std::uint64_t, 4> counter,
                                               std::array<std::uint64_t, 2> key) {
-  __extension__ using Wide = unsigned __int128;
   for (int round = 0; round < 10; ++round) {
-    const Wide a = Wide{0xD2E7470EE14C6C93} * counter[0];
-    const Wide b = Wide{0xCA5A826395121157} * counter[2];
-    const auto high = [](Wide w) { return static_cast<std::uint64_t>(w >> 64); };
-    const auto low = [](Wide w) { return static_cast<std::uint64_t>(w); };
-    counter = {high(b) ^ counter[1] ^ key[0], low(b), high(a) ^ counter[3] ^ key[1], low(a)};
+    const Wide a = product(0xD2E7470EE14C6C93, counter[0]);
+    const Wide b = product(0xCA5A826395121157, counter[2]);
+    counter = {b.high ^ counter[1] ^ key[0], b.low, a.high ^ counter[3] ^ key[1], a.low};
     key[0] += 0x9E3779B97F4A7C15;
     key[1] += 0xBB67AE8584CAA73B;
   }

@@ -7,7 +7,17 @@ from typing import Any
 
 from .harness import Bench, Report
 
-SUBJECTS = ("text", "geodesy", "forest", "emitters", "volume", "interpolation", "particles")
+SUBJECTS = (
+    "text",
+    "geodesy",
+    "forest",
+    "emitters",
+    "volume",
+    "smoke",
+    "plume",
+    "interpolation",
+    "particles",
+)
 """One module each, with ``run(bench)``, in the order of the report."""
 
 

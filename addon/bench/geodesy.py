@@ -22,21 +22,25 @@ PIPELINE = (
 Points = tuple[NDArray, NDArray, NDArray]
 
 
-def numpy_enu(latitude: NDArray, longitude: NDArray, height: NDArray) -> NDArray:
-    """The closed form, vectorised: degrees, degrees, metres (n,) -> (n, 3) metres."""
-    lat, lon = np.radians(latitude), np.radians(longitude)
-    lat0, lon0 = np.radians(ORIGIN[:2])
+def numpy_enu(
+    latitude: NDArray, longitude: NDArray, height: NDArray, origin: tuple[float, ...] = ORIGIN
+) -> NDArray:
+    """The closed form, vectorised: degrees, degrees, metres (n,) -> (n, 3) metres about `origin`."""
     e2 = F * (2 - F)
 
-    def centred(lat: Any, lon: Any, h: Any) -> tuple[Any, Any, Any]:
-        n = A / np.sqrt(1 - e2 * np.sin(lat) ** 2)
-        r = (n + h) * np.cos(lat)
-        return r * np.cos(lon), r * np.sin(lon), (n * (1 - e2) + h) * np.sin(lat)
+    def polar(latitude: Any, height: Any) -> tuple[Any, Any]:
+        """Distance from the axis and height over the equator, m."""
+        sine, cosine = np.sin(latitude), np.cos(latitude)
+        normal = A / np.sqrt(1 - e2 * sine * sine)
+        return (normal + height) * cosine, (normal * (1 - e2) + height) * sine
 
-    x, y, z = (a - b for a, b in zip(centred(lat, lon, height), centred(lat0, lon0, ORIGIN[2]), strict=True))
-    s, c, sl, cl = np.sin(lat0), np.cos(lat0), np.sin(lon0), np.cos(lon0)
-    out = cl * x + sl * y
-    return np.stack([cl * y - sl * x, c * z - s * out, c * out + s * z], axis=-1)
+    latitude0 = np.radians(origin[0])
+    r0, z0 = polar(latitude0, origin[2])
+    r, z = polar(np.radians(latitude), height)
+    turn = np.radians(longitude - origin[1])
+    dr, dz = r * np.cos(turn) - r0, z - z0
+    sine, cosine = np.sin(latitude0), np.cos(latitude0)
+    return np.stack([r * np.sin(turn), cosine * dz - sine * dr, sine * dz + cosine * dr], axis=-1)
 
 
 def error(points: Points, enu: NDArray) -> float | None:

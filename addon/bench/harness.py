@@ -18,7 +18,10 @@ OURS = "firetwin"
 
 @dataclass(frozen=True)
 class Row:
-    """One tool on one case: the best time (s) for `items` things, and its error in `error_unit`, if known."""
+    """One tool on one case: the best time (s) for `items` things, its error (`error_unit`) and what it wrote.
+
+    `error` and `bytes` are None where they are unknown or make no sense.
+    """
 
     subject: str
     case: str
@@ -29,6 +32,7 @@ class Row:
     error: float | None = None
     error_unit: str = ""
     threads: int = 1
+    bytes: int | None = None
 
 
 @dataclass(frozen=True)
@@ -100,10 +104,12 @@ class Bench:
         error: float | None = None,
         error_unit: str = "",
         threads: int = 1,
+        bytes: int | None = None,
     ) -> None:
         """Keep a measurement; error is what `error_unit` says."""
         error = None if error is None else float(error)
-        self.rows.append(Row(self.subject, case, tool, seconds, items, unit, error, error_unit, threads))
+        row = Row(self.subject, case, tool, seconds, items, unit, error, error_unit, threads, bytes)
+        self.rows.append(row)
 
     def target(self, promise: str, value: float, bound: float, unit: str, most: bool = False) -> None:
         """Keep a promise and its measured value."""

@@ -54,7 +54,7 @@ def _figure(path: Path, title: str, rows: list[Row], panel: Callable[[Any, list[
         axis.set(title=name, xscale="log", yscale="log")
         axis.grid(alpha=0.3, which="both", linewidth=0.5)
         panel(axis, found)
-        axis.legend(fontsize=7)
+        axis.legend(fontsize=7, framealpha=0.6)
     figure.suptitle(title)
     part = path.with_suffix(".part.png")
     figure.savefig(part, dpi=110)
@@ -82,12 +82,14 @@ def _work_precision(axis: Any, rows: list[Row]) -> None:
         error = [row.error or none for row in found]
         each = [row.seconds / row.items for row in found if row.seconds]
         axis.plot(error, each, **_style(name) | {"linestyle": ""}, color=colour, label=name)
+    axis.xaxis.set_minor_formatter(lambda *_: "")
     axis.set_xlim(least / 1.6, 10.0 ** math.ceil(math.log10(max(errors, default=none) * 1.2)))
     if least == none:
         axis.axvline(none, color="0.6", linewidth=0.8)
         axis.xaxis.set_major_formatter(lambda value, _: "0" if value <= none else f"{value:g}")
     axis.set_xlabel(f"error, {rows[0].error_unit}")
     axis.set_ylabel(f"seconds per {rows[0].unit}")
+    _whole_decades(axis)
 
 
 def _scaling(axis: Any, rows: list[Row]) -> None:
@@ -97,6 +99,14 @@ def _scaling(axis: Any, rows: list[Row]) -> None:
         axis.plot(size, seconds, **_style(name), color=colour, label=name)
     axis.set_xlabel(f"{rows[0].unit}s")
     axis.set_ylabel("seconds")
+    _whole_decades(axis)
+
+
+def _whole_decades(axis: Any) -> None:
+    """An upright axis with labels at powers of ten alone, and two of them at least."""
+    low, high = (math.log10(limit) for limit in axis.get_ylim())
+    axis.set_ylim(10.0 ** math.floor(low), 10.0 ** math.ceil(high))
+    axis.yaxis.set_minor_formatter(lambda *_: "")
 
 
 def _style(name: str) -> dict[str, Any]:

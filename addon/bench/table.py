@@ -30,6 +30,11 @@ def time(seconds: float | None) -> str:
     return f"{seconds * 1e9:.3g} ns"
 
 
+def size(count: int | None) -> str:
+    """``2.76 MB``."""
+    return "" if count is None else f"{number(count / 1e6)} MB"
+
+
 def verdict(target: Target) -> str:
     """``met`` or ``MISSED``."""
     return "met" if target.met else "MISSED"
@@ -48,12 +53,12 @@ def page(report: Report) -> str:
         if row.subject != subject:
             subject = row.subject
             lines += ["", subject]
-        threads = f" x{row.threads}" if row.threads > 1 else ""
         each = time(row.seconds / row.items) if row.seconds and row.items else ""
         error = f"{number(row.error)} {row.error_unit}" if row.error is not None else ""
+        per = f"{each:>9}/{row.unit}" if each else ""
         lines.append(
-            f"  {row.case:<28} {row.tool + threads:<38} {time(row.seconds):>9} "
-            f"{each:>9}/{row.unit:<14} {error}".rstrip()
+            f"  {row.case:<36} {_tool(row):<34} {time(row.seconds):>9} {per:<26} "
+            f"{size(row.bytes):>8}  {error}".rstrip()
         )
     lines += ["", "targets"]
     for target in report.targets:
@@ -69,8 +74,8 @@ def page(report: Report) -> str:
 def markdown(report: Report) -> str:
     """Two tables: run time against error beside the rivals, and the targets."""
     lines = [
-        "| step | case | tool | time | per item | beside firetwin | error |",
-        "|---|---|---|--:|--:|--:|--:|",
+        "| step | case | tool | time | per item | beside firetwin | size | error |",
+        "|---|---|---|--:|--:|--:|--:|--:|",
         *_rows(report.rows),
         "",
         "| step | target | measured | bound | |",
@@ -82,23 +87,28 @@ def markdown(report: Report) -> str:
             f"| {target.subject} | {target.promise} | {found} | {_bound(target)} | {verdict(target)} |"
         )
     machine = report.machine
-    lines += ["", f"Best times on {machine['processor']}, {machine['cores']} cores, one thread."]
+    lines += ["", f"Best times on {machine['processor']}, {machine['cores']} cores, one thread unless said."]
     lines += [f"Left out: {reason}." for reason in report.skipped]
     return "\n".join(lines)
+
+
+def _tool(row: Row) -> str:
+    return row.tool + (f", {row.threads} threads" if row.threads > 1 else "")
 
 
 def _rows(rows: list[Row]) -> Iterator[str]:
     ours: dict[tuple[str, str], float] = {}
     for row in rows:
-        if row.threads > 1 or SHOWN.get(row.subject, row.case) != row.case:
+        if SHOWN.get(row.subject, row.case) != row.case or (row.threads > 1 and row.subject in SHOWN):
             continue
         key = row.subject, row.case
         if row.tool.startswith(OURS) and row.seconds:
             ours.setdefault(key, row.seconds)
-        comparable = key in ours and row.seconds and row.subject != "particles"
+        comparable = key in ours and row.seconds and row.subject not in ("particles", "plume")
         beside = f"{number(row.seconds / ours[key])}x" if comparable else ""
         each = f"{time(row.seconds / row.items)}/{row.unit}" if row.seconds and row.items else ""
         error = f"{number(row.error)} {row.error_unit}" if row.error is not None else ""
         yield (
-            f"| {row.subject} | {row.case} | {row.tool} | {time(row.seconds)} | {each} | {beside} | {error} |"
+            f"| {row.subject} | {row.case} | {_tool(row)} | {time(row.seconds)} | {each} | {beside} "
+            f"| {size(row.bytes)} | {error} |"
         )

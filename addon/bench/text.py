@@ -89,7 +89,7 @@ def _one_size(bench: Bench, side: int, path: Path, wrong: dict[str, float]) -> N
             side * side,
             "value",
             error=wrong[tool],
-            error_unit="of hard numbers wrong",
+            error_unit="share of hard numbers wrong",
         )
         if side == 720 and tool == OURS:
             bench.target("every value the nearest float32", wrong[tool], 0, "share", most=True)

@@ -76,7 +76,7 @@ def _dense(bench: Bench, path: str, side: int, openvdb: ModuleType | None) -> No
         with threads(number):
             seconds = bench.best(ours, 5)
         wrong = abs(ours().mass / exact - 1)
-        bench.row(case, OURS, seconds, voxels, unit, error=wrong, error_unit="relative, mass", threads=number)
+        bench.row(case, OURS, seconds, voxels, unit, error=wrong, error_unit="of the mass", threads=number)
         if side == SIDES[-1] and number == 1:
             bench.target("array built and written", voxels / seconds / 1e6, 30, "Mvoxel/s")
             bench.target("mass kept within", wrong, 1e-6, "", most=True)
@@ -98,7 +98,7 @@ def _smoke(bench: Bench, path: str, number: int) -> None:
         frame.active_voxels,
         "voxel",
         error=wrong,
-        error_unit="relative, mass",
+        error_unit="of the mass",
         threads=number,
     )
     if number == 2:

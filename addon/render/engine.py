@@ -26,7 +26,7 @@ def apply(project: Project, scene: bpy.types.Scene) -> None:
     render.pixel_aspect_x = render.pixel_aspect_y = 1.0
     render.use_border = render.film_transparent = render.use_motion_blur = False
     render.use_file_extension = render.use_overwrite = True
-    render.image_settings.file_format = "PNG"
+    compat.still_settings(render)
     render.image_settings.color_mode, render.image_settings.color_depth = "RGB", "8"
     render.image_settings.compression = 15
     render.dither_intensity = 0.0
@@ -42,12 +42,13 @@ def _cycles(project: Project, scene: bpy.types.Scene) -> None:
     cycles.device = "CPU"
     cycles.samples = project.render.samples
     cycles.use_adaptive_sampling = False
+    cycles.sampling_pattern = "BLUE_NOISE"  # named, for what Blender starts with differs between versions
     cycles.seed, cycles.use_animated_seed = project.render.seed, False
-    cycles.use_denoising = project.render.denoise
-    cycles.denoiser, cycles.denoising_prefilter = "OPENIMAGEDENOISE", "ACCURATE"
+    compat.set_denoising(cycles, project.render.denoise)
     cycles.max_bounces, cycles.diffuse_bounces = 4, 1
     cycles.glossy_bounces = cycles.transmission_bounces = 0
     cycles.volume_bounces = volume_bounces(project.render.samples)
+    compat.march_through_volumes(cycles)
     cycles.transparent_max_bounces = 12
     cycles.sample_clamp_direct, cycles.sample_clamp_indirect = 0.0, 4.0
     cycles.caustics_reflective = cycles.caustics_refractive = False

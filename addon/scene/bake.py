@@ -24,11 +24,11 @@ from ..errors import input_error
 from ..progress import Progress, silent
 from ..project import Project
 from ..times import frame_times
-from . import air, burning
+from . import air, burning, heat
 from .frame import local_frame
 from .smoke_view import Sights, resolution, shot_frames
 
-__all__ = ["SHOWN", "Baker", "bake", "file", "flames", "folder", "resolution", "shot_frames"]
+__all__ = ["SHOWN", "Baker", "bake", "file", "folder", "lights", "resolution", "shot_frames"]
 
 SHOWN = ("density", "dilution", "shade", "size", "glow")  # grids that smoke_material asks for
 _FRAME_MEMORY = 1 << 30  # bytes that a frame may need while it is made: 0.5 GB were measured
@@ -132,6 +132,7 @@ class Baker:
         self.grids = None if whole else SHOWN
         self.sights = None if whole else Sights(project, run)
         self.run = run
+        self.heat = heat.Heat(run, self.times[0], self.times[-1])
         first = self.times[0] - project.smoke.max_age - burning.BURN_TIME
         # Cells of the interval that goes on at the last frame belong to its puffs.
         self.cells = burning.cells(run, first, self.times[-1] + 600.0)
@@ -157,7 +158,7 @@ class Baker:
     def write(self, path: Path, frame: int) -> volume.Frame:
         """Write the volume of a frame: from the model's own smoke where the run has it, else from puffs."""
         time = float(self.times[frame - 1])
-        position, power = flames(self.cells, time)
+        position, power = lights(self.heat, time)
         own = self.run.has("smoke_3d")
         more: dict[str, Any] = {
             "grids": self.grids,
@@ -198,29 +199,15 @@ class Baker:
         )
 
 
-def flames(cells: burning.Cells, time: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The strongest groups of burning cells as lights: positions (n, 3) m and powers (n,) W."""
-    power = cells.power(time)
-    # A cell flares up in a minute and dies down, so that no light comes or goes at once.
-    age = np.clip((time - cells.arrival) / burning.BURN_TIME, 0.0, 1.0)
-    power = power * np.minimum(age * burning.BURN_TIME / 60.0, 1.0) * 2.0 * (1.0 - age)
-    lit = np.flatnonzero(power > 0.0)
-    if len(lit) == 0:
-        return np.empty((0, 3)), np.empty(0)
-    block = np.floor(cells.position[lit, :2] / _GLOW_BLOCK).astype(np.int64)
-    _, member = np.unique(block, axis=0, return_inverse=True)
-    member = member.ravel()
-    total = np.bincount(member, power[lit])
-    centre = np.stack(
-        [np.bincount(member, power[lit] * cells.position[lit, axis]) / total for axis in range(3)], axis=-1
-    )
-    centre[:, 2] += _FLAME_HEIGHT
-    strongest = np.sort(np.argsort(-total, kind="stable")[:_GLOW_COUNT])
-    return np.ascontiguousarray(centre[strongest]), np.ascontiguousarray(total[strongest])
+def lights(model: heat.Heat, time: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """What lights the smoke from within: positions (n, 3) m and powers (n,) W of luminous heat."""
+    found = heat.lights(model.sources(time).luminous(), _GLOW_BLOCK, _GLOW_COUNT)
+    return found.position + np.array([0.0, 0.0, _FLAME_HEIGHT]), found.power
 
 
 def _cache(project: Project) -> Path:
-    return project.cache if project.cache.is_absolute() else project.path.parent / project.cache
+    """The project's cache folder, absolute: Blender takes other paths for places beside the .blend file."""
+    return project.cache.absolute()
 
 
 def _key(project: Project, run: Run) -> str:

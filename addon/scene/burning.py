@@ -49,8 +49,19 @@ class Cells:
 
 def cell_area(run: Run) -> float:
     """Area of a fuel cell, m2."""
+    return _area(run, run.fuel_latitude, run.fuel_longitude)
+
+
+def model_cell_area(run: Run) -> float:
+    """Area of a cell of the model grid, m2."""
+    if run.elevation.size == 1:
+        return cell_area(run) * run.surface_fuel.size
+    return _area(run, run.latitude, run.longitude)
+
+
+def _area(run: Run, rows: Array, columns: Array) -> float:
+    """Mean area of the cells of a grid, m2, from its spacing in the middle of the run."""
     north, east = metres_per_degree(local_frame(run).latitude)
-    rows, columns = run.fuel_latitude, run.fuel_longitude
     dy = north * abs(float(rows[-1] - rows[0])) / max(len(rows) - 1, 1)
     dx = east * abs(float(columns[-1] - columns[0])) / max(len(columns) - 1, 1)
     return dx * dy

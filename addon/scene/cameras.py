@@ -41,10 +41,11 @@ def _camera(view: Path, collection: bpy.types.Collection) -> bpy.types.Object:
     quaternions = _quaternions(view.rotation)
     thing.location, thing.rotation_quaternion = view.position[0], quaternions[0]
     if len(np.unique(view.position, axis=0)) > 1 or np.ptp(quaternions, axis=0).max() > 0.0:
+        frames = range(1, len(quaternions) + 1)
         for axis in range(3):
-            _animate(thing, "location", axis, view.position[:, axis])
+            compat.animate(thing, "location", axis, frames, view.position[:, axis])
         for axis in range(4):
-            _animate(thing, "rotation_quaternion", axis, quaternions[:, axis])
+            compat.animate(thing, "rotation_quaternion", axis, frames, quaternions[:, axis])
     return thing
 
 
@@ -54,14 +55,3 @@ def _quaternions(rotation: np.ndarray) -> np.ndarray:
     for before, after in itertools.pairwise(turned):
         after.make_compatible(before)
     return np.array([tuple(q) for q in turned])
-
-
-def _animate(thing: bpy.types.Object, data_path: str, index: int, values: np.ndarray) -> None:
-    """One linear keyframe per frame, from frame 1."""
-    curve = compat.new_fcurve(thing, data_path, index)
-    curve.keyframe_points.add(len(values))
-    frames = np.arange(1, len(values) + 1, dtype=np.float64)
-    curve.keyframe_points.foreach_set("co", np.stack([frames, values], axis=-1).ravel())
-    linear = bpy.types.Keyframe.bl_rna.properties["interpolation"].enum_items["LINEAR"].value
-    curve.keyframe_points.foreach_set("interpolation", np.full(len(values), linear, np.int32))
-    curve.update()

@@ -17,14 +17,16 @@ def root(scene: bpy.types.Scene | None = None) -> bpy.types.Collection:
     return collection
 
 
-def fresh(name: str, scene: bpy.types.Scene | None = None) -> bpy.types.Collection:
+def fresh(
+    name: str, scene: bpy.types.Scene | None = None, parent: bpy.types.Collection | None = None
+) -> bpy.types.Collection:
     """The empty collection "Firetwin <name>": an old one goes with its objects and their data."""
     full = f"{ROOT} {name}"
     old = bpy.data.collections.get(full)
     if old is not None:
         remove(old)
     collection = bpy.data.collections.new(full)
-    root(scene).children.link(collection)
+    (parent or root(scene)).children.link(collection)
     return collection
 
 

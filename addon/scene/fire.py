@@ -10,18 +10,23 @@ from firetwin_core.run import Run
 
 from .. import nodes
 from ..project import Project
-from . import burning, clock, collections, flame_material, flames
+from . import burning, clock, collections, ember_nodes, flame_material, flames, lamps
 from .ground import Ground
 from .paths import Path, eyes, paths
+from .stand import Stand
 
 CARDS = 4
 _NAMES = {"length": "flame_length", "width": "flame_width"}
 
 
 def build(
-    project: Project, run: Run, ground: Ground | None = None, views: list[Path] | None = None
+    project: Project,
+    run: Run,
+    ground: Ground | None = None,
+    views: list[Path] | None = None,
+    grown: Stand | None = None,
 ) -> bpy.types.Object | None:
-    """Build "Firetwin Flames"; nothing where flames are off.
+    """Build "Firetwin Flames", "Firetwin Firebrands" and the lamps; nothing where flames are off.
 
     The points carry the attributes of `flames.Points` (`length` as `flame_length`, `width` as `flame_width`).
     """
@@ -34,11 +39,13 @@ def build(
     if project.fire.emitters == "cells":
         points = flames.cells(project, run, views)
     else:
-        points = flames.front(project, run, ground, views)
+        points = flames.front(project, run, ground, views, grown)
     thing = collections.add(collection, "Flames", _mesh(points))
     modifier = thing.modifiers.new("Firetwin Flames", "NODES")
     modifier.node_group = _node_group(project, run, _cards(flame_material.build(project, run)))
     _light_only(thing)
+    ember_nodes.build(project, run, ground, views, points, collection)
+    lamps.build(project, run, ground, views, collection)
     return thing
 
 

@@ -6,7 +6,7 @@ for as long as the front takes to pass it, so at any moment the points in flames
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from firetwin_core import flux, lod
@@ -14,10 +14,11 @@ from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ..project import Project
-from . import burning, clock
+from . import burning, clock, heat, noise
 from .frame import local_frame
 from .ground import Ground, bilinear
 from .paths import Path
+from .stand import Stand
 
 SIGHT = 12_000.0  # m; fronts farther than this are the ground's glowing edge alone
 _SPACING = ((2500.0, 8.0), (5000.0, 12.0), (SIGHT, 24.0))  # m from the camera -> m between points
@@ -27,6 +28,8 @@ _SPREAD = (0.01, 5.0)  # m/s
 _SIZES = 0.45  # standard deviation of the logarithm of flame lengths
 _LENGTHS = (1.0, 75.0)  # m
 _KELVIN = (1000.0, 1500.0)  # flames (Frankman et al. 2008)
+_TORCH_SIGHT = 2500.0  # m
+_TORCHES = 0.8  # part of the crowns that flare up where the canopy is dense
 _CELL_FLAME = 40.0  # m; flame of a cell's emitter at scale 100
 
 Array = NDArray[np.float64]
@@ -94,11 +97,13 @@ def kelvin(intensity: Array) -> Array:
     return _KELVIN[0] + (_KELVIN[1] - _KELVIN[0]) * np.clip(place, 0.0, 1.0)
 
 
-def front(project: Project, run: Run, ground: Ground, views: list[Path]) -> Points:
+def front(
+    project: Project, run: Run, ground: Ground, views: list[Path], grown: Stand | None = None
+) -> Points:
     """Flames along the front for every moment of the shot, at most `fire.budget` of them lit at once.
 
     Fireline intensity is H w R (Byram 1959), with the cell's fuel w and the rate of spread R from the slope
-    of the arrival time.
+    of the arrival time. Crowns of the stand flare up besides, where it is given.
     """
     first, last = clock.window(project, run)
     near = [view for view in views if view.perspective]
@@ -118,7 +123,7 @@ def front(project: Project, run: Run, ground: Ground, views: list[Path]) -> Poin
     place = ground.point(*ground.places(row, column)) if len(row) else np.empty((0, 3))
     distance = np.min([view.distance(place) for view in near], axis=0) if near else np.zeros(len(row))
     intensity = burning.HEAT / 1000.0 * fuel * speed
-    uneven = np.exp(_SIZES * _normal(random[0], random[1]))
+    uneven = np.exp(_SIZES * noise.normal(random[0], random[1]))
     length = np.clip(flame_length(intensity, project.fire.flame_length) * uneven, *_LENGTHS)
     thin = lod.Table().multiplier(distance) if len(distance) else np.ones(0)
     wind = float(np.hypot(*burning.wind_at(run, np.array([0.5 * (first + last)]))[0]))
@@ -133,8 +138,67 @@ def front(project: Project, run: Run, ground: Ground, views: list[Path]) -> Poin
         kelvin(intensity),
         random[2],
     )
-    kept = random[0] * 0.999 < thin
-    return _within_budget(points.take(np.flatnonzero(kept)), project, run, near)
+    points = points.take(np.flatnonzero(random[0] * 0.999 < thin))
+    if grown is not None and project.fire.torches:
+        points = _joined([points, torches(project, ground, grown, wind, first, last)])
+    return _within_budget(points, project, run, near)
+
+
+def torches(project: Project, ground: Ground, grown: Stand, wind: float, first: float, last: float) -> Points:
+    """Crowns of the stand that flare up when the front reaches them: tall, thin and short-lived.
+
+    A crown burns for half a minute to a minute, up to twice the tree's height (assumed), and the denser the
+    canopy the more crowns do.
+    """
+    near = np.flatnonzero((grown.distance < _TORCH_SIGHT) & (grown.height > 6.0))
+    row, column = ground.indices(*ground.geodetic(*grown.position[near, :2].T))
+    arrival = ground.arrival_at(row, column)
+    canopy = bilinear(ground.fields.canopy_fuel, row, column)
+    key = grown.key[near].T
+    luck, size, late, seed = (noise.uniform(*key, project.seed + 400 + k) for k in range(4))
+    lit = (luck < _TORCHES * canopy / (canopy + 1.0)) & (arrival <= last)
+    residence = 30.0 + 30.0 * size
+    arrival = arrival + 20.0 * late
+    chosen = np.flatnonzero(lit & (arrival + residence > first))
+    row, column, size = row[chosen], column[chosen], size[chosen]
+    height = grown.height[near[chosen]]
+    length = np.clip(height * (1.1 + 0.9 * size), *_LENGTHS)
+    intensity = burning.HEAT / 1000.0 * canopy[chosen] * _spread(ground, row, column)
+    return Points(
+        grown.position[near[chosen]],
+        arrival[chosen],
+        residence[chosen],
+        intensity,
+        length,
+        0.45 * height,
+        tilt(wind, 2.0 * length),
+        kelvin(intensity),
+        seed[chosen],
+    )
+
+
+def power(points: Points, run: Run, time: float) -> tuple[Array, heat.Sources]:
+    """Heat of each flame of the front at `time`, W, and all heat of the run that is not theirs.
+
+    The flames lit in a fuel cell share the flaming part of its heat (`heat.Heat.sources`) by intensity and
+    width. What smoulders, and what flames where none is drawn, stays with the sources. Both together are the
+    model's flux: in every model cell the sum is flux times area.
+    """
+    model = heat.Heat(run, time, time)
+    sources = model.sources(time)
+    lit = points.lit(time)
+    cell = model.fuel_cell_at(points.position[lit])
+    weight = points.intensity[lit] * points.width[lit]
+    total = np.bincount(cell, weight, run.surface_fuel.size)
+    flaming = np.zeros(run.surface_fuel.size)
+    shared = np.flatnonzero((sources.fuel_cell >= 0) & (total[sources.fuel_cell] > 0.0))
+    flaming[sources.fuel_cell[shared]] = sources.flaming[shared]
+    found = np.zeros(len(points.seed))
+    found[lit] = flaming[cell] * weight / np.where(total > 0.0, total, 1.0)[cell]
+    rest, left = sources.power.copy(), sources.flaming.copy()
+    rest[shared] -= sources.flaming[shared]
+    left[shared] = 0.0
+    return found, replace(sources, power=rest, flaming=left)
 
 
 def cells(project: Project, run: Run, views: list[Path]) -> Points:
@@ -167,8 +231,11 @@ def cells(project: Project, run: Run, views: list[Path]) -> Points:
                 seed,
             )
         )
-    merged = Points(*(np.concatenate([getattr(p, field.name) for p in parts]) for field in fields(Points)))
-    return _within_budget(merged, project, run, views)
+    return _within_budget(_joined(parts), project, run, views)
+
+
+def _joined(parts: list[Points]) -> Points:
+    return Points(*(np.concatenate([getattr(p, field.name) for p in parts]) for field in fields(Points)))
 
 
 def _candidates(
@@ -216,11 +283,6 @@ def _spread(ground: Ground, row: Array, column: Array) -> Array:
         ]
         slope.append((times[0] - times[1]) / size)
     return np.clip(1.0 / np.maximum(np.hypot(*slope), 1.0e-6), *_SPREAD)
-
-
-def _normal(first: Array, second: Array) -> Array:
-    """Normal deviates from two uniform ones (Box and Muller 1958)."""
-    return np.sqrt(-2.0 * np.log1p(-first * 0.9999)) * np.cos(2.0 * np.pi * second)
 
 
 def _within_budget(points: Points, project: Project, run: Run, views: list[Path]) -> Points:

@@ -21,6 +21,12 @@ def uniform(x: ArrayLike, y: ArrayLike, seed: int) -> NDArray[np.float64]:
     return _hash(x, y, seed) / 2.0**32
 
 
+def normal(first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:
+    """Normal deviates from two uniform ones (Box and Muller 1958)."""
+    first, second = np.asarray(first, np.float64), np.asarray(second, np.float64)
+    return np.sqrt(-2.0 * np.log1p(-first * 0.9999)) * np.cos(2.0 * np.pi * second)
+
+
 def perlin(x: ArrayLike, y: ArrayLike, seed: int) -> NDArray[np.float64]:
     """Gradient noise of wavelength 1, about -1..1 (Perlin 2002: quintic fade)."""
     x, y = np.broadcast_arrays(np.asarray(x, np.float64), np.asarray(y, np.float64))

@@ -25,7 +25,7 @@ RGB, THERMAL, DEPTH = "rgb", "thermal", "depth"
 LAYERS = (RGB, THERMAL, DEPTH)
 
 THERMAL_SAMPLES = 4  # a pixel's temperature is the mean over it, as in a detector
-_LEFT_OUT = {RGB: (), THERMAL: ("Smoke",), DEPTH: ("Smoke", "Fire")}
+_LEFT_OUT = {RGB: (), THERMAL: ("Smoke", "Lamps"), DEPTH: ("Smoke", "Fire")}
 
 
 def build(project: Project, run: Run, scene: bpy.types.Scene | None = None) -> list[bpy.types.ViewLayer]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 from firetwin_core.run import Run
 
+from .. import compat
 from ..project import Project
 from . import bake, collections, smoke_material
 
@@ -27,8 +28,13 @@ def build(project: Project, run: Run) -> bpy.types.Object | None:
     volume.sequence_mode = "CLIP"
     volume.render.space = "WORLD"
     volume.render.step_size = bake.resolution(project, run).step
+    volume.display.density = bake.resolution(project, run).extinction  # in the solid view, like the render's
+    volume.display.wireframe_type = "NONE"
     volume.materials.append(smoke_material.build(project, run))
     for scene in bpy.data.scenes:
         scene.cycles.volume_step_rate = 1.0
         scene.cycles.volume_max_steps = _MAX_STEPS
-    return collections.add(collection, "Smoke", volume)
+    thing = collections.add(collection, "Smoke", volume)
+    shift = compat.volume_shift(bpy.context.scene.cycles, bake.resolution(project, run).voxel)
+    thing.location = (shift, shift, shift)
+    return thing

@@ -2,21 +2,22 @@
 
 import bpy
 
-from . import command, project
+from . import build, clock, command, job, properties, render, run
 
-classes = (*project.classes,)
+classes = (*properties.classes, *job.classes, *run.classes, *build.classes, *clock.classes, *render.classes)
 
 
 def register() -> None:
     """Register every class, the scene's properties and the command `blender --command firetwin`."""
     for cls in classes:
         bpy.utils.register_class(cls)
-    bpy.types.Scene.firetwin = bpy.props.PointerProperty(type=project.FIRETWIN_PG_project)
+    bpy.types.Scene.firetwin = bpy.props.PointerProperty(type=properties.FIRETWIN_PG_scene)
     command.register()
 
 
 def unregister() -> None:
-    """Undo `register` in reverse order."""
+    """Undo `register` in reverse order; work that still goes on is ended."""
+    job.abandon()
     command.unregister()
     del bpy.types.Scene.firetwin
     for cls in reversed(classes):

@@ -6,10 +6,13 @@ _handles: list[object] = []
 
 
 def run(arguments: list[str]) -> int:
-    """Run the command line; returns its exit code."""
+    """Run the command line; returns its exit code, also for --help and bad usage, which argparse raises."""
     from .. import cli
 
-    return cli.main(arguments)
+    try:
+        return cli.main(arguments)
+    except SystemExit as end:
+        return end.code if isinstance(end.code, int) else int(end.code is not None)
 
 
 def register() -> None:

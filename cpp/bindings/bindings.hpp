@@ -2,7 +2,12 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+
 namespace firetwin::bindings {
+
+/// For people to read: bytes that are not UTF-8, as in some file names, are shown as \xNN.
+pybind11::str readable(const std::string& bytes);
 
 void init_errors(pybind11::module_& module);
 void init_geo(pybind11::module_ module);

@@ -9,10 +9,7 @@
 namespace firetwin::bindings {
 namespace py = pybind11;
 
-namespace {
-
-/// File names and their contents need not be UTF-8; an error message about them has to be.
-py::str text(const std::string& bytes) {
+py::str readable(const std::string& bytes) {
   PyObject* decoded = PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()),
                                            "backslashreplace");
   if (decoded == nullptr) {
@@ -20,8 +17,6 @@ py::str text(const std::string& bytes) {
   }
   return py::reinterpret_steal<py::str>(decoded);
 }
-
-} // namespace
 
 void init_errors(py::module_& module) {
   PYBIND11_CONSTINIT static py::gil_safe_call_once_and_store<py::object> error;
@@ -38,14 +33,14 @@ void init_errors(py::module_& module) {
       }
     } catch (const InputError& e) {
       const py::object& type = input_error.get_stored();
-      py::object value = type(text(e.what()));
-      value.attr("path") = text(e.path());
+      py::object value = type(readable(e.what()));
+      value.attr("path") = readable(e.path());
       value.attr("line") = e.line();
       value.attr("column") = e.column();
-      value.attr("reason") = text(e.reason());
+      value.attr("reason") = readable(e.reason());
       PyErr_SetObject(type.ptr(), value.ptr());
     } catch (const Error& e) {
-      py::set_error(error.get_stored(), text(e.what()));
+      py::set_error(error.get_stored(), readable(e.what()));
     }
   });
 }

@@ -29,7 +29,7 @@ void set_threads(int threads) {
 }
 
 std::map<std::string, std::string> build_info() {
-  return {{"compiler", __VERSION__},
+  return {{"compiler", FIRETWIN_COMPILER},
           {"openvdb", openvdb::getLibraryAbiVersionString()},
           {"openimageio", OIIO_VERSION_STRING},
           {"tbb", TBB_runtime_version()}};

@@ -205,10 +205,29 @@ template <Field field> Array<float> fuel_view(const py::object& self) {
   return lend<float>((run.*field)(), fuel_shape(run), self);
 }
 
-std::string describe(const Run& run) {
-  return "<Run '" + run.manifest().name + "': " + std::to_string(run.latitude().size()) + " x " +
-         std::to_string(run.longitude().size()) + " cells, " + std::to_string(run.times().size()) +
-         " times>";
+/// The path as Python has it, which opens the folder whatever bytes its name is made of.
+py::object path_of(const Run& run) {
+  const std::string bytes = run.path().string();
+  PyObject* decoded =
+      PyUnicode_DecodeFSDefaultAndSize(bytes.data(), static_cast<py::ssize_t>(bytes.size()));
+  if (decoded == nullptr) {
+    throw py::error_already_set();
+  }
+  return py::reinterpret_steal<py::object>(decoded);
+}
+
+py::list warnings(const Run& run) {
+  py::list result;
+  for (const std::string& warning : run.warnings()) {
+    result.append(readable(warning));
+  }
+  return result;
+}
+
+py::str describe(const Run& run) {
+  return readable("<Run '" + run.manifest().name + "': " + std::to_string(run.latitude().size()) +
+                  " x " + std::to_string(run.longitude().size()) + " cells, " +
+                  std::to_string(run.times().size()) + " times>");
 }
 
 } // namespace
@@ -222,8 +241,8 @@ void init_run(py::module_ module) {
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", &Frames::next);
   py::class_<Run, std::shared_ptr<Run>>(module, "Run", "A model run on disk.")
-      .def_property_readonly("path", [](const Run& r) { return r.path().string(); })
-      .def_property_readonly("name", [](const Run& r) { return r.manifest().name; })
+      .def_property_readonly("path", &path_of)
+      .def_property_readonly("name", [](const Run& r) { return readable(r.manifest().name); })
       .def_property_readonly("synthetic", [](const Run& r) { return r.manifest().synthetic; })
       .def_property_readonly("event", [](const Run& r) { return r.manifest().event; })
       .def_property_readonly("start", [](const Run& r) { return r.manifest().start; })
@@ -238,7 +257,7 @@ void init_run(py::module_ module) {
       .def_property_readonly("canopy_fuel", &fuel_view<&Run::canopy_fuel>)
       .def_property_readonly("fuel_elevation", &fuel_view<&Run::fuel_elevation>)
       .def_property_readonly("fields", &Run::fields)
-      .def_property_readonly("warnings", &Run::warnings)
+      .def_property_readonly("warnings", &warnings)
       .def(
           "heat_flux", [](const Run& r, py::ssize_t i) { return frame(r, r.heat_flux(), i); },
           py::arg("index"), "(ny, nx) W/m2 at times[index].")

@@ -12,19 +12,33 @@ namespace firetwin::flux {
 /// A cell whose flux is first above 0 at t1, after an interval d, began at t1 - s with 0 <= s <= d.
 /// Two estimates of s are averaged by their variances.
 ///
-/// Growth: a front that sweeps a cell lets its flux grow linearly, F = k s. From the ratio r of the
-/// first flux to the next, an interval e later, where the flux is
-///   a mean over each interval: k s^2 / 2d and k (s + e / 2), so s = r d + sqrt(r d (r d + e));
-///   a value at each time: k s and k (s + e), so s = r e / (1 - r).
+/// Growth: a front that sweeps a cell lets its flux grow linearly, F = k s. Fluxes are means over
+/// a <= d seconds before their time: the first is k s^2 / 2a where s < a, else k (s - a / 2), and
+/// the next, a mean over b seconds and e later, is k (s + g) with g = e - b / 2. So from their
+/// ratio r
+///   s = a r + sqrt(a r (a r + 2 g)) where that is below a, else (a / 2 + r g) / (1 - r).
 /// Its standard deviation is 0.2 d. Without growth, or with s above d, it is s = d / 2 with that of
 /// a uniform distribution, d / sqrt(12).
 ///
 /// Front: near a cell a front is straight and steady, so the cell's time is the mean of those of
 /// two opposite neighbours. The least squares plane through the 3 x 3 times t1 - d / 2 (as far as
-/// neighbours come in pairs) averages what is uniform in each of them. Its variance follows from
+/// neighbours come in pairs) averages what is uniform in each of them; pairs that begin in the
+/// cell's own interval tell nothing and are left out. Its variance follows from
 /// how far the pairs' means lie from the cell, d^2 / 12 at least.
 ///
-/// @param averaged whether fluxes are means over the interval that ends at their time
+/// @param averaged whether fluxes are means over the seconds before their time that run.toml names
+///                 (mean_s), or else over the interval; not averaged they are values at their time
 std::vector<float> arrival_time(const run::Run& run, bool averaged);
+
+/// A cell that begins to burn.
+struct Beginning {
+  std::size_t cell;
+  double time;     ///< s since start
+  double variance; ///< s^2
+};
+
+/// The cells that begin to burn between the model times `index` - 1 and `index`, by cell, with
+/// their time as in arrival_time.
+std::vector<Beginning> beginnings(const run::Run& run, std::size_t index, bool averaged);
 
 } // namespace firetwin::flux

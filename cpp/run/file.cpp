@@ -1,10 +1,7 @@
 #include "run/file.hpp"
 
 #include "error.hpp"
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include "system.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -21,23 +18,22 @@ namespace {
 } // namespace
 
 File::File(std::filesystem::path path) : path_(std::move(path)) {
-  // O_NONBLOCK: opening a named pipe must not wait for a writer.
-  descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  descriptor_ = system::open(path_);
   if (descriptor_ < 0) {
     fail(path_, errno == ENOENT ? "the file is missing; check the folder and the name"
                                 : std::string("cannot be opened: ") + std::strerror(errno));
   }
-  struct stat status{};
-  if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
-    ::close(descriptor_);
+  const auto size = system::size(descriptor_);
+  if (!size) {
+    system::close(descriptor_);
     fail(path_, "is not a regular file; put the data itself there");
   }
-  size_ = static_cast<std::uint64_t>(status.st_size);
+  size_ = *size;
 }
 
 File::~File() {
   if (descriptor_ >= 0) {
-    ::close(descriptor_);
+    system::close(descriptor_);
   }
 }
 
@@ -55,11 +51,7 @@ File& File::operator=(File&& other) noexcept {
 void File::read(std::uint64_t offset, std::span<char> out) const {
   std::size_t done = 0;
   while (done < out.size()) {
-    const auto n = ::pread(descriptor_, out.data() + done, out.size() - done,
-                           static_cast<off_t>(offset + done));
-    if (n < 0 && errno == EINTR) {
-      continue;
-    }
+    const auto n = system::read(descriptor_, offset + done, out.subspan(done));
     if (n < 0) {
       fail(path_, std::string("cannot be read: ") + std::strerror(errno));
     }

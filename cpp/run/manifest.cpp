@@ -16,8 +16,9 @@ namespace firetwin::run {
 namespace {
 
 constexpr std::uint64_t largest_manifest = 16U << 20;
-constexpr std::array<std::string_view, 9> known_keys = {
-    "name", "start", "interval_s", "times_s", "vertical", "units", "no_data", "synthetic", "event"};
+constexpr std::array<std::string_view, 10> known_keys = {
+    "name",     "start", "interval_s", "times_s",   "mean_s",
+    "vertical", "units", "no_data",    "synthetic", "event"};
 
 /// Seconds of UTC -> "2014-09-17T04:45:00Z", with a fraction only where there is one.
 std::string iso_text(const toml::date_time& t) {
@@ -58,6 +59,13 @@ public:
     }
     if (const toml::node* node = table_.get("no_data")) {
       m.no_data = number(*node, "no_data must be a number");
+    }
+    if (const toml::node* node = table_.get("mean_s")) {
+      const std::string form = "mean_s must be a number of seconds, 0 for fluxes at their time";
+      m.mean_s = number(*node, form);
+      if (*m.mean_s < 0.0) {
+        fail(node->source(), form);
+      }
     }
     read_times(m);
     check_units();

@@ -13,6 +13,7 @@ struct Manifest {
   std::string start;                ///< UTC, "2014-09-17T04:45:00Z"
   std::optional<double> interval_s; ///< one of interval_s and times_s is there
   std::vector<double> times_s;      ///< strictly ascending seconds since start
+  std::optional<double> mean_s;     ///< each heat flux is the mean over the seconds before its time
   std::string vertical;             ///< "orthometric" or "ellipsoidal"
   std::optional<double> no_data;    ///< the value that stands for "no value"
   bool synthetic = false;

@@ -2,10 +2,9 @@
 
 #include "error.hpp"
 #include "run/file.hpp"
+#include "system.hpp"
 
 #include <OpenImageIO/imageio.h>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -74,8 +73,9 @@ OIIO::ImageSpec make_spec(std::size_t height, std::size_t width, std::size_t cha
 class Temporary {
 public:
   explicit Temporary(const std::filesystem::path& target)
-      : path_(target.parent_path() / ("." + target.stem().string() + "." +
-                                      std::to_string(::getpid()) + target.extension().string())) {}
+      : path_(target.parent_path() /
+              ("." + target.stem().string() + "." + std::to_string(system::process()) +
+               target.extension().string())) {}
   ~Temporary() {
     std::error_code ignored;
     std::filesystem::remove(path_, ignored);

@@ -2,6 +2,7 @@
 
 #include "error.hpp"
 #include "lanes.hpp"
+#include "system.hpp"
 
 #include <openvdb/io/Compression.h>
 #include <openvdb/io/GridDescriptor.h>
@@ -17,7 +18,6 @@
 #include <numeric>
 #include <sstream>
 #include <system_error>
-#include <unistd.h>
 
 namespace firetwin {
 namespace {
@@ -46,7 +46,7 @@ void plant(openvdb::FloatTree& tree, const SharedLeaves& leaves, std::vector<std
 class Temporary {
 public:
   explicit Temporary(const fs::path& target)
-      : path_(target.string() + "." + std::to_string(::getpid()) + ".tmp") {}
+      : path_(target.string() + "." + std::to_string(system::process()) + ".tmp") {}
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;
   ~Temporary() {

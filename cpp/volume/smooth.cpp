@@ -29,7 +29,7 @@ Ticks ticks(const std::array<float, 3>& corner, float voxel_size) {
   return result;
 }
 
-/// weight max(0, 1 - (r^2 inverse)^2) of one puff at all nodes.
+/// Adds weight max(0, 1 - (r^2 inverse)^2) of one puff at all nodes.
 struct Puff {
   const double* position;
   double inverse;

@@ -113,17 +113,18 @@ def shoot(tmp_path):
     """Render the scene with Cycles and return its pixels, (height, width, 3), scene-linear."""
 
     def render(scene, layer: str | None = None) -> np.ndarray:
+        from firetwin import compat
         from firetwin_core import sensor
 
         scene.render.engine = "CYCLES"
+        compat.march_through_volumes(scene.cycles)
         scene.cycles.use_denoising, scene.cycles.samples = False, 4
         if scene.render.resolution_x > 64:
             scene.render.resolution_x, scene.render.resolution_y = 64, 36
         scene.cycles.use_adaptive_sampling = False
         scene.cycles.pixel_filter_type = "BOX"
         scene.render.resolution_percentage = 100
-        if hasattr(scene.render.image_settings, "media_type"):
-            scene.render.image_settings.media_type = "IMAGE"
+        compat.still_settings(scene.render)
         scene.render.image_settings.file_format = "OPEN_EXR"
         scene.render.image_settings.color_depth = "32"
         for view_layer in scene.view_layers:

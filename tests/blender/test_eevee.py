@@ -23,7 +23,7 @@ enabled = false
 engine = "eevee"
 resolution = [64, 36]
 samples = 1
-passes = ["rgb"]
+passes = ["rgb", "thermal"]
 [[cameras]]
 name = "drone"
 keys = [{{latitude = 38.825, longitude = -120.56, height = 400, target = "fire"}}]
@@ -31,14 +31,22 @@ keys = [{{latitude = 38.825, longitude = -120.56, height = 400, target = "fire"}
 
 
 @pytest.mark.slow
-def test_eevee_renders_the_ground_under_the_sky(run_folder, tmp_path):
+def test_eevee_renders_the_ground_under_the_sky_and_their_temperatures(run_folder, tmp_path):
     (tmp_path / "scene.toml").write_text(SCENE.format(run=run_folder))
     line = ["render", tmp_path / "scene.toml", "--out", tmp_path / "out", "--frames", "2"]
     result = subprocess.run(
         [sys.executable, "-m", "firetwin", *map(str, line)], capture_output=True, text=True
     )
     assert result.returncode == 0, result.stderr
-    picture = np.asarray(sensor.read_image(tmp_path / "out/drone/rgb/drone_rgb_000002.png"))[..., :3]
+
+    def image(name):
+        return np.asarray(sensor.read_image(tmp_path / "out" / "drone" / name))
+
+    picture = image("rgb/drone_rgb_000002.png")[..., :3]
     sky, ground = picture[:4].reshape(-1, 3), picture[-4:].reshape(-1, 3)
     assert sky.mean() > ground.mean() + 0.1
     assert sky.mean(0)[2] > sky.mean(0)[0]
+    kelvin = image("thermal/drone_thermal_000002.exr")[..., 0]
+    np.testing.assert_allclose(kelvin[:4], 250.0, atol=0.1)  # the sky
+    assert 285.0 < np.quantile(kelvin[-12:], 0.02) < 310.0
+    assert kelvin.max() < 1600.0

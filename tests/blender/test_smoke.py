@@ -8,6 +8,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
+from firetwin import compat
 from firetwin import project as projects
 from firetwin.scene import bake, build, smoke
 from firetwin_core import InputError
@@ -153,6 +154,15 @@ def test_a_cache_that_cannot_be_made_is_named(smoky, run, tmp_path):
         bake.bake(replace(smoky, cache=tmp_path / "file"), run)
 
 
+def test_smoke_lies_beside_the_scene_file_wherever_that_is_called_from(run_folder, tmp_path, monkeypatch):
+    (tmp_path / "sub").mkdir()
+    text = f'run = "{run_folder}"\ncache = "kept"\n[[cameras]]\nname = "a"\nkind = "satellite"\n'
+    (tmp_path / "sub" / "scene.toml").write_text(text)
+    monkeypatch.chdir(tmp_path)
+    loaded = projects.load("sub/scene.toml")
+    assert bake.folder(loaded, runs.open(loaded.run)).parent == tmp_path / "sub" / "kept"
+
+
 def test_steps_suit_the_extinction(smoky, run):
     drawn = bake.resolution(smoky, run)
     assert drawn.voxel == 120.0
@@ -170,6 +180,7 @@ def test_blender_reads_the_grids_of_every_frame(smoky, run, scene):
         assert grids.load()
         assert {"density", "dilution", "shade", "size", "glow"} <= {grid.name for grid in grids}
         assert grids.frame_filepath.endswith(f"smoke_{frame:06d}.vdb")
+    assert tuple(thing.location) == (compat.volume_shift(scene.cycles, 120.0),) * 3
 
 
 def test_smoke_is_off_when_it_is_off(project, run, scene):

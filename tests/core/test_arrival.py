@@ -117,6 +117,22 @@ def test_uneven_times(make_run, values, began):
     assert grown(values, times=[0, 10, 30])(make_run) == pytest.approx(expected)
 
 
+@pytest.mark.parametrize(("values", "began"), [([0, 5.625, 65], 45.0), ([0, 30, 90], 20.0)])
+def test_means_of_less_than_the_interval(make_run, values, began):
+    """F = k s, as means of 20 s: k 15^2 / 40, then k (75 - 10), or k (40 - 10), then k (100 - 10)."""
+    frames = np.array(values, np.float32)[:, None, None]
+    toml = RUN_TOML.replace("60.0", "60.0\nmean_s = 20")
+    share = HALF / (HALF + FLUX)
+    expected = 30.0 + share * (began - 30.0)
+    assert flux.arrival_time(run_of(make_run, frames, toml))[0, 0] == pytest.approx(expected)
+
+
+def test_mean_s_counts_only_where_fluxes_are_averaged(make_run):
+    frames = np.array([0, 1, 3], np.float32)[:, None, None]
+    run = run_of(make_run, frames, RUN_TOML.replace("60.0", "60.0\nmean_s = 20"))
+    assert flux.arrival_time(run, averaged=False)[0, 0] == pytest.approx(30.0)
+
+
 def test_what_has_no_arrival_between_times(make_run):
     frames = np.zeros((3, 4, 5), np.float32)
     frames[:, 0, 0] = 7  # burns from the beginning

@@ -49,6 +49,22 @@ sys.exit(f"loaded {heavy}" if heavy else 0)
     assert result.returncode == 0, result.stderr
 
 
+def test_maps_without_matplotlib_say_what_to_install(make_run, tmp_path):
+    code = """
+import sys
+from firetwin.cli import main
+sys.modules["matplotlib"] = None  # as inside Blender
+sys.exit(main(["maps", *sys.argv[1:]]))
+"""
+    command = [sys.executable, "-c", code, str(make_run()), "--out", str(tmp_path / "maps")]
+    result = subprocess.run(command, capture_output=True, text=True)
+    assert result.returncode == 1
+    *_, last = result.stderr.splitlines()
+    assert last.startswith("firetwin: maps and plots need matplotlib")
+    assert last.endswith(f"{sys.executable} -m pip install matplotlib")
+    assert "Traceback" not in result.stderr
+
+
 @pytest.mark.parametrize("command", ["sample", "info", "maps", "build", "bake", "render", "bench"])
 def test_every_command_explains_itself(command):
     result = firetwin(command, "--help")

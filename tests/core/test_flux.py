@@ -1,15 +1,13 @@
-"""Emitters against the plain transcription of Algorithm 1, and fluxes between model times."""
+"""Emitters against the plain transcription of Algorithm 1."""
 
 import algorithms
 import geodesy
 import numpy as np
 import pytest
-from firetwin_core import run as runs
-from firetwin_core.flux import at_time, emitters
+from firetwin_core.flux import emitters
 from firetwin_core.geo import LocalFrame
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from small_run import RUN_TOML
 
 
 def burning_minute():
@@ -96,93 +94,3 @@ def test_the_order_of_cells_changes_nothing_else(order):
     flux = np.arange(12, dtype=np.float32)
     a, b = of_values(flux, 0, 11), of_values(flux[list(order)], 0, 11)
     assert sorted(a.intensity) == sorted(b.intensity)
-
-
-def test_at_time_is_exact_at_the_model_times(make_run):
-    run = runs.open(make_run())
-    for i, time in enumerate(run.times):
-        np.testing.assert_array_equal(at_time(run, time), run.heat_flux(i))
-
-
-def test_at_time_is_nothing_outside_the_run(make_run):
-    run = runs.open(make_run())
-    for time in (-1e-9, 120.0001, -np.inf, np.inf):
-        assert not at_time(run, time).any()
-    with pytest.raises(ValueError, match="not NaN"):
-        at_time(run, np.nan)
-
-
-def test_at_time_of_a_cell_that_burns_on(make_run):
-    run = runs.open(make_run())
-    assert at_time(run, 75.0)[1, 2] == pytest.approx(1000.5 + 0.25 * 999.75)
-
-
-def front(times):
-    """A straight front that moves 1.5 cells a minute over 12 x 30 cells and burns out in two minutes."""
-    behind = 1.5 * np.asarray(times)[:, None] / 60 + 3 - np.arange(30)
-    age = behind / 1.5 * 60
-    flux = np.where(age > 0, 1e4 * np.exp(-age / 120), 0)
-    return np.repeat(flux[:, None, :], 12, axis=1).astype(np.float32)
-
-
-@pytest.fixture
-def front_run(make_run):
-    """The front at every fourth minute."""
-    size = {"elevation": np.zeros((12, 30), np.float32), "latitude": 38.9 + 0.003 * np.arange(12)}
-    none = dict.fromkeys(("temperature", "wind_east", "wind_north"))
-    toml = RUN_TOML.replace("60.0", "240.0")
-    longitude = -120.6 + 0.004 * np.arange(30)
-    return runs.open(
-        make_run(toml=toml, heat_flux=front(240.0 * np.arange(5)), longitude=longitude, **size, **none)
-    )
-
-
-def linear(run, time):
-    i = int(time // 240)
-    w = time / 240 - i
-    return (1 - w) * run.heat_flux(i) + w * run.heat_flux(i + 1)
-
-
-def test_at_time_moves_the_front_at_its_pace(front_run):
-    times = np.arange(240.0, 960, 20)
-    lit = np.array([(at_time(front_run, t)[6] > 0).sum() for t in times])
-    assert (np.diff(lit) >= 0).all()
-    np.testing.assert_allclose(lit, 3 + 1.5 * times / 60, atol=1.01)
-
-
-def test_at_time_is_nearer_to_held_out_minutes_than_linear_blending(front_run):
-    times = np.array([t for t in np.arange(0.0, 960, 60) if t % 240])
-    truth = front(times)
-    moved = np.array([at_time(front_run, t) for t in times])
-    blended = np.array([linear(front_run, t) for t in times])
-    assert ((moved > 0) != (truth > 0)).sum() < 0.5 * ((blended > 0) != (truth > 0)).sum()
-    assert np.abs(moved - truth).sum() < 0.9 * np.abs(blended - truth).sum()
-
-
-def test_at_time_where_the_whole_grid_burns(make_run):
-    """From one burning cell a whole grid: nothing is left that does not burn, so it is a plain blend."""
-    flux = np.zeros((2, 4, 5), np.float32)
-    flux[0, 0, 0] = 1
-    flux[1] = 1
-    none = dict.fromkeys(("temperature", "wind_east", "wind_north"))
-    run = runs.open(make_run(heat_flux=flux, **none))
-    np.testing.assert_allclose(at_time(run, 15.0), np.where(flux[0] > 0, 1, 0.25))
-
-
-def test_at_time_in_a_row_of_cells(make_run):
-    """Cell 0 burned before, cells 1 and 2 light up, cell 3 does not: arrivals (1 - 1/2)/2 and (2 - 1/2)/2."""
-    flux = np.zeros((2, 4, 5), np.float32)
-    flux[0, :, 0] = 8
-    flux[1, :, :3] = 8
-    none = dict.fromkeys(("temperature", "wind_east", "wind_north"))
-    run = runs.open(make_run(heat_flux=flux, **none))
-    for fraction in (0.1, 0.3, 0.6, 0.8, 0.9):
-        expected = [8, 8 * max(0, (fraction - 0.25) / 0.75), 8 * max(0, (fraction - 0.75) / 0.25), 0, 0]
-        np.testing.assert_allclose(at_time(run, 60 * fraction), [expected] * 4, rtol=1e-6)
-
-
-def test_at_time_of_a_single_frame(make_run):
-    one = np.ones((1, 4, 5), np.float32)
-    run = runs.open(make_run(heat_flux=one, temperature=None, wind_east=None, wind_north=None))
-    assert at_time(run, 0.0).all()
-    assert not at_time(run, 1.0).any()

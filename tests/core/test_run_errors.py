@@ -32,6 +32,7 @@ def refuse(folder, file, reason, line=0, column=0):
         ("interval_s = 60.0", "times_s = [0, 'x', 60]", 3, 15, "seconds since start"),
         ("interval_s = 60.0", "times_s = 60", 3, 11, "list"),
         ("interval_s = 60.0", "times_s = [0, 60]", 0, 0, "lists 2 times but heat_flux has 3"),
+        ("60.0", "60.0\nmean_s = -1", 4, 10, "mean_s must be a number of seconds"),
         ("-07:00", "", 2, 9, "offset from UTC"),
         ("start = 2014-09-16T21:45:00-07:00", "start = 'noon'", 2, 9, "start must be a date"),
         ("start = 2014-09-16T21:45:00-07:00", "", 0, 0, "start must be a date .* add it"),

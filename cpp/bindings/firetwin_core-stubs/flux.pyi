@@ -35,14 +35,15 @@ def emitters(flux: ArrayLike, position: ArrayLike, flux_min: float, flux_max: fl
 def at_time(run: Run, time: float) -> NDArray[np.float32]:
     """Heat flux (ny, nx) in W/m2 at any time (seconds since start); zero outside the run.
 
-    Exact at the model times, linear between them, except that cells which first burn in between stay cold
-    until the moving front reaches them. The first call scans the run for its arrival times.
+    Exact at the model times. Between them F^1.5, on which the size of flames depends, is even in every cell
+    that burned before and in the sum of all; cells that first burn in between stay cold until the moving
+    front reaches them. The C++ header says how. The first call scans the run for its arrival times.
     """
 
 def arrival_time(run: Run, averaged: bool = True) -> NDArray[np.float32]:
     """When each cell begins to burn (ny, nx), s since start and between the model times; NaN where never.
 
     From how the flux of a cell grows and how the front runs through its neighbours; within the interval before
-    the first model time with flux. `averaged` says whether the run's fluxes are means over the interval that
-    ends at their time, or values at that time. The C++ header has the formulas.
+    the first model time with flux. `averaged` says whether the run's fluxes are means over the `mean_s` of
+    run.toml, or else the interval, that ends at their time, or values at that time. The C++ header has the formulas.
     """

@@ -1,15 +1,10 @@
 """The NumPy forest that the benchmark compares with grows the same trees, so it is a fair comparison."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
+from firetwin.bench import numpy_forest as rival
 from firetwin_core import forest
 from firetwin_core.geo import LocalFrame
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
-from rivals import forest as rival
 
 ORIGIN = (38.93, -120.55, 0.0)
 
@@ -25,7 +20,7 @@ def grid(rows=60, columns=50):
 def test_the_same_plants(kind):
     field = grid()
     ours = getattr(forest, kind)(*field, LocalFrame(*ORIGIN), seed=5)
-    theirs = getattr(rival, kind)(*field, ORIGIN, seed=5, draw=rival.keyed)
+    theirs = getattr(rival, kind)(*field, ORIGIN, seed=5)
     np.testing.assert_array_equal(ours.cell, theirs.cell)
     np.testing.assert_allclose(ours.position, theirs.position, rtol=0, atol=1e-6)
     for name in ("scale", "rotation") + (("size_class", "model") if kind == "trees" else ()):
@@ -36,6 +31,6 @@ def test_the_same_plants(kind):
 def test_as_many_plants_from_one_stream(kind):
     field = grid()
     ours = getattr(forest, kind)(*field, LocalFrame(*ORIGIN))
-    theirs = getattr(rival, kind)(*field, ORIGIN)
+    theirs = getattr(rival, kind)(*field, ORIGIN, draw=rival.one_stream)
     np.testing.assert_array_equal(ours.cell, theirs.cell)
     assert np.abs(ours.position - theirs.position)[:, :2].max() < 110

@@ -5,15 +5,15 @@ numbers drawn in `one_stream` by numpy.random.Philox it is faster, and grows ano
 in which a changed cell changes every tree after it.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-SEMI_MAJOR, FLATTENING = 6378137.0, 1 / 298.257223563
-ECCENTRICITY2 = FLATTENING * (2 - FLATTENING)
-
+from .geodesy import numpy_enu
 
 PLACE, TREE, GRASS = 0, 1, 2
 Draw = Callable[[int, NDArray, int], NDArray]
@@ -46,6 +46,8 @@ def keyed(seed: int, cell: NDArray, use: int) -> NDArray[np.float64]:
 
 @dataclass
 class Plants:
+    """Columns (n,) of plants; grass has neither size class nor model."""
+
     cell: NDArray[np.int64]
     position: NDArray[np.float64]
     scale: NDArray[np.float32]
@@ -54,24 +56,17 @@ class Plants:
     model: NDArray[np.uint8] | None = None
 
 
-def to_local(latitude, longitude, height, origin) -> NDArray[np.float64]:
-    """WGS84 degrees and metres -> (n, 3) east, north, up in metres about an origin."""
-
-    def polar(latitude, height):
-        sine, cosine = np.sin(latitude), np.cos(latitude)
-        normal = SEMI_MAJOR / np.sqrt(1 - ECCENTRICITY2 * sine * sine)
-        return (normal + height) * cosine, (normal * (1 - ECCENTRICITY2) + height) * sine
-
-    latitude0 = np.radians(origin[0])
-    r0, z0 = polar(latitude0, origin[2])
-    r, z = polar(np.radians(latitude), height)
-    turn = np.radians(longitude - origin[1])
-    dr, dz = r * np.cos(turn) - r0, z - z0
-    sine, cosine = np.sin(latitude0), np.cos(latitude0)
-    return np.stack([r * np.sin(turn), cosine * dz - sine * dr, sine * dz + cosine * dr], axis=1)
+Origin = tuple[float, float, float]
 
 
-def place(cell, latitude, longitude, elevation, origin, random) -> NDArray[np.float64]:
+def place(
+    cell: NDArray,
+    latitude: NDArray,
+    longitude: NDArray,
+    elevation: NDArray,
+    origin: Origin,
+    random: NDArray,
+) -> NDArray[np.float64]:
     """Jittered places (n, 3) on the bilinear elevation of an even grid (degrees), metres."""
     rows, columns = elevation.shape
     y, x = cell // columns + random[0] - 0.5, cell % columns + random[1] - 0.5
@@ -85,10 +80,18 @@ def place(cell, latitude, longitude, elevation, origin, random) -> NDArray[np.fl
     high = h[corner + columns] * (1 - u) + h[corner + columns + 1] * u
     north = latitude[0] + y * (latitude[1] - latitude[0])
     east = longitude[0] + x * (longitude[1] - longitude[0])
-    return to_local(north, east, low * (1 - v) + high * v, origin)
+    return numpy_enu(north, east, low * (1 - v) + high * v, origin)
 
 
-def trees(canopy, latitude, longitude, elevation, origin, seed=0, draw: Draw = one_stream) -> Plants:
+def trees(
+    canopy: NDArray,
+    latitude: NDArray,
+    longitude: NDArray,
+    elevation: NDArray,
+    origin: Origin,
+    seed: int = 0,
+    draw: Draw = keyed,
+) -> Plants:
     """Algorithm 2's trees from canopy fuel (fy, fx) kg/m2."""
     cell = np.flatnonzero(canopy > 0.01)
     fuel = canopy.ravel()[cell].astype(float)
@@ -107,7 +110,15 @@ def trees(canopy, latitude, longitude, elevation, origin, seed=0, draw: Draw = o
     )
 
 
-def grass(surface, latitude, longitude, elevation, origin, seed=0, draw: Draw = one_stream) -> Plants:
+def grass(
+    surface: NDArray,
+    latitude: NDArray,
+    longitude: NDArray,
+    elevation: NDArray,
+    origin: Origin,
+    seed: int = 0,
+    draw: Draw = keyed,
+) -> Plants:
     """Algorithm 2's grass from surface fuel (fy, fx) kg/m2."""
     cell = np.flatnonzero(surface > 0)
     position = place(cell, latitude, longitude, elevation, origin, draw(seed, cell, PLACE))

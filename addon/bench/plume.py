@@ -1,0 +1,116 @@
+"""Rise of a single steady plume in a uniform wind, beside the theory's equation integrated step by step.
+
+Briggs's bent-over plume (Briggs 1975, "Plume rise predictions", in Lectures on Air Pollution and
+Environmental Impact Analyses) in a wind U with the buoyancy frequency N: its radius is b z, its momentum
+m = b^2 z^2 w, and dz/dt = w, dm/dt = F / U, dF/dt = -N^2 U m, which is solved by
+z^3 = 3 Fb / (b^2 U N^2) (1 - cos N t) up to its top at N t = pi; b = 0.6. Past that, plumes settle at
+2.6 (Fb / (U N^2))^(1/3).
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+from firetwin_core import volume
+from numpy.typing import NDArray
+
+from .harness import OURS, Bench, threads
+
+POWERS = (1e8, 1e9, 1e10)  # W
+WIND = np.array([6.0, 8.0])  # m/s east and north, 10 m up
+STABILITY, ENTRAINMENT = 1e-4, 0.6  # 1/s2
+COMBUSTION, CONVECTIVE, BURN_TIME = 17.433e6, 0.7, 1e4  # J/kg, share of the heat, s
+AGE = 5400.0  # s, by when a plume has settled
+EULER_STEPS = (10.0, 1.0, 0.1)  # s
+
+
+def buoyancy(power: float) -> float:
+    """Fb = g c Q / (pi cp rho T) in m4/s3 of a fire of `power` W."""
+    return 9.81 * CONVECTIVE * power / (np.pi * 1005 * 1.2 * 290)
+
+
+def wind_aloft() -> float:
+    """m/s at 300 m, where the theory takes it, by the power law of 0.1."""
+    return float(np.hypot(*WIND)) * 30**0.1
+
+
+def theory(power: float, time: NDArray) -> NDArray:
+    """Rise (n,) m at `time` s, up to the top of the plume."""
+    turn = np.sqrt(STABILITY) * time
+    scale = 3 * buoyancy(power) / (ENTRAINMENT**2 * wind_aloft() * STABILITY)
+    return np.cbrt(scale * (1 - np.cos(turn)))
+
+
+def settled(power: float) -> float:
+    """Rise in m in the end."""
+    return 2.6 * float(np.cbrt(buoyancy(power) / (wind_aloft() * STABILITY)))
+
+
+def column(power: float) -> tuple[NDArray, NDArray]:
+    """Ages (s) and rise (m), by age, of the puffs of a fire that has burned evenly for AGE seconds.
+
+    Without the first, which has gathered less than a whole interval of heat.
+    """
+    fuel = power * BURN_TIME / COMBUSTION
+    smoke = volume.puffs(
+        AGE + 1,
+        [0.0],
+        [fuel],
+        [[0.0, 0.0, 0.0]],
+        WIND,
+        1.0,
+        burn_time=BURN_TIME,
+        max_age=3 * AGE,
+        stability=STABILITY,
+        turbulence=0.0,
+        smallest=1e9,
+    )
+    fire = np.sqrt(power / (np.pi * 1e5))
+    by_age = np.argsort(smoke.age)[:-1]
+    return smoke.age[by_age].astype(float), smoke.position[by_age, 2] - 0.8 * fire
+
+
+def euler(power: float, step: float) -> tuple[float, float]:
+    """Time (s) and rise (m) near the top, by explicit Euler from the theory's values after one step.
+
+    Not from 0, where the plume has no size and its speed no limit.
+    """
+    wind, frequency, number = wind_aloft(), np.sqrt(STABILITY), round(np.pi / np.sqrt(STABILITY) / step)
+    momentum = buoyancy(power) / (wind * frequency) * float(np.sin(frequency * step))
+    force = buoyancy(power) * float(np.cos(frequency * step))
+    height = float(theory(power, np.array(step)))
+    for _ in range(number - 1):
+        speed = momentum / (ENTRAINMENT * height) ** 2
+        momentum, force = momentum + step * force / wind, force - step * STABILITY * wind * momentum
+        height += step * speed
+    return number * step, height
+
+
+def errors(power: float) -> tuple[float, float]:
+    """Percent that our column is off the theory at most up to its top, and when it has settled."""
+    age, rise = column(power)
+    rising = (age > 0) & (age <= np.pi / np.sqrt(STABILITY))
+    under_way = np.abs(rise[rising] / theory(power, age[rising]) - 1).max()
+    return 100 * float(under_way), 100 * abs(float(rise[-1]) / settled(power) - 1)
+
+
+def run(bench: Bench) -> None:
+    """Fires of three powers: the way up, and the height in the end."""
+    under_way, end = 0.0, 0.0
+    for power in POWERS:
+        way, top = errors(power)
+        under_way, end = max(under_way, way), max(end, top)
+        with threads(1):
+            seconds = bench.best(partial(column, power), 5)
+        puffs = len(column(power)[0])
+        case = f"{power / 1e9:g} GW"
+        bench.row(case, OURS, seconds, puffs, "puff", error=way, error_unit="% of the rise")
+        for step in EULER_STEPS:
+            seconds = bench.best(partial(euler, power, step), 3)
+            time, rise = euler(power, step)
+            error = 100 * abs(rise / float(theory(power, np.array(time))) - 1)
+            tool = f"Euler, {step:g} s steps"
+            bench.row(case, tool, seconds, 1, "puff", error=error, error_unit="% of the rise")
+    bench.target("rise under way, off Briggs's equation", under_way, 10, "%", most=True)
+    bench.target("rise in the end, off 2.6 (Fb / U s)^(1/3)", end, 1, "%", most=True)

@@ -1,0 +1,145 @@
+"""Firebrands in the scene: a mesh of path points whose geometry nodes draw a streak for each one alive."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from firetwin_core.run import Run
+
+from .. import nodes
+from ..project import Project
+from . import clock, collections, ember_material, embers, flames
+from .ground import Ground
+from .paths import Path
+
+_SHUTTER = 0.1  # s of the piece's way that a streak shows
+_PIXELS = 0.8  # a streak is no narrower than this, and dimmer instead
+
+
+def build(
+    project: Project,
+    run: Run,
+    ground: Ground,
+    views: list[Path],
+    points: flames.Points,
+    collection: bpy.types.Collection,
+) -> bpy.types.Object | None:
+    """Build "Firetwin Firebrands" from what `embers.fly` finds; nothing where no camera is near.
+
+    Vertex i k + j is point j of the path of piece i. All have the float attributes `start`, `birth`, `life`
+    (s after the first frame, s) and `size` (m).
+    """
+    found = embers.fly(project, run, ground, views, points)
+    if found is None:
+        return None
+    count, each = found.place.shape[:2]
+    mesh = bpy.data.meshes.new("Firetwin Firebrands")
+    mesh.vertices.add(count * each)
+    mesh.vertices.foreach_set("co", found.place.ravel())
+    for name in ("start", "birth", "life", "size"):
+        values = np.repeat(getattr(found, name), each).astype(np.float32)
+        mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values)
+    mesh.update()
+    thing = collections.add(collection, "Firebrands", mesh)
+    modifier = thing.modifiers.new("Firetwin Firebrands", "NODES")
+    pixel = min(2.0 * view.half[0] for view in views if view.perspective) / project.render.resolution[0]
+    modifier.node_group = _node_group(project, run, found, pixel)
+    _seen_only(thing)
+    return thing
+
+
+def _seen_only(thing: bpy.types.Object) -> None:
+    """Streaks are seen and nothing more."""
+    thing.visible_shadow = thing.visible_diffuse = thing.visible_glossy = False
+    thing.visible_volume_scatter = False
+
+
+def _node_group(project: Project, run: Run, found: embers.Flights, pixel: float) -> bpy.types.NodeTree:
+    """Path points -> a streak for each piece that is alive, as wide as `pixel` (radians) at least."""
+    count, each = found.place.shape[:2]
+    tree, entry = nodes.geometry("Firetwin Firebrands")
+    paths = tree.pick(entry, "Geometry")
+    index = tree.output("GeometryNodeInputIndex") * float(each)
+
+    def sampled(value: nodes.Value, at: nodes.Value, kind: str = "FLOAT") -> nodes.Value:
+        inputs = {"Geometry": paths, "Value": value, "Index": tree.math("ROUND", at)}
+        return tree.output("GeometryNodeSampleIndex", inputs, data_type=kind, domain="POINT", clamp=True)
+
+    def named(name: str) -> nodes.Value:
+        value = tree.output("GeometryNodeInputNamedAttribute", {"Name": name}, data_type="FLOAT")
+        return sampled(value, index)
+
+    # Times count from the first frame: seconds since the run began would be too long for floats.
+    time = (tree.output("GeometryNodeInputSceneTime", name="Frame") - 1.0) * clock.step(project, run)
+    after = (time - named("start")) / found.step
+    part = (time - named("birth")) / named("life")
+    low = tree.math("MINIMUM", tree.math("MAXIMUM", tree.math("FLOOR", after), 0.0), each - 2.0)
+    position = tree.output("GeometryNodeInputPosition")
+    before, behind = (sampled(position, index + low + k, "FLOAT_VECTOR") for k in (0.0, 1.0))
+    way = tree.vector("SUBTRACT", behind, before)
+    place = tree.vector("ADD", before, _scaled(tree, way, (after - low).clamp()))
+    dead = tree.math("MAXIMUM", part < 0.0, part > 1.0)
+    dead = tree.math("MAXIMUM", dead, tree.math("MAXIMUM", after < 0.0, after > each - 1.0))
+    pieces = tree.output("GeometryNodePoints", {"Count": count, "Position": place, "Radius": 0.0})
+    camera = tree.output("GeometryNodeInputActiveCamera")
+    eye = tree.output("GeometryNodeObjectInfo", {"Object": camera}, "Location", transform_space="ORIGINAL")
+    distance = tree.vector("DISTANCE", eye, place, name="Value")
+    size = named("size")
+    width = tree.math("MAXIMUM", size, distance * (_PIXELS * pixel))
+    length = width + tree.vector("LENGTH", way, name="Value") * (_SHUTTER / found.step)
+    cover = (size * size / (width * length)).clamp()
+    kelvin = part.ramp(0.0, 1.0, ember_material.FRESH, ember_material.COLD)
+    turn = tree.output("FunctionNodeAlignRotationToVector", {"Vector": way}, axis="Z")
+    scale = tree.combine(width, width, length)
+    for name, value, kind in (
+        ("dead", dead, "FLOAT"),
+        ("cover", cover, "FLOAT"),
+        ("kelvin", kelvin, "FLOAT"),
+        ("shine", (1.0 - part).clamp().power(1.5), "FLOAT"),
+        ("stretch", scale, "FLOAT_VECTOR"),
+        ("turn", turn, "QUATERNION"),
+    ):
+        inputs = {"Geometry": pieces, "Name": name, "Value": value}
+        pieces = tree.output("GeometryNodeStoreNamedAttribute", inputs, data_type=kind, domain="POINT")
+
+    def stored(name: str, kind: str = "FLOAT") -> nodes.Value:
+        return tree.output("GeometryNodeInputNamedAttribute", {"Name": name}, data_type=kind)
+
+    alive = tree.output(
+        "GeometryNodeDeleteGeometry", {"Geometry": pieces, "Selection": stored("dead") > 0.5}, domain="POINT"
+    )
+    placed = tree.output(
+        "GeometryNodeInstanceOnPoints",
+        {
+            "Points": alive,
+            "Instance": tree.output("GeometryNodeObjectInfo", {"Object": _streak(project, run)}, "Geometry"),
+            "Rotation": stored("turn", "QUATERNION"),
+            "Scale": stored("stretch", "FLOAT_VECTOR"),
+        },
+    )
+    tree.node("NodeGroupOutput", {"Geometry": placed})
+    return tree.node_tree
+
+
+def _scaled(tree: nodes.Tree, vector: nodes.Value, by: nodes.Value) -> nodes.Value:
+    node = tree.node("ShaderNodeVectorMath", {0: vector, "Scale": by}, operation="SCALE")
+    return tree.pick(node)
+
+
+def _streak(project: Project, run: Run) -> bpy.types.Object:
+    """An octahedron one metre wide and long, linked to no scene."""
+    name = "Firetwin Firebrand Streak"
+    old = bpy.data.objects.get(name)
+    if old is not None:
+        mesh = old.data
+        collections.discard(old)
+        collections.discard(mesh)
+    mesh = bpy.data.meshes.new(name)
+    ends = [(0.0, 0.0, -0.5), (0.0, 0.0, 0.5)]
+    waist = [(0.5, 0.0, 0.0), (0.0, 0.5, 0.0), (-0.5, 0.0, 0.0), (0.0, -0.5, 0.0)]
+    sides = [(2 + k, 2 + (k + 1) % 4) for k in range(4)]
+    mesh.from_pydata(ends + waist, [], [(b, a, 0) for a, b in sides] + [(a, b, 1) for a, b in sides])
+    mesh.materials.append(ember_material.build(project, run))
+    thing = bpy.data.objects.new(name, mesh)
+    _seen_only(thing)
+    return thing

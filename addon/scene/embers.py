@@ -1,0 +1,263 @@
+"""Firebrands: glowing pieces that the fire throws up, carried by plume and wind, falling, cooling.
+
+Each one's path comes from the core's integrator and is kept in the mesh as points a step apart. Geometry
+nodes put a small streak between the two points round the moment shown: nothing else is needed to move them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from firetwin_core import geo, particles
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from ..project import Project
+from . import burning, clock, flames, noise
+from .ground import Ground
+from .paths import Path
+
+REACH = 1800.0  # m from a camera; sparks farther away than this are below what a picture shows
+PER_MEGAJOULE = 0.02  # large pieces for each MJ that the flames release; chosen by eye
+_LIFE = (2.0, 16.0)  # s that a piece glows
+_MEAN_LIFE = 7.0  # s
+_SIZE, _SIZES, _SIZE_RANGE = 0.04, 0.5, (0.01, 0.12)  # m, deviation of the logarithm, m (bark and twigs)
+_FALL = (1.0, 4.0)  # m/s, terminal speed of the smallest and largest (assumed)
+_STEP = 0.5  # s between the points of a path
+_MOMENT = 0.4  # s; in a shot whose frames are further apart than lives this much of a path is kept
+_PLUME = 90.0, 6.0  # m of height and s after which the updraft is down to 1/e: pieces fall out of the plume
+_AIR = 1.2 * 1005.0 * 300.0  # J/m3, density times heat capacity times temperature
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Flights:
+    """Firebrands of the shot, n of them, with k points of each path.
+
+    Attributes
+    ----------
+    place
+        (n, k, 3) scene metres.
+    start
+        (n,) time of the first point, s after the first frame; the others follow `step` s apart.
+    birth, life
+        (n,) s after the first frame; s.
+    size
+        (n,) m.
+    step
+        s.
+    """
+
+    place: NDArray[np.float32]
+    start: Array
+    birth: Array
+    life: Array
+    size: Array
+    step: float
+
+    def alive(self, time: float) -> NDArray[np.int64]:
+        """Those in the air or glowing on the ground `time` s after the first frame."""
+        age = time - self.birth
+        return np.flatnonzero((age >= 0.0) & (age < self.life))
+
+
+@dataclass(frozen=True)
+class Launches:
+    """n pieces as they leave the flames: time (s), place (n, 3), life (s), size (m), updraft (m/s), key."""
+
+    time: Array
+    place: Array
+    life: Array
+    size: Array
+    updraft: Array
+    key: NDArray[np.int64]
+    rank: Array  # those with the lowest are kept
+
+    def take(self, chosen: NDArray) -> Launches:
+        """Some of them."""
+        return Launches(*(getattr(self, field.name)[chosen] for field in fields(self)))
+
+
+def updraft(intensity: Array) -> Array:
+    """Speed (m/s) of the gas over a line fire of `intensity` kW/m: (g I / (rho cp T))^(1/3).
+
+    That does not depend on height (Yokoi 1960; Lee and Emmons 1961, J. Fluid Mech. 11, 353). On the axis of
+    the plume it is about twice that (assumed).
+    """
+    return np.cbrt(9.81 * np.asarray(intensity, np.float64) * 1000.0 / _AIR)
+
+
+def fly(
+    project: Project, run: Run, ground: Ground, views: list[Path], points: flames.Points
+) -> Flights | None:
+    """Launch, follow and thin out the firebrands of flames near the cameras; None where there are none.
+
+    At no frame are there more than `fire.firebrands`; the nearest stay.
+    """
+    near = [view for view in views if view.perspective]
+    if not near or project.fire.firebrands == 0 or len(points.seed) == 0:
+        return None
+    distance = np.min([view.distance(points.position) for view in near], axis=0).astype(np.float64)
+    fade = np.clip((REACH - distance) / (0.3 * REACH), 0.0, 1.0)
+    rate = PER_MEGAJOULE * points.intensity * points.width / 1000.0 * fade
+    times = clock.frame_times(project, run)
+    most = max(float(rate[points.lit(float(t))].sum()) for t in times) * _MEAN_LIFE
+    rate *= min(1.3 * project.fire.firebrands / max(most, 1.0), 1.0)
+    lapse = clock.step(project, run) > _LIFE[1] or len(times) == 1
+    spans = [(t - _LIFE[1], t) for t in times] if lapse else [(times[0] - _LIFE[1], times[-1])]
+    floor = _floor(ground, points.position[rate > 0.0])
+    winds = burning.wind_at(run, np.array([0.5 * (begin + end) for begin, end in spans]))
+    parts = []
+    for number, span in enumerate(spans):
+        launched = _launched(project.seed + 7919 * number, points, rate, distance, span)
+        launched = _fewer(launched, times[number : number + 1] if lapse else times, project.fire.firebrands)
+        if len(launched.time):
+            path = _paths(launched, winds[number], floor)
+            parts.append(_flights(launched, path, times[0], span[1] if lapse else None))
+    if not parts:
+        return None
+    return Flights(
+        *(
+            np.concatenate([getattr(p, name) for p in parts])
+            for name in ("place", "start", "birth", "life", "size")
+        ),
+        parts[0].step,
+    )
+
+
+def _launched(
+    seed: int, points: flames.Points, rate: Array, distance: Array, span: tuple[float, float]
+) -> Launches:
+    """Pieces launched within `span` (s), evenly over the time that their flame burns in it."""
+    begin = np.maximum(points.arrival_time, span[0])
+    during = np.maximum(np.minimum(points.arrival_time + points.residence, span[1]) - begin, 0.0)
+    index = np.arange(len(rate))
+    count = np.floor(rate * during + noise.uniform(index, 0, seed)).astype(np.int64)
+    source = np.repeat(index, count)
+    number = np.arange(len(source)) - np.repeat(np.cumsum(count) - count, count)
+
+    def random(use: int) -> Array:
+        return noise.uniform(source, number, seed + use)
+
+    size = np.clip(_SIZE * np.exp(_SIZES * noise.normal(random(1), random(2))), *_SIZE_RANGE)
+    side = 0.5 * points.width[source]
+    place = points.position[source] + np.stack(
+        [
+            side * (2.0 * random(3) - 1.0),
+            side * (2.0 * random(4) - 1.0),
+            1.0 + points.length[source] * random(5),
+        ],
+        axis=-1,
+    )
+    return Launches(
+        begin[source] + during[source] * (number + random(6)) / np.maximum(count[source], 1),
+        place,
+        np.minimum(_LIFE[0] - (_MEAN_LIFE - _LIFE[0]) * np.log(np.maximum(random(7), 1.0e-9)), _LIFE[1]),
+        size,
+        updraft(points.intensity[source]) * (0.6 + 1.6 * random(8)),
+        source * 4096 + number,
+        random(9) * np.maximum(distance[source], 200.0),
+    )
+
+
+def _fewer(launched: Launches, times: Array, most: int) -> Launches:
+    """Those that live at one of `times`, so few of them that at none of these live more than `most`."""
+    shown = np.zeros(len(launched.time), bool)
+    limit = np.inf
+    for time in times:
+        age = time - launched.time
+        alive = (age >= 0.0) & (age < launched.life)
+        shown |= alive
+        if alive.sum() > most:
+            limit = min(limit, np.partition(launched.rank[alive], most)[most])
+    return launched.take(np.flatnonzero(shown & (launched.rank < limit)))
+
+
+def _paths(launched: Launches, wind: Array, floor: geo.HeightField) -> NDArray[np.float32]:
+    """Places (n, k, 3) of pieces, _STEP apart from launch on."""
+    count = int(np.ceil(_LIFE[1] / _STEP)) + 1
+    n = len(launched.time)
+    path = np.empty((n, count, 3), np.float32)
+    fall = np.interp(np.log(launched.size), np.log(_SIZE_RANGE), _FALL)
+    position, landed = launched.place.copy(), np.zeros(n, bool)
+    base = launched.place[:, 2].copy()
+    air = _air(launched, wind, base)
+    velocity = air(position, 0.0)
+    for step in range(count):
+        path[:, step] = position
+        age = step * _STEP
+        position, velocity, landed = particles.advance(
+            position,
+            velocity,
+            air(position, age),
+            _STEP,
+            fall / particles.GRAVITY,
+            wind_end=air(position + velocity * _STEP, age + _STEP),
+            landed=landed,
+            ground=floor,
+        )
+    return path
+
+
+def _air(launched: Launches, wind: Array, base: Array) -> object:
+    """The air's velocity (n, 3) round each piece at places (n, 3) and an age (s).
+
+    The wind grows with height as h^(1/7) and carries eddies of two to seven seconds, as strong as a quarter
+    of the updraft and a seventh of the wind (assumed); the updraft dies away as pieces leave the plume.
+    """
+    random = [
+        noise.uniform(launched.key, use, 31) for use in range(12)
+    ]  # frequency and phase of two eddies along three axes
+    eddy = 0.25 * launched.updraft + 0.14 * float(np.hypot(*wind))
+
+    def velocity(place: Array, age: float) -> Array:
+        height = np.maximum(place[:, 2] - base, 0.0)
+        profile = (np.maximum(height, 3.0) / 10.0) ** (1.0 / 7.0)
+        swirl = [
+            eddy
+            * (
+                np.sin(age * (0.9 + 2.0 * random[k]) + 6.283 * random[k + 3])
+                + 0.6 * np.sin(age * (0.9 + 2.2 * random[k + 6]) + 6.283 * random[k + 9])
+            )
+            for k in range(3)
+        ]
+        rise = launched.updraft * np.exp(-height / _PLUME[0] - age / _PLUME[1])
+        return np.stack(
+            [wind[0] * profile + swirl[0], wind[1] * profile + swirl[1], rise + swirl[2]], axis=-1
+        )
+
+    return velocity
+
+
+def _flights(launched: Launches, path: NDArray[np.float32], zero: float, moment: float | None) -> Flights:
+    """Paths as they are, or only the part round a moment (model time, s) of each."""
+    birth = launched.time - zero
+    if moment is None:
+        return Flights(path, birth, birth, launched.life, launched.size, _STEP)
+    age = moment - launched.time
+    rows = np.arange(len(age))
+    ends = []
+    for shift in (-0.5, 0.5):
+        at = np.clip((age + shift * _MOMENT) / _STEP, 0.0, path.shape[1] - 1.001)
+        low = at.astype(np.int64)
+        part = (at - low)[:, None].astype(np.float32)
+        ends.append(path[rows, low] * (1.0 - part) + path[rows, low + 1] * part)
+    return Flights(
+        np.stack(ends, axis=1),
+        moment - zero - np.full(len(age), 0.5 * _MOMENT),
+        birth,
+        launched.life,
+        launched.size,
+        _MOMENT,
+    )
+
+
+def _floor(ground: Ground, position: Array) -> geo.HeightField:
+    """The ground round the flames, where pieces land."""
+    if len(position) == 0:
+        position = np.zeros((1, 3))
+    axes = [np.linspace(position[:, k].min() - 400.0, position[:, k].max() + 400.0, 120) for k in (0, 1)]
+    east, north = np.meshgrid(*axes)
+    return geo.HeightField(*axes, ground.up(east.ravel(), north.ravel()).reshape(east.shape))

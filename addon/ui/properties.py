@@ -1,0 +1,106 @@
+"""What the panel remembers in the .blend file."""
+
+from __future__ import annotations
+
+import bpy
+
+from . import clock, render, run
+
+_BLEND_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
+
+
+class FIRETWIN_PG_scene(bpy.types.PropertyGroup):
+    """Choices of the panel, and what is known about the run"""
+
+    run: bpy.props.StringProperty(
+        name="Run",
+        description="Folder of the model run: run.toml and a file, or a folder of files, per field",
+        subtype="DIR_PATH",
+        options=_BLEND_RELATIVE,
+        update=run.chosen,
+    )
+    scene_file: bpy.props.StringProperty(
+        name="Scene file",
+        description="TOML file with the time window, the cameras and the settings. "
+        "Without one the whole run is shown by two cameras that see all of the fire",
+        subtype="FILE_PATH",
+        options=_BLEND_RELATIVE,
+        update=run.scene_file_chosen,
+    )
+    output: bpy.props.StringProperty(
+        name="Output",
+        description="Folder for pictures and films. "
+        "Without a scene file the smoke volumes are kept here too, in cache",
+        subtype="DIR_PATH",
+        default="//firetwin",
+        options=_BLEND_RELATIVE,
+    )
+    facts: bpy.props.StringProperty(options={"HIDDEN"})
+    problem: bpy.props.StringProperty(options={"HIDDEN"})
+    smoke: bpy.props.BoolProperty(
+        name="Smoke of every frame",
+        description="Write the smoke of all frames first, which can take minutes. "
+        "Without it the scene is there sooner, and Render writes the smoke that it needs",
+        default=True,
+    )
+    first_time: bpy.props.StringProperty(options={"HIDDEN"})
+    seconds_per_frame: bpy.props.FloatProperty(options={"HIDDEN"})
+    frames: bpy.props.IntProperty(options={"HIDDEN"})
+    zone: bpy.props.StringProperty(options={"HIDDEN"})
+    extent: bpy.props.FloatProperty(options={"HIDDEN"})
+    height: bpy.props.FloatProperty(options={"HIDDEN"})
+    model_time: bpy.props.FloatProperty(
+        name="Model time",
+        description="Moment of the run that is shown, from the first frame to the last",
+        subtype="FACTOR",
+        min=0.0,
+        max=1.0,
+        get=clock.position,
+        set=clock.go_to,
+        options=set(),
+    )
+    engine: bpy.props.EnumProperty(
+        name="Engine",
+        description="What renders",
+        items=(
+            ("scene", "Scene file's", "The engine that the scene file names"),
+            ("cycles", "Cycles", "Light is traced: smoke and fire light each other"),
+            ("eevee", "EEVEE", "Faster and simpler, needs OpenGL"),
+        ),
+    )
+    camera: bpy.props.EnumProperty(name="Camera", description="Cameras that film", items=render.camera_items)
+    passes: bpy.props.EnumProperty(
+        name="Passes",
+        description="What is recorded",
+        items=(
+            ("rgb", "RGB", "The visible picture"),
+            ("depth", "Depth", "Metres to ground and trees, 32-bit EXR"),
+            (
+                "thermal",
+                "Thermal",
+                "Temperature in kelvin, 32-bit EXR, and the picture with its gradient added",
+            ),
+        ),
+        options={"ENUM_FLAG"},
+        default={"rgb"},
+    )
+    which: bpy.props.EnumProperty(
+        name="Frames",
+        description="Which frames to render",
+        items=(
+            ("frame", "This frame", "The frame that is shown"),
+            ("list", "List", "A list of frames"),
+            ("all", "All", "Every frame of the cameras"),
+        ),
+    )
+    frame_list: bpy.props.StringProperty(
+        name="Frames", description="Frames such as 7, 1-10, 3,5-9 or 1-48:4", default="1-10"
+    )
+    resume: bpy.props.BoolProperty(
+        name="Keep finished",
+        description="Render only what is missing or was made with other settings",
+        default=True,
+    )
+
+
+classes = (FIRETWIN_PG_scene,)

@@ -1,0 +1,22 @@
+# The shared libraries of a Linux distribution. Debian's own CMake files for OpenVDB and OpenImageIO ask for packages that
+# are not needed here (Boost.Iostreams, PyImath, OpenCV).
+find_package(TBB CONFIG REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(Imath REQUIRED IMPORTED_TARGET Imath)
+find_path(OPENVDB_INCLUDE_DIR openvdb/openvdb.h REQUIRED)
+find_library(OPENVDB_LIBRARY openvdb REQUIRED)
+find_path(OPENIMAGEIO_INCLUDE_DIR OpenImageIO/imageio.h REQUIRED)
+find_library(OPENIMAGEIO_LIBRARY OpenImageIO REQUIRED)
+find_library(OPENIMAGEIO_UTIL_LIBRARY OpenImageIO_Util REQUIRED)
+find_path(GEOGRAPHICLIB_INCLUDE_DIR GeographicLib/LocalCartesian.hpp REQUIRED)
+find_library(GEOGRAPHICLIB_LIBRARY NAMES GeographicLib Geographic REQUIRED)
+
+target_link_libraries(firetwin_libraries INTERFACE ${OPENVDB_LIBRARY} ${GEOGRAPHICLIB_LIBRARY}
+  ${OPENIMAGEIO_LIBRARY} ${OPENIMAGEIO_UTIL_LIBRARY} PkgConfig::Imath TBB::tbb)
+target_include_directories(firetwin_libraries SYSTEM INTERFACE
+  ${OPENVDB_INCLUDE_DIR} ${OPENIMAGEIO_INCLUDE_DIR} ${GEOGRAPHICLIB_INCLUDE_DIR})
+
+# OpenVDB's registry of types breaks when its inline statics are hidden or unique to one library:
+# default visibility and -fno-gnu-unique are both needed (openvdb#1583).
+# -fno-semantic-interposition: functions of default visibility may still be inlined.
+target_compile_options(firetwin_libraries INTERFACE -fno-gnu-unique -fno-semantic-interposition)

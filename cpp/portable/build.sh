@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# Builds the wheels of firetwin_core that run on any x86-64 Linux with glibc 2.28 or newer, for the Pythons inside Blender
+# 4.5 and 5.0 (3.11) and 5.1 and later (3.13), checks them, and leaves them in build/portable/wheels.
+# The first run downloads the libraries (170 MB) and builds them; the next one builds Firetwin only.
+# Needs g++-12, cmake, ninja, make, dpkg-deb, curl, and Python 3 with venv. FIRETWIN_PORTABLE names another folder than
+# build/portable, FIRETWIN_JOBS the number of compilers that run at once.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+here=$PWD/cpp/portable
+portable=$(realpath -m "${FIRETWIN_PORTABLE:-build/portable}")
+export FIRETWIN_PORTABLE=$portable
+pythons="3.11 3.13"
+
+# shellcheck source=cpp/portable/logged.sh
+source "$here/logged.sh"
+
+say() { echo "portable: $*" >&2; }
+
+for command in gcc-12 g++-12 cmake ninja make dpkg-deb curl python3; do
+  if ! command -v "$command" >/dev/null; then
+    say "$command is missing; on Debian: apt-get install g++-12 cmake ninja-build make dpkg curl python3-venv"
+    exit 1
+  fi
+done
+if [[ $(uname -s -m) != "Linux x86_64" ]]; then
+  say "this builds on and for x86-64 Linux; .github/workflows/wheels.yml builds for the other systems"
+  exit 1
+fi
+
+# Runs a step once, and again when what it depends on has changed.
+once() { # name what-it-depends-on command...
+  local stamp=$portable/stamps/$1 want=$2
+  if [[ ! -f $stamp || $(<"$stamp") != "$want" ]]; then
+    "${@:3}"
+    mkdir -p "$portable/stamps"
+    echo "$want" >"$stamp"
+  fi
+}
+
+make_tools() {
+  rm -rf "$portable/tools"
+  python3 -m venv "$portable/tools"
+  "$portable/tools/bin/pip" install --quiet --disable-pip-version-check --requirement "$here/tools.txt"
+}
+
+compile() {
+  local build=$portable/module python
+  cmake -S . -B "$build" -G Ninja --toolchain "$here/toolchain.cmake" -DCMAKE_BUILD_TYPE=Release \
+    -DFIRETWIN_LIBRARIES=portable -DFIRETWIN_VERSION="$version" -DFIRETWIN_PYTHONS="${pythons// /;}" \
+    -DFIRETWIN_PYTHON_HEADERS="$portable" -Dpybind11_DIR="$("$portable/tools/bin/python" -m pybind11 --cmakedir)"
+  cmake --build "$build" -j "${FIRETWIN_JOBS:-$(nproc)}"
+  for python in $pythons; do
+    rm -rf "$build/stage-$python"
+    cmake --install "$build" --component core --prefix "$build/stage-$python"
+    cmake --install "$build" --component "core-$python" --prefix "$build/stage-$python"
+  done
+}
+
+start=$SECONDS
+once sources "$(sha256sum <"$here/sources.txt")" "$here/fetch.sh" "$portable/sources"
+once sysroot "$(cat "$here/sources.txt" "$here/sysroot.sh" | sha256sum)" "$here/sysroot.sh" "$portable/sources" "$portable"
+once tools "$(sha256sum <"$here/tools.txt")" make_tools
+"$here/libraries.sh" "$portable"
+say "libraries ready after $((SECONDS - start)) s"
+
+version=$("$portable/tools/bin/python" -c 'import tomllib; print(tomllib.load(open("pyproject.toml", "rb"))["project"]["version"])')
+logged firetwin_core "$portable/logs/module.log" compile
+rm -rf "$portable/wheels"
+for python in $pythons; do
+  "$portable/tools/bin/python" "$here/pack.py" "$portable/module/stage-$python" "$python" "$version" "$portable/licenses" \
+    "$portable/wheels"
+done
+"$here/check.sh" "$portable"
+say "done after $((SECONDS - start)) s"

@@ -1,0 +1,92 @@
+"""Makes the Blender extension from addon/, data/ and wheels: ``extension.py OUT WHEELS...``.
+
+Blender's own `blender_ext.py` builds and validates the zip; it lies in the `bpy` package of the Python that
+runs this. WHEELS are folders: every wheel in them goes into the zip, and the platform is theirs.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+LARGEST = 15_000_000  # bytes
+
+
+def blender_ext() -> Path:
+    """The command that manages extensions, from inside Blender."""
+    spec = importlib.util.find_spec("bpy")
+    if spec is None:
+        sys.exit("extension: this Python has no Blender module; use .venv/bin/python (examples/setup.sh)")
+    package = Path(next(iter(spec.submodule_search_locations)))
+    return next(package.glob("*/scripts/addons_core/bl_pkg/cli/blender_ext.py"))
+
+
+def platform_of(wheel: Path) -> str | None:
+    """Blender's name of the system a wheel is for; None for every system."""
+    tag = wheel.stem.split("-")[-1]
+    if tag == "any":
+        return None
+    for start, end, name in (
+        ("manylinux", "x86_64", "linux-x64"),
+        ("linux", "x86_64", "linux-x64"),  # for the machine that built it, as in tests/window.sh
+        ("win", "amd64", "windows-x64"),
+        ("macosx", "arm64", "macos-arm64"),
+    ):
+        if tag.startswith(start) and tag.endswith(end):
+            return name
+    sys.exit(f"extension: {wheel.name} is for no system that Firetwin is made for")
+
+
+def manifest(wheels: list[Path], platforms: list[str], version: str) -> str:
+    """The manifest of addon/ with platforms and wheels filled in."""
+    text = (ROOT / "addon/blender_manifest.toml").read_text()
+    if tomllib.loads(text)["version"] != version:
+        sys.exit("extension: pyproject.toml and addon/blender_manifest.toml differ in version")
+    names = json.dumps([f"./wheels/{wheel.name}" for wheel in wheels], indent=2)
+    head, table, rest = text.partition("\n[permissions]")
+    return f"{head}platforms = {json.dumps(platforms)}\nwheels = {names}\n{table}{rest}"
+
+
+def stage(folder: Path, wheels: list[Path], text: str) -> None:
+    """Lay out the extension as Blender unpacks it: the add-on, with data/ as its package `data`."""
+    shutil.rmtree(folder, ignore_errors=True)
+    ignore = shutil.ignore_patterns("__pycache__", "*.pyc")
+    shutil.copytree(ROOT / "addon", folder, ignore=ignore)
+    shutil.copytree(ROOT / "data", folder / "data", ignore=ignore)
+    shutil.copy(ROOT / "LICENSE", folder)
+    (folder / "wheels").mkdir()
+    for wheel in wheels:
+        shutil.copy(wheel, folder / "wheels")
+    (folder / "blender_manifest.toml").write_text(text)
+
+
+def main(out: Path, folders: list[Path]) -> None:
+    """Stage, build and validate; the last line says what was made."""
+    version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
+    wheels = sorted(wheel for folder in folders for wheel in folder.glob("*.whl"))
+    platforms = sorted({name for name in map(platform_of, wheels) if name})
+    if len(platforms) != 1:
+        sys.exit(f"extension: wheels of the core for one system are needed, not for: {platforms or 'none'}")
+    suffix = "" if platforms == ["linux-x64"] else f"-{platforms[0]}"
+    stage(out / "stage", wheels, manifest(wheels, platforms, version))
+    zipped = out / f"firetwin-{version}{suffix}.zip"
+    command = [sys.executable, blender_ext()]
+    subprocess.run(
+        [*command, "build", "--source-dir", out / "stage", "--output-filepath", zipped],
+        check=True,
+    )
+    subprocess.run([*command, "validate", zipped], check=True)
+    size = zipped.stat().st_size
+    if size > LARGEST:
+        sys.exit(f"extension: {zipped} has {size} bytes, more than {LARGEST}")
+    print(f"extension: {zipped}, {size} bytes")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), [Path(folder) for folder in sys.argv[2:]])

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Downloads the files named in sources.txt into the folder given, and checks their SHA-256.
+# They come from the Debian mirrors that apt is set up to use; FIRETWIN_MIRRORS names others (URLs with blanks between).
+set -euo pipefail
+folder=${1:?usage: fetch.sh FOLDER}
+here=$(dirname "${BASH_SOURCE[0]}")
+mkdir -p "$folder"
+
+mirrors() {
+  if [[ -n ${FIRETWIN_MIRRORS:-} ]]; then
+    tr ' ' '\n' <<<"$FIRETWIN_MIRRORS"
+  elif command -v apt-get >/dev/null; then
+    # shellcheck disable=SC2016 # apt-get fills it in
+    apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' | sort -u
+  fi
+}
+
+matches() { # file sha256
+  [[ -f $1 && $(sha256sum <"$1") == "$2  -" ]]
+}
+
+download() { # pool-path file sha256
+  local mirror part=$2.part
+  for mirror in "${urls[@]}"; do
+    if curl --fail --silent --location --connect-timeout 20 --retry 2 --output "$part" "${mirror%/}/$1" && matches "$part" "$3"; then
+      mv "$part" "$2"
+      return
+    fi
+  done
+  rm -f "$part"
+  return 1
+}
+
+mapfile -t urls < <(mirrors)
+missing=0
+while read -r name version path sha256; do
+  if [[ -z $name || $name == \#* ]]; then
+    continue
+  fi
+  file=$folder/$(basename "$path")
+  if ! matches "$file" "$sha256" && ! download "$path" "$file" "$sha256"; then
+    echo "fetch: $name $version: none of the mirrors has $path with SHA-256 $sha256." >&2
+    missing=1
+  fi
+done <"$here/sources.txt"
+if ((missing)); then
+  echo "fetch: tried: ${urls[*]:-no mirror at all}" >&2
+  echo "fetch: set FIRETWIN_MIRRORS to a mirror that has them, or copy the files into $folder" >&2
+  exit 1
+fi

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# To be sourced.
+
+# Runs a function in a shell of its own that stops at the first error, and keeps what it says in a file; when it fails, shows
+# the end of that and leaves the script. Not for conditions: after `if` or before `||` bash would not stop at errors.
+logged() { # what log function argument...
+  local what=$1 log=$2 status
+  set +e
+  (
+    set -e
+    "${@:3}"
+  ) >"$log" 2>&1
+  status=$?
+  set -e
+  if ((status)); then
+    tail -n 40 "$log" >&2
+    echo "$what was not built; the whole output is in $log" >&2
+    exit 1
+  fi
+}

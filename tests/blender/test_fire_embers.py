@@ -1,0 +1,186 @@
+"""Firebrands: launched by the flames, flown by the core, drawn by geometry nodes at any time."""
+
+from dataclasses import replace
+from datetime import timedelta
+
+import bpy
+import numpy as np
+import pytest
+from firetwin import project as projects
+from firetwin.scene import clock, embers, fire, flames
+from firetwin.scene.ground import Ground
+from firetwin.scene.paths import paths
+
+FRAMES = 24
+
+
+@pytest.fixture
+def close(project):
+    """A camera near the front, one second in 24 frames."""
+    key = replace(project.cameras[0].keys[0], latitude=38.8395, height=150.0)
+    begin = project.time.start + timedelta(minutes=30)
+    return replace(
+        project,
+        cameras=(replace(project.cameras[0], keys=(key,)),),
+        time=replace(project.time, start=begin, end=begin + timedelta(seconds=1), frames=FRAMES),
+    )
+
+
+def flown(project, run):
+    ground = Ground(project, run)
+    views = paths(project, run, ground)
+    points = flames.front(project, run, ground, views)
+    return embers.fly(project, run, ground, views, points), ground, points
+
+
+def drawn(scene, frame, subframe=0.0):
+    """Places, sizes and directions of the streaks in a frame, in order."""
+    scene.frame_set(frame, subframe=subframe)
+    graph = bpy.context.evaluated_depsgraph_get()
+    thing = bpy.data.objects["Firetwin Firebrands"].evaluated_get(graph)
+    found = [i.matrix_world.copy() for i in graph.object_instances if i.is_instance and i.parent == thing]
+    place = np.array([m.translation[:] for m in found]).reshape(-1, 3)
+    axis = np.array([m.to_3x3().normalized().col[2][:] for m in found]).reshape(-1, 3)
+    return place, axis, np.array([m.to_scale()[:] for m in found]).reshape(-1, 3)
+
+
+def sorted_rows(rows):
+    return rows[np.lexsort(rows.T)]
+
+
+def look(scene):
+    camera = bpy.data.objects.new("eye", bpy.data.cameras.new("eye"))
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+
+
+def test_pieces_fly_over_the_ground_and_move_with_the_wind(close, run, monkeypatch):
+    from firetwin.scene import burning
+
+    monkeypatch.setattr(burning, "wind_at", lambda run, times: np.tile((8.0, 0.0), (len(times), 1)))
+    found, ground, _ = flown(close, run)
+    assert len(found.life) > 100
+    place = found.place.astype(np.float64)
+    height = place[..., 2] - ground.up(*place[..., :2].reshape(-1, 2).T).reshape(place.shape[:2])
+    assert height.min() > -3.0  # they land on a grid coarser than the ground
+    assert height.max() > 15.0
+    moved = place[:, 8] - place[:, 0]
+    assert 2.0 < np.median(moved[:, 0]) / 4.0 < 12.0
+    assert abs(np.median(moved[:, 1])) < 4.0
+
+
+def test_their_number_follows_the_intensity(close, run):
+    """Twice the heat throws up twice as many."""
+    ground = Ground(close, run)
+    views = paths(close, run, ground)
+    points = flames.front(close, run, ground, views)
+    many = replace(close, fire=replace(close.fire, firebrands=100_000))
+    counts = [
+        len(embers.fly(many, run, ground, views, replace(points, intensity=factor * points.intensity)).life)
+        for factor in (0.5, 1.0)
+    ]
+    assert counts[1] / counts[0] == pytest.approx(2.0, rel=0.1)
+
+
+def test_no_frame_shows_more_than_the_budget(close, run):
+    few = replace(close, fire=replace(close.fire, firebrands=40))
+    found, _, _ = flown(few, run)
+    counts = [len(found.alive(frame / (FRAMES - 1))) for frame in range(FRAMES)]
+    assert 20 < max(counts) <= 40
+
+
+def test_the_same_twice_and_other_with_another_seed(close, run):
+    first, again = flown(close, run)[0], flown(close, run)[0]
+    assert np.array_equal(first.place, again.place)
+    other = flown(replace(close, seed=2), run)[0]
+    assert first.place.shape != other.place.shape or not np.array_equal(first.place, other.place)
+
+
+def test_blender_draws_those_alive_where_their_path_is(close, run, scene):
+    scene.frame_end = FRAMES
+    fire.build(close, run)
+    look(scene)
+    ground = Ground(close, run, None)
+    views = paths(close, run, ground)
+    found = embers.fly(close, run, ground, views, flames.front(close, run, ground, views))
+    for frame, subframe in ((1, 0.0), (12, 0.5), (24, 0.0)):
+        time = (frame + subframe - 1.0) / (FRAMES - 1)
+        alive = found.alive(time)
+        at = (time - found.start[alive]) / found.step
+        low = np.clip(np.floor(at).astype(int), 0, found.place.shape[1] - 2)
+        part = (at - low)[:, None]
+        wanted = found.place[alive, low] * (1.0 - part) + found.place[alive, low + 1] * part
+        place, axis, size = drawn(scene, frame, subframe)
+        assert len(place) == pytest.approx(len(alive), abs=2)
+        gap = np.linalg.norm(place[:, None] - wanted[None], axis=-1).min(axis=1)
+        assert np.percentile(gap, 98.0) < 0.05
+        assert np.all(size[:, 2] >= size[:, 0])
+        assert np.linalg.norm(axis, axis=1) == pytest.approx(1.0, abs=1e-3)
+
+
+def test_a_saved_scene_scrubs_without_the_add_on(close, run, scene, tmp_path):
+    scene.frame_end = FRAMES
+    fire.build(close, run)
+    look(scene)
+    early, late = drawn(scene, 1)[0], drawn(scene, 24)[0]
+    assert not np.array_equal(sorted_rows(early), sorted_rows(late))
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "scene.blend"))
+    assert not bpy.app.handlers.frame_change_pre
+    assert not bpy.app.handlers.frame_change_post
+    assert not any(d.animation_data and d.animation_data.drivers for d in bpy.data.objects)
+    back = bpy.context.scene
+    assert np.array_equal(sorted_rows(drawn(back, 24)[0]), sorted_rows(late))
+    assert np.array_equal(sorted_rows(drawn(back, 1)[0]), sorted_rows(early))
+
+
+def test_frames_far_apart_show_the_pieces_of_their_own_moment(project, run, scene):
+    """Frames half an hour apart: whoever flies in one is long gone in the next."""
+    key = replace(project.cameras[0].keys[0], latitude=38.8395, height=150.0)
+    project = replace(project, cameras=(replace(project.cameras[0], keys=(key,)),))
+    scene.frame_end = 3
+    fire.build(project, run)
+    look(scene)
+    place, _, _ = drawn(scene, 2)
+    assert len(place) > 50
+    assert len(drawn(scene, 2, 0.5)[0]) == 0
+    ground = Ground(project, run)
+    points = flames.front(project, run, ground, paths(project, run, ground))
+    burning = points.position[points.lit(float(clock.frame_times(project, run)[1]))]
+    gap = np.linalg.norm(place[:, None] - burning[None], axis=-1).min(axis=1)
+    assert np.median(gap) < 120.0
+
+
+def test_twice_built_is_built_once_and_none_out_of_reach(close, run, scene):
+    fire.build(close, run)
+    count = len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.node_groups), len(bpy.data.materials)
+    fire.build(close, run)
+    assert count == (
+        len(bpy.data.objects),
+        len(bpy.data.meshes),
+        len(bpy.data.node_groups),
+        len(bpy.data.materials),
+    )
+    key = replace(close.cameras[0].keys[0], latitude=38.7, longitude=-120.6)
+    fire.build(replace(close, cameras=(replace(close.cameras[0], keys=(key,)),)), run)
+    assert "Firetwin Firebrands" not in bpy.data.objects
+    fire.build(replace(close, fire=projects.Fire(firebrands=0)), run)
+    assert "Firetwin Firebrands" not in bpy.data.objects
+
+
+def test_they_glow_and_are_warm(close, run, scene, shoot):
+    from firetwin.scene import build
+
+    build.build(close, run, scene)
+    scene.frame_set(12)
+    for thing in bpy.data.objects:
+        thing.hide_render = thing.type in ("MESH", "LIGHT") and thing.name != "Firetwin Firebrands"
+    for node in scene.world.node_tree.nodes:
+        if node.type == "BACKGROUND":
+            node.inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
+            for link in node.inputs["Color"].links:
+                scene.world.node_tree.links.remove(link)
+    rgb, kelvin = shoot(scene, "rgb"), shoot(scene, "thermal")
+    assert np.all(rgb[..., 0] >= rgb[..., 2])
+    assert 1.0e-3 < np.max(rgb) < 100.0  # in pixels of 6 m
+    assert 0.005 < kelvin.max() <= 1300.0  # of what they cover of such pixels

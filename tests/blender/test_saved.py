@@ -1,0 +1,49 @@
+"""A saved scene shows the same where Blender runs no scripts that come with files, as on farms."""
+
+import bpy
+import numpy as np
+from firetwin import nodes
+from firetwin.render import engine
+from firetwin.scene import build
+
+KINDS = [name for name, kind in bpy.types.BlendData.bl_rna.properties.items() if kind.type == "COLLECTION"]
+
+
+def _animated():
+    """Every datablock, and every node tree inside one, that is animated."""
+    blocks = [block for kind in KINDS for block in getattr(bpy.data, kind)]
+    blocks += [tree for block in blocks if (tree := getattr(block, "node_tree", None))]
+    return [block for block in blocks if getattr(block, "animation_data", None)]
+
+
+def test_a_saved_scene_needs_no_scripts(near_project, run, scene, shoot, tmp_path):
+    build.build(near_project, run, scene)
+    engine.apply(near_project, scene)
+    scene.frame_set(2)
+    assert _animated()
+    assert not [block for block in _animated() if block.animation_data.drivers]
+    assert not bpy.data.texts
+    before = [shoot(scene, layer) for layer in ("rgb", "thermal")]
+    path = str(tmp_path / "scene.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.open_mainfile(filepath=path, use_scripts=False)
+    assert not bpy.app.autoexec_fail
+    scene = bpy.context.scene
+    for layer, picture in zip(("rgb", "thermal"), before, strict=True):
+        np.testing.assert_array_equal(shoot(scene, layer), picture)
+    assert np.ptp(before[0]) > 0.0
+
+
+def test_scrubbing_a_saved_scene_moves_its_clock_and_camera(project, run, scene, tmp_path):
+    build.build(project, run, scene)
+    path = str(tmp_path / "scene.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path, use_scripts=False)
+    seen = []
+    for frame in (1, 3):
+        bpy.context.scene.frame_set(frame)
+        camera = bpy.context.scene.camera.matrix_world.translation.copy()
+        seen.append((bpy.context.scene[nodes.TIME], camera))
+    assert seen[1][0] - seen[0][0] == 3600.0
+    assert (seen[1][1] - seen[0][1]).length > 500.0

@@ -1,0 +1,65 @@
+"""A run without a scene file is shown by cameras that see its fire."""
+
+import numpy as np
+import pytest
+from firetwin import check, overview
+from firetwin.choice import Choice
+from firetwin_core import InputError
+from firetwin_core import run as runs
+from small_run import FX, FY
+
+
+@pytest.fixture
+def arrival():
+    values = np.full((FY, FX), np.nan, np.float32)
+    values[2, 3], values[5, 7] = 0.0, 60.0
+    return values
+
+
+def test_the_camera_stands_windward_and_looks_at_the_middle(make_run, arrival):
+    run = runs.open(
+        make_run(fuel_arrival_time=arrival)
+    )  # the wind blows to the east and a little to the south
+    drone, satellite = overview.cameras(run)
+    (key,) = drone.keys
+    assert key.target_longitude == pytest.approx(np.mean(run.fuel_longitude[[3, 7]]))
+    assert key.target_latitude == pytest.approx(np.mean(run.fuel_latitude[[2, 5]]))
+    assert key.longitude < key.target_longitude
+    assert key.latitude > key.target_latitude
+    east = (key.target_longitude - key.longitude) * 111.32 * np.cos(np.radians(38.9))
+    south = (key.latitude - key.target_latitude) * 111.0
+    assert east / south == pytest.approx(2.0, rel=0.01)
+    assert satellite.kind == "satellite"
+    assert satellite.swath >= 4000
+
+
+def test_without_wind_it_stands_in_the_south_west(make_run, arrival):
+    run = runs.open(make_run(fuel_arrival_time=arrival, wind_east=None, wind_north=None))
+    key = overview.cameras(run)[0].keys[0]
+    assert key.longitude < key.target_longitude
+    assert key.latitude < key.target_latitude
+
+
+def test_a_run_that_burns_nothing_is_seen_whole(make_run):
+    run = runs.open(make_run(fuel_arrival_time=np.full((FY, FX), np.nan, np.float32)))
+    key = overview.cameras(run)[0].keys[0]
+    assert key.target_latitude == pytest.approx(np.mean(run.fuel_latitude[[0, -1]]))
+
+
+def test_a_choice_is_a_scene_file_with_other_things_in_its_place(make_run, tmp_path):
+    folder = make_run()
+    (tmp_path / "scene.toml").write_text('run = "elsewhere"\n')
+    project, run = Choice(str(tmp_path / "scene.toml"), str(folder), str(tmp_path / "c"), "eevee").load()
+    assert run.name == "Small"
+    assert project.render.engine == "eevee"
+    assert project.cache == tmp_path / "c"
+    assert not project.cameras
+    with pytest.raises(InputError, match="elsewhere"):
+        Choice(str(tmp_path / "scene.toml")).load()
+
+
+def test_a_run_alone_has_cameras_that_fit_it(make_run):
+    project, run = Choice(run=str(make_run())).load()
+    check.against_run(project, run)
+    assert [camera.name for camera in project.cameras] == ["overview", "satellite"]
+    assert Choice(**Choice(run="here", engine="eevee").plain()) == Choice(run="here", engine="eevee")

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Makes the Blender extension, build/extension/firetwin-VERSION.zip, and installs, uses and removes it in Blender.
+#
+#   tests/extension.sh                 build the wheels of the core, the zip, and try it
+#   tests/extension.sh --zip           build the wheels of the core and the zip
+#   tests/extension.sh --try ZIP       only try this zip
+#
+# FIRETWIN_WHEELS names one more folder whose wheels go into the zip, such as that of the core for another Python.
+# For FIRETWIN_BLENDERS and Blender 5.2 see tests/wheels.sh.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+# shellcheck source=tests/package/blenders.sh
+source tests/package/blenders.sh
+portable=${FIRETWIN_PORTABLE:-build/portable}
+
+make_zip() {
+  local wheels=$portable/extension-wheels
+  cpp/portable/build.sh
+  rm -rf build/extension
+  mkdir -p build/extension
+  if ! sha256sum --check --status "$wheels.stamp" 2>/dev/null; then
+    rm -rf "$wheels"
+    "$portable/tools/bin/pip" download --quiet --disable-pip-version-check --no-deps --only-binary=:all: --require-hashes \
+      --requirement cpp/portable/extension-wheels.txt --dest "$wheels"
+    sha256sum cpp/portable/extension-wheels.txt >"$wheels.stamp"
+  fi
+  .venv/bin/python cpp/portable/extension.py build/extension "$portable/wheels" "$wheels" ${FIRETWIN_WHEELS:+"$FIRETWIN_WHEELS"}
+}
+
+try() { # python
+  local log=build/extension/install.log
+  mkdir -p build/extension
+  if ! "$1" tests/package/install.py "$zip" >"$log" 2>&1; then
+    tail -n 30 "$log" >&2
+    echo "extension: FAILED: $1; the whole output is in $log" >&2
+    exit 1
+  fi
+  grep -E '^(Blender|STATUS|firetwin_core|astral|tqdm|uninstalled)' "$log"
+}
+
+case ${1:-} in
+  --try) zip=${2:?usage: tests/extension.sh [--zip | --try ZIP]} ;;
+  --zip)
+    make_zip
+    exit
+    ;;
+  *)
+    make_zip
+    zip=$(echo build/extension/firetwin-*.zip)
+    ;;
+esac
+for_each_blender try
+in_other_python tests/extension.sh --try "$zip"

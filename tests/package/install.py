@@ -1,0 +1,160 @@
+"""Installs the extension's zip as a user does, uses it, and takes it away: ``install.py ZIP``.
+
+Blender's settings, extensions and files are in a folder of their own, which is empty before and after.
+"""
+
+import importlib
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "core"))
+import small_run
+
+NAME = "bl_ext.user_default.firetwin"
+BUNDLED = ("firetwin_core", "astral", "tqdm")
+SCENE = """\
+run = "run"
+[terrain]
+near_radius = 0.0
+apron = 5000.0
+[forest]
+stand_radius = 0.0
+[smoke]
+enabled = false
+[[cameras]]
+name = "drone"
+[[cameras.keys]]
+latitude = 38.89
+longitude = -120.6
+"""
+
+
+def state(bpy):
+    """What an add-on could leave behind in Blender."""
+    import addon_utils
+
+    def names(things):
+        return {name for name in dir(things) if not name.startswith("__")}
+
+    handlers = {
+        (name, function.__module__)
+        for name in dir(bpy.app.handlers)
+        if isinstance(found := getattr(bpy.app.handlers, name), list)
+        for function in found
+    }
+    keys = bpy.context.window_manager.keyconfigs.addon
+    keymaps = keys.keymaps if keys else ()
+    return {
+        "classes": names(bpy.types),
+        "scene properties": names(bpy.types.Scene),
+        "object properties": names(bpy.types.Object),
+        "window properties": names(bpy.types.WindowManager),
+        "operators": set(dir(bpy.ops.firetwin)),
+        "handlers": handlers,
+        "keys": {(keymap.name, len(keymap.keymap_items)) for keymap in keymaps},
+        "add-ons": {addon.module for addon in bpy.context.preferences.addons},
+        "known add-ons": {module.__name__ for module in addon_utils.modules()},
+        "modules": {name for name in sys.modules if name.startswith("bl_ext.")},
+    }
+
+
+def files(folder):
+    """Every file below, but for Blender's own notes about its folders."""
+    return {
+        str(path.relative_to(folder))
+        for path in Path(folder).rglob("*")
+        if path.is_file() and ".cache" not in path.parts and path.name != ".gitignore"
+    }
+
+
+def same(before, after):
+    """Nothing more and nothing less than before."""
+    for what, names in before.items():
+        assert after[what] == names, f"{what}: left behind {after[what] - names}, gone {names - after[what]}"
+
+
+def use(bpy, folder):
+    """Build a small scene with the installed package."""
+    import firetwin_core
+
+    (folder / "run").mkdir()
+    (folder / "run/run.toml").write_text(small_run.RUN_TOML)
+    for name, values in small_run.small_fields().items():
+        small_run.write_field(folder / "run", name, values, "npy")
+    (folder / "scene.toml").write_text(SCENE)
+    project = importlib.import_module(NAME + ".project").load(str(folder / "scene.toml"))
+    importlib.import_module(NAME + ".scene.build").build(project, firetwin_core.run.open(project.run))
+    assert [object for object in bpy.data.objects if object.type == "CAMERA"]
+    assert sum(len(mesh.vertices) for mesh in bpy.data.meshes) > 20
+    cli = importlib.import_module(NAME + ".cli")
+    assert cli.main(["info", str(folder / "run")]) == 0
+    assert cli.main(["info", str(folder / "missing")]) == 1
+
+
+def check_places(resources):
+    """The code that runs is the installed one."""
+    package = Path(sys.modules[NAME].__file__)
+    assert package.is_relative_to(resources / "extensions/user_default/firetwin"), package
+    for name in BUNDLED:
+        place = Path(importlib.import_module(name).__file__)
+        assert place.is_relative_to(resources / "extensions/.local"), place
+        print(f"{name}: {place.relative_to(resources)}")
+
+
+def cycle(bpy, zipped, resources, disable_first):
+    """Install, use, disable, enable, and uninstall."""
+    clean, clean_files = state(bpy), files(resources)
+    repository = "user_default"
+    done = bpy.ops.extensions.package_install_files(filepath=zipped, repo=repository, enable_on_install=True)
+    assert done == {"FINISHED"}
+    assert NAME in bpy.context.preferences.addons
+    assert "FIRETWIN" in " ".join(dir(bpy.types))
+    # Blender's executable has no other packages; here those of this Python come after the extension's.
+    sys.path.sort(key=lambda place: "site-packages" in place and not Path(place).is_relative_to(resources))
+    check_places(resources)
+    with tempfile.TemporaryDirectory() as folder:
+        use(bpy, Path(folder))
+    bpy.ops.wm.read_factory_settings(use_empty=True)  # switches add-ons off, as a new start does
+    assert bpy.ops.preferences.addon_enable(module=NAME) == {"FINISHED"}
+    assert bpy.ops.preferences.addon_disable(module=NAME) == {"FINISHED"}
+    off = state(bpy)
+    same(clean | {what: off[what] for what in ("known add-ons", "modules")}, off)
+    if not disable_first:
+        assert bpy.ops.preferences.addon_enable(module=NAME) == {"FINISHED"}
+    index = [place.module for place in bpy.context.preferences.extensions.repos].index(repository)
+    bpy.ops.extensions.package_uninstall(repo_index=index, pkg_id="firetwin")
+    after = state(bpy)
+    # Blender forgets the modules of an extension that is uninstalled while it is on, and only of such a one.
+    same(clean | ({"modules": after["modules"]} if disable_first else {}), after)
+    left = files(resources) - clean_files
+    if sys.platform == "win32":  # a library that was loaded stays until Blender's next start
+        left = {name for name in left if not name.endswith(".pyd")}
+    assert not left, f"files left behind: {sorted(left)}"
+    print("uninstalled: no file, class, property, operator, handler or key is left")
+
+
+def main(zipped):
+    """Two rounds: uninstalled while on, and after it was switched off."""
+    with tempfile.TemporaryDirectory() as resources:
+        os.environ["BLENDER_USER_RESOURCES"] = resources
+        import bpy
+
+        print(f"Blender {bpy.app.version_string}, Python {sys.version.split()[0]}")
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        for disable_first in (False, True):
+            cycle(bpy, os.path.abspath(zipped), Path(resources), disable_first)
+        sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    try:
+        main(*sys.argv[1:])
+    except BaseException:
+        import traceback
+
+        traceback.print_exc()
+        sys.stderr.flush()
+        os._exit(1)
+    os._exit(0)  # Python's own end can hang with `bpy` loaded

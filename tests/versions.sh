@@ -1,0 +1,164 @@
+#!/usr/bin/env bash
+# Runs tests/blender in every Blender that Firetwin supports, and compares the pictures they make.
+#
+#   tests/versions.sh                    tests in Blender 4.5, 5.0 and 5.2
+#   tests/versions.sh --picture          the example's drone frame by each of them, compared by FLIP
+#   tests/versions.sh 5.2                this version only
+#   tests/versions.sh 5.2 -- -k smoke    arguments for pytest
+#
+# Blender as a Python module needs Python 3.11 up to 5.0, and 3.13 from 5.1. The version whose Python this
+# machine lacks runs in a folder with the Debian that has it (tests/in_debian.sh), kept in build/debian, or in
+# $FIRETWIN_DEBIAN. Where that cannot be made, the version is skipped, and the last lines say so.
+# Exit status 1: a test or a comparison failed; 77: nothing failed and something was skipped.
+set -euo pipefail
+shopt -s inherit_errexit
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+known=(4.5 5.0 5.2)
+declare -A suite=([4.5]=bookworm [5.0]=bookworm [5.2]=trixie)
+declare -A python=([4.5]=3.11 [5.0]=3.11 [5.2]=3.13)
+debian=${FIRETWIN_DEBIAN:-build/debian}
+shared=build/shared # the same inside and outside a folder
+
+say() { echo "versions: $*" >&2; }
+usage() {
+  sed -n '4,7s/^# *//p' "$0" >&2
+  exit 2
+}
+
+picture=false here=false versions=()
+while (($#)); do
+  case $1 in
+    --picture) picture=true ;;
+    --here) here=true ;; # run these versions with this machine's Python: what is called inside a folder
+    --)
+      shift
+      break
+      ;;
+    4.5 | 5.0 | 5.2) versions+=("$1") ;;
+    *) usage ;;
+  esac
+  shift
+done
+if ((${#versions[@]} == 0)); then
+  versions=("${known[@]}")
+fi
+
+# The module that setup.sh puts in .venv is the newest long-term release for its Python; others get a venv.
+interpreter() {
+  if [[ $1 != 5.0 ]]; then
+    echo .venv/bin/python
+    return
+  fi
+  local venv=build/versions/bpy-5.0 wheels=build/versions/wheels
+  if [[ ! -f $venv/stamp || $(<"$venv/stamp") != $(<.venv/firetwin.stamp) ]]; then
+    say "installing Blender 5.0 in $venv"
+    rm -rf "$wheels"
+    .venv/bin/pip wheel --quiet --no-deps --no-build-isolation --config-settings=build-dir=build/setup \
+      --wheel-dir "$wheels" . >&2
+    if [[ ! -x $venv/bin/python ]]; then
+      .venv/bin/python -m venv "$venv"
+    fi
+    "$venv/bin/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$wheels"/*.whl >&2
+    "$venv/bin/pip" install --quiet --disable-pip-version-check "firetwin[test]" bpy==5.0.1 >&2
+    cp .venv/firetwin.stamp "$venv/stamp"
+  fi
+  echo "$venv/bin/python"
+}
+
+# One version with this machine's Python.
+run_here() {
+  local version=$1 python
+  shift
+  examples/setup.sh --with-tests
+  python=$(interpreter "$version")
+  if $picture; then
+    "$python" tests/picture.py render "$shared/sample" "$shared/picture/$version"
+  else
+    "$python" -m pytest tests/blender -q -n 2 --dist loadfile "$@"
+  fi
+}
+
+has_python() {
+  local candidate
+  for candidate in .venv/bin/python /usr/bin/python3; do
+    if [[ -x $candidate ]]; then
+      "$candidate" -c "import sys; sys.exit('%d.%d' % sys.version_info[:2] != '$1')"
+      return
+    fi
+  done
+  return 1
+}
+
+# The run that the pictures show is the same for all; it takes its name when it is complete.
+sample() {
+  if [[ ! -d $shared/sample ]]; then
+    examples/setup.sh --with-tests
+    rm -rf "$shared/sample.part"
+    .venv/bin/firetwin sample "$shared/sample.part" >/dev/null
+    mv "$shared/sample.part" "$shared/sample"
+  fi
+}
+
+compare() {
+  local venv=build/versions/flip version
+  if [[ ! -f $venv/stamp ]]; then
+    python3 -m venv "$venv"
+    "$venv/bin/pip" install --quiet --disable-pip-version-check "flip-evaluator==1.7" numpy >&2
+    touch "$venv/stamp"
+  fi
+  "$venv/bin/python" tests/picture.py compare "$@"
+}
+
+flip=build/versions/flip
+install_flip() {
+  if [[ ! -f $flip/stamp ]]; then
+    .venv/bin/python -m venv "$flip"
+    "$flip/bin/pip" install --quiet --disable-pip-version-check "flip-evaluator==1.7" numpy >&2
+    touch "$flip/stamp"
+  fi
+}
+
+mkdir -p build/versions "$shared"
+if $here; then
+  for version in "${versions[@]}"; do
+    run_here "$version" "$@"
+  done
+  exit
+fi
+
+options=()
+if $picture; then
+  options=(--picture)
+  sample
+  install_flip
+fi
+passed=() failed=() skipped=()
+for version in "${versions[@]}"; do
+  say "Blender $version"
+  status=0
+  folder=()
+  if ! has_python "${python[$version]}"; then
+    folder=(tests/in_debian.sh "${suite[$version]}" "$debian/${suite[$version]}")
+  fi
+  "${folder[@]}" tests/versions.sh "${options[@]}" --here "$version" -- "$@" || status=$?
+  case $status in
+    0) passed+=("$version") ;;
+    77) skipped+=("$version") ;;
+    *) failed+=("$version") ;;
+  esac
+done
+if $picture && ((${#passed[@]} > 1)); then
+  "$flip/bin/python" tests/picture.py compare "${passed[@]/#/$shared/picture/}" || failed+=(comparison)
+fi
+
+say "passed: ${passed[*]:-none}; failed: ${failed[*]:-none}; skipped: ${skipped[*]:-none}"
+for version in "${skipped[@]}"; do
+  say "Blender $version needs Python ${python[$version]}; why there is no folder with it is said above"
+done
+if ((${#failed[@]})); then
+  exit 1
+fi
+if ((${#skipped[@]})); then
+  exit 77
+fi

@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# Inside the Debian folder: installs Blender and what drives it, and builds the wheels for its Python.
+# usage: tests/window/prepare.sh WHEELS
+set -euo pipefail
+wheels=${1:?usage: tests/window/prepare.sh WHEELS}
+
+packages=(
+  blender libopenexr-3-4-33
+  # Blender's own extensions need these, and Debian's package only half of them.
+  python3-numpy python3-requests python3-cattr python3-zstandard
+  # A screen, hands, eyes, and OpenGL by the CPU.
+  xvfb xdotool imagemagick libgl1-mesa-dri libegl1
+  g++ cmake ninja-build pkgconf python3-dev python3-venv
+  libopenvdb-dev libboost-dev libimath-dev libblosc-dev libtbb-dev libopenimageio-dev libopenexr-dev
+  libgeographiclib-dev libtomlplusplus-dev libfast-float-dev
+)
+
+say() { echo "window: $*" >&2; }
+
+logged() { # what log command...
+  say "$1"
+  if ! "${@:3}" >"$2" 2>&1; then
+    tail -n 20 "$2" >&2
+    say "FAILED: $1"
+    exit 1
+  fi
+}
+
+if ! dpkg-query --show "${packages[@]}" >/dev/null 2>&1; then
+  export DEBIAN_FRONTEND=noninteractive
+  logged "reading the package lists" /tmp/apt.log apt-get update
+  logged "installing Blender (700 MB)" /tmp/apt.log apt-get install --yes --no-install-recommends "${packages[@]}"
+  apt-get clean
+fi
+blender --version | head -n 1 >&2
+
+venv=build/window/venv
+if [[ ! -x $venv/bin/pip ]]; then
+  mkdir -p build/window
+  python3 -m venv "$venv"
+  "$venv/bin/pip" install --quiet --disable-pip-version-check "scikit-build-core==1.1.2" "pybind11==3.1.0"
+fi
+logged "building the core for $(python3 --version)" /tmp/wheel.log "$venv/bin/pip" wheel --no-deps --no-build-isolation \
+  --config-settings=build-dir=build/window/core --wheel-dir "$wheels" ./cpp
+"$venv/bin/pip" download --quiet --disable-pip-version-check --no-deps --only-binary=:all: --require-hashes \
+  --requirement cpp/portable/extension-wheels.txt --dest "$wheels"

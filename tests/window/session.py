@@ -1,0 +1,322 @@
+"""A session in Blender's window, as a user would have it: run by ``blender --python session.py -- FOLDER``.
+
+FOLDER holds firetwin.zip, scene.toml, broken.toml and plain.toml; pictures of the screen, what the session
+makes and session.log come to lie there. The steps are a generator that a timer takes further: it yields
+seconds to wait, or a function to wait for. Exit status 0 when everything was as it should be.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+import traceback
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).parent))
+import inventory
+
+FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
+USER = Path(os.environ["BLENDER_USER_RESOURCES"])
+MODULE = "bl_ext.user_default.firetwin"
+PATIENCE = 1500.0  # s, for anything, on a slow machine without a GPU
+failures: list[str] = []
+began = time.monotonic()
+
+
+def say(text: str) -> None:
+    line = f"{time.monotonic() - began:7.1f} s  {text}"
+    print(line, flush=True)
+    with (FOLDER / "session.log").open("a", encoding="utf-8") as log:
+        log.write(line + "\n")
+
+
+def check(good: bool, text: str) -> None:
+    say(("ok      " if good else "FAILED  ") + text)
+    if not good:
+        failures.append(text)
+
+
+def picture(name: str) -> None:
+    """Draw what is new, then take the whole screen."""
+    window = bpy.context.window_manager.windows[0]
+    with bpy.context.temp_override(window=window, screen=window.screen):
+        bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
+    path = FOLDER / f"{name}.png"
+    subprocess.run(["import", "-window", "root", str(path)], check=True)
+    say(f"picture {path.name}")
+
+
+def keys(*names: str) -> None:
+    """Press keys with the mouse over the 3D view."""
+    area = view()
+    x, y = area.x + 200, bpy.context.window_manager.windows[0].height - area.y - area.height // 2
+    subprocess.run(["xdotool", "mousemove", str(x), str(y)], check=True)
+    time.sleep(0.3)
+    subprocess.run(["xdotool", "key", "--delay", "100", *names], check=True)
+
+
+def view() -> bpy.types.Area:
+    return next(area for area in bpy.context.window_manager.windows[0].screen.areas if area.type == "VIEW_3D")
+
+
+def here() -> dict[str, object]:
+    """Where a user's click in the 3D view happens."""
+    window, area = bpy.context.window_manager.windows[0], view()
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    return {"window": window, "area": area, "region": region, "screen": window.screen}
+
+
+def call(operator: Callable[..., set[str]], **options: object) -> set[str]:
+    with bpy.context.temp_override(**here()):
+        return operator("INVOKE_DEFAULT", **options)
+
+
+def settings() -> bpy.types.PropertyGroup:
+    return bpy.context.scene.firetwin
+
+
+def busy() -> bool:
+    return sys.modules[f"{MODULE}.ui.job"].Job.current is not None
+
+
+def stopping() -> bool:
+    job = sys.modules[f"{MODULE}.ui.job"].Job.current
+    return job is None or job.stop.asked
+
+
+def idle() -> bool:
+    return not busy()
+
+
+def tab() -> None:
+    """Open the sidebar at Firetwin."""
+    area = view()
+    area.spaces.active.show_region_ui = True
+    sidebar = next(region for region in area.regions if region.type == "UI")
+    sidebar.active_panel_category = "Firetwin"
+
+
+def built() -> list[str]:
+    return [thing.name for thing in bpy.context.scene.objects if thing.name.startswith("Firetwin")]
+
+
+def install() -> Iterator[object]:
+    bpy.ops.screen.userpref_show(section="EXTENSIONS")
+    yield 1
+    subprocess.run(["xdotool", "search", "--name", "Preferences", "windowmove", "100", "60"], check=False)
+    yield 1
+    window = bpy.context.window_manager.windows[-1]
+    with bpy.context.temp_override(window=window, area=window.screen.areas[0]):
+        done = bpy.ops.extensions.package_install_files(
+            filepath=str(FOLDER / "firetwin.zip"), repo="user_default", enable_on_install=True
+        )
+    check(done == {"FINISHED"}, "installed from disk")
+    check(MODULE in bpy.context.preferences.addons, "enabled")
+    yield 2
+    picture("02-installed")
+    with bpy.context.temp_override(window=window):
+        bpy.ops.wm.window_close()
+    yield 1
+
+
+def panel() -> Iterator[object]:
+    view().spaces.active.show_region_ui = True
+    yield 1
+    tab()
+    yield 1
+    picture("03-panel")
+    check(not bpy.ops.firetwin.build.poll(), "Build scene waits for a run")
+    settings().scene_file = str(FOLDER / "broken.toml")
+    yield 3
+    check("broken.toml:2:" in settings().problem, f"a broken scene file: {settings().problem}")
+    picture("04-broken-scene-file")
+    settings().scene_file = str(FOLDER / "scene.toml")
+    yield 0.5
+    yield idle
+    yield 3
+    check(settings().facts != "", "the run is known")
+    picture("05-run")
+
+
+def build() -> Iterator[object]:
+    names = sorted(thing.name for thing in bpy.context.scene.objects)
+    check(names == ["Camera", "Cube", "Light"], f"the startup scene: {', '.join(names)}")
+    call(bpy.ops.firetwin.build)
+    yield 6
+    check(busy(), "building goes on beside the window")
+    picture("06-building")
+    yield idle
+    yield 5
+    check("Firetwin Terrain" in built() and "Firetwin Smoke" in built(), f"built {len(built())} objects")
+    check(view().spaces.active.clip_end > 100_000, "the view reaches as far as the scene")
+    picture("07-built")
+
+
+def scrub() -> Iterator[object]:
+    settings().model_time = 1.0
+    yield 4
+    check(bpy.context.scene.frame_current == bpy.context.scene.frame_end, "scrubbed to the last frame")
+    picture("08-scrubbed")
+    call(bpy.ops.firetwin.view, whole=True)
+    yield 4
+    picture("09-whole-run")
+    call(bpy.ops.firetwin.view, whole=False)
+    settings().model_time = 0.5
+    yield 3
+
+
+def render() -> Iterator[object]:
+    """Debian builds Cycles without NanoVDB: it draws no volume grid, not even Blender's own. EEVEE does."""
+    settings().engine, settings().output = "eevee", str(FOLDER / "pictures")
+    call(bpy.ops.firetwin.render)
+    yield 5
+    picture("10-rendering")
+    yield idle
+    yield 2
+    frame = bpy.context.scene.frame_current
+    smoky = FOLDER / f"pictures/drone/rgb/drone_rgb_{frame:06d}.exr"
+    check(smoky.exists(), f"rendered {smoky.name}")
+    picture("11-rendered")
+    settings().scene_file, settings().output = str(FOLDER / "plain.toml"), str(FOLDER / "plain")
+    yield 0.5
+    yield idle
+    call(bpy.ops.firetwin.render)
+    yield 1
+    yield idle
+    clear = FOLDER / f"plain/drone/rgb/drone_rgb_{frame:06d}.exr"
+    difference = mean_difference(smoky, clear)
+    check(difference > 0.01, f"smoke changes the picture: mean difference {difference:.4f} (scene-linear)")
+    settings().scene_file, settings().output = str(FOLDER / "scene.toml"), str(FOLDER / "stopped")
+    yield 0.5
+    yield idle
+    call(bpy.ops.firetwin.render)
+    yield 8
+    check(busy(), "rendering again")
+    keys("Escape")
+    yield stopping
+    asked = time.monotonic()
+    yield idle
+    check(time.monotonic() - asked < 60, f"Esc stops it, {time.monotonic() - asked:.1f} s later")
+    check(not list((FOLDER / "stopped").rglob(".part-*")), "a stopped render leaves nothing half made")
+    yield 1
+    picture("12-stopped")
+
+
+def mean_difference(one: Path, other: Path) -> float:
+    import numpy as np
+
+    pixels = []
+    for path in (one, other):
+        image = bpy.data.images.load(str(path))
+        pixels.append(np.array(image.pixels[:]))
+        bpy.data.images.remove(image)
+    return float(np.abs(pixels[0] - pixels[1]).mean())
+
+
+def undo() -> Iterator[object]:
+    for _ in range(12):
+        if not built():
+            break
+        keys("ctrl+z")
+        yield 4
+    check(not built(), "undo takes the scene back")
+    check("Cube" in bpy.context.scene.objects, "undo brings the startup cube back")
+    picture("13-undone")
+    for _ in range(12):
+        if built():
+            break
+        keys("ctrl+shift+z")
+        yield 4
+    check("Firetwin Terrain" in built(), "redo builds it again")
+    picture("14-redone")
+
+
+def file() -> Iterator[object]:
+    path = FOLDER / "saved.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    yield 1
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    yield 5
+    check("Firetwin Terrain" in built(), "saved and opened again")
+    check(settings().facts != "" and settings().first_time != "", "the panel remembers")
+    tab()
+    yield 3
+    picture("15-opened-again")
+
+
+def leave(before: dict[str, list[str]]) -> Iterator[object]:
+    bpy.ops.preferences.addon_disable(module=MODULE)
+    yield 2
+    check(not hasattr(bpy.types.Scene, "firetwin"), "disabled")
+    remains = [
+        name
+        for name in inventory.left(before, inventory.take(USER))
+        if not name.startswith(("files", "search"))
+    ]
+    check(not remains, f"disabling leaves nothing registered {remains or ''}")
+    picture("16-disabled")
+    bpy.ops.preferences.addon_enable(module=MODULE)
+    yield 1
+    tab()
+    yield 2
+    check(settings().facts != "", "enabled again")
+    picture("17-enabled-again")
+    repos = bpy.context.preferences.extensions.repos
+    index = next(i for i, repo in enumerate(repos) if repo.module == "user_default")
+    done = bpy.ops.extensions.package_uninstall(repo_index=index, pkg_id="firetwin")
+    yield 3
+    check(done == {"FINISHED"}, "uninstalled")
+    remains = inventory.left(before, inventory.take(USER))
+    check(not remains, f"uninstalling leaves nothing behind {remains or ''}")
+    picture("18-uninstalled")
+
+
+def session() -> Iterator[object]:
+    say(f"Blender {bpy.app.version_string}, Python {sys.version.split()[0]}")
+    yield 3
+    before = inventory.take(USER)
+    picture("01-start")
+    yield from install()
+    yield from panel()
+    yield from build()
+    yield from scrub()
+    yield from render()
+    yield from undo()
+    yield from file()
+    yield from leave(before)
+
+
+def end(code: int) -> None:
+    say(f"{len(failures)} failed" if failures else "all as it should be")
+    sys.stdout.flush()
+    os._exit(code)
+
+
+class Clock:
+    def __init__(self) -> None:
+        self.steps, self.waiting, self.since = session(), None, 0.0
+
+    def __call__(self) -> float:
+        try:
+            if self.waiting is not None and not self.waiting():
+                if time.monotonic() - self.since > PATIENCE:
+                    raise TimeoutError("nothing happens any more")
+                return 0.3
+            step = next(self.steps)
+        except StopIteration:
+            end(1 if failures else 0)
+        except BaseException:
+            say(traceback.format_exc())
+            picture("99-failed")
+            failures.append("the session did not come to its end")
+            end(1)
+        self.waiting, self.since = (step, time.monotonic()) if callable(step) else (None, 0.0)
+        return 0.3 if callable(step) else float(step)
+
+
+bpy.app.timers.register(Clock(), first_interval=2.0, persistent=True)

@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# Inside the Debian folder: the extension in Blender's own command line, then in its window on a screen that only
+# pictures see. Blender's settings and extensions are in a folder of their own.
+# usage: tests/window/use.sh OUT, a folder with firetwin.zip
+set -euo pipefail
+cd "${1:?usage: tests/window/use.sh OUT}"
+here=/firetwin/tests/window
+export LIBGL_ALWAYS_SOFTWARE=1 BLENDER_USER_RESOURCES=$PWD/user
+
+say() { echo "window: $*" >&2; }
+
+# blender without the lines that Debian's prints about this folder's missing devices
+firetwin() { # status arguments...
+  local want=$1 status=0
+  shift
+  echo "\$ blender --command firetwin $*" >>commands.log
+  blender --disable-autoexec --command firetwin "$@" >>commands.log 2>&1 || status=$?
+  if ((status != want)); then
+    tail -n 20 commands.log >&2
+    say "FAILED: blender --command firetwin $* ended with $status, not $want"
+    exit 1
+  fi
+}
+
+commands() {
+  say "Blender's command line; all it says is in commands.log"
+  blender --command extension install-file --repo user_default --enable firetwin.zip >commands.log 2>&1
+  firetwin 0 --version
+  firetwin 0 sample sample --frames 61
+  firetwin 0 info sample
+  firetwin 1 info nowhere
+  firetwin 2 render scene.toml
+  firetwin 0 build scene.toml -o scene.blend
+  firetwin 0 render scene.toml --out film --frames 2 --passes rgb
+  firetwin 1 render broken.toml --out film
+  firetwin 0 render scene.toml --out film --frames 2 --passes rgb --resume
+  blender --command extension remove firetwin >>commands.log 2>&1
+  if [[ -n $(find user/extensions -iname '*firetwin*' -print -quit) ]]; then
+    find user/extensions -iname '*firetwin*' >&2
+    say "FAILED: the command line leaves this behind"
+    exit 1
+  fi
+  rm -rf user
+}
+
+session() {
+  say "the window; a picture of every step is taken"
+  # A first start asks for language and theme.
+  blender --background --python-expr 'import bpy
+bpy.context.preferences.view.show_splash = False
+bpy.ops.wm.save_userpref()' >window.log 2>&1
+  Xvfb :7 -screen 0 1280x800x24 >/dev/null 2>&1 &
+  local screen=$! status=0
+  sleep 3
+  DISPLAY=:7 timeout "${FIRETWIN_PATIENCE:-3600}" blender --window-geometry 0 0 1280 800 \
+    --python "$here/session.py" -- "$PWD" >>window.log 2>&1 || status=$?
+  kill "$screen"
+  cat session.log
+  if ((status != 0)); then
+    tail -n 30 window.log >&2
+    say "FAILED: the session ended with $status"
+    exit 1
+  fi
+  if grep -q Traceback window.log; then
+    grep -A 20 Traceback window.log >&2
+    say "FAILED: Blender printed a traceback"
+    exit 1
+  fi
+}
+
+cp "$here"/*.toml .
+sed 's/^\[smoke\]$/&\nenabled = false/' scene.toml >plain.toml
+commands
+session
