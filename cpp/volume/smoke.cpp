@@ -40,17 +40,17 @@ std::uint64_t thick_blocks(const LeafValues& concentration) {
 
 /// Leaves with smoke in them.
 std::vector<std::unique_ptr<Leaf>> fill(const Puffs& puffs, double voxel_size) {
+  const auto voxel = static_cast<float>(voxel_size);
   std::vector<float> reach(puffs.size());
   std::vector<float> edge(puffs.size());
   for (std::size_t i = 0; i < puffs.size(); ++i) {
     edge[i] = puffs.radius[i] > 0.0F ? puffs.radius[i] + kOutside : 0.0F;
-    reach[i] = puffs.mass[i] > 0.0 ? spread(puffs.radius[i]) : 0.0F;
+    reach[i] = puffs.mass[i] > 0.0 ? spread(puffs.radius[i], voxel) : 0.0F;
   }
   const LeafBox box(puffs, reach, voxel_size); // there is no smoke where no mass is
   const Bins with_mass(box, puffs, reach, voxel_size);
   const Bins near(box, puffs, edge, voxel_size);
-  const Smoke smoke(puffs);
-  const auto voxel = static_cast<float>(voxel_size);
+  const Smoke smoke(puffs, voxel);
   std::vector<std::unique_ptr<Leaf>> leaves(box.size());
   tbb::enumerable_thread_specific<DepthMeter> meters;
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {

