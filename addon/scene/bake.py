@@ -158,7 +158,8 @@ class Baker:
     def write(self, path: Path, frame: int) -> volume.Frame:
         """Write the volume of a frame: from the model's own smoke where the run has it, else from puffs."""
         time = float(self.times[frame - 1])
-        position, power = lights(self.heat, time)
+        known = self.run.times[0] <= time <= self.run.times[-1]
+        position, power = lights(self.heat, time) if known else (np.empty((0, 3)), np.empty(0))
         own = self.run.has("smoke_3d")
         more: dict[str, Any] = {
             "grids": self.grids,
@@ -212,12 +213,10 @@ def _cache(project: Project) -> Path:
 
 def _key(project: Project, run: Run) -> str:
     """Hash of everything that the smoke depends on."""
-    # Where the fuel grid knows when the fire came, nobody asks the heat flux.
-    unused = ("temperature", "heat_flux") if run.has("fuel_arrival_time") else ("temperature",)
     complete = project.smoke.complete
     settings: dict[str, Any] = {
         "core": _core(),
-        "run": content.inputs(Path(run.path), leave_out=unused),
+        "run": content.inputs(Path(run.path), leave_out=("temperature",)),
         "times": frame_times(project, run).tolist(),
         "seed": project.seed,
         "max_age": project.smoke.max_age,

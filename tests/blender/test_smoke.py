@@ -68,9 +68,11 @@ def test_the_key_is_what_is_in_the_run_not_when_it_was_written(smoky, run, run_f
     np.save(copy / "surface_fuel.npy", fuel)
     assert bake.folder(smoky, again) != bake.folder(smoky, run)
     shutil.copy(run_folder / "surface_fuel.npy", copy)
-    flux = np.load(copy / "heat_flux.npy")
-    np.save(copy / "heat_flux.npy", flux * 2)  # arrival times are given: nobody asks the flux
     assert bake.folder(smoky, again) == bake.folder(smoky, run)
+    np.save(copy / "temperature.npy", np.full((11, 24, 24), 300.0, np.float32))  # nobody asks it
+    assert bake.folder(smoky, again) == bake.folder(smoky, run)
+    np.save(copy / "heat_flux.npy", 2.0 * np.load(copy / "heat_flux.npy"))  # flames light the smoke
+    assert bake.folder(smoky, again) != bake.folder(smoky, run)
 
 
 def test_frames_in_parallel_are_the_frames_one_by_one(smoky, run, tmp_path, monkeypatch):
