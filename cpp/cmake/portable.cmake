@@ -21,4 +21,4 @@ target_compile_definitions(firetwin_libraries INTERFACE __TBB_USE_CONSTRAINTS=0 
 # Without -z nodynamic-undefined-weak Blender's allocator would step in for TBB's, which is left out.
 target_link_options(firetwin_libraries INTERFACE -Wl,--exclude-libs,ALL
   -Wl,--version-script,${CMAKE_SOURCE_DIR}/cpp/portable/exports.map -Wl,-z,nodynamic-undefined-weak
-  -Wl,-z,defs -Wl,--strip-all)
+  -Wl,--strip-all)

@@ -32,6 +32,13 @@ check_exports() {
   [[ $exports == PyInit_firetwin_core ]] || fail "shows more than PyInit_firetwin_core: ${exports//$'\n'/ }"
 }
 
+# Nothing but Python itself may be expected from elsewhere.
+check_open() {
+  local open
+  open=$(nm --dynamic --undefined-only "$module" | awk '$(NF-1) == "U" && $NF !~ /@/ && $NF !~ /^_?Py/ { print $NF }')
+  [[ -z $open ]] || fail "nothing provides ${open//$'\n'/ }"
+}
+
 # What nothing provides is 0 at run time; another library in the process could provide it and be called.
 check_weak() {
   local weak
@@ -53,6 +60,7 @@ for wheel in "$portable"/wheels/firetwin_core-*.whl; do
   check_libraries
   check_glibc
   check_exports
+  check_open
   check_weak
   rm -rf "$unpacked"
 done

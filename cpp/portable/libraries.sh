@@ -94,8 +94,8 @@ build_openvdb() {
 build_openimageio() {
   sed -i 's/^set (Boost_COMPONENTS thread)/set (Boost_COMPONENTS)/' src/cmake/externalpackages.cmake
   # Files are read and written, nothing else: image processing and textures are most of the build.
-  sed -i -E '/^ +(imagebufalgo_(pixelmath|compare|deep|draw|addsub|muldiv|mad|minmaxchan|orient|xform|yee)|maketexture|printinfo)\.cpp/d;
-    /^ +..\/libtexture\/(texturesys|texture3d|environment)\.cpp/d' src/libOpenImageIO/CMakeLists.txt
+  sed -i -E '/^ +(imagebufalgo_(pixelmath|compare|deep|addsub|muldiv|mad|minmaxchan|orient|xform)|maketexture|printinfo)\.cpp/d;
+    s/imagebufalgo_yee.cpp //; /^ +..\/libtexture\/(texturesys|texture3d|environment)\.cpp/d' src/libOpenImageIO/CMakeLists.txt
   local without=() package
   for package in Qt5 Qt6 OpenGL GLEW OpenColorIO OpenCV FFmpeg GIF Libheif LibRaw OpenJPEG OpenJph OpenVDB Ptex WebP R3DSDK Nuke \
     DCMTK Freetype Field3D TBB JXL BZip2 pystring; do

@@ -13,7 +13,7 @@ logged() { # what log function argument...
   status=$?
   set -e
   if ((status)); then
-    tail -n 40 "$log" >&2
+    tail -n 40 "$log" | cut -c 1-400 >&2
     echo "$what was not built; the whole output is in $log" >&2
     exit 1
   fi
