@@ -11,8 +11,8 @@ find cpp tests/fuzz \( -name '*.cpp' -o -name '*.hpp' \) -print0 | xargs -0 .ven
 shellcheck examples/*.sh tests/*.sh tests/fuzz/*.sh tests/package/*.sh cpp/portable/*.sh .ci/run
 
 echo "== core"
-.venv/bin/python -m pytest tests/core -q -n 2 --dist loadfile
+.venv/bin/python -m pytest tests/core -q -n 2 --dist loadfile --max-worker-restart 0
 echo "== fuzz"
 tests/fuzz/run.sh --runs 20000
 echo "== blender"
-.venv/bin/python -m pytest tests/blender -q -n 2 --dist loadfile
+.venv/bin/python -m pytest tests/blender -q -n 2 --dist loadfile --max-worker-restart 0
