@@ -5,6 +5,7 @@ Features are looked for, version numbers are not compared.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from typing import Any
 
@@ -221,6 +222,15 @@ def still_settings(render: bpy.types.RenderSettings) -> None:
     if hasattr(render.image_settings, "media_type"):
         render.image_settings.media_type = "IMAGE"
     render.image_settings.file_format = "PNG"
+
+
+def typeface() -> bpy.types.VectorFont | None:
+    """Blender's own typeface from its file, or None where that is not installed.
+
+    The built-in one is the same, but 5.2 loses it when it opens a second file without a window.
+    """
+    path = os.path.join(bpy.utils.system_resource("DATAFILES", path="fonts"), "Inter.woff2")
+    return bpy.data.fonts.load(path, check_existing=True) if os.path.isfile(path) else None
 
 
 def film_settings(render: bpy.types.RenderSettings) -> None:

@@ -62,6 +62,7 @@ class Smoke:
     voxel_size: float = 0.0  # m; 0 chooses it from the distance of the nearest camera
     max_age: float = 5400.0  # s; older smoke has left the picture
     extinction: float = 0.0  # 1/m inside fresh smoke; 0 chooses it from the camera's distance
+    complete: bool = False  # write smoke that no camera sees too, and the grids "temperature" and "flame"
 
 
 @dataclass(frozen=True)

@@ -152,6 +152,7 @@ synthetic = true
 event = "king_fire"
 start = {stored.START:%Y-%m-%dT%H:%M:%SZ}
 {times}
+mean_s = {INTERVAL:.1f}
 vertical = "orthometric"
 
 [units]

@@ -4,19 +4,12 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
-./setup.sh
+./sample.sh
 firetwin=../.venv/bin/firetwin
 out=out
-mkdir -p "$out"
 
 say() { echo "king_fire: $*" >&2; }
 
-# The run takes its name when it is complete, so a run that is there is whole.
-if [[ ! -d $out/sample ]]; then
-  rm -rf "$out/sample.part"
-  "$firetwin" sample "$out/sample.part"
-  mv "$out/sample.part" "$out/sample"
-fi
 "$firetwin" info "$out/sample" >"$out/info.txt"
 cat "$out/info.txt" >&2
 if [[ ! -f $out/maps/intensity.png || $out/sample/run.toml -nt $out/maps/intensity.png ]]; then

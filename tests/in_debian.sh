@@ -39,7 +39,6 @@ make_folder() {
   command -v debootstrap >/dev/null || cannot "debootstrap is missing (apt-get install debootstrap)"
   local part=$folder.part log=$folder.log from
   echo "in_debian: making $folder with debootstrap ($suite)" >&2
-  mkdir -p "$(dirname "$folder")"
   rm -rf --one-file-system "$part"
   from=$(mirror)
   if ! debootstrap --variant=minbase --include=ca-certificates "$suite" "$part" ${from:+"$from"} >"$log" 2>&1; then
@@ -85,6 +84,10 @@ copy_checkout() {
     tar -xf - -C "$copy"
 }
 
+# One at a time: another command in this folder is waited for.
+mkdir -p "$(dirname "$folder")"
+exec 9>"$folder.lock"
+flock 9
 if [[ ! -d $folder ]]; then
   make_folder
 fi

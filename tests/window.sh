@@ -1,11 +1,14 @@
 #!/usr/bin/env bash
 # Installs the extension in the real Blender 5.2 and uses it in its window, as an artist does, and takes pictures.
 #
-#   tests/window.sh
+#   tests/window.sh                  everything
+#   tests/window.sh panel build      only these of: commands panel build scrub render undo file; it is always
+#                                    installed before and uninstalled after
 #
 # Debian's development release has that Blender, with Python 3.14. It is kept in build/debian/sid, or in
 # $FIRETWIN_DEBIAN/sid (tests/in_debian.sh); the core is built there, and a zip made that carries it. The pictures
-# and the log are then in build/shared/window. No display is needed. About 30 minutes on 2 cores, 10 the next time.
+# and the logs are then in build/shared/window. No display is needed. $FIRETWIN_PATIENCE is how many seconds it waits
+# for any one thing (1800).
 # Exit status 1: something is not as it should be; 77: there is no such folder, and what was skipped is said.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -33,5 +36,5 @@ fi
 .venv/bin/python cpp/portable/extension.py "$out/zip" "$out/wheels"
 cp "$out"/zip/firetwin-*.zip "$out/firetwin.zip"
 rm -rf "$out/zip"
-inside tests/window/use.sh "$out"
+inside env FIRETWIN_PATIENCE="${FIRETWIN_PATIENCE:-1800}" tests/window/use.sh "$out" "$@"
 say "all is as it should be; pictures and logs are in $out"

@@ -8,13 +8,13 @@ temporary file that then takes its name: valid at any moment, and many processes
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import json
 import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
+from ..content import fingerprint, sha256
 from ..errors import input_error
 
 NAME = "manifest.json"
@@ -74,18 +74,6 @@ def intact(out: Path, manifest: dict[str, Any], key: str, paths: Iterable[str]) 
 def describe(path: Path) -> dict[str, Any]:
     """Size and hash of a finished file."""
     return {"bytes": path.stat().st_size, "sha256": sha256(path)}
-
-
-def fingerprint(settings: dict[str, Any]) -> str:
-    """Short hash of settings: equal exactly where their JSON is."""
-    text = json.dumps(settings, sort_keys=True, separators=(",", ":"))
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-def sha256(path: Path) -> str:
-    """SHA-256 of a file, in hexadecimal."""
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def publish(part: Path, path: Path) -> None:

@@ -2,40 +2,17 @@
 
 from __future__ import annotations
 
-import hashlib
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import fields, is_dataclass
 from datetime import datetime
 from importlib import metadata
-from pathlib import Path
 from typing import Any
 
 import firetwin_core
 
+from ..content import inputs
 from ..project import Project
-from .manifest import sha256
 from .passes import Shot
-
-
-def inputs(folder: Path) -> dict[str, str]:
-    """SHA-256 of each field of a run folder; of a field with one file per time, that of all their hashes."""
-    files = sorted(
-        path
-        for path in folder.rglob("*")
-        if path.is_file() and not any(part.startswith(".") for part in path.relative_to(folder).parts)
-    )
-    with ThreadPoolExecutor() as pool:
-        hashes = list(pool.map(sha256, files))
-    parts: dict[str, list[str]] = {}
-    for path, digest in zip(files, hashes, strict=True):
-        parts.setdefault(path.relative_to(folder).parts[0], []).append(f"{path.name} {digest}")
-    return {
-        name: lines[0].split()[-1]
-        if len(lines) == 1
-        else hashlib.sha256("\n".join(lines).encode()).hexdigest()
-        for name, lines in parts.items()
-    }
 
 
 def of_shot(project: Project, hashes: dict[str, str], camera: str, name: str) -> dict[str, Any]:

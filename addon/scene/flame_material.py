@@ -11,6 +11,12 @@ from . import clock, haze, light, sun
 
 _RIM, _BODY, _CORE = (1.0, 0.09, 0.008), (1.0, 0.26, 0.035), (1.0, 0.50, 0.16)
 _LIGHT = 13.0  # radiance at exposure 0
+_CLOSE = (
+    200.0,
+    2500.0,
+    0.4,
+    1.0,
+)  # m from the camera: flames that fill pixels would burn out, afar they must show
 _RISE = 9.0  # m/s at which the pattern rises
 
 
@@ -28,8 +34,9 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     length = tree.attribute("flame_length", "INSTANCER")
     time = nodes.model_time(tree)
     rise = time * _RISE / tree.math("MAXIMUM", length, 4.0)
-    slow = tree.combine(across * 0.8 + seed * 917.0, up * 1.3 - rise * 0.7, seed * 211.0 + time * 0.11)
-    fast = tree.combine(across * 1.6 + seed * 431.0, up * 2.4 - rise, seed * 97.0 + time * 0.23)
+    slim = length / tree.math("MAXIMUM", tree.attribute("flame_width", "INSTANCER"), 0.5)
+    slow = tree.combine(across * 0.8 + seed * 917.0, up * slim * 0.6 - rise * 0.7, seed * 211.0 + time * 0.11)
+    fast = tree.combine(across * 1.6 + seed * 431.0, up * slim * 1.1 - rise, seed * 97.0 + time * 0.23)
     sway = tree.noise(slow, 1.0, 1.0) - 0.5
     tongue = tree.noise(fast, 1.0, 3.0, 0.6)
     centre = across + sway * up * 1.5
@@ -41,6 +48,7 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     colour = tree.mix_colour(shape.smoothstep(0.15, 0.8), _RIM, _BODY)
     colour = tree.mix_colour(hot, colour, _CORE)
     strength = shape.power(1.3) * (0.35 + hot * 0.65) * brightness(project, run)
+    strength = strength * tree.output("ShaderNodeCameraData", name="View Distance").ramp(*_CLOSE)
     part, _air = haze.fraction(tree)
     behind = 1.0 - shape * 0.5
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(behind, behind, behind)})

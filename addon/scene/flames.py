@@ -170,7 +170,7 @@ def torches(project: Project, ground: Ground, grown: Stand, wind: float, first: 
         residence[chosen],
         intensity,
         length,
-        0.32 * height,
+        0.45 * height,
         tilt(wind, 2.0 * length),
         kelvin(intensity),
         seed[chosen],

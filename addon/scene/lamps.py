@@ -26,8 +26,8 @@ COLOUR = (1.0, 0.32, 0.07)  # light of flames of 1300 K as AgX shows it
 LIGHT = 6.0e-4  # W of light for each luminous W of heat by night; chosen by eye
 _REACH = 9000.0  # m from a camera; light on ground farther away is not seen
 _NEAR = 150.0  # m; nearer than this the distance from the camera does not make lamps closer to each other
-_KEYS = 25  # at most this many moments of the shot
-_BLOCK = 60.0  # m; heat this close together belongs to one lamp in any case
+_KEYS = 13  # at most this many moments of the shot
+_BLOCK = 120.0  # m; heat this close together belongs to one lamp in any case
 _ROUNDS = 12
 _HEIGHTS, _RADII = (12.0, 60.0), (6.0, 60.0)  # m
 
@@ -67,17 +67,12 @@ def build(
     found = place(project, run, ground, views)
     strength = LIGHT * darkness(run, found.time)
     frames = 1.0 + (found.time - first) / (clock.step(project, run) or 1.0)
-    return [
-        _lamp(
-            collection,
-            f"Lamp {i:02d}",
-            found.position[i],
-            found.radius[i],
-            frames,
-            strength * found.heat[:, i],
-        )
-        for i in range(len(found.radius))
-    ]
+    made = []
+    for i, (position, radius) in enumerate(zip(found.position, found.radius, strict=True)):
+        thing = _lamp(collection, f"Lamp {i:02d}", position, radius, frames, strength * found.heat[:, i])
+        thing.data.use_shadow = project.render.engine == "cycles"  # EEVEE would draw six maps for each
+        made.append(thing)
+    return made
 
 
 def darkness(run: Run, times: Array) -> Array:

@@ -30,7 +30,7 @@ _VEIL = (0.002, 0.005)  # dilution between which thin smoke fades; volumes end a
 _LOW, _HIGH = (0.62, 0.53, 0.44), (0.95, 0.945, 0.94)  # albedo near the ground and far up
 _MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
 _GLOW = (1.0, 0.25, 0.04)
-_GLOW_LIGHT = 0.006, 0.09  # radiance of thick smoke amid flames of 1 GW, exposure 0, by day and by night
+_GLOW_LIGHT = 0.018, 0.28  # radiance of thick smoke amid 1 GW of luminous heat, by day and by night
 
 
 @dataclass(frozen=True)

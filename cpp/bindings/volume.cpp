@@ -10,8 +10,10 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 namespace firetwin::bindings {
@@ -114,13 +116,49 @@ Flames make_flames(const std::optional<Array<double>>& position,
   return {view(*position), view(*power)};
 }
 
+Sight make_sight(const Array<double>& camera, const Array<double>& rotation,
+                 const Array<double>& fov, const std::array<double, 3>& sun, double floor) {
+  const py::ssize_t views = camera.ndim() == 2 ? camera.shape(0) : 0;
+  require(camera, {views, 3}, "camera");
+  require(rotation, {views, 3, 3}, "rotation");
+  require(fov, {views, 2}, "fov");
+  Sight sight;
+  for (py::ssize_t i = 0; i < views; ++i) {
+    lod::View view{};
+    std::copy_n(camera.data() + 3 * i, 3, view.position.begin());
+    std::copy_n(rotation.data() + 9 * i, 9, view.to_world.begin());
+    view.width = fov.at(i, 0);
+    view.height = fov.at(i, 1);
+    sight.cameras.emplace_back(view, 0.0, std::numeric_limits<double>::infinity());
+  }
+  sight.sun = sun;
+  sight.floor = floor;
+  return sight;
+}
+
+Wanted make_wanted(const std::optional<Array<double>>& position,
+                   const std::optional<Array<double>>& power,
+                   const std::optional<std::vector<std::string>>& grids,
+                   const std::optional<Sight>& sight, const std::optional<Metadata>& metadata) {
+  Wanted wanted;
+  wanted.flames = make_flames(position, power);
+  for (const std::string& name : grids.value_or(std::vector<std::string>{})) {
+    wanted.grids.push_back(smoke_grid(name));
+  }
+  wanted.sight = sight.value_or(Sight{});
+  wanted.metadata = metadata.value_or(Metadata{});
+  return wanted;
+}
+
 VolumeFrame smoke_file(const std::filesystem::path& path, const Puffs& smoke, double voxel_size,
                        const std::optional<Array<double>>& position,
                        const std::optional<Array<double>>& power,
-                       const std::optional<Metadata>& metadata) {
-  const Flames flames = make_flames(position, power);
+                       const std::optional<Metadata>& metadata,
+                       const std::optional<std::vector<std::string>>& grids,
+                       const std::optional<Sight>& sight) {
+  const Wanted wanted = make_wanted(position, power, grids, sight, metadata);
   const py::gil_scoped_release release;
-  return write_smoke(path.string(), smoke, voxel_size, flames, metadata.value_or(Metadata{}));
+  return write_smoke(path.string(), smoke, voxel_size, wanted);
 }
 
 /// Throws unless `array` has `shape`.
@@ -132,14 +170,13 @@ void require_shape(const Array<float>& array, const std::vector<py::ssize_t>& sh
   }
 }
 
-VolumeFrame levels_file(const std::filesystem::path& path, const geo::LocalFrame& frame,
-                        const Array<double>& latitude, const Array<double>& longitude,
-                        const Array<float>& ground, const Array<float>& height,
-                        const Array<float>& smoke, double voxel_size,
-                        const std::optional<Array<float>>& temperature,
-                        const std::optional<Array<double>>& position,
-                        const std::optional<Array<double>>& power,
-                        const std::optional<Metadata>& metadata) {
+VolumeFrame levels_file(
+    const std::filesystem::path& path, const geo::LocalFrame& frame, const Array<double>& latitude,
+    const Array<double>& longitude, const Array<float>& ground, const Array<float>& height,
+    const Array<float>& smoke, double voxel_size, const std::optional<Array<float>>& temperature,
+    const std::optional<Array<double>>& position, const std::optional<Array<double>>& power,
+    const std::optional<Metadata>& metadata, const std::optional<std::vector<std::string>>& grids,
+    const std::optional<Sight>& sight) {
   const py::ssize_t ny = latitude.size();
   const py::ssize_t nx = longitude.size();
   require(latitude, {ny}, "latitude");
@@ -154,7 +191,7 @@ VolumeFrame levels_file(const std::filesystem::path& path, const geo::LocalFrame
   if (temperature) {
     require_shape(*temperature, {nz, ny, nx}, "temperature");
   }
-  const Flames flames = make_flames(position, power);
+  const Wanted wanted = make_wanted(position, power, grids, sight, metadata);
   const Levels levels{view(latitude),
                       view(longitude),
                       view(ground),
@@ -163,8 +200,7 @@ VolumeFrame levels_file(const std::filesystem::path& path, const geo::LocalFrame
                       temperature ? view(*temperature) : std::span<const float>{},
                       static_cast<std::size_t>(nz)};
   const py::gil_scoped_release release;
-  return write_levels(path.string(), frame, levels, voxel_size, flames,
-                      metadata.value_or(Metadata{}));
+  return write_levels(path.string(), frame, levels, voxel_size, wanted);
 }
 
 VolumeFrame dense_file(const std::filesystem::path& path,
@@ -206,11 +242,17 @@ void bind_types(py::module_& module) {
       .def_readonly("emitted", &Puffs::emitted)
       .def_readonly("left", &Puffs::left)
       .def("__len__", &Puffs::size);
+  py::class_<Sight>(module, "Sight", "What the cameras of a moment see, and what shadows it.")
+      .def(py::init(&make_sight), py::arg("camera"), py::arg("rotation"), py::arg("fov"),
+           py::arg("sun") = std::array<double, 3>{}, py::arg("floor") = 0.0)
+      .def("counts", &Sight::counts, py::arg("centre"), py::arg("radius"),
+           "Whether a ball is in view or throws its shadow on a place that is.");
   py::class_<VolumeFrame>(module, "Frame", "What one VDB file holds.")
       .def_readonly("active_voxels", &VolumeFrame::active_voxels)
       .def_readonly("voxels", &VolumeFrame::voxels)
       .def_readonly("bytes", &VolumeFrame::bytes)
       .def_readonly("mass", &VolumeFrame::mass)
+      .def_readonly("hidden", &VolumeFrame::hidden)
       .def_property_readonly("bounds", [](const VolumeFrame& frame) {
         return py::array_t<double>({2, 3}, frame.bounds.data());
       });
@@ -245,12 +287,14 @@ void init_volume(py::module_ module) {
       "Closed-form puffs at `time` from cells that burned.");
   module.def("write_smoke", &smoke_file, py::arg("path"), py::arg("puffs"), py::arg("voxel_size"),
              py::arg("flame_position") = py::none(), py::arg("flame_power") = py::none(),
-             py::arg("metadata") = py::none(), "Write the puffs as a smoke volume.");
+             py::arg("metadata") = py::none(), py::arg("grids") = py::none(),
+             py::arg("sight") = py::none(), "Write the puffs as a smoke volume.");
   module.def("write_levels", &levels_file, py::arg("path"), py::arg("frame"), py::arg("latitude"),
              py::arg("longitude"), py::arg("ground"), py::arg("height"), py::arg("smoke"),
              py::arg("voxel_size"), py::arg("temperature") = py::none(),
              py::arg("flame_position") = py::none(), py::arg("flame_power") = py::none(),
-             py::arg("metadata") = py::none(),
+             py::arg("metadata") = py::none(), py::arg("grids") = py::none(),
+             py::arg("sight") = py::none(),
              "Write smoke on terrain-following levels as a smoke volume.");
   module.def("write", &dense_file, py::arg("path"), py::arg("grids"), py::arg("voxel_size"),
              py::arg("origin") = std::array<double, 3>{0.0, 0.0, 0.0}, py::arg("half") = true,

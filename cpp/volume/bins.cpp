@@ -4,6 +4,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -77,6 +78,12 @@ Bins::Bins(const LeafBox& box, const Puffs& puffs, std::span<const float> reach,
       ranges[i] = {{1, 1, 1}, {0, 0, 0}};
       if (reach[i] > 0.0F) {
         ranges[i] = leaves(puffs, i, reach[i], side);
+        for (std::size_t axis = 0; axis < 3; ++axis) { // balls may stick out of the box
+          const int first = box.low[static_cast<int>(axis)];
+          const int last = first + box.count[static_cast<int>(axis)] - 1;
+          ranges[i].low[axis] = std::max(ranges[i].low[axis], first);
+          ranges[i].high[axis] = std::min(ranges[i].high[axis], last);
+        }
       }
     }
   });

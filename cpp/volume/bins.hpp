@@ -23,7 +23,8 @@ struct LeafBox {
   openvdb::Coord origin(std::size_t leaf) const;
 };
 
-/// Which balls reach which leaf of a box: lists of ball numbers, ascending.
+/// Which balls reach which leaf of a box: lists of ball numbers, ascending. Balls may reach beyond
+/// the box.
 class Bins {
 public:
   Bins(const LeafBox& box, const Puffs& puffs, std::span<const float> reach, double voxel_size);

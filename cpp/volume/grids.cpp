@@ -1,37 +1,49 @@
 #include "grids.hpp"
 
+#include "error.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <numeric>
+
 namespace firetwin {
+namespace {
 
-std::array<float, 3> corner_of(const openvdb::Coord& origin, float voxel_size) {
-  return {static_cast<float>(origin.x()) * voxel_size, static_cast<float>(origin.y()) * voxel_size,
-          static_cast<float>(origin.z()) * voxel_size};
-}
+constexpr double kSeenMargin = 300.0; // m round a leaf: noise, and light that smoke passes on
 
-std::vector<GridName> smoke_grids(bool lit, const std::string& density_units) {
-  std::vector<GridName> names{{"density", density_units},
-                              {"dilution", "1e-5 kg/m3"},
-                              {"shade", "1e-5 kg/m3"},
-                              {"size", "km"},
-                              {"temperature", "K"}};
-  if (lit) {
-    names.push_back({"glow", "1"});
+struct NamedGrid {
+  SmokeGrid grid;
+  const char* name;
+  const char* units;
+};
+
+constexpr std::array<NamedGrid, 7> kGrids{{{SmokeGrid::density, "density", ""},
+                                           {SmokeGrid::dilution, "dilution", "1e-5 kg/m3"},
+                                           {SmokeGrid::shade, "shade", "1e-5 kg/m3"},
+                                           {SmokeGrid::size, "size", "km"},
+                                           {SmokeGrid::temperature, "temperature", "K"},
+                                           {SmokeGrid::glow, "glow", "1"},
+                                           {SmokeGrid::flame, "flame", "1"}}};
+
+bool is_wanted(const Wanted& wanted, SmokeGrid grid) {
+  const bool lit = grid == SmokeGrid::glow || grid == SmokeGrid::flame;
+  if (lit && wanted.flames.power.empty()) {
+    return false;
   }
-  return names;
+  return wanted.grids.empty() ||
+         std::find(wanted.grids.begin(), wanted.grids.end(), grid) != wanted.grids.end();
 }
 
-void glow(const openvdb::Coord& origin, float voxel_size, const Flames& flames, LeafValues& out) {
-  interpolate(glow_at_nodes(corner_of(origin, voxel_size), voxel_size, flames), out);
+bool counts(const openvdb::Coord& origin, double voxel_size, const Sight& sight) {
+  const double middle = 0.5 * static_cast<double>(kLeafSide - 1);
+  const double half = 0.5 * static_cast<double>(kLeafSide) * voxel_size;
+  return sight.counts({(origin.x() + middle) * voxel_size, (origin.y() + middle) * voxel_size,
+                       (origin.z() + middle) * voxel_size},
+                      std::sqrt(3.0) * half + kSeenMargin);
 }
 
-/// Integral over active voxels.
-double mass_of(const LeafMask& mask, const LeafValues& values, double voxel_size) {
-  double sum = 0.0;
-  for (auto voxel = mask.beginOn(); voxel; ++voxel) {
-    sum += static_cast<double>(values[voxel.pos()]);
-  }
-  return sum * voxel_size * voxel_size * voxel_size;
-}
-
+/// Power of the flames within 1.5 voxels in GW, at most 1.
 openvdb::FloatGrid::Ptr flame_grid(const Flames& flames, double voxel_size) {
   openvdb::FloatGrid::Ptr grid = fog_grid("flame", voxel_size, {0.0, 0.0, 0.0}, "1");
   auto accessor = grid->getAccessor();
@@ -52,6 +64,88 @@ openvdb::FloatGrid::Ptr flame_grid(const Flames& flames, double voxel_size) {
   }
   grid->setSaveFloatAsHalf(true);
   return grid;
+}
+
+} // namespace
+
+std::array<float, 3> corner_of(const openvdb::Coord& origin, float voxel_size) {
+  return {static_cast<float>(origin.x()) * voxel_size, static_cast<float>(origin.y()) * voxel_size,
+          static_cast<float>(origin.z()) * voxel_size};
+}
+
+SmokeGrid smoke_grid(const std::string& name) {
+  std::string known;
+  for (const NamedGrid& grid : kGrids) {
+    if (name == grid.name) {
+      return grid.grid;
+    }
+    known += (known.empty() ? "" : ", ") + std::string(grid.name);
+  }
+  throw Error("there is no smoke grid \"" + name + "\"; choose from " + known);
+}
+
+/// Integral over active voxels.
+double mass_of(const LeafMask& mask, const LeafValues& values, double voxel_size) {
+  double sum = 0.0;
+  for (auto voxel = mask.beginOn(); voxel; ++voxel) {
+    sum += static_cast<double>(values[voxel.pos()]);
+  }
+  return sum * voxel_size * voxel_size * voxel_size;
+}
+
+VolumeFrame write_leaves(const std::string& path, const LeafSource& source, double voxel_size,
+                         const Wanted& wanted) {
+  const SharedLeaves& all = source.leaves;
+  std::vector<char> seen(all.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+    seen[i] = counts(all.origins[i], voxel_size, wanted.sight) ? 1 : 0;
+  });
+  SharedLeaves leaves;
+  std::vector<std::size_t> number;
+  double hidden = 0.0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (seen[i] != 0) {
+      leaves.origins.push_back(all.origins[i]);
+      leaves.masks.push_back(all.masks[i]);
+      number.push_back(i);
+    } else {
+      LeafValues dilution;
+      source.values(i, SmokeGrid::dilution, dilution);
+      hidden += mass_of(all.masks[i], dilution, voxel_size) * kFreshSmoke;
+    }
+  }
+  std::vector<SmokeGrid> grids;
+  std::vector<GridName> names;
+  for (const NamedGrid& grid : kGrids) {
+    if (grid.grid != SmokeGrid::flame && is_wanted(wanted, grid.grid)) {
+      grids.push_back(grid.grid);
+      names.push_back({grid.name, grid.grid == SmokeGrid::density ? source.density_units
+                                                                  : std::string(grid.units)});
+    }
+  }
+  std::vector<double> mass(leaves.size()); // kg
+  VolumeArchive archive;
+  archive.add(names, voxel_size, leaves, [&](std::size_t i, std::span<LeafValues> out) {
+    for (std::size_t g = 0; g < grids.size(); ++g) {
+      if (grids[g] == SmokeGrid::glow) {
+        const auto voxel = static_cast<float>(voxel_size);
+        interpolate(glow_at_nodes(corner_of(leaves.origins[i], voxel), voxel, wanted.flames),
+                    out[g]);
+        continue;
+      }
+      source.values(number[i], grids[g], out[g]);
+      if (grids[g] == SmokeGrid::dilution) {
+        mass[i] = mass_of(leaves.masks[i], out[g], voxel_size) * kFreshSmoke;
+      }
+    }
+  });
+  if (is_wanted(wanted, SmokeGrid::flame)) {
+    archive.add({flame_grid(wanted.flames, voxel_size)});
+  }
+  VolumeFrame frame = archive.write(path, wanted.metadata);
+  frame.mass = std::accumulate(mass.begin(), mass.end(), 0.0);
+  frame.hidden = hidden;
+  return frame;
 }
 
 } // namespace firetwin

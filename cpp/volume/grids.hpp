@@ -1,12 +1,14 @@
 #pragma once
 
 #include "archive.hpp"
+#include "sight.hpp"
 #include "smooth.hpp"
 
 #include <openvdb/openvdb.h>
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -36,16 +38,33 @@ inline float air_kelvin(float height) {
 /// Centre of the lowest voxel, m.
 std::array<float, 3> corner_of(const openvdb::Coord& origin, float voxel_size);
 
-/// density, dilution, shade, size, temperature and, when lit, glow.
-std::vector<GridName> smoke_grids(bool lit, const std::string& density_units);
+enum class SmokeGrid { density, dilution, shade, size, temperature, glow, flame };
+
+/// @throws Error for a name that is not one of them.
+SmokeGrid smoke_grid(const std::string& name);
+
+/// What is to be written of the smoke of a moment.
+struct Wanted {
+  std::vector<SmokeGrid> grids; // none: all; glow and flame only with flames
+  Flames flames;
+  Sight sight;
+  Metadata metadata;
+};
+
+/// Smoke leaf by leaf.
+struct LeafSource {
+  SharedLeaves leaves;
+  std::string density_units;
+  /// Values of a leaf in one grid; not asked for glow and flame.
+  std::function<void(std::size_t leaf, SmokeGrid grid, LeafValues& out)> values;
+};
+
+/// Writes the wanted grids of the leaves that count (with 300 m round them). The frame's mass is
+/// that of the dilution written, `hidden` that of the leaves left out.
+VolumeFrame write_leaves(const std::string& path, const LeafSource& source, double voxel_size,
+                         const Wanted& wanted);
 
 /// Integral over active voxels.
 double mass_of(const LeafMask& mask, const LeafValues& values, double voxel_size);
-
-/// Glow of flames in a leaf, see write_smoke.
-void glow(const openvdb::Coord& origin, float voxel_size, const Flames& flames, LeafValues& out);
-
-/// Power of the flames within 1.5 voxels in GW, at most 1.
-openvdb::FloatGrid::Ptr flame_grid(const Flames& flames, double voxel_size);
 
 } // namespace firetwin

@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <vector>
 
 namespace firetwin {
@@ -255,6 +254,25 @@ std::unique_ptr<Leaf> sample(const geo::LocalFrame& frame, const Levels& levels,
   return leaf->mask.isOff() ? nullptr : std::move(leaf);
 }
 
+void fill(const Leaf& leaf, SmokeGrid grid, float size, LeafValues& out) {
+  if (grid == SmokeGrid::size || grid == SmokeGrid::temperature) {
+    out = leaf.temperature;
+    if (grid == SmokeGrid::size) {
+      out.fill(size);
+    }
+    return;
+  }
+  for (std::size_t i = 0; i < kLeafVoxels; ++i) {
+    const float dilution = leaf.concentration[i] / static_cast<float>(kFreshSmoke);
+    const float density =
+        smoothstep(static_cast<float>(kThinnest), static_cast<float>(kThick), dilution);
+    out[i] = grid == SmokeGrid::density ? density : dilution;
+    if (grid == SmokeGrid::shade) {
+      out[i] *= smoothstep(kEdgeLow, kEdgeHigh, density);
+    }
+  }
+}
+
 /// Spacing of the columns in the middle of the grid, km.
 float spacing(const geo::LocalFrame& frame, const Levels& levels) {
   const std::size_t row = (levels.latitude.size() - 1) / 2;
@@ -268,8 +286,7 @@ float spacing(const geo::LocalFrame& frame, const Levels& levels) {
 } // namespace
 
 VolumeFrame write_levels(const std::string& path, const geo::LocalFrame& frame,
-                         const Levels& levels, double voxel_size, const Flames& flames,
-                         const Metadata& metadata) {
+                         const Levels& levels, double voxel_size, const Wanted& wanted) {
   fog_grid("check", voxel_size, {0.0, 0.0, 0.0}, ""); // reports a bad voxel size
   check_heights(levels);
   const std::vector<float> smoke = clean(levels.smoke);
@@ -279,38 +296,17 @@ VolumeFrame write_levels(const std::string& path, const geo::LocalFrame& frame,
     all[i] = sample(frame, levels, smoke, origins[i], voxel_size);
   });
   std::erase(all, nullptr);
-  SharedLeaves shared;
+  LeafSource source;
+  source.density_units = "smoothstep of dilution";
   for (const auto& leaf : all) {
-    shared.origins.push_back(leaf->origin);
-    shared.masks.push_back(leaf->mask);
+    source.leaves.origins.push_back(leaf->origin);
+    source.leaves.masks.push_back(leaf->mask);
   }
   const float size = std::min(spacing(frame, levels), 1.0F);
-  std::vector<double> written(all.size()); // kg
-  VolumeArchive archive;
-  archive.add(smoke_grids(!flames.power.empty(), "smoothstep of dilution"), voxel_size, shared,
-              [&](std::size_t i, std::span<LeafValues> out) {
-                const Leaf& leaf = *all[i];
-                for (std::size_t at = 0; at < kLeafVoxels; ++at) {
-                  const float dilution = leaf.concentration[at] / static_cast<float>(kFreshSmoke);
-                  const float density = smoothstep(static_cast<float>(kThinnest),
-                                                   static_cast<float>(kThick), dilution);
-                  out[0][at] = density;
-                  out[1][at] = dilution;
-                  out[2][at] = dilution * smoothstep(kEdgeLow, kEdgeHigh, density);
-                }
-                out[3].fill(size);
-                out[4] = leaf.temperature;
-                written[i] = mass_of(leaf.mask, out[1], voxel_size) * kFreshSmoke;
-                if (!flames.power.empty()) {
-                  glow(leaf.origin, static_cast<float>(voxel_size), flames, out[5]);
-                }
-              });
-  if (!flames.power.empty()) {
-    archive.add({flame_grid(flames, voxel_size)});
-  }
-  VolumeFrame result = archive.write(path, metadata);
-  result.mass = std::accumulate(written.begin(), written.end(), 0.0);
-  return result;
+  source.values = [&](std::size_t leaf, SmokeGrid grid, LeafValues& out) {
+    fill(*all[leaf], grid, size, out);
+  };
+  return write_leaves(path, source, voxel_size, wanted);
 }
 
 } // namespace firetwin

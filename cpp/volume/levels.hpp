@@ -35,7 +35,6 @@ struct Levels {
 /// `dilution` from kThinnest to kThick, `shade` follows from both as in write_smoke, and `size` is
 /// the spacing of the model's columns, below which only noise can show detail.
 VolumeFrame write_levels(const std::string& path, const geo::LocalFrame& frame,
-                         const Levels& levels, double voxel_size, const Flames& flames,
-                         const Metadata& metadata);
+                         const Levels& levels, double voxel_size, const Wanted& wanted);
 
 } // namespace firetwin

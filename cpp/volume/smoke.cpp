@@ -40,17 +40,17 @@ std::uint64_t thick_blocks(const LeafValues& concentration) {
 
 /// Leaves with smoke in them.
 std::vector<std::unique_ptr<Leaf>> fill(const Puffs& puffs, double voxel_size) {
+  const auto voxel = static_cast<float>(voxel_size);
   std::vector<float> reach(puffs.size());
   std::vector<float> edge(puffs.size());
   for (std::size_t i = 0; i < puffs.size(); ++i) {
     edge[i] = puffs.radius[i] > 0.0F ? puffs.radius[i] + kOutside : 0.0F;
-    reach[i] = puffs.mass[i] > 0.0 ? spread(puffs.radius[i]) : 0.0F;
+    reach[i] = puffs.mass[i] > 0.0 ? spread(puffs.radius[i], voxel) : 0.0F;
   }
   const LeafBox box(puffs, reach, voxel_size); // there is no smoke where no mass is
   const Bins with_mass(box, puffs, reach, voxel_size);
   const Bins near(box, puffs, edge, voxel_size);
-  const Smoke smoke(puffs);
-  const auto voxel = static_cast<float>(voxel_size);
+  const Smoke smoke(puffs, voxel);
   std::vector<std::unique_ptr<Leaf>> leaves(box.size());
   tbb::enumerable_thread_specific<DepthMeter> meters;
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
@@ -88,6 +88,22 @@ public:
   Values(float voxel, float factor, float heat_per_smoke)
       : voxel_(voxel), factor_(factor), heat_(heat_per_smoke / kHeatOfAir) {}
 
+  void fill(const Leaf& leaf, SmokeGrid grid, LeafValues& out) const {
+    switch (grid) {
+    case SmokeGrid::density:
+      return density(leaf, out);
+    case SmokeGrid::dilution:
+      return dilution(leaf, out);
+    case SmokeGrid::shade:
+      return shade(leaf, out);
+    case SmokeGrid::size:
+      return size(leaf, out);
+    default:
+      return temperature(leaf, out);
+    }
+  }
+
+private:
   void density(const Leaf& leaf, LeafValues& out) const {
     for (std::size_t i = 0; i < kLeafVoxels; ++i) {
       out[i] = std::clamp(part(leaf, i), 0.0F, 1.0F);
@@ -116,7 +132,6 @@ public:
     }
   }
 
-private:
   static float part(const Leaf& leaf, std::size_t i) {
     return (leaf.depth[i] + kInside) / (2.0F * kInside);
   }
@@ -129,41 +144,25 @@ private:
 } // namespace
 
 VolumeFrame write_smoke(const std::string& path, const Puffs& puffs, double voxel_size,
-                        const Flames& flames, const Metadata& metadata) {
+                        const Wanted& wanted) {
   fog_grid("check", voxel_size, {0.0, 0.0, 0.0}, ""); // reports a bad voxel size
   const std::vector<std::unique_ptr<Leaf>> all = fill(puffs, voxel_size);
-  SharedLeaves shared;
+  LeafSource source;
+  source.density_units = "(m + 300) / 600";
   double mass = 0.0;
   for (const auto& leaf : all) {
-    shared.origins.push_back(leaf->origin);
-    shared.masks.push_back(leaf->mask);
+    source.leaves.origins.push_back(leaf->origin);
+    source.leaves.masks.push_back(leaf->mask);
     mass += leaf->mass;
   }
   const double total = std::accumulate(puffs.mass.begin(), puffs.mass.end(), 0.0);
   const double factor = mass > 0.0 ? total / mass / kFreshSmoke : 0.0;
-  const auto voxel = static_cast<float>(voxel_size);
-  const Values values(voxel, static_cast<float>(factor), static_cast<float>(puffs.heat_per_smoke));
-  std::vector<double> written(all.size()); // kg, of the values that go into the file
-  VolumeArchive archive;
-  archive.add(smoke_grids(!flames.power.empty(), "(m + 300) / 600"), voxel_size, shared,
-              [&](std::size_t i, std::span<LeafValues> out) {
-                const Leaf& leaf = *all[i];
-                values.density(leaf, out[0]);
-                values.dilution(leaf, out[1]);
-                written[i] = mass_of(leaf.mask, out[1], voxel_size) * kFreshSmoke;
-                values.shade(leaf, out[2]);
-                values.size(leaf, out[3]);
-                values.temperature(leaf, out[4]);
-                if (!flames.power.empty()) {
-                  glow(leaf.origin, voxel, flames, out[5]);
-                }
-              });
-  if (!flames.power.empty()) {
-    archive.add({flame_grid(flames, voxel_size)});
-  }
-  VolumeFrame frame = archive.write(path, metadata);
-  frame.mass = std::accumulate(written.begin(), written.end(), 0.0);
-  return frame;
+  const Values values(static_cast<float>(voxel_size), static_cast<float>(factor),
+                      static_cast<float>(puffs.heat_per_smoke));
+  source.values = [&](std::size_t leaf, SmokeGrid grid, LeafValues& out) {
+    values.fill(*all[leaf], grid, out);
+  };
+  return write_leaves(path, source, voxel_size, wanted);
 }
 
 } // namespace firetwin

@@ -11,8 +11,8 @@ namespace firetwin {
 /// - `density`: clamp((d + 300 m) / 600 m, 0, 1), d the distance into the union of the balls; 0 and
 ///   inactive farther than 150 m outside, and where dilution is under 0.002, too thin to be seen;
 /// - `dilution`: smoke in units of kFreshSmoke; each puff spread by
-///   21 / (16 pi s^3) (1 - r^4 / s^4), s = 1.5 R + 60 m, the whole
-///   scaled so that the grid holds the puffs' mass;
+///   21 / (16 pi s^3) (1 - r^4 / s^4), s = 1.5 R + 60 m but at least 3.6 voxels, the whole scaled
+///   so that the grid holds the puffs' mass;
 /// - `shade`: `dilution`, but falling to 0 as a smoothstep of density from 0.46 to 0.55: smoke with
 /// a
 ///   plain edge in one grid, for rays of light, whose cost is looking grids up;
@@ -21,6 +21,6 @@ namespace firetwin {
 /// - with flames, `glow`: sum of P / 1e9 W exp(-r / 1100 m) / (1 + (r / 250 m)^2), so 1 amid flames
 ///   of 1 GW, and `flame`: power of the flames within 1.5 voxels in GW, at most 1.
 VolumeFrame write_smoke(const std::string& path, const Puffs& puffs, double voxel_size,
-                        const Flames& flames, const Metadata& metadata);
+                        const Wanted& wanted);
 
 } // namespace firetwin

@@ -47,8 +47,8 @@ FIRETWIN_CLONES void add_puffs(const Puff* puffs, std::size_t count, const Ticks
     for (std::size_t row = 0; row < kRows; ++row) {
       const double dx = at[0][row / 3] - puff.position[0];
       const double dy = at[1][row % 3] - puff.position[1];
-      const WideLanes part = (dz2 + (dx * dx + dy * dy)) * puff.inverse;
-      const WideLanes rest = 1.0 - part * part;
+      const WideLanes part2 = (dz2 + (dx * dx + dy * dy)) * puff.inverse;
+      const WideLanes rest = 1.0 - part2 * part2;
       const WideLanes none{};
       rows[row] += (rest > none ? rest : none) * puff.weight;
     }
@@ -148,9 +148,9 @@ FIRETWIN_CLONES void interpolate_lanes(const Nodes& nodes, LeafValues& values) {
 
 } // namespace
 
-Smoke::Smoke(const Puffs& puffs) : sources_(puffs.size()) {
+Smoke::Smoke(const Puffs& puffs, float voxel_size) : sources_(puffs.size()) {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
-    const auto reach = static_cast<double>(spread(puffs.radius[i]));
+    const auto reach = static_cast<double>(spread(puffs.radius[i], voxel_size));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       sources_[i].position[axis] = static_cast<double>(puffs.position[3 * i + axis]);
     }

@@ -3,6 +3,7 @@
 #include "depth.hpp"
 #include "puffs.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -17,9 +18,9 @@ struct Flames {
 };
 
 /// How far the mass of a puff of radius R is spread, m: to the far side of the balls on its
-/// surface.
-inline float spread(float radius) {
-  return 1.5F * radius + 60.0F;
+/// surface, and never so little that it could lie between the nodes below, four voxels apart.
+inline float spread(float radius, float voxel_size) {
+  return std::max(1.5F * radius + 60.0F, 3.6F * voxel_size);
 }
 
 /// A smooth field on 3^3 nodes, four voxels apart, that neighbouring leaves share. Each row of
@@ -29,10 +30,10 @@ using Nodes = std::array<double, 9 * 4>;
 /// Smoke of puffs with mass, ready to be summed at many places.
 class Smoke {
 public:
-  explicit Smoke(const Puffs& puffs);
+  Smoke(const Puffs& puffs, float voxel_size);
 
   /// kg/m3 at the nodes of the leaf whose lowest voxel is centred on `corner`: each puff is 21 M /
-  /// (16 pi s^3) (1 - r^4 / s^4), s = spread(radius). `balls` are numbers of puffs.
+  /// (16 pi s^3) (1 - r^4 / s^4), s = spread(radius, voxel_size). `balls` are numbers of puffs.
   Nodes at_nodes(const std::array<float, 3>& corner, float voxel_size,
                  std::span<const std::uint32_t> balls) const;
 

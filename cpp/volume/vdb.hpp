@@ -19,6 +19,7 @@ struct VolumeFrame {
   std::uint64_t bytes = 0;
   std::array<double, 6> bounds{}; // m: lowest corner, highest corner; zeros when empty
   double mass = 0.0;              // kg of smoke
+  double hidden = 0.0;            // kg left out since no camera sees it
 };
 
 /// A dense array (nx, ny, nz), z running fastest.

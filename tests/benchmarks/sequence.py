@@ -29,8 +29,8 @@ start = 2014-09-17T16:10:20-07:00
 end = 2014-09-17T16:{end:02d}:20-07:00
 frames = {frames}
 [render]
-resolution = [256, 144]
-samples = 6
+resolution = [192, 108]
+samples = 4
 passes = ["rgb"]
 [smoke]
 voxel_size = 110.0

@@ -107,6 +107,16 @@ def test_building_twice_leaves_one_set(near, run, scene, sun_at):
     assert (len(lit()), len(bpy.data.lights), len(bpy.data.actions)) == count
 
 
+@pytest.mark.parametrize(("engine", "shadows"), [("cycles", True), ("eevee", False)])
+def test_only_cycles_draws_their_shadows(near, run, scene, sun_at, engine, shadows):
+    sun_at(-20.0)
+    ground = Ground(near, run)
+    project = replace(near, render=replace(near.render, engine=engine))
+    made = lamps.build(project, run, ground, paths(near, run, ground), scene.collection)
+    assert made
+    assert {thing.data.use_shadow for thing in made} == {shadows}
+
+
 @pytest.mark.parametrize("height", [6.1, 40.0])
 def test_no_lamps_by_day(near, run, scene, sun_at, height):
     sun_at(height)

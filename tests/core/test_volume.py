@@ -149,6 +149,28 @@ def test_density_is_the_clipped_distance_into_the_balls(tmp_path):
         assert density[tuple(voxel)] == pytest.approx(np.clip((depth + 300.0) / 600.0, 0.0, 1.0), abs=1e-3)
 
 
+@pytest.mark.parametrize("voxel", [40.0, 70.0, 130.0, 300.0])
+def test_every_voxel_of_small_smoke_is_right(tmp_path, voxel):
+    """Few, small puffs, whose balls reach farther than their mass."""
+    puffs = smoke(900.0, cells=burn(6), smallest=60.0)
+    path = tmp_path / "smoke.vdb"
+    volume.write_smoke(path, puffs, voxel)
+    grids = read(path)
+    density, low = grids["density"]
+    voxels = np.random.default_rng(2).integers(0, density.shape, (3000, 3))
+    chosen = tuple(voxels.T)
+    gap = np.linalg.norm(puffs.position[None] - ((voxels + low) * voxel)[:, None], axis=2)
+    nearest = np.argmax(puffs.radius - gap, axis=1)
+    depth = np.max(puffs.radius - gap, axis=1)
+    there = grids["dilution"][0][chosen] > 0.0
+    expected = np.clip((depth + 300.0) / 600.0, 0.0, 1.0)
+    assert density[chosen][there] == pytest.approx(expected[there], abs=1e-3)
+    assert not there[depth < -150.1].any()
+    sized = there & (depth < 299.0)
+    size = np.minimum(puffs.radius[nearest] / 1000.0, 1.0)
+    assert grids["size"][0][chosen][sized] == pytest.approx(size[sized], abs=1e-3)
+
+
 def test_flames_make_glow_that_falls_off(tmp_path):
     puffs = smoke(1500.0)
     path = tmp_path / "smoke.vdb"

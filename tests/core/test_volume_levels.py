@@ -221,7 +221,7 @@ def test_fields_that_do_not_fit_are_named(tmp_path, fields, message):
 def test_fields_on_levels_are_npy_only(tmp_path):
     folder = with_levels(tmp_path / "run")
     (folder / "smoke_3d").mkdir()
-    with pytest.raises(InputError, match="numpy.save"):
+    with pytest.raises(InputError, match=r"numpy\.save"):
         run.open(folder)
     (folder / "smoke_3d").rmdir()
     with (folder / "smoke_3d.npy").open("wb") as file:  # a header that lies

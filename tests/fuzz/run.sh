@@ -52,10 +52,10 @@ if [[ -z $compiler ]]; then
   command -v apt-get >/dev/null || { say "needs clang with its libFuzzer and sanitizer runtimes"; exit 1; }
   as_root=()
   ((EUID == 0)) || as_root=(sudo)
-  say "installing clang-14 with apt-get"
+  say "installing clang with apt-get"
   log=$(mktemp)
   if ! { "${as_root[@]}" apt-get update -q && "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install \
-    -y -q --no-install-recommends clang-14 libclang-rt-14-dev; } >"$log" 2>&1; then
+    -y -q --no-install-recommends clang libclang-rt-dev; } >"$log" 2>&1; then
     tail -n 20 "$log" >&2
     say "apt-get failed; its whole output is in $log"
     exit 1

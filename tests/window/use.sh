@@ -1,9 +1,14 @@
 #!/usr/bin/env bash
 # Inside the Debian folder: the extension in Blender's own command line, then in its window on a screen that only
 # pictures see. Blender's settings and extensions are in a folder of their own.
-# usage: tests/window/use.sh OUT, a folder with firetwin.zip
+# usage: tests/window/use.sh OUT [STEP ...], a folder with firetwin.zip
 set -euo pipefail
-cd "${1:?usage: tests/window/use.sh OUT}"
+cd "${1:?usage: tests/window/use.sh OUT [STEP ...]}"
+shift
+steps=("$@")
+if ((${#steps[@]} == 0)); then
+  steps=(commands panel build scrub render undo file)
+fi
 here=/firetwin/tests/window
 export LIBGL_ALWAYS_SOFTWARE=1 BLENDER_USER_RESOURCES=$PWD/user
 
@@ -22,11 +27,14 @@ firetwin() { # status arguments...
   fi
 }
 
-commands() {
+prepare() {
   say "Blender's command line; all it says is in commands.log"
   blender --command extension install-file --repo user_default --enable firetwin.zip >commands.log 2>&1
-  firetwin 0 --version
   firetwin 0 sample sample --frames 61
+}
+
+commands() {
+  firetwin 0 --version
   firetwin 0 info sample
   firetwin 1 info nowhere
   firetwin 2 render scene.toml
@@ -34,6 +42,9 @@ commands() {
   firetwin 0 render scene.toml --out film --frames 2 --passes rgb
   firetwin 1 render broken.toml --out film
   firetwin 0 render scene.toml --out film --frames 2 --passes rgb --resume
+}
+
+leave() {
   blender --command extension remove firetwin >>commands.log 2>&1
   if [[ -n $(find user/extensions -iname '*firetwin*' -print -quit) ]]; then
     find user/extensions -iname '*firetwin*' >&2
@@ -49,11 +60,11 @@ session() {
   blender --background --python-expr 'import bpy
 bpy.context.preferences.view.show_splash = False
 bpy.ops.wm.save_userpref()' >window.log 2>&1
-  Xvfb :7 -screen 0 1280x800x24 >/dev/null 2>&1 &
+  Xvfb -displayfd 1 -screen 0 1280x800x24 >display 2>/dev/null &
   local screen=$! status=0
-  sleep 3
-  DISPLAY=:7 timeout "${FIRETWIN_PATIENCE:-3600}" blender --window-geometry 0 0 1280 800 \
-    --python "$here/session.py" -- "$PWD" >>window.log 2>&1 || status=$?
+  until [[ -s display ]]; do sleep 0.2; done
+  DISPLAY=:$(<display) blender --window-geometry 0 0 1280 800 --python "$here/session.py" -- "$PWD" "${steps[@]}" \
+    >>window.log 2>&1 || status=$?
   kill "$screen"
   cat session.log
   if ((status != 0)); then
@@ -70,5 +81,9 @@ bpy.ops.wm.save_userpref()' >window.log 2>&1
 
 cp "$here"/*.toml .
 sed 's/^\[smoke\]$/&\nenabled = false/' scene.toml >plain.toml
-commands
+prepare
+if [[ " ${steps[*]} " == *" commands "* ]]; then
+  commands
+fi
+leave
 session

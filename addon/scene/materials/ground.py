@@ -128,9 +128,9 @@ def _unburned(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> tuple[nodes
     open_ground = tree.mix_colour(fine.smoothstep(0.38, 0.62), meadow, tree.mix_colour(0.55, meadow, soil))
     open_ground = tree.mix_colour(brush.smoothstep(0.36, 0.52) * 0.92, open_ground, shrub)
     far = tree.mix_colour(cover, open_ground, canopy)
-    litter = tree.mix_colour(fine, (0.016, 0.015, 0.009), (0.045, 0.036, 0.021))
+    litter = tree.mix_colour(fine.smoothstep(0.3, 0.7), (0.019, 0.017, 0.010), (0.062, 0.050, 0.030))
     scrub = tree.mix_colour(
-        tree.noise(place.position, 5.0, 3.0).smoothstep(0.40, 0.56), litter, (0.026, 0.036, 0.014)
+        tree.noise(place.position, 5.0, 4.0, 0.65).smoothstep(0.47, 0.60), litter, (0.024, 0.033, 0.014)
     )
     close = tree.mix_colour(floor, open_ground, scrub)
     colour = tree.mix_colour(place.near, far, close)

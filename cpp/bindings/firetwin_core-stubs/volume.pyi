@@ -90,6 +90,25 @@ def puffs(
         An array has the wrong shape or holds NaN, or a number is not positive.
     """
 
+class Sight:
+    """What the cameras of a moment see, and what throws shadows into it."""
+
+    def __init__(
+        self,
+        camera: ArrayLike,
+        rotation: ArrayLike,
+        fov: ArrayLike,
+        sun: Sequence[float] = (0.0, 0.0, 0.0),
+        floor: float = 0.0,
+    ) -> None:
+        """Perspective cameras (m, 3) m, rotations (m, 3, 3) as for `lod.seen`, whole angles of view (m, 2) rad.
+
+        `sun` is the unit vector towards it, without shadows where it is under one degree; `floor` (m) is the
+        height where shadows end. Without any camera everything counts.
+        """
+    def counts(self, centre: Sequence[float], radius: float) -> bool:
+        """Whether a ball is in view, or throws its shadow on a place (air or ground) that is."""
+
 class Frame:
     """What one VDB file holds."""
 
@@ -106,7 +125,13 @@ class Frame:
         """(2, 3) metres, world space; zeros for an empty file."""
     @property
     def mass(self) -> float:
-        """kg of smoke: the integral of what is written, before it is rounded to half floats."""
+        """kg of smoke: the integral of what is written, before it is rounded to half floats.
+
+        0 where the grid `dilution` is not written.
+        """
+    @property
+    def hidden(self) -> float:
+        """kg of smoke left out because no camera sees it."""
 
 def write_smoke(
     path: str | PathLike[str],
@@ -115,12 +140,16 @@ def write_smoke(
     flame_position: ArrayLike | None = None,
     flame_power: ArrayLike | None = None,
     metadata: Mapping[str, str] | None = None,
+    grids: Sequence[str] | None = None,
+    sight: Sight | None = None,
 ) -> Frame:
     """Write puffs as a sparse volume, half precision with Blosc, to a temporary file that is then renamed.
 
     Grids: `density` (clipped signed distance (m + 300) / 600), `dilution` (in units of FRESH_SMOKE), `shade`
     (dilution with a plain edge), `size` (km, of the local ball), `temperature` (K) and, with flames (n, 3) m
-    and (n,) W, `glow` (1 amid 1 GW) and `flame` (GW, at most 1). See cpp/volume/smoke.hpp.
+    and (n,) W, `glow` (1 amid 1 GW) and `flame` (GW, at most 1). See cpp/volume/smoke.hpp. `grids` names those
+    that are wanted (None: all). With `sight`, blocks of 8^3 voxels that do not count (300 m round them) are left
+    out; what is written stays the same.
 
     Raises
     ------
@@ -141,6 +170,8 @@ def write_levels(
     flame_position: ArrayLike | None = None,
     flame_power: ArrayLike | None = None,
     metadata: Mapping[str, str] | None = None,
+    grids: Sequence[str] | None = None,
+    sight: Sight | None = None,
 ) -> Frame:
     """Write smoke on terrain-following levels as a volume with the grids of `write_smoke`.
 
