@@ -59,6 +59,22 @@ def test_a_file_holds_the_airborne_mass(tmp_path_factory, time, voxel, seed):
         assert dilution.sum() * volume.FRESH_SMOKE * voxel**3 == pytest.approx(puffs.mass.sum(), rel=2e-4)
 
 
+@pytest.mark.parametrize("voxel", [60.0, 110.0])
+def test_small_puffs_do_not_flicker_as_they_drift(tmp_path, voxel):
+    """Smoke over one young fire moves past the voxels without coming and going."""
+    found = []
+    for shift in np.linspace(0.0, 4.0 * voxel, 9):
+        cell = np.array([0.0]), np.array([4.0]), np.array([[shift, 0.6 * shift, 1000.0]])
+        puffs = volume.puffs(120.0, *cell, (3.0, 0.0), CELL**2)
+        path = tmp_path / "smoke.vdb"
+        frame = volume.write_smoke(path, puffs, voxel)
+        assert frame.mass == pytest.approx(puffs.mass.sum(), rel=1e-6)
+        found.append((frame.active_voxels, read(path)["dilution"][0].max()))
+    voxels, thickest = np.array(found).T
+    assert voxels.min() > 0.5 * voxels.max()
+    assert thickest.max() < 3.0 * thickest.min()
+
+
 @pytest.mark.parametrize(("power", "wind"), [(1.0e10, 5.0), (5.0e10, 8.0), (2.0e9, 3.0)])
 def test_a_steady_plume_in_a_file_is_as_high_as_briggs_says(tmp_path, power, wind):
     """Mean height within 2 % of the rise or half a voxel; the top within a voxel of that of the puffs."""
