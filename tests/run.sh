@@ -8,7 +8,7 @@ echo "== format and lint"
 .venv/bin/ruff format --check addon data tests cpp/portable
 .venv/bin/ruff check addon data tests cpp/portable
 find cpp tests/fuzz \( -name '*.cpp' -o -name '*.hpp' \) -print0 | xargs -0 .venv/bin/clang-format --dry-run --Werror
-shellcheck examples/*.sh tests/*.sh tests/fuzz/*.sh tests/package/*.sh cpp/portable/*.sh .ci/run
+shellcheck examples/*.sh tests/*.sh tests/fuzz/*.sh tests/package/*.sh tests/window/*.sh cpp/portable/*.sh .ci/run
 
 echo "== core"
 .venv/bin/python -m pytest tests/core -q -n 2 --dist loadfile --max-worker-restart 0

@@ -5,6 +5,7 @@ Blender's settings, extensions and files are in a folder of their own, which is 
 
 import importlib
 import os
+import site
 import sys
 import tempfile
 from pathlib import Path
@@ -111,8 +112,6 @@ def cycle(bpy, zipped, resources, disable_first):
     assert done == {"FINISHED"}
     assert NAME in bpy.context.preferences.addons
     assert "FIRETWIN" in " ".join(dir(bpy.types))
-    # Blender's executable has no other packages; here those of this Python come after the extension's.
-    sys.path.sort(key=lambda place: "site-packages" in place and not Path(place).is_relative_to(resources))
     check_places(resources)
     with tempfile.TemporaryDirectory() as folder:
         use(bpy, Path(folder))
@@ -140,7 +139,11 @@ def main(zipped):
     with tempfile.TemporaryDirectory() as resources:
         os.environ["BLENDER_USER_RESOURCES"] = resources
         import bpy
+        import numpy as np  # noqa: F401
 
+        # Blender's executable has no packages but its own and those of extensions.
+        here = str(Path(bpy.__file__).parents[1])
+        sys.path[:] = [place for place in sys.path if place not in {here, *site.getsitepackages()}]
         print(f"Blender {bpy.app.version_string}, Python {sys.version.split()[0]}")
         bpy.ops.wm.read_factory_settings(use_empty=True)
         for disable_first in (False, True):

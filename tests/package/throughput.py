@@ -1,8 +1,9 @@
-"""How fast the core is inside Blender and outside: ``throughput.py FOLDER [ROUNDS]`` prints a table.
+"""How fast the core is inside Blender and outside: ``throughput.py FOLDER [TIMES]`` prints a table.
 
-FOLDER holds the unpacked wheel. Runs inside and outside alternate, each in a process of its own; the best
-time of all rounds counts. Inside, Blender's own threads have worked before, so that both pools of threads are
-there.
+FOLDER holds the unpacked wheel. One process has Blender, the other has not; each does every job TIMES times,
+in turns, so that what else the machine does falls on both. The best time counts, of the clock and of all
+cores together; the latter is told even where other programs keep the cores busy. Blender's own threads have
+worked before, so that both pools of threads are there.
 """
 
 import json
@@ -14,6 +15,7 @@ import time
 
 import numpy as np
 
+ANSWER = "ANSWER "
 SIDE = 720  # fuel cells, as in the King Fire
 
 
@@ -40,8 +42,8 @@ def jobs(core, folder):
     }
 
 
-def measure(folder, place):
-    """Best seconds of each job in this process, as one JSON line."""
+def serve(folder, place):
+    """Do the jobs named on stdin, one by one, and answer with seconds."""
     sys.path.insert(0, folder)
     if place == "inside":
         import bpy
@@ -51,36 +53,57 @@ def measure(folder, place):
         bpy.context.view_layer.update()
     import firetwin_core as core
 
-    best = {}
     with tempfile.TemporaryDirectory() as scratch:
-        for name, job in jobs(core, scratch).items():
-            job()
-            stop, best[name] = time.perf_counter() + 1.0, float("inf")
-            while time.perf_counter() < stop:
-                start = time.perf_counter()
-                job()
-                best[name] = min(best[name], time.perf_counter() - start)
-    print("RESULT " + json.dumps(best), flush=True)
+        known = jobs(core, scratch)
+        for line in sys.stdin:
+            if line.strip() not in known:
+                print(ANSWER + json.dumps(list(known)), flush=True)
+                continue
+            start, start_cores = time.perf_counter(), time.process_time()
+            known[line.strip()]()
+            took = time.perf_counter() - start, time.process_time() - start_cores
+            print(ANSWER + json.dumps(took), flush=True)
 
 
-def main(folder, rounds=3):
+def ask(child, line):
+    """The child's answer; what Blender prints is passed over."""
+    child.stdin.write(line + "\n")
+    child.stdin.flush()
+    while not (answer := child.stdout.readline()).startswith(ANSWER):
+        if not answer:
+            sys.exit("throughput: a process ended before its time")
+    return json.loads(answer.removeprefix(ANSWER))
+
+
+def main(folder, times=30):
     """Print the table."""
-    best = {"inside": {}, "outside": {}}
-    for _ in range(int(rounds)):
-        for place, times in best.items():
-            command = [sys.executable, __file__, folder, "--measure", place]
-            output = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-            line = next(line for line in output.splitlines() if line.startswith("RESULT "))
-            for name, seconds in json.loads(line.removeprefix("RESULT ")).items():
-                times[name] = min(times.get(name, float("inf")), seconds)
-    print(f"{'':28}{'outside':>12}{'inside':>12}{'throughput inside':>20}")
-    for name, seconds in best["outside"].items():
-        inside = best["inside"][name]
-        print(f"{name:28}{seconds * 1e3:9.3f} ms{inside * 1e3:9.3f} ms{100 * seconds / inside:18.1f} %")
+    children = {
+        place: subprocess.Popen(
+            [sys.executable, __file__, folder, "--serve", place],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        for place in ("outside", "inside")
+    }
+    names = [ask(child, "?") for child in children.values()].pop()
+    print(
+        f"{'':26}{'clock: outside':>16}{'inside':>11}{'cores: outside':>17}{'inside':>11}   throughput inside"
+    )
+    for name in names:
+        best = {place: (float("inf"), float("inf")) for place in children}
+        for _ in range(int(times)):
+            for place, child in children.items():
+                best[place] = tuple(map(min, best[place], ask(child, name)))
+        columns = [f"{1e3 * best[place][kind]:8.2f} ms" for kind in (0, 1) for place in children]
+        ratios = [100 * best["outside"][kind] / best["inside"][kind] for kind in (0, 1)]
+        print(f"{name:26}     {'  '.join(columns)}     {ratios[0]:.0f} %, by cores {ratios[1]:.0f} %")
+    for child in children.values():
+        child.kill()
 
 
 if __name__ == "__main__":
-    if sys.argv[2:3] == ["--measure"]:
-        measure(sys.argv[1], sys.argv[3])
+    if sys.argv[2:3] == ["--serve"]:
+        serve(sys.argv[1], sys.argv[3])
         os._exit(0)  # Python's own end can hang with `bpy` loaded
     main(*sys.argv[1:])
