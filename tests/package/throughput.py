@@ -1,9 +1,9 @@
 """How fast the core is inside Blender and outside: ``throughput.py FOLDER [TIMES]`` prints a table.
 
 FOLDER holds the unpacked wheel. One process has Blender, the other has not; each does every job TIMES times,
-in turns, so that what else the machine does falls on both. The best time counts, of the clock and of all cores
-together; the latter is told even where other programs keep the cores busy. Blender's own threads have worked
-before, so that both pools of threads are there.
+in turns, so that what else the machine does falls on both. The best time counts, of the clock and of all
+cores together; the latter is told even where other programs keep the cores busy. Blender's own threads have
+worked before, so that both pools of threads are there.
 """
 
 import json
