@@ -11,7 +11,11 @@ packages=(
   # Libraries that Blender loads.
   libegl1 libgl1 libgl1-mesa-dri libxi6 libxrender1 libxkbcommon0 libxxf86vm1 libxfixes3 libsm6 libice6 libgomp1
 )
-test_packages=(geographiclib-tools libopenvdb-tools openimageio-tools proj-bin ffmpeg shellcheck)
+test_packages=(
+  geographiclib-tools libopenvdb-tools openimageio-tools proj-bin ffmpeg shellcheck
+  # The portable wheels, and folders with other Debians.
+  g++-12 make curl debootstrap
+)
 extras="blender"
 
 for argument in "$@"; do

@@ -100,16 +100,6 @@ sample() {
   fi
 }
 
-compare() {
-  local venv=build/versions/flip version
-  if [[ ! -f $venv/stamp ]]; then
-    python3 -m venv "$venv"
-    "$venv/bin/pip" install --quiet --disable-pip-version-check "flip-evaluator==1.7" numpy >&2
-    touch "$venv/stamp"
-  fi
-  "$venv/bin/python" tests/picture.py compare "$@"
-}
-
 flip=build/versions/flip
 install_flip() {
   if [[ ! -f $flip/stamp ]]; then

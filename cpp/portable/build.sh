@@ -45,7 +45,8 @@ make_tools() {
 
 compile() {
   local build=$portable/module python
-  cmake -S . -B "$build" -G Ninja --toolchain "$here/toolchain.cmake" -DCMAKE_BUILD_TYPE=Release \
+  # --fresh: the folder may have served another checkout.
+  cmake --fresh -S . -B "$build" -G Ninja --toolchain "$here/toolchain.cmake" -DCMAKE_BUILD_TYPE=Release \
     -DFIRETWIN_LIBRARIES=portable -DFIRETWIN_VERSION="$version" -DFIRETWIN_PYTHONS="${pythons// /;}" \
     -DFIRETWIN_PYTHON_HEADERS="$portable" -Dpybind11_DIR="$("$portable/tools/bin/python" -m pybind11 --cmakedir)"
   cmake --build "$build" -j "${FIRETWIN_JOBS:-$(nproc)}"
