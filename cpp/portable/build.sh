@@ -65,7 +65,8 @@ once tools "$(sha256sum <"$here/tools.txt")" make_tools
 say "libraries ready after $((SECONDS - start)) s"
 
 version=$("$portable/tools/bin/python" -c 'import tomllib; print(tomllib.load(open("pyproject.toml", "rb"))["project"]["version"])')
-logged firetwin_core "$portable/logs/module.log" compile
+code=$(find cpp CMakeLists.txt pyproject.toml -type f ! -name '*.pyc' -print0 | sort -z | xargs -0 sha256sum | sha256sum)
+once module "$code" logged firetwin_core "$portable/logs/module.log" compile
 rm -rf "$portable/wheels"
 for python in $pythons; do
   "$portable/tools/bin/python" "$here/pack.py" "$portable/module/stage-$python" "$python" "$version" "$portable/licenses" \

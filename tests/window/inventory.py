@@ -31,7 +31,8 @@ def take(folder: Path) -> dict[str, list[str]]:
         "drawn in menus": list(_drawn()),
         "shortcuts": list(_shortcuts()),
         "threads": [thread.name for thread in threading.enumerate()],
-        "search path": list(sys.path),
+        # Without the folder itself: its name may be anything, and Blender's own place for wheels is in it.
+        "search path": [path.removeprefix(str(folder)) for path in sys.path],
         "enabled": [addon.module for addon in bpy.context.preferences.addons],
         "files": [str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()],
     }
