@@ -10,7 +10,7 @@ from ..project import Project
 from . import flame_material, haze
 
 _COOL, _HOT = (1.0, 0.10, 0.008), (1.0, 0.42, 0.10)
-_LIGHT = 90.0  # radiance over that of flames; chosen by eye, as in a long exposure
+_LIGHT = 40.0  # radiance over that of flames; chosen by eye, as in a long exposure
 COLD, FRESH = 900.0, 1300.0  # K
 
 

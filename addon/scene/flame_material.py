@@ -9,14 +9,9 @@ from .. import nodes
 from ..project import Project
 from . import clock, haze, light, sun
 
-_RIM, _BODY, _CORE = (1.0, 0.09, 0.008), (1.0, 0.26, 0.035), (1.0, 0.50, 0.16)
+_RIM, _BODY, _CORE = (1.0, 0.12, 0.008), (1.0, 0.34, 0.04), (1.0, 0.55, 0.15)
 _LIGHT = 13.0  # radiance at exposure 0
-_CLOSE = (
-    200.0,
-    2500.0,
-    0.4,
-    1.0,
-)  # m from the camera: flames that fill pixels would burn out, afar they must show
+CLOSE = (200.0, 2500.0, 0.2, 1.0)  # m and part: flames that fill pixels would burn out, afar they must show
 _RISE = 9.0  # m/s at which the pattern rises
 
 
@@ -48,7 +43,7 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     colour = tree.mix_colour(shape.smoothstep(0.15, 0.8), _RIM, _BODY)
     colour = tree.mix_colour(hot, colour, _CORE)
     strength = shape.power(1.3) * (0.35 + hot * 0.65) * brightness(project, run)
-    strength = strength * tree.output("ShaderNodeCameraData", name="View Distance").ramp(*_CLOSE)
+    strength = strength * tree.output("ShaderNodeCameraData", name="View Distance").ramp(*CLOSE)
     part, _air = haze.fraction(tree)
     behind = 1.0 - shape * 0.5
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(behind, behind, behind)})

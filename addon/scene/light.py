@@ -20,12 +20,12 @@ from . import clock, collections, haze, noise, sun
 _KEYS = 25  # the sky changes at this many moments of the shot
 _SUN = 11.1  # W/m2 over the air
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
-_MOON = 0.035  # W/m2
+_MOON = 0.2  # W/m2, for the exposure of the night: shows ridges and the tops of smoke
 _MOON_COLOUR = (0.65, 0.78, 1.0)
 _MOON_PLACE = (150.0, 40.0)  # degrees; assumed, the moon of the night is not looked up
-_SKY = 0.26  # strength of the sky texture
-_NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.05
-_DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.75, np.array([0.35, 0.45, 0.75]) * 0.008
+_SKY = 0.12  # strength of the sky texture; more drowns the sunlit side of smoke
+_NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.15
+_DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.02
 THERMAL_SKY = 250.0  # K, a clear sky in the long-wave infrared
 
 

@@ -18,11 +18,11 @@ from . import bake, burning, clock, haze, sun
 from .noise import smoothstep
 
 EXTINCTION_PER_DILUTION = 0.04  # 1/m: 4 m2/g (fresh biomass smoke, Reid et al. 2005) times 10 mg/m3
-OPACITY = 6.0, 18.0  # times that, for ash near the ground and for cloud water aloft; chosen by eye
+OPACITY = 5.0, 16.0  # times that, for ash near the ground and for cloud water aloft; chosen by eye
 _CLOUD = (700.0, 2600.0)  # m above the ground between which cloud water condenses in it
-ANISOTROPY = 0.33
+ANISOTROPY = 0.1  # single scattering has about 0.6; few bounces of much less brighten thick smoke as many do
 _EDGE = (0.46, 0.55)  # of the clipped distance: 54 m from clear to full
-_AMPLITUDE = 0.40  # of the noise in the distance, 1 = 600 m
+_AMPLITUDE = 0.5  # of the noise in the distance, 1 = 600 m
 _MEAN_BILLOW = 0.4
 _ALOFT = 1.55  # wind where smoke is over that at 10 m: (h / 10 m)^0.1 at 800 m
 _CLIMB = 1.0  # m/s
@@ -60,7 +60,7 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     opacity = above.ramp(*_CLOUD, *OPACITY)
     full = _extinction(tree.attribute("dilution"), opacity, drawn.extinction)
     albedo = tree.mix_colour(above.smoothstep(-200.0, 3200.0), _LOW, _HIGH)
-    noise = _billow(tree, position, carried, float(np.clip(4.5 * drawn.voxel, 260.0, 700.0)))
+    noise = _billow(tree, position, carried, float(np.clip(6.0 * drawn.voxel, 260.0, 1000.0)))
     reach = tree.math("MINIMUM", tree.attribute("size") * 0.8, _AMPLITUDE)  # small puffs must not be eaten up
     depth = tree.attribute("density")
     density = (depth + reach * (noise - _MEAN_BILLOW)).smoothstep(*_EDGE) * full
@@ -112,5 +112,5 @@ def _billow(tree: nodes.Tree, position: nodes.Value, carried: Flow, size: float)
     shift = [speed * _ALOFT for speed in carried.wind]
     time = nodes.model_time(tree)
     moved = tree.vector("SUBTRACT", position, tree.combine(time * shift[0], time * shift[1], time * _CLIMB))
-    noise = tree.noise(moved, size, 3.0, 0.6)
+    noise = tree.noise(moved, size, 5.0, 0.6)
     return tree.math("ABSOLUTE", noise * 2.0 - 1.0) * 2.0

@@ -16,7 +16,7 @@ from ...project import Project
 from .. import haze
 from . import heat
 
-FLAME = (1.0, 0.26, 0.035)
+FLAME = (1.0, 0.33, 0.04)
 EMBER = (1.0, 0.11, 0.012)
 FLAMING_TIME = 100.0, 300.0  # s that the edge is in flames, seen from nearby and from FAR
 FAR = 9000.0  # m; from there the edge is drawn wider, as a picture's pixels are
@@ -55,7 +55,9 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     lake = tree.attribute("water") > 0.5
     matt = tree.mix_shader(lake, matt, _water(tree, place))
     light = tree.mix_colour(flaming / (flaming + embers + 1.0e-4), EMBER, FLAME)
-    power = flaming * _FLAME_LIGHT + embers * (_EMBER_LIGHT if project.fire.embers else 0.0)
+    power = flaming * _FLAME_LIGHT * place.distance.ramp(200.0, 2500.0, 0.3, 1.0) + embers * (
+        _EMBER_LIGHT if project.fire.embers else 0.0
+    )
     # Lamps and the smoke's glow carry the light of flames: rays that happen to meet the edge would be noise.
     seen = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     shader = haze.apply(tree, tree.add_shader(matt, tree.emission(light, power * seen)))

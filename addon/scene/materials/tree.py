@@ -15,7 +15,7 @@ from . import heat
 from .ground import FLAME
 
 TORCHING = 350.0  # s that a crown is in flames
-_FLAME_LIGHT = 7.0
+_FLAME_LIGHT = 2.5  # radiance at exposure 0; crowns near by fill pixels
 _DEAD = 0.07  # part of the trees that stood dead and brown before
 
 
