@@ -112,7 +112,7 @@ class Render:
     passes: tuple[str, ...] = ("rgb", "depth", "thermal")
     video: bool = True
     seed: int = 0
-    thermal_low: float = 280.0  # K shown black in the thermal picture
+    thermal_low: float = 320.0  # K where colour begins in the thermal picture: ground in the sun has less
     thermal_high: float = 800.0  # K shown white
 
 

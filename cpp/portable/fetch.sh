@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Downloads the files named in sources.txt into the folder given, and checks their SHA-256.
 # They come from the Debian mirrors that apt is set up to use; FIRETWIN_MIRRORS names others (URLs with blanks between).
+# Exit status 77: a file cannot be had here.
 set -euo pipefail
 folder=${1:?usage: fetch.sh FOLDER}
 here=$(dirname "${BASH_SOURCE[0]}")
@@ -46,5 +47,5 @@ done <"$here/sources.txt"
 if ((missing)); then
   echo "fetch: tried: ${urls[*]:-no mirror at all}" >&2
   echo "fetch: set FIRETWIN_MIRRORS to a mirror that has them, or copy the files into $folder" >&2
-  exit 1
+  exit 77
 fi
