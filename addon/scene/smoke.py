@@ -7,7 +7,7 @@ from firetwin_core.run import Run
 
 from .. import compat
 from ..project import Project
-from . import bake, collections, smoke_material
+from . import bake, collections, smoke_layers, smoke_material
 
 _MAX_STEPS = 8192  # Cycles lengthens steps of rays that would need more; 1024 of them are 12 km
 
@@ -34,6 +34,7 @@ def build(project: Project, run: Run) -> bpy.types.Object | None:
     for scene in bpy.data.scenes:
         scene.cycles.volume_step_rate = 1.0
         scene.cycles.volume_max_steps = _MAX_STEPS
+    smoke_layers.build(collection)
     thing = collections.add(collection, "Smoke", volume)
     shift = compat.volume_shift(bpy.context.scene.cycles, bake.resolution(project, run).voxel)
     thing.location = (shift, shift, shift)
