@@ -14,6 +14,7 @@ SUBJECTS = (
     "emitters",
     "volume",
     "smoke",
+    "step",
     "plume",
     "interpolation",
     "particles",

@@ -1,0 +1,144 @@
+"""Step along rays through smoke: how far the picture is from one drawn with a quarter of the step, and time.
+
+The smoke is that of a moment of the sample run, before the sky, drawn by Cycles in a process of its own with
+the same grain at every step. The error is the mean FLIP (Andersson et al. 2020, "FLIP: A Difference Evaluator
+for Alternating Images"). Beside it stands what another grain at one and the same step makes: less than that
+does not show. Times are of whole renders.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from datetime import UTC, datetime
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .. import project as projects
+from .. import worker
+from ..progress import Progress, silent
+from .harness import OURS, Bench
+
+if TYPE_CHECKING:
+    import bpy
+
+MOMENT = datetime(2014, 9, 17, 23, 12, tzinfo=UTC)
+VIEW = projects.CameraKey(0.0, 38.990, -120.5505, 600.0, "head")  # 2 km off the head of the fire
+MODEL_TIMES = 25  # of the sample; the smoke comes from the fuel's arrival times, which are all there
+RESOLUTION, SAMPLES = (160, 90), 8
+FINEST, OTHER_GRAIN = "a quarter of the step", f"{OURS}, other grain"
+STEPS = {
+    OURS: 1.0,
+    "4 times the step": 4.0,
+    "twice the step": 2.0,
+    "half the step": 0.5,
+    FINEST: 0.25,
+    OTHER_GRAIN: 1.0,
+}
+LIMIT = 0.05  # FLIP, as between pictures by several versions of Blender
+
+
+def run(bench: Bench) -> None:
+    """Render every step, then compare."""
+    if find_spec("bpy") is None:
+        bench.skip("bpy is not installed (pip install 'firetwin[blender]')")
+        return
+    flip = bench.rival("flip_evaluator")
+    if flip is None:
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        found = worker.run(
+            f"{__name__}:render_in_blender", {"folder": folder, "times": 2 if bench.full else 1}
+        )
+        errors = {
+            name: flip.evaluate(picture(folder, reference(name)), picture(folder, name), "LDR")[1]
+            for name in found
+        }
+    pixels = RESOLUTION[0] * RESOLUTION[1]
+    for name, seconds in found.items():
+        bench.row(
+            f"smoke in {RESOLUTION[0]} by {RESOLUTION[1]} pixels",
+            name,
+            seconds,
+            pixels,
+            "pixel",
+            error=None if name == FINEST else errors[name],
+            error_unit="FLIP",
+            threads=os.cpu_count() or 1,
+        )
+    bench.target("picture off that with a quarter of the step", errors[OURS], LIMIT, "FLIP", most=True)
+
+
+def reference(name: str) -> str:
+    """Which picture another is compared with."""
+    return OURS if name == OTHER_GRAIN else FINEST
+
+
+def picture(folder: str, name: str) -> str:
+    """Where the picture called `name` is written."""
+    return str(Path(folder) / f"{name.replace(' ', '_').replace(',', '')}.png")
+
+
+def shot(folder: Path) -> projects.Project:
+    """One frame of the sample's smoke from a drone."""
+    return projects.Project(
+        path=folder / "scene.toml",
+        run=folder / "sample",
+        cache=folder / "cache",
+        time=projects.Time(start=MOMENT, frames=1),
+        cameras=(projects.Camera(keys=(VIEW,)),),
+        render=projects.Render(resolution=RESOLUTION, samples=SAMPLES, denoise=False, passes=("rgb",)),
+    )
+
+
+# What follows runs in the worker process, where Blender is.
+
+
+def render_in_blender(folder: str, times: int, progress: Progress = silent) -> dict[str, float]:
+    """Draw the pictures; the least time (s) of `times` renders of each."""
+    import bpy
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    smoke = _build(shot(Path(folder)), scene)
+    step = smoke.data.render.step_size
+    bpy.ops.render.render()  # loads what later ones find loaded
+    seconds = {}
+    for name, factor in STEPS.items():
+        smoke.data.render.step_size = factor * step
+        scene.cycles.seed = int(name == OTHER_GRAIN)
+        scene.render.filepath = picture(folder, name)
+        seconds[name] = min(_draw() for _ in range(times))
+    return seconds
+
+
+def _build(project: projects.Project, scene: bpy.types.Scene) -> Any:
+    """Build smoke, sun and camera, and return the smoke."""
+    from firetwin_core import run as runs
+
+    from ..data import sample
+    from ..render import engine
+    from ..scene import bake, cameras, clock, collections, light, paths, smoke
+
+    sample.write(project.run, MODEL_TIMES, "npy")
+    run = runs.open(project.run)
+    bake.bake(project, run)
+    collections.root(scene)
+    clock.build(project, run, scene)
+    made = smoke.build(project, run)
+    light.build(project, run, scene)
+    cameras.build(project, run, paths.paths(project, run), scene)
+    engine.apply(project, scene)
+    return made
+
+
+def _draw() -> float:
+    """Seconds of a render that writes its picture."""
+    import time
+
+    import bpy
+
+    start = time.perf_counter()
+    bpy.ops.render.render(write_still=True)
+    return time.perf_counter() - start
