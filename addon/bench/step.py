@@ -27,7 +27,7 @@ MOMENT = datetime(2014, 9, 17, 23, 12, tzinfo=UTC)
 VIEW = projects.CameraKey(0.0, 38.990, -120.5505, 600.0, "head")  # 2 km off the head of the fire
 MODEL_TIMES = 25  # of the sample; the smoke comes from the fuel's arrival times, which are all there
 RESOLUTION, SAMPLES = (160, 90), 8
-FINEST, OTHER_GRAIN = "a quarter of the step", f"{OURS}, other grain"
+FINEST, OTHER_GRAIN = "a quarter of the step", "our step, other grain"
 STEPS = {
     OURS: 1.0,
     "4 times the step": 4.0,
