@@ -128,7 +128,7 @@ def test_layers_over_a_camera_take_no_smoke(look):
 def test_layers_between_smoke_and_sun_take_no_light(look):
     clear = look(layered(0), sun=True)
     assert clear.max() > 0.1
-    assert look(layered(LAYERS), sun=True) == pytest.approx(clear, abs=0.15 * clear.max())
+    assert look(layered(LAYERS), sun=True) == pytest.approx(clear, abs=0.15 * float(clear.max()))
 
 
 def test_the_step_takes_no_smoke(look):
