@@ -24,6 +24,7 @@ _MOON = 0.2  # W/m2, for the exposure of the night: shows ridges and the tops of
 _MOON_COLOUR = (0.65, 0.78, 1.0)
 _MOON_PLACE = (150.0, 40.0)  # degrees; assumed, the moon of the night is not looked up
 _SKY = 0.12  # strength of the sky texture; more drowns the sunlit side of smoke
+_DUST = 0.3  # of the sky texture; 1 makes it pale and greenish
 _NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.15
 _DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.02
 THERMAL_SKY = 250.0  # K, a clear sky in the long-wave infrared
@@ -46,7 +47,7 @@ def build(project: Project, run: Run, scene: bpy.types.Scene) -> bpy.types.Objec
     _key(lamp, "color", frames, np.array([s.colour for s in states]))
     tree = scene.world.node_tree
     place = f'nodes["{sky.name}"]'
-    compat.set_sky(sky, states[0].sky[0], states[0].sky[1], 1.0)
+    compat.set_sky(sky, states[0].sky[0], states[0].sky[1], _DUST)
     _key(tree, f"{place}.sun_elevation", frames, np.array([s.sky[0] for s in states]))
     _key(tree, f"{place}.sun_rotation", frames, np.unwrap([s.sky[1] for s in states]))
     middle = State(project, *sun.at(run, 0.5 * (first + last)))
