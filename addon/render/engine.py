@@ -74,9 +74,7 @@ def _eevee(project: Project, scene: bpy.types.Scene) -> None:
     scene.render.engine = compat.eevee_id()
     eevee = scene.eevee
     eevee.taa_render_samples = project.render.samples
-    eevee.use_volume_custom_range = True  # at its own 100 m, smoke kilometres away is silently absent
-    eevee.volumetric_start, eevee.volumetric_end = 1.0, project.terrain.apron
-    eevee.volumetric_tile_size, eevee.volumetric_samples = "4", 128
+    eevee.volumetric_tile_size, eevee.volumetric_samples = "2", 128
 
 
 @contextmanager

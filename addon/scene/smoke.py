@@ -7,7 +7,7 @@ from firetwin_core.run import Run
 
 from .. import compat
 from ..project import Project
-from . import bake, collections, smoke_layers, smoke_material
+from . import bake, collections, smoke_layers, smoke_material, smoke_view
 
 _MAX_STEPS = 8192  # Cycles lengthens steps of rays that would need more; 1024 of them are 12 km
 
@@ -34,8 +34,18 @@ def build(project: Project, run: Run) -> bpy.types.Object | None:
     for scene in bpy.data.scenes:
         scene.cycles.volume_step_rate = 1.0
         scene.cycles.volume_max_steps = _MAX_STEPS
+        _slices(scene.eevee, *smoke_view.span(project, run))
     smoke_layers.build(collection)
     thing = collections.add(collection, "Smoke", volume)
     shift = compat.volume_shift(bpy.context.scene.cycles, bake.resolution(project, run).voxel)
     thing.location = (shift, shift, shift)
     return thing
+
+
+def _slices(eevee: bpy.types.SceneEEVEE, near: float, far: float) -> None:
+    """Have EEVEE, which cuts the view into slices of smoke, use them all where smoke is, and shade them."""
+    eevee.use_volume_custom_range = True  # at its own 100 m, smoke kilometres away is silently absent
+    eevee.volumetric_start, eevee.volumetric_end = near, far
+    eevee.volumetric_sample_distribution = 0.5
+    eevee.use_volumetric_shadows = True
+    eevee.volumetric_shadow_samples = 32

@@ -15,6 +15,7 @@ from ..times import frame_times
 from . import burning, paths, sun
 from .frame import local_frame
 
+_NEAR, _BEHIND = 0.1, 25_000.0  # part of the fire's distance, and m beyond it, between which smoke shows
 _STEP_DEPTH = 0.8  # optical depth of a step through thick smoke; much longer steps lose smoke
 
 
@@ -44,6 +45,12 @@ def resolution(project: Project, run: Run) -> Resolution:
     voxel = project.smoke.voxel_size or float(np.clip(70.0 * (distance / 4000.0) ** 0.4, 50.0, 160.0))
     extinction = project.smoke.extinction or float(np.clip(_STEP_DEPTH / (1.2 * voxel), 0.009, 0.03))
     return Resolution(voxel, _STEP_DEPTH / extinction, extinction)
+
+
+def span(project: Project, run: Run) -> tuple[float, float]:
+    """Distances from the cameras (m) between which smoke shows; the far side of old smoke may lie beyond."""
+    distance = _distance(project, run)
+    return max(_NEAR * distance, 1.0), distance + _BEHIND
 
 
 def shot_frames(project: Project) -> list[int]:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from firetwin import compat
 from firetwin import project as projects
-from firetwin.scene import bake, build, smoke
+from firetwin.scene import bake, build, burning, clock, paths, smoke
 from firetwin_core import InputError
 from firetwin_core import run as runs
 
@@ -196,3 +196,13 @@ def test_smoke_changes_the_picture(smoky, run, scene, shoot):
     shown = shoot(scene, "rgb")
     bpy.data.objects["Firetwin Smoke"].hide_render = True
     assert np.mean(np.abs(shown - shoot(scene, "rgb"))) > 0.02
+
+
+def test_eevee_slices_lie_where_the_smoke_is(smoky, run, scene):
+    smoke.build(smoky, run)
+    cells = burning.cells(run, *clock.window(smoky, run)).position
+    nearest = min(view.distance(cells).min() for view in paths.paths(smoky, run) if view.perspective)
+    eevee = scene.eevee
+    assert eevee.use_volume_custom_range
+    assert eevee.use_volumetric_shadows
+    assert eevee.volumetric_start < nearest < nearest + 20_000.0 < eevee.volumetric_end
