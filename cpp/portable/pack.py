@@ -33,6 +33,7 @@ def metadata(version: str) -> str:
 def pack(stage: Path, python: str, version: str, licenses: Path, out: Path) -> None:
     """Write the wheel of `stage` for one Python version to the folder `out`."""
     info = stage / f"firetwin_core-{version}.dist-info"
+    shutil.rmtree(info, ignore_errors=True)  # of a packing before
     shutil.copytree(licenses, info / "licenses" / "libraries")
     shutil.copy(ROOT / "LICENSE", info / "licenses")
     tag = "cp" + python.replace(".", "")
