@@ -20,6 +20,7 @@ _TRANSPARENT = 256
 voxels wide, count for rays of light: were it the usual dozen, light across the gaps between billows would be
 lost, and smoke black in blocks with straight edges. In the sample run such a ray meets up to 35 faces."""
 
+_COLUMNS = 130_000  # of EEVEE's boxes of smoke, each 128 deep: 17 million boxes at most
 DEPTH_FILTER = 0.01  # pixels, the narrowest filter Cycles has: one ray through the middle of the pixel
 
 
@@ -74,7 +75,9 @@ def _eevee(project: Project, scene: bpy.types.Scene) -> None:
     scene.render.engine = compat.eevee_id()
     eevee = scene.eevee
     eevee.taa_render_samples = project.render.samples
-    eevee.volumetric_tile_size, eevee.volumetric_samples = "2", 128
+    width, height = project.render.resolution
+    tile = next(size for size in (2, 4, 8, 16) if width * height <= _COLUMNS * size**2 or size == 16)
+    eevee.volumetric_tile_size, eevee.volumetric_samples = str(tile), 128
 
 
 @contextmanager

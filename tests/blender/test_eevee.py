@@ -2,9 +2,11 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from firetwin.render import engine
 from firetwin_core import sensor
 
 SCENE = """\
@@ -50,3 +52,13 @@ def test_eevee_renders_the_ground_under_the_sky_and_their_temperatures(run_folde
     np.testing.assert_allclose(kelvin[:4], 250.0, atol=0.1)  # the sky
     assert 285.0 < np.quantile(kelvin[-12:], 0.02) < 400.0  # unburned, or the warm scar
     assert kelvin.max() < 1600.0
+
+
+@pytest.mark.parametrize(
+    ("resolution", "tile"),
+    [((640, 360), "2"), ((1920, 1080), "4"), ((3840, 2160), "8"), ((16384, 16384), "16")],
+)
+def test_larger_pictures_have_larger_boxes_of_smoke(project, scene, resolution, tile):
+    wanted = replace(project.render, engine="eevee", resolution=resolution)
+    engine.apply(replace(project, render=wanted), scene)
+    assert scene.eevee.volumetric_tile_size == tile
