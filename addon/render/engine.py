@@ -76,7 +76,7 @@ def _eevee(project: Project, scene: bpy.types.Scene) -> None:
     eevee = scene.eevee
     eevee.taa_render_samples = project.render.samples
     width, height = project.render.resolution
-    tile = next(size for size in (2, 4, 8, 16) if width * height <= _COLUMNS * size**2 or size == 16)
+    tile = next((size for size in (2, 4, 8) if width * height <= _COLUMNS * size**2), 16)
     eevee.volumetric_tile_size, eevee.volumetric_samples = str(tile), 128
 
 

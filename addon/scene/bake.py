@@ -158,8 +158,7 @@ class Baker:
     def write(self, path: Path, frame: int) -> volume.Frame:
         """Write the volume of a frame: from the model's own smoke where the run has it, else from puffs."""
         time = float(self.times[frame - 1])
-        known = self.run.times[0] <= time <= self.run.times[-1]
-        position, power = lights(self.heat, time) if known else (np.empty((0, 3)), np.empty(0))
+        position, power = lights(self.heat, time)
         own = self.run.has("smoke_3d")
         more: dict[str, Any] = {
             "grids": self.grids,

@@ -11,7 +11,8 @@ from . import clock, haze, light, sun
 
 _RIM, _BODY, _CORE = (1.0, 0.12, 0.008), (1.0, 0.34, 0.04), (1.0, 0.55, 0.15)
 _LIGHT = 13.0  # radiance at exposure 0
-CLOSE = (200.0, 2500.0, 0.2, 1.0)  # m and part: flames that fill pixels would burn out, afar they must show
+CLOSE = 200.0, 2500.0  # m from the camera: flames that fill pixels would burn out, afar they must show
+_DIMMED = 0.2  # part of their light that flames have at the nearer of these
 _RISE = 9.0  # m/s at which the pattern rises
 
 
@@ -43,7 +44,7 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     colour = tree.mix_colour(shape.smoothstep(0.15, 0.8), _RIM, _BODY)
     colour = tree.mix_colour(hot, colour, _CORE)
     strength = shape.power(1.3) * (0.35 + hot * 0.65) * brightness(project, run)
-    strength = strength * tree.output("ShaderNodeCameraData", name="View Distance").ramp(*CLOSE)
+    strength = strength * tree.output("ShaderNodeCameraData", name="View Distance").ramp(*CLOSE, _DIMMED, 1.0)
     part, _air = haze.fraction(tree)
     behind = 1.0 - shape * 0.5
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(behind, behind, behind)})

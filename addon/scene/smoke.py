@@ -31,10 +31,11 @@ def build(project: Project, run: Run) -> bpy.types.Object | None:
     volume.display.density = bake.resolution(project, run).extinction  # in the solid view, like the render's
     volume.display.wireframe_type = "NONE"
     volume.materials.append(smoke_material.build(project, run))
+    near, far = smoke_view.span(project, run)
     for scene in bpy.data.scenes:
         scene.cycles.volume_step_rate = 1.0
         scene.cycles.volume_max_steps = _MAX_STEPS
-        _slices(scene.eevee, *smoke_view.span(project, run))
+        _slices(scene.eevee, near, far)
     smoke_layers.build(collection)
     thing = collections.add(collection, "Smoke", volume)
     shift = compat.volume_shift(bpy.context.scene.cycles, bake.resolution(project, run).voxel)

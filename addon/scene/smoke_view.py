@@ -38,7 +38,6 @@ class Resolution:
     extinction: float
 
 
-@functools.lru_cache(maxsize=8)
 def resolution(project: Project, run: Run) -> Resolution:
     """The scene file's voxel size and extinction, where it gives them, else those for the cameras."""
     distance = _distance(project, run)
@@ -93,6 +92,7 @@ def _frames(project: Project, camera: Camera) -> list[int]:
     return frame_list.parse(camera.frames, project.time.frames) if shows else []
 
 
+@functools.lru_cache(maxsize=8)
 def _distance(project: Project, run: Run) -> float:
     """How near (m) cameras come to the fire: nearer than nine tenths of it in their nearest frame."""
     times = frame_times(project, run)

@@ -135,6 +135,5 @@ def test_the_step_takes_no_smoke(look):
     """Sky through the smoke, beyond that through smoke drawn at a quarter of the step, in the worst block."""
     finest = look(puffy(), step=0.25)
     lost = {step: float((look(puffy(), step=step) - finest).max()) for step in (1.0, 4.0)}
-    print(lost)
     assert lost[1.0] < 0.05
     assert lost[4.0] > 0.07

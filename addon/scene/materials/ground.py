@@ -14,6 +14,7 @@ from firetwin_core.run import Run
 from ... import nodes
 from ...project import Project
 from .. import haze
+from ..flame_material import CLOSE
 from . import heat
 
 FLAME = (1.0, 0.33, 0.04)
@@ -24,6 +25,7 @@ EMBER_TIME = 3600.0  # s in which embers fade to 1/e
 _CROWNS_SEEN = (5000.0, 15_000.0)  # m from the camera at which crowns are full and gone
 _JITTER = 130.0  # s; breaks the straight edges of the mesh's triangles
 _FLAME_LIGHT, _EMBER_LIGHT = 10.0, 1.8  # radiance at exposure 0
+_DIMMED = 0.3  # part of their light that flames of the edge have near by
 
 
 @dataclass
@@ -55,7 +57,7 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     lake = tree.attribute("water") > 0.5
     matt = tree.mix_shader(lake, matt, _water(tree, place))
     light = tree.mix_colour(flaming / (flaming + embers + 1.0e-4), EMBER, FLAME)
-    power = flaming * _FLAME_LIGHT * place.distance.ramp(200.0, 2500.0, 0.3, 1.0) + embers * (
+    power = flaming * _FLAME_LIGHT * place.distance.ramp(*CLOSE, _DIMMED, 1.0) + embers * (
         _EMBER_LIGHT if project.fire.embers else 0.0
     )
     # Lamps and the smoke's glow carry the light of flames: rays that happen to meet the edge would be noise.
