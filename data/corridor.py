@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .grid import FUEL_CELL_SIZE, cell_of
-from .noise import fractal, smooth
+from .fractal import fractal, smooth
 
 # From the head of that morning to Hell Hole Reservoir: latitude, longitude.
 WAY = (

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from .grid import FUEL_CELL_SIZE, cell_of
 from .history import Event
-from .noise import fractal, smooth
+from .fractal import fractal, smooth
 from .terrain import Terrain
 
 CANOPY_CELLS = 363_632

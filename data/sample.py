@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import input_error
-from . import air, heat, runtext, stored, weather
+from . import air, release, runtext, stored, weather
 from .grid import (
     FUEL_CELL_SIZE,
     FUEL_CELLS,
@@ -83,7 +83,7 @@ def frames_of(sample: stored.Sample, minutes: NDArray[np.int64]) -> Iterator[tup
     conserved.
     """
     elevation = block_mean(sample.elevation)
-    released, inflow = heat.Released(heat.burns(sample)), air.Inflow()
+    released, inflow = release.Released(release.burns(sample)), air.Inflow()
     before = None
     for minute in minutes:
         time = minute * INTERVAL

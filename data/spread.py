@@ -12,7 +12,7 @@ from . import corridor, stored, weather
 from .fuels import Fuels
 from .grid import FUEL_CELL_SIZE, FUEL_CELLS, MODEL_CELLS, cell_of
 from .history import Event
-from .noise import fractal, smooth
+from .fractal import fractal, smooth
 from .terrain import Terrain
 from .weather import Channel
 

@@ -15,7 +15,7 @@ from scipy.ndimage import distance_transform_edt
 from .drainage import Drainage
 from .grid import FUEL_CELL_SIZE, FUEL_CELLS, cell_of, local
 from .history import Event, Place
-from .noise import fractal, smooth
+from .fractal import fractal, smooth
 
 MARGIN = (
     80  # fuel cells around the domain, so that valleys do not end at its edge and Pyramid Peak is on the map

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from . import corridor
 from .grid import MODEL_CELL_SIZE, block_mean
-from .noise import smooth
+from .fractal import smooth
 from .weather import Channel
 
 WIDTH = 900.0  # m, half width of a canyon

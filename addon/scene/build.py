@@ -1,51 +1,70 @@
-"""Builds the whole scene of a project."""
+"""Builds the scene of a shot, or some parts of it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import bpy
-from firetwin_core.run import Run
 
-from ..project import Project
-from . import cameras, clock, collections, display, fire, forest, light, sensors, smoke, stand, terrain
-from .ground import Ground
-from .paths import Path, eyes, paths
+from ..blender import owned
+from ..shot.shot import Shot
+from . import clock
+from .camera import build as camera
+from .fire import build as fire
+from .forest import build as forest
+from .forest import stand
+from .ground import build as ground
+from .light import build as light
+from .smoke import build as smoke
+
+PARTS = {
+    "ground": "building the ground",
+    "forest": "planting the forest",
+    "fire": "lighting the fire",
+    "smoke": "hanging the smoke",
+    "light": "setting the sun",
+    "cameras": "setting the cameras",
+}
+"""What can be built by itself, and what is told while it is."""
+
+_WITH_STAND = {"ground", "forest", "fire"}  # parts that need to know where single trees stand
 
 
-def build(project: Project, run: Run, scene: bpy.types.Scene | None = None) -> bpy.types.Scene:
-    """Build everything into `scene` (the current one unless given); what an earlier build made goes first."""
+def build(
+    shot: Shot, scene: bpy.types.Scene | None = None, parts: Sequence[str] = tuple(PARTS)
+) -> bpy.types.Scene:
+    """Build parts into `scene` (the current one unless given); what was built of them before goes first."""
     scene = scene or bpy.context.scene
-    for _ in steps(project, run, scene):
+    for _ in steps(shot, scene, parts):
         pass
     return scene
 
 
-def steps(project: Project, run: Run, scene: bpy.types.Scene) -> Iterator[str]:
-    """Build everything in steps, each named before it is taken."""
+def steps(shot: Shot, scene: bpy.types.Scene, parts: Sequence[str] = tuple(PARTS)) -> Iterator[str]:
+    """Build parts step by step, each named before it is taken."""
     yield "surveying the ground"
-    collections.root(scene)
-    clock.build(project, run, scene)
-    ground, views = survey(project, run)
-    yield "growing the forest"
-    grown = stand.grow(project, ground, views) if project.forest.trees else None
-    yield "building the terrain"
-    terrain.build(project, run, ground, views, grown)
-    yield "planting the forest"
-    forest.build(project, run, ground, views, grown)
-    yield "lighting the fire"
-    fire.build(project, run, ground, views, grown)
-    yield "hanging the smoke"
-    smoke.build(project, run)
-    yield "setting sun and cameras"
-    light.build(project, run, scene)
-    cameras.build(project, run, views, scene)
-    sensors.build(project, run, scene)
-    display.build()
+    stage = owned.stage(scene)
+    clock.build(shot, stage)
+    _ = shot.paths
+    grown = None
+    if shot.settings.forest.trees and _WITH_STAND & set(parts):
+        yield "growing the forest"
+        grown = stand.grow(shot)
+    builders = {
+        "ground": lambda: ground.build(shot, stage, grown),
+        "forest": lambda: forest.build(shot, stage, grown),
+        "fire": lambda: fire.build(shot, stage, grown),
+        "smoke": lambda: smoke.build(shot, stage),
+        "light": lambda: light.build(shot, stage),
+        "cameras": lambda: camera.build(shot, stage),
+    }
+    for part, text in PARTS.items():
+        if part in parts:
+            yield text
+            builders[part]()
 
 
-def survey(project: Project, run: Run) -> tuple[Ground, list[Path]]:
-    """The ground with detail near the cameras, and the paths of the cameras over it."""
-    ground = Ground(project, run)
-    ground.eyes = eyes(paths(project, run, ground), project.terrain.near_radius)
-    return ground, paths(project, run, ground)
+def remove(scene: bpy.types.Scene) -> None:
+    """Take away all that was built into a scene, and no more."""
+    clock.remove(scene)
+    owned.remove(scene)

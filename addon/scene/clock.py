@@ -1,50 +1,66 @@
-"""Model time and Blender frames.
-
-Frame f of 1..frames shows t(f) = t_start + (f - 1) * (t_end - t_start) / (frames - 1), seconds since the run
-began.
-"""
+"""Scene time: the frame range, and the model time in shaders and geometry nodes."""
 
 from __future__ import annotations
 
 import bpy
-from firetwin_core.run import Run
 
-from .. import compat, nodes
-from ..project import Project
-from ..times import frame_times, model_time, moment, run_start, seconds, step, window
-
-__all__ = [
-    "build",
-    "frame_times",
-    "geometry_time",
-    "model_time",
-    "moment",
-    "run_start",
-    "seconds",
-    "step",
-    "window",
-]
+from ..blender import compat, nodes, owned
+from ..blender.owned import Stage
+from ..shot.shot import Shot
 
 
-def build(project: Project, run: Run, scene: bpy.types.Scene) -> bpy.types.Scene:
-    """Set the frame range and animate the scene property that shaders read the model time from."""
-    scene.frame_start, scene.frame_end = 1, project.time.frames
-    scene.render.fps, scene.render.fps_base = project.time.fps, 1.0
-    first = window(project, run)[0]
-    scene[nodes.TIME] = first
-    curve = compat.new_fcurve(scene, f'["{nodes.TIME}"]')
+def build(shot: Shot, stage: Stage) -> None:
+    """Animate the scene property that shaders read the model time from; set our own scene's frames."""
+    scene, frames = stage.scene, shot.frames
+    scene[nodes.TIME] = frames.first
+    if scene.animation_data is None or scene.animation_data.action is None or _ours(scene):
+        _curve(shot, scene)
+    else:  # the artist's action stays as it is
+        _driver(shot, scene)
+    if stage.own:
+        scene.frame_start, scene.frame_end = 1, frames.count
+        scene.render.fps, scene.render.fps_base = shot.settings.time.fps, 1.0
+        scene.frame_set(1)
+
+
+def remove(scene: bpy.types.Scene) -> None:
+    """Take the property away, and what animates it."""
+    data = scene.animation_data
+    if data is not None:
+        for driver in [driver for driver in data.drivers if driver.data_path == _PATH]:
+            data.drivers.remove(driver)
+        if _ours(scene):
+            bpy.data.actions.remove(data.action)
+    scene.pop(nodes.TIME, None)
+
+
+_PATH = f'["{nodes.TIME}"]'
+
+
+def _ours(scene: bpy.types.Scene) -> bool:
+    data = scene.animation_data
+    return data is not None and data.action is not None and owned.ours(data.action)
+
+
+def _curve(shot: Shot, scene: bpy.types.Scene) -> None:
+    curve = compat.new_fcurve(scene, _PATH)
     curve.keyframe_points.add(2)
-    delta = max(step(project, run), 0.0)
-    for point, frame in zip(curve.keyframe_points, (1.0, 1.0 + max(project.time.frames - 1, 1)), strict=True):
-        point.co = (frame, first + delta * (frame - 1.0))
+    step = max(shot.frames.step, 0.0)
+    ends = (1.0, 1.0 + max(shot.frames.count - 1, 1))
+    for point, frame in zip(curve.keyframe_points, ends, strict=True):
+        point.co = (frame, shot.frames.first + step * (frame - 1.0))
         point.interpolation = "LINEAR"
     curve.extrapolation = "LINEAR"
     curve.update()
-    scene.frame_set(1)
-    return scene
 
 
-def geometry_time(tree: nodes.Tree, project: Project, run: Run) -> nodes.Value:
+def _driver(shot: Shot, scene: bpy.types.Scene) -> None:
+    scene.driver_remove(_PATH)
+    driver = scene.driver_add(_PATH).driver
+    driver.expression = f"{shot.frames.first!r} + {shot.frames.step!r} * (frame - 1)"
+
+
+def geometry_time(tree: nodes.Tree, shot: Shot) -> nodes.Value:
     """Current model time (s) in a geometry node tree, from the frame that it is evaluated at."""
     frame = tree.output("GeometryNodeInputSceneTime", name="Frame")
-    return (frame - 1.0) * step(project, run) + window(project, run)[0]
+    return (frame - 1.0) * shot.frames.step + shot.frames.first

@@ -11,19 +11,20 @@ from typing import Any
 
 import bpy
 
-from .. import nodes
+from ..blender import nodes, owned
+from ..blender.owned import Stage
 
 EXTINCTION = 1.2e-5  # 1/m at z = 0 on a dry September day: clear mountain air
 SCALE_HEIGHT = 5000.0  # m, between that of dust (about 2 km) and of the air itself (8 km)
-NAME = "Firetwin Haze"
+_GROUP = "haze"
 
 
-def _group() -> bpy.types.NodeTree:
-    """Make the node group (once per file); `settings` changes the constants in it."""
-    group = bpy.data.node_groups.get(NAME)
-    if group is not None:
-        return group
-    group = bpy.data.node_groups.new(NAME, "ShaderNodeTree")
+def _group(stage: Stage) -> bpy.types.NodeTree:
+    """Make the node group (once per scene); `settings` changes the constants in it."""
+    if stage.root.get(_GROUP) is not None:
+        return stage.root[_GROUP]
+    group = owned.mark(bpy.data.node_groups.new("Firetwin Haze", "ShaderNodeTree"))
+    stage.root[_GROUP] = group
     group.interface.new_socket("Fraction", in_out="OUTPUT", socket_type="NodeSocketFloat")
     group.interface.new_socket("Colour", in_out="OUTPUT", socket_type="NodeSocketColor")
     tree = nodes.Tree(group)
@@ -45,20 +46,20 @@ def _group() -> bpy.types.NodeTree:
     return group
 
 
-def settings(amount: float, colour: tuple[float, float, float]) -> None:
+def settings(stage: Stage, amount: float, colour: tuple[float, float, float]) -> None:
     """Set how much haze there is (1: a dry September day) and the radiance of its light."""
-    group = _group()
+    group = _group(stage)
     group.nodes["Extinction"].outputs[0].default_value = EXTINCTION * amount
     group.nodes["Colour"].outputs[0].default_value = (*colour, 1.0)
 
 
-def fraction(tree: nodes.Tree) -> tuple[nodes.Value, nodes.Value]:
+def fraction(tree: nodes.Tree, stage: Stage) -> tuple[nodes.Value, nodes.Value]:
     """Part of the light that is haze (0..1, zero for other than camera rays), and the haze's colour."""
-    node = tree.node("ShaderNodeGroup", node_tree=_group())
+    node = tree.node("ShaderNodeGroup", node_tree=_group(stage))
     return tree.pick(node, "Fraction"), tree.pick(node, "Colour")
 
 
-def apply(tree: nodes.Tree, shader: Any) -> nodes.Value:
+def apply(tree: nodes.Tree, shader: Any, stage: Stage) -> nodes.Value:
     """`shader` as it is seen through the haze between it and the camera."""
-    part, colour = fraction(tree)
+    part, colour = fraction(tree, stage)
     return tree.mix_shader(part, shader, tree.emission(colour, 1.0))

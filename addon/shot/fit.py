@@ -1,15 +1,16 @@
-"""Does a scene file fit its run? What can only be said when both are known."""
+"""Do settings fit their run? What can only be said when both are known."""
 
 from __future__ import annotations
 
 import numpy as np
 from firetwin_core.run import Run
 
-from . import areas, scene_file, times
-from .project import Project
+from ..run import areas, times
+from . import file
+from .settings import Settings
 
 
-def against_run(project: Project, run: Run) -> None:
+def check(settings: Settings, run: Run) -> None:
     """Check the time window and the places of the cameras.
 
     Raises
@@ -17,28 +18,24 @@ def against_run(project: Project, run: Run) -> None:
     InputError
         Names the line of the scene file.
     """
-    _window(project, run)
-    for index, camera in enumerate(project.cameras):
-        for number, key in enumerate(camera.keys):
-            where = ("cameras", index, "keys", number, "latitude")
-            _near(project, run, where, camera.name, key.latitude, key.longitude)
-            if camera.kind != "satellite" and key.target == "point":
-                where = ("cameras", index, "keys", number, "target_latitude")
-                _near(project, run, where, camera.name, key.target_latitude, key.target_longitude)
+    _window(settings, run)
+    for index, camera in enumerate(settings.cameras):
+        for where, latitude, longitude in camera.rig.places():
+            _near(settings, run, ("cameras", index, *where), camera.name, latitude, longitude)
 
 
-def _window(project: Project, run: Run) -> None:
+def _window(settings: Settings, run: Run) -> None:
     first, last = float(run.times[0]), float(run.times[-1])
     for name in ("start", "end"):
-        moment = getattr(project.time, name)
+        moment = getattr(settings.time, name)
         if moment is not None and not first <= times.seconds(run, moment) <= last:
             span = " to ".join(f"{times.moment(run, t):%Y-%m-%dT%H:%M:%SZ}" for t in (first, last))
             reason = f"time.{name} lies outside of the run, which has {span}"
-            raise scene_file.error_at(project.path, ("time", name), reason)
+            raise file.error_at(settings.path, ("time", name), reason)
 
 
 def _near(
-    project: Project,
+    settings: Settings,
     run: Run,
     where: tuple[str | int, ...],
     camera: str,
@@ -55,11 +52,11 @@ def _near(
         far = np.inf
     inside = min(run.latitude) <= latitude <= max(run.latitude)
     inside = inside and min(run.longitude) <= longitude <= max(run.longitude)
-    if not inside and far > project.terrain.apron:
-        what = "looks at a point" if str(where[-1]).startswith("target") else "has a key"
+    if not inside and far > settings.ground.apron:
+        what = "looks at a point" if str(where[-1]).startswith("target") else "is"
         reason = (
             f'camera "{camera}" {what} at {latitude:g} N {longitude:g} E, {far / 1e3:,.0f} km from the '
             f"middle of the run ({middle[0]:.2f} N {middle[1]:.2f} E); "
-            f"the ground ends at {project.terrain.apron / 1e3:g} km"
+            f"the ground ends at {settings.ground.apron / 1e3:g} km"
         )
-        raise scene_file.error_at(project.path, where, reason)
+        raise file.error_at(settings.path, where, reason)

@@ -16,15 +16,9 @@ from ..project import Project
 from . import clock, collections, haze, noise, sun
 
 _KEYS = 25  # the sky changes at this many moments of the shot
-_SUN = 11.1  # W/m2 over the air
-_SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
-_MOON = 0.2  # W/m2, for the exposure of the night: shows ridges and the tops of smoke
-_MOON_COLOUR = (0.65, 0.78, 1.0)
-_MOON_PLACE = (150.0, 40.0)  # degrees; assumed, the moon of the night is not looked up
 _SKY = 0.12  # strength of the sky texture; more drowns the sunlit side of smoke
 _DUST = 0.3  # of the sky texture; 1 makes it pale and greenish
 _NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.15
-_DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.02
 THERMAL_SKY = 250.0  # K, a clear sky in the long-wave infrared
 
 
@@ -54,40 +48,6 @@ def build(project: Project, run: Run, scene: bpy.types.Scene) -> bpy.types.Objec
     scene.view_settings.look = "AgX - Medium High Contrast"
     _key(scene, "view_settings.exposure", frames, np.array([s.exposure for s in states]))
     return thing
-
-
-class State:
-    """Light for a sun at `bearing` and `height` (degrees).
-
-    Attributes
-    ----------
-    rotation
-        Quaternion of the lamp, which shines along its -z.
-    power, colour
-        Irradiance (W/m2) and colour of the sun, at night of the moon.
-    sky
-        Height and bearing of the sun for the sky texture, radians.
-    """
-
-    def __init__(self, project: Project, bearing: float, height: float) -> None:
-        self.sky = (float(np.radians(height)), float(np.radians(bearing)))
-        day = float(noise.smoothstep(-1.0, 4.0, height))
-        by_sun = height > -1.0
-        place = (bearing, max(height, 0.5)) if by_sun else _MOON_PLACE
-        self.rotation = _facing(sun.direction(*place))
-        sunlight = _SUN * np.exp(-_SUN_DEPTH * air_mass(max(height, 0.0))) * day
-        light = sunlight if by_sun and day > 0.0 else _MOON * np.array(_MOON_COLOUR)
-        self.power = float(light.max())
-        self.colour = light / light.max()
-        blue = float(noise.smoothstep(-10.0, 12.0, height))
-        self.haze = tuple(_NIGHT_HAZE + (_DAY_HAZE - _NIGHT_HAZE) * blue**2)
-        given = project.light.exposure
-        self.exposure = 0.5 + 3.0 * float(noise.smoothstep(3.0, -9.0, height)) if given is None else given
-
-
-def air_mass(height: float) -> float:
-    """Air between us and a sun at `height` degrees, 1 at the zenith (Kasten and Young 1989)."""
-    return float(1.0 / (np.sin(np.radians(height)) + 0.50572 * (height + 6.07995) ** -1.6364))
 
 
 def _facing(direction: NDArray[np.float64]) -> tuple[float, ...]:

@@ -11,6 +11,8 @@ from typing import Any
 
 import bpy
 
+from . import owned
+
 _SOCKET_ALIASES = {"Fac": "Factor", "Factor": "Fac"}
 
 
@@ -27,7 +29,7 @@ def new_fcurve(datablock: bpy.types.ID, data_path: str, index: int = 0) -> bpy.t
     """
     animation = datablock.animation_data or datablock.animation_data_create()
     if animation.action is None:
-        animation.action = bpy.data.actions.new(_action_name(datablock))
+        animation.action = owned.mark(bpy.data.actions.new(_action_name(datablock)))
     curve = animation.action.fcurve_ensure_for_datablock(datablock, data_path, index=index)
     curve.keyframe_points.clear()
     return curve

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import copy
+
 import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
-from ..project import Project
+from ..run.frame import local_frame, metres_per_degree
 from . import apron, noise
-from .frame import local_frame, metres_per_degree
+from .settings import Settings
 
 NEVER = 1.0e9  # arrival time of places that never burned, s
 _LEVEL = 0.05  # m
@@ -23,13 +25,13 @@ class Ground:
     Within `near_radius` of the given eyes the surface between grid points is smooth (Catmull-Rom) with added
     relief; farther away it is bilinear, as the tree heights of the core are. The two are blended.
 
-    Parameters
+    Attributes
     ----------
     eyes
-        (m, 3) camera places in the scene, m; None or empty leaves the ground bilinear everywhere.
+        (m, 3) camera places in the scene, m; without any the ground is bilinear everywhere.
     """
 
-    def __init__(self, project: Project, run: Run, eyes: ArrayLike | None = None) -> None:
+    def __init__(self, settings: Settings, run: Run) -> None:
         self.frame = local_frame(run)
         latitude, longitude = run.fuel_latitude, run.fuel_longitude
         self._flip = (
@@ -49,13 +51,19 @@ class Ground:
             north * float(np.mean(np.diff(known.latitude))),
             east * float(np.mean(np.diff(known.longitude))),
         )
-        self.fields = apron.extend(known, self.cell, project.terrain.apron, project.seed)
-        self.seed, self.near_radius = project.seed, project.terrain.near_radius
+        self.fields = apron.extend(known, self.cell, settings.ground.apron, settings.seed)
+        self.seed, self.near_radius = settings.seed, settings.ground.near_radius
         self._set_arrival(run.fuel_arrival_time()[self._flip].astype(np.float64))
-        self.eyes = np.empty((0, 3)) if eyes is None else np.asarray(eyes, np.float64).reshape(-1, 3)
+        self.eyes = np.empty((0, 3))
         self.bare, self.water = _bare(self.fields), _water(self.fields)
         slope = np.hypot(*np.gradient(self.fields.elevation, *self._metres()))
         self._slope = np.minimum(slope, 1.0)
+
+    def seen_from(self, eyes: ArrayLike) -> Ground:
+        """The same ground with detail near these places (m, 3) in the scene, m."""
+        seen = copy.copy(self)
+        seen.eyes = np.asarray(eyes, np.float64).reshape(-1, 3)
+        return seen
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -14,8 +14,8 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, LogLocator
 from numpy.typing import NDArray
 
+from ..data import history
 from . import areas, times
-from .data import history
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run

@@ -13,7 +13,7 @@ from typing import Any
 
 import bpy
 
-from . import compat
+from . import compat, owned
 
 TIME = "firetwin_time"
 THERMAL = "firetwin_thermal"
@@ -199,16 +199,13 @@ class Tree:
 
 
 def material(name: str) -> tuple[bpy.types.Material, Tree]:
-    """A new material called `name` in place of any old one, and its empty tree."""
-    old = bpy.data.materials.get(name)
-    if old is not None:
-        bpy.data.materials.remove(old)
-    new = bpy.data.materials.new(name)
+    """A new material of ours called `name`, and its empty tree."""
+    new = owned.mark(bpy.data.materials.new(name))
     return new, Tree(compat.node_tree(new))
 
 
 def geometry(name: str, inputs: Mapping[str, str] | None = None) -> tuple[Tree, bpy.types.Node]:
-    """A new geometry node group (geometry in, geometry out) in place of any old one.
+    """A new geometry node group of ours (geometry in, geometry out).
 
     Parameters
     ----------
@@ -219,10 +216,7 @@ def geometry(name: str, inputs: Mapping[str, str] | None = None) -> tuple[Tree, 
     -------
     tree, group input node
     """
-    old = bpy.data.node_groups.get(name)
-    if old is not None:
-        bpy.data.node_groups.remove(old)
-    group = bpy.data.node_groups.new(name, "GeometryNodeTree")
+    group = owned.mark(bpy.data.node_groups.new(name, "GeometryNodeTree"))
     group.is_modifier = True
     group.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
     for label, kind in (inputs or {}).items():

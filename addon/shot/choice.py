@@ -6,10 +6,11 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from . import project as projects
+from . import file
+from .settings import Settings
 
 if TYPE_CHECKING:
-    from firetwin_core.run import Run
+    from .shot import Shot
 
 
 @dataclass(frozen=True)
@@ -22,41 +23,42 @@ class Choice:
         Scene file. Without one every setting has its default, and two cameras show the whole fire.
     run, cache
         Folders in place of the scene file's.
-    engine
-        Render engine in place of the scene file's.
+    engine, device
+        Render engine and what Cycles renders on, in place of the scene file's.
     """
 
     scene: str = ""
     run: str = ""
     cache: str = ""
     engine: str = ""
+    device: str = ""
 
     def plain(self) -> dict[str, str]:
         """The choice as `Choice(**plain)` takes it."""
         return asdict(self)
 
-    def project(self) -> projects.Project:
+    def settings(self) -> Settings:
         """The scene file with what stands in for it; without one there are no cameras yet."""
-        found = projects.load(self.scene) if self.scene else projects.Project(path=Path(self.run))
+        found = file.read(self.scene) if self.scene else Settings(path=Path(self.run))
         folders = {name: Path(text) for name in ("run", "cache") if (text := getattr(self, name))}
-        render = replace(found.render, engine=self.engine) if self.engine else found.render
-        return replace(found, render=render, **folders)
+        render = {name: text for name in ("engine", "device") if (text := getattr(self, name))}
+        return replace(found, render=replace(found.render, **render), **folders)
 
-    def load(self) -> tuple[projects.Project, Run]:
-        """The project and its run, which fit each other.
+    def shot(self) -> Shot:
+        """The settings and their run, which fit each other.
 
         Raises
         ------
         InputError
             Names the file, line and column of what is wrong, and what to do.
         """
-        from firetwin_core import run as runs
+        from ..run import readers
+        from . import fit, overview
+        from .shot import Shot
 
-        from . import check, overview
-
-        project = self.project()
-        run = runs.open(project.run)
+        settings = self.settings()
+        run = readers.open(settings.run)
         if not self.scene:
-            project = replace(project, cameras=overview.cameras(run))
-        check.against_run(project, run)
-        return project, run
+            settings = replace(settings, cameras=overview.cameras(run))
+        fit.check(settings, run)
+        return Shot(settings, run)

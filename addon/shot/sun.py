@@ -10,9 +10,7 @@ from astral.sun import azimuth, elevation
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ..project import Project
-from ..times import moment as model_moment
-from ..times import window
+from ..run import times
 
 
 def angles(latitude: float, longitude: float, moment: datetime) -> tuple[float, float]:
@@ -31,10 +29,4 @@ def at(run: Run, time: float) -> tuple[float, float]:
     """Bearing and height (degrees) at the middle of the run's grid at a model time (s)."""
     latitude = float(run.latitude[0] + run.latitude[-1]) / 2.0
     longitude = float(run.longitude[0] + run.longitude[-1]) / 2.0
-    return angles(latitude, longitude, model_moment(run, time))
-
-
-def mean_direction(project: Project, run: Run) -> tuple[NDArray[np.float64], float]:
-    """Direction to the sun and its height (degrees) in the middle of the shot."""
-    bearing, height = at(run, sum(window(project, run)) / 2.0)
-    return direction(bearing, height), height
+    return angles(latitude, longitude, times.moment(run, time))

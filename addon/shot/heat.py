@@ -15,8 +15,8 @@ from firetwin_core import flux
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
+from ..run.frame import local_frame
 from . import burning
-from .frame import local_frame
 
 BURN_OUT_CANOPY = 90.0  # s, foliage and twigs (assumed)
 # s and s for each kg/m2: brush of 0.3 kg/m2 takes 210 s and timber litter of 3 kg/m2 1020 s, as in WRF-SFIRE

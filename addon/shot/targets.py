@@ -14,6 +14,20 @@ _KNOTS = 24  # the target is worked out at this many moments and is smooth betwe
 _BLOCK = 1500.0  # m; parts of the front that are compared
 
 
+def follow(target: str, ground: Ground, times: Array, above: float) -> Array:
+    """Where (frames, 3) a camera looks that follows the "head" of the fire or the middle of the "fire".
+
+    Parameters
+    ----------
+    above
+        Height of that over the ground, m.
+    """
+    east, north = (head if target == "head" else middle)(ground, times)
+    place = ground.point(*ground.geodetic(east, north), above)
+    place[:, 2] = smoothed(place[:, 2])
+    return place
+
+
 def head(ground: Ground, times: Array) -> tuple[Array, Array]:
     """East and north (frames,) of the part of the front that advances fastest."""
     east, north, arrival, speed = _burned(ground)

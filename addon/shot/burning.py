@@ -8,7 +8,7 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from .frame import local_frame, metres_per_degree
+from ..run.frame import local_frame, metres_per_degree
 
 BURN_TIME = 600.0  # s in which a cell's fuel burns out
 HEAT = 17.433e6  # J/kg, WRF-SFIRE's cmbcnst

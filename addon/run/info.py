@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from firetwin_core.run import Run
 
+from ..data import history
 from . import areas, times
-from .data import history
 
 ACRE = history.SQUARE_METRES_PER_ACRE
 

@@ -1,0 +1,131 @@
+"""Which data is ours: what carries our mark, under one root collection per scene.
+
+Nothing else is changed or removed: not what an artist added to our collections, not other scenes, not linked
+data. Engine, world, view layers and compositor belong to a scene as a whole, so they are set only on a scene
+that is our own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+
+MARK = "firetwin"
+ROOT = "Firetwin"
+
+
+def mark(block: Any, what: str = "") -> Any:
+    """Make a data-block, view layer or node ours; `what` tells ours from one another."""
+    block[MARK] = what or True
+    return block
+
+
+def ours(block: Any, what: str = "") -> bool:
+    """Whether we made it (and, unless empty, as `what`)."""
+    if getattr(block, "library", None) is not None or MARK not in block:
+        return False
+    return not what or block[MARK] == what
+
+
+@dataclass(frozen=True)
+class Stage:
+    """Our part of a scene: its root collection and what is in it."""
+
+    scene: bpy.types.Scene
+    root: bpy.types.Collection
+
+    @property
+    def own(self) -> bool:
+        """Whether the whole scene is ours."""
+        return ours(self.scene)
+
+    def part(self, name: str) -> bpy.types.Collection:
+        """The collection "Firetwin <name>" without anything of ours in it; what is not ours stays."""
+        found = next((child for child in self.root.children if ours(child, name)), None)
+        if found is not None:
+            _clear(found)
+            purge()
+            return found
+        return child(self.root, name)
+
+    def camera(self, name: str) -> bpy.types.Object | None:
+        """The object of the camera called `name` in the scene file, whatever it is called by now."""
+        return next((thing for thing in self.root.all_objects if ours(thing, f"camera {name}")), None)
+
+
+def stage(scene: bpy.types.Scene) -> Stage:
+    """Our part of a scene, made where it is missing."""
+    root = _root(scene)
+    return Stage(scene, root if root is not None else child(scene.collection, ""))
+
+
+def adopt(scene: bpy.types.Scene) -> Stage:
+    """Our part of a scene that is ours as a whole from now on: a new one, or one that held nothing."""
+    mark(scene)
+    return stage(scene)
+
+
+def remove(scene: bpy.types.Scene) -> None:
+    """Take away all that we made in a scene, and no more."""
+    root = _root(scene)
+    if root is not None:
+        _clear(root)
+        _drop(root)
+    purge()
+
+
+def child(parent: bpy.types.Collection, name: str) -> bpy.types.Collection:
+    """A new collection of ours in `parent`: "Firetwin <name>"."""
+    collection = library(name)
+    parent.children.link(collection)
+    return collection
+
+
+def library(name: str) -> bpy.types.Collection:
+    """A new collection of ours, "Firetwin <name>", that is in no scene."""
+    return mark(bpy.data.collections.new(f"{ROOT} {name}".strip()), name or "root")
+
+
+def add(
+    collection: bpy.types.Collection, name: str, data: bpy.types.ID | None, what: str = ""
+) -> bpy.types.Object:
+    """A new object of ours, "Firetwin <name>", with `data` (ours too) in `collection`."""
+    thing = mark(bpy.data.objects.new(f"{ROOT} {name}", data), what)
+    if data is not None:
+        mark(data)
+    collection.objects.link(thing)
+    return thing
+
+
+def purge() -> None:
+    """Delete what is ours and used by nothing, with what only that used."""
+    while unused := [block for block in _blocks() if block.users == 0 and ours(block)]:
+        bpy.data.batch_remove(unused)
+
+
+def _root(scene: bpy.types.Scene) -> bpy.types.Collection | None:
+    return next((child for child in scene.collection.children if ours(child, "root")), None)
+
+
+def _clear(collection: bpy.types.Collection) -> None:
+    """Delete our things in a collection, and our collections in it that are empty then."""
+    for inner in list(collection.children):
+        if ours(inner):
+            _clear(inner)
+            _drop(inner)
+    bpy.data.batch_remove([thing for thing in collection.objects if ours(thing)])
+
+
+def _drop(collection: bpy.types.Collection) -> None:
+    if not collection.objects and not collection.children:
+        bpy.data.collections.remove(collection)
+
+
+def _blocks() -> Iterator[bpy.types.ID]:
+    """Every data-block in the file but scenes."""
+    for prop in bpy.data.bl_rna.properties:
+        if prop.type == "COLLECTION" and prop.identifier not in ("scenes", "libraries", "screens"):
+            yield from getattr(bpy.data, prop.identifier)

@@ -1,0 +1,30 @@
+"""Moments and model times (seconds since the run began)."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime, timedelta
+from zoneinfo import ZoneInfo
+
+from firetwin_core.run import Run
+
+
+def seconds(run: Run, moment: datetime) -> float:
+    """Model time of a moment; one without a time zone is UTC."""
+    moment = moment if moment.tzinfo else moment.replace(tzinfo=UTC)
+    return (moment - _start(run)).total_seconds()
+
+
+def moment(run: Run, time: float) -> datetime:
+    """UTC of a model time (s)."""
+    return _start(run) + timedelta(seconds=time)
+
+
+def text(when: datetime, zone: str) -> str:
+    """A moment as people write it there: ``17 Sep 2014 15:42 PDT``."""
+    local = when.astimezone(ZoneInfo(zone))
+    return f"{local.day} {local:%b %Y %H:%M} {local.tzname()}"
+
+
+def _start(run: Run) -> datetime:
+    start = datetime.fromisoformat(run.start)
+    return start if start.tzinfo else start.replace(tzinfo=UTC)

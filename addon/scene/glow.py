@@ -1,0 +1,17 @@
+"""Colour and brightness of what glows, as flames, ground, trees and firebrands share them."""
+
+from __future__ import annotations
+
+from ..shot.shot import Shot
+from .light import sky
+
+FLAME = (1.0, 0.33, 0.04)
+EMBER = (1.0, 0.11, 0.012)
+CLOSE = 200.0, 2500.0  # m from the camera: flames that fill pixels would burn out, afar they must show
+_LIGHT = 13.0  # radiance of flames at exposure 0
+
+
+def brightness(shot: Shot) -> float:
+    """Radiance of flames: less in a longer exposure, as a photographer stops down, else nights burn out."""
+    state = sky.State(shot.settings.light, *shot.sun(shot.frames.middle))
+    return _LIGHT * 2.0 ** (-0.85 * state.exposure)

@@ -1,0 +1,52 @@
+"""Light of sun, moon and sky for a place of the sun, without Blender.
+
+The values of light are a picture's: a sun of 9 W/m2 at 38 degrees goes with exposure 0.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...shot import noise, sun
+from ...shot.settings import Light
+
+_SUN = 11.1  # W/m2 over the air
+_SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
+_MOON = 0.2  # W/m2, for the exposure of the night: shows ridges and the tops of smoke
+_MOON_COLOUR = (0.65, 0.78, 1.0)
+_MOON_PLACE = (150.0, 40.0)  # degrees; assumed, the moon of the night is not looked up
+_DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.02
+
+
+class State:
+    """Light for a sun at `bearing` and `height` (degrees).
+
+    Attributes
+    ----------
+    direction
+        Unit vector (east, north, up) that the light comes from.
+    power, colour
+        Irradiance (W/m2) and colour of the sun, at night of the moon.
+    sky
+        Height and bearing of the sun for the sky texture, radians.
+    """
+
+    def __init__(self, light: Light, bearing: float, height: float) -> None:
+        self.sky = (float(np.radians(height)), float(np.radians(bearing)))
+        day = float(noise.smoothstep(-1.0, 4.0, height))
+        by_sun = height > -1.0
+        place = (bearing, max(height, 0.5)) if by_sun else _MOON_PLACE
+        self.direction = sun.direction(*place)
+        sunlight = _SUN * np.exp(-_SUN_DEPTH * air_mass(max(height, 0.0))) * day
+        shining = sunlight if by_sun and day > 0.0 else _MOON * np.array(_MOON_COLOUR)
+        self.power = float(shining.max())
+        self.colour = shining / shining.max()
+        blue = float(noise.smoothstep(-10.0, 12.0, height))
+        self.haze = tuple(_NIGHT_HAZE + (_DAY_HAZE - _NIGHT_HAZE) * blue**2)
+        given = light.exposure
+        self.exposure = 0.5 + 3.0 * float(noise.smoothstep(3.0, -9.0, height)) if given is None else given
+
+
+def air_mass(height: float) -> float:
+    """Air between us and a sun at `height` degrees, 1 at the zenith (Kasten and Young 1989)."""
+    return float(1.0 / (np.sin(np.radians(height)) + 0.50572 * (height + 6.07995) ** -1.6364))

@@ -1,1 +1,0 @@
-"""Materials of the ground and the trees."""

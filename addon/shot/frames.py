@@ -1,0 +1,53 @@
+"""Frames of a shot and the model times that they show."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..run import times
+
+if TYPE_CHECKING:
+    from firetwin_core.run import Run
+
+    from .settings import Time
+
+
+@dataclass(frozen=True)
+class Frames:
+    """Frames 1 to `count`, spread evenly from model time `first` to `last` (s since the run began)."""
+
+    first: float
+    last: float
+    count: int
+
+    @property
+    def step(self) -> float:
+        """Model seconds per frame."""
+        return (self.last - self.first) / max(self.count - 1, 1)
+
+    @property
+    def middle(self) -> float:
+        """Model time (s) half-way."""
+        return 0.5 * (self.first + self.last)
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """Model times (count,) of all frames, s."""
+        return self.first + np.arange(self.count) * self.step
+
+    def time(self, frame: float) -> float:
+        """Model time (s) that a frame shows: first + (frame - 1) (last - first) / (count - 1)."""
+        return self.first + (frame - 1.0) * self.step
+
+
+def of(time: Time, run: Run) -> Frames:
+    """Frames of the scene file's [time] in a run; a still has one moment, its start."""
+    first = float(run.times[0]) if time.start is None else times.seconds(run, time.start)
+    if time.frames == 1:
+        return Frames(first, first, 1)
+    last = float(run.times[-1]) if time.end is None else times.seconds(run, time.end)
+    return Frames(first, last, time.frames)

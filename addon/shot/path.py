@@ -1,0 +1,207 @@
+"""Where a camera is and what it sees in every frame, without Blender."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import noise
+from .ground import Ground
+from .settings import Camera
+
+SENSOR = 36.0  # mm, width of the film
+_HIGHEST = 1500.0  # m; a camera is not raised more than this to see over a ridge
+_VIEWS = 64  # at most this many moments of a path are asked what they see
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Path:
+    """A camera's way through the shot.
+
+    Attributes
+    ----------
+    position
+        (frames, 3) metres in the scene.
+    rotation
+        (frames, 3, 3) matrices whose columns are the camera's right, up and back.
+    target
+        (frames, 3) where it looks.
+    half
+        Tangents of half the horizontal and vertical angle of view; where lines of sight are parallel, half
+        the width and height of the picture in metres.
+    perspective
+        Whether lines of sight meet in the camera; else they are parallel.
+    lacking
+        (frames,) metres by which the camera should be higher to see its target over the ridges between.
+    """
+
+    camera: Camera
+    position: Array
+    rotation: Array
+    target: Array
+    half: tuple[float, float]
+    perspective: bool = True
+    lacking: Array | None = None
+
+    def sees(self, points: ArrayLike, margin: float = 150.0, reach: float = np.inf) -> NDArray[np.bool_]:
+        """Which of the points (n, 3) are in view in any frame, within `reach`; `margin` (m) widens the view.
+
+        The margin also keeps what only throws its shadow into the picture. Of a long path `_VIEWS` moments
+        are looked at, each with its view widened by as much as the camera moves and turns around it: nothing
+        that any frame shows is left out.
+        """
+        points = np.asarray(points, np.float32)
+        seen = np.zeros(len(points), bool)
+        for moment in self._moments:
+            left = np.flatnonzero(~seen)
+            local = (points[left] - self.position[moment.frame].astype(np.float32)) @ self.rotation[
+                moment.frame
+            ].astype(np.float32)
+            wide = margin if moment.still else math.sqrt(3.0) * margin + moment.moved
+            inside = (local**2).sum(1) < (reach + moment.moved) ** 2
+            inside &= local[:, 2] < wide
+            scale = np.maximum(-local[:, 2], 0.0) if self.perspective else 1.0
+            half = self.half if moment.still else self._opened(moment.turned)
+            inside &= np.abs(local[:, 0]) <= scale * half[0] + wide
+            inside &= np.abs(local[:, 1]) <= scale * half[1] + wide
+            seen[left[inside]] = True
+        return seen
+
+    def _opened(self, turned: float) -> tuple[float, float]:
+        """`half` of a view that holds this one however it is turned by up to `turned` radians."""
+        if not self.perspective:
+            corner = math.hypot(*self.half)
+            return tuple(min(side + turned * corner, corner) for side in self.half)
+        widest = turned * math.hypot(1.0, *self.half)  # angles off one axis grow faster away from the other
+        return tuple(math.tan(min(math.atan(side) + widest, 0.499 * math.pi)) for side in self.half)
+
+    def distance(self, points: ArrayLike) -> NDArray[np.float32]:
+        """Least distance (n,) in metres of points (n, 3) from the path; of a long path not more than that."""
+        points = np.asarray(points, np.float32)
+        nearest = np.full(len(points), np.inf, np.float32)
+        for moment in self._moments:
+            gap = points - self.position[moment.frame].astype(np.float32)
+            square = np.einsum("ij,ij->i", gap, gap)
+            if moment.moved > 0.0:
+                square = np.maximum(np.sqrt(square) - np.float32(moment.moved), 0.0) ** 2
+            np.minimum(nearest, square, out=nearest)
+        return np.sqrt(nearest)
+
+    @cached_property
+    def _moments(self) -> list[_Moment]:
+        """Frames that stand for those round them, one for each while there are few."""
+        every = np.arange(len(self.position))
+        whole = _moment(self, every)
+        if whole.still:
+            return [whole]
+        return [_moment(self, part) for part in np.array_split(every, min(len(every), _VIEWS))]
+
+
+@dataclass(frozen=True)
+class _Moment:
+    """A frame (from 0), and how far (m, radians) the camera is off it in the frames that it stands for."""
+
+    frame: int
+    moved: float
+    turned: float
+
+    @property
+    def still(self) -> bool:
+        """Whether it stands for one view alone."""
+        return self.moved == 0.0 and self.turned == 0.0
+
+
+def _moment(path: Path, frames: NDArray[np.int64]) -> _Moment:
+    middle = int(frames[len(frames) // 2])
+    moved = np.linalg.norm(path.position[frames] - path.position[middle], axis=1).max()
+    trace = np.einsum("nij,ij->n", path.rotation[frames], path.rotation[middle])
+    turned = np.arccos(np.clip((trace.min() - 1.0) / 2.0, -1.0, 1.0))
+    return _Moment(middle, float(moved), float(turned) if turned > 1.0e-6 else 0.0)
+
+
+def eyes(views: list[Path], radius: float) -> Array:
+    """(m, 3) places along perspective paths, a quarter of `radius` apart: where the ground needs detail."""
+    kept: list[Array] = []
+    for path in views:
+        if not path.perspective:
+            continue
+        last = None
+        for place in path.position:
+            if last is None or np.linalg.norm(place - last) > 0.25 * radius:
+                kept.append(place)
+                last = place
+    return np.array(kept).reshape(-1, 3)
+
+
+def smooth(at: Array, values: Array, moments: Array) -> Array:
+    """Monotone cubic through (at, values), held outside (Fritsch and Butland 1984: no overshoot)."""
+    if len(at) == 1:
+        return np.full(len(moments), values[0])
+    gap, delta = np.diff(at), np.diff(values)
+    if np.any(gap <= 0.0):
+        at, keep = np.unique(at, return_index=True)
+        return smooth(at, values[keep], moments)
+    secant = delta / gap
+    slope = np.zeros(len(at))
+    if len(at) > 2:
+        left, right = 2.0 * gap[1:] + gap[:-1], gap[1:] + 2.0 * gap[:-1]
+        same = secant[:-1] * secant[1:] > 0.0
+        safe = np.where(same, secant[:-1], 1.0), np.where(same, secant[1:], 1.0)
+        slope[1:-1] = np.where(same, (left + right) / (left / safe[0] + right / safe[1]), 0.0)
+    slope[0], slope[-1] = secant[0], secant[-1]
+    t = np.clip(moments, at[0], at[-1])
+    i = np.clip(np.searchsorted(at, t, "right") - 1, 0, len(gap) - 1)
+    s = (t - at[i]) / gap[i]
+    a, b = values[i], values[i + 1]
+    ease = s * s * (3.0 - 2.0 * s)
+    bend = gap[i] * s * (1.0 - s) * ((1.0 - s) * slope[i] - s * slope[i + 1])
+    return a + (b - a) * ease + bend
+
+
+def below(ground: Ground, position: Array, clearance: Array) -> Array:
+    """How much higher (frames,) cameras must be for the hills under them to stay `clearance` below."""
+    return np.maximum(ground.up(position[:, 0], position[:, 1]) + clearance - position[:, 2], 0.0)
+
+
+def hidden(ground: Ground, position: Array, target: Array, margin: float = 40.0) -> Array:
+    """How much higher (frames,) cameras must be to see their target over the ridges between, by `margin`."""
+    part = np.linspace(0.03, 0.85, 40)[:, None, None]  # of the way; near the target any slope hides it
+    way = position + part * (target - position)
+    ridge = ground.up(way[..., 0].ravel(), way[..., 1].ravel()).reshape(way.shape[:2])
+    needed = (ridge + margin - way[..., 2]) / (1.0 - part[..., 0])
+    return np.clip(needed.max(axis=0), 0.0, _HIGHEST)
+
+
+def eased(short: Array) -> Array:
+    """Heights to add (frames,): at least `short`, changing smoothly over a sixth of the shot."""
+    reach = max(len(short) // 12, 1)
+    padded = np.pad(short, 2 * reach, "edge")
+    highest = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(1)
+    window = np.hanning(2 * reach + 3)[1:-1]
+    return np.convolve(highest, window / window.sum(), "valid")
+
+
+def blend(at: Array, aims: Array, moments: Array) -> Array:
+    """Between two keys the aim goes smoothly from that of one to that of the other."""
+    if len(at) == 1:
+        return aims[0]
+    i = np.clip(np.searchsorted(at, moments, "right") - 1, 0, len(at) - 2)
+    s = noise.smoothstep(0.0, 1.0, (moments - at[i]) / np.maximum(at[i + 1] - at[i], 1.0e-9))[:, None]
+    frames = np.arange(len(moments))
+    return aims[i, frames] * (1.0 - s) + aims[i + 1, frames] * s
+
+
+def look(position: Array, target: Array) -> Array:
+    """Rotations (n, 3, 3) that look from `position` at `target` with the horizon level."""
+    back = position - target
+    back /= np.maximum(np.linalg.norm(back, axis=1, keepdims=True), 1.0e-9)
+    right = np.cross([0.0, 0.0, 1.0], back)
+    length = np.linalg.norm(right, axis=1, keepdims=True)
+    right = np.where(length > 1.0e-6, right / np.maximum(length, 1.0e-9), [1.0, 0.0, 0.0])
+    return np.stack([right, np.cross(back, right), back], axis=-1)

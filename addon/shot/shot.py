@@ -1,0 +1,128 @@
+"""What is filmed: settings and run, resolved once. Everything that builds, bakes or renders takes it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from datetime import datetime
+from functools import cached_property
+
+import numpy as np
+from firetwin_core import geo
+from firetwin_core.run import Run
+
+from ..errors import UsageError
+from ..run import times
+from ..run.frame import local_frame
+from . import burning, frame_list, frames, path, sun
+from .frames import Frames
+from .ground import Ground
+from .heat import Heat
+from .path import SENSOR, Path
+from .settings import Camera, Settings
+
+_NOWHERE = 20_000.0  # m, distance of a fire that no camera looks at
+
+
+class Shot:
+    """A scene file and its run.
+
+    What takes time to work out is worked out when it is first asked for, and once.
+
+    Attributes
+    ----------
+    settings
+        The scene file.
+    run
+        The model run.
+    frames
+        Frames and the model times that they show.
+    """
+
+    def __init__(self, settings: Settings, run: Run) -> None:
+        self.settings, self.run = settings, run
+        self.frames: Frames = frames.of(settings.time, run)
+
+    def of(self, name: str) -> Shot:
+        """The same shot with this camera alone: what it films depends on no other."""
+        shot = Shot(replace(self.settings, cameras=(self.camera(name),)), self.run)
+        shot.bare_ground = self.bare_ground
+        return shot
+
+    def camera(self, name: str) -> Camera:
+        """The camera of this name.
+
+        Raises
+        ------
+        UsageError
+            There is none.
+        """
+        for camera in self.settings.cameras:
+            if camera.name == name:
+                return camera
+        names = ", ".join(camera.name for camera in self.settings.cameras) or "none"
+        raise UsageError(f'--camera: there is no "{name}"; the scene has {names}')
+
+    def frames_of(self, camera: Camera) -> list[int]:
+        """Frames that a camera films, ascending."""
+        return frame_list.parse(camera.frames, self.frames.count)
+
+    def moment(self, frame: float) -> datetime:
+        """UTC of a frame."""
+        return times.moment(self.run, self.frames.time(frame))
+
+    def sun(self, time: float) -> tuple[float, float]:
+        """Bearing and height (degrees) of the sun over the run at a model time (s)."""
+        return sun.at(self.run, time)
+
+    @cached_property
+    def local_frame(self) -> geo.LocalFrame:
+        """The scene's east, north and up."""
+        return local_frame(self.run)
+
+    @cached_property
+    def bare_ground(self) -> Ground:
+        """The ground without the detail near cameras."""
+        return Ground(self.settings, self.run)
+
+    @cached_property
+    def ground(self) -> Ground:
+        """The ground, with detail along the cameras' paths."""
+        rough = self._paths(self.bare_ground)
+        return self.bare_ground.seen_from(path.eyes(rough, self.settings.ground.near_radius))
+
+    @cached_property
+    def paths(self) -> list[Path]:
+        """Paths of all cameras over the ground."""
+        return self._paths(self.ground)
+
+    def _paths(self, ground: Ground) -> list[Path]:
+        return [camera.rig.path(camera, self, ground) for camera in self.settings.cameras]
+
+    @property
+    def near(self) -> list[Path]:
+        """Paths of the cameras that things can be near to."""
+        return [view for view in self.paths if view.perspective]
+
+    @cached_property
+    def heat(self) -> Heat:
+        """What burns and how strongly, from the first frame to the last."""
+        return Heat(self.run, self.frames.first, self.frames.last)
+
+    @cached_property
+    def wind(self) -> tuple[float, float]:
+        """Mean wind (m/s, east and north) where it burns in the middle of the shot."""
+        east, north = burning.wind_at(self.run, np.array([self.frames.middle]))[0]
+        return float(east), float(north)
+
+    @cached_property
+    def fire_distance(self) -> float:
+        """How near (m) cameras come to the fire: nearer than nine tenths of it in their nearest frame."""
+        cells = burning.cells(self.run, self.frames.first - 1800.0, self.frames.last + 1.0)
+        if not self.paths or len(cells.arrival) == 0:
+            return _NOWHERE
+        return min(
+            float(np.percentile(view.distance(cells.position[::5]), 10.0))
+            if view.perspective
+            else 2.0 * view.half[0] * 28.0 / SENSOR  # as a 28 mm lens with pixels as large on the ground
+            for view in self.paths
+        )
