@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
-_PART = re.compile(r"(\d+)(?:-(\d+)(?::(\d+))?)?")
+_PART = re.compile(r"(\d{1,9})(?:-(\d{1,9})(?::(\d{1,9}))?)?", re.ASCII)
 
 
 def parse(text: str, last: int) -> list[int]:
@@ -19,21 +20,27 @@ def parse(text: str, last: int) -> list[int]:
         return list(range(1, last + 1))
     frames: set[int] = set()
     for part in text.split(","):
-        found = _PART.fullmatch(part.strip())
-        if not found:
-            raise ValueError(
-                f'"{part.strip()}" is not a list of frames; write it like 7, 1-10, 3,5-9 or 1-48:4'
-            )
-        first = int(found[1])
-        end = int(found[2]) if found[2] else first
-        step = int(found[3]) if found[3] else 1
-        if first < 1 or end > last or end < first or step < 1:
-            raise ValueError(f'"{part.strip()}" is outside of 1-{last}, the frames of this scene')
-        frames.update(range(first, end + 1, step))
+        frames.update(_frames(part.strip(), last))
     return sorted(frames)
 
 
-def write(frames: list[int]) -> str:
+def _frames(part: str, last: int) -> range:
+    found = _PART.fullmatch(part)
+    if not found:
+        raise ValueError(f'"{part}" is not a list of frames; write it like 7, 1-10, 3,5-9 or 1-48:4')
+    first, end, step = (int(number) if number else None for number in found.groups())
+    end = first if end is None else end
+    if end < first:
+        turned = f"{end}-{first}" + (f":{step}" if step is not None else "")
+        raise ValueError(f'"{part}" runs backwards; frames are listed from low to high: {turned}')
+    if step == 0:
+        raise ValueError(f'"{part}" has a step of 0; {first}-{end}:1, or {first}-{end}, is every frame')
+    if first < 1 or end > last:
+        raise ValueError(f'"{part}" is outside of 1-{last}, the frames of this scene')
+    return range(first, end + 1, step or 1)
+
+
+def write(frames: Iterable[int]) -> str:
     """The shortest text of single frames and ranges that `parse` reads back: [1, 2, 3, 7] -> ``1-3,7``."""
     ranges: list[list[int]] = []
     for frame in frames:

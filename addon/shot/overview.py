@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 from firetwin_core.run import Run
 
-from . import areas
-from .project import Camera, CameraKey
+from ..run import areas
+from .rigs._key import CameraKey
+from .rigs.drone import Drone
+from .rigs.satellite import Satellite
+from .settings import Camera
 
 _DISTANCE = 1.1  # from the fire's middle, in lengths of the burned area
 _HEIGHT = 0.3  # above the ground, in the same lengths
@@ -26,8 +29,8 @@ def cameras(run: Run) -> tuple[Camera, ...]:
     place = middle - _DISTANCE * length * blowing(run) / one_degree
     key = CameraKey(0.0, float(place[1]), float(place[0]), _HEIGHT * length, "point", *middle[::-1].tolist())
     return (
-        Camera("overview", keys=(key,)),
-        Camera("satellite", kind="satellite", swath=float(swath)),
+        Camera("overview", rig=Drone(keys=(key,))),
+        Camera("satellite", rig=Satellite(swath=float(swath))),
     )
 
 

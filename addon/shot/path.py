@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import noise
 from .ground import Ground
-from .settings import Camera
+
+if TYPE_CHECKING:
+    from .settings import Camera
 
 SENSOR = 36.0  # mm, width of the film
 _HIGHEST = 1500.0  # m; a camera is not raised more than this to see over a ridge
@@ -37,8 +40,9 @@ class Path:
         the width and height of the picture in metres.
     perspective
         Whether lines of sight meet in the camera; else they are parallel.
-    lacking
-        (frames,) metres by which the camera should be higher to see its target over the ridges between.
+    hidden
+        (frames,) metres that the camera would have to be higher than its keys say to see its target over the
+        ridges between; None where nobody asked.
     """
 
     camera: Camera
@@ -47,7 +51,7 @@ class Path:
     target: Array
     half: tuple[float, float]
     perspective: bool = True
-    lacking: Array | None = None
+    hidden: Array | None = None
 
     def sees(self, points: ArrayLike, margin: float = 150.0, reach: float = np.inf) -> NDArray[np.bool_]:
         """Which of the points (n, 3) are in view in any frame, within `reach`; `margin` (m) widens the view.

@@ -98,6 +98,28 @@ class Shot:
     def _paths(self, ground: Ground) -> list[Path]:
         return [camera.rig.path(camera, self, ground) for camera in self.settings.cameras]
 
+    def warnings(self) -> list[str]:
+        """What an artist should know of the cameras' paths."""
+        return [text for view in self.paths if (text := self._ridges(view))]
+
+    def _ridges(self, view: Path) -> str:
+        """What ridges between a camera and its target have done, or hide."""
+        hidden = np.zeros(1) if view.hidden is None else view.hidden
+        if hidden.max() <= 0.0:
+            return ""
+        worst, frames = int(np.argmax(hidden)), f"{int((hidden > 0.0).sum())} of {self.frames.count} frames"
+        if view.camera.rig.over_ridges:
+            return (
+                f'camera "{view.camera.name}" flies up to {hidden[worst]:,.0f} m higher than its keys say, '
+                f"to see its target over ridges in {frames} (over_ridges = true)"
+            )
+        place = view.position[worst]
+        above = place[2] + hidden[worst] - self.ground.up(place[0], place[1])[0]
+        return (
+            f'camera "{view.camera.name}" has ridges before its target in {frames}; {above:,.0f} m above the '
+            "ground would see over them all (over_ridges = true raises it)"
+        )
+
     @property
     def near(self) -> list[Path]:
         """Paths of the cameras that things can be near to."""
