@@ -1,0 +1,1 @@
+"""What is filmed, and how: settings, the file they are written in, kinds of camera and passes."""

@@ -1,0 +1,100 @@
+"""Passes, what a camera records: each module of this folder is one, unless its name begins with an underscore.
+
+It defines `PASS`, a `Pass` whose name is the module's.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import pkgutil
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..settings import Camera, Settings
+
+Finish = Callable[[Mapping[str, Path], Mapping[str, Mapping[str, Path]], "Settings"], None]
+
+
+@dataclass(frozen=True)
+class Pass:
+    """One thing that a camera records, in a view layer of its own.
+
+    Attributes
+    ----------
+    name, order
+        Passes are made and listed in the order of their numbers.
+    help
+        One line.
+    files
+        Suffixes of its files.
+    output
+        Socket of Blender's Render Layers node.
+    enable
+        Property of a view layer that switches the socket on; empty: it is always there.
+    leaves_out
+        Parts of the scene that it does not see.
+    samples
+        Rays per pixel; None: those of [render].
+    data
+        Never denoised, and the shaders show temperature instead of light.
+    channels
+        Of its EXR: "colour" or "grey".
+    bits
+        Of each number in its EXR.
+    pixel_centres
+        Its rays go through the middle of each pixel.
+    filmed
+        Its PNG files make a film.
+    shows
+        Aspects that its own rendering shows (see `schema.chosen`).
+    needs
+        Other passes whose files its own are made from.
+    finish
+        Makes the files that Blender does not. Called with the pass's files by suffix, the EXR finished; the files of
+        the passes that it needs, by pass and suffix; and the settings.
+    """
+
+    name: str
+    order: int
+    help: str
+    files: tuple[str, ...]
+    output: str
+    shows: frozenset[str]
+    enable: str = ""
+    leaves_out: tuple[str, ...] = ()
+    samples: int | None = None
+    data: bool = True
+    channels: str = "grey"
+    bits: int = 32
+    pixel_centres: bool = False
+    filmed: bool = False
+    needs: tuple[str, ...] = ()
+    finish: Finish | None = None
+
+    @property
+    def aspects(self) -> frozenset[str]:
+        """Aspects that its files depend on: its own and those of the passes that they are made from."""
+        return self.shows.union(*(known()[name].aspects for name in self.needs))
+
+
+@functools.cache
+def known() -> dict[str, Pass]:
+    """Every pass by its name, in order."""
+    names = [module.name for module in pkgutil.iter_modules(__path__) if module.name[0] != "_"]
+    found = [importlib.import_module(f"{__name__}.{name}").PASS for name in names]
+    return {each.name: each for each in sorted(found, key=lambda each: each.order)}
+
+
+def helps() -> dict[str, str]:
+    """Every pass's line of help by its name, in order."""
+    return {name: each.help for name, each in known().items()}
+
+
+def of_camera(settings: Settings, camera: Camera) -> tuple[Pass, ...]:
+    """Passes of a camera in order: its own, or those of [render] where it names none."""
+    names = camera.passes or settings.render.passes
+    return tuple(each for each in known().values() if each.name in names)

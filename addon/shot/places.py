@@ -1,0 +1,154 @@
+"""Where each key of a TOML text stands: tomllib gives values without lines, messages need both."""
+
+from __future__ import annotations
+
+import re
+
+Path = tuple[str | int, ...]
+
+_GAP = re.compile(r"(?:[ \t\r\n]|#[^\n]*)*")
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+_BASIC = re.compile(r'"(?:[^"\\]|\\.)*"')
+_LITERAL = re.compile(r"'[^']*'")
+_LONG_BASIC = re.compile(r'"""(?:[^\\]|\\.)*?"{3,5}', re.DOTALL)
+_LONG_LITERAL = re.compile(r"'''.*?'{3,5}", re.DOTALL)
+_PLAIN = re.compile(r"[^,\]}#\n]+")
+
+
+class _Scan:
+    """Walks a text that tomllib has accepted, so nothing is checked twice."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.at = 0
+        self.offsets: dict[Path, int] = {}
+        self._tables: dict[Path, int] = {}  # tables in each array of tables so far
+
+    def document(self) -> None:
+        table: Path = ()
+        self._skip()
+        while self.at < len(self.text):
+            if self.text.startswith("[[", self.at):
+                table = self._header(2, array=True)
+            elif self.text[self.at] == "[":
+                table = self._header(1, array=False)
+            else:
+                self._pair(table)
+            self._skip()
+
+    def _skip(self) -> None:
+        self.at = _GAP.match(self.text, self.at).end()
+
+    def _take(self, pattern: re.Pattern[str]) -> str:
+        found = pattern.match(self.text, self.at)
+        self.at = found.end()
+        return found.group()
+
+    def _name(self) -> str:
+        if self.text[self.at] == '"':
+            return self._take(_BASIC)[1:-1]
+        if self.text[self.at] == "'":
+            return self._take(_LITERAL)[1:-1]
+        return self._take(_BARE)
+
+    def _key(self, table: Path) -> Path:
+        """Read a dotted key and note where each part of it stands."""
+        path = table
+        while True:
+            start = self.at
+            path = (*path, self._name())
+            self.offsets.setdefault(path, start)
+            self._skip()
+            if self.text[self.at] != ".":
+                return path
+            self.at += 1
+            self._skip()
+
+    def _inside(self, path: Path) -> Path:
+        """A name that holds an array of tables stands for the newest of them."""
+        return (*path, self._tables[path] - 1) if path in self._tables else path
+
+    def _header(self, brackets: int, array: bool) -> Path:
+        self.at += brackets
+        start = self.at
+        self._skip()
+        names = [self._name()]
+        self._skip()
+        while self.text[self.at] == ".":
+            self.at += 1
+            self._skip()
+            names.append(self._name())
+            self._skip()
+        self.at += brackets
+        path: Path = ()
+        for name in names[:-1]:
+            path = self._inside((*path, name))
+        path = (*path, names[-1])
+        self.offsets.setdefault(path, start)
+        if array:
+            self._tables[path] = self._tables.get(path, 0) + 1
+            path = self._inside(path)
+            self.offsets[path] = start
+        return path
+
+    def _pair(self, table: Path) -> None:
+        path = self._key(table)
+        self.at += 1  # the equals sign
+        self._skip()
+        self._value(path)
+
+    def _value(self, path: Path) -> None:
+        text, at = self.text, self.at
+        if text.startswith('"""', at):
+            self._take(_LONG_BASIC)
+        elif text.startswith("'''", at):
+            self._take(_LONG_LITERAL)
+        elif text[at] == '"':
+            self._take(_BASIC)
+        elif text[at] == "'":
+            self._take(_LITERAL)
+        elif text[at] == "[":
+            self._array(path)
+        elif text[at] == "{":
+            self._inline_table(path)
+        else:
+            self._take(_PLAIN)
+
+    def _array(self, path: Path) -> None:
+        self.at += 1
+        self._skip()
+        index = 0
+        while self.text[self.at] != "]":
+            self.offsets[(*path, index)] = self.at
+            self._value((*path, index))
+            index += 1
+            self._next()
+        self.at += 1
+
+    def _inline_table(self, path: Path) -> None:
+        self.at += 1
+        self._skip()
+        while self.text[self.at] != "}":
+            self._pair(path)
+            self._next()
+        self.at += 1
+
+    def _next(self) -> None:
+        self._skip()
+        if self.text[self.at] == ",":
+            self.at += 1
+            self._skip()
+
+
+def places(text: str) -> dict[Path, tuple[int, int]]:
+    """Line and column (1-based) of every key and array element in a valid TOML text.
+
+    A path is the names and indices that lead to a value: ``("cameras", 0, "keys", 2, "at")``.
+    """
+    scan = _Scan(text)
+    scan.document()
+    return {path: _line_and_column(text, offset) for path, offset in scan.offsets.items()}
+
+
+def _line_and_column(text: str, offset: int) -> tuple[int, int]:
+    return text.count("\n", 0, offset) + 1, offset - text.rfind("\n", 0, offset)

@@ -1,0 +1,32 @@
+"""Kinds of camera: each module of this folder is one, unless its name begins with an underscore.
+
+It defines a frozen dataclass derived from `Rig`, made of keys (see `schema.key`) that lie flat in the camera's table,
+and names it `RIG`. The module's name is the kind's name, the first line of the docstring its description.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import pkgutil
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..schema import Where
+
+USUAL = "drone"  # where a camera names no kind
+
+
+class Rig:
+    """How a camera is set up and moved: what is particular to its kind."""
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """What no single key can say: where in the camera's table, and words that follow the camera's name."""
+        return None
+
+
+@functools.cache
+def kinds() -> dict[str, type[Rig]]:
+    """Every kind of camera by its name."""
+    names = sorted(module.name for module in pkgutil.iter_modules(__path__) if module.name[0] != "_")
+    return {name: importlib.import_module(f"{__name__}.{name}").RIG for name in names}

@@ -1,0 +1,280 @@
+"""Every setting once: its type, default, unit, bounds, choices and help, and what it changes.
+
+The file, its check, the panels, the schema for editors and the fingerprints of products all come from here. Times are
+UTC, lengths metres and angles degrees. What a key changes is named by aspects: that of its section unless it says
+otherwise, "camera" for all of a camera, and of [render] "picture" (all pictures), "grain" (what is not data) and
+"thermal". "film" is what only films show.
+"""
+
+from __future__ import annotations
+
+import re
+import zoneinfo
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from . import frame_list, passes, rigs
+from .nearest import suggestion
+from .schema import Where, key, kind_of, one_of, parts
+
+
+def _zone(value: str) -> str | None:
+    try:
+        zoneinfo.ZoneInfo(value)
+    except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):
+        return f'"{value}" is not a time zone' + suggestion(value, sorted(zoneinfo.available_timezones()))
+    return None
+
+
+def _file_name(value: str) -> str | None:
+    if re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_-]*", value):
+        return None
+    return f'"{value}" names files, so it is made of letters, digits, - and _'
+
+
+def _even(value: tuple[int, int]) -> str | None:
+    if all(side % 2 == 0 for side in value):
+        return None
+    return "must be two even numbers of pixels (video needs even ones)"
+
+
+def _at_least_one(value: tuple[str, ...]) -> str | None:
+    return None if value else 'is empty; name at least one, such as "rgb"'
+
+
+@dataclass(frozen=True)
+class Time:
+    """Which model times the frames show; frames are spread evenly from `start` to `end`."""
+
+    start: datetime | None = key(
+        None, "model time of the first frame, with its zone; left out, the run's first"
+    )
+    end: datetime | None = key(None, "model time of the last frame; left out, the run's last")
+    frames: int = key(48, "spread evenly from start to end", at_least=1, at_most=100_000)
+    fps: int = key(24, "frames per second of the films", at_least=1, at_most=240, shows=("film",))
+    zone: str = key("America/Los_Angeles", "zone of the clock in the films", check=_zone, shows=("film",))
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """The end comes last."""
+        if self.start and self.end and self.end <= self.start:
+            return ("end",), "time.end must be later than time.start"
+        return None
+
+
+@dataclass(frozen=True)
+class Ground:
+    """The model's grid, finer near cameras, and an apron out to the horizon."""
+
+    near_radius: float = key(
+        4000.0, "finer ground within this distance of a camera's path", unit="m", at_least=0
+    )
+    near_spacing: float = key(12.0, "spacing of its points there", unit="m", above=0)
+    apron: float = key(
+        110_000.0,
+        "half-width of the ground drawn round the run; smaller shows the edge of the world",
+        unit="m",
+        at_least=0,
+    )
+
+
+@dataclass(frozen=True)
+class Forest:
+    """Trees and grass."""
+
+    trees: bool = key(
+        True, "one for each fuel cell with a canopy, and those that fill the forest near cameras"
+    )
+    grass: bool = key(True, "clumps where there is surface fuel")
+    stand_spacing: float = key(13.0, "between the trees that fill the forest near cameras", unit="m", above=0)
+    stand_radius: float = key(
+        3400.0,
+        "how far from a camera it is filled; 0 leaves one tree for each fuel cell",
+        unit="m",
+        at_least=0,
+    )
+    draw_distance: float = key(
+        12_000.0,
+        "trees farther than this from every camera are part of the ground's colour",
+        unit="m",
+        at_least=0,
+    )
+
+
+@dataclass(frozen=True)
+class Fire:
+    """Flames, firebrands and the glowing ground."""
+
+    emitters: str = key(
+        "front",
+        "where flames stand",
+        choices={"front": "along the fire line", "cells": "one for each burning model cell"},
+    )
+    flames: bool = key(True, "draw the flames")
+    flame_length: str = key(
+        "thomas",
+        "formula for it from the line's intensity",
+        choices={"thomas": "crown fire", "byram": "surface fire"},
+    )
+    budget: int = key(20_736, "most flames drawn at once, nearest first", at_least=0)
+    embers: bool = key(True, "spots that glow in the ash; the thermal view shows their heat in any case")
+    firebrands: int = key(
+        3000,
+        "most glowing pieces in the air at once, within 1.8 km of the cameras; 0: none",
+        at_least=0,
+        at_most=100_000,
+    )
+    torches: bool = key(True, "crowns near the cameras that flare up as the front reaches them")
+
+
+@dataclass(frozen=True)
+class Smoke:
+    """The smoke volume."""
+
+    enabled: bool = key(True, "draw the smoke")
+    voxel_size: float = key(
+        0.0, "edge of a voxel; 0 chooses it from the distance of the nearest camera", unit="m", at_least=0
+    )
+    max_age: float = key(5400.0, "older smoke has left the picture", unit="s", above=0)
+    extinction: float = key(
+        0.0, "in thick smoke; less is faster, 0 chooses it like the voxels", unit="1/m", at_least=0
+    )
+    complete: bool = key(False, "also smoke that no camera sees, and its temperature and flames as grids")
+
+
+@dataclass(frozen=True)
+class Light:
+    """Sun, sky, haze, exposure and the light of the flames."""
+
+    haze: float = key(1.0, "0: none, 1: a dry September day", at_least=0)
+    exposure: float | None = key(
+        None,
+        "brighter or darker; left out, from the height of the sun: 0.5 by day, 3.5 by night",
+        unit="stops",
+        at_least=-20,
+        at_most=20,
+    )
+    lamps: int = key(
+        48,
+        "most lamps that light ground and trees in place of the flames when the sun is low; 0: none",
+        at_least=0,
+        at_most=500,
+    )
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A camera: what it records, and how it is set up and moved (its rig, the kind of camera)."""
+
+    name: str = key("drone", "names its folder and files", check=_file_name, shows=())
+    rig: Any = one_of(rigs.kinds, "kind of camera", tag="kind", usual=rigs.USUAL)
+    passes: tuple[str, ...] = key(
+        (), 'such as ["rgb"]; empty: those of [render]', choices=passes.helps, shows=()
+    )
+    frames: str = key("", 'such as "24" or "1-48:4"; empty: all', shows=())
+
+    @property
+    def kind(self) -> str:
+        """Name of the kind of camera."""
+        rig = next(part for part in parts(Camera) if part.name == "rig")
+        return kind_of(rig.key, self.rig)
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """What its rig finds."""
+        found = self.rig.wrong()
+        return (found[0], f'camera "{self.name}" {found[1]}') if found else None
+
+
+@dataclass(frozen=True)
+class Render:
+    """How frames are made."""
+
+    engine: str = key(
+        "cycles",
+        "what renders",
+        choices={"cycles": "light is traced", "eevee": "faster and simpler, needs OpenGL"},
+        shows=("picture",),
+    )
+    device: str = key(
+        "auto",
+        "what Cycles renders on",
+        choices={"auto": "a GPU if there is one", "cpu": "the processor", "gpu": "a GPU"},
+        shows=(),
+    )
+    resolution: tuple[int, int] = key(
+        (640, 360),
+        "width and height, both even",
+        unit="pixels",
+        at_least=16,
+        at_most=16384,
+        check=_even,
+        shows=("picture",),
+    )
+    samples: int = key(
+        6,
+        "rays per pixel; 3 for a quick film, 12 to 24 for a final picture",
+        at_least=1,
+        at_most=65536,
+        shows=("grain",),
+    )
+    denoise: bool = key(True, "the picture only; depth and temperatures never are", shows=("grain",))
+    passes: tuple[str, ...] = key(
+        ("rgb", "depth", "thermal"),
+        "what cameras record",
+        choices=passes.helps,
+        check=_at_least_one,
+        shows=(),
+    )
+    video: bool = key(True, "a film of every camera with more than one frame, rgb and thermal", shows=())
+    seed: int = key(0, "of the grain", shows=("grain",))
+    thermal_low: float = key(
+        320.0,
+        "where colour begins in the thermal picture; ground in the sun has less",
+        unit="K",
+        above=0,
+        shows=("thermal",),
+    )
+    thermal_high: float = key(800.0, "where it is white", unit="K", shows=("thermal",))
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """The thermal picture's colours have a range."""
+        if self.thermal_high <= self.thermal_low:
+            return ("thermal_high",), "render.thermal_high must be above render.thermal_low"
+        return None
+
+
+@dataclass(frozen=True)
+class Settings:
+    """All settings of one scene file."""
+
+    path: Path = Path("scene.toml")  # the file itself; relative paths in it start at its folder
+    run: Path = key(Path("sample"), "run folder, such as `firetwin sample` writes", shows=())
+    cache: Path = key(Path("cache"), "smoke volumes are kept here and used again", shows=())
+    seed: int = key(
+        1,
+        "another number gives other trees, flames and puffs in the same fire",
+        shows=("ground", "forest", "fire", "smoke"),
+    )
+    time: Time = key(default_factory=Time, help="which moments of the run the frames show")
+    ground: Ground = key(default_factory=Ground, help="its grid, finer near cameras")
+    forest: Forest = key(default_factory=Forest, help="trees and grass")
+    fire: Fire = key(default_factory=Fire, help="flames, firebrands and the glowing ground")
+    smoke: Smoke = key(default_factory=Smoke, help="the smoke volume")
+    light: Light = key(default_factory=Light, help="sun, haze, exposure and the light of the flames")
+    render: Render = key(default_factory=Render, help="how frames are made")
+    cameras: tuple[Camera, ...] = key((), "a camera and what it records", shows=("camera",))
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """Names of cameras differ, and their frames are among those of the scene."""
+        names: set[str] = set()
+        for i, camera in enumerate(self.cameras):
+            if camera.name in names:
+                reason = f'a second camera is named "{camera.name}"; names must differ'
+                return ("cameras", i, "name"), reason
+            names.add(camera.name)
+            try:
+                frame_list.parse(camera.frames, self.time.frames)
+            except ValueError as error:
+                return ("cameras", i, "frames"), f"cameras.frames: {error}"
+        return None

@@ -1,0 +1,133 @@
+"""Settings as the text of a scene file: every key with its value, and what it means beside it."""
+
+from __future__ import annotations
+
+import json
+import os
+import zoneinfo
+from collections.abc import Iterator
+from datetime import UTC, datetime, tzinfo
+from pathlib import Path
+from typing import Any
+
+from .schema import Key, Part, items, kind_of, parts, plain, summary
+from .settings import Settings
+
+Line = tuple[str, str]  # what is written, and the comment beside it
+
+_SAMPLES = {datetime: "2014-09-17T21:30:00Z", float: "0.0"}  # for a key that has no value
+
+
+def text(settings: Settings) -> str:
+    """The scene file that reads back as these settings: all keys, the first of each with its help.
+
+    Times are written in the zone of `settings.time`, paths relative to the settings' own folder where they are in it.
+    """
+    blocks = _Writer(settings).table(settings, (), [])
+    return "\n".join(_aligned(block) for block in blocks)
+
+
+def _aligned(block: list[Line]) -> str:
+    """Lines of a table with their comments in one column."""
+    width = max(len(written) for written, comment in block if comment) if any(c for _, c in block) else 0
+    return "".join(
+        (f"{written.ljust(width)}  # {comment}" if comment else written) + "\n" for written, comment in block
+    )
+
+
+class _Writer:
+    def __init__(self, settings: Settings) -> None:
+        self.folder = settings.path.parent
+        self.zone = _zone(settings.time.zone)
+        self.explained: set[int] = set()
+
+    def table(self, table: Any, section: tuple[str, ...], header: list[Line]) -> Iterator[list[Line]]:
+        """A dataclass as a block of lines, and the tables in it as blocks of their own."""
+        pairs = list(_flat(table))
+        yield header + [self.line(part, value) for part, value in pairs if not part.table]
+        for part, value in pairs:
+            inner = (*section, part.name)
+            brackets = "[[{}]]" if part.tables else "[{}]"
+            for each in value if part.tables else (value,) if part.table else ():
+                head = brackets.format(".".join(inner)), self.once(part.key, _comment(part.key))
+                yield from self.table(each, inner, [head])
+
+    def line(self, part: Part, value: Any) -> Line:
+        """A key, its value and its comment."""
+        key = part.key
+        if key.kinds:
+            return f'{key.tag} = "{kind_of(key, value)}"', f"{key.help}: {summary(type(value))}"
+        if value is None:
+            return f"# {part.name} = {_SAMPLES[part.type]}", self.once(key, _comment(key))
+        written, usual = self.value(part.type, value), self.value(part.type, part.default)
+        differs = part.default is not None and written != usual
+        comment = _comment(key) + (f" (default {usual})" if differs else "")
+        return f"{part.name} = {written}", self.once(key, comment)
+
+    def once(self, key: Key, comment: str) -> str:
+        """The comment where the key stands for the first time."""
+        known = id(key) in self.explained
+        self.explained.add(id(key))
+        return "" if known else comment
+
+    def value(self, kind: Any, value: Any) -> str:
+        """A value in TOML."""
+        if isinstance(value, tuple):
+            inner = zip(items(kind, len(value)), value, strict=True)
+            return f"[{', '.join(self.value(k, v) for k, v in inner)}]"
+        if isinstance(value, Path):
+            return quoted(_relative(value, self.folder))
+        if isinstance(value, datetime):
+            return _moment(value, self.zone)
+        if isinstance(value, str):
+            return quoted(value)
+        return repr(plain(kind, value)).lower()
+
+
+def quoted(text: str) -> str:
+    """A text in quotes: TOML escapes as JSON does, and DEL too."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def _flat(table: Any) -> Iterator[tuple[Part, Any]]:
+    """Keys of a dataclass with their values; those of a kind follow the key that names it."""
+    for part in parts(type(table)):
+        value = getattr(table, part.name)
+        yield part, value
+        if part.key.kinds:
+            yield from _flat(value)
+
+
+def _comment(key: Key) -> str:
+    """Help with unit and choices; those that a folder of files decides may be more tomorrow, and are left out."""
+    if key.choices is None or callable(key.choices):
+        return key.described()
+    *most, last = [f'"{name}" ({words})' if words else f'"{name}"' for name, words in key.names().items()]
+    return f"{key.described()}: {', '.join(most)} or {last}"
+
+
+def _relative(path: Path, folder: Path) -> str:
+    """A path as one that starts at `folder` reads it."""
+    try:
+        text = path.relative_to(folder).as_posix()
+    except ValueError:
+        text = (path if path.is_absolute() else Path(os.path.relpath(path, folder))).as_posix()
+    return f"./{text}" if text.startswith("~") else text
+
+
+def _zone(name: str) -> tzinfo:
+    try:
+        return zoneinfo.ZoneInfo(name)
+    except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):
+        return UTC
+
+
+def _moment(moment: datetime, zone: tzinfo) -> str:
+    """A time in a zone, or in UTC where that zone's is no TOML: offsets have whole minutes there."""
+    try:
+        local = moment.astimezone(zone)
+    except OverflowError:
+        local = moment.astimezone(UTC)
+    if local.utcoffset().total_seconds() % 60:
+        local = moment.astimezone(UTC)
+    return local.isoformat().replace("+00:00", "Z")
