@@ -1,7 +1,7 @@
 """What a dataclass of settings says about its keys, and what follows from it for any such dataclass.
 
-Each field of the dataclass that a file may hold is made by `key`, or by `one_of` where one of several dataclasses
-may stand. A field of another dataclass is a section, a field of tuples of one a list of tables; other fields, such as
+Each field that a file may hold is made by `key`, or by `one_of` where one of several dataclasses may stand.
+A field of another dataclass is a section, a field of tuples of one a list of tables; other fields, such as
 the path of the file itself, are no keys.
 """
 
@@ -36,8 +36,8 @@ class Key:
     at_least, above, at_most
         Bounds of a number, or of each number of a list.
     choices
-        The names that a text, or each text of a list, may be: a tuple, or a mapping to a few words about each; or a
-        function that returns one of them.
+        The names that a text, or each text of a list, may be: a tuple, or a mapping to a few words about
+        each; or a function that returns one of them.
     check
         Returns what else is wrong with a value, as words that follow the key's name, or None.
     shows
@@ -131,7 +131,7 @@ def key(
 
 
 def one_of(kinds: Callable[[], Mapping[str, type]], help: str, *, tag: str, usual: str) -> Any:
-    """Make the field of one of several dataclasses, whose keys lie flat beside the key `tag` that names it."""
+    """Make the field of one of several dataclasses, with keys that lie flat beside the key `tag`."""
     known = Key(help, choices=lambda: tuple(kinds()), kinds=kinds, tag=tag, usual=usual)
     return dataclasses.field(default_factory=lambda: kinds()[usual](), metadata={"key": known})
 
@@ -279,6 +279,6 @@ def plain(kind: Any, value: Any) -> Any:
 
 
 def items(kind: Any, count: int) -> tuple[Any, ...]:
-    """Types of the items of a tuple that is declared as `kind` and holds `count` of them, or of how many it must."""
+    """Types of the `count` items of a tuple declared as `kind`, or of as many as it must hold."""
     inner = typing.get_args(kind)
     return inner[:1] * count if inner[-1] is Ellipsis else inner

@@ -1,10 +1,12 @@
 """Every setting once: its type, default, unit, bounds, choices and help, and what it changes.
 
-The file, its check, the panels, the schema for editors and the fingerprints of products all come from here. Times are
-UTC, lengths metres and angles degrees. What a key changes is named by aspects: that of its section unless it says
-otherwise, "camera" for all of a camera, and of [render] "picture" (all pictures), "grain" (what is not data) and
-"thermal". "film" is what only films show.
+The file, its check, the panels, the schema for editors and the fingerprints of products come from here.
+Times are UTC, lengths metres and angles degrees. What a key changes is named by aspects: that of its section
+unless it says otherwise, "camera" for all of a camera, and of [render] "picture" (all pictures), "grain" (what
+is not data) and "thermal". "film" is what only films show.
 """
+
+# ruff: noqa: RUF009 (`key` makes a field)
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ _SAMPLES = {datetime: "2014-09-17T21:30:00Z", float: "0.0"}  # for a key that ha
 def text(settings: Settings) -> str:
     """The scene file that reads back as these settings: all keys, the first of each with its help.
 
-    Times are written in the zone of `settings.time`, paths relative to the settings' own folder where they are in it.
+    Times are in the zone of `settings.time`, paths relative to the settings' own folder where they are in it.
     """
     blocks = _Writer(settings).table(settings, (), [])
     return "\n".join(_aligned(block) for block in blocks)
@@ -99,7 +99,7 @@ def _flat(table: Any) -> Iterator[tuple[Part, Any]]:
 
 
 def _comment(key: Key) -> str:
-    """Help with unit and choices; those that a folder of files decides may be more tomorrow, and are left out."""
+    """Help with unit and choices, less those that a folder of files decides: one more changes no scene file."""
     if key.choices is None or callable(key.choices):
         return key.described()
     *most, last = [f'"{name}" ({words})' if words else f'"{name}"' for name, words in key.names().items()]

@@ -1,4 +1,4 @@
-"""Passes, what a camera records: each module of this folder is one, unless its name begins with an underscore.
+"""Passes, what a camera records: each module of this folder is one, unless its name begins with "_".
 
 It defines `PASS`, a `Pass` whose name is the module's.
 """
@@ -54,8 +54,8 @@ class Pass:
     needs
         Other passes whose files its own are made from.
     finish
-        Makes the files that Blender does not. Called with the pass's files by suffix, the EXR finished; the files of
-        the passes that it needs, by pass and suffix; and the settings.
+        Makes the files that Blender does not. Called with the pass's files by suffix, the EXR finished; the
+        files of the passes that it needs, by pass and suffix; and the settings.
     """
 
     name: str

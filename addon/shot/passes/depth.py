@@ -1,7 +1,7 @@
 """Distance along the camera's axis, in metres, to ground and trees.
 
-Flames and smoke are left out, as they have no surface. One ray goes through the middle of each pixel, so that no
-pixel is a mean of near and far. The sky is 1e10 m, as everywhere in Blender.
+Flames and smoke are left out, as they have no surface. One ray goes through the middle of each pixel, so
+that no pixel is a mean of near and far. The sky is 1e10 m, as everywhere in Blender.
 """
 
 from __future__ import annotations

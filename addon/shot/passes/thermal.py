@@ -1,8 +1,8 @@
 """Temperatures in kelvin, as a long-wave infrared camera (8 to 14 um) measures them.
 
-Smoke is left out, as infrared sees through most of it, and so are the lamps that light ground and trees in place of
-the flames. A pixel is the mean over itself, as in a detector. The EXR holds kelvin; the PNG is the visible picture with
-a colour gradient of the temperatures added, as in the paper.
+Smoke is left out, as infrared sees through most of it, and so are the lamps that light ground and trees in
+place of the flames. A pixel is the mean over itself, as in a detector. The EXR holds kelvin; the PNG is the
+visible picture with a colour gradient of the temperatures added, as in the paper.
 """
 
 from __future__ import annotations

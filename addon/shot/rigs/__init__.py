@@ -1,7 +1,8 @@
-"""Kinds of camera: each module of this folder is one, unless its name begins with an underscore.
+"""Kinds of camera: each module of this folder is one, unless its name begins with "_".
 
-It defines a frozen dataclass derived from `Rig`, made of keys (see `schema.key`) that lie flat in the camera's table,
-and names it `RIG`. The module's name is the kind's name, the first line of the docstring its description.
+It defines a frozen dataclass derived from `Rig`, made of keys (see `schema.key`) that lie flat in the camera's
+table, and names it `RIG`. The module's name is the kind's name, the first line of the class's docstring its
+description.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ class Rig:
     """How a camera is set up and moved: what is particular to its kind."""
 
     def wrong(self) -> tuple[Where, str] | None:
-        """What no single key can say: where in the camera's table, and words that follow the camera's name."""
+        """What no single key can say: where in its table, and words that follow the camera's name."""
         return None
 
 

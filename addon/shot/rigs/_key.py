@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 from ..schema import Where, key
@@ -31,7 +32,7 @@ class CameraKey:
 
 def rising(keys: tuple[CameraKey, ...]) -> tuple[Where, str] | None:
     """What is wrong with keys whose moments do not rise."""
-    for i, (before, after) in enumerate(zip(keys, keys[1:], strict=False), start=1):
+    for i, (before, after) in enumerate(itertools.pairwise(keys), start=1):
         if after.at <= before.at:
             return ("keys", i, "at"), f"has keys at {before.at:g} and then {after.at:g}; at must rise"
     return None
