@@ -91,19 +91,23 @@ class Key:
             and (high is None or value <= high)
         ):
             return None
-        words = [f"above {above:,g}"] if above is not None else []
+        words = [f"above {_number(above)}"] if above is not None else []
         if low is not None and high is not None:
-            words.append(f"from {low:,g} to {high:,g}")
+            words.append(f"from {_number(low)} to {_number(high)}")
         else:
-            words += [f"at least {low:,g}"] if low is not None else []
-            words += [f"at most {high:,g}"] if high is not None else []
-        return f"must be {' and '.join(words)}, not {value:.12g}"
+            words += [f"at least {_number(low)}"] if low is not None else []
+            words += [f"at most {_number(high)}"] if high is not None else []
+        return f"must be {' and '.join(words)}, not {value}"
 
     def _choice(self, value: Any, listed: bool) -> str | None:
         if self.choices is None or value in (names := self.names()):
             return None
         must = f'holds "{value}"; each must be' if listed else "must be"
         return f"{must} {either(names)}" + ("" if listed else f', not "{value}"') + suggestion(value, names)
+
+
+def _number(value: float) -> str:
+    return f"{value:,}" if isinstance(value, int) else f"{value:,g}"
 
 
 def either(names: Iterable[str]) -> str:

@@ -22,6 +22,9 @@ from .nearest import suggestion
 from .schema import Where, key, kind_of, one_of, parts
 
 
+_LARGEST_SEED = 2**31 - 1  # Cycles takes no larger one
+
+
 def _zone(value: str) -> str | None:
     try:
         zoneinfo.ZoneInfo(value)
@@ -229,7 +232,9 @@ class Render:
         shows=(),
     )
     video: bool = key(True, "a film of every camera with more than one frame, rgb and thermal", shows=())
-    seed: int = key(0, "another number gives other grain", shows=("grain",))
+    seed: int = key(
+        0, "another number gives other grain", at_least=0, at_most=_LARGEST_SEED, shows=("grain",)
+    )
     thermal_low: float = key(
         320.0,
         "where colour begins in the thermal picture; ground in the sun has less",
@@ -256,6 +261,8 @@ class Settings:
     seed: int = key(
         1,
         "another number gives other trees, flames and puffs in the same fire",
+        at_least=0,
+        at_most=_LARGEST_SEED,
         shows=("ground", "forest", "fire", "smoke"),
     )
     time: Time = key(default_factory=Time, help="which moments of the run the frames show")
