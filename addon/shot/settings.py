@@ -21,7 +21,6 @@ from . import frame_list, passes, rigs
 from .nearest import suggestion
 from .schema import Where, key, kind_of, one_of, parts
 
-
 _LARGEST_SEED = 2**31 - 1  # Cycles takes no larger one
 
 
