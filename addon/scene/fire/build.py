@@ -6,46 +6,33 @@ from dataclasses import fields
 
 import bpy
 import numpy as np
-from firetwin_core.run import Run
 
-from .. import nodes
-from ..project import Project
-from . import burning, clock, collections, ember_nodes, flame_material, flames, lamps
-from .ground import Ground
-from .paths import Path, eyes, paths
-from .stand import Stand
+from ...blender import nodes, owned
+from ...blender.owned import Stage
+from ...shot.shot import Shot
+from .. import clock
+from ..forest.stand import Stand
+from . import firebrand_nodes, flames, lamp_objects, material
 
 CARDS = 4
 _NAMES = {"length": "flame_length", "width": "flame_width"}
 
 
-def build(
-    project: Project,
-    run: Run,
-    ground: Ground | None = None,
-    views: list[Path] | None = None,
-    grown: Stand | None = None,
-) -> bpy.types.Object | None:
+def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Object | None:
     """Build "Firetwin Flames", "Firetwin Firebrands" and the lamps; nothing where flames are off.
 
     The points carry the attributes of `flames.Points` (`length` as `flame_length`, `width` as `flame_width`).
     """
-    collection = collections.fresh("Fire")
-    if not project.fire.flames:
+    collection = stage.part("Fire")
+    if not shot.settings.fire.flames:
         return None
-    if ground is None or views is None:
-        ground = Ground(project, run, eyes(paths(project, run), project.terrain.near_radius))
-        views = paths(project, run, ground)
-    if project.fire.emitters == "cells":
-        points = flames.cells(project, run, views)
-    else:
-        points = flames.front(project, run, ground, views, grown)
-    thing = collections.add(collection, "Flames", _mesh(points))
+    points = flames.cells(shot) if shot.settings.fire.emitters == "cells" else flames.front(shot, grown)
+    thing = owned.add(collection, "Flames", _mesh(points))
     modifier = thing.modifiers.new("Firetwin Flames", "NODES")
-    modifier.node_group = _node_group(project, run, _cards(flame_material.build(project, run)))
+    modifier.node_group = _node_group(shot, _cards(material.build(shot, stage)))
     _light_only(thing)
-    ember_nodes.build(project, run, ground, views, points, collection)
-    lamps.build(project, run, ground, views, collection)
+    firebrand_nodes.build(shot, stage, points, collection)
+    lamp_objects.build(shot, collection)
     return thing
 
 
@@ -67,20 +54,16 @@ def _light_only(thing: bpy.types.Object) -> None:
     thing.visible_shadow = thing.visible_diffuse = thing.visible_volume_scatter = False
 
 
-def _cards(material: bpy.types.Material) -> bpy.types.Collection:
+def _cards(flame: bpy.types.Material) -> bpy.types.Collection:
     """Cards one metre high and wide on z = 0: flat, bowed either way and crossed; linked to no scene."""
-    name = "Firetwin Flame Cards"
-    old = bpy.data.collections.get(name)
-    if old is not None:
-        collections.remove(old)
-    collection = bpy.data.collections.new(name)
+    collection = owned.library("Flame Cards")
     for index in range(CARDS):
         mesh = bpy.data.meshes.new(f"Firetwin Flame Card {index}")
         vertices, faces, cards = _card(index)
         mesh.from_pydata(vertices, [], faces)
         mesh.attributes.new("card", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", np.ravel(cards))
-        mesh.materials.append(material)
-        thing = collections.add(collection, f"Flame Card {index}", mesh)
+        mesh.materials.append(flame)
+        thing = owned.add(collection, f"Flame Card {index}", mesh)
         _light_only(thing)
     return collection
 
@@ -110,14 +93,14 @@ def _card(index: int) -> tuple[list, list, list]:
     return vertices, faces, cards
 
 
-def _node_group(project: Project, run: Run, cards: bpy.types.Collection) -> bpy.types.NodeTree:
+def _node_group(shot: Shot, cards: bpy.types.Collection) -> bpy.types.NodeTree:
     """Points that are lit -> cards facing the camera, leaning downwind, growing and dying away."""
     tree, entry = nodes.geometry("Firetwin Flames")
 
     def named(name: str) -> nodes.Value:
         return tree.output("GeometryNodeInputNamedAttribute", {"Name": name}, data_type="FLOAT")
 
-    age = clock.geometry_time(tree, project, run) - named("arrival_time")
+    age = clock.geometry_time(tree, shot) - named("arrival_time")
     part = age / named("residence")
     outside = tree.math("ADD", age < 0.0, tree.math("SUBTRACT", 1.0, part < 1.0), clamp=True)
     alive = tree.output("GeometryNodeDeleteGeometry", {"Geometry": entry, "Selection": outside > 0.5})
@@ -128,9 +111,8 @@ def _node_group(project: Project, run: Run, cards: bpy.types.Collection) -> bpy.
     east, north, _ = tree.separate(tree.vector("SUBTRACT", eye, tree.output("GeometryNodeInputPosition")))
     yaw = tree.math("ARCTAN2", north, east) + (np.pi / 2.0) + (seed - 0.5) * 0.9
     facing = tree.output("FunctionNodeEulerToRotation", {"Euler": tree.combine(0.0, 0.0, yaw)})
-    first, last = clock.window(project, run)
-    wind = burning.wind_at(run, np.array([0.5 * (first + last)]))[0]
-    axis = (-float(wind[1]), float(wind[0]), 0.0) if np.hypot(*wind) > 0.0 else (1.0, 0.0, 0.0)
+    east_wind, north_wind = shot.wind
+    axis = (-north_wind, east_wind, 0.0) if np.hypot(east_wind, north_wind) > 0.0 else (1.0, 0.0, 0.0)
     lean = tree.output("FunctionNodeAxisAngleToRotation", {"Axis": axis, "Angle": named("tilt")})
     turned = tree.output(
         "FunctionNodeRotateRotation", {"Rotation": facing, "Rotate By": lean}, rotation_space="GLOBAL"

@@ -3,27 +3,27 @@
 from __future__ import annotations
 
 import bpy
-from firetwin_core.run import Run
 
-from .. import nodes
-from ..project import Project
-from . import flame_material, haze
+from ...blender import nodes
+from ...blender.owned import Stage
+from ...shot.shot import Shot
+from .. import glow, haze
 
 _COOL, _HOT = (1.0, 0.10, 0.008), (1.0, 0.42, 0.10)
 _LIGHT = 40.0  # radiance over that of flames; chosen by eye, as in a long exposure
 COLD, FRESH = 900.0, 1300.0  # K
 
 
-def build(project: Project, run: Run) -> bpy.types.Material:
+def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Firebrand", whose instances carry `kelvin`, `shine` (0..1) and `cover`.
 
     `cover` is the part 0..1 of the shape drawn that the piece itself would fill.
     """
     material, tree = nodes.material("Firetwin Firebrand")
     kelvin, shine, cover = (tree.attribute(name, "INSTANCER") for name in ("kelvin", "shine", "cover"))
-    part, _air = haze.fraction(tree)
+    part, _air = haze.fraction(tree, stage)
     colour = tree.mix_colour(kelvin.ramp(COLD, FRESH), _COOL, _HOT)
-    strength = shine * cover * (1.0 - part) * (_LIGHT * flame_material.brightness(project, run))
+    strength = shine * cover * (1.0 - part) * (_LIGHT * glow.brightness(shot))
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": (1.0, 1.0, 1.0)})
     glowing = tree.add_shader(tree.emission(colour, strength), clear)
     warm = tree.mix_shader(cover, clear, tree.emission(kelvin, 1.0))

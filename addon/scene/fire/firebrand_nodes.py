@@ -4,32 +4,25 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from firetwin_core.run import Run
 
-from .. import nodes
-from ..project import Project
-from . import clock, collections, ember_material, embers, flames
-from .ground import Ground
-from .paths import Path
+from ...blender import nodes, owned
+from ...blender.owned import Stage
+from ...shot.shot import Shot
+from . import firebrand_material, firebrands, flames
 
 _SHUTTER = 0.1  # s of the piece's way that a streak shows
 _PIXELS = 0.8  # a streak is no narrower than this, and dimmer instead
 
 
 def build(
-    project: Project,
-    run: Run,
-    ground: Ground,
-    views: list[Path],
-    points: flames.Points,
-    collection: bpy.types.Collection,
+    shot: Shot, stage: Stage, points: flames.Points, collection: bpy.types.Collection
 ) -> bpy.types.Object | None:
-    """Build "Firetwin Firebrands" from what `embers.fly` finds; nothing where no camera is near.
+    """Build "Firetwin Firebrands" from what `firebrands.fly` finds; nothing where no camera is near.
 
     Vertex i k + j is point j of the path of piece i. All have the float attributes `start`, `birth`, `life`
     (s after the first frame, s) and `size` (m).
     """
-    found = embers.fly(project, run, ground, views, points)
+    found = firebrands.fly(shot, points)
     if found is None:
         return None
     count, each = found.place.shape[:2]
@@ -40,10 +33,10 @@ def build(
         values = np.repeat(getattr(found, name), each).astype(np.float32)
         mesh.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values)
     mesh.update()
-    thing = collections.add(collection, "Firebrands", mesh)
+    thing = owned.add(collection, "Firebrands", mesh)
     modifier = thing.modifiers.new("Firetwin Firebrands", "NODES")
-    pixel = min(2.0 * view.half[0] for view in views if view.perspective) / project.render.resolution[0]
-    modifier.node_group = _node_group(project, run, found, pixel)
+    pixel = min(2.0 * view.half[0] for view in shot.near) / shot.settings.render.resolution[0]
+    modifier.node_group = _node_group(shot, stage, found, pixel)
     _seen_only(thing)
     return thing
 
@@ -54,7 +47,7 @@ def _seen_only(thing: bpy.types.Object) -> None:
     thing.visible_volume_scatter = False
 
 
-def _node_group(project: Project, run: Run, found: embers.Flights, pixel: float) -> bpy.types.NodeTree:
+def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: float) -> bpy.types.NodeTree:
     """Path points -> a streak for each piece that is alive, as wide as `pixel` (radians) at least."""
     count, each = found.place.shape[:2]
     tree, entry = nodes.geometry("Firetwin Firebrands")
@@ -70,7 +63,7 @@ def _node_group(project: Project, run: Run, found: embers.Flights, pixel: float)
         return sampled(value, index)
 
     # Times count from the first frame: seconds since the run began would be too long for floats.
-    time = (tree.output("GeometryNodeInputSceneTime", name="Frame") - 1.0) * clock.step(project, run)
+    time = (tree.output("GeometryNodeInputSceneTime", name="Frame") - 1.0) * shot.frames.step
     after = (time - named("start")) / found.step
     part = (time - named("birth")) / named("life")
     low = tree.math("MINIMUM", tree.math("MAXIMUM", tree.math("FLOOR", after), 0.0), each - 2.0)
@@ -88,7 +81,7 @@ def _node_group(project: Project, run: Run, found: embers.Flights, pixel: float)
     width = tree.math("MAXIMUM", size, distance * (_PIXELS * pixel))
     length = width + tree.vector("LENGTH", way, name="Value") * (_SHUTTER / found.step)
     cover = (size * size / (width * length)).clamp()
-    kelvin = part.ramp(0.0, 1.0, ember_material.FRESH, ember_material.COLD)
+    kelvin = part.ramp(0.0, 1.0, firebrand_material.FRESH, firebrand_material.COLD)
     turn = tree.output("FunctionNodeAlignRotationToVector", {"Vector": way}, axis="Z")
     scale = tree.combine(width, width, length)
     for name, value, kind in (
@@ -112,7 +105,7 @@ def _node_group(project: Project, run: Run, found: embers.Flights, pixel: float)
         "GeometryNodeInstanceOnPoints",
         {
             "Points": alive,
-            "Instance": tree.output("GeometryNodeObjectInfo", {"Object": _streak(project, run)}, "Geometry"),
+            "Instance": tree.output("GeometryNodeObjectInfo", {"Object": _streak(shot, stage)}, "Geometry"),
             "Rotation": stored("turn", "QUATERNION"),
             "Scale": stored("stretch", "FLOAT_VECTOR"),
         },
@@ -126,20 +119,15 @@ def _scaled(tree: nodes.Tree, vector: nodes.Value, by: nodes.Value) -> nodes.Val
     return tree.pick(node)
 
 
-def _streak(project: Project, run: Run) -> bpy.types.Object:
+def _streak(shot: Shot, stage: Stage) -> bpy.types.Object:
     """An octahedron one metre wide and long, linked to no scene."""
     name = "Firetwin Firebrand Streak"
-    old = bpy.data.objects.get(name)
-    if old is not None:
-        mesh = old.data
-        collections.discard(old)
-        collections.discard(mesh)
-    mesh = bpy.data.meshes.new(name)
+    mesh = owned.mark(bpy.data.meshes.new(name))
     ends = [(0.0, 0.0, -0.5), (0.0, 0.0, 0.5)]
     waist = [(0.5, 0.0, 0.0), (0.0, 0.5, 0.0), (-0.5, 0.0, 0.0), (0.0, -0.5, 0.0)]
     sides = [(2 + k, 2 + (k + 1) % 4) for k in range(4)]
     mesh.from_pydata(ends + waist, [], [(b, a, 0) for a, b in sides] + [(a, b, 1) for a, b in sides])
-    mesh.materials.append(ember_material.build(project, run))
-    thing = bpy.data.objects.new(name, mesh)
+    mesh.materials.append(firebrand_material.build(shot, stage))
+    thing = owned.mark(bpy.data.objects.new(name, mesh))
     _seen_only(thing)
     return thing

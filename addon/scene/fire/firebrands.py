@@ -10,13 +10,12 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 from firetwin_core import geo, particles
-from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ..project import Project
-from . import burning, clock, flames, noise
-from .ground import Ground
-from .paths import Path
+from ...shot import burning, noise
+from ...shot.ground import Ground
+from ...shot.shot import Shot
+from . import flames
 
 REACH = 1800.0  # m from a camera; sparks farther away than this are below what a picture shows
 PER_MEGAJOULE = 0.02  # large pieces for each MJ that the flames release; chosen by eye
@@ -89,30 +88,28 @@ def updraft(intensity: Array) -> Array:
     return np.cbrt(9.81 * np.asarray(intensity, np.float64) * 1000.0 / _AIR)
 
 
-def fly(
-    project: Project, run: Run, ground: Ground, views: list[Path], points: flames.Points
-) -> Flights | None:
+def fly(shot: Shot, points: flames.Points) -> Flights | None:
     """Launch, follow and thin out the firebrands of flames near the cameras; None where there are none.
 
     At no frame are there more than `fire.firebrands`; the nearest stay.
     """
-    near = [view for view in views if view.perspective]
-    if not near or project.fire.firebrands == 0 or len(points.seed) == 0:
+    near, most_shown = shot.near, shot.settings.fire.firebrands
+    if not near or most_shown == 0 or len(points.seed) == 0:
         return None
     distance = np.min([view.distance(points.position) for view in near], axis=0).astype(np.float64)
     fade = np.clip((REACH - distance) / (0.3 * REACH), 0.0, 1.0)
     rate = PER_MEGAJOULE * points.intensity * points.width / 1000.0 * fade
-    times = clock.frame_times(project, run)
+    times = shot.frames.times
     most = max(float(rate[points.lit(float(t))].sum()) for t in times) * _MEAN_LIFE
-    rate *= min(1.3 * project.fire.firebrands / max(most, 1.0), 1.0)
-    lapse = clock.step(project, run) > _LIFE[1] or len(times) == 1
+    rate *= min(1.3 * most_shown / max(most, 1.0), 1.0)
+    lapse = shot.frames.step > _LIFE[1] or len(times) == 1
     spans = [(t - _LIFE[1], t) for t in times] if lapse else [(times[0] - _LIFE[1], times[-1])]
-    floor = _floor(ground, points.position[rate > 0.0])
-    winds = burning.wind_at(run, np.array([0.5 * (begin + end) for begin, end in spans]))
+    floor = _floor(shot.ground, points.position[rate > 0.0])
+    winds = burning.wind_at(shot.run, np.array([0.5 * (begin + end) for begin, end in spans]))
     parts = []
     for number, span in enumerate(spans):
-        launched = _launched(project.seed + 7919 * number, points, rate, distance, span)
-        launched = _fewer(launched, times[number : number + 1] if lapse else times, project.fire.firebrands)
+        launched = _launched(shot.settings.seed + 7919 * number, points, rate, distance, span)
+        launched = _fewer(launched, times[number : number + 1] if lapse else times, most_shown)
         if len(launched.time):
             path = _paths(launched, winds[number], floor)
             parts.append(_flights(launched, path, times[0], span[1] if lapse else None))

@@ -6,19 +6,17 @@ for as long as the front takes to pass it, so at any moment the points in flames
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 
 import numpy as np
 from firetwin_core import flux, lod
-from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ..project import Project
-from . import burning, clock, heat, noise
-from .frame import local_frame
-from .ground import Ground, bilinear
-from .paths import Path
-from .stand import Stand
+from ...shot import burning, noise
+from ...shot.ground import Ground, bilinear
+from ...shot.path import Path
+from ...shot.shot import Shot
+from ..forest.stand import Stand
 
 SIGHT = 12_000.0  # m; fronts farther than this are the ground's glowing edge alone
 _SPACING = ((2500.0, 8.0), (5000.0, 12.0), (SIGHT, 24.0))  # m from the camera -> m between points
@@ -97,23 +95,21 @@ def kelvin(intensity: Array) -> Array:
     return _KELVIN[0] + (_KELVIN[1] - _KELVIN[0]) * np.clip(place, 0.0, 1.0)
 
 
-def front(
-    project: Project, run: Run, ground: Ground, views: list[Path], grown: Stand | None = None
-) -> Points:
+def front(shot: Shot, grown: Stand | None = None) -> Points:
     """Flames along the front for every moment of the shot, at most `fire.budget` of them lit at once.
 
     Fireline intensity is H w R (Byram 1959), with the cell's fuel w and the rate of spread R from the slope
     of the arrival time. Crowns of the stand flare up besides, where it is given.
     """
-    first, last = clock.window(project, run)
-    near = [view for view in views if view.perspective]
-    row, column, spacing = _candidates(project, ground, near, first, last)
+    settings, ground, near = shot.settings, shot.ground, shot.near
+    first, last = shot.frames.first, shot.frames.last
+    row, column, spacing = _candidates(shot)
     arrival = ground.arrival_at(row, column)
     keep = (arrival <= last) & (arrival > first - _RESIDENCE[1])
     row, column, spacing, arrival = row[keep], column[keep], spacing[keep], arrival[keep]
     speed = _spread(ground, row, column)
     residence = np.clip(_LINE * spacing / speed, *_RESIDENCE)
-    random = np.random.default_rng(project.seed).random((3, len(row)))
+    random = np.random.default_rng(settings.seed).random((3, len(row)))
     fuel = bilinear(ground.fields.canopy_fuel + ground.fields.surface_fuel, row, column)
     lit = (arrival + residence > first) & (fuel > 0.05)
     row, column, arrival, speed, residence, fuel, spacing = (
@@ -124,9 +120,9 @@ def front(
     distance = np.min([view.distance(place) for view in near], axis=0) if near else np.zeros(len(row))
     intensity = burning.HEAT / 1000.0 * fuel * speed
     uneven = np.exp(_SIZES * noise.normal(random[0], random[1]))
-    length = np.clip(flame_length(intensity, project.fire.flame_length) * uneven, *_LENGTHS)
+    length = np.clip(flame_length(intensity, settings.fire.flame_length) * uneven, *_LENGTHS)
     thin = lod.Table().multiplier(distance) if len(distance) else np.ones(0)
-    wind = float(np.hypot(*burning.wind_at(run, np.array([0.5 * (first + last)]))[0]))
+    wind = float(np.hypot(*shot.wind))
     points = Points(
         place,
         arrival,
@@ -139,23 +135,24 @@ def front(
         random[2],
     )
     points = points.take(np.flatnonzero(random[0] * 0.999 < thin))
-    if grown is not None and project.fire.torches:
-        points = _joined([points, torches(project, ground, grown, wind, first, last)])
-    return _within_budget(points, project, run, near)
+    if grown is not None and settings.fire.torches:
+        points = _joined([points, torches(shot, grown)])
+    return _within_budget(points, shot, near)
 
 
-def torches(project: Project, ground: Ground, grown: Stand, wind: float, first: float, last: float) -> Points:
+def torches(shot: Shot, grown: Stand) -> Points:
     """Crowns of the stand that flare up when the front reaches them: tall, thin and short-lived.
 
     A crown burns for half a minute to a minute, up to twice the tree's height (assumed), and the denser the
     canopy the more crowns do.
     """
+    ground, first, last = shot.ground, shot.frames.first, shot.frames.last
     near = np.flatnonzero((grown.distance < _TORCH_SIGHT) & (grown.height > 6.0))
     row, column = ground.indices(*ground.geodetic(*grown.position[near, :2].T))
     arrival = ground.arrival_at(row, column)
     canopy = bilinear(ground.fields.canopy_fuel, row, column)
     key = grown.key[near].T
-    luck, size, late, seed = (noise.uniform(*key, project.seed + 400 + k) for k in range(4))
+    luck, size, late, seed = (noise.uniform(*key, shot.settings.seed + 400 + k) for k in range(4))
     lit = (luck < _TORCHES * canopy / (canopy + 1.0)) & (arrival <= last)
     residence = 30.0 + 30.0 * size
     arrival = arrival + 20.0 * late
@@ -171,48 +168,24 @@ def torches(project: Project, ground: Ground, grown: Stand, wind: float, first: 
         intensity,
         length,
         0.45 * height,
-        tilt(wind, 2.0 * length),
+        tilt(float(np.hypot(*shot.wind)), 2.0 * length),
         kelvin(intensity),
         seed[chosen],
     )
 
 
-def power(points: Points, run: Run, time: float) -> tuple[Array, heat.Sources]:
-    """Heat of each flame of the front at `time`, W, and all heat of the run that is not theirs.
-
-    The flames lit in a fuel cell share the flaming part of its heat (`heat.Heat.sources`) by intensity and
-    width. What smoulders, and what flames where none is drawn, stays with the sources. Both together are the
-    model's flux: in every model cell the sum is flux times area.
-    """
-    model = heat.Heat(run, time, time)
-    sources = model.sources(time)
-    lit = points.lit(time)
-    cell = model.fuel_cell_at(points.position[lit])
-    weight = points.intensity[lit] * points.width[lit]
-    total = np.bincount(cell, weight, run.surface_fuel.size)
-    flaming = np.zeros(run.surface_fuel.size)
-    shared = np.flatnonzero((sources.fuel_cell >= 0) & (total[sources.fuel_cell] > 0.0))
-    flaming[sources.fuel_cell[shared]] = sources.flaming[shared]
-    found = np.zeros(len(points.seed))
-    found[lit] = flaming[cell] * weight / np.where(total > 0.0, total, 1.0)[cell]
-    rest, left = sources.power.copy(), sources.flaming.copy()
-    rest[shared] -= sources.flaming[shared]
-    left[shared] = 0.0
-    return found, replace(sources, power=rest, flaming=left)
-
-
-def cells(project: Project, run: Run, views: list[Path]) -> Points:
+def cells(shot: Shot) -> Points:
     """Algorithm 1's emitters (`flux.emitters`) of every frame, each lit during its own frame alone.
 
     An emitter is drawn as a flame of 40 m at scale 100 (assumed: the paper gives scales, no sizes).
     """
-    frame = local_frame(run)
-    position = frame.forward_grid(run.latitude, run.longitude, np.nan_to_num(run.elevation))
+    run = shot.run
+    position = shot.local_frame.forward_grid(run.latitude, run.longitude, np.nan_to_num(run.elevation))
     low, high = run.flux_range()
-    step = clock.step(project, run) or 1.0
+    step = shot.frames.step or 1.0
     width = float(np.sqrt(burning.cell_area(run) * run.surface_fuel.size / run.elevation.size))
     parts = []
-    for time in clock.frame_times(project, run):
+    for time in shot.frames.times:
         found = flux.emitters(flux.at_time(run, float(time)), position, low, high)
         count = len(found.cell)
         length = found.scale / 100.0 * _CELL_FLAME
@@ -231,17 +204,16 @@ def cells(project: Project, run: Run, views: list[Path]) -> Points:
                 seed,
             )
         )
-    return _within_budget(_joined(parts), project, run, views)
+    return _within_budget(_joined(parts), shot, shot.paths)
 
 
 def _joined(parts: list[Points]) -> Points:
     return Points(*(np.concatenate([getattr(p, field.name) for p in parts]) for field in fields(Points)))
 
 
-def _candidates(
-    project: Project, ground: Ground, near: list[Path], first: float, last: float
-) -> tuple[Array, Array, Array]:
+def _candidates(shot: Shot) -> tuple[Array, Array, Array]:
     """Rows, columns and spacing (m) of jittered points in the cells that the front crosses in the shot."""
+    ground, near, first, last = shot.ground, shot.near, shot.frames.first, shot.frames.last
     arrival = ground.arrival
     cells_lit = np.argwhere((arrival >= first - _RESIDENCE[1] - 300.0) & (arrival <= last + 300.0))
     empty = np.empty(0)
@@ -250,7 +222,7 @@ def _candidates(
     centre = ground.point(*ground.places(cells_lit[:, 0].astype(float), cells_lit[:, 1].astype(float)))
     distance = np.min([view.distance(centre) for view in near], axis=0)
     seen = np.any([view.sees(centre, margin=250.0) for view in near], axis=0)
-    random = np.random.default_rng(project.seed + 1)
+    random = np.random.default_rng(shot.settings.seed + 1)
     parts = []
     before = 0.0
     for limit, spacing in _SPACING:
@@ -285,11 +257,11 @@ def _spread(ground: Ground, row: Array, column: Array) -> Array:
     return np.clip(1.0 / np.maximum(np.hypot(*slope), 1.0e-6), *_SPREAD)
 
 
-def _within_budget(points: Points, project: Project, run: Run, views: list[Path]) -> Points:
+def _within_budget(points: Points, shot: Shot, views: list[Path]) -> Points:
     """Drop the farthest flames until no frame lights more than `fire.budget`."""
-    budget = max(project.fire.budget, 0)
+    budget = max(shot.settings.fire.budget, 0)
     keep = np.ones(len(points.arrival_time), bool)
-    for index, time in enumerate(clock.frame_times(project, run)):
+    for index, time in enumerate(shot.frames.times):
         lit = points.lit(float(time))
         lit = lit[keep[lit]]
         if len(lit) > budget:

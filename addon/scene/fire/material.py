@@ -3,26 +3,18 @@
 from __future__ import annotations
 
 import bpy
-from firetwin_core.run import Run
 
-from .. import nodes
-from ..project import Project
-from . import clock, haze, light, sun
+from ...blender import nodes
+from ...blender.owned import Stage
+from ...shot.shot import Shot
+from .. import glow, haze
 
 _RIM, _BODY, _CORE = (1.0, 0.12, 0.008), (1.0, 0.34, 0.04), (1.0, 0.55, 0.15)
-_LIGHT = 13.0  # radiance at exposure 0
-CLOSE = 200.0, 2500.0  # m from the camera: flames that fill pixels would burn out, afar they must show
-_DIMMED = 0.2  # part of their light that flames have at the nearer of these
+_DIMMED = 0.2  # part of their light that flames have at the nearer of the distances `glow.CLOSE`
 _RISE = 9.0  # m/s at which the pattern rises
 
 
-def brightness(project: Project, run: Run) -> float:
-    """Radiance of flames: less in a longer exposure, as a photographer stops down, else nights burn out."""
-    first, last = clock.window(project, run)
-    return _LIGHT * 2.0 ** (-0.85 * light.State(project, *sun.at(run, 0.5 * (first + last))).exposure)
-
-
-def build(project: Project, run: Run) -> bpy.types.Material:
+def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Flame" for the cards of `fire`, whose attribute `card` runs over -1..1 and 0..1."""
     material, tree = nodes.material("Firetwin Flame")
     across, up, _ = tree.separate(tree.attribute("card", output="Vector"))
@@ -43,9 +35,9 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     hot = (torn - up * 0.4).smoothstep(0.5, 1.5)
     colour = tree.mix_colour(shape.smoothstep(0.15, 0.8), _RIM, _BODY)
     colour = tree.mix_colour(hot, colour, _CORE)
-    strength = shape.power(1.3) * (0.35 + hot * 0.65) * brightness(project, run)
-    strength = strength * tree.output("ShaderNodeCameraData", name="View Distance").ramp(*CLOSE, _DIMMED, 1.0)
-    part, _air = haze.fraction(tree)
+    strength = shape.power(1.3) * (0.35 + hot * 0.65) * glow.brightness(shot)
+    strength = strength * tree.output("ShaderNodeCameraData", name="View Distance").ramp(*glow.CLOSE, _DIMMED, 1.0)
+    part, _air = haze.fraction(tree, stage)
     behind = 1.0 - shape * 0.5
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(behind, behind, behind)})
     shader = tree.add_shader(tree.emission(colour, strength * (1.0 - part)), clear)

@@ -14,8 +14,7 @@ from __future__ import annotations
 
 import bpy
 
-from .. import nodes
-from . import collections
+from ...blender import nodes, owned
 
 _COUNT = 29  # with the smoke, the end mark and the world's volume, the 32 that Cycles holds
 _DEPTH = -5000.0  # m
@@ -32,7 +31,7 @@ def build(collection: bpy.types.Collection) -> None:
     mesh.materials.append(material)
     points = bpy.data.meshes.new("Firetwin Smoke Layers")
     points.from_pydata([(0.0, 0.0, _DEPTH)] * _COUNT, [], [])
-    all_of_them = collections.add(collection, "Smoke Layers", points)
+    all_of_them = owned.add(collection, "Smoke Layers", points)
     all_of_them.instance_type = "VERTS"
     all_of_them.show_instancer_for_render = all_of_them.show_instancer_for_viewport = False
-    collections.add(collection, "Smoke Layer", mesh).parent = all_of_them
+    owned.add(collection, "Smoke Layer", mesh).parent = all_of_them

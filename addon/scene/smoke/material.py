@@ -10,12 +10,14 @@ from dataclasses import dataclass
 
 import bpy
 import numpy as np
-from firetwin_core.run import Run
 
-from .. import nodes
-from ..project import Project
-from . import bake, burning, clock, haze, sun
-from .noise import smoothstep
+from ...blender import nodes
+from ...blender.owned import Stage
+from ...shot import burning
+from ...shot.noise import smoothstep
+from ...shot.shot import Shot
+from .. import haze
+from . import view
 
 EXTINCTION_PER_DILUTION = 0.04  # 1/m: 4 m2/g (fresh biomass smoke, Reid et al. 2005) times 10 mg/m3
 OPACITY = 5.0, 16.0  # times that, for ash near the ground and for cloud water aloft; chosen by eye
@@ -41,19 +43,16 @@ class Flow:
     ground: float
 
 
-def flow(project: Project, run: Run) -> Flow:
+def flow(shot: Shot) -> Flow:
     """Wind of the middle of the shot and the mean height of the ground that burns."""
-    first, last = clock.window(project, run)
-    cells = burning.cells(run, first - 3600.0, last)
-    east, north = burning.wind_at(run, np.array([0.5 * (first + last)]))[0]
+    cells = burning.cells(shot.run, shot.frames.first - 3600.0, shot.frames.last)
     height = float(np.mean(cells.position[:, 2])) if len(cells.arrival) else 1000.0
-    return Flow((float(east), float(north)), height)
+    return Flow(shot.wind, height)
 
 
-def build(project: Project, run: Run) -> bpy.types.Material:
+def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Smoke"."""
-    drawn = bake.resolution(project, run)
-    carried = flow(project, run)
+    drawn, carried = view.resolution(shot), flow(shot)
     material, tree = nodes.material("Firetwin Smoke")
     position = tree.output("ShaderNodeNewGeometry", name="Position")
     above = tree.separate(position)[2] - carried.ground
@@ -64,9 +63,9 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     reach = tree.math("MINIMUM", tree.attribute("size") * 0.8, _AMPLITUDE)  # small puffs must not be eaten up
     depth = tree.attribute("density")
     density = (depth + reach * (noise - _MEAN_BILLOW)).smoothstep(*_EDGE) * full
-    part, air = haze.fraction(tree)
+    part, air = haze.fraction(tree, stage)
     scattered = tree.mix_colour(part, albedo, (0.0, 0.0, 0.0))
-    glow = tree.attribute("glow") * (1.0 - part) * _glow_light(run, project)
+    glow = tree.attribute("glow") * (1.0 - part) * _glow_light(shot)
 
     def seen(density: nodes.Value) -> nodes.Value:
         light = tree.add_shader(tree.emission(air, part * density), tree.emission(_GLOW, glow * density))
@@ -84,9 +83,9 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     return material
 
 
-def _glow_light(run: Run, project: Project) -> float:
+def _glow_light(shot: Shot) -> float:
     """Light of the flames on smoke in the middle of the shot: by day the sky's drowns it."""
-    height = sun.mean_direction(project, run)[1]
+    height = shot.sun(shot.frames.middle)[1]
     return float(_GLOW_LIGHT[1] + (_GLOW_LIGHT[0] - _GLOW_LIGHT[1]) * smoothstep(-8.0, 8.0, height))
 
 

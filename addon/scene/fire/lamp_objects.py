@@ -1,0 +1,49 @@
+"""Lamps in the scene: point lights whose energies follow the heat that they stand for."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ...blender import compat, owned
+from ...shot.shot import Shot
+from . import lamps
+
+COLOUR = (1.0, 0.32, 0.07)  # light of flames of 1300 K as AgX shows it
+
+
+def build(shot: Shot, parent: bpy.types.Collection) -> list[bpy.types.Object]:
+    """Build "Firetwin Lamp 00" and so on in the collection "Firetwin Lamps"; none by day."""
+    collection = owned.child(parent, "Lamps")
+    first, last = shot.frames.first, shot.frames.last
+    if shot.settings.light.lamps == 0 or np.all(lamps.darkness(shot, np.linspace(first, last, 9)) == 0.0):
+        return []
+    found = lamps.place(shot)
+    strength = lamps.LIGHT * lamps.darkness(shot, found.time)
+    frames = 1.0 + (found.time - first) / (shot.frames.step or 1.0)
+    made = []
+    for i, (position, radius) in enumerate(zip(found.position, found.radius, strict=True)):
+        thing = _lamp(collection, f"Lamp {i:02d}", position, radius, frames, strength * found.heat[:, i])
+        thing.data.use_shadow = shot.settings.render.engine == "cycles"  # EEVEE would draw six maps for each
+        made.append(thing)
+    return made
+
+
+def _lamp(
+    collection: bpy.types.Collection,
+    name: str,
+    position: lamps.Array,
+    radius: float,
+    frames: lamps.Array,
+    energy: lamps.Array,
+) -> bpy.types.Object:
+    data = bpy.data.lights.new(f"{owned.ROOT} {name}", "POINT")
+    data.color, data.energy = COLOUR, float(energy[0])
+    data.shadow_soft_size = float(radius)
+    data.volume_factor = 0.0  # EEVEE
+    thing = owned.add(collection, name, data)
+    thing.location = position
+    thing.visible_camera = thing.visible_glossy = thing.visible_volume_scatter = False
+    if len(frames) > 1 and np.ptp(energy) > 0.0:
+        compat.animate(data, "energy", 0, frames, energy)
+    return thing
