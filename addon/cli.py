@@ -1,4 +1,4 @@
-"""The command line: ``firetwin sample | info | maps | build | bake | render | bench``.
+"""The command line: ``firetwin sample | info | maps | build | bake | render | schema | bench``.
 
 Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage,
 130: Ctrl-C. Nothing heavy is imported before it is needed, so that help and mistakes answer at once.
@@ -111,12 +111,13 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument(
         "--frames",
         metavar="LIST",
-        default="",
         help="of each camera's frames, such as 1-10, 3,5-9 or 1-48:4 (all)",
     )
     render.add_argument("--camera", metavar="NAME", help="this camera only (all)")
-    render.add_argument("--passes", metavar="LIST", help="some of rgb,depth,thermal (as the scene file says)")
+    render.add_argument("--passes", metavar="LIST", help="such as rgb,thermal (as the scene file says)")
     render.add_argument("--resume", action="store_true", help="keep what is finished and still matches")
+
+    command("schema", "print the JSON Schema of scene files, for TOML editors", SCHEMA)
 
     bench = command("bench", "measure run time against error, beside the alternatives", BENCH)
     bench.add_argument("--out", metavar="DIR", type=Path, help="folder for bench.json and the plots (none)")
@@ -175,6 +176,10 @@ DIR/manifest.json                              settings, versions, input hashes,
 
 Depth is that of the ground and the trees: flames and smoke do not hide them. The temperature is seen through
 smoke, as long-wave infrared nearly does. Without --resume everything asked for is rendered again."""
+
+SCHEMA = """\
+Save it and name it in the first line of a scene file (`#:schema firetwin.json`): editors that know TOML then
+complete keys, show what they mean and underline mistakes."""
 
 BENCH = """\
 Every tool is measured in this run, on this machine, best of several times; rivals that are not installed are

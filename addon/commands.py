@@ -8,12 +8,12 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .progress import Reporter, say
+from .progress import Reporter, count, say
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run
 
-    from .choice import Choice
+    from .shot.choice import Choice
 
 
 def sample(arguments: argparse.Namespace) -> None:
@@ -27,8 +27,8 @@ def sample(arguments: argparse.Namespace) -> None:
 
 def info(arguments: argparse.Namespace) -> None:
     """Show what is in a run."""
-    from . import info
-    from .project import Time
+    from .run import info
+    from .shot.settings import Time
 
     facts = info.gather(_open(arguments.run), Time().zone)
     if arguments.json:
@@ -42,8 +42,8 @@ def maps(arguments: argparse.Namespace) -> None:
     """Draw the maps of a run."""
     run = _open(arguments.run)
     say("drawing the fuel map and the fire intensity map")
-    from . import maps
-    from .project import Time
+    from .run import maps
+    from .shot.settings import Time
 
     for path in maps.draw(run, arguments.out, Time().zone):
         print(path)
@@ -51,33 +51,41 @@ def maps(arguments: argparse.Namespace) -> None:
 
 def build(arguments: argparse.Namespace) -> None:
     """Build the scene and save it."""
-    from . import jobs
     from .errors import UsageError
+    from .jobs import build
 
     if arguments.out.suffix != ".blend":
         raise UsageError(f"-o: {arguments.out} does not end in .blend")
-    jobs.build(_choice(arguments), arguments.out, Reporter())
+    build.run(_choice(arguments), arguments.out, Reporter(), say)
     print(arguments.out)
 
 
 def bake(arguments: argparse.Namespace) -> None:
     """Write the smoke volumes."""
-    from . import jobs
+    from .jobs import bake
 
-    place = jobs.bake(_choice(arguments), Reporter("smoke"))
-    if place is None:
+    places = bake.run(_choice(arguments), Reporter("smoke"), say)
+    if not places:
         say("this scene has no smoke ([smoke] enabled = false), so there is nothing to bake")
-    else:
+    for place in places:
         print(place)
 
 
 def render(arguments: argparse.Namespace) -> None:
     """Render what is asked for and not finished, then the films."""
-    from . import jobs
+    from .jobs import render
 
-    asked = jobs.Asked(arguments.out, arguments.frames, arguments.camera, arguments.passes, arguments.resume)
-    jobs.render(_choice(arguments), asked, Reporter(), tell=say)
+    asked = render.Asked(arguments.out, arguments.frames, arguments.camera, arguments.passes, arguments.resume)
+    render.run(_choice(arguments), asked, Reporter(), say)
     _list(arguments.out)
+
+
+def schema(arguments: argparse.Namespace) -> None:
+    """Print the JSON Schema of scene files."""
+    from .shot.json_schema import json_schema
+    from .shot.settings import Settings
+
+    print(json.dumps(json_schema(Settings), indent=1, ensure_ascii=False))
 
 
 def bench(arguments: argparse.Namespace) -> int:
@@ -104,10 +112,9 @@ def bench(arguments: argparse.Namespace) -> int:
 
 def _list(out: Path) -> None:
     """Name what there is, a line per folder of pictures and per film."""
-    from .render import manifest
-    from .wording import count
+    from .render import store
 
-    files = manifest.load(out)["files"]
+    files = store.load(out)["files"]
     folders: dict[str, int] = {}
     for name in files:
         if not name.endswith(".mp4"):
@@ -118,16 +125,16 @@ def _list(out: Path) -> None:
     for name in files:
         if name.endswith(".mp4"):
             print(out / name)
-    print(out / manifest.NAME)
+    print(out / store.NAME)
 
 
 def _open(folder: Path) -> Run:
-    from firetwin_core import run
+    from .run import readers
 
-    return run.open(folder)
+    return readers.open(folder)
 
 
 def _choice(arguments: argparse.Namespace) -> Choice:
-    from .choice import Choice
+    from .shot.choice import Choice
 
     return Choice(scene=str(arguments.scene))

@@ -9,6 +9,9 @@ from collections.abc import Callable
 Progress = Callable[..., None]
 """Called as ``progress(done, total)`` or ``progress(done, total, "what is done")`` while work goes on."""
 
+Tell = Callable[[str], None]
+"""Called with a sentence that a person should read."""
+
 
 def say(text: str) -> None:
     """Tell the person at the keyboard; stdout is kept for results."""
@@ -82,6 +85,15 @@ class _Lines:
         elif done > self.first:
             line += f", {duration((now - self.started) / (done - self.first) * (total - done))} left"
         say(line)
+
+
+def untold(text: str) -> None:
+    """Tell nobody."""
+
+
+def count(number: int, noun: str) -> str:
+    """``1 picture``, ``1,200 pictures``."""
+    return f"{number:,} {noun}" + ("" if number == 1 else "s")
 
 
 def duration(seconds: float) -> str:

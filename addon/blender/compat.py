@@ -124,34 +124,43 @@ def set_sky(node: bpy.types.ShaderNodeTexSky, elevation: float, rotation: float,
     setattr(node, "dust_density" if hasattr(node, "dust_density") else "aerosol_density", dust)
 
 
-def compositor_tree(scene: bpy.types.Scene) -> bpy.types.NodeTree:
-    """The scene's compositor tree; from 5.0 it is a node group, before that the scene's own."""
-    if not hasattr(scene, "compositing_node_group"):
+def compositor(scene: bpy.types.Scene) -> bpy.types.NodeTree | None:
+    """The scene's compositor tree: from 5.0 it is a node group, before that the scene's own."""
+    if hasattr(scene, "compositing_node_group"):
+        return scene.compositing_node_group
+    return scene.node_tree
+
+
+def new_compositor(scene: bpy.types.Scene) -> bpy.types.NodeTree:
+    """An empty compositor tree of ours for a scene that has none."""
+    if hasattr(scene, "compositing_node_group"):
+        tree = bpy.data.node_groups.new("Firetwin Compositor", "CompositorNodeTree")
+        scene.compositing_node_group = tree
+    else:
         scene.use_nodes = True
-        return scene.node_tree
-    if scene.compositing_node_group is None:
-        group = bpy.data.node_groups.new("Firetwin Compositor", "CompositorNodeTree")
-        scene.compositing_node_group = group
-    return scene.compositing_node_group
+        tree = scene.node_tree
+        tree.nodes.clear()
+    return owned.mark(tree)
 
 
-def empty_compositor(scene: bpy.types.Scene) -> bpy.types.NodeTree:
-    """The scene's compositor tree without any nodes."""
-    tree = compositor_tree(scene)
-    tree.nodes.clear()
-    if tree.interface.items_tree:
-        tree.interface.clear()
-    return tree
+def no_compositor(scene: bpy.types.Scene) -> None:
+    """Leave a scene without a compositor."""
+    if hasattr(scene, "compositing_node_group"):
+        scene.compositing_node_group = None
+    else:
+        scene.use_nodes = False
+        owned.unmark(scene.node_tree)
 
 
-def composite(tree: bpy.types.NodeTree, image: bpy.types.NodeSocket) -> None:
-    """Make `image` the picture that the compositor shows and saves."""
+def composite(tree: bpy.types.NodeTree, image: bpy.types.NodeSocket) -> bpy.types.Node:
+    """Make `image` the picture that a new compositor shows and saves; returns the node that does it."""
     if hasattr(bpy.types, "CompositorNodeComposite"):
         output = tree.nodes.new("CompositorNodeComposite")
     else:
         tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
         output = tree.nodes.new("NodeGroupOutput")
     tree.links.new(image, output.inputs[0])
+    return output
 
 
 def bloom(tree: bpy.types.NodeTree, image: bpy.types.NodeSocket, **settings: float) -> bpy.types.NodeSocket:

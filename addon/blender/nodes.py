@@ -1,6 +1,6 @@
 """The one way node trees are made: formulas on sockets, looked up by name.
 
-ground, tree = nodes.material("Firetwin Ground")
+ground, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
 age = nodes.model_time(tree) - tree.attribute("arrival_time")
 embers = (age / -3600.0).exp()
 tree.surface(nodes.thermal_switch(tree, tree.emission(colour, embers), kelvin))
@@ -198,9 +198,17 @@ class Tree:
         self.node("ShaderNodeOutputMaterial", {"Volume": shader})
 
 
-def material(name: str) -> tuple[bpy.types.Material, Tree]:
-    """A new material of ours called `name`, and its empty tree."""
+def material(name: str, colour: tuple[float, float, float] | None = None) -> tuple[bpy.types.Material, Tree]:
+    """A new material of ours called `name`, and its empty tree.
+
+    Parameters
+    ----------
+    colour
+        Red, green and blue in Blender's solid view, where no shader is evaluated; renders ignore it.
+    """
     new = owned.mark(bpy.data.materials.new(name))
+    if colour is not None:
+        new.diffuse_color, new.roughness = (*colour, 1.0), 1.0
     return new, Tree(compat.node_tree(new))
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import bpy
 
-MARK = "firetwin"
+MARK = "firetwin_part"  # not "firetwin": the panel keeps its choices there
 ROOT = "Firetwin"
 
 
@@ -21,6 +21,12 @@ def mark(block: Any, what: str = "") -> Any:
     """Make a data-block, view layer or node ours; `what` tells ours from one another."""
     block[MARK] = what or True
     return block
+
+
+def unmark(block: Any) -> None:
+    """Make it the artist's."""
+    if MARK in block:
+        del block[MARK]
 
 
 def ours(block: Any, what: str = "") -> bool:
@@ -64,7 +70,10 @@ def stage(scene: bpy.types.Scene) -> Stage:
 
 def adopt(scene: bpy.types.Scene) -> Stage:
     """Our part of a scene that is ours as a whole from now on: a new one, or one that held nothing."""
-    mark(scene)
+    if not ours(scene):
+        mark(scene)
+        if len(scene.view_layers) == 1:  # the one that every new scene has
+            mark(scene.view_layers[0], "spare")
     return stage(scene)
 
 
@@ -74,6 +83,7 @@ def remove(scene: bpy.types.Scene) -> None:
     if root is not None:
         _clear(root)
         _drop(root)
+    unmark(scene)
     purge()
 
 

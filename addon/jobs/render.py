@@ -1,75 +1,48 @@
-"""The long jobs, for the command line and for Blender's window alike: each has a process of its own."""
+"""Render what is asked for and not finished, then the films."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import itertools
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ..progress import Progress, Tell, count, silent, untold
+from ..shot.choice import Choice
+from ..shot.shot import Shot
 from . import worker
-from .choice import Choice
-from .progress import Progress, silent
-from .wording import count
-
-if TYPE_CHECKING:
-    from firetwin_core.run import Run
-
-    from .project import Project
 
 
 @dataclass(frozen=True)
 class Asked:
-    """What a render shall make (see `render.plan.shots`); `resume` keeps what is finished and matches."""
+    """What a render shall make (see `render.plan.pictures`); `resume` keeps what is finished and matches."""
 
     out: Path
-    frames: str = ""
+    frames: str | None = None
     camera: str | None = None
     passes: str | None = None
     resume: bool = False
 
 
-def build(choice: Choice, out: Path, progress: Progress = silent, stop: worker.Stop | None = None) -> None:
-    """Build the scene and save it as `out`, a .blend file."""
-    choice.load()
-    out = out.absolute()
-    out.parent.mkdir(parents=True, exist_ok=True)
-    task = {"choice": choice.plain(), "out": str(out)}
-    worker.run(f"{__name__}:build_in_blender", task, progress, stop=stop)
-
-
-def bake(choice: Choice, progress: Progress = silent, stop: worker.Stop | None = None) -> Path | None:
-    """Write the smoke volumes of the whole shot that are not there; their folder, None without smoke."""
-    project, _ = choice.load()
-    if not project.smoke.enabled:
-        return None
-    return Path(worker.run(f"{__name__}:bake_in_blender", {"choice": choice.plain()}, progress, stop=stop))
-
-
-def render(
+def run(
     choice: Choice,
     asked: Asked,
     progress: Progress = silent,
-    tell: Callable[[str], None] = lambda text: None,
+    tell: Tell = untold,
     stop: worker.Stop | None = None,
 ) -> int:
     """Render what is asked for and not finished, then the films.
-
-    Parameters
-    ----------
-    tell
-        Called with a sentence about what is going to be done.
 
     Returns
     -------
     How many pictures were made.
     """
-    from .render import films, part, plan, settings
+    from ..render import films, fingerprint, part, plan
 
-    project, run = choice.load()
+    shot = choice.shot()
     out = asked.out
-    wanted = plan.shots(project, asked.frames, asked.camera, asked.passes)
-    made_with = settings.by_shot(project, wanted)
+    wanted = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
+    made_with = fingerprint.of_pictures(shot.settings, wanted)
     undone = plan.missing(out, wanted, made_with)
     finished = len(wanted) - len(undone)
     if not asked.resume:
@@ -80,76 +53,77 @@ def render(
         tell(f"{finished} of {count(len(wanted), 'picture')} are finished and match")
     out.mkdir(parents=True, exist_ok=True)
     if undone:
-        cameras = " and ".join(dict.fromkeys(shot.camera for shot in undone))
+        cameras = " and ".join(dict.fromkeys(picture.camera for picture in undone))
         tell(f"rendering {count(len(undone), 'picture')} of {cameras}")
-    elif not films.missing(project, run, out, made_with):
+    elif not films.missing(shot, out, made_with):
         tell("nothing to render")
         return 0
     task = {
         "choice": choice.plain(),
         "out": str(out.absolute()),
-        "shots": [[shot.camera, shot.frame, shot.name] for shot in undone],
+        "pictures": [[picture.camera, picture.frame, picture.name] for picture in undone],
         "filmed": [list(pair) for pair in made_with],
     }
     try:
-        eevee = project.render.engine == "eevee"
-        worker.run(f"{__name__}:render_in_blender", task, progress, eevee=eevee, stop=stop)
+        eevee = shot.settings.render.engine == "eevee"
+        worker.run(f"{__name__}:in_blender", task, progress, eevee=eevee, stop=stop, tell=tell)
     finally:
         part.sweep(out)
     return len(undone)
 
 
-# What follows runs in the worker process, where Blender is.
-
-
-def build_in_blender(choice: dict[str, str], out: str, progress: Progress) -> None:
-    """Build the scene and save it under a temporary name that it then loses."""
-    import bpy
-
-    project, run = Choice(**choice).load()
-    _built(project, run, progress)
-    part = Path(out).with_suffix(".part.blend")
-    bpy.context.preferences.filepaths.save_version = 0
-    bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True, relative_remap=False)
-    part.replace(out)
-
-
-def bake_in_blender(choice: dict[str, str], progress: Progress) -> str:
-    """Bake and return the folder of the volumes."""
-    from .scene import bake
-
-    return str(bake.bake(*Choice(**choice).load(), progress))
-
-
-def render_in_blender(
-    choice: dict[str, str], out: str, shots: list[list[Any]], filmed: list[list[str]], progress: Progress
+def in_blender(
+    choice: dict[str, str],
+    out: str,
+    pictures: list[list[Any]],
+    filmed: list[list[str]],
+    progress: Progress,
+    tell: Tell,
 ) -> None:
-    """Render these shots, then make the films of these cameras and passes."""
-    from .render import frames, passes, settings, video
+    """Render these pictures, each camera in a scene of its own, then make the films of these cameras and passes."""
+    from ..render import fingerprint, video
+    from ..render.picture import Picture
 
-    project, run = Choice(**choice).load()
-    todo = [passes.Shot(*shot) for shot in shots]
-    made_with = settings.of_pairs(project, [(camera, name) for camera, name in filmed])
-    if todo:
-        smoky = sorted({shot.frame for shot in todo if shot.name != "depth"})
-        scene = _built(project, run, progress, smoky)
-        frames.render(project, run, scene, Path(out), todo, made_with, progress)
-    video.make(project, run, Path(out), made_with, progress)
+    shot = Choice(**choice).shot()
+    todo = [Picture(*picture) for picture in pictures]
+    made_with = fingerprint.of_pairs(shot.settings, [(camera, name) for camera, name in filmed])
+    frames = len({(picture.camera, picture.frame) for picture in todo})
+    done = 0
+    for camera, group in itertools.groupby(todo, key=lambda picture: picture.camera):
+        wanted = list(group)
+
+        def counted(here: int, of: int, what: str = "", before: int = done) -> None:
+            progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
+
+        _camera(shot.of(camera), Path(out), wanted, made_with, counted, tell)
+        done += len({picture.frame for picture in wanted})
+    video.make(shot, Path(out), made_with, progress)
 
 
-def _built(project: Project, run: Run, progress: Progress, frames: list[int] | None = None) -> Any:
-    """An otherwise empty Blender with the scene in it, and the smoke of these frames (all) on disk."""
-    import bpy
+def _camera(
+    shot: Shot, out: Path, wanted: list[Any], made_with: Any, progress: Progress, tell: Tell
+) -> None:
+    """Render the pictures of a shot's one camera; its smoke is baked a frame ahead of them."""
+    from ..blender import devices
+    from ..render import pictures
+    from ..scene.smoke import bake
+    from . import setting
 
-    from .render import engine
-    from .scene import bake, build
+    for text in shot.warnings():
+        tell(text)
+    stage = setting.build_scene(shot, progress, tell)
+    if shot.settings.render.engine == "cycles":
+        tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
+    with bake.ahead(shot, _smoky(shot, wanted), progress, tell) as ready:
+        pictures.render(shot, stage, out, wanted, made_with, progress, ready)
 
-    # Not read_factory_settings: its preferences enable no extension, and Blender then deletes their wheels.
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    if project.smoke.enabled and frames != []:
-        bake.bake(project, run, progress, frames)
-    progress(0, 1, "building the scene")
-    scene = build.build(project, run)
-    engine.apply(project, scene)
-    progress(1, 1, "building the scene")
-    return scene
+
+def _smoky(shot: Shot, wanted: list[Any]) -> list[int]:
+    """Frames of pictures that show smoke, ascending."""
+    from ..shot import passes
+
+    if not shot.settings.smoke.enabled:
+        return []
+    known = passes.known()
+    names = {name for name, each in known.items() if "smoke" in each.aspects}
+    return sorted({picture.frame for picture in wanted if picture.name in names})

@@ -19,7 +19,7 @@ import threading
 from pathlib import Path
 from typing import Any
 
-from .progress import Progress, silent
+from ..progress import Progress, Tell, silent, untold
 
 
 class StoppedError(Exception):
@@ -58,8 +58,9 @@ def run(
     progress: Progress = silent,
     eevee: bool = False,
     stop: Stop | None = None,
+    tell: Tell = untold,
 ) -> Any:
-    """Call ``package.module:function`` in a child process, as ``function(progress=..., **arguments)``.
+    """Call ``package.module:function`` in a child process, as ``function(progress=..., tell=..., **arguments)``.
 
     Parameters
     ----------
@@ -97,7 +98,7 @@ def run(
         _end_on_sigterm()
         if stop is not None:
             stop.watch(child)
-        answer = _converse(child, {"task": task, "arguments": arguments}, progress)
+        answer = _converse(child, {"task": task, "arguments": arguments}, progress, tell)
     finally:
         _end(child)
     if "result" in answer:
@@ -106,7 +107,7 @@ def run(
     if stop is not None and stop.asked:
         os.unlink(log.name)
         raise StoppedError
-    from .errors import Error, input_error
+    from ..errors import Error, input_error
 
     if "input_error" in answer:
         os.unlink(log.name)
@@ -122,8 +123,10 @@ def _end_on_sigterm() -> None:
         signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
 
 
-def _converse(child: subprocess.Popen[str], request: dict[str, Any], progress: Progress) -> dict[str, Any]:
-    """Send the request, pass progress on, and return the last answer (empty when none came)."""
+def _converse(
+    child: subprocess.Popen[str], request: dict[str, Any], progress: Progress, tell: Tell
+) -> dict[str, Any]:
+    """Send the request, pass on progress and what is told, and return the last answer (empty: none came)."""
     try:
         child.stdin.write(json.dumps(request) + "\n")
         child.stdin.flush()
@@ -133,10 +136,13 @@ def _converse(child: subprocess.Popen[str], request: dict[str, Any], progress: P
         if not line.startswith("{"):
             continue  # Blender's own executable greets before it runs anything
         answer = json.loads(line)
-        if "progress" not in answer:
+        if "progress" in answer:
+            progress(*answer["progress"])
+        elif "tell" in answer:
+            tell(answer["tell"])
+        else:
             child.wait()
             return answer
-        progress(*answer["progress"])
     child.wait()
     return {}
 
@@ -201,12 +207,16 @@ def serve() -> None:
 
     import bpy  # noqa: F401 (before the core: the first of two libtbb.so.12 wins, and it must be Blender's)
 
-    from .errors import Error, InputError
+    from ..errors import Error, InputError
 
     module, _, function = request["task"].partition(":")
     try:
         call = getattr(importlib.import_module(module), function)
-        result = call(progress=lambda *where: answer(progress=where), **request["arguments"])
+        result = call(
+            progress=lambda *where: answer(progress=where),
+            tell=lambda text: answer(tell=text),
+            **request["arguments"],
+        )
     except InputError as error:
         answer(input_error=[error.path, error.line, error.column, error.reason])
     except Exception as error:

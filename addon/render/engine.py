@@ -12,8 +12,8 @@ from contextlib import contextmanager
 import bpy
 from firetwin_core.run import Run
 
-from .. import compat
-from ..project import Project
+from ..blender import compat
+from ..shot.settings import Settings
 
 _TRANSPARENT = 256
 """Clear surfaces that a ray may pass. In 4.5 the faces of the hull that Cycles puts round smoke, of boxes 8
@@ -24,10 +24,10 @@ _COLUMNS = 130_000  # of EEVEE's boxes of smoke, each 128 deep: 17 million boxes
 DEPTH_FILTER = 0.01  # pixels, the narrowest filter Cycles has: one ray through the middle of the pixel
 
 
-def apply(project: Project, scene: bpy.types.Scene) -> None:
+def apply(settings: Settings, scene: bpy.types.Scene) -> None:
     """Set the size of the picture, the engine and its samples."""
     render = scene.render
-    render.resolution_x, render.resolution_y = project.render.resolution
+    render.resolution_x, render.resolution_y = settings.render.resolution
     render.resolution_percentage = 100
     render.pixel_aspect_x = render.pixel_aspect_y = 1.0
     render.use_border = render.film_transparent = render.use_motion_blur = False
@@ -36,24 +36,23 @@ def apply(project: Project, scene: bpy.types.Scene) -> None:
     render.image_settings.color_mode, render.image_settings.color_depth = "RGB", "8"
     render.image_settings.compression = 15
     render.dither_intensity = 0.0
-    if project.render.engine == "eevee":
-        _eevee(project, scene)
+    if settings.render.engine == "eevee":
+        _eevee(settings, scene)
     else:
-        _cycles(project, scene)
+        _cycles(settings, scene)
 
 
-def _cycles(project: Project, scene: bpy.types.Scene) -> None:
+def _cycles(settings: Settings, scene: bpy.types.Scene) -> None:
     scene.render.engine = "CYCLES"
     cycles = scene.cycles
-    cycles.device = "CPU"
-    cycles.samples = project.render.samples
+    cycles.samples = settings.render.samples
     cycles.use_adaptive_sampling = False
     cycles.sampling_pattern = "BLUE_NOISE"  # named, for what Blender starts with differs between versions
-    cycles.seed, cycles.use_animated_seed = project.render.seed, False
-    compat.set_denoising(cycles, project.render.denoise)
+    cycles.seed, cycles.use_animated_seed = settings.render.seed, False
+    compat.set_denoising(cycles, settings.render.denoise)
     cycles.max_bounces, cycles.diffuse_bounces = 4, 1
     cycles.glossy_bounces = cycles.transmission_bounces = 0
-    cycles.volume_bounces = volume_bounces(project.render.samples)
+    cycles.volume_bounces = volume_bounces(settings.render.samples)
     compat.march_through_volumes(cycles)
     cycles.transparent_max_bounces = _TRANSPARENT
     cycles.sample_clamp_direct, cycles.sample_clamp_indirect = 0.0, 4.0
@@ -71,18 +70,21 @@ def volume_bounces(samples: int) -> int:
     return 2 if samples >= 12 else 1 if samples >= 4 else 0
 
 
-def _eevee(project: Project, scene: bpy.types.Scene) -> None:
+def _eevee(settings: Settings, scene: bpy.types.Scene) -> None:
     scene.render.engine = compat.eevee_id()
     eevee = scene.eevee
-    eevee.taa_render_samples = project.render.samples
-    width, height = project.render.resolution
+    eevee.taa_render_samples = settings.render.samples
+    width, height = settings.render.resolution
     tile = next((size for size in (2, 4, 8) if width * height <= _COLUMNS * size**2), 16)
     eevee.volumetric_tile_size, eevee.volumetric_samples = str(tile), 128
 
 
 @contextmanager
-def pixel_centres(scene: bpy.types.Scene) -> Iterator[None]:
-    """Within, Cycles sends its rays through the middles of pixels, as a depth image needs it."""
+def pixel_centres(scene: bpy.types.Scene, wanted: bool = True) -> Iterator[None]:
+    """Within, if wanted, Cycles sends its rays through the middles of pixels, as data of surfaces need it."""
+    if not wanted:
+        yield
+        return
     before = scene.cycles.pixel_filter_type, scene.cycles.filter_width, scene.render.filter_size
     scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", DEPTH_FILTER
     scene.render.filter_size = 0.0

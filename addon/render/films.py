@@ -5,53 +5,51 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from firetwin_core.run import Run
-
-from .. import times
-from ..project import Project
-from . import manifest, passes, plan
-from .manifest import fingerprint
-from .passes import Shot
+from ..shot import passes
+from ..shot.shot import Shot
+from . import store
+from .fingerprint import Fingerprints
+from .picture import Picture, film
+from .store import fingerprint
 
 Film = tuple[str, str, dict[str, Any]]
 """Camera, pass, and what the film is made from."""
 
 
-def missing(project: Project, run: Run, out: Path, settings: plan.Settings) -> list[Film]:
+def missing(shot: Shot, out: Path, made_with: Fingerprints) -> list[Film]:
     """Films of at least two pictures that are not there, are damaged, or are not of the pictures there are.
 
-    Only pictures made with these `settings`, by camera and pass, belong in a film.
+    Only pictures made with these settings, by camera and pass, belong in a film, and only those that are still
+    there.
     """
-    if not project.render.video:
+    if not shot.settings.render.video:
         return []
-    finished = manifest.load(out)
+    finished = store.load(out)
     found = []
-    for camera in project.cameras:
-        for name in passes.FILMED:
-            if (camera.name, name) not in settings:
+    for camera in shot.settings.cameras:
+        for name in [each.name for each in passes.known().values() if each.filmed]:
+            if (camera.name, name) not in made_with:
                 continue
-            key = fingerprint(settings[camera.name, name])
+            key = fingerprint(made_with[camera.name, name])
             pictures = [
-                [frame, entry["sha256"]]
-                for frame in plan.camera_frames(project, camera)
-                if (entry := finished["files"].get(Shot(camera.name, frame, name).file("png")))
-                and entry["settings"] == key
+                [frame, finished["files"][path]["sha256"]]
+                for frame in shot.frames_of(camera)
+                if store.intact(out, finished, key, [path := Picture(camera.name, frame, name).file("png")])
             ]
-            film = _settings(project, run, camera.name, name, pictures)
-            path = passes.film(camera.name, name)
-            if len(pictures) > 1 and not manifest.intact(out, finished, fingerprint(film), [path]):
-                found.append((camera.name, name, film))
+            made_from = _made_from(shot, camera.name, name, pictures)
+            path = film(camera.name, name)
+            if len(pictures) > 1 and not store.intact(out, finished, fingerprint(made_from), [path]):
+                found.append((camera.name, name, made_from))
     return found
 
 
-def _settings(
-    project: Project, run: Run, camera: str, name: str, pictures: list[list[Any]]
-) -> dict[str, Any]:
+def _made_from(shot: Shot, camera: str, name: str, pictures: list[list[Any]]) -> dict[str, Any]:
     """What decides a film: its pictures (frame, hash), its rate and its captions."""
+    time, frames = shot.settings.time, shot.frames
     return {
         "film": name,
         "camera": camera,
         "frames": pictures,
-        "fps": project.time.fps,
-        "captions": [*times.window(project, run), project.time.frames, project.time.zone, run.synthetic],
+        "fps": time.fps,
+        "captions": [frames.first, frames.last, frames.count, time.zone, shot.run.synthetic],
     }

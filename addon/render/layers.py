@@ -1,94 +1,129 @@
-"""What the cameras record: one view layer per kind of sensor, and the compositor behind them.
-
-- ``rgb``: the visible picture, with the bloom of a lens.
-- ``thermal``: temperatures (K) as pixel values. Materials and the world switch on the layer's property
-  ``firetwin_thermal``; smoke is left out, as long-wave infrared (8 to 14 um) sees through most of it.
-- ``depth``: distance along the camera's axis (m) to ground and trees; flames and smoke are left out, as they
-  have no surface. One ray through the middle of each pixel. The sky is 1e10 m, as everywhere in Blender.
+"""What the cameras record: a view layer for each pass, and the compositor behind them.
 
 Data layers are never denoised: a denoiser makes 299.86 K of 300 K. The File Output nodes stay muted until a
-render asks for them, so that rendering in Blender's window writes no stray files.
+render asks for them, so that rendering in Blender's window writes no stray files. View layers and nodes that
+are not ours stay as they are, and so do ours once they are made: what an artist put between them is kept.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 import bpy
-from firetwin_core.run import Run
 
-from .. import compat, nodes
-from ..project import Project
-from . import collections
-
-RGB, THERMAL, DEPTH = "rgb", "thermal", "depth"
-LAYERS = (RGB, THERMAL, DEPTH)
-
-THERMAL_SAMPLES = 4  # a pixel's temperature is the mean over it, as in a detector
-_LEFT_OUT = {RGB: (), THERMAL: ("Smoke", "Lamps"), DEPTH: ("Smoke", "Fire")}
+from ..blender import compat, nodes, owned
+from ..blender.owned import Stage
+from ..shot import passes
+from ..shot.passes import Pass
+from ..shot.settings import Settings
+from .picture import Picture
 
 
-def build(project: Project, run: Run, scene: bpy.types.Scene | None = None) -> list[bpy.types.ViewLayer]:
-    """Make the view layers and the compositor, last of all: layers leave out collections that exist."""
-    scene = scene or bpy.context.scene
-    layers = [_layer(scene, name) for name in LAYERS]
-    for other in [layer for layer in scene.view_layers if layer.name not in LAYERS]:
-        scene.view_layers.remove(other)
-    for layer in layers:
-        _leave_out(layer, _LEFT_OUT[layer.name])
-        layer[nodes.THERMAL] = 0.0 if layer.name == RGB else 1.0  # depth needs no light: the cheaper shader
-        layer.cycles.use_denoising = layer.name == RGB and project.render.denoise
-        layer.use_pass_z = layer.name == DEPTH
-        layer.use = layer.name == RGB or layer.name in project.render.passes
-    scene.view_layers[THERMAL].samples = THERMAL_SAMPLES
-    scene.view_layers[DEPTH].samples = 1
-    _compositor(scene)
-    return layers
+def build(settings: Settings, stage: Stage) -> None:
+    """Make view layers and compositor of a scene of our own, last of all: layers leave out what exists."""
+    if not stage.own:
+        return
+    for each in passes.known().values():
+        layer = _layer(stage.scene, each)
+        layer[nodes.THERMAL] = 1.0 if each.data else 0.0
+        layer.cycles.use_denoising = not each.data and settings.render.denoise
+        if each.enable:
+            setattr(layer, each.enable, True)
+        layer.use = still(each) or each.name in settings.render.passes
+        layer.samples = each.samples or 0
+        _leave_out(layer, each)
+    _compositor(stage.scene)
 
 
-def select(scene: bpy.types.Scene, layers: Sequence[str]) -> None:
-    """Render these view layers and no others."""
+def remove(scene: bpy.types.Scene) -> None:
+    """Take away our view layers, as long as one is left, and what we made in the compositor."""
+    for layer in [layer for layer in scene.view_layers if owned.ours(layer)]:
+        if len(scene.view_layers) > 1:
+            scene.view_layers.remove(layer)
+        else:
+            owned.unmark(layer)
+    tree = compat.compositor(scene)
+    if tree is not None and owned.ours(tree):
+        for node in [node for node in tree.nodes if owned.ours(node)]:
+            tree.nodes.remove(node)
+        if not tree.nodes:
+            compat.no_compositor(scene)
+
+
+def select(scene: bpy.types.Scene, names: Iterable[str]) -> None:
+    """Render the view layers of these passes and no others."""
+    chosen = {f"pass {name}" for name in names}
     for layer in scene.view_layers:
-        layer.use = layer.name in layers
+        layer.use = layer.get(owned.MARK) in chosen
 
 
-def write_exr(scene: bpy.types.Scene, folder: str, stems: dict[str, str]) -> None:
-    """Let the coming render write ``<folder>/<stem><frame>.exr`` for each layer named in `stems`."""
-    tree = compat.compositor_tree(scene)
-    for layer in LAYERS:
-        node = tree.nodes[f"Firetwin {layer} EXR"]
-        node.mute = layer not in stems
-        if layer in stems:
-            compat.exr_output_path(node, folder, stems[layer])
+def write_exr(scene: bpy.types.Scene, folder: str, pictures: Iterable[Picture]) -> None:
+    """Let the coming render write the EXR of each of these pictures, and of no others, into a folder."""
+    stems = {f"exr {picture.name}": picture.stem() for picture in pictures}
+    for node in compat.compositor(scene).nodes:
+        what = node.get(owned.MARK)
+        if isinstance(what, str) and what.startswith("exr "):
+            node.mute = what not in stems
+            if what in stems:
+                compat.exr_output_path(node, folder, stems[what])
 
 
-def _layer(scene: bpy.types.Scene, name: str) -> bpy.types.ViewLayer:
-    return scene.view_layers.get(name) or scene.view_layers.new(name)
+def still(each: Pass) -> bool:
+    """Whether the render itself writes this pass's PNG: the picture that the compositor shows."""
+    return "png" in each.files and each.finish is None
 
 
-def _leave_out(layer: bpy.types.ViewLayer, parts: tuple[str, ...]) -> None:
-    names = {f"{collections.ROOT} {part}" for part in parts}
+def _layer(scene: bpy.types.Scene, each: Pass) -> bpy.types.ViewLayer:
+    """The view layer of a pass: there already, else the one that a new scene begins with, else a new one."""
+    what = f"pass {each.name}"
+    for layer in scene.view_layers:
+        if owned.ours(layer, what):
+            return layer
+    spare = next((layer for layer in scene.view_layers if owned.ours(layer, "spare")), None)
+    layer = spare or scene.view_layers.new(each.name)
+    layer.name = each.name
+    return owned.mark(layer, what)
+
+
+def _leave_out(layer: bpy.types.ViewLayer, each: Pass) -> None:
     pending = list(layer.layer_collection.children)
     while pending:
         child = pending.pop()
-        child.exclude = child.name in names
+        if owned.ours(child.collection):
+            child.exclude = str(child.collection[owned.MARK]).lower() in each.leaves_out
         if not child.exclude:
             pending += child.children
 
 
 def _compositor(scene: bpy.types.Scene) -> None:
-    tree = compat.empty_compositor(scene)
-    images = {}
-    for layer in LAYERS:
-        node = tree.nodes.new("CompositorNodeRLayers")
-        node.scene, node.layer = scene, layer
-        images[layer] = node.outputs["Depth" if layer == DEPTH else "Image"]
-    images[RGB] = compat.bloom(tree, images[RGB], Threshold=2.0, Maximum=20.0, Strength=0.25)
-    kelvin = tree.nodes.new("CompositorNodeSeparateColor")  # all channels hold the same number
-    tree.links.new(images[THERMAL], kelvin.inputs[0])
-    images[THERMAL] = kelvin.outputs[0]
-    compat.composite(tree, images[RGB])
-    for layer in LAYERS:
-        bits = 16 if layer == RGB else 32
-        node = compat.exr_output(tree, f"Firetwin {layer} EXR", images[layer], layer != RGB, bits)
-        node.mute = True
+    """Add to our compositor what it lacks; a compositor that is not ours is left alone."""
+    tree = compat.compositor(scene)
+    if tree is None:
+        tree = compat.new_compositor(scene)
+    if not owned.ours(tree):
+        return
+    there = {node[owned.MARK] for node in tree.nodes if owned.ours(node)}
+    for each in passes.known().values():
+        if f"exr {each.name}" not in there:
+            before = set(tree.nodes)
+            _record(scene, tree, each)
+            for node in set(tree.nodes) - before:
+                owned.mark(node, node.get(owned.MARK, ""))
+
+
+def _record(scene: bpy.types.Scene, tree: bpy.types.NodeTree, each: Pass) -> None:
+    """From a pass's view layer to its EXR, and to the picture that is shown."""
+    source = tree.nodes.new("CompositorNodeRLayers")
+    source.scene = scene
+    source.layer = next(layer.name for layer in scene.view_layers if owned.ours(layer, f"pass {each.name}"))
+    image = source.outputs[each.output]
+    if still(each):
+        image = compat.bloom(tree, image, Threshold=2.0, Maximum=20.0, Strength=0.25)
+        compat.composite(tree, image)
+    if each.channels == "grey" and each.output == "Image":
+        parts = tree.nodes.new("CompositorNodeSeparateColor")  # all channels hold the same number
+        tree.links.new(image, parts.inputs[0])
+        image = parts.outputs[0]
+    node = compat.exr_output(tree, f"Firetwin {each.name} EXR", image, each.channels == "grey", each.bits)
+    node.mute = True
+    owned.mark(node, f"exr {each.name}")

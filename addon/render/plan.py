@@ -1,30 +1,28 @@
-"""Which shots are asked for, and which of them are finished already. Needs no Blender."""
+"""Which pictures are asked for, and which of them are finished already. Needs no Blender."""
 
 from __future__ import annotations
 
-import difflib
 from pathlib import Path
-from typing import Any
 
-from .. import frame_list
 from ..errors import UsageError
-from ..project import Camera, Project
-from . import manifest, passes
-from .manifest import fingerprint
-from .passes import Shot
+from ..shot import frame_list, passes
+from ..shot.nearest import suggestion
+from ..shot.shot import Shot
+from . import store
+from .fingerprint import Fingerprints
+from .picture import Picture
+from .store import fingerprint
 
-Settings = dict[tuple[str, str], dict[str, Any]]
 
-
-def shots(
-    project: Project, frames: str = "", camera: str | None = None, names: str | None = None
-) -> list[Shot]:
-    """Shots of the scene file, or those of them that the command line picks, camera by camera.
+def pictures(
+    shot: Shot, frames: str | None = None, camera: str | None = None, names: str | None = None
+) -> list[Picture]:
+    """Pictures of the scene file, or those of them that the command line picks, camera by camera.
 
     Parameters
     ----------
     frames
-        Such as "1-10"; of each camera's own frames, these. Empty: all.
+        Such as "1-10"; of each camera's own frames, these. None: all.
     camera
         Only this one.
     names
@@ -35,20 +33,23 @@ def shots(
     UsageError
         A frame, camera or pass that is not there, or nothing left to do.
     """
+    settings = shot.settings
+    if frames is not None and not frames.strip():
+        raise UsageError("--frames: is empty; name some, such as 1-10, or leave --frames out for all")
     try:
-        wanted = set(frame_list.parse(frames, project.time.frames))
+        wanted = set(frame_list.parse(frames or "", shot.frames.count))
     except ValueError as error:
         raise UsageError(f"--frames: {error}") from None
-    cameras = [_camera(project, camera)] if camera else project.cameras
+    cameras = [shot.camera(camera)] if camera else settings.cameras
     if not cameras:
-        raise UsageError(f"{project.path} has no [[cameras]], so there is nothing to render")
+        raise UsageError(f"{settings.path} has no [[cameras]], so there is nothing to render")
     chosen = _passes(names) if names is not None else None
     found = [
-        Shot(c.name, frame, name)
+        Picture(c.name, frame, name)
         for c in cameras
-        for frame in camera_frames(project, c)
+        for frame in shot.frames_of(c)
         if frame in wanted
-        for name in chosen or passes.of_camera(project, c)
+        for name in chosen or [each.name for each in passes.of_camera(settings, c)]
     ]
     if not found:
         raise UsageError(
@@ -57,35 +58,21 @@ def shots(
     return found
 
 
-def camera_frames(project: Project, camera: Camera) -> list[int]:
-    """Frames that a camera films, ascending."""
-    return frame_list.parse(camera.frames, project.time.frames)
-
-
-def missing(out: Path, wanted: list[Shot], settings: Settings) -> list[Shot]:
-    """Those of the shots whose files are not there, are damaged, or were made with other settings."""
-    finished = manifest.load(out)
-    keys = {which: fingerprint(values) for which, values in settings.items()}
+def missing(out: Path, wanted: list[Picture], made_with: Fingerprints) -> list[Picture]:
+    """Those of the pictures whose files are not there, are damaged, or were made with other settings."""
+    finished = store.load(out)
+    keys = {which: fingerprint(values) for which, values in made_with.items()}
     return [
-        shot
-        for shot in wanted
-        if not manifest.intact(out, finished, keys[shot.camera, shot.name], shot.files())
+        picture
+        for picture in wanted
+        if not store.intact(out, finished, keys[picture.camera, picture.name], picture.files())
     ]
-
-
-def _camera(project: Project, name: str) -> Camera:
-    for camera in project.cameras:
-        if camera.name == name:
-            return camera
-    names = [camera.name for camera in project.cameras]
-    raise UsageError(f'--camera: there is no "{name}"; the scene has {", ".join(names) or "none"}')
 
 
 def _passes(text: str) -> tuple[str, ...]:
     names = [name.strip() for name in text.split(",")]
+    known = passes.known()
     for name in names:
-        if name not in passes.ALL:
-            near = difflib.get_close_matches(name, passes.ALL, n=1)
-            hint = f"; did you mean {near[0]}?" if near else ""
-            raise UsageError(f'--passes: "{name}" is not one of {", ".join(passes.ALL)}{hint}')
-    return tuple(name for name in passes.ALL if name in names)
+        if name not in known:
+            raise UsageError(f'--passes: "{name}" is not one of {", ".join(known)}{suggestion(name, known)}')
+    return tuple(name for name in known if name in names)

@@ -1,4 +1,4 @@
-"""The manifest of an output folder: which files are finished, what made them, and how to tell.
+"""What is finished in an output folder: which files there are, what made them, and how to tell.
 
 ``manifest.json`` holds, for every finished file, its size, its SHA-256 and the fingerprint of the settings
 that made it, and for every fingerprint these settings in full. It is rewritten whole, under a lock, to a
@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from ..content import fingerprint, sha256
+from ..run.content import fingerprint, sha256
 from ..errors import input_error
 
 NAME = "manifest.json"

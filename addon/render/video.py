@@ -6,47 +6,50 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-from firetwin_core.run import Run
 
-from .. import compat, times
+from ..blender import compat
 from ..progress import Progress, silent
-from ..project import Project
-from . import engine, films, manifest, passes, plan
+from ..run import times
+from ..shot.settings import Settings
+from ..shot.shot import Shot
+from . import engine, films, picture, store
+from .fingerprint import Fingerprints
 from .part import part_folder
-from .passes import Shot
+from .picture import Picture
 
 
-def make(project: Project, run: Run, out: Path, settings: plan.Settings, progress: Progress = silent) -> None:
+def make(shot: Shot, out: Path, made_with: Fingerprints, progress: Progress = silent) -> None:
     """Make the films of these cameras and passes that are missing or older than their pictures."""
-    wanted = films.missing(project, run, out, settings)
+    wanted = films.missing(shot, out, made_with)
     for done, (camera, name, film) in enumerate(wanted, start=1):
-        _film(project, run, out, camera, name, film)
+        _film(shot, out, camera, name, film)
         progress(done, len(wanted), "filming")
 
 
-def _film(project: Project, run: Run, out: Path, camera: str, name: str, settings: dict[str, Any]) -> None:
-    path = out / passes.film(camera, name)
+def _film(shot: Shot, out: Path, camera: str, name: str, made_from: dict[str, Any]) -> None:
+    path = out / picture.film(camera, name)
     scene = bpy.data.scenes.new("Firetwin Film")
     try:
         with part_folder(out) as part:
             made = part / path.name
-            _settings(project, scene, made, len(settings["frames"]))
-            engine.label(run, scene)
-            _strips(project, run, scene, out, camera, name, [frame for frame, _ in settings["frames"]])
+            frames = [frame for frame, _ in made_from["frames"]]
+            _settings(shot.settings, scene, made, len(frames))
+            engine.label(shot.run, scene)
+            _strips(shot, scene, out, camera, name, frames)
             bpy.ops.render.render(animation=True, scene=scene.name)
-            entry = manifest.describe(made) | {"camera": camera, "pass": name}
-            manifest.publish(made, path)
-            manifest.add(out, settings, {passes.film(camera, name): entry})
+            entry = store.describe(made) | {"camera": camera, "pass": name}
+            store.publish(made, path)
+            store.add(out, made_from, {picture.film(camera, name): entry})
     finally:
         bpy.data.scenes.remove(scene)
 
 
-def _settings(project: Project, scene: bpy.types.Scene, path: Path, count: int) -> None:
+def _settings(settings: Settings, scene: bpy.types.Scene, path: Path, count: int) -> None:
     """H.264 in MP4; the pictures are in display colours, so the film's view transform changes nothing."""
     render = scene.render
-    render.resolution_x, render.resolution_y = project.render.resolution
+    render.resolution_x, render.resolution_y = settings.render.resolution
     render.resolution_percentage = 100
-    render.fps, render.fps_base = project.time.fps, 1.0
+    render.fps, render.fps_base = settings.time.fps, 1.0
     scene.frame_start, scene.frame_end = 1, count
     scene.display_settings.display_device = "sRGB"
     scene.view_settings.view_transform, scene.view_settings.look = "Standard", "None"
@@ -57,25 +60,24 @@ def _settings(project: Project, scene: bpy.types.Scene, path: Path, count: int) 
     compat.film_settings(render)
     render.ffmpeg.format, render.ffmpeg.codec = "MPEG4", "H264"
     render.ffmpeg.constant_rate_factor, render.ffmpeg.ffmpeg_preset = "PERC_LOSSLESS", "GOOD"
-    render.ffmpeg.gopsize = project.time.fps
+    render.ffmpeg.gopsize = settings.time.fps
     render.ffmpeg.audio_codec = "NONE"
     render.use_file_extension = False
     render.filepath = str(path)
 
 
 def _strips(
-    project: Project, run: Run, scene: bpy.types.Scene, out: Path, camera: str, name: str, numbers: list[int]
+    shot: Shot, scene: bpy.types.Scene, out: Path, camera: str, name: str, numbers: list[int]
 ) -> None:
     """One picture after the other, and over each the model time that it shows."""
     editor = scene.sequence_editor_create()
-    height = project.render.resolution[1]
+    height = shot.settings.render.resolution[1]
     for position, number in enumerate(numbers, start=1):
-        picture = str((out / Shot(camera, number, name).file("png")).resolve())
-        editor.strips.new_image(f"picture {number}", picture, 1, position, fit_method="ORIGINAL")
-        moment = times.moment(run, times.model_time(project, run, number))
-        label = times.text(moment, project.time.zone)
+        shown = str((out / Picture(camera, number, name).file("png")).resolve())
+        editor.strips.new_image(f"picture {number}", shown, 1, position, fit_method="ORIGINAL")
+        label = times.text(shot.moment(number), shot.settings.time.zone)
         _text(editor, label, position, 1, 2, height / 20, (0.025, 0.035), "LEFT")
-    if run.synthetic:
+    if shot.run.synthetic:
         _text(editor, "synthetic sample run", 1, len(numbers), 3, height / 30, (0.975, 0.035), "RIGHT")
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import bpy
 
@@ -31,17 +31,31 @@ _WITH_STAND = {"ground", "forest", "fire"}  # parts that need to know where sing
 
 
 def build(
-    shot: Shot, scene: bpy.types.Scene | None = None, parts: Sequence[str] = tuple(PARTS)
+    shot: Shot,
+    scene: bpy.types.Scene | None = None,
+    parts: Sequence[str] = tuple(PARTS),
+    tell: Callable[[str], None] = lambda _: None,
 ) -> bpy.types.Scene:
     """Build parts into `scene` (the current one unless given); what was built of them before goes first."""
     scene = scene or bpy.context.scene
-    for _ in steps(shot, scene, parts):
+    for _ in steps(shot, scene, parts, tell):
         pass
     return scene
 
 
-def steps(shot: Shot, scene: bpy.types.Scene, parts: Sequence[str] = tuple(PARTS)) -> Iterator[str]:
-    """Build parts step by step, each named before it is taken."""
+def steps(
+    shot: Shot,
+    scene: bpy.types.Scene,
+    parts: Sequence[str] = tuple(PARTS),
+    tell: Callable[[str], None] = lambda _: None,
+) -> Iterator[str]:
+    """Build parts step by step, each named before it is taken.
+
+    Parameters
+    ----------
+    tell
+        Is given every sentence that people should read: what could not be built as it should be.
+    """
     yield "surveying the ground"
     stage = owned.stage(scene)
     clock.build(shot, stage)
@@ -55,7 +69,7 @@ def steps(shot: Shot, scene: bpy.types.Scene, parts: Sequence[str] = tuple(PARTS
         "forest": lambda: forest.build(shot, stage, grown),
         "fire": lambda: fire.build(shot, stage, grown),
         "smoke": lambda: smoke.build(shot, stage),
-        "light": lambda: light.build(shot, stage),
+        "light": lambda: [tell(text) for text in light.build(shot, stage)],
         "cameras": lambda: camera.build(shot, stage),
     }
     for part, text in PARTS.items():

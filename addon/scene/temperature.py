@@ -9,11 +9,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from firetwin_core.run import Run
-
-from ... import nodes
-from ...project import Project
-from .. import sun
+from ..blender import nodes
+from ..shot import sun
+from ..shot.shot import Shot
 
 LAPSE = 6.5e-3  # K/m, the standard atmosphere
 AIR = 300.0  # K at 600 m on the afternoon of 17 Sep 2014 (assumed)
@@ -24,12 +22,16 @@ EMBER = 850.0  # K, a pixel full of glowing embers (assumed)
 SMOULDER, COOLING = 220.0, 1500.0  # K above ambient just behind the flames, s to 1/e (assumed)
 
 
-def ambient(tree: nodes.Tree, project: Project, run: Run, elevation: Any, canopy: Any) -> nodes.Value:
+def ambient(tree: nodes.Tree, shot: Shot, elevation: Any, canopy: Any) -> nodes.Value:
     """Temperature of unburned ground and crowns: that of the air, warmer where bare ground is sunlit."""
-    direction, height = sun.mean_direction(project, run)
+    bearing, height = shot.sun(shot.frames.middle)
     day = float(min(max(height / 20.0, 0.0), 1.0))
     normal = tree.output("ShaderNodeNewGeometry", name="Normal")
-    facing = tree.math("MAXIMUM", tree.vector("DOT_PRODUCT", normal, tuple(direction), name="Value"), 0.0)
+    facing = tree.math(
+        "MAXIMUM",
+        tree.vector("DOT_PRODUCT", normal, tuple(sun.direction(bearing, height)), name="Value"),
+        0.0,
+    )
     bare = canopy.ramp(0.0, 1.0, 1.0, 0.25) if isinstance(canopy, nodes.Value) else canopy
     air = elevation * -LAPSE + (AIR + LAPSE * 600.0 + (1.0 - day) * NIGHT)
     return air + facing * bare * (SUNLIT * day)

@@ -141,6 +141,8 @@ class _Reader:
 
     def value(self, kind: Any, value: Any, where: Where) -> Any:
         """A value of the file as the type that its dataclass field declares."""
+        if isinstance(value, int) and abs(value) >= 2**63:
+            raise self.error(where, f"{_dotted(where)} is larger than a number in TOML may be")
         if dataclasses.is_dataclass(kind):
             return self.table(kind, self.expect(dict, value, where), where)
         if typing.get_origin(kind) is tuple:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import operator
 import types
 import typing
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -83,27 +84,28 @@ class Key:
 
     def _bounds(self, value: Any) -> str | None:
         low, above, high = self.at_least, self.above, self.at_most
-        if low is above is high is None or not isinstance(value, int | float):
+        rules = (
+            (low, operator.ge, "at least"),
+            (above, operator.gt, "above"),
+            (high, operator.le, "at most"),
+        )
+        known = [rule for rule in rules if rule[0] is not None]
+        if all(holds(value, bound) for bound, holds, _ in known):
             return None
-        if (
-            (low is None or value >= low)
-            and (above is None or value > above)
-            and (high is None or value <= high)
-        ):
-            return None
-        words = [f"above {above:,g}"] if above is not None else []
+        words = " and ".join(f"{word} {_number(bound)}" for bound, _, word in known)
         if low is not None and high is not None:
-            words.append(f"from {low:,g} to {high:,g}")
-        else:
-            words += [f"at least {low:,g}"] if low is not None else []
-            words += [f"at most {high:,g}"] if high is not None else []
-        return f"must be {' and '.join(words)}, not {value:.12g}"
+            words = f"from {_number(low)} to {_number(high)}"
+        return f"must be {words}, not {value:{'' if isinstance(value, int) else '.12g'}}"
 
     def _choice(self, value: Any, listed: bool) -> str | None:
         if self.choices is None or value in (names := self.names()):
             return None
         must = f'holds "{value}"; each must be' if listed else "must be"
         return f"{must} {either(names)}" + ("" if listed else f', not "{value}"') + suggestion(value, names)
+
+
+def _number(value: float) -> str:
+    return f"{value:,}" if isinstance(value, int) else f"{value:,g}"
 
 
 def either(names: Iterable[str]) -> str:
@@ -205,20 +207,24 @@ def walk(kind: type, section: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str,
 def wrong(settings: Any, section: tuple[str, ...] = ()) -> tuple[Where, str] | None:
     """First of what is wrong with settings whose types are right: where, and what in words.
 
-    A dataclass may have a method `wrong` of its own, for what no single key can say.
+    A dataclass may have a method `wrong` of its own, for what no single key can say; that of a kind (see
+    `one_of`) is called by what it stands in.
     """
+    own = getattr(settings, "wrong", None)
+    return _wrong_key(settings, section) or (own() if own else None)
+
+
+def _wrong_key(settings: Any, section: tuple[str, ...]) -> tuple[Where, str] | None:
     for part in parts(type(settings)):
         value, here = getattr(settings, part.name), (*section, part.name)
         if part.key.kinds:
-            found, path = wrong(value, section), ()
+            if found := _wrong_key(value, section):
+                return found
         elif reason := part.key.wrong(value):
             return (part.name,), f"{'.'.join(here)} {reason}"
-        else:
-            found, path = _wrong_inside(part, value, here), (part.name,)
-        if found:
-            return (*path, *found[0]), found[1]
-    own = getattr(settings, "wrong", None)
-    return own() if own else None
+        elif found := _wrong_inside(part, value, here):
+            return (part.name, *found[0]), found[1]
+    return None
 
 
 def _wrong_inside(part: Part, value: Any, section: tuple[str, ...]) -> tuple[Where, str] | None:

@@ -2,8 +2,8 @@
 
 The file, its check, the panels, the schema for editors and the fingerprints of products come from here.
 Times are UTC, lengths metres and angles degrees. What a key changes is named by aspects: that of its section
-unless it says otherwise, "camera" for all of a camera, and of [render] "picture" (all pictures), "grain" (what
-is not data) and "thermal". "film" is what only films show.
+unless it says otherwise, "camera" for all of a camera, and of [render] "picture" (all pictures), "grain"
+(what is not data) and "thermal". "film" is what only films show.
 """
 
 # ruff: noqa: RUF009 (`key` makes a field)
@@ -20,6 +20,8 @@ from typing import Any
 from . import frame_list, passes, rigs
 from .nearest import suggestion
 from .schema import Where, key, kind_of, one_of, parts
+
+_LARGEST_SEED = 2**31 - 1  # Cycles takes no larger one
 
 
 def _zone(value: str) -> str | None:
@@ -116,7 +118,7 @@ class Fire:
     flames: bool = key(True, "draw the flames")
     flame_length: str = key(
         "thomas",
-        "formula for it from the line's intensity",
+        "formula for the flames' length",
         choices={"thomas": "crown fire", "byram": "surface fire"},
     )
     budget: int = key(20_736, "most flames drawn at once, nearest first", at_least=0)
@@ -149,7 +151,7 @@ class Smoke:
 class Light:
     """Sun, sky, haze, exposure and the light of the flames."""
 
-    haze: float = key(1.0, "0: none, 1: a dry September day", at_least=0)
+    haze: float = key(1.0, "how strong it is; 0: none, 1: a dry September day", at_least=0)
     exposure: float | None = key(
         None,
         "brighter or darker; left out, from the height of the sun: 0.5 by day, 3.5 by night",
@@ -195,13 +197,13 @@ class Render:
     engine: str = key(
         "cycles",
         "what renders",
-        choices={"cycles": "light is traced", "eevee": "faster and simpler, needs OpenGL"},
+        choices={"cycles": "light is traced", "eevee": "faster, needs OpenGL"},
         shows=("picture",),
     )
     device: str = key(
         "auto",
         "what Cycles renders on",
-        choices={"auto": "a GPU if there is one", "cpu": "the processor", "gpu": "a GPU"},
+        choices={"auto": "a GPU if there is one", "cpu": "the processor", "gpu": ""},
         shows=(),
     )
     resolution: tuple[int, int] = key(
@@ -229,7 +231,9 @@ class Render:
         shows=(),
     )
     video: bool = key(True, "a film of every camera with more than one frame, rgb and thermal", shows=())
-    seed: int = key(0, "of the grain", shows=("grain",))
+    seed: int = key(
+        0, "another number gives other grain", at_least=0, at_most=_LARGEST_SEED, shows=("grain",)
+    )
     thermal_low: float = key(
         320.0,
         "where colour begins in the thermal picture; ground in the sun has less",
@@ -237,7 +241,7 @@ class Render:
         above=0,
         shows=("thermal",),
     )
-    thermal_high: float = key(800.0, "where it is white", unit="K", shows=("thermal",))
+    thermal_high: float = key(800.0, "where it ends in white", unit="K", shows=("thermal",))
 
     def wrong(self) -> tuple[Where, str] | None:
         """The thermal picture's colours have a range."""
@@ -256,6 +260,8 @@ class Settings:
     seed: int = key(
         1,
         "another number gives other trees, flames and puffs in the same fire",
+        at_least=0,
+        at_most=_LARGEST_SEED,
         shows=("ground", "forest", "fire", "smoke"),
     )
     time: Time = key(default_factory=Time, help="which moments of the run the frames show")

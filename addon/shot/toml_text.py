@@ -59,10 +59,15 @@ class _Writer:
             return f'{key.tag} = "{kind_of(key, value)}"', f"{key.help}: {summary(type(value))}"
         if value is None:
             return f"# {part.name} = {_SAMPLES[part.type]}", self.once(key, _comment(key))
-        written, usual = self.value(part.type, value), self.value(part.type, part.default)
-        differs = part.default is not None and written != usual
-        comment = _comment(key) + (f" (default {usual})" if differs else "")
+        written, usual = self.value(part.type, value), self.usual(part)
+        comment = _comment(key) + (f" (default {usual})" if usual not in ("", written) else "")
         return f"{part.name} = {written}", self.once(key, comment)
+
+    def usual(self, part: Part) -> str:
+        """The default in TOML; empty where there is none."""
+        if part.default is None:
+            return ""
+        return quoted(part.default.as_posix()) if part.type is Path else self.value(part.type, part.default)
 
     def once(self, key: Key, comment: str) -> str:
         """The comment where the key stands for the first time."""
@@ -99,7 +104,7 @@ def _flat(table: Any) -> Iterator[tuple[Part, Any]]:
 
 
 def _comment(key: Key) -> str:
-    """Help with unit and choices, less those that a folder of files decides: one more changes no scene file."""
+    """Help with unit and choices, less those that a folder decides: one file more changes no comment."""
     if key.choices is None or callable(key.choices):
         return key.described()
     *most, last = [f'"{name}" ({words})' if words else f'"{name}"' for name, words in key.names().items()]

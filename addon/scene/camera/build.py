@@ -1,4 +1,4 @@
-"""Camera objects with one keyframe per frame, from the paths of the project's cameras."""
+"""Camera objects with one keyframe per frame, from the paths of the scene's cameras."""
 
 from __future__ import annotations
 
@@ -6,24 +6,27 @@ import itertools
 
 import bpy
 import numpy as np
-from firetwin_core.run import Run
 from mathutils import Matrix
+from numpy.typing import NDArray
 
-from .. import compat
-from ..project import Project
-from . import collections
-from .paths import SENSOR, Path, paths
-
-__all__ = ["build", "paths"]
+from ...blender import compat, owned
+from ...blender.owned import Stage
+from ...shot.path import SENSOR, Path
+from ...shot.shot import Shot
 
 NEAR, FAR = 0.5, 300_000.0  # m
 
 
-def build(project: Project, run: Run, views: list[Path], scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """Build "Firetwin Camera <name>" for every path; the first becomes the scene's camera."""
-    collection = collections.fresh("Cameras", scene=scene)
-    built = [_camera(view, collection) for view in views]
-    scene.camera = built[0] if built else None
+def build(shot: Shot, stage: Stage) -> list[bpy.types.Object]:
+    """Build "Firetwin Camera <name>" for every path; the first becomes the scene's camera.
+
+    Blender may cut the name short: `stage.camera(name)` finds the object. The camera of a scene that is not
+    our own stays.
+    """
+    collection = stage.part("Cameras")
+    built = [_camera(view, collection) for view in shot.paths]
+    if stage.own or stage.scene.camera is None:
+        stage.scene.camera = built[0] if built else None
     return built
 
 
@@ -33,10 +36,10 @@ def _camera(view: Path, collection: bpy.types.Collection) -> bpy.types.Object:
     data.clip_start, data.clip_end = NEAR, FAR
     data.sensor_fit, data.sensor_width = "HORIZONTAL", SENSOR
     if view.perspective:
-        data.lens = view.camera.focal_length
+        data.lens = 0.5 * SENSOR / view.half[0]
     else:
-        data.type, data.ortho_scale = "ORTHO", view.camera.swath
-    thing = collections.add(collection, name, data)
+        data.type, data.ortho_scale = "ORTHO", 2.0 * view.half[0]
+    thing = owned.add(collection, name, data, what=f"camera {view.camera.name}")
     thing.rotation_mode = "QUATERNION"
     quaternions = _quaternions(view.rotation)
     thing.location, thing.rotation_quaternion = view.position[0], quaternions[0]
@@ -49,7 +52,7 @@ def _camera(view: Path, collection: bpy.types.Collection) -> bpy.types.Object:
     return thing
 
 
-def _quaternions(rotation: np.ndarray) -> np.ndarray:
+def _quaternions(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
     """(n, 4) quaternions of rotation matrices (n, 3, 3), without jumps in sign."""
     turned = [Matrix(matrix.tolist()).to_quaternion() for matrix in rotation]
     for before, after in itertools.pairwise(turned):

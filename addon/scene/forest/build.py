@@ -9,15 +9,16 @@ from __future__ import annotations
 import bpy
 import numpy as np
 from firetwin_core import forest as core
-from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from .. import compat, nodes
-from ..project import Project
-from . import clock, collections, noise, stand, trees
-from .ground import NEVER, Ground, bilinear
-from .materials import tree as material
-from .paths import Path
+from ...blender import compat, nodes, owned
+from ...blender.owned import Stage
+from ...shot import noise
+from ...shot.ground import NEVER, Ground, bilinear
+from ...shot.shot import Shot
+from .. import clock
+from . import material, models
+from .stand import Stand
 
 GRASS_DISTANCE = 400.0  # m
 BARE_AFTER = 900.0  # s after the fire came a burned tree is a snag
@@ -25,46 +26,40 @@ _SNAG = 0.85  # part of the burned trees that become snags
 _PIXEL = 25.0  # m; a satellite whose pixels are larger sees no tree
 
 
-def build(
-    project: Project, run: Run, ground: Ground, views: list[Path], grown: stand.Stand | None
-) -> list[bpy.types.Object]:
+def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Object]:
     """Build "Firetwin Trees", "Firetwin Stand" and "Firetwin Grass", each where there is something to see."""
-    collection = collections.fresh("Forest")
+    collection = stage.part("Forest")
     made = []
     if grown is not None:
-        library = _tree_models(project, run)
-        for name, points in (
-            ("Trees", algorithm2(project, run, ground, views)),
-            ("Stand", _stand(project, ground, grown)),
-        ):
-            made.append(_instances(project, run, collection, name, points, library))
-    if project.forest.grass:
-        library = _grass_models(project, run)
-        made.append(
-            _instances(project, run, collection, "Grass", _grass(project, run, ground, views), library)
-        )
+        library = _tree_models(shot, stage)
+        for name, points in (("Trees", algorithm2(shot)), ("Stand", _stand(shot, grown))):
+            made.append(_instances(shot, collection, name, points, library))
+    if shot.settings.forest.grass:
+        library = _grass_models(shot, stage)
+        made.append(_instances(shot, collection, "Grass", _grass(shot), library))
     return made
 
 
-def algorithm2(project: Project, run: Run, ground: Ground, views: list[Path]) -> dict[str, NDArray]:
+def algorithm2(shot: Shot) -> dict[str, NDArray]:
     """Point attributes of those trees of Algorithm 2 that a camera sees.
 
     East and north are the core's; so is the height but near cameras, where the drawn ground has more relief.
     """
+    run, ground, settings = shot.run, shot.ground, shot.settings
     axes = run.fuel_latitude, run.fuel_longitude
-    found = core.trees(run.canopy_fuel, *axes, run.fuel_elevation, ground.frame, seed=project.seed)
-    kept = np.flatnonzero(visible(project, found.position, views, project.forest.draw_distance))
+    found = core.trees(run.canopy_fuel, *axes, run.fuel_elevation, ground.frame, seed=settings.seed)
+    kept = np.flatnonzero(visible(shot, found.position, settings.forest.draw_distance))
     cell, position = found.cell[kept], _settled(ground, found.position[kept])
-    first = np.array([trees.FIRST_MODEL[k] for k in (0, 1, 2)])[found.size_class[kept]]
+    first = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[found.size_class[kept]]
     model = first + found.model[kept]
-    return _points(project, ground, position, found.scale[kept], found.rotation[kept], model, cell, cell * 0)
+    return _points(shot, position, found.scale[kept], found.rotation[kept], model, cell, cell * 0)
 
 
-def visible(project: Project, position: NDArray, views: list[Path], distance: float) -> NDArray[np.bool_]:
+def visible(shot: Shot, position: NDArray, distance: float) -> NDArray[np.bool_]:
     """Which things at `position` (n, 3) are in some camera's view and not too far away or too small."""
     seen = np.zeros(len(position), bool)
-    width = project.render.resolution[0]
-    for view in views:
+    width = shot.settings.render.resolution[0]
+    for view in shot.paths:
         if view.perspective:
             seen |= view.sees(position, reach=distance)
         elif 2.0 * view.half[0] / width < _PIXEL:
@@ -81,27 +76,25 @@ def _settled(ground: Ground, position: NDArray[np.float64]) -> NDArray[np.float6
     return position
 
 
-def _stand(project: Project, ground: Ground, grown: stand.Stand) -> dict[str, NDArray]:
-    return _points(project, ground, grown.position, grown.height, grown.rotation, grown.model, *grown.key.T)
+def _stand(shot: Shot, grown: Stand) -> dict[str, NDArray]:
+    return _points(shot, grown.position, grown.height, grown.rotation, grown.model, *grown.key.T)
 
 
-def _grass(project: Project, run: Run, ground: Ground, views: list[Path]) -> dict[str, NDArray]:
+def _grass(shot: Shot) -> dict[str, NDArray]:
+    run, ground, seed = shot.run, shot.ground, shot.settings.seed
     axes = run.fuel_latitude, run.fuel_longitude
-    found = core.grass(run.surface_fuel, *axes, run.fuel_elevation, ground.frame, seed=project.seed)
-    kept = np.flatnonzero(visible(project, found.position, views, GRASS_DISTANCE))
+    found = core.grass(run.surface_fuel, *axes, run.fuel_elevation, ground.frame, seed=seed)
+    kept = np.flatnonzero(visible(shot, found.position, GRASS_DISTANCE))
     cell, sunk = found.cell[kept], found.position[kept]
     position = _settled(ground, sunk)
     moved = np.abs(position[:, 2] - sunk[:, 2]) > 0.0
     position[moved, 2] -= 0.7
-    model = (noise.uniform(cell, 7, project.seed) < 0.5).astype(np.int64)
-    return _points(
-        project, ground, position, found.scale[kept], found.rotation[kept], model, cell, cell * 0 + 1
-    )
+    model = (noise.uniform(cell, 7, seed) < 0.5).astype(np.int64)
+    return _points(shot, position, found.scale[kept], found.rotation[kept], model, cell, cell * 0 + 1)
 
 
 def _points(
-    project: Project,
-    ground: Ground,
+    shot: Shot,
     position: NDArray,
     scale: NDArray,
     rotation: NDArray,
@@ -110,15 +103,16 @@ def _points(
     second: NDArray,
 ) -> dict[str, NDArray]:
     """All attributes of n trees; random ones hang on two integers per tree."""
+    ground, seed = shot.ground, shot.settings.seed
     row, column = ground.indices(*ground.geodetic(position[:, 0], position[:, 1]))
-    tint, dead, lot = (noise.uniform(key, second, project.seed + 300 + k) for k in range(3))
+    tint, dead, lot = (noise.uniform(key, second, seed + 300 + k) for k in range(3))
     size = np.select([scale > 20.0, scale > 12.0], [0, 1], 2)
     return {
         "position": position,
         "scale": scale,
         "rotation": rotation,
         "model": model,
-        "snag_model": np.where(lot < _SNAG, np.array(trees.SNAGS)[size], model),
+        "snag_model": np.where(lot < _SNAG, np.array(models.SNAGS)[size], model),
         "arrival_time": np.minimum(ground.arrival_at(row, column), NEVER),
         "elevation": bilinear(ground.fields.elevation, row, column),
         "canopy_fuel": bilinear(ground.fields.canopy_fuel, row, column),
@@ -128,8 +122,7 @@ def _points(
 
 
 def _instances(
-    project: Project,
-    run: Run,
+    shot: Shot,
     collection: bpy.types.Collection,
     name: str,
     points: dict[str, NDArray],
@@ -145,13 +138,13 @@ def _instances(
             attribute = data.attributes.new(key, "INT" if whole else "FLOAT", "POINT")
             attribute.data.foreach_set("value", values.astype(np.int32 if whole else np.float32))
     data.update()
-    thing = collections.add(collection, name, data)
+    thing = owned.add(collection, name, data)
     modifier = thing.modifiers.new("Firetwin Instances", "NODES")
-    modifier.node_group = _node_group(project, run, f"Firetwin {name}", library)
+    modifier.node_group = _node_group(shot, f"Firetwin {name}", library)
     return thing
 
 
-def _node_group(project: Project, run: Run, name: str, library: bpy.types.Collection) -> bpy.types.NodeTree:
+def _node_group(shot: Shot, name: str, library: bpy.types.Collection) -> bpy.types.NodeTree:
     """A model on every point, which becomes a snag some time after the fire came."""
     tree, given = nodes.geometry(name)
     collection = tree.node("GeometryNodeCollectionInfo", transform_space="ORIGINAL")
@@ -162,7 +155,7 @@ def _node_group(project: Project, run: Run, name: str, library: bpy.types.Collec
     def attribute(key: str, kind: str) -> nodes.Value:
         return tree.output("GeometryNodeInputNamedAttribute", {"Name": key}, data_type=kind)
 
-    age = clock.geometry_time(tree, project, run) - attribute("arrival_time", "FLOAT")
+    age = clock.geometry_time(tree, shot) - attribute("arrival_time", "FLOAT")
     burned = tree.output(
         "FunctionNodeCompare", [age, BARE_AFTER], data_type="FLOAT", operation="GREATER_THAN"
     )
@@ -182,30 +175,36 @@ def _node_group(project: Project, run: Run, name: str, library: bpy.types.Collec
     return tree.node_tree
 
 
-def _tree_models(project: Project, run: Run) -> bpy.types.Collection:
-    library = _library("Tree Models")
-    needles = material.foliage(project, run)
-    wood, char = (material.bark(project, run, charred=charred) for charred in (False, True))
-    return _fill(library, trees.models(needles, wood, char))
+def _tree_models(shot: Shot, stage: Stage) -> bpy.types.Collection:
+    needles = material.foliage(shot, stage)
+    wood, char = (material.bark(shot, stage, charred=charred) for charred in (False, True))
+    shapes = models.trees()
+    looks = [(char, char) if k in models.SNAGS else (needles, wood) for k in range(len(shapes))]
+    return _library("Tree", shapes, looks)
 
 
-def _grass_models(project: Project, run: Run) -> bpy.types.Collection:
-    library = _library("Grass Models")
-    straw = material.grass(project, run)
-    return _fill(library, [trees.grass(140 + k).mesh(f"Firetwin Grass {k:02d}", (straw,)) for k in (0, 1)])
+def _grass_models(shot: Shot, stage: Stage) -> bpy.types.Collection:
+    straw = material.grass(shot, stage)
+    shapes = models.clumps()
+    return _library("Grass", shapes, [(straw,)] * len(shapes))
 
 
-def _library(name: str) -> bpy.types.Collection:
-    """An empty collection outside the scene, in place of an old one with all its models."""
-    full = f"{collections.ROOT} {name}"
-    old = bpy.data.collections.get(full)
-    if old is not None:
-        collections.remove(old)
-    return bpy.data.collections.new(full)
-
-
-def _fill(library: bpy.types.Collection, meshes: list[bpy.types.Mesh]) -> bpy.types.Collection:
-    """Put models into a library; instances are numbered by the order of their names."""
-    for mesh in meshes:
-        library.objects.link(bpy.data.objects.new(mesh.name, mesh))
+def _library(
+    kind: str, shapes: list[models.Shape], looks: list[tuple[bpy.types.Material, ...]]
+) -> bpy.types.Collection:
+    """A collection of models outside of the scene; instances are numbered by the order of their names."""
+    library = owned.library(f"{kind} Models")
+    for k, (shape, materials) in enumerate(zip(shapes, looks, strict=True)):
+        data = _mesh(f"Firetwin {kind} {k:02d}", shape, materials)
+        owned.add(library, f"{kind} {k:02d}", data)
     return library
+
+
+def _mesh(name: str, shape: models.Shape, materials: tuple[bpy.types.Material, ...]) -> bpy.types.Mesh:
+    data = bpy.data.meshes.new(name)
+    data.from_pydata(np.concatenate(shape.points).tolist(), [], shape.faces)
+    data.polygons.foreach_set("material_index", shape.materials)
+    for look in materials:
+        data.materials.append(look)
+    data.update()
+    return data

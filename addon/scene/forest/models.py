@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import bpy
 import numpy as np
 from numpy.typing import NDArray
 
@@ -76,16 +75,6 @@ class Shape:
         self.faces += [tuple(self.count + i for i in face) for face in faces]
         self.materials += [material] * len(faces)
         self.count += len(points)
-
-    def mesh(self, name: str, materials: tuple[bpy.types.Material, ...]) -> bpy.types.Mesh:
-        """Return a Blender mesh of all that was added."""
-        mesh = bpy.data.meshes.new(name)
-        mesh.from_pydata(np.concatenate(self.points).tolist(), [], self.faces)
-        mesh.polygons.foreach_set("material_index", self.materials)
-        for material in materials:
-            mesh.materials.append(material)
-        mesh.update()
-        return mesh
 
 
 def conifer(kind: Conifer, seed: int) -> Shape:
@@ -239,11 +228,12 @@ def grass(seed: int) -> Shape:
     return shape
 
 
-def models(foliage: bpy.types.Material, bark: bpy.types.Material, charred: bpy.types.Material) -> list:
-    """Meshes of all tree models, in the order of their numbers."""
+def trees() -> list[Shape]:
+    """All tree models, in the order of their numbers."""
     living = [conifer(kind, 100 + k) for k, kind in enumerate(SPECIES)] + [oak(120), oak(121)]
-    dead = [snag(130, 30, 1.0), snag(131, 22, 0.85), snag(132, 14, 0.95)]
-    names = (f"Firetwin Tree {k:02d}" for k in range(len(living) + len(dead)))
-    return [shape.mesh(next(names), (foliage, bark)) for shape in living] + [
-        shape.mesh(next(names), (charred, charred)) for shape in dead
-    ]
+    return [*living, snag(130, 30, 1.0), snag(131, 22, 0.85), snag(132, 14, 0.95)]
+
+
+def clumps() -> list[Shape]:
+    """All models of grass, in the order of their numbers."""
+    return [grass(140 + k) for k in GRASS]

@@ -10,10 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..project import Project
-from . import noise, trees
-from .ground import Ground, bilinear
-from .paths import Path
+from ...shot import noise
+from ...shot.ground import Ground, bilinear
+from ...shot.path import Path
+from ...shot.settings import Settings
+from ...shot.shot import Shot
+from . import models
 
 LIMIT = 90_000  # trees; more than this and far ones are thinned
 _YOUNG = 0.7  # part of the near trees that have a young one beside them
@@ -33,7 +35,7 @@ class Stand:
     height, rotation
         (n,) metres, radians.
     model
-        (n,) number of the model in `trees`.
+        (n,) number of the model in `models`.
     key
         (n, 2) integers that random choices for a tree hang on.
     distance
@@ -56,20 +58,20 @@ class Stand:
         return _kept(distance, self.full) * noise.smoothstep(self.radius, 0.75 * self.radius, distance)
 
 
-def grow(project: Project, ground: Ground, views: list[Path]) -> Stand:
+def grow(shot: Shot) -> Stand:
     """Place the stand within `stand_radius` of the cameras, where they look."""
-    spacing, radius = project.forest.stand_spacing, project.forest.stand_radius
-    near = [view for view in views if view.perspective]
+    settings, ground, near = shot.settings, shot.ground, shot.near
+    spacing, radius = settings.forest.stand_spacing, settings.forest.stand_radius
     if not near or radius <= 0.0:
-        return _stand(ground, np.empty((0, 3)), np.empty((0, 2), np.int64), np.empty(0), 0.0, project)
+        return _stand(ground, np.empty((0, 3)), np.empty((0, 2), np.int64), np.empty(0), 0.0, settings)
     blocks = _blocks(ground, near, radius)
     key = _lattice(blocks, spacing)
-    jitter = np.stack([noise.uniform(key[:, 0], key[:, 1], project.seed + 200 + k) for k in (0, 1)], axis=-1)
+    jitter = np.stack([noise.uniform(key[:, 0], key[:, 1], settings.seed + 200 + k) for k in (0, 1)], axis=-1)
     place = (key + 0.5 + 0.85 * (jitter - 0.5)) * spacing
     canopy = ground.sample(ground.fields.canopy_fuel, place[:, 0], place[:, 1])
-    clumps = noise.fractal(place[:, 0], place[:, 1], 90.0, 2, project.seed + 210)
+    clumps = noise.fractal(place[:, 0], place[:, 1], 90.0, 2, settings.seed + 210)
     chance = np.clip(canopy / _DENSE, 0.0, 1.0) * np.clip(0.85 + 0.6 * clumps, 0.25, 1.0)
-    luck = noise.uniform(key[:, 0], key[:, 1], project.seed + 202)
+    luck = noise.uniform(key[:, 0], key[:, 1], settings.seed + 202)
     kept = luck < chance
     place, key, luck, chance = place[kept], key[kept], luck[kept], chance[kept]
     position = np.column_stack([place, ground.up(place[:, 0], place[:, 1])])
@@ -80,7 +82,7 @@ def grow(project: Project, ground: Ground, views: list[Path]) -> Stand:
     full = _full(distance[seen])
     seen &= luck < chance * fade * _kept(distance, full)
     return _with_young(
-        ground, _stand(ground, position[seen], key[seen], distance[seen], full, project), project.seed
+        ground, _stand(ground, position[seen], key[seen], distance[seen], full, settings), settings.seed
     )
 
 
@@ -92,7 +94,7 @@ def _with_young(ground: Ground, old: Stand, seed: int) -> Stand:
     angle, away = 2.0 * np.pi * turn[chosen], 3.5 + 4.0 * reach[chosen]
     east = old.position[chosen, 0] + away * np.cos(angle)
     north = old.position[chosen, 1] + away * np.sin(angle)
-    model = trees.FIRST_MODEL[0] + np.minimum((turn[chosen] * 400.0).astype(np.int64) % 4, 3)
+    model = models.FIRST_MODEL[0] + np.minimum((turn[chosen] * 400.0).astype(np.int64) % 4, 3)
     return Stand(
         np.concatenate([old.position, np.column_stack([east, north, ground.up(east, north)])]),
         np.concatenate([old.height, 4.0 + 7.0 * grown[chosen] ** 2]),
@@ -152,10 +154,10 @@ def _stand(
     key: NDArray[np.int64],
     distance: NDArray,
     full: float,
-    project: Project,
+    settings: Settings,
 ) -> Stand:
     """Choose heights and models, by Algorithm 2's classes, with oaks in the foothills."""
-    seed = project.seed
+    seed = settings.seed
 
     def random(use: int) -> NDArray[np.float64]:
         return noise.uniform(key[:, 0], key[:, 1], seed + 220 + use)
@@ -166,13 +168,13 @@ def _stand(
     size = np.where(canopy >= 1.6, 2, np.where(canopy >= 0.8, 1, 0))
     size = np.where(random(0) < 0.3, np.maximum(size - 1, 0), size)  # all ages stand together
     count = np.where(size == 2, 2, 4)
-    first = np.array([trees.FIRST_MODEL[k] for k in (0, 1, 2)])[size]
+    first = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[size]
     model = first + np.minimum((random(1) * count).astype(np.int64), count - 1)
     fuel = np.clip(canopy / max(float(ground.fields.canopy_fuel.max()), 1.0e-6), 0.0, 1.0)
     normal = np.sqrt(-2.0 * np.log(np.maximum(random(2), 1.0e-9))) * np.cos(2.0 * np.pi * random(3))
     height = (8.0 + 14.0 * np.sqrt(fuel)) * np.array([0.75, 1.0, 1.2])[size] * np.exp(0.25 * normal)
     oak = random(4) < 0.75 * noise.smoothstep(1100.0, 600.0, elevation)
-    model = np.where(oak, trees.OAKS[0] + (random(5) < 0.5), model)
+    model = np.where(oak, models.OAKS[0] + (random(5) < 0.5), model)
     height = np.where(oak, 0.5 * height, height)
     return Stand(
         position,
@@ -182,5 +184,5 @@ def _stand(
         key,
         distance,
         full,
-        project.forest.stand_radius,
+        settings.forest.stand_radius,
     )

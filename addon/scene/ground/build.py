@@ -4,60 +4,59 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ..project import Project
-from . import collections, grid_mesh, noise
-from .ground import Ground, bilinear
-from .materials import ground as material
-from .paths import Path
-from .stand import Stand
+from ...blender import owned
+from ...blender.owned import Stage
+from ...shot import noise
+from ...shot.ground import Ground, bilinear
+from ...shot.path import Path
+from ...shot.shot import Shot
+from ..forest.stand import Stand
+from . import grid_mesh, material
 
 _LIMIT = 900_000  # quads of the finer part; more than this and its edge moves nearer
 
 
-def build(
-    project: Project, run: Run, ground: Ground, views: list[Path], grown: Stand | None = None
-) -> bpy.types.Object:
-    """Build "Firetwin Terrain".
+def build(shot: Shot, stage: Stage, grown: Stand | None) -> bpy.types.Object:
+    """Build "Firetwin Ground".
 
     Its mesh carries float point attributes: `arrival_time` (s, 1e9 where never), `burn_time` (arrival
     continued a little past the last perimeter), `burned` (1 inside it), `canopy_fuel`, `surface_fuel`
     (kg/m2), `bare` (part without fuel), `water` (1 on lakes), `elevation` (m), `stand` (part of
     the forest that is drawn tree by tree) and `detail` (1 near cameras).
     """
-    collection = collections.fresh("Terrain")
-    mesh = grid_mesh.graded(levels(project, ground, views))
+    collection, ground = stage.part("Ground"), shot.ground
+    mesh = grid_mesh.graded(levels(shot))
     coarse = _positions(ground, mesh, 0.0)
     detail = ground.detail(*coarse.T)
     positions = _positions(ground, mesh, detail)
-    data = bpy.data.meshes.new("Firetwin Terrain")
+    data = bpy.data.meshes.new("Firetwin Ground")
     _fill(data, positions, mesh)
     attributes = _attributes(ground, mesh, detail)
-    attributes["stand"] = _stand_cover(positions, views, grown)
+    attributes["stand"] = _stand_cover(positions, shot.near, grown)
     for name, values in attributes.items():
         data.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values.astype(np.float32))
-    data.materials.append(material.build(project, run))
-    return collections.add(collection, "Terrain", data)
+    data.materials.append(material.build(shot, stage))
+    return owned.add(collection, "Ground", data)
 
 
-def levels(project: Project, ground: Ground, views: list[Path]) -> NDArray[np.int64]:
+def levels(shot: Shot) -> NDArray[np.int64]:
     """How often each cell of the grid is halved: to `near_spacing` near cameras, less with distance."""
+    ground, settings, near = shot.ground, shot.settings.ground, shot.near
     rows, columns = ground.shape
     level = np.zeros((rows - 1, columns - 1), np.int64)
-    finest = max(int(np.ceil(np.log2(max(ground.cell) / project.terrain.near_spacing))), 0)
-    near = [view for view in views if view.perspective]
-    if not near or finest == 0 or project.terrain.near_radius <= 0.0:
+    finest = max(int(np.ceil(np.log2(max(ground.cell) / settings.near_spacing))), 0)
+    if not near or finest == 0 or settings.near_radius <= 0.0:
         return level
     row, column = np.meshgrid(np.arange(rows - 1) + 0.5, np.arange(columns - 1) + 0.5, indexing="ij")
     latitude, longitude = ground.places(row.ravel(), column.ravel())
     centre = ground.frame.forward(latitude, longitude, bilinear(ground.fields.elevation, row, column).ravel())
     distance = np.min([view.distance(centre) for view in near], axis=0)
-    close = np.flatnonzero(distance < project.terrain.near_radius)
+    close = np.flatnonzero(distance < settings.near_radius)
     seen = np.any([view.sees(centre[close], margin=200.0) for view in near], axis=0)
     close = close[seen]
-    ratio = distance[close] / project.terrain.near_radius
+    ratio = distance[close] / settings.near_radius
     while True:  # spacing grows with distance: halved at 0.5, again at 0.25 of the radius
         wanted = np.clip(finest - np.ceil(np.log2(np.maximum(ratio, 1.0e-3) / 0.3)), 1, finest).astype(
             np.int64
@@ -95,10 +94,9 @@ def _attributes(ground: Ground, mesh: grid_mesh.GridMesh, detail: NDArray) -> di
     }
 
 
-def _stand_cover(positions: NDArray, views: list[Path], grown: Stand | None) -> NDArray[np.float64]:
+def _stand_cover(positions: NDArray, near: list[Path], grown: Stand | None) -> NDArray[np.float64]:
     """Part of the forest's trees that stands there one by one, so that the ground need not draw it."""
     cover = np.zeros(len(positions))
-    near = [view for view in views if view.perspective]
     if grown is None or not near:
         return cover
     way = np.concatenate([view.position for view in near])

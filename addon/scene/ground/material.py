@@ -9,16 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import bpy
-from firetwin_core.run import Run
 
-from ... import nodes
-from ...project import Project
-from .. import haze
-from ..flame_material import CLOSE
-from . import heat
+from ...blender import nodes
+from ...blender.owned import Stage
+from ...shot.shot import Shot
+from .. import haze, temperature
+from ..glow import CLOSE, EMBER, FLAME
 
-FLAME = (1.0, 0.33, 0.04)
-EMBER = (1.0, 0.11, 0.012)
 FLAMING_TIME = 100.0, 300.0  # s that the edge is in flames, seen from nearby and from FAR
 FAR = 9000.0  # m; from there the edge is drawn wider, as a picture's pixels are
 EMBER_TIME = 3600.0  # s in which embers fade to 1/e
@@ -43,9 +40,9 @@ class _Place:
     burned: nodes.Value  # 0 or 1
 
 
-def build(project: Project, run: Run) -> bpy.types.Material:
+def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Ground"."""
-    material, tree = nodes.material("Firetwin Ground")
+    material, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
     place = _place(tree)
     rock = _rock(tree, place)
     green, bump = _unburned(tree, place, rock)
@@ -58,13 +55,13 @@ def build(project: Project, run: Run) -> bpy.types.Material:
     matt = tree.mix_shader(lake, matt, _water(tree, place))
     light = tree.mix_colour(flaming / (flaming + embers + 1.0e-4), EMBER, FLAME)
     power = flaming * _FLAME_LIGHT * place.distance.ramp(*CLOSE, _DIMMED, 1.0) + embers * (
-        _EMBER_LIGHT if project.fire.embers else 0.0
+        _EMBER_LIGHT if shot.settings.fire.embers else 0.0
     )
     # Lamps and the smoke's glow carry the light of flames: rays that happen to meet the edge would be noise.
     seen = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
-    shader = haze.apply(tree, tree.add_shader(matt, tree.emission(light, power * seen)))
-    ambient = heat.ambient(tree, project, run, place.elevation, place.canopy)
-    kelvin = heat.burning(tree, ambient, place.age, place.burned, flaming, embers)
+    shader = haze.apply(tree, tree.add_shader(matt, tree.emission(light, power * seen)), stage)
+    ambient = temperature.ambient(tree, shot, place.elevation, place.canopy)
+    kelvin = temperature.burning(tree, ambient, place.age, place.burned, flaming, embers)
     tree.surface(nodes.thermal_switch(tree, shader, kelvin))
     material.cycles.emission_sampling = "NONE"  # as lamps, its small lights would be noise
     return material

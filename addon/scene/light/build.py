@@ -1,53 +1,69 @@
-"""Sun, moon, sky, haze and exposure for the shot's place, date and time.
-
-The values of light are a picture's: a sun of 9 W/m2 at 38 degrees goes with exposure 0.
-"""
+"""Sun, moon, sky, haze and exposure for the shot's place, date and time."""
 
 from __future__ import annotations
 
 import bpy
 import numpy as np
-from firetwin_core.run import Run
 from mathutils import Vector
 from numpy.typing import NDArray
 
-from .. import compat, nodes
-from ..project import Project
-from . import clock, collections, haze, noise, sun
+from ...blender import compat, nodes, owned
+from ...blender.owned import Stage
+from ...shot.shot import Shot
+from .. import haze
+from .sky import State
 
 _KEYS = 25  # the sky changes at this many moments of the shot
 _SKY = 0.12  # strength of the sky texture; more drowns the sunlit side of smoke
 _DUST = 0.3  # of the sky texture; 1 makes it pale and greenish
 _NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.15
 THERMAL_SKY = 250.0  # K, a clear sky in the long-wave infrared
+_TRANSFORM, _LOOK = "AgX", "AgX - Medium High Contrast"
+_INSTEAD = ("Filmic", "Standard")  # view transforms where there is no AgX, the better first
 
 
-def build(project: Project, run: Run, scene: bpy.types.Scene) -> bpy.types.Object:
-    """Build the lamp "Firetwin Sun" and the world "Firetwin Sky", both animated over the shot."""
-    first, last = clock.window(project, run)
-    moving = project.time.frames > 1 and last > first
-    frames = np.linspace(1.0, project.time.frames, _KEYS if moving else 1)
-    states = [State(project, *sun.at(run, clock.model_time(project, run, frame))) for frame in frames]
-    collection = collections.fresh("Light", scene=scene)
+def build(shot: Shot, stage: Stage) -> list[str]:
+    """Build the lamp "Firetwin Sun" and the haze; in our own scene also world, colours and exposure.
+
+    All are animated over the shot. A world that is not ours stays, and ours is not built.
+
+    Returns
+    -------
+    list of str
+        Sentences for people: what is not as it should be.
+    """
+    frames, states = _moments(shot)
+    if stage.own and stage.scene.world is not None and owned.ours(stage.scene.world):
+        stage.scene.world = None  # so that it goes with the rest of ours
+    _lamp(stage.part("Light"), frames, states)
+    haze.settings(stage, shot.settings.light.haze, _state(shot, shot.frames.middle).haze)
+    if not stage.own:
+        return []
+    if stage.scene.world is None:
+        _world(stage.scene, frames, states)
+    _expose(stage.scene, frames, np.array([s.exposure for s in states]))
+    return _colours(stage.scene.view_settings)
+
+
+def _moments(shot: Shot) -> tuple[NDArray[np.float64], list[State]]:
+    """Frames at which light is worked out, and the light there."""
+    moving = shot.frames.count > 1 and shot.frames.last > shot.frames.first
+    frames = np.linspace(1.0, shot.frames.count, _KEYS if moving else 1)
+    return frames, [_state(shot, shot.frames.time(frame)) for frame in frames]
+
+
+def _state(shot: Shot, time: float) -> State:
+    return State(shot.settings.light, *shot.sun(time))
+
+
+def _lamp(collection: bpy.types.Collection, frames: NDArray[np.float64], states: list[State]) -> None:
     lamp = bpy.data.lights.new("Firetwin Sun", "SUN")
     lamp.angle = np.radians(0.53)
-    thing = collections.add(collection, "Sun", lamp)
+    thing = owned.add(collection, "Sun", lamp)
     thing.rotation_mode = "QUATERNION"
-    sky = _world(scene)
-    _key(thing, "rotation_quaternion", frames, np.array([s.rotation for s in states]))
+    _key(thing, "rotation_quaternion", frames, np.array([_facing(s.direction) for s in states]))
     _key(lamp, "energy", frames, np.array([s.power for s in states]))
     _key(lamp, "color", frames, np.array([s.colour for s in states]))
-    tree = scene.world.node_tree
-    place = f'nodes["{sky.name}"]'
-    compat.set_sky(sky, states[0].sky[0], states[0].sky[1], _DUST)
-    _key(tree, f"{place}.sun_elevation", frames, np.array([s.sky[0] for s in states]))
-    _key(tree, f"{place}.sun_rotation", frames, np.unwrap([s.sky[1] for s in states]))
-    middle = State(project, *sun.at(run, 0.5 * (first + last)))
-    haze.settings(project.light.haze, middle.haze)
-    scene.view_settings.view_transform = "AgX"
-    scene.view_settings.look = "AgX - Medium High Contrast"
-    _key(scene, "view_settings.exposure", frames, np.array([s.exposure for s in states]))
-    return thing
 
 
 def _facing(direction: NDArray[np.float64]) -> tuple[float, ...]:
@@ -55,12 +71,9 @@ def _facing(direction: NDArray[np.float64]) -> tuple[float, ...]:
     return tuple(Vector((-direction).tolist()).to_track_quat("-Z", "Y"))
 
 
-def _world(scene: bpy.types.Scene) -> bpy.types.ShaderNodeTexSky:
+def _world(scene: bpy.types.Scene, frames: NDArray[np.float64], states: list[State]) -> None:
     """Make the world: sky texture and a little night sky; constant and cold in thermal view layers."""
-    old = bpy.data.worlds.get("Firetwin Sky")
-    if old is not None:
-        collections.discard(old)
-    world = scene.world = bpy.data.worlds.new("Firetwin Sky")
+    world = scene.world = owned.mark(bpy.data.worlds.new("Firetwin Sky"))
     tree = nodes.Tree(compat.node_tree(world))
     sky = tree.node("ShaderNodeTexSky")
     sky.name = "Sky"
@@ -70,7 +83,40 @@ def _world(scene: bpy.types.Scene) -> bpy.types.ShaderNodeTexSky:
     seen = tree.output("ShaderNodeBackground", {"Color": light, "Strength": 1.0})
     cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": THERMAL_SKY})
     tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), seen, cold))
-    return sky
+    compat.set_sky(sky, states[0].sky[0], states[0].sky[1], _DUST)
+    place = f'nodes["{sky.name}"]'
+    _key(world.node_tree, f"{place}.sun_elevation", frames, np.array([s.sky[0] for s in states]))
+    _key(world.node_tree, f"{place}.sun_rotation", frames, np.unwrap([s.sky[1] for s in states]))
+
+
+def _expose(scene: bpy.types.Scene, frames: NDArray[np.float64], exposures: NDArray[np.float64]) -> None:
+    """Animate the exposure; where the artist animates the scene it is that of the middle and stays."""
+    action = scene.animation_data.action if scene.animation_data else None
+    if action is not None and not owned.ours(action):
+        frames, exposures = frames[:1], exposures[len(exposures) // 2 :][:1]
+    _key(scene, "view_settings.exposure", frames, exposures)
+
+
+def _colours(view: bpy.types.ColorManagedViewSettings) -> list[str]:
+    """Choose how light becomes the picture's colours; a sentence where it cannot be as the picture wants."""
+    chosen = next((name for name in (_TRANSFORM, *_INSTEAD) if _set(view, "view_transform", name)), None)
+    if chosen == _TRANSFORM and _set(view, "look", _LOOK):
+        return []
+    _set(view, "look", "None")
+    instead = view.view_transform if chosen is None else chosen
+    missing = _LOOK if chosen == _TRANSFORM else _TRANSFORM
+    return [
+        f'no "{missing}" in this Blender\'s colours: pictures are shown by "{instead}" and look different'
+    ]
+
+
+def _set(thing: bpy.types.bpy_struct, name: str, choice: str) -> bool:
+    """Set a property to one of its choices; whether it has that choice."""
+    try:
+        setattr(thing, name, choice)
+    except TypeError:
+        return False
+    return True
 
 
 def _key(thing: bpy.types.ID, data_path: str, frames: NDArray[np.float64], values: NDArray) -> None:
@@ -79,7 +125,8 @@ def _key(thing: bpy.types.ID, data_path: str, frames: NDArray[np.float64], value
     owner, _, name = data_path.rpartition(".")
     target = thing.path_resolve(owner) if owner else thing
     setattr(target, name, columns[0] if values.ndim > 1 else float(columns[0, 0]))
-    if len(frames) == 1:
+    animated = any(curve.data_path == data_path for curve in compat.fcurves(thing))
+    if len(frames) == 1 and not animated:
         return
     for index in range(columns.shape[1]):
         curve = compat.new_fcurve(thing, data_path, index)

@@ -12,22 +12,22 @@ from ..schema import Where, key
 class CameraKey:
     """Where a camera is at one moment of the shot, and where it looks."""
 
-    at: float = key(0.0, "0: first frame, 1: last frame", at_least=0, at_most=1)
+    at: float = key(0.0, "when; 0: first frame, 1: last frame", at_least=0, at_most=1)
     latitude: float = key(0.0, "where the camera is", unit="degrees north", at_least=-90, at_most=90)
     longitude: float = key(
         0.0, "where the camera is; west is negative", unit="degrees east", at_least=-180, at_most=180
     )
-    height: float = key(300.0, "above the ground", unit="m", above=0)
+    height: float = key(300.0, "height above the ground", unit="m", above=0)
     target: str = key(
         "point",
-        "what it looks at",
-        choices={"head": "of the fire", "fire": "its middle", "point": "the place below"},
+        "it looks at",
+        choices={"head": "of the fire", "fire": "its middle", "point": "given below"},
     )
     target_latitude: float = key(0.0, "where the point is", unit="degrees north", at_least=-90, at_most=90)
     target_longitude: float = key(
         0.0, "where the point is; west is negative", unit="degrees east", at_least=-180, at_most=180
     )
-    target_height: float = key(0.0, "of what it looks at, above the ground", unit="m")
+    target_height: float = key(0.0, "height above the ground of what it looks at", unit="m")
 
 
 def rising(keys: tuple[CameraKey, ...]) -> tuple[Where, str] | None:

@@ -26,7 +26,7 @@ _CLEARANCE = 0.35  # of the height asked for that stays over hills between keys
 class Drone(Rig):
     """In perspective, flying smoothly from key to key."""
 
-    focal_length: float = key(28.0, "of a lens before film 36 mm wide", unit="mm", at_least=1, at_most=5000)
+    focal_length: float = key(28.0, "of the lens; film is 36 mm wide", unit="mm", at_least=1, at_most=5000)
     over_ridges: bool = key(
         False, 'rise until it sees its "head" or "fire" over the ridges between; else it keeps its height'
     )

@@ -1,0 +1,64 @@
+"""What Cycles renders on: the processor, or a GPU by OptiX, CUDA, HIP, oneAPI or Metal."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..errors import Error
+
+KINDS = ("OPTIX", "CUDA", "HIP", "ONEAPI", "METAL")  # the fastest of those that a GPU has comes first
+_NAMES = {"OPTIX": "OptiX", "CUDA": "CUDA", "HIP": "HIP", "ONEAPI": "oneAPI", "METAL": "Metal"}
+
+
+def take(wanted: str, scene: bpy.types.Scene) -> str:
+    """Have a scene rendered on what is `wanted` ("auto", "cpu" or "gpu"), in a Blender of our own.
+
+    Changes Blender's preferences, so never for an artist's: see `follow`.
+
+    Returns
+    -------
+    What was taken, in words.
+
+    Raises
+    ------
+    Error
+        A GPU is wanted and there is none.
+    """
+    kind, names = ("NONE", []) if wanted == "cpu" else _gpus()
+    if wanted == "gpu" and not names:
+        tried = ", ".join(_NAMES.values())
+        raise Error(
+            f'[render] device = "gpu", but Cycles finds no GPU here (tried {tried}); '
+            'set it to "auto" or "cpu"'
+        )
+    scene.cycles.device = "GPU" if names else "CPU"
+    if not names:
+        return "the processor" + ("" if wanted == "cpu" else " (no GPU found)")
+    preferences = _preferences()
+    preferences.compute_device_type = kind
+    for device in preferences.devices:
+        device.use = device.type == kind
+    return f"{' and '.join(dict.fromkeys(names))} by {_NAMES[kind]}"
+
+
+def follow(wanted: str, scene: bpy.types.Scene) -> None:
+    """Have a scene rendered on what the preferences of an artist's Blender say, which is its processor at first."""
+    scene.cycles.device = "CPU" if wanted == "cpu" else "GPU"
+
+
+def _preferences() -> bpy.types.AddonPreferences | None:
+    """Preferences of Cycles; None where that is switched off."""
+    addon = bpy.context.preferences.addons.get("cycles")
+    return addon.preferences if addon else None
+
+
+def _gpus() -> tuple[str, list[str]]:
+    """The first kind of device that there are GPUs of, and their names."""
+    preferences = _preferences()
+    known = {entry[0] for entry in preferences.get_device_types(bpy.context)} if preferences else ()
+    for kind in KINDS:
+        if kind in known:
+            names = [d.name for d in preferences.get_devices_for_type(kind) or () if d.type == kind]
+            if names:
+                return kind, names
+    return "NONE", []

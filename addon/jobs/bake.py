@@ -1,0 +1,36 @@
+"""Write the smoke volumes of the whole shot."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ..progress import Progress, Tell, silent, untold
+from ..shot.choice import Choice
+from . import worker
+
+
+def run(
+    choice: Choice, progress: Progress = silent, tell: Tell = untold, stop: worker.Stop | None = None
+) -> list[Path]:
+    """Write the volumes that are not there, of each camera by itself as `render` wants them.
+
+    Returns
+    -------
+    The folders that hold them; none without smoke.
+    """
+    if not choice.shot().settings.smoke.enabled:
+        return []
+    task = {"choice": choice.plain()}
+    return [Path(place) for place in worker.run(f"{__name__}:in_blender", task, progress, stop=stop, tell=tell)]
+
+
+def in_blender(choice: dict[str, str], progress: Progress, tell: Tell) -> list[str]:
+    """Bake and return the folders of the volumes."""
+    from ..scene.smoke import bake
+
+    shot = Choice(**choice).shot()
+    for text in shot.warnings():
+        tell(text)
+    alone = [shot.of(camera.name) for camera in shot.settings.cameras]
+    places = {bake.folder(each): each for each in alone}
+    return [str(bake.bake(each, progress)) for each in places.values()]

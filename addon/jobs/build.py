@@ -1,0 +1,78 @@
+"""Build the scene and save it as a .blend file."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from ..errors import input_error
+from ..progress import Progress, Tell, silent, untold
+from ..shot.choice import Choice
+from . import worker
+
+
+def run(
+    choice: Choice,
+    out: Path,
+    progress: Progress = silent,
+    tell: Tell = untold,
+    stop: worker.Stop | None = None,
+) -> None:
+    """Build the scene and save it as `out`, a .blend file.
+
+    Raises
+    ------
+    InputError
+        `out` cannot be written, or what is wrong with scene file or run.
+    """
+    out = out.absolute()
+    _writable(out)
+    choice.shot()
+    worker.run(f"{__name__}:in_blender", {"choice": choice.plain(), "out": str(out)}, progress, stop=stop, tell=tell)
+
+
+def _writable(out: Path) -> None:
+    """Find out before anything is built whether a file can be written there."""
+    if out.is_dir():
+        raise input_error(out, 0, 0, "is a folder; name a file in it that ends in .blend")
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        part = _part(out)
+        part.touch()
+        part.unlink()
+    except OSError as error:
+        reason = f"cannot be written ({error.strerror}); choose another place"
+        raise input_error(out, 0, 0, reason) from None
+    if out.exists() and not os.access(out, os.W_OK):
+        raise input_error(out, 0, 0, "is write-protected; choose another name")
+
+
+def _part(out: Path) -> Path:
+    return out.with_name(f".{out.stem}.part.blend")
+
+
+def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell) -> None:
+    """Build the scene and save it under a temporary name that it then loses."""
+    import bpy
+
+    from ..scene.smoke import bake
+    from ..scene.smoke import build as smoke
+    from . import setting
+
+    shot = Choice(**choice).shot()
+    for text in shot.warnings():
+        tell(text)
+    if shot.settings.smoke.enabled:
+        bake.bake(shot, progress)
+    setting.build_scene(shot, progress, tell)
+    smoke.relative(Path(out))
+    part = _part(Path(out))
+    bpy.context.preferences.filepaths.save_version = 0
+    try:
+        bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True, relative_remap=False)
+        part.replace(out)
+    except (OSError, RuntimeError) as error:
+        reason = " ".join(str(getattr(error, "strerror", None) or error).split())
+        raise input_error(out, 0, 0, f"cannot be written: {reason}") from None
+    finally:
+        part.unlink(missing_ok=True)

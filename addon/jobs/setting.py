@@ -1,0 +1,27 @@
+"""An otherwise empty Blender with a shot's scene in it: what the worker process builds, bakes and renders."""
+
+from __future__ import annotations
+
+from ..blender import devices, owned
+from ..blender.owned import Stage
+from ..progress import Progress, Tell
+from ..render import engine, layers
+from ..scene import build
+from ..shot.shot import Shot
+
+
+def build_scene(shot: Shot, progress: Progress, tell: Tell) -> Stage:
+    """Build the scene of a shot, with view layers and engine, in a Blender that holds nothing else."""
+    import bpy
+
+    # Not read_factory_settings: its preferences enable no extension, and Blender then deletes their wheels.
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    stage = owned.adopt(bpy.context.scene)
+    total = len(build.PARTS) + 2
+    for done, step in enumerate(build.steps(shot, stage.scene, tell=tell)):
+        progress(done, total, f"building the scene: {step}")
+    layers.build(shot.settings, stage)
+    engine.apply(shot.settings, stage.scene)
+    devices.follow(shot.settings.render.device, stage.scene)
+    progress(total, total, "building the scene")
+    return stage
