@@ -16,7 +16,7 @@ _RISE = 9.0  # m/s at which the pattern rises
 
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Flame" for the cards of `fire`, whose attribute `card` runs over -1..1 and 0..1."""
-    material, tree = nodes.material("Firetwin Flame")
+    material, tree = nodes.material("Firetwin Flame", (1.00, 0.25, 0.02))
     across, up, _ = tree.separate(tree.attribute("card", output="Vector"))
     seed = tree.attribute("seed", "INSTANCER")
     length = tree.attribute("flame_length", "INSTANCER")
