@@ -36,7 +36,9 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     colour = tree.mix_colour(shape.smoothstep(0.15, 0.8), _RIM, _BODY)
     colour = tree.mix_colour(hot, colour, _CORE)
     strength = shape.power(1.3) * (0.35 + hot * 0.65) * glow.brightness(shot)
-    strength = strength * tree.output("ShaderNodeCameraData", name="View Distance").ramp(*glow.CLOSE, _DIMMED, 1.0)
+    strength = strength * tree.output("ShaderNodeCameraData", name="View Distance").ramp(
+        *glow.CLOSE, _DIMMED, 1.0
+    )
     part, _air = haze.fraction(tree, stage)
     behind = 1.0 - shape * 0.5
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(behind, behind, behind)})
