@@ -1,4 +1,4 @@
-"""A small run, a project for it, and a clean Blender for every test."""
+"""A small run, settings and a shot of it, and a clean Blender for every test."""
 
 from __future__ import annotations
 
@@ -10,8 +10,12 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from firetwin import project as projects  # noqa: E402
+from firetwin.blender import compat, owned  # noqa: E402
+from firetwin.shot import settings as scene_settings  # noqa: E402
+from firetwin.shot.rigs.drone import CameraKey, Drone  # noqa: E402
+from firetwin.shot.shot import Shot  # noqa: E402
 from firetwin_core import run as runs  # noqa: E402
+from firetwin_core import sensor  # noqa: E402
 
 NY = NX = 24
 FINE = 5
@@ -68,37 +72,47 @@ def run(run_folder):
 
 
 @pytest.fixture
-def project(run_folder, tmp_path):
+def settings(run_folder, tmp_path):
     """A drone over the run's middle, three frames over an hour, no relief or stand, a small apron."""
     keys = (
-        projects.CameraKey(0.0, 38.825, -120.56, 400.0, "point", 38.845, -120.55, 0.0),
-        projects.CameraKey(1.0, 38.830, -120.57, 500.0, "point", 38.845, -120.55, 0.0),
+        CameraKey(0.0, 38.825, -120.56, 400.0, "point", 38.845, -120.55, 0.0),
+        CameraKey(1.0, 38.830, -120.57, 500.0, "point", 38.845, -120.55, 0.0),
     )
-    return projects.Project(
+    return scene_settings.Settings(
         path=tmp_path / "scene.toml",
         run=run_folder,
         cache=tmp_path / "cache",
-        time=projects.Time(
+        time=scene_settings.Time(
             start=datetime(2014, 9, 17, 21, 0, tzinfo=UTC),
             end=datetime(2014, 9, 17, 22, 0, tzinfo=UTC),
             frames=3,
         ),
-        terrain=projects.Terrain(near_radius=0.0, apron=20_000.0),
-        forest=projects.Forest(stand_radius=0.0),
-        smoke=projects.Smoke(enabled=False),
-        cameras=(projects.Camera("drone", keys=keys),),
-        render=projects.Render(resolution=(64, 36), samples=4, denoise=False),
+        ground=scene_settings.Ground(near_radius=0.0, apron=20_000.0),
+        forest=scene_settings.Forest(stand_radius=0.0),
+        smoke=scene_settings.Smoke(enabled=False),
+        cameras=(scene_settings.Camera("drone", Drone(keys=keys)),),
+        render=scene_settings.Render(resolution=(64, 36), samples=4, denoise=False),
     )
 
 
 @pytest.fixture
-def near_project(project):
+def near_settings(settings):
     """The same with a detailed ground and a stand."""
     return replace(
-        project,
-        terrain=replace(project.terrain, near_radius=1500.0, near_spacing=20.0),
-        forest=replace(project.forest, stand_radius=900.0, stand_spacing=20.0),
+        settings,
+        ground=replace(settings.ground, near_radius=1500.0, near_spacing=20.0),
+        forest=replace(settings.forest, stand_radius=900.0, stand_spacing=20.0),
     )
+
+
+@pytest.fixture
+def shot(settings, run):
+    return Shot(settings, run)
+
+
+@pytest.fixture
+def near_shot(near_settings, run):
+    return Shot(near_settings, run)
 
 
 @pytest.fixture(autouse=True)
@@ -109,13 +123,16 @@ def scene():
 
 
 @pytest.fixture
+def stage(scene):
+    """The scene as one of our own."""
+    return owned.adopt(scene)
+
+
+@pytest.fixture
 def shoot(tmp_path):
     """Render the scene with Cycles and return its pixels, (height, width, 3), scene-linear."""
 
     def render(scene, layer: str | None = None) -> np.ndarray:
-        from firetwin import compat
-        from firetwin_core import sensor
-
         scene.render.engine = "CYCLES"
         compat.march_through_volumes(scene.cycles)
         scene.cycles.use_denoising, scene.cycles.samples = False, 4

@@ -3,64 +3,69 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from bpy_extras.object_utils import world_to_camera_view
-from firetwin import project as projects
-from firetwin.errors import InputError
-from firetwin.scene import build, cameras, paths, targets
+from firetwin.scene.camera import build as cameras
+from firetwin.shot import targets
+from firetwin.shot.rigs.drone import Drone
+from firetwin.shot.rigs.satellite import Satellite
+from firetwin.shot.settings import Camera
+from firetwin.shot.shot import Shot
 from mathutils import Vector
 
 
-def _built(project, run, scene):
-    ground, views = build.survey(project, run)
-    scene.render.resolution_x, scene.render.resolution_y = project.render.resolution
-    return ground, views, cameras.build(project, run, views, scene)
+def _built(shot, stage):
+    render = stage.scene.render
+    render.resolution_x, render.resolution_y = shot.settings.render.resolution
+    return cameras.build(shot, stage)
 
 
-def test_a_camera_looks_at_its_target_in_every_frame(project, run, scene):
-    ground, views, (camera,) = _built(project, run, scene)
-    target = Vector(ground.point(38.845, -120.55)[0])
+def _with_keys(settings, run, frames, **changes):
+    """A shot of many frames whose drone has these keys and other settings."""
+    (camera,) = settings.cameras
+    camera = replace(camera, rig=replace(camera.rig, **changes))
+    return Shot(replace(settings, cameras=(camera,), time=replace(settings.time, frames=frames)), run)
+
+
+def test_a_camera_looks_at_its_target_in_every_frame(shot, stage, scene):
+    (camera,) = _built(shot, stage)
+    target = Vector(shot.ground.point(38.845, -120.55)[0])
     for frame in (1, 2, 3):
         scene.frame_set(frame)
         assert world_to_camera_view(scene, camera, target)[:2] == pytest.approx((0.5, 0.5), abs=1e-3)
         assert camera.matrix_world.col[0].z == pytest.approx(0.0, abs=1e-5)  # a level horizon
-        assert camera.location[:] == pytest.approx(views[0].position[frame - 1], abs=0.01)
+        assert camera.location[:] == pytest.approx(shot.paths[0].position[frame - 1], abs=0.01)
     assert camera.data.clip_end >= 200_000.0
 
 
-def test_keys_are_met_at_their_height_over_the_ground(project, run, scene):
-    ground, views, _built_cameras = _built(project, run, scene)
-    for frame, key in ((0, project.cameras[0].keys[0]), (-1, project.cameras[0].keys[1])):
-        below = ground.point(key.latitude, key.longitude)[0]
-        assert views[0].position[frame] - below == pytest.approx([0.0, 0.0, key.height], abs=1.0)
+def test_keys_are_met_at_their_height_over_the_ground(shot):
+    keys = shot.camera("drone").rig.keys
+    for frame, key in ((0, keys[0]), (-1, keys[1])):
+        below = shot.ground.point(key.latitude, key.longitude)[0]
+        assert shot.paths[0].position[frame] - below == pytest.approx([0.0, 0.0, key.height], abs=1.0)
 
 
-def test_a_hill_between_keys_lifts_the_camera(project, run):
-    keys = tuple(replace(key, height=20.0) for key in project.cameras[0].keys)
+def test_a_hill_between_keys_lifts_the_camera(settings, run):
+    keys = tuple(replace(key, height=20.0) for key in settings.cameras[0].rig.keys)
     keys = (keys[0], replace(keys[1], latitude=38.87, longitude=-120.51))
-    many = replace(project, cameras=(replace(project.cameras[0], keys=keys),))
-    many = replace(many, time=replace(many.time, frames=60))
-    ground, (view,) = build.survey(many, run)
-    clear = view.position[:, 2] - ground.up(view.position[:, 0], view.position[:, 1])
+    shot = _with_keys(settings, run, 60, keys=keys)
+    (view,) = shot.paths
+    clear = view.position[:, 2] - shot.ground.up(view.position[:, 0], view.position[:, 1])
     assert clear.min() > 5.0
 
 
-def test_a_camera_that_follows_the_fire_sees_it_over_ridges(project, run):
-    keys = tuple(replace(key, height=15.0, target="head") for key in project.cameras[0].keys)
-    many = replace(project, cameras=(replace(project.cameras[0], keys=keys),))
-    many = replace(many, time=replace(many.time, frames=20))
-    ground, (view,) = build.survey(many, run)
+def test_a_camera_that_follows_the_fire_sees_it_over_ridges(settings, run):
+    keys = tuple(replace(key, height=15.0, target="head") for key in settings.cameras[0].rig.keys)
+    shot = _with_keys(settings, run, 20, keys=keys, over_ridges=True)
+    (view,) = shot.paths
     for part in (0.2, 0.4, 0.6, 0.8):
         way = view.position + part * (view.target - view.position)
-        assert np.all(way[:, 2] > ground.up(way[:, 0], way[:, 1]))
-    hidden = replace(
-        many, cameras=(replace(many.cameras[0], keys=tuple(replace(k, target="point") for k in keys)),)
-    )
-    low = paths.paths(hidden, run, ground)[0]
+        assert np.all(way[:, 2] > shot.ground.up(way[:, 0], way[:, 1]))
+    low = _with_keys(settings, run, 20, keys=keys).paths[0]
     assert np.max(view.position[:, 2] - low.position[:, 2]) > 20.0
 
 
-def test_what_is_in_the_picture_is_seen_and_what_is_far_beside_it_is_not(project, run, scene):
-    ground, (view,), (camera,) = _built(project, run, scene)
-    places = ground.point(
+def test_what_is_in_the_picture_is_seen_and_what_is_far_beside_it_is_not(shot, run, stage, scene):
+    (camera,), (view,) = _built(shot, stage), shot.paths
+    places = shot.ground.point(
         *(axis.ravel() for axis in np.meshgrid(run.fuel_latitude[::9], run.fuel_longitude[::9]))
     )
     seen = view.sees(places, margin=0.0)
@@ -74,17 +79,17 @@ def test_what_is_in_the_picture_is_seen_and_what_is_far_beside_it_is_not(project
     assert 0 < seen.sum() < len(seen)
 
 
-def test_a_satellite_looks_straight_down_on_its_swath(project, run, scene):
-    satellite = projects.Camera("goes", "satellite", swath=8000.0)
-    _ground, (view,), (camera,) = _built(replace(project, cameras=(satellite,)), run, scene)
+def test_a_satellite_looks_straight_down_on_its_swath(settings, run, stage):
+    shot = Shot(replace(settings, cameras=(Camera("goes", Satellite(swath=8000.0)),)), run)
+    (camera,), (view,) = _built(shot, stage), shot.paths
     assert camera.data.type == "ORTHO"
     assert camera.data.ortho_scale == 8000.0
     assert camera.matrix_world.col[2][:3] == pytest.approx((0.0, 0.0, 1.0), abs=1e-6)
     assert view.sees([[3900.0, 0.0, 1000.0], [4100.0, 0.0, 1000.0]], margin=0.0).tolist() == [True, False]
 
 
-def test_the_head_is_on_the_front_and_moves_smoothly(project, run):
-    ground, _views = build.survey(project, run)
+def test_the_head_is_on_the_front_and_moves_smoothly(shot):
+    ground = shot.ground
     times = np.linspace(600.0, 3000.0, 40)
     east, north = targets.head(ground, times)
     arrival = ground.sample(np.minimum(ground.arrival, 1e5), east, north)
@@ -93,7 +98,7 @@ def test_the_head_is_on_the_front_and_moves_smoothly(project, run):
     assert step.max() < 250.0
 
 
-def test_a_camera_without_keys_is_an_error_that_says_so(project, run):
-    lost = replace(project, cameras=(projects.Camera("lost"),))
-    with pytest.raises(InputError, match='camera "lost" has no keys'):
-        paths.paths(lost, run)
+def test_a_drone_without_keys_is_an_error_that_says_so():
+    where, reason = Camera("lost", Drone()).wrong()
+    assert where == ("keys",)
+    assert 'camera "lost" has no [[cameras.keys]]' in reason

@@ -1,7 +1,7 @@
 import bpy
 import numpy as np
 import pytest
-from firetwin import compat, nodes
+from firetwin.blender import compat, nodes
 from firetwin_core import volume
 
 

@@ -2,15 +2,15 @@ import math
 
 import bpy
 import pytest
-from firetwin import nodes
+from firetwin.blender import nodes
 from firetwin.scene import haze
 
 
-def _look(scene, shoot, height, distance):
+def _look(stage, shoot, height, distance):
     """Red of a black wall at `height` seen from `distance` above it (level where that is negative)."""
     material, tree = nodes.material("wall")
-    tree.surface(haze.apply(tree, tree.emission((0.0, 0.0, 0.0))))
-    mesh = bpy.data.meshes.new("wall")
+    tree.surface(haze.apply(tree, tree.emission((0.0, 0.0, 0.0)), stage))
+    scene, mesh = stage.scene, bpy.data.meshes.new("wall")
     size = 10.0 * abs(distance)
     if distance > 0.0:
         corners = [(-size, -size, height), (size, -size, height), (size, size, height), (-size, size, height)]
@@ -34,18 +34,18 @@ def _look(scene, shoot, height, distance):
     return shoot(scene)[2, 2, 0]
 
 
-def test_level_rays_fade_by_the_extinction_at_their_height(scene, shoot):
-    haze.settings(1.0, (2.0, 0.0, 0.0))
+def test_level_rays_fade_by_the_extinction_at_their_height(stage, shoot):
+    haze.settings(stage, 1.0, (2.0, 0.0, 0.0))
     depth = haze.EXTINCTION * 30_000.0 * math.exp(-2000.0 / haze.SCALE_HEIGHT)
-    assert _look(scene, shoot, 2000.0, -30_000.0) == pytest.approx(2.0 * (1.0 - math.exp(-depth)), rel=0.01)
+    assert _look(stage, shoot, 2000.0, -30_000.0) == pytest.approx(2.0 * (1.0 - math.exp(-depth)), rel=0.01)
 
 
-def test_from_space_the_whole_air_is_one_scale_height_deep(scene, shoot):
-    haze.settings(1.0, (2.0, 0.0, 0.0))
+def test_from_space_the_whole_air_is_one_scale_height_deep(stage, shoot):
+    haze.settings(stage, 1.0, (2.0, 0.0, 0.0))
     depth = haze.EXTINCTION * haze.SCALE_HEIGHT
-    assert _look(scene, shoot, 0.0, 60_000.0) == pytest.approx(2.0 * (1.0 - math.exp(-depth)), rel=0.01)
+    assert _look(stage, shoot, 0.0, 60_000.0) == pytest.approx(2.0 * (1.0 - math.exp(-depth)), rel=0.01)
 
 
-def test_no_haze_hides_nothing(scene, shoot):
-    haze.settings(0.0, (2.0, 0.0, 0.0))
-    assert _look(scene, shoot, 0.0, 60_000.0) == pytest.approx(0.0, abs=1e-6)
+def test_no_haze_hides_nothing(stage, shoot):
+    haze.settings(stage, 0.0, (2.0, 0.0, 0.0))
+    assert _look(stage, shoot, 0.0, 60_000.0) == pytest.approx(0.0, abs=1e-6)

@@ -3,7 +3,7 @@ import math
 import bpy
 import numpy as np
 import pytest
-from firetwin import compat, nodes
+from firetwin.blender import compat, nodes, owned
 from firetwin.scene import clock
 
 
@@ -41,13 +41,13 @@ def test_arithmetic_on_sockets_is_what_it_says(scene, plate, shoot):
     assert shoot(scene)[2, 2] == pytest.approx([1.0, math.exp(-2) + 8.0, 2.5], rel=1e-5)
 
 
-def test_model_time_reaches_shaders_at_every_frame(scene, plate, shoot, project, run):
-    clock.build(project, run, scene)
+def test_model_time_reaches_shaders_at_every_frame(scene, plate, shoot, shot, stage):
+    clock.build(shot, stage)
     _show(plate, lambda tree: tree.emission((1.0, 1.0, 1.0), nodes.model_time(tree)))
     for frame, seconds in ((1, 0.0), (2, 1800.0), (3, 3600.0), (5, 7200.0)):
         scene.frame_set(frame)
         assert shoot(scene)[2, 2, 0] == pytest.approx(seconds, abs=1e-3)
-        assert clock.model_time(project, run, frame) == pytest.approx(seconds)
+        assert shot.frames.time(frame) == pytest.approx(seconds)
 
 
 def test_thermal_layers_show_kelvin_and_others_the_shader(scene, plate, shoot):
@@ -66,7 +66,7 @@ def test_sockets_are_found_by_name_and_missing_ones_named():
         tree.node("ShaderNodeEmission", {"Nonsense": 1.0})
 
 
-def test_building_a_material_twice_replaces_it():
-    nodes.material("test")
-    nodes.material("test")
-    assert [material.name for material in bpy.data.materials] == ["test"]
+def test_a_material_is_ours_and_has_a_colour_in_the_solid_view():
+    material, _tree = nodes.material("test", (0.1, 0.2, 0.3))
+    assert owned.ours(material)
+    assert material.diffuse_color[:] == pytest.approx((0.1, 0.2, 0.3, 1.0))

@@ -2,7 +2,7 @@
 
 import bpy
 import numpy as np
-from firetwin import nodes
+from firetwin.blender import nodes
 from firetwin.render import engine
 from firetwin.scene import build
 
@@ -16,9 +16,9 @@ def _animated():
     return [block for block in blocks if getattr(block, "animation_data", None)]
 
 
-def test_a_saved_scene_needs_no_scripts(near_project, run, scene, shoot, tmp_path):
-    build.build(near_project, run, scene)
-    engine.apply(near_project, scene)
+def test_a_saved_scene_needs_no_scripts(near_shot, stage, scene, shoot, tmp_path):
+    build.build(near_shot, scene)
+    engine.apply(near_shot, scene)
     scene.frame_set(2)
     assert _animated()
     assert not [block for block in _animated() if block.animation_data.drivers]
@@ -35,8 +35,8 @@ def test_a_saved_scene_needs_no_scripts(near_project, run, scene, shoot, tmp_pat
     assert np.ptp(before[0]) > 0.0
 
 
-def test_scrubbing_a_saved_scene_moves_its_clock_and_camera(project, run, scene, tmp_path):
-    build.build(project, run, scene)
+def test_scrubbing_a_saved_scene_moves_its_clock_and_camera(shot, stage, scene, tmp_path):
+    build.build(shot, scene)
     path = str(tmp_path / "scene.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path, use_scripts=False)

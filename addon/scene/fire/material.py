@@ -16,7 +16,7 @@ _RISE = 9.0  # m/s at which the pattern rises
 
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Flame" for the cards of `fire`, whose attribute `card` runs over -1..1 and 0..1."""
-    material, tree = nodes.material("Firetwin Flame")
+    material, tree = nodes.material("Firetwin Flame", (1.00, 0.25, 0.02))
     across, up, _ = tree.separate(tree.attribute("card", output="Vector"))
     seed = tree.attribute("seed", "INSTANCER")
     length = tree.attribute("flame_length", "INSTANCER")
@@ -36,7 +36,9 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     colour = tree.mix_colour(shape.smoothstep(0.15, 0.8), _RIM, _BODY)
     colour = tree.mix_colour(hot, colour, _CORE)
     strength = shape.power(1.3) * (0.35 + hot * 0.65) * glow.brightness(shot)
-    strength = strength * tree.output("ShaderNodeCameraData", name="View Distance").ramp(*glow.CLOSE, _DIMMED, 1.0)
+    strength = strength * tree.output("ShaderNodeCameraData", name="View Distance").ramp(
+        *glow.CLOSE, _DIMMED, 1.0
+    )
     part, _air = haze.fraction(tree, stage)
     behind = 1.0 - shape * 0.5
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(behind, behind, behind)})

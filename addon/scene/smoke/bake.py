@@ -9,48 +9,44 @@ from __future__ import annotations
 
 import functools
 import os
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import firetwin_core
-import numpy as np
-from firetwin_core import volume
-from firetwin_core.run import Run
-from numpy.typing import NDArray
 
-from .. import content
-from ..errors import input_error
-from ..progress import Progress, silent
-from ..project import Project
-from ..times import frame_times
-from . import air, burning, heat
-from .frame import local_frame
-from .smoke_view import Sights, resolution, shot_frames
+from ...errors import input_error
+from ...progress import Progress, Tell, count, silent, untold
+from ...run import content
+from ...shot import schema
+from ...shot.shot import Shot
+from . import baker
+from .baker import Baker
+from .view import resolution, shot_frames
 
-__all__ = ["SHOWN", "Baker", "bake", "file", "folder", "lights", "resolution", "shot_frames"]
+__all__ = ["Baker", "ahead", "bake", "estimate", "file", "folder", "resolution", "shot_frames"]
 
-SHOWN = ("density", "dilution", "shade", "size", "glow")  # grids that smoke_material asks for
 _FRAME_MEMORY = 1 << 30  # bytes that a frame may need while it is made: 0.5 GB were measured
 _MOST_AT_ONCE = 8
-_GLOW_BLOCK = 300.0  # m; flames this near each other light the smoke as one
-_GLOW_COUNT = 400
-_FLAME_HEIGHT = 20.0  # m over the ground, where their light comes from
+_NOT_IN_FILES = ("enabled", "extinction", "voxel_size")  # of [smoke]: how it is drawn; voxels have their own
 
 
-def folder(project: Project, run: Run) -> Path:
-    """Where the smoke of this project is kept."""
-    return _cache(project) / _key(project, run)
+def folder(shot: Shot) -> Path:
+    """Where the smoke of this shot is kept.
+
+    It is absolute: Blender takes other paths for places beside the .blend file.
+    """
+    return shot.settings.cache.absolute() / _key(shot)
 
 
-def file(project: Project, run: Run, frame: int) -> Path:
+def file(shot: Shot, frame: int) -> Path:
     """The volume of a frame."""
-    return folder(project, run) / f"smoke_{frame:06d}.vdb"
+    return _in(folder(shot), frame)
 
 
-def bake(
-    project: Project, run: Run, progress: Progress | None = None, frames: list[int] | None = None
-) -> Path:
+def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None = None) -> Path:
     """Write the volumes of the shot (or of those of `frames` that it has) that are not there yet.
 
     Several frames are made at once, as many as there are processors and memory for.
@@ -64,25 +60,16 @@ def bake(
     InputError
         The cache cannot be written.
     """
-    progress = progress or silent
-    place = folder(project, run)
-    try:
-        place.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise input_error(
-            place, 0, 0, f"cannot make the folder ({error.strerror}); set `cache` to one that can be written"
-        ) from None
-    _sweep(place)
-    wanted = shot_frames(project) if frames is None else frames
-    wanted = [frame for frame in wanted if 1 <= frame <= project.time.frames]
-    missing = [frame for frame in wanted if not (place / f"smoke_{frame:06d}.vdb").exists()]
+    place = _prepared(shot)
+    wanted = shot_frames(shot) if frames is None else _of_shot(shot, frames)
+    missing = [frame for frame in wanted if not _in(place, frame).exists()]
     done = len(wanted) - len(missing)
     progress(done, len(wanted), "smoke")
     if not missing:
         return place
-    baker = Baker(project, run)
+    maker = Baker(shot)
     with ThreadPoolExecutor(_at_once(len(missing))) as pool:
-        tasks = [pool.submit(baker.write, place / f"smoke_{frame:06d}.vdb", frame) for frame in missing]
+        tasks = [pool.submit(maker.write, _in(place, frame), frame) for frame in missing]
         try:
             for task in as_completed(tasks):
                 task.result()
@@ -91,6 +78,111 @@ def bake(
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise
+    return place
+
+
+@contextmanager
+def ahead(
+    shot: Shot, frames: Iterable[int], progress: Progress = silent, tell: Tell = untold
+) -> Iterator[Callable[[int], None]]:
+    """Write volumes while pictures are made, one frame before it is shown.
+
+    Gives a function ``ready(frame)`` that waits until the volume of a frame is there and has the next one
+    that is missing made meanwhile. It raises what went wrong with that frame. With smoke off it does nothing.
+
+    Parameters
+    ----------
+    frames
+        In the order in which they are shown; those that the shot does not have count for nothing.
+    progress
+        Called while the first frame waits.
+    tell
+        Told how much room the volumes will need, once there is one to judge by.
+
+    Raises
+    ------
+    InputError
+        The cache cannot be written.
+    """
+    wanted = _of_shot(shot, frames)
+    if not wanted or not shot.settings.smoke.enabled:
+        yield lambda frame: None
+        return
+    line = _Line(shot, wanted, progress, tell)
+    try:
+        yield line.ready
+    finally:
+        line.pool.shutdown(cancel_futures=True)
+
+
+def estimate(shot: Shot, frames: Iterable[int]) -> int | None:
+    """Bytes that the volumes of `frames` need, from the mean of those that are there; None without any."""
+    sizes = [path.stat().st_size for path in folder(shot).glob("smoke_*.vdb")]
+    return round(sum(sizes) / len(sizes) * len(_of_shot(shot, frames))) if sizes else None
+
+
+class _Line:
+    """Frames that stand in line to be made, by one thread."""
+
+    def __init__(self, shot: Shot, frames: list[int], progress: Progress, tell: Tell) -> None:
+        self.shot, self.frames = shot, frames
+        self.progress, self.tell = progress, tell
+        self.place = _prepared(shot)
+        self.pool = ThreadPoolExecutor(1)
+        self.tasks: dict[int, Future[Any]] = {}
+
+    @functools.cached_property
+    def maker(self) -> Baker:
+        return Baker(self.shot)
+
+    def ready(self, frame: int) -> None:
+        """Wait for a frame and have the next one begun."""
+        if frame not in self.frames:
+            return
+        self._begin(frame)
+        after = self.frames[self.frames.index(frame) + 1 :]
+        following = next((each for each in after if not _in(self.place, each).exists()), None)
+        if following is not None:
+            self._begin(following)
+        task = self.tasks.get(frame)
+        if task is not None:
+            self.progress(0, 1, "smoke of the first picture")
+            task.result()
+            self.progress(1, 1, "smoke of the first picture")
+            self.tell(self._room())
+        self.progress, self.tell = silent, untold
+
+    def _room(self) -> str:
+        """How much the volumes need, in words."""
+        needed = (estimate(self.shot, self.frames) or 0) / 1.0e6
+        size = f"{needed / 1000.0:.1f} GB" if needed >= 1000.0 else f"{max(needed, 1.0):.0f} MB"
+        return f"smoke of {count(len(self.frames), 'frame')} takes about {size} in {self.place}"
+
+    def _begin(self, frame: int) -> None:
+        path = _in(self.place, frame)
+        if frame not in self.tasks and not path.exists():
+            self.tasks[frame] = self.pool.submit(self.maker.write, path, frame)
+
+
+def _in(place: Path, frame: int) -> Path:
+    return place / f"smoke_{frame:06d}.vdb"
+
+
+def _of_shot(shot: Shot, frames: Iterable[int]) -> list[int]:
+    """Those of `frames` that the shot has, each once."""
+    return [frame for frame in dict.fromkeys(frames) if 1 <= frame <= shot.frames.count]
+
+
+def _prepared(shot: Shot) -> Path:
+    """The folder of the volumes, made and swept."""
+    place = folder(shot)
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise input_error(
+            place, 0, 0, f"cannot make the folder ({error.strerror}); set `cache` to one that can be written"
+        ) from None
+    _sweep(place)
     return place
 
 
@@ -104,7 +196,7 @@ def _at_once(frames: int) -> int:
 
 
 def _sweep(place: Path) -> None:
-    """Remove what killed processes left unfinished: ``smoke_000001.vdb.<process>.tmp``."""
+    """Remove what killed processes left unfinished: ``smoke_000001.vdb.<anything>.<process>.tmp``."""
     for path in place.glob("*.vdb.*.tmp"):
         process = path.name.split(".")[-2]
         if process.isdigit() and not _runs(int(process)):
@@ -121,114 +213,25 @@ def _runs(process: int) -> bool:
     return True
 
 
-class Baker:
-    """Writes the smoke of single frames."""
-
-    def __init__(self, project: Project, run: Run) -> None:
-        self.project = project
-        self.times = frame_times(project, run)
-        self.resolution = resolution(project, run)
-        whole = project.smoke.complete
-        self.grids = None if whole else SHOWN
-        self.sights = None if whole else Sights(project, run)
-        self.run = run
-        self.heat = heat.Heat(run, self.times[0], self.times[-1])
-        first = self.times[0] - project.smoke.max_age - burning.BURN_TIME
-        # Cells of the interval that goes on at the last frame belong to its puffs.
-        self.cells = burning.cells(run, first, self.times[-1] + 600.0)
-
-    def puffs(self, frame: int) -> volume.Puffs:
-        """Smoke of a frame."""
-        cells = self.cells
-        return volume.puffs(
-            float(self.times[frame - 1]),
-            cells.arrival,
-            cells.fuel,
-            cells.position,
-            cells.wind,
-            cells.area,
-            max_age=self.project.smoke.max_age,
-            burn_time=burning.BURN_TIME,
-            stability=air.stability(self.run, float(self.times[frame - 1])),
-            merge_radius=air.MERGE,
-            seed=self.project.seed,
-            smallest=1.2 * self.resolution.voxel,
-        )
-
-    def write(self, path: Path, frame: int) -> volume.Frame:
-        """Write the volume of a frame: from the model's own smoke where the run has it, else from puffs."""
-        time = float(self.times[frame - 1])
-        position, power = lights(self.heat, time)
-        own = self.run.has("smoke_3d")
-        more: dict[str, Any] = {
-            "grids": self.grids,
-            "sight": self.sights.of(frame) if self.sights else None,
-            "metadata": {
-                "run": self.run.name,
-                "smoke": "of the model, smoke_3d" if own else "puffs from burned fuel, heat and wind",
-                "model_time_s": f"{time:.3f}",
-                "origin": "centre of the model grid, height 0; x east, y north, z up, metres",
-                "firetwin_core": firetwin_core.__version__,
-            },
+def _key(shot: Shot) -> str:
+    """Hash of everything that the volumes depend on."""
+    settings, complete = shot.settings, shot.settings.smoke.complete
+    found = schema.chosen(settings, {"time", "smoke"} if complete else {"time", "smoke", "camera", "ground"})
+    for name in _NOT_IN_FILES:
+        del found["smoke"][name]
+    if not complete:  # what is left out depends on what the cameras see, and when
+        width, height = settings.render.resolution
+        found["sight"] = [height / width, [shot.frames_of(camera) for camera in settings.cameras]]
+    return content.fingerprint(
+        {
+            "core": _core(),
+            "run": content.inputs(Path(shot.run.path), leave_out=("temperature",)),
+            "settings": found,
+            "voxel": round(resolution(shot).voxel, 3),
+            "grids": None if complete else baker.SHOWN,
         }
-        if len(power):
-            more |= {"flame_position": position, "flame_power": power}
-        if own:
-            return self._write_levels(path, time, more)
-        return volume.write_smoke(path, self.puffs(frame), self.resolution.voxel, **more)
-
-    def _write_levels(self, path: Path, time: float, more: dict[str, Any]) -> volume.Frame:
-        """Write the model's own smoke; outside of its times there is none."""
-        run = self.run
-        known = float(np.clip(time, run.times[0], run.times[-1]))
-        smoke = run.smoke_3d_at(known)
-        if known != time:
-            smoke[:] = 0.0
-        if run.has("temperature_3d"):
-            more["temperature"] = run.temperature_3d_at(known)
-        return volume.write_levels(
-            path,
-            local_frame(run),
-            run.latitude,
-            run.longitude,
-            run.elevation,
-            run.height_3d_at(known),
-            smoke,
-            self.resolution.voxel,
-            **more,
-        )
-
-
-def lights(model: heat.Heat, time: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """What lights the smoke from within: positions (n, 3) m and powers (n,) W of luminous heat."""
-    found = heat.lights(model.sources(time).luminous(), _GLOW_BLOCK, _GLOW_COUNT)
-    return found.position + np.array([0.0, 0.0, _FLAME_HEIGHT]), found.power
-
-
-def _cache(project: Project) -> Path:
-    """The project's cache folder, absolute: Blender takes other paths for places beside the .blend file."""
-    return project.cache.absolute()
-
-
-def _key(project: Project, run: Run) -> str:
-    """Hash of everything that the smoke depends on."""
-    complete = project.smoke.complete
-    settings: dict[str, Any] = {
-        "core": _core(),
-        "run": content.inputs(Path(run.path), leave_out=("temperature",)),
-        "times": frame_times(project, run).tolist(),
-        "seed": project.seed,
-        "max_age": project.smoke.max_age,
-        "voxel": round(resolution(project, run).voxel, 3),
-        "plume": [air.DAY, air.NIGHT, air.MERGE, burning.BURN_TIME],
-        "flames": [_GLOW_BLOCK, _GLOW_COUNT, _FLAME_HEIGHT],
-        "grids": None if complete else SHOWN,
-        # What is left out depends on all that the cameras' paths do: their keys, the picture and the ground.
-        "sight": None
-        if complete
-        else repr((project.cameras, project.render.resolution, project.render.passes, project.terrain)),
-    }
-    return content.fingerprint(settings)
+        | baker.CONSTANTS
+    )
 
 
 @functools.cache

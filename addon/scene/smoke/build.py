@@ -2,45 +2,70 @@
 
 from __future__ import annotations
 
-import bpy
-from firetwin_core.run import Run
+import os
+from pathlib import Path
 
-from .. import compat
-from ..project import Project
-from . import bake, collections, smoke_layers, smoke_material, smoke_view
+import bpy
+
+from ...blender import compat, owned
+from ...blender.owned import Stage
+from ...shot.shot import Shot
+from . import bake, layers, material, view
 
 _MAX_STEPS = 8192  # Cycles lengthens steps of rays that would need more; 1024 of them are 12 km
 
 
-def build(project: Project, run: Run) -> bpy.types.Object | None:
+def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
     """Build "Firetwin Smoke", which reads what `bake.bake` writes; nothing where smoke is off.
 
     The step along rays is set in metres. Left alone it would be the voxel size, and longer steps do not
     just blur smoke, they lose it.
     """
-    collection = collections.fresh("Smoke")
-    if not project.smoke.enabled:
+    collection = stage.part("Smoke")
+    if not shot.settings.smoke.enabled:
         return None
+    drawn = view.resolution(shot)
     volume = bpy.data.volumes.new("Firetwin Smoke")
-    volume.filepath = str(bake.file(project, run, 1))
+    volume.filepath = str(bake.file(shot, 1))
     volume.is_sequence = True
-    volume.frame_start, volume.frame_duration, volume.frame_offset = 1, project.time.frames, 0
+    volume.frame_start, volume.frame_duration, volume.frame_offset = 1, shot.frames.count, 0
     volume.sequence_mode = "CLIP"
     volume.render.space = "WORLD"
-    volume.render.step_size = bake.resolution(project, run).step
-    volume.display.density = bake.resolution(project, run).extinction  # in the solid view, like the render's
+    volume.render.step_size = drawn.step
+    volume.display.density = drawn.extinction  # in the solid view, like the render's
     volume.display.wireframe_type = "NONE"
-    volume.materials.append(smoke_material.build(project, run))
-    near, far = smoke_view.span(project, run)
-    for scene in bpy.data.scenes:
-        scene.cycles.volume_step_rate = 1.0
-        scene.cycles.volume_max_steps = _MAX_STEPS
-        _slices(scene.eevee, near, far)
-    smoke_layers.build(collection)
-    thing = collections.add(collection, "Smoke", volume)
-    shift = compat.volume_shift(bpy.context.scene.cycles, bake.resolution(project, run).voxel)
+    volume.materials.append(material.build(shot, stage))
+    if stage.own:
+        _march(stage.scene.cycles)
+        _slices(stage.scene.eevee, *view.span(shot))
+    layers.build(collection)
+    thing = owned.add(collection, "Smoke", volume)
+    shift = compat.volume_shift(stage.scene.cycles, drawn.voxel)
     thing.location = (shift, shift, shift)
     return thing
+
+
+def relative(blend: Path) -> None:
+    """Make the paths of our volumes start at the folder of the .blend file that is about to be saved there.
+
+    So smoke is found again when both are moved together. What lies on another drive stays where it is.
+    Blender must not change the paths once more: save with ``relative_remap=False``.
+    """
+    for volume in bpy.data.volumes:
+        if owned.ours(volume):
+            volume.filepath = _beside(blend, bpy.path.abspath(volume.filepath))
+
+
+def _beside(blend: Path, path: str) -> str:
+    try:
+        return "//" + Path(os.path.relpath(path, blend.absolute().parent)).as_posix()
+    except ValueError:  # no way leads from one drive to another
+        return path
+
+
+def _march(cycles: bpy.types.PropertyGroup) -> None:
+    cycles.volume_step_rate = 1.0
+    cycles.volume_max_steps = _MAX_STEPS
 
 
 def _slices(eevee: bpy.types.SceneEEVEE, near: float, far: float) -> None:

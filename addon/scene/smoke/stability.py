@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from firetwin_core.run import Run
-
-from . import noise, sun
+from ...shot import noise
 
 DAY = 8.0e-6  # 1/s2, square of the buoyancy frequency: a deep mixed layer (assumed)
 NIGHT = 4.0e-4  # 1/s2: about 12 K/km of potential temperature, a valley's inversion (assumed)
@@ -12,10 +10,10 @@ MERGE = 5000.0  # m; fires this near each other rise as one plume (assumed: abou
 _SUN = (-10.0, 2.0)  # degrees of the sun's height between which night turns to day
 
 
-def stability(run: Run, time: float) -> float:
-    """Square of the buoyancy frequency (1/s2) at a model time (s), from the height of the sun.
+def under(height: float) -> float:
+    """Square of the buoyancy frequency (1/s2) under a sun at `height` degrees over the horizon.
 
     Between night and day its logarithm changes smoothly, so smoke sinks and rises without a jump.
     """
-    day = float(noise.smoothstep(*_SUN, sun.at(run, time)[1]))
+    day = float(noise.smoothstep(*_SUN, height))
     return float(NIGHT * (DAY / NIGHT) ** day)

@@ -3,7 +3,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from firetwin.scene import build, frame, grid_mesh, terrain
+from firetwin.run import frame
+from firetwin.scene import build
+from firetwin.scene.ground import build as ground_build
+from firetwin.scene.ground import grid_mesh
+from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 
 
@@ -24,9 +28,8 @@ def _polygons(mesh: grid_mesh.GridMesh):
 
 
 @pytest.fixture
-def plain(project, run):
-    ground, views = build.survey(project, run)
-    return ground, terrain.build(project, run, ground, views).data
+def plain(shot, stage):
+    return shot.ground, ground_build.build(shot, stage, None).data
 
 
 def test_vertices_are_the_local_frame_of_the_fuel_grid(plain, run):
@@ -59,10 +62,10 @@ def test_attributes_carry_the_runs_fields(plain, run):
     assert burned.sum() > 0.8 * (~never).sum()
 
 
-def test_the_apron_reaches_its_width_and_continues_the_edge(plain, project):
+def test_the_apron_reaches_its_width_and_continues_the_edge(plain, settings):
     ground, mesh = plain
     places = _vertices(mesh)
-    assert np.abs(places[:, :2]).max() == pytest.approx(project.terrain.apron, rel=0.05)
+    assert np.abs(places[:, :2]).max() == pytest.approx(settings.ground.apron, rel=0.05)
     height, margin = ground.fields.elevation, ground.fields.margin
     for k in range(4):
         step = np.abs(np.diff(np.rot90(height, k), axis=0))
@@ -87,9 +90,8 @@ def test_graded_mesh_is_closed_and_covers_the_grid_once():
     assert len(mesh.starts) > np.sum(4**level) - 1
 
 
-def test_near_ground_is_finer_and_is_where_the_ground_says(near_project, run):
-    ground, views = build.survey(near_project, run)
-    mesh = terrain.build(near_project, run, ground, views).data
+def test_near_ground_is_finer_and_is_where_the_ground_says(near_shot, stage):
+    ground, mesh = near_shot.ground, ground_build.build(near_shot, stage, None).data
     places, detail = _vertices(mesh).astype(np.float64), _values(mesh, "detail")
     near = np.flatnonzero(detail > 0.99)
     assert len(near) > 1000
@@ -97,11 +99,11 @@ def test_near_ground_is_finer_and_is_where_the_ground_says(near_project, run):
     assert ground.up(places[some, 0], places[some, 1]) == pytest.approx(places[some, 2], abs=0.02)
     lengths = [edge.vertices[:] for edge in mesh.edges if detail[edge.vertices[0]] > 0.99]
     gaps = np.linalg.norm(places[[a for a, b in lengths], :2] - places[[b for a, b in lengths], :2], axis=1)
-    assert gaps.min() < near_project.terrain.near_spacing
+    assert gaps.min() < near_shot.settings.ground.near_spacing
 
 
-def test_ground_between_places_is_the_cores_bilinear_height(project, run):
-    ground, _views = build.survey(project, run)
+def test_ground_between_places_is_the_cores_bilinear_height(shot):
+    ground = shot.ground
     points = ground.point([38.8301, 38.8555], [-120.5512, -120.5333], 12.0)
     latitude, longitude, height = ground.frame.reverse(points)
     assert latitude == pytest.approx([38.8301, 38.8555], abs=1e-9)
@@ -110,11 +112,11 @@ def test_ground_between_places_is_the_cores_bilinear_height(project, run):
     assert ground.up(points[:, 0], points[:, 1]) == pytest.approx(points[:, 2] - 12.0, abs=0.05)
 
 
-def test_embers_glow_only_where_the_scene_file_wants_them(project, run, scene, shoot):
-    no_flames = replace(project, fire=replace(project.fire, flames=False))
+def test_embers_glow_only_where_the_scene_file_wants_them(settings, run, stage, scene, shoot):
+    no_flames = replace(settings, fire=replace(settings.fire, flames=False))
     pictures = []
     for embers in (True, False):
-        built = build.build(replace(no_flames, fire=replace(no_flames.fire, embers=embers)), run, scene)
+        built = build.build(Shot(replace(no_flames, fire=replace(no_flames.fire, embers=embers)), run), scene)
         built.frame_set(2)
         built.render.resolution_x, built.render.resolution_y = 320, 180
         pictures.append(shoot(built, "rgb"))
@@ -122,7 +124,7 @@ def test_embers_glow_only_where_the_scene_file_wants_them(project, run, scene, s
     assert np.max(pictures[0] - pictures[1]) > 0.05
 
 
-def test_level_ground_without_fuel_is_a_lake(near_project, run_folder, tmp_path):
+def test_level_ground_without_fuel_is_a_lake(near_settings, run_folder, tmp_path):
     folder = tmp_path / "lake"
     shutil.copytree(run_folder, folder)
     lake = np.zeros(np.load(folder / "fuel_elevation.npy").shape, bool)
@@ -131,7 +133,7 @@ def test_level_ground_without_fuel_is_a_lake(near_project, run_folder, tmp_path)
         field = np.load(folder / f"{name}.npy")
         field[lake] = value
         np.save(folder / f"{name}.npy", field)
-    ground, _views = build.survey(near_project, runs.open(folder))
+    ground = Shot(near_settings, runs.open(folder)).ground
     margin = ground.fields.margin
     found = ground.water[margin:-margin, margin:-margin] == 1.0
     assert np.array_equal(found, lake)  # and not the bare rock, which slopes

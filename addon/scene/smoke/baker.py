@@ -1,0 +1,129 @@
+"""Writes the smoke of single frames as OpenVDB files."""
+
+from __future__ import annotations
+
+import os
+import uuid
+from pathlib import Path
+from typing import Any
+
+import firetwin_core
+import numpy as np
+from firetwin_core import volume
+from numpy.typing import NDArray
+
+from ...shot import burning, heat
+from ...shot.shot import Shot
+from . import stability
+from .view import Sights, resolution
+
+SHOWN = ("density", "dilution", "shade", "size", "glow")  # grids that the material asks for
+_GLOW_BLOCK = 300.0  # m; flames this near each other light the smoke as one
+_GLOW_COUNT = 400
+_FLAME_HEIGHT = 20.0  # m over the ground, where their light comes from
+
+CONSTANTS = {
+    "plume": [stability.DAY, stability.NIGHT, stability.MERGE, burning.BURN_TIME],
+    "flames": [_GLOW_BLOCK, _GLOW_COUNT, _FLAME_HEIGHT],
+}
+"""What the volumes depend on beside settings, run and core."""
+
+
+class Baker:
+    """Writes the smoke of single frames, several at once if need be."""
+
+    def __init__(self, shot: Shot) -> None:
+        self.shot = shot
+        self.resolution = resolution(shot)
+        whole = shot.settings.smoke.complete
+        self.grids = None if whole else SHOWN
+        self.sights = None if whole else Sights(shot)
+        self.heat = shot.heat
+        self.times = shot.frames.times
+        first = self.times[0] - shot.settings.smoke.max_age - burning.BURN_TIME
+        # Cells of the interval that goes on at the last frame belong to its puffs.
+        self.cells = burning.cells(shot.run, first, self.times[-1] + 600.0)
+
+    def puffs(self, frame: int) -> volume.Puffs:
+        """Smoke of a frame."""
+        cells, time = self.cells, float(self.times[frame - 1])
+        return volume.puffs(
+            time,
+            cells.arrival,
+            cells.fuel,
+            cells.position,
+            cells.wind,
+            cells.area,
+            max_age=self.shot.settings.smoke.max_age,
+            burn_time=burning.BURN_TIME,
+            stability=stability.under(self.shot.sun(time)[1]),
+            merge_radius=stability.MERGE,
+            seed=self.shot.settings.seed,
+            smallest=1.2 * self.resolution.voxel,
+        )
+
+    def write(self, path: Path, frame: int) -> volume.Frame:
+        """Write the volume of a frame: from the model's own smoke where the run has it, else from puffs.
+
+        The file is there when it is complete, also where several threads or processes write it at once.
+        """
+        time = float(self.times[frame - 1])
+        position, power = lights(self.heat, time)
+        own = self.shot.run.has("smoke_3d")
+        more: dict[str, Any] = {
+            "grids": self.grids,
+            "sight": self.sights.of(frame) if self.sights else None,
+            "metadata": {
+                "run": self.shot.run.name,
+                "smoke": "of the model, smoke_3d" if own else "puffs from burned fuel, heat and wind",
+                "model_time_s": f"{time:.3f}",
+                "origin": "centre of the model grid, height 0; x east, y north, z up, metres",
+                "firetwin_core": firetwin_core.__version__,
+            },
+        }
+        if len(power):
+            more |= {"flame_position": position, "flame_power": power}
+        mine = path.with_name(f"{path.name}.{uuid.uuid4().hex[:8]}.{os.getpid()}.tmp")
+        if own:
+            written = self._write_levels(mine, time, more)
+        else:
+            written = volume.write_smoke(mine, self.puffs(frame), self.resolution.voxel, **more)
+        _put(mine, path)
+        return written
+
+    def _write_levels(self, path: Path, time: float, more: dict[str, Any]) -> volume.Frame:
+        """Write the model's own smoke; outside of its times there is none."""
+        run = self.shot.run
+        known = float(np.clip(time, run.times[0], run.times[-1]))
+        smoke = run.smoke_3d_at(known)
+        if known != time:
+            smoke[:] = 0.0
+        if run.has("temperature_3d"):
+            more["temperature"] = run.temperature_3d_at(known)
+        return volume.write_levels(
+            path,
+            self.shot.local_frame,
+            run.latitude,
+            run.longitude,
+            run.elevation,
+            run.height_3d_at(known),
+            smoke,
+            self.resolution.voxel,
+            **more,
+        )
+
+
+def _put(mine: Path, path: Path) -> None:
+    """Give a complete file its name; who comes second replaces the same by the same."""
+    try:
+        mine.replace(path)
+    except PermissionError:  # Windows replaces no file that is being read
+        mine.unlink(missing_ok=True)
+        if not path.exists():
+            raise
+
+
+def lights(model: heat.Heat, time: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """What lights the smoke from within: positions (n, 3) m and powers (n,) W of luminous heat."""
+    found = heat.lights(model.sources(time).luminous(), _GLOW_BLOCK, _GLOW_COUNT)
+    return found.position + np.array([0.0, 0.0, _FLAME_HEIGHT]), found.power
