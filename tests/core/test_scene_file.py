@@ -11,7 +11,7 @@ from firetwin.errors import InputError
 from firetwin.shot import file, frame_list, places, schema
 from firetwin.shot.rigs import kinds
 from firetwin.shot.rigs._key import CameraKey
-from firetwin.shot.settings import Camera, Ground, Settings
+from firetwin.shot.settings import Camera, Ground, Settings, Time
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -232,6 +232,19 @@ def test_folders_are_written_as_the_settings_own_folder_sees_them(tmp_path, monk
     assert run_in("/a/~b", "/a/scene.toml") == "./~b"
     monkeypatch.chdir(tmp_path)
     assert run_in("run", tmp_path / "a" / "scene.toml") == "../run"
+
+
+@pytest.mark.parametrize(
+    ("moment", "zone", "written"),
+    [
+        (datetime(2014, 9, 17, 23, 30, tzinfo=UTC), "America/Los_Angeles", "2014-09-17T16:30:00-07:00"),
+        (datetime(2014, 9, 17, 23, 30, tzinfo=UTC), "UTC", "2014-09-17T23:30:00Z"),
+        (datetime(1850, 1, 1, tzinfo=UTC), "America/Los_Angeles", "1850-01-01T00:00:00Z"),  # local mean time
+        (datetime(1, 1, 1, tzinfo=UTC), "America/Los_Angeles", "0001-01-01T00:00:00Z"),  # no year 0
+    ],
+)
+def test_times_are_written_in_the_zone_of_the_films(moment, zone, written):
+    assert f"\nstart = {written} " in file.text(Settings(time=Time(start=moment, zone=zone)))
 
 
 # Any settings come back from their text.
