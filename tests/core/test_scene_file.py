@@ -15,7 +15,7 @@ from firetwin.shot.settings import Camera, Ground, Settings, Time
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-EXAMPLE = Path(__file__).parent / "king_fire_new.toml"
+EXAMPLE = Path(__file__).parents[2] / "examples" / "king_fire.toml"
 
 SCENE = """\
 run = "elsewhere/run"  # a comment = "not a key"
