@@ -1,6 +1,5 @@
 """The settings' schema: what is said once, and what follows from it."""
 
-import copy
 import dataclasses
 import re
 import tomllib
