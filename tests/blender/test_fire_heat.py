@@ -114,7 +114,7 @@ def test_merged_lights_change_gradually(most):
 
 
 def test_a_shot_keeps_the_heat_of_its_moments(shot, run):
-    """What is shared out for the shot alone, from its first frame to its last, is the model's flux all the same."""
+    """What is shared out among what burns from its first frame to its last is all of the flux."""
     fuel = False
     for time in (*shot.frames.times, 720.0, 1080.0, 1200.0):
         found, cells = shot.heat.sources(float(time)), wanted(run, float(time))

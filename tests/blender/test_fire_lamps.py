@@ -178,7 +178,8 @@ def test_none_are_made_where_no_camera_is_near_the_fire(settings, run, stage, su
     assert found.heat.shape == (len(found.time), 0)
 
 
-def test_a_run_without_a_scene_file_is_built_by_night(settings, run, stage, sun_at):
+def test_a_run_without_a_scene_file_is_built_by_night(settings, run, stage, sun_at, monkeypatch):
+    monkeypatch.setattr(overview, "_LEAST", 12_000.0)  # as for a large fire, which is seen from far off
     sun_at(-20.0)
     built(replace(settings, cameras=overview.cameras(run)), run, stage)
     assert bpy.data.objects["Firetwin Flames"].users_scene == (stage.scene,)
