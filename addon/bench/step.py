@@ -15,16 +15,18 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .. import project as projects
-from .. import worker
+from ..jobs import worker
 from ..progress import Progress, silent
+from ..shot import settings
+from ..shot.rigs.drone import CameraKey, Drone
+from ..shot.shot import Shot
 from .harness import OURS, Bench
 
 if TYPE_CHECKING:
     import bpy
 
 MOMENT = datetime(2014, 9, 17, 23, 12, tzinfo=UTC)
-VIEW = projects.CameraKey(0.0, 38.990, -120.5505, 600.0, "head")  # 2 km off the head of the fire
+VIEW = CameraKey(0.0, 38.990, -120.5505, 600.0, "head")  # 2 km off the head of the fire
 MODEL_TIMES = 25  # of the sample; the smoke comes from the fuel's arrival times, which are all there
 RESOLUTION, SAMPLES = (160, 90), 8
 FINEST, OTHER_GRAIN = "a quarter of the step", "our step, other grain"
@@ -80,15 +82,15 @@ def picture(folder: str, name: str) -> str:
     return str(Path(folder) / f"{name.replace(' ', '_').replace(',', '')}.png")
 
 
-def shot(folder: Path) -> projects.Project:
+def scene_file(folder: Path) -> settings.Settings:
     """One frame of the sample's smoke from a drone."""
-    return projects.Project(
+    return settings.Settings(
         path=folder / "scene.toml",
         run=folder / "sample",
         cache=folder / "cache",
-        time=projects.Time(start=MOMENT, frames=1),
-        cameras=(projects.Camera(keys=(VIEW,)),),
-        render=projects.Render(resolution=RESOLUTION, samples=SAMPLES, denoise=False, passes=("rgb",)),
+        time=settings.Time(start=MOMENT, frames=1),
+        cameras=(settings.Camera(rig=Drone(keys=(VIEW,))),),
+        render=settings.Render(resolution=RESOLUTION, samples=SAMPLES, denoise=False, passes=("rgb",)),
     )
 
 
@@ -101,7 +103,7 @@ def render_in_blender(folder: str, times: int, progress: Progress = silent) -> d
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
-    smoke = _build(shot(Path(folder)), scene)
+    smoke = _build(scene_file(Path(folder)), scene)
     step = smoke.data.render.step_size
     bpy.ops.render.render()  # loads what later ones find loaded
     seconds = {}
@@ -113,23 +115,28 @@ def render_in_blender(folder: str, times: int, progress: Progress = silent) -> d
     return seconds
 
 
-def _build(project: projects.Project, scene: bpy.types.Scene) -> Any:
+def _build(file: settings.Settings, scene: bpy.types.Scene) -> Any:
     """Build smoke, sun and camera, and return the smoke."""
     from firetwin_core import run as runs
 
+    from ..blender import owned
     from ..data import sample
     from ..render import engine
-    from ..scene import bake, cameras, clock, collections, light, paths, smoke
+    from ..scene import clock
+    from ..scene.camera import build as camera
+    from ..scene.light import build as light
+    from ..scene.smoke import bake
+    from ..scene.smoke import build as smoke
 
-    sample.write(project.run, MODEL_TIMES, "npy")
-    run = runs.open(project.run)
-    bake.bake(project, run)
-    collections.root(scene)
-    clock.build(project, run, scene)
-    made = smoke.build(project, run)
-    light.build(project, run, scene)
-    cameras.build(project, run, paths.paths(project, run), scene)
-    engine.apply(project, scene)
+    sample.write(file.run, MODEL_TIMES, "npy")
+    shot = Shot(file, runs.open(file.run))
+    bake.bake(shot)
+    stage = owned.adopt(scene)
+    clock.build(shot, stage)
+    made = smoke.build(shot, stage)
+    light.build(shot, stage)
+    camera.build(shot, stage)
+    engine.apply(file, scene)
     return made
 
 

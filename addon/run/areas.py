@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 A = 6_378_137.0  # semi-major axis, m
 E2 = 0.00669437999014  # first eccentricity squared
+_ALONE = 100.0  # m, side of a cell that nothing says the size of
 
 
 def edges(axis: ArrayLike) -> NDArray[np.float64]:
@@ -31,11 +32,38 @@ def cell_areas(latitude: ArrayLike, longitude: ArrayLike) -> NDArray[np.float64]
     return np.abs(A * A / 2 * np.diff(q)[:, None] * width[None, :])
 
 
-def spacing(latitude: ArrayLike, longitude: ArrayLike) -> tuple[float, float]:
-    """Mean width and height (m) of a cell at the middle of the grid, from the radii of curvature N and M."""
+def metres_per_degree(latitude: float) -> tuple[float, float]:
+    """Metres per degree of latitude and of longitude (from the radii of curvature M and N)."""
+    sine = np.sin(np.radians(latitude))
+    w = np.sqrt(1.0 - E2 * sine * sine)
+    degree = np.pi / 180.0
+    return A * (1.0 - E2) / w**3 * degree, A / w * np.cos(np.radians(latitude)) * degree
+
+
+def spacing(latitude: ArrayLike, longitude: ArrayLike, at: float | None = None) -> tuple[float, float]:
+    """Mean width and height (m) of a cell at the parallel `at`, else at the middle of the grid.
+
+    An axis of one value does not say how wide its cell is: 0.
+    """
     latitude, longitude = np.asarray(latitude, np.float64), np.asarray(longitude, np.float64)
-    middle = np.radians((latitude[0] + latitude[-1]) / 2)
-    w = np.sqrt(1 - E2 * np.sin(middle) ** 2)
-    north = np.radians(abs(latitude[-1] - latitude[0])) * A * (1 - E2) / w**3
-    east = np.radians(abs(longitude[-1] - longitude[0])) * A / w * np.cos(middle)
-    return east / max(longitude.size - 1, 1), north / max(latitude.size - 1, 1)
+    north, east = metres_per_degree((latitude[0] + latitude[-1]) / 2 if at is None else at)
+    height = north * abs(float(latitude[-1] - latitude[0])) / max(latitude.size - 1, 1)
+    width = east * abs(float(longitude[-1] - longitude[0])) / max(longitude.size - 1, 1)
+    return width, height
+
+
+def cell_size(
+    latitude: ArrayLike,
+    longitude: ArrayLike,
+    at: float | None = None,
+    within: tuple[ArrayLike, ArrayLike] | None = None,
+) -> tuple[float, float]:
+    """Width and height (m) of a cell to build with, `spacing` where there are two values or more.
+
+    An axis of one value takes the size of the other; a single cell takes those of the coarser grid `within`
+    (latitude, longitude) which it is part of, else it is 100 m wide and high.
+    """
+    width, height = spacing(latitude, longitude, at)
+    if within is not None and width == height == 0.0:
+        width, height = spacing(*within, at)
+    return width or height or _ALONE, height or width or _ALONE

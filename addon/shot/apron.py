@@ -71,9 +71,7 @@ def extend(fields: Fields, cell: tuple[float, float], half_width: float, seed: i
 
 
 def _continue(axis: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray[np.float64]:
-    """An axis with `steps` (cells beyond its ends) added at both ends."""
-    if len(axis) == 1:
-        raise ValueError("an axis of one value has no spacing to continue")
+    """An axis of two values or more with `steps` (cells beyond its ends) added at both ends."""
     before = axis[0] - steps[::-1] * (axis[1] - axis[0])
     return np.concatenate([before, axis, axis[-1] + steps * (axis[-1] - axis[-2])])
 

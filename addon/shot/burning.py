@@ -8,7 +8,8 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ..run.frame import local_frame, metres_per_degree
+from ..run import areas
+from ..run.frame import local_frame
 
 BURN_TIME = 600.0  # s in which a cell's fuel burns out
 HEAT = 17.433e6  # J/kg, WRF-SFIRE's cmbcnst
@@ -49,7 +50,7 @@ class Cells:
 
 def cell_area(run: Run) -> float:
     """Area of a fuel cell, m2."""
-    return _area(run, run.fuel_latitude, run.fuel_longitude)
+    return _area(run, run.fuel_latitude, run.fuel_longitude, (run.latitude, run.longitude))
 
 
 def model_cell_area(run: Run) -> float:
@@ -59,12 +60,10 @@ def model_cell_area(run: Run) -> float:
     return _area(run, run.latitude, run.longitude)
 
 
-def _area(run: Run, rows: Array, columns: Array) -> float:
+def _area(run: Run, rows: Array, columns: Array, within: tuple[Array, Array] | None = None) -> float:
     """Mean area of the cells of a grid, m2, from its spacing in the middle of the run."""
-    north, east = metres_per_degree(local_frame(run).latitude)
-    dy = north * abs(float(rows[-1] - rows[0])) / max(len(rows) - 1, 1)
-    dx = east * abs(float(columns[-1] - columns[0])) / max(len(columns) - 1, 1)
-    return dx * dy
+    width, height = areas.cell_size(rows, columns, local_frame(run).latitude, within)
+    return width * height
 
 
 def cells(run: Run, first: float, last: float) -> Cells:

@@ -8,7 +8,8 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
-from ..run.frame import local_frame, metres_per_degree
+from ..run import areas
+from ..run.frame import local_frame
 from . import apron, noise
 from .settings import Settings
 
@@ -34,26 +35,25 @@ class Ground:
     def __init__(self, settings: Settings, run: Run) -> None:
         self.frame = local_frame(run)
         latitude, longitude = run.fuel_latitude, run.fuel_longitude
-        self._flip = (
-            slice(None, None, -1 if latitude[0] > latitude[-1] else 1),
-            slice(None, None, -1 if longitude[0] > longitude[-1] else 1),
+        width, height = areas.cell_size(
+            latitude, longitude, self.frame.latitude, (run.latitude, run.longitude)
         )
+        north, east = areas.metres_per_degree(self.frame.latitude)
         known = apron.Fields(
-            latitude[self._flip[0]],
-            longitude[self._flip[1]],
+            _ascending(latitude, height / north),
+            _ascending(longitude, width / east),
             *(
-                np.nan_to_num(field[self._flip].astype(np.float64))
+                np.nan_to_num(_oriented(field, latitude, longitude))
                 for field in (run.fuel_elevation, run.canopy_fuel, run.surface_fuel)
             ),
         )
-        north, east = metres_per_degree(self.frame.latitude)
         self.cell = (
             north * float(np.mean(np.diff(known.latitude))),
             east * float(np.mean(np.diff(known.longitude))),
         )
         self.fields = apron.extend(known, self.cell, settings.ground.apron, settings.seed)
         self.seed, self.near_radius = settings.seed, settings.ground.near_radius
-        self._set_arrival(run.fuel_arrival_time()[self._flip].astype(np.float64))
+        self._set_arrival(_oriented(run.fuel_arrival_time(), latitude, longitude))
         self.eyes = np.empty((0, 3))
         self.bare, self.water = _bare(self.fields), _water(self.fields)
         slope = np.hypot(*np.gradient(self.fields.elevation, *self._metres()))
@@ -72,7 +72,7 @@ class Ground:
 
     def _metres(self) -> tuple[Array, Array]:
         """Rough metres along both axes, for slopes."""
-        north, east = metres_per_degree(self.frame.latitude)
+        north, east = areas.metres_per_degree(self.frame.latitude)
         return self.fields.latitude * north, self.fields.longitude * east
 
     def _set_arrival(self, arrival: Array) -> None:
@@ -171,6 +171,24 @@ class Ground:
         """Arrival time (s) at fractional rows and columns; NEVER in islands and where most never burned."""
         burned = bilinear(self.burned, row, column)
         return np.where(burned >= 0.5, bilinear(np.minimum(self.burn_time, 1.0e8), row, column), NEVER)
+
+
+def _ascending(axis: Array, size: float) -> Array:
+    """An axis from its least value to its greatest; one value becomes two, a cell of `size` apart."""
+    if len(axis) == 1:
+        return axis[0] + size * np.array([-0.5, 0.5])
+    return axis[::-1] if axis[0] > axis[-1] else axis
+
+
+def _oriented(field: Array, latitude: Array, longitude: Array) -> Array:
+    """A field of the run as (ny, nx) on the ascending axes."""
+    field = field.astype(np.float64)
+    for number, axis in enumerate((latitude, longitude)):
+        if len(axis) == 1:
+            field = np.repeat(field, 2, number)
+        elif axis[0] > axis[-1]:
+            field = np.flip(field, number)
+    return field
 
 
 def _fuelless(fields: apron.Fields) -> NDArray[np.bool_]:

@@ -274,7 +274,7 @@ def _name(table: Any, otherwise: str | None) -> str | None:
 def plain(kind: Any, value: Any) -> Any:
     """A value as JSON can carry it: the same for equal values, however they are written."""
     if isinstance(value, tuple):
-        return [plain(inner, item) for inner, item in zip(items(kind, len(value)), value, strict=True)]
+        return list(value)
     if isinstance(value, datetime):
         return value.astimezone(UTC).isoformat()
     if isinstance(value, Path):

@@ -17,9 +17,8 @@ from pathlib import Path
 
 import firetwin_core
 import numpy as np
-from firetwin import project as projects
-from firetwin.scene import burning
-from firetwin.times import frame_times
+from firetwin.shot import burning, file
+from firetwin.shot.shot import Shot
 from firetwin_core import flux
 from numpy.typing import NDArray
 
@@ -62,9 +61,9 @@ def pictures(folder: Path) -> NDArray[np.float32]:
 
 def measure(scene: Path, rendered: NDArray[np.float32]) -> dict[str, NDArray]:
     """Series over the frames."""
-    project = projects.load(scene)
-    run = firetwin_core.run.open(project.run)
-    times = frame_times(project, run)
+    settings = file.read(scene)
+    run = firetwin_core.run.open(settings.run)
+    times = Shot(settings, run).frames.times
     cells = burning.cells(run, times[0] - 3600.0, times[-1])
     model_cell = cells.area * run.surface_fuel.size / run.elevation.size
     ages = times[:, None] - cells.arrival

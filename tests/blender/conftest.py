@@ -10,7 +10,7 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from firetwin.blender import compat, owned  # noqa: E402
+from firetwin.blender import compat, nodes, owned  # noqa: E402
 from firetwin.shot import settings as scene_settings  # noqa: E402
 from firetwin.shot.rigs.drone import CameraKey, Drone  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
@@ -144,6 +144,8 @@ def shoot(tmp_path):
         compat.still_settings(scene.render)
         scene.render.image_settings.file_format = "OPEN_EXR"
         scene.render.image_settings.color_depth = "32"
+        if layer is not None and layer not in scene.view_layers:
+            scene.view_layers.new(layer)[nodes.THERMAL] = float(layer == "thermal")
         for view_layer in scene.view_layers:
             view_layer.use = layer is None or view_layer.name == layer
         scene.render.use_compositing = False

@@ -1,6 +1,7 @@
 import bpy
 import numpy as np
 from firetwin.scene import build
+from firetwin.scene.light import build as light
 
 KINDS = ("objects", "meshes", "materials", "node_groups", "lights", "cameras", "worlds", "collections")
 KINDS += ("actions", "volumes")
@@ -36,3 +37,24 @@ def test_the_ground_is_warm_the_edge_hot_and_the_sky_cold_in_the_thermal_layer(s
     assert 285.0 < np.quantile(ground, 0.02) < 310.0
     assert ground.max() < 1600.0
     assert (ground > 500.0).any()
+
+
+def test_what_could_not_be_built_as_it_should_be_is_told(shot, stage, scene, monkeypatch):
+    monkeypatch.setattr(light, "build", lambda _shot, _stage: ["no sun today"])
+    told = []
+    build.build(shot, scene, ["light"], told.append)
+    assert told == ["no sun today"]
+
+
+def test_a_scene_of_the_artist_is_as_before_when_ours_is_removed(near_shot, scene):
+    scene.world = bpy.data.worlds.new("mine")
+    scene.camera = bpy.data.objects.new("mine", bpy.data.cameras.new("mine"))
+    scene.collection.objects.link(scene.camera)
+    before = _names(), scene.frame_end, scene.view_settings.view_transform
+    for _ in range(2):
+        build.build(near_shot, scene)
+    assert bpy.data.objects["Firetwin Ground"].users_scene == (scene,)
+    build.remove(scene)
+    assert (_names(), scene.frame_end, scene.view_settings.view_transform) == before
+    assert (scene.world.name, scene.camera.name) == ("mine", "mine")
+    assert not scene.keys()

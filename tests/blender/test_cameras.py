@@ -1,8 +1,10 @@
 from dataclasses import replace
 
+import bpy
 import numpy as np
 import pytest
 from bpy_extras.object_utils import world_to_camera_view
+from firetwin.blender import owned
 from firetwin.scene.camera import build as cameras
 from firetwin.shot import targets
 from firetwin.shot.rigs.drone import Drone
@@ -102,3 +104,30 @@ def test_a_drone_without_keys_is_an_error_that_says_so():
     where, reason = Camera("lost", Drone()).wrong()
     assert where == ("keys",)
     assert 'camera "lost" has no [[cameras.keys]]' in reason
+
+
+def test_cameras_with_long_names_are_found_by_their_marks(settings, run, stage):
+    names = ["c" * 100, "d" * 60 + "e" * 40, "d" * 60 + "f" * 40]
+    keys = settings.cameras[0].rig.keys
+    rigs = [Drone(20.0 + k, keys=keys) for k in range(3)]
+    cameras_of_all = tuple(Camera(name, rig) for name, rig in zip(names, rigs, strict=True))
+    shot = Shot(replace(settings, cameras=cameras_of_all), run)
+    for _ in range(2):
+        built = _built(shot, stage)
+        assert [stage.camera(name) for name in names] == built
+        assert [thing.data.lens for thing in built] == pytest.approx([20.0, 21.0, 22.0])
+        assert len(bpy.data.objects) == len(bpy.data.cameras) == 3
+    assert stage.camera("d" * 60) is None
+
+
+def test_our_camera_is_looked_through_unless_the_artist_has_another(shot, scene):
+    mine = bpy.data.objects.new("mine", bpy.data.cameras.new("mine"))
+    scene.collection.objects.link(mine)
+    stage = owned.stage(scene)
+    (ours,) = cameras.build(shot, stage)
+    assert scene.camera == ours
+    scene.camera = mine
+    cameras.build(shot, stage)
+    assert scene.camera == mine
+    (ours,) = cameras.build(shot, owned.adopt(scene))
+    assert scene.camera == ours

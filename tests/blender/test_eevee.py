@@ -13,7 +13,7 @@ SCENE = """\
 run = "{run}"
 [time]
 frames = 2
-[terrain]
+[ground]
 near_radius = 0.0
 apron = 20000.0
 [forest]
@@ -58,7 +58,7 @@ def test_eevee_renders_the_ground_under_the_sky_and_their_temperatures(run_folde
     ("resolution", "tile"),
     [((640, 360), "2"), ((1920, 1080), "4"), ((3840, 2160), "8"), ((16384, 16384), "16")],
 )
-def test_larger_pictures_have_larger_boxes_of_smoke(project, scene, resolution, tile):
-    wanted = replace(project.render, engine="eevee", resolution=resolution)
-    engine.apply(replace(project, render=wanted), scene)
+def test_larger_pictures_have_larger_boxes_of_smoke(settings, scene, resolution, tile):
+    wanted = replace(settings.render, engine="eevee", resolution=resolution)
+    engine.apply(replace(settings, render=wanted), scene)
     assert scene.eevee.volumetric_tile_size == tile

@@ -5,17 +5,18 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from firetwin import project as projects
-from firetwin.scene import clock, fire, flames
-from firetwin.scene.ground import Ground
-from firetwin.scene.paths import paths
+from firetwin.render import layers
+from firetwin.scene import build
+from firetwin.scene.fire import build as fire
+from firetwin.scene.fire import flames
+from firetwin.shot.settings import Fire
+from firetwin.shot.shot import Shot
 from firetwin_core import flux
 
 
 @pytest.fixture
-def points(project, run):
-    ground = Ground(project, run)
-    return flames.front(project, run, ground, paths(project, run, ground))
+def points(shot):
+    return flames.front(shot)
 
 
 def placed(scene, frame):
@@ -38,15 +39,14 @@ def test_flames_lean_more_in_more_wind():
     assert angles[2] <= np.pi / 3
 
 
-def test_lit_flames_stand_on_the_front(points, project, run):
+def test_lit_flames_stand_on_the_front(points, shot, run):
     """The test fire is round: arrival = 7200 r - 600 s, so the contour's radius is known."""
-    frame = Ground(project, run).frame
-    for time in clock.frame_times(project, run)[1:]:
+    for time in shot.frames.times[1:]:
         lit = points.take(points.lit(time))
         assert len(lit.seed) > 20
         age = time - lit.arrival_time
         assert np.all((age >= 0.0) & (age < lit.residence))
-        latitude, longitude, _ = frame.reverse(lit.position)
+        latitude, longitude, _ = shot.local_frame.reverse(lit.position)
         fuel_lat, fuel_lon = run.fuel_latitude, run.fuel_longitude
         y = np.interp(latitude, fuel_lat, np.linspace(-1, 1, len(fuel_lat)))
         x = np.interp(longitude, fuel_lon, np.linspace(-1, 1, len(fuel_lon)))
@@ -54,33 +54,31 @@ def test_lit_flames_stand_on_the_front(points, project, run):
         assert cells.max() < 1.0
 
 
-def test_flames_line_the_visible_front_without_large_gaps(points, project, run):
-    time = clock.frame_times(project, run)[1]
+def test_flames_line_the_visible_front_without_large_gaps(points, shot):
+    time = shot.frames.times[1]
     lit = points.take(points.lit(time)).position[:, :2]
     gap = np.sort(np.linalg.norm(lit[:, None] - lit[None], axis=-1), axis=1)[:, 1]
     assert np.median(gap) < 25.0
 
 
-def test_no_frame_has_more_flames_than_the_budget(project, run):
-    ground = Ground(project, run)
-    views = paths(project, run, ground)
-    full = flames.front(project, run, ground, views)
-    few = flames.front(replace(project, fire=replace(project.fire, budget=30)), run, ground, views)
-    times = clock.frame_times(project, run)
+def test_no_frame_has_more_flames_than_the_budget(shot, settings, run):
+    full = flames.front(shot)
+    few = flames.front(Shot(replace(settings, fire=replace(settings.fire, budget=30)), run))
+    times = shot.frames.times
     counts = [len(few.lit(time)) for time in times]
     assert max(counts) <= 30 < max(len(full.lit(time)) for time in times)
     for index, (time, count) in enumerate(zip(times, counts, strict=True)):
         assert count > 0 or index == 0
         if count == 30:  # those kept are the nearest of that frame
-            eye = views[0].position[index]
+            eye = shot.paths[0].position[index]
             near = np.sort(np.linalg.norm(full.position[full.lit(time)] - eye, axis=1))[:30]
             kept = np.linalg.norm(few.position[few.lit(time)] - eye, axis=1)
             assert kept.max() <= 1.5 * near.max()
 
 
-def test_scrubbing_moves_the_flames(project, run, scene):
-    scene.frame_end = project.time.frames
-    thing = fire.build(project, run)
+def test_scrubbing_moves_the_flames(shot, stage, scene):
+    scene.frame_end = shot.frames.count
+    thing = fire.build(shot, stage)
     camera = bpy.data.objects.new("eye", bpy.data.cameras.new("eye"))
     scene.collection.objects.link(camera)
     scene.camera = camera
@@ -93,26 +91,25 @@ def test_scrubbing_moves_the_flames(project, run, scene):
     assert not thing.visible_shadow
 
 
-def test_cells_are_algorithm_1(project, run):
-    cells = replace(project, fire=projects.Fire(emitters="cells"))
-    found = flames.cells(cells, run, paths(cells, run))
+def test_cells_are_algorithm_1(shot, settings, run):
+    found = flames.cells(Shot(replace(settings, fire=Fire(emitters="cells")), run))
     low, high = run.flux_range()
-    position = Ground(project, run).frame.forward_grid(
+    position = shot.local_frame.forward_grid(
         run.latitude, run.longitude, np.asarray(run.elevation, np.float64)
     )
-    for time in clock.frame_times(project, run):
+    for time in shot.frames.times:
         expected = flux.emitters(flux.at_time(run, float(time)), position, low, high)
         lit = found.take(found.lit(time))
         assert np.array_equal(lit.position, expected.position)
         assert lit.length == pytest.approx(0.4 * expected.scale)
 
 
-def test_flames_light_the_picture_and_burn_in_the_thermal_layer(project, run, scene, shoot):
-    from firetwin.scene import build
-
-    near = replace(project.cameras[0].keys[0], latitude=38.8395, height=150.0)
-    project = replace(project, cameras=(replace(project.cameras[0], keys=(near,)),))
-    build.build(project, run, scene)
+def test_flames_light_the_picture_and_burn_in_the_thermal_layer(settings, run, stage, scene, shoot):
+    camera = settings.cameras[0]
+    near = replace(camera.rig.keys[0], latitude=38.8395, height=150.0)
+    settings = replace(settings, cameras=(replace(camera, rig=replace(camera.rig, keys=(near,))),))
+    build.build(Shot(settings, run), scene)
+    layers.build(settings, stage)
     scene.frame_set(2)
     rgb, kelvin = shoot(scene, "rgb"), shoot(scene, "thermal")
     thing = bpy.data.objects["Firetwin Flames"]
@@ -122,5 +119,5 @@ def test_flames_light_the_picture_and_burn_in_the_thermal_layer(project, run, sc
     assert kelvin.max() <= 1501.0
 
 
-def test_flames_off_builds_nothing(project, run, scene):
-    assert fire.build(replace(project, fire=projects.Fire(flames=False)), run) is None
+def test_flames_off_builds_nothing(settings, run, stage):
+    assert fire.build(Shot(replace(settings, fire=Fire(flames=False)), run), stage) is None

@@ -6,31 +6,36 @@ from datetime import timedelta
 import bpy
 import numpy as np
 import pytest
-from firetwin import project as projects
-from firetwin.scene import clock, embers, fire, flames
-from firetwin.scene.ground import Ground
-from firetwin.scene.paths import paths
+from firetwin.render import layers
+from firetwin.scene import build
+from firetwin.scene.fire import build as fire
+from firetwin.scene.fire import firebrands, flames
+from firetwin.shot import burning
+from firetwin.shot.settings import Fire
+from firetwin.shot.shot import Shot
 
 FRAMES = 24
 
 
 @pytest.fixture
-def close(project):
+def close(settings):
     """A camera near the front, one second in 24 frames."""
-    key = replace(project.cameras[0].keys[0], latitude=38.8395, height=150.0)
-    begin = project.time.start + timedelta(minutes=30)
+    begin = settings.time.start + timedelta(minutes=30)
     return replace(
-        project,
-        cameras=(replace(project.cameras[0], keys=(key,)),),
-        time=replace(project.time, start=begin, end=begin + timedelta(seconds=1), frames=FRAMES),
+        moved(settings, latitude=38.8395, height=150.0),
+        time=replace(settings.time, start=begin, end=begin + timedelta(seconds=1), frames=FRAMES),
     )
 
 
-def flown(project, run):
-    ground = Ground(project, run)
-    views = paths(project, run, ground)
-    points = flames.front(project, run, ground, views)
-    return embers.fly(project, run, ground, views, points), ground, points
+def moved(settings, **place):
+    """Settings whose camera stands still elsewhere."""
+    camera = settings.cameras[0]
+    key = replace(camera.rig.keys[0], **place)
+    return replace(settings, cameras=(replace(camera, rig=replace(camera.rig, keys=(key,))),))
+
+
+def flown(shot):
+    return firebrands.fly(shot, flames.front(shot))
 
 
 def drawn(scene, frame, subframe=0.0):
@@ -55,10 +60,9 @@ def look(scene):
 
 
 def test_pieces_fly_over_the_ground_and_move_with_the_wind(close, run, monkeypatch):
-    from firetwin.scene import burning
-
     monkeypatch.setattr(burning, "wind_at", lambda run, times: np.tile((8.0, 0.0), (len(times), 1)))
-    found, ground, _ = flown(close, run)
+    shot = Shot(close, run)
+    found, ground = flown(shot), shot.ground
     assert len(found.life) > 100
     place = found.place.astype(np.float64)
     height = place[..., 2] - ground.up(*place[..., :2].reshape(-1, 2).T).reshape(place.shape[:2])
@@ -71,12 +75,10 @@ def test_pieces_fly_over_the_ground_and_move_with_the_wind(close, run, monkeypat
 
 def test_their_number_follows_the_intensity(close, run):
     """Twice the heat throws up twice as many."""
-    ground = Ground(close, run)
-    views = paths(close, run, ground)
-    points = flames.front(close, run, ground, views)
-    many = replace(close, fire=replace(close.fire, firebrands=100_000))
+    many = Shot(replace(close, fire=replace(close.fire, firebrands=100_000)), run)
+    points = flames.front(many)
     counts = [
-        len(embers.fly(many, run, ground, views, replace(points, intensity=factor * points.intensity)).life)
+        len(firebrands.fly(many, replace(points, intensity=factor * points.intensity)).life)
         for factor in (0.5, 1.0)
     ]
     assert counts[1] / counts[0] == pytest.approx(2.0, rel=0.1)
@@ -84,25 +86,24 @@ def test_their_number_follows_the_intensity(close, run):
 
 def test_no_frame_shows_more_than_the_budget(close, run):
     few = replace(close, fire=replace(close.fire, firebrands=40))
-    found, _, _ = flown(few, run)
+    found = flown(Shot(few, run))
     counts = [len(found.alive(frame / (FRAMES - 1))) for frame in range(FRAMES)]
     assert 20 < max(counts) <= 40
 
 
 def test_the_same_twice_and_other_with_another_seed(close, run):
-    first, again = flown(close, run)[0], flown(close, run)[0]
+    first, again = (flown(Shot(close, run)) for _ in range(2))
     assert np.array_equal(first.place, again.place)
-    other = flown(replace(close, seed=2), run)[0]
+    other = flown(Shot(replace(close, seed=2), run))
     assert first.place.shape != other.place.shape or not np.array_equal(first.place, other.place)
 
 
-def test_blender_draws_those_alive_where_their_path_is(close, run, scene):
+def test_blender_draws_those_alive_where_their_path_is(close, run, stage, scene):
     scene.frame_end = FRAMES
-    fire.build(close, run)
+    shot = Shot(close, run)
+    fire.build(shot, stage)
     look(scene)
-    ground = Ground(close, run, None)
-    views = paths(close, run, ground)
-    found = embers.fly(close, run, ground, views, flames.front(close, run, ground, views))
+    found = flown(shot)
     for frame, subframe in ((1, 0.0), (12, 0.5), (24, 0.0)):
         time = (frame + subframe - 1.0) / (FRAMES - 1)
         alive = found.alive(time)
@@ -118,9 +119,9 @@ def test_blender_draws_those_alive_where_their_path_is(close, run, scene):
         assert np.linalg.norm(axis, axis=1) == pytest.approx(1.0, abs=1e-3)
 
 
-def test_a_saved_scene_scrubs_without_the_add_on(close, run, scene, tmp_path):
+def test_a_saved_scene_scrubs_without_the_add_on(close, run, stage, scene, tmp_path):
     scene.frame_end = FRAMES
-    fire.build(close, run)
+    fire.build(Shot(close, run), stage)
     look(scene)
     early, late = drawn(scene, 1)[0], drawn(scene, 24)[0]
     assert not np.array_equal(sorted_rows(early), sorted_rows(late))
@@ -134,44 +135,40 @@ def test_a_saved_scene_scrubs_without_the_add_on(close, run, scene, tmp_path):
     assert np.array_equal(sorted_rows(drawn(back, 1)[0]), sorted_rows(early))
 
 
-def test_frames_far_apart_show_the_pieces_of_their_own_moment(project, run, scene):
+def test_frames_far_apart_show_the_pieces_of_their_own_moment(settings, run, stage, scene):
     """Frames half an hour apart: whoever flies in one is long gone in the next."""
-    key = replace(project.cameras[0].keys[0], latitude=38.8395, height=150.0)
-    project = replace(project, cameras=(replace(project.cameras[0], keys=(key,)),))
+    shot = Shot(moved(settings, latitude=38.8395, height=150.0), run)
     scene.frame_end = 3
-    fire.build(project, run)
+    fire.build(shot, stage)
     look(scene)
     place, _, _ = drawn(scene, 2)
     assert len(place) > 50
     assert len(drawn(scene, 2, 0.5)[0]) == 0
-    ground = Ground(project, run)
-    points = flames.front(project, run, ground, paths(project, run, ground))
-    burning = points.position[points.lit(float(clock.frame_times(project, run)[1]))]
-    gap = np.linalg.norm(place[:, None] - burning[None], axis=-1).min(axis=1)
+    points = flames.front(shot)
+    lit = points.position[points.lit(float(shot.frames.times[1]))]
+    gap = np.linalg.norm(place[:, None] - lit[None], axis=-1).min(axis=1)
     assert np.median(gap) < 120.0
 
 
-def test_twice_built_is_built_once_and_none_out_of_reach(close, run, scene):
-    fire.build(close, run)
+def test_twice_built_is_built_once_and_none_out_of_reach(close, run, stage):
+    fire.build(Shot(close, run), stage)
     count = len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.node_groups), len(bpy.data.materials)
-    fire.build(close, run)
+    fire.build(Shot(close, run), stage)
     assert count == (
         len(bpy.data.objects),
         len(bpy.data.meshes),
         len(bpy.data.node_groups),
         len(bpy.data.materials),
     )
-    key = replace(close.cameras[0].keys[0], latitude=38.7, longitude=-120.6)
-    fire.build(replace(close, cameras=(replace(close.cameras[0], keys=(key,)),)), run)
+    fire.build(Shot(moved(close, latitude=38.7, longitude=-120.6), run), stage)
     assert "Firetwin Firebrands" not in bpy.data.objects
-    fire.build(replace(close, fire=projects.Fire(firebrands=0)), run)
+    fire.build(Shot(replace(close, fire=Fire(firebrands=0)), run), stage)
     assert "Firetwin Firebrands" not in bpy.data.objects
 
 
-def test_they_glow_and_are_warm(close, run, scene, shoot):
-    from firetwin.scene import build
-
-    build.build(close, run, scene)
+def test_they_glow_and_are_warm(close, run, stage, scene, shoot):
+    build.build(Shot(close, run), scene)
+    layers.build(close, stage)
     scene.frame_set(12)
     for thing in bpy.data.objects:
         thing.hide_render = thing.type in ("MESH", "LIGHT") and thing.name != "Firetwin Firebrands"

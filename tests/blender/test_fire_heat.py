@@ -5,9 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from firetwin.data import sample
-from firetwin.scene import burning, flames, heat
-from firetwin.scene.ground import Ground
-from firetwin.scene.paths import paths
+from firetwin.shot import burning, heat
 from firetwin_core import flux
 from firetwin_core import run as runs
 from hypothesis import given, settings
@@ -115,20 +113,15 @@ def test_merged_lights_change_gradually(most):
     assert change(400) < 0.2 * change(40)
 
 
-def test_flames_and_the_rest_add_up_to_the_flux(project, run):
-    ground = Ground(project, run)
-    points = flames.front(project, run, ground, paths(project, run, ground))
-    model = heat.Heat(run)
-    for time in (720.0, 1080.0, 1200.0):
-        mine, rest = flames.power(points, run, time)
-        lit = points.lit(time)
-        assert np.all(mine[np.setdiff1d(np.arange(len(mine)), lit)] == 0.0)
-        assert (mine[lit] > 0.0).mean() > 0.5
-        cells = wanted(run, time)
-        fuel = model.fuel_cell_at(points.position[lit])
-        row, column = np.divmod(fuel, len(run.fuel_longitude))
-        total = np.bincount(row // 5 * 24 + column // 5, mine[lit], len(cells)) + of_cells(rest, len(cells))
-        assert total == pytest.approx(cells, rel=1e-6, abs=1.0)
+def test_a_shot_keeps_the_heat_of_its_moments(shot, run):
+    """What is shared out among what burns from its first frame to its last is all of the flux."""
+    fuel = False
+    for time in (*shot.frames.times, 720.0, 1080.0, 1200.0):
+        found, cells = shot.heat.sources(float(time)), wanted(run, float(time))
+        fuel |= bool(np.any(found.fuel_cell >= 0))
+        assert of_cells(found, len(cells)) == pytest.approx(cells, rel=1e-9, abs=1e-3)
+        assert found.flaming.sum() + (found.power - found.flaming).sum() == pytest.approx(cells.sum())
+    assert fuel
 
 
 def test_no_lights_at_all(run):

@@ -5,11 +5,13 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from firetwin import compat, nodes
-from firetwin import project as projects
-from firetwin.scene import build, clock, heat, lamps
-from firetwin.scene.ground import Ground
-from firetwin.scene.paths import paths
+from firetwin.blender import compat, nodes
+from firetwin.render import layers
+from firetwin.scene import build
+from firetwin.scene.fire import lamp_objects, lamps
+from firetwin.shot import heat, overview, sun
+from firetwin.shot.settings import Light
+from firetwin.shot.shot import Shot
 
 
 @pytest.fixture
@@ -17,18 +19,30 @@ def sun_at(monkeypatch):
     """Put the sun at a height (degrees) for lamps and light alike."""
 
     def place(height):
-        from firetwin.scene import sun
-
         monkeypatch.setattr(sun, "at", lambda run, time: (200.0, height))
 
     return place
 
 
 @pytest.fixture
-def near(project):
+def near(settings):
     """A camera near the front of the second frame."""
-    key = replace(project.cameras[0].keys[0], latitude=38.8395, height=150.0)
-    return replace(project, cameras=(replace(project.cameras[0], keys=(key,)),))
+    return from_height(settings, 150.0)
+
+
+def from_height(settings, height):
+    """Settings with one camera that high over the front of the second frame."""
+    camera = settings.cameras[0]
+    key = replace(camera.rig.keys[0], latitude=38.8395, height=height)
+    return replace(settings, cameras=(replace(camera, rig=replace(camera.rig, keys=(key,))),))
+
+
+def built(settings, run, stage):
+    """Build the whole scene with its view layers."""
+    shot = Shot(settings, run)
+    build.build(shot, stage.scene)
+    layers.build(settings, stage)
+    return shot
 
 
 def lit():
@@ -54,8 +68,8 @@ def alone(scene, lamps):
 
 
 def test_lamps_stand_for_all_heat_near_the_cameras(near, run):
-    ground = Ground(near, run)
-    found = lamps.place(near, run, ground, paths(near, run, ground))
+    shot = Shot(near, run)
+    ground, found = shot.ground, lamps.place(shot)
     model = heat.Heat(run)
     luminous = [model.sources(float(time)).luminous().power.sum() for time in found.time]
     assert 2 < len(found.radius) <= 48
@@ -66,17 +80,16 @@ def test_lamps_stand_for_all_heat_near_the_cameras(near, run):
 
 
 def test_no_more_lamps_than_allowed_and_the_same_again(near, run):
-    few = replace(near, light=projects.Light(lamps=5))
-    ground = Ground(few, run)
-    first, again = (lamps.place(few, run, ground, paths(few, run, ground)) for _ in range(2))
+    few = replace(near, light=Light(lamps=5))
+    first, again = (lamps.place(Shot(few, run)) for _ in range(2))
     assert len(first.radius) == 5
     assert np.array_equal(first.position, again.position)
     assert np.array_equal(first.heat, again.heat)
 
 
-def test_energies_are_straight_lines_between_moments(near, run, scene, sun_at):
+def test_energies_are_straight_lines_between_moments(near, run, stage, sun_at):
     sun_at(-20.0)
-    build.build(near, run, scene)
+    shot = built(near, run, stage)
     things = lit()
     assert 0 < len(things) <= 48
     assert {thing.users_collection[0].name for thing in things} == {"Firetwin Lamps"}
@@ -90,7 +103,7 @@ def test_energies_are_straight_lines_between_moments(near, run, scene, sun_at):
             assert curve.keyframe_points[0].co.x == 1.0
             assert curve.keyframe_points[-1].co.x == near.time.frames
     assert moving > 0
-    times = clock.frame_times(near, run)
+    times = shot.frames.times
     model, total = heat.Heat(run), []
     for frame in (1, 2, 3):
         curves = [(thing.data, compat.fcurves(thing.data)) for thing in things]
@@ -99,46 +112,45 @@ def test_energies_are_straight_lines_between_moments(near, run, scene, sun_at):
     assert total == pytest.approx(wanted, rel=1e-3)
 
 
-def test_building_twice_leaves_one_set(near, run, scene, sun_at):
+def test_building_twice_leaves_one_set(near, run, stage, sun_at):
     sun_at(-20.0)
-    build.build(near, run, scene)
+    built(near, run, stage)
     count = len(lit()), len(bpy.data.lights), len(bpy.data.actions)
-    build.build(near, run, scene)
+    built(near, run, stage)
     assert (len(lit()), len(bpy.data.lights), len(bpy.data.actions)) == count
 
 
 @pytest.mark.parametrize(("engine", "shadows"), [("cycles", True), ("eevee", False)])
 def test_only_cycles_draws_their_shadows(near, run, scene, sun_at, engine, shadows):
     sun_at(-20.0)
-    ground = Ground(near, run)
-    project = replace(near, render=replace(near.render, engine=engine))
-    made = lamps.build(project, run, ground, paths(near, run, ground), scene.collection)
+    settings = replace(near, render=replace(near.render, engine=engine))
+    made = lamp_objects.build(Shot(settings, run), scene.collection)
     assert made
     assert {thing.data.use_shadow for thing in made} == {shadows}
 
 
 @pytest.mark.parametrize("height", [6.1, 40.0])
-def test_no_lamps_by_day(near, run, scene, sun_at, height):
+def test_no_lamps_by_day(near, run, stage, sun_at, height):
     sun_at(height)
-    build.build(near, run, scene)
+    built(near, run, stage)
     assert not lit()
 
 
-def test_they_come_so_gradually_that_the_first_light_cannot_be_seen(near, run, scene, sun_at, shoot):
+def test_they_come_so_gradually_that_the_first_light_cannot_be_seen(near, run, stage, scene, sun_at, shoot):
     """A degree under the sun that ends them, no pixel gets a 255th of white from lamps; by night many do."""
     brightest = []
     for height in (5.0, -20.0):
         sun_at(height)
-        build.build(near, run, scene)
+        built(near, run, stage)
         alone(scene, lit())
         brightest.append(np.max(shoot(scene, "rgb")))
     assert lit()
     assert brightest[0] < 1.0 / 255.0 < brightest[1]
 
 
-def test_lamps_light_the_ground_and_leave_temperatures_alone(near, run, scene, sun_at, shoot):
+def test_lamps_light_the_ground_and_leave_temperatures_alone(near, run, stage, scene, sun_at, shoot):
     sun_at(-20.0)
-    build.build(near, run, scene)
+    built(near, run, stage)
     scene.frame_set(2)
     kelvin, light = shoot(scene, "thermal"), shoot(scene, "rgb")
     for thing in lit():
@@ -148,9 +160,26 @@ def test_lamps_light_the_ground_and_leave_temperatures_alone(near, run, scene, s
     assert scene.view_layers["thermal"][nodes.THERMAL] == 1.0
 
 
-def test_none_are_made_without_a_camera_or_when_off(near, run, scene, sun_at):
+def test_none_are_made_without_a_camera_or_when_off(near, run, stage, sun_at):
     sun_at(-20.0)
-    build.build(replace(near, light=replace(near.light, lamps=0)), run, scene)
+    built(replace(near, light=replace(near.light, lamps=0)), run, stage)
     assert not lit()
-    build.build(replace(near, cameras=()), run, scene)
+    built(replace(near, cameras=()), run, stage)
     assert not lit()
+
+
+def test_none_are_made_where_no_camera_is_near_the_fire(settings, run, stage, sun_at):
+    """From 10 km up their light does not show."""
+    sun_at(-20.0)
+    shot = built(from_height(settings, 10_000.0), run, stage)
+    assert not lit()
+    found = lamps.place(shot)
+    assert found.position.shape == (0, 3)
+    assert found.heat.shape == (len(found.time), 0)
+
+
+def test_a_run_without_a_scene_file_is_built_by_night(settings, run, stage, sun_at, monkeypatch):
+    monkeypatch.setattr(overview, "_LEAST", 12_000.0)  # as for a large fire, which is seen from far off
+    sun_at(-20.0)
+    built(replace(settings, cameras=overview.cameras(run)), run, stage)
+    assert bpy.data.objects["Firetwin Flames"].users_scene == (stage.scene,)

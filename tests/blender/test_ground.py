@@ -7,6 +7,7 @@ from firetwin.run import frame
 from firetwin.scene import build
 from firetwin.scene.ground import build as ground_build
 from firetwin.scene.ground import grid_mesh
+from firetwin.shot import burning
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 
@@ -139,3 +140,45 @@ def test_level_ground_without_fuel_is_a_lake(near_settings, run_folder, tmp_path
     assert np.array_equal(found, lake)  # and not the bare rock, which slopes
     row, column = np.meshgrid(np.linspace(72, 87, 40), np.linspace(32, 57, 40), indexing="ij")
     assert ground.height(row + margin, column + margin, 1.0) == pytest.approx(1380.0, abs=1e-9)
+
+
+@pytest.fixture(params=["one row", "one column", "one cell", "one cell of many"])
+def narrow(request, run_folder, tmp_path):
+    """The run cut to a fuel grid that is one cell wide or high (or both), and the size of its cells (m)."""
+    folder = tmp_path / "narrow"
+    shutil.copytree(run_folder, folder)
+    fine, coarse = slice(40, 80), slice(8, 16)
+    one, few = (slice(60, 61), slice(12, 13)), (fine, coarse)
+    rows, columns = {"one row": (one, few), "one column": (few, one)}.get(request.param, (one, one))
+    model = (coarse, coarse) if request.param == "one cell of many" else (rows[1], columns[1])
+    for path in folder.glob("*.npy"):
+        field = np.load(path)
+        parts = (rows[0], columns[0]) if "fuel" in path.stem else model
+        axis = {"latitude": parts[:1], "longitude": parts[1:]}.get(path.stem.removeprefix("fuel_"))
+        np.save(path, field[(..., *(axis or parts))])
+    size = {"one cell": 100.0, "one cell of many": 370.0}.get(request.param, 74.0)
+    return runs.open(folder), size
+
+
+def test_a_grid_one_cell_wide_is_drawn_one_cell_wide(narrow, near_settings, stage):
+    run, size = narrow
+    for apron in (0.0, 20_000.0):
+        shot = Shot(replace(near_settings, ground=replace(near_settings.ground, apron=apron)), run)
+        ground = shot.ground
+        assert min(ground.cell) == pytest.approx(size, rel=0.05)
+        assert max(ground.cell) == pytest.approx(size, rel=0.05)
+        mesh = ground_build.build(shot, stage, None).data
+        places = _vertices(mesh)
+        assert np.isfinite(places).all()
+        wide = np.ptp(places[:, :2], axis=0)
+        cells = np.maximum(np.array(run.surface_fuel.shape[::-1]) - 1, 1)
+        expected = cells * np.array(ground.cell[::-1]) if apron == 0.0 else 2.0 * apron
+        assert wide == pytest.approx(expected, rel=0.1)
+        assert np.isin(_values(mesh, "surface_fuel"), run.surface_fuel).any()
+
+
+def test_a_cell_of_a_grid_one_cell_wide_has_an_area(narrow):
+    run, size = narrow
+    assert burning.cell_area(run) == pytest.approx(size**2, rel=0.05)
+    assert burning.model_cell_area(run) > 0.0
+    assert burning.cells(run, -1e9, 1e9).power(0.0).sum() >= 0.0

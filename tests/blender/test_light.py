@@ -1,3 +1,7 @@
+import json
+import os
+import subprocess
+import sys
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 
@@ -6,7 +10,7 @@ import numpy as np
 import pytest
 from astral import Observer
 from astral.sun import azimuth, elevation
-from firetwin.blender import compat
+from firetwin.blender import compat, owned
 from firetwin.run import frame
 from firetwin.scene.light import build as light
 from firetwin.scene.light import sky
@@ -60,3 +64,88 @@ def test_building_twice_leaves_one_sky(shot, stage, scene):
     assert [world.name for world in bpy.data.worlds] == ["Firetwin Sky"]
     assert len(bpy.data.lights) == 1
     assert len(compat.fcurves(scene)) == 1
+
+
+def test_a_scene_that_is_not_ours_keeps_its_world_and_its_colours(shot, scene):
+    scene.world = bpy.data.worlds.new("mine")
+    view = scene.view_settings
+    view.view_transform, view.look, view.exposure = "Standard", "None", 0.25
+    assert light.build(shot, owned.stage(scene)) == []
+    assert [world.name for world in bpy.data.worlds] == ["mine"]
+    assert (view.view_transform, view.look, view.exposure) == ("Standard", "None", 0.25)
+    assert not compat.fcurves(scene)
+    assert bpy.data.objects["Firetwin Sun"].data.energy > 1.0
+
+
+def test_a_world_of_the_artist_stays_in_a_scene_of_ours(shot, stage, scene):
+    light.build(shot, stage)
+    scene.world = mine = bpy.data.worlds.new("mine")
+    assert light.build(shot, stage) == []
+    assert scene.world == mine
+    assert [world.name for world in bpy.data.worlds] == ["mine"]
+    assert scene.view_settings.view_transform == "AgX"
+
+
+def test_an_animation_of_the_artist_stays_as_it_is(shot, stage, scene):
+    compat.new_fcurve(scene, "render.resolution_x").keyframe_points.insert(1.0, 64.0)
+    del scene.animation_data.action[owned.MARK]
+    light.build(shot, stage)
+    assert [curve.data_path for curve in compat.fcurves(scene)] == ["render.resolution_x"]
+    assert scene.view_settings.exposure == pytest.approx(0.5)
+
+
+def test_a_still_after_a_film_has_its_own_exposure(settings, run, stage, scene):
+    settings = replace(settings, time=replace(settings.time, start=None, end=None))
+    for frames in (3, 1):
+        dark = replace(settings.light, exposure=None if frames > 1 else 1.25)
+        light.build(
+            Shot(replace(settings, light=dark, time=replace(settings.time, frames=frames)), run), stage
+        )
+    scene.frame_set(1)
+    assert scene.view_settings.exposure == 1.25
+
+
+_CONFIGURATION = """ocio_profile_version: 2
+search_path: ""
+roles: {{reference: Linear, scene_linear: Linear, default: Linear, data: Linear, color_picking: sRGB}}
+displays:
+  sRGB: [{views}]
+active_displays: [sRGB]
+active_views: []
+colorspaces:
+  - !<ColorSpace> {{name: Linear, encoding: scene-linear, isdata: false}}
+  - !<ColorSpace>
+    name: sRGB
+    isdata: false
+    from_reference: !<ExponentTransform> {{value: [2.2, 2.2, 2.2, 1]}}
+"""
+_BUILD = """
+import json, sys
+import bpy
+sys.path[:0] = {path!r}
+from firetwin.scene.light import build as light
+bpy.ops.wm.read_factory_settings(use_empty=True)
+view = bpy.context.scene.view_settings
+print(json.dumps([light._colours(view), view.view_transform, view.look]))
+"""
+
+
+@pytest.mark.parametrize("views", [("Raw",), ("Standard", "Filmic"), ("Standard", "AgX")])
+def test_colours_without_agx_fall_back_and_say_so_once(tmp_path, views):
+    described = ", ".join(f"!<View> {{name: {view}, colorspace: sRGB}}" for view in views)
+    (tmp_path / "config.ocio").write_text(_CONFIGURATION.format(views=described))
+    done = subprocess.run(
+        [sys.executable, "-c", _BUILD.format(path=sys.path)],
+        env={**os.environ, "OCIO": str(tmp_path / "config.ocio")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    sentences, transform, look = json.loads(done.stdout.splitlines()[-1])
+    best = next(view for view in ("AgX", "Filmic", "Standard", "Raw") if view in views)
+    missing = "AgX - Medium High Contrast" if best == "AgX" else "AgX"
+    assert (transform, look) == (best, "None")
+    assert len(sentences) == 1
+    assert f'"{missing}"' in sentences[0]
+    assert f'"{best}"' in sentences[0]

@@ -8,15 +8,15 @@ import sys
 import time
 
 import pytest
-from firetwin import worker
 from firetwin.errors import Error
+from firetwin.jobs import worker
 
 FRAMES = 3
 SCENE = """\
 run = "{run}"
 [time]
 frames = {frames}
-[terrain]
+[ground]
 near_radius = 0.0
 apron = 20000.0
 [forest]
@@ -124,7 +124,7 @@ def test_the_manifest_tells_what_made_each_file(film):
     assert (entry["camera"], entry["pass"], entry["frame"]) == ("drone", "rgb", 2)
     assert entry["time"] == "2014-09-17T21:30:00+00:00"
     settings = manifest["settings"][entry["settings"]]
-    assert settings["render"]["samples"] == 1
+    assert settings["settings"]["render"]["samples"] == 1
     assert set(settings["versions"]) == {"firetwin", "blender"}
     assert len(settings["run"]["heat_flux.npy"]) == 64
 
@@ -218,7 +218,7 @@ def test_the_blend_file_is_complete_and_needs_no_add_on(firetwin, tmp_path):
 
 
 def test_a_crash_of_blender_is_one_clear_line(tmp_path, monkeypatch):
-    (tmp_path / "crash.py").write_text("import os\ndef abort(progress):\n    os.abort()\n")
+    (tmp_path / "crash.py").write_text("import os\ndef abort(progress, tell):\n    os.abort()\n")
     path = os.pathsep.join(filter(None, [str(tmp_path), os.environ.get("PYTHONPATH")]))
     monkeypatch.setenv("PYTHONPATH", path)
     with pytest.raises(Error, match=r"stopped on signal 6 \(SIGABRT\).* log of Blender is") as caught:

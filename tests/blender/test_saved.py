@@ -16,9 +16,9 @@ def _animated():
     return [block for block in blocks if getattr(block, "animation_data", None)]
 
 
-def test_a_saved_scene_needs_no_scripts(near_shot, stage, scene, shoot, tmp_path):
+def test_a_saved_scene_needs_no_scripts(near_shot, near_settings, stage, scene, shoot, tmp_path):
     build.build(near_shot, scene)
-    engine.apply(near_shot, scene)
+    engine.apply(near_settings, scene)
     scene.frame_set(2)
     assert _animated()
     assert not [block for block in _animated() if block.animation_data.drivers]

@@ -3,22 +3,36 @@
 import os
 import shutil
 import subprocess
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import bpy
 import numpy as np
 import pytest
-from firetwin import compat
-from firetwin import project as projects
-from firetwin.scene import bake, build, burning, clock, paths, smoke
+from firetwin.blender import compat, owned
+from firetwin.render import layers
+from firetwin.scene import build
+from firetwin.scene.smoke import bake, baker, view
+from firetwin.scene.smoke import build as smoke
+from firetwin.shot import burning, file
+from firetwin.shot.rigs.satellite import Satellite
+from firetwin.shot.settings import Camera, Light, Smoke
+from firetwin.shot.shot import Shot
 from firetwin_core import InputError
 from firetwin_core import run as runs
 
 
 @pytest.fixture
-def smoky(project):
-    """The small project with smoke."""
-    return replace(project, smoke=projects.Smoke(voxel_size=120.0, max_age=1800.0))
+def smoky(settings):
+    """The small scene with smoke."""
+    return replace(settings, smoke=Smoke(voxel_size=120.0, max_age=1800.0))
+
+
+@pytest.fixture
+def shot(smoky, run):
+    return Shot(smoky, run)
 
 
 def grids(path):
@@ -37,48 +51,75 @@ def grids(path):
     return found
 
 
-def test_bake_writes_what_is_missing_and_nothing_else(smoky, run):
+def test_bake_writes_what_is_missing_and_nothing_else(shot):
     told = []
-    place = bake.bake(smoky, run, lambda *done: told.append(done[:2]))
+    place = bake.bake(shot, lambda *done: told.append(done[:2]))
     files = sorted(place.iterdir())
     assert [file.name for file in files] == [f"smoke_{n:06d}.vdb" for n in (1, 2, 3)]
     assert told[-1] == (3, 3)
     files[1].unlink()
     stamps = [files[i].stat().st_mtime_ns for i in (0, 2)]
-    assert bake.bake(smoky, run) == place
+    assert bake.bake(shot) == place
     assert files[1].exists()
     assert [files[i].stat().st_mtime_ns for i in (0, 2)] == stamps
 
 
 def test_other_settings_have_another_folder(smoky, run):
-    before = bake.folder(smoky, run)
-    assert bake.folder(smoky, run) == before
-    assert bake.folder(replace(smoky, seed=smoky.seed + 1), run) != before
-    assert bake.folder(replace(smoky, smoke=replace(smoky.smoke, voxel_size=90.0)), run) != before
-    assert bake.folder(replace(smoky, light=projects.Light(haze=0.0)), run) == before
+    before = bake.folder(Shot(smoky, run))
+    assert bake.folder(Shot(smoky, run)) == before
+    assert bake.folder(Shot(replace(smoky, seed=smoky.seed + 1), run)) != before
+    assert bake.folder(Shot(replace(smoky, smoke=replace(smoky.smoke, voxel_size=90.0)), run)) != before
+    assert bake.folder(Shot(replace(smoky, light=Light(haze=0.0)), run)) == before
+
+
+def test_how_smoke_is_shown_and_recorded_needs_no_other_volumes(smoky, run):
+    before = bake.folder(Shot(smoky, run))
+    camera, render = smoky.cameras[0], smoky.render
+    for same in (
+        replace(smoky, render=replace(render, passes=("rgb",))),
+        replace(smoky, cameras=(replace(camera, passes=("depth", "rgb")),)),
+        replace(smoky, cameras=(replace(camera, name="b", frames="1-3"),)),
+        replace(smoky, render=replace(render, engine="eevee", samples=99)),
+        replace(smoky, render=replace(render, resolution=(128, 72))),
+        replace(smoky, smoke=replace(smoky.smoke, extinction=0.02)),
+        replace(smoky, time=replace(smoky.time, fps=30)),
+    ):
+        assert bake.folder(Shot(same, run)) == before
+    for other in (
+        replace(smoky, render=replace(render, resolution=(64, 64))),
+        replace(smoky, cameras=(replace(camera, frames="2"),)),
+        replace(smoky, cameras=(replace(camera, rig=replace(camera.rig, focal_length=50.0)),)),
+        replace(smoky, time=replace(smoky.time, frames=4)),
+        replace(smoky, smoke=replace(smoky.smoke, complete=True)),
+    ):
+        assert bake.folder(Shot(other, run)) != before
 
 
 def test_the_key_is_what_is_in_the_run_not_when_it_was_written(smoky, run, run_folder, tmp_path):
     copy = tmp_path / "copy"
     shutil.copytree(run_folder, copy)
     again = runs.open(copy)
-    assert bake.folder(smoky, again) == bake.folder(smoky, run)
+
+    def folder(run):
+        return bake.folder(Shot(smoky, run))
+
+    assert folder(again) == folder(run)
     fuel = np.load(copy / "surface_fuel.npy")
     fuel[60, 60] += 0.1
     np.save(copy / "surface_fuel.npy", fuel)
-    assert bake.folder(smoky, again) != bake.folder(smoky, run)
+    assert folder(again) != folder(run)
     shutil.copy(run_folder / "surface_fuel.npy", copy)
-    assert bake.folder(smoky, again) == bake.folder(smoky, run)
+    assert folder(again) == folder(run)
     np.save(copy / "temperature.npy", np.full((11, 24, 24), 300.0, np.float32))  # nobody asks it
-    assert bake.folder(smoky, again) == bake.folder(smoky, run)
+    assert folder(again) == folder(run)
     np.save(copy / "heat_flux.npy", 2.0 * np.load(copy / "heat_flux.npy"))  # flames light the smoke
-    assert bake.folder(smoky, again) != bake.folder(smoky, run)
+    assert folder(again) != folder(run)
 
 
 def test_frames_in_parallel_are_the_frames_one_by_one(smoky, run, tmp_path, monkeypatch):
     def frames(cache, at_once):
         monkeypatch.setattr(bake, "_at_once", lambda frames: at_once)
-        place = bake.bake(replace(smoky, cache=tmp_path / cache), run)
+        place = bake.bake(Shot(replace(smoky, cache=tmp_path / cache), run))
         return [grids(place / f"smoke_{n:06d}.vdb") for n in (1, 2, 3)]
 
     for one, other in zip(frames("one", 1), frames("many", 3), strict=True):
@@ -88,21 +129,21 @@ def test_frames_in_parallel_are_the_frames_one_by_one(smoky, run, tmp_path, monk
             assert np.array_equal(low, other[name][1])
 
 
-def test_what_a_killed_process_left_is_cleared(smoky, run):
-    place = bake.folder(smoky, run)
+def test_what_a_killed_process_left_is_cleared(shot):
+    place = bake.folder(shot)
     place.mkdir(parents=True)
     gone = subprocess.Popen(["true"])
     gone.wait()
     left, alive = place / f"smoke_000001.vdb.{gone.pid}.tmp", place / f"smoke_000009.vdb.{os.getpid()}.tmp"
     left.touch()
     alive.touch()
-    bake.bake(smoky, run)
+    bake.bake(shot)
     assert not left.exists()
     assert alive.exists()
 
 
-def test_frames_that_the_shot_does_not_have_are_no_error(smoky, run):
-    place = bake.bake(smoky, run, frames=[-3, 0, 2, 4, 99])
+def test_frames_that_the_shot_does_not_have_are_no_error(shot):
+    place = bake.bake(shot, frames=[-3, 0, 2, 4, 99])
     assert [file.name for file in place.iterdir()] == ["smoke_000002.vdb"]
 
 
@@ -116,24 +157,28 @@ def test_smoke_of_the_model_is_used_where_the_run_has_it(smoky, run, run_folder,
     np.save(folder / "smoke_3d.npy", smoke)
     model = runs.open(folder)
     whole = replace(smoky, smoke=replace(smoky.smoke, complete=True))
-    assert bake.folder(whole, model) != bake.folder(whole, run)
-    found = grids(bake.bake(whole, model, frames=[2]) / "smoke_000002.vdb")
+    shot = Shot(whole, model)
+    assert bake.folder(shot) != bake.folder(Shot(whole, run))
+    found = grids(bake.bake(shot, frames=[2]) / "smoke_000002.vdb")
     assert {"density", "dilution", "shade", "size", "temperature"} <= set(found)
-    time = bake.Baker(whole, model).times[1]
+    time = shot.frames.times[1]
     expected = 0.1 * (1.0 + np.interp(time, run.times, np.arange(len(run.times))))
     assert found["dilution"][0].max() == pytest.approx(expected, rel=1e-3)
 
 
-def test_no_picture_changes_without_what_it_does_not_see(smoky, run, scene, shoot, tmp_path):
+def test_no_picture_changes_without_what_it_does_not_see(smoky, run, stage, scene, shoot, tmp_path):
     """Left out smoke changes the picture by less than the grain of other seeds does."""
-    far = replace(smoky.cameras[0], focal_length=200.0)
+    camera = smoky.cameras[0]
+    far = replace(camera, rig=replace(camera.rig, focal_length=200.0))
     close = replace(smoky, cameras=(far,), cache=tmp_path / "close")
     whole = replace(close, smoke=replace(close.smoke, complete=True), cache=tmp_path / "whole")
     pictures, sizes = [], []
-    for project in (whole, close):
-        place = bake.bake(project, run, frames=[3])
+    for settings in (whole, close):
+        shot = Shot(settings, run)
+        place = bake.bake(shot, frames=[3])
         sizes.append((place / "smoke_000003.vdb").stat().st_size)
-        build.build(project, run, scene)
+        build.build(shot, scene)
+        layers.build(settings, stage)
         scene.frame_set(3)
         pictures.append(shoot(scene, "rgb"))
     scene.cycles.seed += 1
@@ -144,16 +189,32 @@ def test_no_picture_changes_without_what_it_does_not_see(smoky, run, scene, shoo
     assert change < 0.2 * grain
 
 
-def test_only_frames_of_the_visible_pass_are_baked(smoky):
+def test_only_frames_whose_smoke_is_shown_are_baked(smoky, run):
+    blind = replace(smoky.cameras[0], name="a", passes=("depth",))
+    still = replace(smoky.cameras[0], name="b", frames="2")
+    assert bake.shot_frames(Shot(replace(smoky, cameras=(blind, still)), run)) == [2]
+
+
+def test_a_thermal_picture_alone_is_made_from_a_visible_one_with_all_its_smoke(smoky, run, monkeypatch):
     thermal = replace(smoky.cameras[0], name="a", passes=("thermal",))
     still = replace(smoky.cameras[0], name="b", frames="2")
-    assert bake.shot_frames(replace(smoky, cameras=(thermal, still))) == [2]
+    shot = Shot(replace(smoky, cameras=(thermal, still)), run)
+    assert bake.shot_frames(shot) == [1, 2, 3]
+    monkeypatch.setattr(view.volume, "Sight", lambda cameras, *_: len(cameras))
+    sights = view.Sights(shot)
+    assert [sights.of(frame) for frame in (1, 2, 3)] == [1, 2, 1]
+
+
+def test_a_camera_that_records_no_smoke_culls_none_of_anothers(smoky, run):
+    above = Camera("above", Satellite(), passes=("depth",), frames="2")
+    sights = view.Sights(Shot(replace(smoky, cameras=(*smoky.cameras, above)), run))
+    assert [sights.of(frame) is None for frame in (1, 2, 3)] == [False, True, False]
 
 
 def test_a_cache_that_cannot_be_made_is_named(smoky, run, tmp_path):
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(InputError, match="cache"):
-        bake.bake(replace(smoky, cache=tmp_path / "file"), run)
+        bake.bake(Shot(replace(smoky, cache=tmp_path / "file"), run))
 
 
 def test_smoke_lies_beside_the_scene_file_wherever_that_is_called_from(run_folder, tmp_path, monkeypatch):
@@ -161,21 +222,21 @@ def test_smoke_lies_beside_the_scene_file_wherever_that_is_called_from(run_folde
     text = f'run = "{run_folder}"\ncache = "kept"\n[[cameras]]\nname = "a"\nkind = "satellite"\n'
     (tmp_path / "sub" / "scene.toml").write_text(text)
     monkeypatch.chdir(tmp_path)
-    loaded = projects.load("sub/scene.toml")
-    assert bake.folder(loaded, runs.open(loaded.run)).parent == tmp_path / "sub" / "kept"
+    loaded = file.read("sub/scene.toml")
+    assert bake.folder(Shot(loaded, runs.open(loaded.run))).parent == tmp_path / "sub" / "kept"
 
 
-def test_steps_suit_the_extinction(smoky, run):
-    drawn = bake.resolution(smoky, run)
+def test_steps_suit_the_extinction(smoky, shot, run):
+    drawn = bake.resolution(shot)
     assert drawn.voxel == 120.0
     assert drawn.step * drawn.extinction <= 1.0
     given = replace(smoky, smoke=replace(smoky.smoke, extinction=0.03))
-    assert bake.resolution(given, run).step == pytest.approx(drawn.step * drawn.extinction / 0.03)
+    assert bake.resolution(Shot(given, run)).step == pytest.approx(drawn.step * drawn.extinction / 0.03)
 
 
-def test_blender_reads_the_grids_of_every_frame(smoky, run, scene):
-    bake.bake(smoky, run)
-    thing = smoke.build(smoky, run)
+def test_blender_reads_the_grids_of_every_frame(shot, stage, scene):
+    bake.bake(shot)
+    thing = smoke.build(shot, stage)
     for frame in (1, 3):
         scene.frame_set(frame)
         grids = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).data.grids
@@ -185,24 +246,172 @@ def test_blender_reads_the_grids_of_every_frame(smoky, run, scene):
     assert tuple(thing.location) == (compat.volume_shift(scene.cycles, 120.0),) * 3
 
 
-def test_smoke_is_off_when_it_is_off(project, run, scene):
-    assert smoke.build(project, run) is None
+def test_smoke_is_off_when_it_is_off(settings, run, stage):
+    assert smoke.build(Shot(settings, run), stage) is None
 
 
-def test_smoke_changes_the_picture(smoky, run, scene, shoot):
-    bake.bake(smoky, run, frames=[3])
-    build.build(smoky, run, scene)
+def test_smoke_changes_the_picture(shot, stage, scene, shoot):
+    bake.bake(shot, frames=[3])
+    build.build(shot, scene)
+    layers.build(shot.settings, stage)
     scene.frame_set(3)
     shown = shoot(scene, "rgb")
     bpy.data.objects["Firetwin Smoke"].hide_render = True
     assert np.mean(np.abs(shown - shoot(scene, "rgb"))) > 0.02
 
 
-def test_eevee_slices_lie_where_the_smoke_is(smoky, run, scene):
-    smoke.build(smoky, run)
-    cells = burning.cells(run, *clock.window(smoky, run)).position
-    nearest = min(view.distance(cells).min() for view in paths.paths(smoky, run) if view.perspective)
+def test_eevee_slices_lie_where_the_smoke_is(shot, stage, scene):
+    smoke.build(shot, stage)
+    cells = burning.cells(shot.run, shot.frames.first, shot.frames.last).position
+    nearest = min(path.distance(cells).min() for path in shot.near)
     eevee = scene.eevee
     assert eevee.use_volume_custom_range
     assert eevee.use_volumetric_shadows
     assert eevee.volumetric_start < nearest < nearest + 20_000.0 < eevee.volumetric_end
+
+
+def test_a_scene_of_somebody_else_keeps_its_settings(shot, scene):
+    before = scene.cycles.volume_max_steps, scene.eevee.volumetric_end
+    other = bpy.data.scenes.new("other")
+    assert smoke.build(shot, owned.stage(scene)) is not None
+    for each in (scene, other):
+        assert (each.cycles.volume_max_steps, each.eevee.volumetric_end) == before
+
+
+def test_other_scenes_keep_their_settings(shot, stage):
+    other = bpy.data.scenes.new("other")
+    before = other.cycles.volume_max_steps, other.eevee.volumetric_end
+    smoke.build(shot, stage)
+    assert (other.cycles.volume_max_steps, other.eevee.volumetric_end) == before
+    assert stage.scene.cycles.volume_max_steps != before[0]
+
+
+def test_a_file_moved_together_with_its_smoke_keeps_it(smoky, run, stage, tmp_path):
+    here, there = tmp_path / "here", tmp_path / "there" / "deeper"
+    blend = here / "films" / "scene.blend"
+    blend.parent.mkdir(parents=True)
+    shot = Shot(replace(smoky, cache=here / "cache"), run)
+    bake.bake(shot)
+    smoke.build(shot, stage)
+    smoke.relative(blend)
+    bpy.ops.wm.save_as_mainfile(filepath=str(blend), relative_remap=False)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    there.parent.mkdir()
+    here.rename(there)
+    bpy.ops.wm.open_mainfile(filepath=str(there / "films" / "scene.blend"))
+    volume = bpy.data.objects["Firetwin Smoke"].data
+    assert volume.filepath.startswith("//")
+    bpy.context.scene.frame_set(2)
+    grids = bpy.data.objects["Firetwin Smoke"].evaluated_get(bpy.context.evaluated_depsgraph_get()).data.grids
+    assert grids.load()
+    assert {"density", "dilution", "shade", "size", "glow"} <= {grid.name for grid in grids}
+
+
+def test_paths_that_are_not_ours_or_on_another_drive_stay(shot, stage, tmp_path, monkeypatch):
+    volume = smoke.build(shot, stage).data
+    theirs = bpy.data.volumes.new("theirs")
+    theirs.filepath = absolute = volume.filepath
+
+    def no_way(*_):
+        raise ValueError
+
+    with monkeypatch.context() as patched:
+        patched.setattr(smoke.os.path, "relpath", no_way)
+        smoke.relative(tmp_path / "scene.blend")
+    assert volume.filepath == absolute
+    smoke.relative(tmp_path / "scene.blend")
+    assert volume.filepath == f"//cache/{bake.folder(shot).name}/smoke_000001.vdb"
+    assert theirs.filepath == absolute
+
+
+def test_several_may_write_one_volume_at_once(shot, tmp_path):
+    """All of them finish, and nothing but the complete file is left."""
+    path = tmp_path / "smoke_000003.vdb"
+    maker = bake.Baker(shot)
+    maker.write(path, 3)
+    alone = grids(path)
+    path.unlink()
+    for _ in range(5):
+        with ThreadPoolExecutor(4) as pool:
+            tasks = [pool.submit(maker.write, path, 3) for _ in range(4)]
+        assert all(task.result().active_voxels for task in tasks)
+    for name, (values, low) in grids(path).items():
+        assert np.array_equal(values, alone[name][0])
+        assert np.array_equal(low, alone[name][1])
+    assert [each.name for each in tmp_path.iterdir() if each.is_file()] == [path.name]
+
+
+def test_the_first_picture_waits_for_its_own_volume_alone(shot, monkeypatch):
+    written, go_on, told, said = [], threading.Semaphore(1), [], []
+    write = baker.Baker.write
+
+    def slow(self, path, frame):
+        go_on.acquire()
+        written.append(frame)
+        return write(self, path, frame)
+
+    monkeypatch.setattr(baker.Baker, "write", slow)
+    with bake.ahead(shot, [1, 3, 2], lambda *done: told.append(done[:2]), said.append) as ready:
+        ready(1)
+        assert written == [1]
+        assert bake.file(shot, 1).exists()
+        assert told == [(0, 1), (1, 1)]
+        go_on.release()
+        ready(3)
+        assert written == [1, 3]
+        go_on.release()
+        ready(2)
+    assert written == [1, 3, 2]
+    assert len(told) == 2
+    assert len(said) == 1
+    assert "3 frames" in said[0]
+
+
+def test_leaving_cancels_what_has_not_begun(shot, monkeypatch):
+    begun, go_on = threading.Event(), threading.Event()
+    written = []
+
+    def write(self, path, frame):
+        written.append(frame)
+        begun.set()
+        go_on.wait(10.0)
+
+    monkeypatch.setattr(baker.Baker, "write", write)
+    with bake.ahead(shot, [1, 2, 3]) as ready:
+        waiting = threading.Thread(target=ready, args=(1,))
+        waiting.start()
+        begun.wait(10.0)
+        threading.Timer(0.5, go_on.set).start()
+        time.sleep(0.2)  # the second frame is in line now
+    waiting.join(10.0)
+    assert written == [1]
+
+
+def test_what_goes_wrong_meanwhile_is_raised_when_it_is_wanted(shot, monkeypatch):
+    write = baker.Baker.write
+
+    def wrong(self, path, frame):
+        if frame == 2:
+            raise OSError("the disk is full")
+        return write(self, path, frame)
+
+    monkeypatch.setattr(baker.Baker, "write", wrong)
+    with bake.ahead(shot, [1, 2]) as ready:
+        ready(1)
+        with pytest.raises(OSError, match="full"):
+            ready(2)
+
+
+def test_nothing_is_made_ahead_without_smoke(settings, run):
+    shot = Shot(settings, run)
+    with bake.ahead(shot, [1, 2]) as ready:
+        ready(1)
+    assert not bake.folder(shot).exists()
+
+
+def test_room_is_estimated_from_what_is_there(shot):
+    assert bake.estimate(shot, [1, 2, 3]) is None
+    place = bake.bake(shot, frames=[2, 3])
+    sizes = [path.stat().st_size for path in place.iterdir()]
+    assert bake.estimate(shot, [1, 2, 3]) == round(3 * sum(sizes) / 2)
+    assert bake.estimate(shot, range(-5, 100)) == bake.estimate(shot, [1, 2, 3])

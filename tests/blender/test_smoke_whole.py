@@ -6,9 +6,12 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from firetwin import project as projects
 from firetwin.render import engine
-from firetwin.scene import bake, collections, haze, smoke
+from firetwin.scene import haze
+from firetwin.scene.smoke import bake
+from firetwin.scene.smoke import build as smoke
+from firetwin.shot.settings import Smoke
+from firetwin.shot.shot import Shot
 
 VOXEL = 40.0
 SHAPE = (96, 48, 224)
@@ -60,18 +63,18 @@ def puffy():
 
 
 @pytest.fixture
-def look(project, run, scene, shoot, tmp_path):
+def look(settings, run, stage, scene, shoot, tmp_path):
     """Brightness of a view from within clear smoke: (blocks up, blocks across)."""
-    smoky = replace(project, smoke=projects.Smoke(voxel_size=VOXEL), time=replace(project.time, frames=1))
+    smoky = replace(settings, smoke=Smoke(voxel_size=VOXEL), time=replace(settings.time, frames=1))
 
     count = itertools.count()
 
     def picture(grids, instances=0, step=1.0, sun=False):
         taken = replace(smoky, cache=tmp_path / str(next(count)))  # Blender remembers what was in a file
-        write(bake.file(taken, run, 1), *grids)
-        collections.root(scene)
-        smoke.build(taken, run).data.render.step_size *= step
-        haze.settings(0.0, (0.0, 0.0, 0.0))
+        shot = Shot(taken, run)
+        write(bake.file(shot, 1), *grids)
+        smoke.build(shot, stage).data.render.step_size *= step
+        haze.settings(stage, 0.0, (0.0, 0.0, 0.0))
         engine.apply(taken, scene)
         surroundings(scene, sun)
         if instances:

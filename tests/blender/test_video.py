@@ -5,8 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from firetwin.render import films, manifest, passes, video
-from firetwin.render.passes import Shot
+from firetwin.render import films, picture, store, video
+from firetwin.render.picture import Picture
+from firetwin.shot.shot import Shot
 from firetwin_core import sensor
 
 MADE_WITH = {("drone", "rgb"): {"samples": 1}}
@@ -15,19 +16,19 @@ PLAIN = (slice(8, 60), slice(8, 152))  # clear of the captions
 
 
 @pytest.fixture
-def filmed(project, run, tmp_path):
-    """A project of three finished pictures with coloured squares, and its output folder."""
+def filmed(settings, run, tmp_path):
+    """A shot of three finished pictures with coloured squares, and its output folder."""
     out = tmp_path / "out"
-    render = replace(project.render, resolution=SIZE[::-1], passes=("rgb",))
-    made = replace(project, render=render, time=replace(project.time, fps=12))
+    render = replace(settings.render, resolution=SIZE[::-1], passes=("rgb",))
+    made = replace(settings, render=render, time=replace(settings.time, fps=12))
     entries = {}
     for frame in (1, 2, 3):
-        name = Shot("drone", frame, "rgb").file("png")
+        name = Picture("drone", frame, "rgb").file("png")
         (out / name).parent.mkdir(parents=True, exist_ok=True)
         sensor.write_image(out / name, _picture(frame))
-        entries[name] = manifest.describe(out / name)
-    manifest.add(out, MADE_WITH["drone", "rgb"], entries)
-    return made, out
+        entries[name] = store.describe(out / name)
+    store.add(out, MADE_WITH["drone", "rgb"], entries)
+    return Shot(made, run), out
 
 
 def _picture(frame):
@@ -53,10 +54,10 @@ def _probe(path, what):
 
 
 @pytest.fixture
-def film(filmed, run):
-    project, out = filmed
-    video.make(project, run, out, MADE_WITH)
-    return out / passes.film("drone", "rgb")
+def film(filmed):
+    shot, out = filmed
+    video.make(shot, out, MADE_WITH)
+    return out / picture.film("drone", "rgb")
 
 
 def test_a_film_has_the_frames_size_and_rate_of_its_scene(film):
@@ -86,39 +87,49 @@ def test_the_model_time_is_burnt_into_each_frame(film, tmp_path):
     assert np.abs(synthetic[0] - synthetic[2]).mean() < 0.03
 
 
-def test_a_film_is_made_again_only_when_it_must_be(filmed, run, film):
-    project, out = filmed
+def test_a_film_is_made_again_only_when_it_must_be(filmed, film):
+    shot, out = filmed
     written = film.stat().st_mtime_ns
-    assert films.missing(project, run, out, MADE_WITH) == []
-    video.make(project, run, out, MADE_WITH)
+    assert films.missing(shot, out, MADE_WITH) == []
+    video.make(shot, out, MADE_WITH)
     assert film.stat().st_mtime_ns == written
+    settings = shot.settings
     for other in (
-        replace(project, time=replace(project.time, fps=24)),
-        replace(project, time=replace(project.time, zone="UTC")),
+        replace(settings, time=replace(settings.time, fps=24)),
+        replace(settings, time=replace(settings.time, zone="UTC")),
     ):
-        assert [f[:2] for f in films.missing(other, run, out, MADE_WITH)] == [("drone", "rgb")]
-    assert (
-        films.missing(replace(project, render=replace(project.render, video=False)), run, out, MADE_WITH)
-        == []
-    )
-    name = Shot("drone", 2, "rgb").file("png")
+        assert [f[:2] for f in films.missing(Shot(other, shot.run), out, MADE_WITH)] == [("drone", "rgb")]
+    silent = replace(settings, render=replace(settings.render, video=False))
+    assert films.missing(Shot(silent, shot.run), out, MADE_WITH) == []
+    name = Picture("drone", 2, "rgb").file("png")
     sensor.write_image(out / name, _picture(5))
-    manifest.add(out, MADE_WITH["drone", "rgb"], {name: manifest.describe(out / name)})
-    assert [f[:2] for f in films.missing(project, run, out, MADE_WITH)] == [("drone", "rgb")]
+    store.add(out, MADE_WITH["drone", "rgb"], {name: store.describe(out / name)})
+    assert [f[:2] for f in films.missing(shot, out, MADE_WITH)] == [("drone", "rgb")]
     film.write_bytes(film.read_bytes()[:-1])
-    video.make(project, run, out, MADE_WITH)
-    assert films.missing(project, run, out, MADE_WITH) == []
+    video.make(shot, out, MADE_WITH)
+    assert films.missing(shot, out, MADE_WITH) == []
 
 
-def test_one_picture_makes_no_film(filmed, run):
-    project, out = filmed
-    alone = replace(project, cameras=(replace(project.cameras[0], frames="2"),))
-    assert films.missing(alone, run, out, MADE_WITH) == []
+def test_one_picture_makes_no_film(filmed):
+    shot, out = filmed
+    settings = shot.settings
+    alone = replace(settings, cameras=(replace(settings.cameras[0], frames="2"),))
+    assert films.missing(Shot(alone, shot.run), out, MADE_WITH) == []
 
 
-def test_pictures_made_with_other_settings_stay_out_of_a_film(filmed, run):
-    project, out = filmed
-    name = Shot("drone", 2, "rgb").file("png")
-    manifest.add(out, {"samples": 2}, {name: manifest.describe(out / name)})
-    ((_, _, film),) = films.missing(project, run, out, MADE_WITH)
+def test_pictures_made_with_other_settings_stay_out_of_a_film(filmed):
+    shot, out = filmed
+    name = Picture("drone", 2, "rgb").file("png")
+    store.add(out, {"samples": 2}, {name: store.describe(out / name)})
+    ((_, _, film),) = films.missing(shot, out, MADE_WITH)
     assert [frame for frame, _ in film["frames"]] == [1, 3]
+
+
+def test_a_picture_that_was_deleted_leaves_no_hole(filmed, film, tmp_path):
+    shot, out = filmed
+    (out / Picture("drone", 2, "rgb").file("png")).unlink()
+    video.make(shot, out, MADE_WITH)
+    decoded = _decode(film, tmp_path)
+    assert len(decoded) == 2
+    for frame, shown in zip((1, 3), decoded, strict=True):
+        assert (np.abs(shown - _picture(frame))[PLAIN] * 255).mean() < 2.0

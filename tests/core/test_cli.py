@@ -28,7 +28,7 @@ def test_help_names_every_command():
     assert result.returncode == 0
     assert all(
         f"    {name}  " in result.stdout
-        for name in ("sample", "info", "maps", "build", "bake", "render", "bench")
+        for name in ("sample", "info", "maps", "build", "bake", "render", "schema", "bench")
     )
     assert result.stderr == ""
 
@@ -65,7 +65,7 @@ sys.exit(main(["maps", *sys.argv[1:]]))
     assert "Traceback" not in result.stderr
 
 
-@pytest.mark.parametrize("command", ["sample", "info", "maps", "build", "bake", "render", "bench"])
+@pytest.mark.parametrize("command", ["sample", "info", "maps", "build", "bake", "render", "schema", "bench"])
 def test_every_command_explains_itself(command):
     result = firetwin(command, "--help")
     assert result.returncode == 0

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from firetwin import areas, info, maps
+from firetwin.run import areas, info, maps
 from firetwin_core import run as runs
 from PIL import Image
 from small_run import FX, FY, small_fields

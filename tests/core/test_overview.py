@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from firetwin import check, overview
-from firetwin.choice import Choice
+from firetwin.shot import fit, overview
+from firetwin.shot.choice import Choice
 from firetwin_core import InputError
 from firetwin_core import run as runs
 from small_run import FX, FY
@@ -21,7 +21,7 @@ def test_the_camera_stands_windward_and_looks_at_the_middle(make_run, arrival):
         make_run(fuel_arrival_time=arrival)
     )  # the wind blows to the east and a little to the south
     drone, satellite = overview.cameras(run)
-    (key,) = drone.keys
+    (key,) = drone.rig.keys
     assert key.target_longitude == pytest.approx(np.mean(run.fuel_longitude[[3, 7]]))
     assert key.target_latitude == pytest.approx(np.mean(run.fuel_latitude[[2, 5]]))
     assert key.longitude < key.target_longitude
@@ -30,36 +30,36 @@ def test_the_camera_stands_windward_and_looks_at_the_middle(make_run, arrival):
     south = (key.latitude - key.target_latitude) * 111.0
     assert east / south == pytest.approx(2.0, rel=0.01)
     assert satellite.kind == "satellite"
-    assert satellite.swath >= 4000
+    assert satellite.rig.swath >= 4000
 
 
 def test_without_wind_it_stands_in_the_south_west(make_run, arrival):
     run = runs.open(make_run(fuel_arrival_time=arrival, wind_east=None, wind_north=None))
-    key = overview.cameras(run)[0].keys[0]
+    key = overview.cameras(run)[0].rig.keys[0]
     assert key.longitude < key.target_longitude
     assert key.latitude < key.target_latitude
 
 
 def test_a_run_that_burns_nothing_is_seen_whole(make_run):
     run = runs.open(make_run(fuel_arrival_time=np.full((FY, FX), np.nan, np.float32)))
-    key = overview.cameras(run)[0].keys[0]
+    key = overview.cameras(run)[0].rig.keys[0]
     assert key.target_latitude == pytest.approx(np.mean(run.fuel_latitude[[0, -1]]))
 
 
 def test_a_choice_is_a_scene_file_with_other_things_in_its_place(make_run, tmp_path):
     folder = make_run()
     (tmp_path / "scene.toml").write_text('run = "elsewhere"\n')
-    project, run = Choice(str(tmp_path / "scene.toml"), str(folder), str(tmp_path / "c"), "eevee").load()
-    assert run.name == "Small"
-    assert project.render.engine == "eevee"
-    assert project.cache == tmp_path / "c"
-    assert not project.cameras
+    shot = Choice(str(tmp_path / "scene.toml"), str(folder), str(tmp_path / "c"), "eevee", "cpu").shot()
+    assert shot.run.name == "Small"
+    assert (shot.settings.render.engine, shot.settings.render.device) == ("eevee", "cpu")
+    assert shot.settings.cache == tmp_path / "c"
+    assert not shot.settings.cameras
     with pytest.raises(InputError, match="elsewhere"):
-        Choice(str(tmp_path / "scene.toml")).load()
+        Choice(str(tmp_path / "scene.toml")).shot()
 
 
 def test_a_run_alone_has_cameras_that_fit_it(make_run):
-    project, run = Choice(run=str(make_run())).load()
-    check.against_run(project, run)
-    assert [camera.name for camera in project.cameras] == ["overview", "satellite"]
+    shot = Choice(run=str(make_run())).shot()
+    fit.check(shot.settings, shot.run)
+    assert [camera.name for camera in shot.settings.cameras] == ["overview", "satellite"]
     assert Choice(**Choice(run="here", engine="eevee").plain()) == Choice(run="here", engine="eevee")

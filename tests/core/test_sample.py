@@ -6,7 +6,7 @@ import tomllib
 import firetwin_core
 import numpy as np
 import pytest
-from firetwin.data import air, grid, heat, history, sample, stored, weather
+from firetwin.data import air, grid, history, release, sample, stored, weather
 
 JOULES_PER_KG = 17.433e6
 CELLS = 720 * 720
@@ -140,7 +140,7 @@ def test_the_fire_stays_on_the_map(store):
 
 
 def test_share_released_against_numerical_integration():
-    parts = heat.Burns(
+    parts = release.Burns(
         np.zeros(3, int),
         np.ones(3),
         np.array([0.0, 50, -400]),
@@ -155,8 +155,8 @@ def test_share_released_against_numerical_integration():
 
 
 def test_heat_released_is_burned_fuel_times_heat_of_combustion(store):
-    parts = heat.burns(store)
-    released = heat.Released(parts)
+    parts = release.burns(store)
+    released = release.Released(parts)
     total, by_cell = 0.0, np.zeros((144, 144))
     for minute in range(-1, stored.MINUTES + 1):
         joules = released.until(minute * 60.0)
@@ -177,13 +177,13 @@ def test_heat_released_is_burned_fuel_times_heat_of_combustion(store):
     # Where all of the fire falls into the run, all fuel is consumed.
     inside = (store.arrival > 0) & (store.arrival < stored.MINUTES * 60 - 6 * 3600)
     whole = grid.block_mean((inside | ~np.isfinite(store.arrival)).astype(float)) == 1
-    fuel = grid.block_mean(heat.consumed_fuel(store)) * 370.0**2
+    fuel = grid.block_mean(release.consumed_fuel(store)) * 370.0**2
     assert whole.sum() > 500
     assert by_cell[whole].sum() == pytest.approx(fuel[whole].sum() * JOULES_PER_KG, rel=0.01)
 
 
 def test_canopy_burns_only_in_crown_fire(store):
-    fuel = heat.consumed_fuel(store)
+    fuel = release.consumed_fuel(store)
     surface_fire = np.isfinite(store.arrival) & (store.crown == 0)
     np.testing.assert_allclose(fuel[surface_fire], store.surface[surface_fire])
     crown_fire = store.crown == 2

@@ -1,6 +1,5 @@
 """The settings' schema: what is said once, and what follows from it."""
 
-import copy
 import dataclasses
 import re
 import tomllib
@@ -154,7 +153,7 @@ def test_the_pass_thermal_depends_on_the_picture_too():
 VALIDATOR = jsonschema.Draft202012Validator(json_schema(Settings))
 
 EXAMPLES = [
-    ROOT / "tests" / "core" / "king_fire_new.toml",
+    ROOT / "examples" / "king_fire.toml",
     *sorted((ROOT / "examples" / "views").glob("*.toml")),
 ]
 

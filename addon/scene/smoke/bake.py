@@ -18,7 +18,7 @@ from typing import Any
 import firetwin_core
 
 from ...errors import input_error
-from ...progress import Progress, silent
+from ...progress import Progress, Tell, count, silent, untold
 from ...run import content
 from ...shot import schema
 from ...shot.shot import Shot
@@ -46,7 +46,7 @@ def file(shot: Shot, frame: int) -> Path:
     return _in(folder(shot), frame)
 
 
-def bake(shot: Shot, progress: Progress | None = None, frames: Iterable[int] | None = None) -> Path:
+def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None = None) -> Path:
     """Write the volumes of the shot (or of those of `frames` that it has) that are not there yet.
 
     Several frames are made at once, as many as there are processors and memory for.
@@ -60,7 +60,6 @@ def bake(shot: Shot, progress: Progress | None = None, frames: Iterable[int] | N
     InputError
         The cache cannot be written.
     """
-    progress = progress or silent
     place = _prepared(shot)
     wanted = shot_frames(shot) if frames is None else _of_shot(shot, frames)
     missing = [frame for frame in wanted if not _in(place, frame).exists()]
@@ -84,7 +83,7 @@ def bake(shot: Shot, progress: Progress | None = None, frames: Iterable[int] | N
 
 @contextmanager
 def ahead(
-    shot: Shot, frames: Iterable[int], progress: Progress | None = None
+    shot: Shot, frames: Iterable[int], progress: Progress = silent, tell: Tell = untold
 ) -> Iterator[Callable[[int], None]]:
     """Write volumes while pictures are made, one frame before it is shown.
 
@@ -96,17 +95,20 @@ def ahead(
     frames
         In the order in which they are shown; those that the shot does not have count for nothing.
     progress
-        Told while the first frame waits.
+        Called while the first frame waits.
+    tell
+        Told how much room the volumes will need, once there is one to judge by.
 
     Raises
     ------
     InputError
         The cache cannot be written.
     """
-    if not shot.settings.smoke.enabled:
+    wanted = _of_shot(shot, frames)
+    if not wanted or not shot.settings.smoke.enabled:
         yield lambda frame: None
         return
-    line = _Line(shot, _of_shot(shot, frames), progress or silent)
+    line = _Line(shot, wanted, progress, tell)
     try:
         yield line.ready
     finally:
@@ -122,9 +124,9 @@ def estimate(shot: Shot, frames: Iterable[int]) -> int | None:
 class _Line:
     """Frames that stand in line to be made, by one thread."""
 
-    def __init__(self, shot: Shot, frames: list[int], progress: Progress) -> None:
+    def __init__(self, shot: Shot, frames: list[int], progress: Progress, tell: Tell) -> None:
         self.shot, self.frames = shot, frames
-        self.progress = progress
+        self.progress, self.tell = progress, tell
         self.place = _prepared(shot)
         self.pool = ThreadPoolExecutor(1)
         self.tasks: dict[int, Future[Any]] = {}
@@ -147,7 +149,14 @@ class _Line:
             self.progress(0, 1, "smoke of the first picture")
             task.result()
             self.progress(1, 1, "smoke of the first picture")
-        self.progress = silent
+            self.tell(self._room())
+        self.progress, self.tell = silent, untold
+
+    def _room(self) -> str:
+        """How much the volumes need, in words."""
+        needed = (estimate(self.shot, self.frames) or 0) / 1.0e6
+        size = f"{needed / 1000.0:.1f} GB" if needed >= 1000.0 else f"{max(needed, 1.0):.0f} MB"
+        return f"smoke of {count(len(self.frames), 'frame')} takes about {size} in {self.place}"
 
     def _begin(self, frame: int) -> None:
         path = _in(self.place, frame)

@@ -5,53 +5,47 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from firetwin import nodes
-from firetwin.render import engine, frames
-from firetwin.render.passes import Shot
-from firetwin.scene import collections, sensors
+from firetwin.blender import compat, nodes, owned
+from firetwin.render import engine, layers, pictures
+from firetwin.render.picture import Picture
+from firetwin.scene.build import PARTS
+from firetwin.shot import passes
 from firetwin_core import sensor
 
 HEIGHT, PITCH = 120.0, np.radians(80.0)  # of the camera over the plane; 90 degrees looks at the horizon
 
 
 @pytest.fixture
-def plain(project, run, scene):
+def plain(settings, stage, scene):
     """A plane of 300 K under a 250 K sky, with a glowing card (800 K) and smoke before the camera."""
-    collections.root(scene)
-    for part in collections.PARTS:
-        collections.fresh(part, scene)
+    parts = {name.title(): stage.part(name.title()) for name in PARTS}
     _quad(
-        "Terrain",
+        parts["Ground"],
         "Ground",
         [(-9e4, -9e4, 0), (9e4, -9e4, 0), (9e4, 9e4, 0), (-9e4, 9e4, 0)],
         _surface("Ground", 300.0),
     )
     card = [(-8, 60, 60), (-2, 60, 60), (-2, 60, 100), (-8, 60, 100)]
-    _quad("Fire", "Card", card, _surface("Card", 800.0))
+    _quad(parts["Fire"], "Card", card, _surface("Card", 800.0))
     bpy.ops.mesh.primitive_cube_add(size=30, location=(20, 90, 90))
     smoke = bpy.context.object
     smoke.users_collection[0].objects.unlink(smoke)
-    bpy.data.collections["Firetwin Smoke"].objects.link(smoke)
+    parts["Smoke"].objects.link(smoke)
     material, tree = nodes.material("Firetwin Smoke")
     tree.volume(tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": 1.0}))
     smoke.data.materials.append(material)
     world = scene.world = bpy.data.worlds.new("Firetwin Sky")
-    tree = nodes.Tree(_tree(world))
+    tree = nodes.Tree(compat.node_tree(world))
     seen = tree.output("ShaderNodeBackground", {"Color": (0.4, 0.5, 0.6), "Strength": 1.0})
     cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": 250.0})
     tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), seen, cold))
     data = bpy.data.cameras.new("Firetwin Camera drone")
     data.clip_end, data.lens = 3e5, 28.0
-    camera = collections.add(bpy.data.collections["Firetwin Cameras"], "Camera drone", data)
+    camera = owned.add(parts["Cameras"], "Camera drone", data, "camera drone")
     camera.location, camera.rotation_euler = (0.0, 0.0, HEIGHT), (PITCH, 0.0, 0.0)
-    sensors.build(project, run, scene)
+    layers.build(settings, stage)
+    engine.apply(settings, scene)
     return scene
-
-
-def _tree(world):
-    from firetwin import compat
-
-    return compat.node_tree(world)
 
 
 def _surface(name, kelvin):
@@ -65,27 +59,29 @@ def _quad(part, name, corners, material):
     mesh = bpy.data.meshes.new(f"Firetwin {name}")
     mesh.from_pydata(corners, [], [(0, 1, 2, 3)])
     mesh.materials.append(material)
-    return collections.add(bpy.data.collections[f"Firetwin {part}"], name, mesh)
+    return owned.add(part, name, mesh)
 
 
 @pytest.fixture
-def render(plain, project, run, tmp_path):
+def render(plain, shot, stage, tmp_path):
     """Render passes of frame 2 into a folder and return their images by suffix."""
 
-    def shoot(*names, settings=project):
-        shots = [Shot("drone", 2, name) for name in names]
-        made_with = {("drone", name): {"pass": name} for name in ("rgb", "depth", "thermal")}
-        frames.render(settings, run, plain, tmp_path / "out", shots, made_with)
+    def shoot(*names):
+        wanted = [Picture("drone", 2, name) for name in names]
+        made_with = {("drone", name): {"pass": name} for name in passes.known()}
+        pictures.render(shot, stage, tmp_path / "out", wanted, made_with)
         return {
-            path: np.asarray(sensor.read_image(tmp_path / "out" / path)) for s in shots for path in s.files()
+            path: np.asarray(sensor.read_image(tmp_path / "out" / path))
+            for picture in wanted
+            for path in picture.files()
         }
 
     return shoot
 
 
-def test_depth_is_that_of_an_analytic_plane(render, project):
+def test_depth_is_that_of_an_analytic_plane(render, settings):
     (depth,) = render("depth").values()
-    width, height = project.render.resolution
+    width, height = settings.render.resolution
     assert depth.shape == (height, width, 1)
     # A ray through the middle of row r falls by d = cos(pitch) - y sin(pitch) per metre along the axis,
     # y = (height / 2 - r - 1/2) / focal length in pixels; it meets the plane at depth HEIGHT / d.
@@ -121,17 +117,19 @@ def test_kelvin_is_exact_and_unseen_through_smoke(render):
     assert ((values >= 250.0) & (values <= 800.0)).all()
 
 
-def test_the_denoiser_leaves_temperatures_alone(render, project):
-    denoised = replace(project, render=replace(project.render, denoise=True))
-    kelvin = next(i for path, i in render("thermal", settings=denoised).items() if path.endswith("exr"))
+def test_the_denoiser_leaves_temperatures_alone(render, settings, stage, plain):
+    denoised = replace(settings, render=replace(settings.render, denoise=True))
+    engine.apply(denoised, plain)
+    layers.build(denoised, stage)
+    kelvin = next(i for path, i in render("thermal").items() if path.endswith("exr"))
     assert (kelvin[-6:, :8] == 300.0).all()
 
 
-def test_the_thermal_picture_is_the_blend_of_the_picture_and_the_gradient(render, project):
+def test_the_thermal_picture_is_the_blend_of_the_picture_and_the_gradient(render, settings):
     images = render("rgb", "thermal")
     rgb = images["drone/rgb/drone_rgb_000002.png"]
     kelvin = images["drone/thermal/drone_thermal_000002.exr"][..., 0]
-    low, high = project.render.thermal_low, project.render.thermal_high
+    low, high = settings.render.thermal_low, settings.render.thermal_high
     expected = np.clip(rgb[..., :3] + sensor.thermal_gradient(kelvin, low, high), 0.0, 1.0)
     shown = images["drone/thermal/drone_thermal_000002.png"][..., :3]
     assert np.abs(shown - expected).max() <= 0.5 / 255 + 1e-6
@@ -160,8 +158,7 @@ def test_only_the_files_of_the_passes_asked_for_are_made(render, tmp_path):
     assert files == {"manifest.json", ".lock", "drone/depth/drone_depth_000002.exr"}
 
 
-def test_a_scene_as_built_writes_no_stray_files(plain, project, tmp_path):
-    engine.apply(project, plain)
+def test_a_scene_as_built_writes_no_stray_files(plain, tmp_path):
     plain.camera = bpy.data.objects["Firetwin Camera drone"]
     plain.render.filepath = str(tmp_path / "shown.png")
     before = set(tmp_path.rglob("*"))

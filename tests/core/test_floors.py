@@ -1,0 +1,173 @@
+"""The house: who may import whom. `python tests/core/test_floors.py` prints who does, folder by folder."""
+
+from __future__ import annotations
+
+import ast
+import graphlib
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PLACES = {"firetwin": ROOT / "addon", "firetwin.data": ROOT / "data"}
+
+BASE = {"errors", "progress"}
+FLOORS: dict[str, set[str]] = {
+    "errors": set(),
+    "progress": set(),
+    "data": {"errors"},
+    "blender": {"errors"},
+    "run": BASE | {"data"},
+    "shot": BASE | {"run"},
+    "scene": BASE | {"run", "shot", "blender"},
+    "render": BASE | {"run", "shot", "blender", "scene"},
+    "jobs": BASE | {"shot", "blender", "scene", "render"},
+    "bench": BASE | {"data", "shot", "blender", "scene", "render", "jobs"},
+    "commands": BASE | {"data", "run", "shot", "render", "jobs", "bench"},
+    "cli": BASE | {"commands"},
+    "ui": BASE | {"run", "shot", "blender", "scene", "render", "jobs", "cli"},
+    "__main__": {"cli"},
+    "__init__": {"ui"},
+}
+"""From the ground up: each folder (or file beside them), and those that it may import."""
+
+NEVER_BPY = (
+    *("firetwin.errors", "firetwin.progress", "firetwin.cli", "firetwin.commands", "firetwin.data"),
+    *("firetwin.run", "firetwin.shot", "firetwin.jobs", "firetwin.bench"),
+    *(f"firetwin.render.{name}" for name in ("fingerprint", "films", "part", "picture", "plan", "store")),
+    *(f"firetwin.scene.fire.{name}" for name in ("firebrands", "flames", "lamps")),
+    "firetwin.scene.forest.stand",
+    "firetwin.scene.ground.grid_mesh",
+    "firetwin.scene.light.sky",
+    *(f"firetwin.scene.smoke.{name}" for name in ("bake", "stability", "view")),
+)
+"""Packages and modules that load without Blender; those of `run` and `shot` never ask for it at all."""
+
+WITH_BPY = {"firetwin.jobs.setting", "firetwin.data.spread", "firetwin.data.simulate"}
+"""In those packages: what runs in the worker process alone, and what needs another package to make the sample."""
+
+
+def modules() -> dict[str, Path]:
+    """Every module of the package by its full name."""
+    found = {}
+    for package, folder in PLACES.items():
+        for path in sorted(folder.rglob("*.py")):
+            parts = path.relative_to(folder).with_suffix("").parts
+            if "__pycache__" not in parts:
+                found[".".join((package, *parts)).removesuffix(".__init__")] = path
+    return found
+
+
+MODULES = modules()
+
+
+def imports(name: str, inside_functions: bool = True) -> set[str]:
+    """Modules of the package and others that a module imports, by their full names; not those of types alone."""
+    path = MODULES[name]
+    package = name if path.stem == "__init__" else name.rpartition(".")[0]
+    found: set[str] = set()
+    pending: list[ast.AST] = [ast.parse(path.read_text(encoding="utf-8"))]
+    while pending:
+        node = pending.pop()
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and not inside_functions:
+            continue
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING" and not inside_functions:
+            continue
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            base = ".".join(package.split(".")[: len(package.split(".")) + 1 - node.level]) if node.level else ""
+            origin = ".".join(filter(None, (base, node.module)))
+            inner = {f"{origin}.{alias.name}" for alias in node.names}
+            found |= {each if each in MODULES else origin for each in inner}
+        pending += ast.iter_child_nodes(node)
+    return found
+
+
+def floor(name: str) -> str:
+    """The folder, or file beside the folders, that a module is in."""
+    return name.split(".")[1] if "." in name else "__init__"
+
+
+def picture() -> dict[str, dict[str, int]]:
+    """Folder -> folders that it imports, and by how many of its modules."""
+    found: dict[str, dict[str, int]] = {name: {} for name in FLOORS}
+    for name in MODULES:
+        here = floor(name)
+        used = {floor(each) for each in imports(name) if each in MODULES}
+        for each in used - {here}:
+            found[here][each] = found[here].get(each, 0) + 1
+    return found
+
+
+def test_the_floors_stand_on_each_other():
+    known: set[str] = set()
+    for name, allowed in FLOORS.items():
+        assert allowed <= known, name
+        known.add(name)
+
+
+def test_every_module_is_on_a_floor():
+    assert {floor(name) for name in MODULES} == set(FLOORS)
+
+
+@pytest.mark.parametrize("name", sorted(MODULES))
+def test_nothing_is_imported_from_above(name):
+    wrong = {
+        each
+        for each in imports(name)
+        if each in MODULES and floor(each) not in FLOORS[floor(name)] | {floor(name)}
+    }
+    assert not wrong
+
+
+def test_no_import_goes_in_a_circle():
+    graph = {name: imports(name, inside_functions=False) & set(MODULES) - {name} for name in MODULES}
+    for name in graph:  # whoever imports a module has its packages imported, but they do not import back
+        graph[name] -= {name.rpartition(".")[0]}
+    graphlib.TopologicalSorter(graph).prepare()
+
+
+def test_rooms_of_a_scene_do_not_go_in_a_circle():
+    rooms = {path.parent.name for path in (ROOT / "addon" / "scene").glob("*/__init__.py")}
+    graph: dict[str, set[str]] = {room: set() for room in rooms}
+    for name in MODULES:
+        parts = name.split(".")
+        if parts[1:2] == ["scene"] and parts[-1] in rooms | {"x"} or len(parts) < 4 or parts[2] not in rooms:
+            continue
+        used = {each.split(".")[2] for each in imports(name) if each.startswith("firetwin.scene.")}
+        graph[parts[2]] |= used & rooms - {parts[2]}
+    graphlib.TopologicalSorter(graph).prepare()
+
+
+def _without_bpy() -> list[str]:
+    return [
+        name
+        for name in MODULES
+        if name not in WITH_BPY and any(name == each or name.startswith(f"{each}.") for each in NEVER_BPY)
+    ]
+
+
+def test_what_needs_no_blender_loads_without_it():
+    code = """
+import importlib, sys
+for name in ("bpy", "mathutils", "bpy_extras"):
+    sys.modules[name] = None
+for name in sys.argv[1:]:
+    importlib.import_module(name)
+"""
+    command = [sys.executable, "-c", code, *_without_bpy()]
+    result = subprocess.run(command, capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr
+
+
+@pytest.mark.parametrize("name", [name for name in MODULES if floor(name) in ("run", "shot", "data")])
+def test_run_and_shot_never_ask_for_blender(name):
+    assert not imports(name) & {"bpy", "mathutils", "bpy_extras"}
+
+
+if __name__ == "__main__":
+    for here, used in reversed(picture().items()):
+        print(f"{here:<9} -> {', '.join(f'{name} ({count})' for name, count in sorted(used.items())) or '-'}")

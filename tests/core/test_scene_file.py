@@ -1,0 +1,366 @@
+"""Scene files: read, refused with a place, and written again."""
+
+import dataclasses
+import tomllib
+import typing
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+from firetwin.errors import InputError
+from firetwin.shot import file, frame_list, places, schema
+from firetwin.shot.rigs import kinds
+from firetwin.shot.rigs._key import CameraKey
+from firetwin.shot.settings import Camera, Ground, Settings, Time
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "king_fire.toml"
+
+SCENE = """\
+run = "elsewhere/run"  # a comment = "not a key"
+
+[time]
+start = 2014-09-17T14:30:00-07:00
+end = 2014-09-18T00:00:00Z
+frames = 10
+
+[render]
+resolution = [320, 180]
+passes = ["rgb",
+          "depth"]
+
+[[cameras]]
+name = "one"
+keys = [{at = 0, latitude = 38.9, longitude = -120.5},
+        {at = 1.0, latitude = 39.0, longitude = -120.4, target = "head"}]
+
+[[cameras]]
+name = "two"
+kind = "satellite"
+frames = "1,4-6"
+"""
+
+
+@pytest.fixture
+def load(tmp_path):
+    def write_and_load(text):
+        path = tmp_path / "scene.toml"
+        path.write_text(text, encoding="utf-8")
+        return file.read(path)
+
+    return write_and_load
+
+
+def test_values_are_read_and_the_rest_is_default(load, tmp_path):
+    loaded = load(SCENE)
+    assert loaded.path == tmp_path / "scene.toml"
+    assert loaded.run == tmp_path / "elsewhere" / "run"
+    assert loaded.cache == tmp_path / "cache"
+    assert loaded.time.start == datetime(2014, 9, 17, 21, 30, tzinfo=UTC)
+    assert loaded.time.frames == 10
+    assert loaded.render.resolution == (320, 180)
+    assert loaded.render.passes == ("rgb", "depth")
+    assert [camera.name for camera in loaded.cameras] == ["one", "two"]
+    assert [camera.kind for camera in loaded.cameras] == ["drone", "satellite"]
+    assert loaded.cameras[0].rig.keys[1].target == "head"
+    assert loaded.cameras[1].rig == kinds()["satellite"]()
+    assert loaded.ground == Ground()
+
+
+def test_an_empty_file_is_all_defaults(load, tmp_path):
+    assert dataclasses.replace(load(""), path=Path("scene.toml")) == Settings(
+        run=tmp_path / "sample", cache=tmp_path / "cache"
+    )
+
+
+def test_folders_may_be_absolute_or_at_home(load, monkeypatch, tmp_path):
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    loaded = load('run = "/data/run"\ncache = "~/cache"')
+    assert loaded.run == Path("/data/run")
+    assert loaded.cache == tmp_path / "home" / "cache"
+    assert load('run = "~nobody-is-called-so/run"').run == tmp_path / "~nobody-is-called-so" / "run"
+
+
+# What is replaced by what, the line and column of the complaint, and words it must hold.
+MISTAKES = [
+    ("kind =", "kidn =", 20, 1, ['unknown key "kidn"', 'did you mean "kind"?']),
+    ("[render]", "[rendr]", 8, 2, ['unknown key "rendr"', '"render"']),
+    ("[render]", "[terrain]\n[render]", 8, 2, ["[terrain] is called [ground]"]),
+    (
+        "[render]",
+        "[light]\nterrain = 1\n[render]",
+        9,
+        1,
+        ['unknown key "terrain" in [light]', "known here: haze"],
+    ),
+    ("frames = 10", "frames = 0", 6, 1, ["time.frames", "from 1 to 100,000"]),
+    ("frames = 10", 'frames = "10"', 6, 1, ["a whole number", '"10"']),
+    ("frames = 10", "frames = 1.5", 6, 1, ["a whole number", "1.5"]),
+    ("frames = 10", "frames = true", 6, 1, ["a whole number", "true"]),
+    ("frames = 10", "frames = 0xffffffffffffffffff", 6, 1, ["time.frames", "larger"]),
+    ("frames = 10", "fps = 0\nframes = 10", 6, 1, ["time.fps"]),
+    ("frames = 10", 'zone = "America/Los_Angles"', 6, 1, ["time zone", "America/Los_Angeles"]),
+    ("T14:30:00-07:00", "T14:30:00", 4, 1, ["no zone", "Z"]),
+    ("2014-09-17T14:30:00-07:00", "0001-01-01T00:00:00+01:00", 4, 1, ["time.start", "years 1 to 9999"]),
+    ("2014-09-17T14:30:00-07:00", "2014-09-17", 4, 1, ["a date and time such as"]),
+    ("2014-09-18T", "2014-09-16T", 5, 1, ["later than time.start"]),
+    ("[320, 180]", "[320, 181]", 9, 1, ["even"]),
+    ("[320, 180]", "[320, 8]", 9, 1, ["from 16 to 16,384", "8"]),
+    ("[320, 180]", "[320]", 9, 1, ["2 values"]),
+    ("[320, 180]", "320", 9, 1, ["a list in [ ]", "320"]),
+    ('"depth"', '"deph"', 10, 1, ['"deph"', 'did you mean "depth"?']),
+    ('"depth"', '"rgb"', 10, 1, ["twice"]),
+    ('"head"', '"haed"', 16, 57, ["cameras.keys.target", 'did you mean "head"?']),
+    ("latitude = 39.0", "latitude = 390", 16, 20, ["from -90 to 90", "not 390"]),
+    ("latitude = 39.0", "latitude = nan", 16, 20, ["must be a number"]),
+    ("latitude = 39.0", "latitude = 1" + 400 * "0", 16, 20, ["larger"]),
+    ("at = 1.0", "at = 0", 16, 10, ["must rise"]),
+    ('"two"', '"one"', 19, 1, ['"one"', "differ"]),
+    ('"two"', '"../two"', 19, 1, ["letters, digits"]),
+    ('"1,4-6"', '"1,4-60"', 21, 1, ['"4-60"', "1-10"]),
+    ('"1,4-6"', '"4 to 6"', 21, 1, ['"4 to 6"', "1-48:4"]),
+    ('"1,4-6"', '"6-4"', 21, 1, ["cameras.frames", '"6-4" runs backwards', "4-6"]),
+    ('"satellite"', '"drone"', 18, 3, ['"two"', "[[cameras.keys]]"]),
+    ('"satellite"', '"satelite"', 20, 1, ["cameras.kind", 'did you mean "satellite"?']),
+    ('"satellite"', "3", 20, 1, ["cameras.kind", "text in quotes"]),
+    (
+        '"satellite"',
+        '"satellite"\nfocal_length = 28.0',
+        21,
+        1,
+        ['focal_length belongs to kind "drone"', "swath"],
+    ),
+    ('name = "one"', 'name = "one"\nswath = 9', 15, 1, ['swath belongs to kind "satellite"']),
+    ('run = "elsewhere/run"', "run = 3", 1, 1, ["text in quotes", "3"]),
+    ('run = "elsewhere/run"', "time = 3", 1, 1, ["not valid TOML"]),
+    ('run = "elsewhere/run"', "light = 3", 1, 1, ["light must be a table, not 3"]),
+    ('run = "elsewhere/run"', "run", 1, 6, ["not valid TOML"]),
+    ('"two"', '"two', 19, 12, ["not valid TOML"]),
+    ("[320, 180]", "[320, 180]\nthermal_high = 200", 10, 1, ["thermal_high", "thermal_low"]),
+    ("[320, 180]", '[320, 180]\nengine = "evee"', 10, 1, ['"eevee"']),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "line", "column", "words"), MISTAKES)
+def test_mistakes_are_named_with_their_place(load, tmp_path, old, new, line, column, words):
+    assert SCENE.count(old) == 1
+    with pytest.raises(InputError) as caught:
+        load(SCENE.replace(old, new))
+    error = caught.value
+    assert all(word in error.reason for word in words), error.reason
+    if "time = 3" not in new:  # tomllib's place for a key that is there twice differs between versions
+        assert (error.path, error.line, error.column) == (str(tmp_path / "scene.toml"), line, column)
+        assert str(error) == f"{error.path}:{line}:{column}: {error.reason}"
+    assert "\n" not in error.reason
+
+
+def test_what_is_found_later_has_a_place_too(load):
+    loaded = load(SCENE)
+    error = file.error_at(loaded.path, ("cameras", 0, "keys", 1, "latitude"), "is far away")
+    assert str(error) == f"{loaded.path}:16:20: is far away"
+    error = file.error_at(loaded.path, ("cameras", 1, "keys", 0, "latitude"), "is far away")
+    assert str(error) == f"{loaded.path}:18:3: is far away"  # what is not written stands where its table does
+
+
+def test_a_missing_file_and_one_that_is_not_text(tmp_path):
+    with pytest.raises(InputError, match="no such scene file"):
+        file.read(tmp_path / "none.toml")
+    (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(InputError, match="cannot be read as text"):
+        file.read(tmp_path / "bytes.toml")
+
+
+def test_a_text_too_deep_to_read(load):
+    with pytest.raises(InputError, match="not valid TOML"):
+        load("run = " + 5000 * "[" + 5000 * "]")
+
+
+def test_a_folder_is_no_scene_file(tmp_path):
+    with pytest.raises(InputError, match="is a folder, and a scene file is wanted, such as examples/"):
+        file.read(tmp_path)
+    (tmp_path / "shot.toml").touch()
+    with pytest.raises(InputError, match=r"is wanted, such as .*shot\.toml$"):
+        file.read(tmp_path)
+    (tmp_path / "run.toml").touch()
+    with pytest.raises(InputError, match="is a run folder, and a scene file is wanted: copy") as caught:
+        file.read(tmp_path)
+    assert f'run = "{tmp_path}"' in caught.value.reason
+
+
+def test_the_example_is_what_its_own_settings_are_written_as():
+    text = EXAMPLE.read_text(encoding="utf-8")
+    assert code(text) == code(file.text(file.read(EXAMPLE)))
+    assert max(len(line) for line in text.splitlines()) <= 130
+
+
+def code(text):
+    return [line for line in text.splitlines() if line and not line.startswith("#")]
+
+
+def test_the_text_of_settings_holds_every_key_and_explains_it_once():
+    rigs = [rig(keys=(CameraKey(), CameraKey(1.0))) for rig in kinds().values()]
+    text = file.text(Settings(cameras=tuple(Camera(f"c{i}", rig) for i, rig in enumerate(rigs))))
+    assert max(len(line) for line in text.splitlines()) <= 130
+    for _, part in schema.walk(Settings):
+        name = part.key.tag or part.name
+        explained = [line for line in text.splitlines() if f"  # {part.key.described()}" in line]
+        if not part.key.kinds and name not in ("longitude", "target_longitude"):
+            assert len(explained) == 1, name
+        assert any(line.lstrip("#[ ").startswith(name) or f".{name}]]" in line for line in explained), name
+
+
+def test_comments_stand_in_a_column_and_name_the_default(load):
+    lines = file.text(load('run = "x"\n[time]\nfps = 12')).splitlines()
+    assert lines[0] == 'run = "x"        # run folder, such as `firetwin sample` writes (default "sample")'
+    assert lines[1] == 'cache = "cache"  # smoke volumes are kept here and used again'
+    assert "fps = 12                        # frames per second of the films (default 24)" in lines
+    assert 'zone = "America/Los_Angeles"    # zone of the clock in the films' in lines
+    start = "# start = 2014-09-17T21:30:00Z  # model time of the first frame, with its zone"
+    assert any(line.startswith(start) for line in lines)
+
+
+def test_folders_are_written_as_the_settings_own_folder_sees_them(tmp_path, monkeypatch):
+    def run_in(folder, path):
+        whole = Settings(path=Path(path), run=Path(folder))
+        return tomllib.loads(file.text(whole))["run"]
+
+    assert run_in("/a/b/run", "/a/b/scene.toml") == "run"
+    assert run_in("/a/run", "/a/b/scene.toml") == "/a/run"
+    assert run_in("a/../run", "a/scene.toml") == "../run"
+    assert run_in("run", "a/scene.toml") == "../run"
+    assert run_in("/a/~b", "/a/scene.toml") == "./~b"
+    monkeypatch.chdir(tmp_path)
+    assert run_in("run", tmp_path / "a" / "scene.toml") == "../run"
+
+
+@pytest.mark.parametrize(
+    ("moment", "zone", "written"),
+    [
+        (datetime(2014, 9, 17, 23, 30, tzinfo=UTC), "America/Los_Angeles", "2014-09-17T16:30:00-07:00"),
+        (datetime(2014, 9, 17, 23, 30, tzinfo=UTC), "UTC", "2014-09-17T23:30:00Z"),
+        (datetime(1850, 1, 1, tzinfo=UTC), "America/Los_Angeles", "1850-01-01T00:00:00Z"),  # local mean time
+        (datetime(1, 1, 1, tzinfo=UTC), "America/Los_Angeles", "0001-01-01T00:00:00Z"),  # no year 0
+    ],
+)
+def test_times_are_written_in_the_zone_of_the_films(moment, zone, written):
+    assert f"\nstart = {written} " in file.text(Settings(time=Time(start=moment, zone=zone)))
+
+
+# Any settings come back from their text.
+
+ZONES = ["America/Los_Angeles", "UTC", "Asia/Kathmandu"]
+FOLDERS = st.sampled_from(
+    ['a "quoted" one', "b\\c", "é/d", "../up", "/root of all", "~x", "tab\tdel\x7f", "."]
+)
+SPECIAL = {
+    "zone": st.sampled_from(ZONES),
+    "name": st.from_regex(r"[A-Za-z0-9][A-Za-z0-9_-]{0,5}", fullmatch=True),
+    "frames": st.sampled_from(["", "1", " 1 ,1-1:3"]),
+    "resolution": st.tuples(*2 * [st.integers(8, 8192).map(lambda half: 2 * half)]),
+}
+
+
+def any_value(part):
+    key, kind = part.key, part.type
+    if kind is not int and part.name in SPECIAL:
+        return SPECIAL[part.name]
+    if key.kinds:
+        return st.one_of(*(any_table(rig) for rig in key.kinds().values()))
+    if part.name == "keys":
+        at = st.lists(st.floats(0, 1), unique=True, min_size=1, max_size=3).map(sorted)
+        return at.flatmap(lambda at: st.tuples(*(any_table(part.table, at=st.just(a)) for a in at)))
+    if part.tables:
+        return st.lists(any_table(part.table), max_size=3, unique_by=lambda t: t.name).map(tuple)
+    if part.table:
+        return any_table(part.table)
+    if typing.get_origin(kind) is tuple:
+        names = st.lists(st.sampled_from(list(key.names())), unique=True, min_size=len(part.default) > 0)
+        return names.map(tuple)
+    simple = {
+        bool: st.booleans(),
+        str: st.sampled_from(list(key.names()) or [""]),
+        Path: FOLDERS.map(lambda folder: Path("/scenes") / folder),
+        datetime: st.datetimes(timezones=st.just(UTC)),
+        int: st.integers(-(2**63) if key.at_least is None else key.at_least, key.at_most or 2**63 - 1),
+        float: st.floats(
+            key.above if key.at_least is None else key.at_least,
+            key.at_most,
+            exclude_min=key.above is not None,
+            allow_nan=False,
+            allow_infinity=False,
+        ),
+    }[kind]
+    return st.none() | simple if part.default is None else simple
+
+
+def any_table(kind, **known):
+    tables = st.builds(kind, **{part.name: any_value(part) for part in schema.parts(kind)} | known)
+    return tables.filter(lambda table: not schema.wrong(table))
+
+
+@settings(max_examples=60, deadline=None)
+@given(any_table(Settings, path=st.just(Path("/scenes/scene.toml"))))
+def test_settings_come_back_from_their_text(tmp_path_factory, whole):
+    folder = tmp_path_factory.getbasetemp()
+    path = folder / "scene.toml"
+    path.write_text(file.text(whole), encoding="utf-8")
+    back = file.read(path)
+    folders = {name: Path("/scenes") / relative(getattr(back, name), folder) for name in ("run", "cache")}
+    assert dataclasses.replace(back, path=whole.path, **folders) == whole
+
+
+def relative(path, folder):
+    return path.relative_to(folder) if path.is_relative_to(folder) else path
+
+
+# What reading stands on.
+
+
+def test_places_of_keys_in_every_kind_of_toml():
+    text = (
+        'a.b = 1\n"q k" = """x\n[no]\ny = 2"""\n[t] # [c]\n  d = [1, {e = \'=\'}, """]"""]\r\n'
+        "[[l]]\nx = 1979-05-27 07:32:00Z\n[[l.m]]\ny=1\n[[l]]\n[l.n]\nz=0\n"
+    )
+    tomllib.loads(text)
+    found = places.places(text.replace("\r\n", "\n"))
+    expected = {
+        ("a", "b"): (1, 3),
+        ("q k",): (2, 1),
+        ("t", "d"): (6, 3),
+        ("t", "d", 1, "e"): (6, 12),
+        ("t", "d", 2): (6, 22),
+        ("l", 0, "x"): (8, 1),
+        ("l", 0, "m", 0, "y"): (10, 1),
+        ("l", 1, "n", "z"): (13, 1),
+    }
+    assert {path: found[path] for path in expected} == expected
+
+
+def test_lists_of_frames():
+    assert frame_list.parse("", 3) == [1, 2, 3]
+    assert frame_list.parse(" 3, 5-6,1-9:4 ", 9) == [1, 3, 5, 6, 9]
+    assert frame_list.write([1, 2, 3, 7, 9, 10]) == "1-3,7,9-10"
+    for text in ("0", "4-2", "1-4:0", "x", "1,", "5", "9" * 5000):
+        with pytest.raises(ValueError, match=r"frame"):
+            frame_list.parse(text, 4)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("5-2", ['"5-2" runs backwards', "low to high: 2-5"]),
+        ("9-1:4", ["low to high: 1-9:4"]),
+        ("1-4:0", ["step of 0", "1-4:1"]),
+        ("11-20", ['"11-20" is outside of 1-12']),
+    ],
+)
+def test_lists_of_frames_that_cannot_be_say_what_to_write(text, words):
+    with pytest.raises(ValueError, match=r"frame") as caught:
+        frame_list.parse(text, 12)
+    assert all(word in str(caught.value) for word in words)
+
+
+@given(st.sets(st.integers(1, 30)))
+def test_lists_of_frames_come_back(frames):
+    assert frame_list.parse(frame_list.write(sorted(frames)), 30) == (sorted(frames) or list(range(1, 31)))
