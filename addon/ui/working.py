@@ -1,8 +1,8 @@
 """Long work in the window: it shows how far it is, lets people go on looking, and can be stopped.
 
-In the background, and when called by a script, the steps of a work follow one another at once. In the window
-they are taken by a modal operator. Esc stops it with the pointer over the sidebar alone: elsewhere it belongs to
-something else. While steps are taken in Blender only the mouse in the sidebar does anything.
+In the background, and when called by a script, the steps of a work follow one another at once. In the
+window they are taken by a modal operator. Esc stops it with the pointer over the sidebar alone: elsewhere it
+belongs to something else. While steps are taken in Blender only the mouse in the sidebar does anything.
 """
 
 from __future__ import annotations
@@ -199,7 +199,7 @@ def told(operator: type[bpy.types.Operator]) -> tuple[Told, ...]:
 
 
 class FIRETWIN_OT_stop(bpy.types.Operator):
-    """Stop what Firetwin is doing, as Esc does with the pointer over this sidebar. What is finished is kept"""
+    """Stop what goes on, as Esc does with the pointer over this sidebar. What is finished is kept"""
 
     bl_idname = "firetwin.stop"
     bl_label = "Stop"
