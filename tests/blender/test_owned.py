@@ -248,6 +248,31 @@ def test_nothing_foreign_changes(busy, shot):
     assert nodes.TIME not in busy
 
 
+def test_the_inventory_sees_what_changes(busy):
+    tree, world = compat.compositor(busy), busy.world.node_tree
+    changes = [
+        lambda: setattr(busy, "frame_end", 99),
+        lambda: setattr(busy.render, "engine", "CYCLES"),
+        lambda: setattr(busy.view_settings, "exposure", 0.0),
+        lambda: setattr(busy.cycles, "samples", 77),
+        lambda: setattr(busy.view_layers[1].layer_collection.children["Mine"], "exclude", False),
+        lambda: setattr(busy.view_layers[0], "samples", 3),
+        lambda: setattr(world.nodes["Background"].inputs["Strength"], "default_value", 1.0),
+        lambda: tree.links.remove(tree.links[0]),
+        lambda: tree.nodes.remove(tree.nodes[0]),
+        lambda: setattr(bpy.data.objects["Light"].data, "energy", 1.0),
+        lambda: bpy.data.collections["Mine"].objects.unlink(bpy.data.objects["Empty"]),
+        lambda: busy.pop("note"),
+        lambda: busy.animation_data_clear(),
+        lambda: setattr(bpy.data.scenes["Second"], "world", None),
+        lambda: bpy.data.libraries.remove(bpy.data.libraries[0]),
+    ]
+    for change in changes:
+        before = inventory()
+        change()
+        assert changed(before)
+
+
 def test_an_artists_things_in_our_collections_stay(busy, shot):
     build.build(shot, busy)
     root = next(child for child in busy.collection.children if owned.ours(child))
