@@ -26,7 +26,7 @@ FLOORS: dict[str, set[str]] = {
     "jobs": BASE | {"shot", "blender", "scene", "render"},
     "bench": BASE | {"data", "shot", "blender", "scene", "render", "jobs"},
     "commands": BASE | {"data", "run", "shot", "render", "jobs", "bench"},
-    "cli": BASE | {"commands"},
+    "cli": BASE | {"commands", "shot"},
     "ui": BASE | {"run", "shot", "blender", "scene", "render", "jobs", "cli"},
     "__main__": {"cli"},
     "__init__": {"ui"},
