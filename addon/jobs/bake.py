@@ -21,7 +21,9 @@ def run(
     if not choice.shot().settings.smoke.enabled:
         return []
     task = {"choice": choice.plain()}
-    return [Path(place) for place in worker.run(f"{__name__}:in_blender", task, progress, stop=stop, tell=tell)]
+    return [
+        Path(place) for place in worker.run(f"{__name__}:in_blender", task, progress, stop=stop, tell=tell)
+    ]
 
 
 def in_blender(choice: dict[str, str], progress: Progress, tell: Tell) -> list[str]:
