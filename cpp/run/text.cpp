@@ -1,6 +1,6 @@
 #include "run/text.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 #include "run/number.hpp"
 
 #include <fast_float/fast_float.h>
