@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 
 namespace firetwin::bindings {
 namespace py = pybind11;

@@ -8,8 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <memory>
 #include <mutex>
 #include <string_view>
 

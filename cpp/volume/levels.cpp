@@ -18,6 +18,8 @@
 namespace firetwin::volume {
 namespace {
 
+constexpr double thick_dilution = 0.1;
+
 struct Leaf {
   openvdb::Coord origin;
   LeafMask mask;

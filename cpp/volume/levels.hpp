@@ -8,9 +8,6 @@
 
 namespace firetwin::volume {
 
-/// Dilution of smoke that is thick in every voxel.
-constexpr double thick_dilution = 0.1;
-
 /// Smoke of one moment on terrain-following levels [nz ny nx], heights ascending.
 struct Levels {
   std::span<const double> latitude;   ///< [ny] degrees
@@ -32,7 +29,7 @@ struct Levels {
 /// smoke. Nothing is scaled: Frame::mass is the integral of what was found.
 ///
 /// The model gives no surface, so one is made of its concentration: `density` is a smoothstep of
-/// `dilution` from thinnest_dilution to thick_dilution, `shade` follows from both as in
+/// `dilution` from thinnest_dilution to 0.1, thick in every voxel, `shade` follows from both as in
 /// write_smoke, and `size` is the spacing of the model's columns, below which only noise can show
 /// detail.
 /// @throws std::invalid_argument unless voxel_size > 0; Error where heights do not ascend

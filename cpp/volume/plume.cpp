@@ -17,16 +17,18 @@ constexpr double least_wind = 0.5; // m/s; less counts as a calm, as in EMRISE
 constexpr double wind_exponent = 0.1;
 constexpr int drift_steps = 12; // of the drift integral: within 0.2 % of the limit
 
-} // namespace
-
+/// Of a fire of `power` W, m4/s3.
 double buoyancy_flux(double power) {
   return gravity * convective_part * power /
          (std::numbers::pi * heat_of_air * air_density * air_temperature);
 }
 
+/// Wind at `height` m above the ground for a wind of `wind10` m/s at 10 m.
 double wind_at(double wind10, double height) {
   return wind10 * std::pow(std::max(height, 10.0) / 10.0, wind_exponent);
 }
+
+} // namespace
 
 Plume::Plume(double power, double wind, double stability)
     : flux_(buoyancy_flux(std::max(power, 0.0))), wind_(std::max(wind, 0.0)),

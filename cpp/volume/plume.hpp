@@ -22,7 +22,6 @@ public:
   double rise(double age) const;
   /// Distance downwind of smoke `age` seconds old, m: the integral of the wind at its own height.
   double drift(double age) const;
-  double final_rise() const { return final_rise_; }
 
 private:
   double flux_;       ///< Fb, m4/s3
@@ -30,10 +29,5 @@ private:
   double wind_aloft_; ///< at 300 m, m/s
   double final_rise_; ///< m
 };
-
-/// Buoyancy flux of a fire of `power` W, m4/s3.
-double buoyancy_flux(double power);
-/// Wind at `height` m above the ground for a wind of `wind10` m/s at 10 m.
-double wind_at(double wind10, double height);
 
 } // namespace firetwin::volume
