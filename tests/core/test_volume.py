@@ -250,3 +250,10 @@ def test_bad_cells_are_refused():
         smoke(0.0, cells=(arrival, fuel[:-1], position))
     with pytest.raises(ValueError, match="stability must be finite and above 0"):
         smoke(0.0, stability=0.0)
+
+
+def test_what_cannot_be_put_in_place_leaves_nothing(tmp_path):
+    (tmp_path / "smoke.vdb").mkdir()
+    with pytest.raises(InputError, match="cannot be written"):
+        volume.write_smoke(tmp_path / "smoke.vdb", smoke(100.0), 100.0)
+    assert [path.name for path in tmp_path.iterdir()] == ["smoke.vdb"]
