@@ -54,17 +54,27 @@ def animate(
 
 def fcurves(datablock: bpy.types.ID) -> list[bpy.types.FCurve]:
     """All F-curves that animate `datablock`."""
+    return [curve for bag in _channelbags(datablock) for curve in bag.fcurves]
+
+
+def _channelbags(datablock: bpy.types.ID) -> list[bpy.types.ActionChannelbag]:
     animation = datablock.animation_data
     if animation is None or animation.action is None:
         return []
     return [
-        curve
+        bag
         for layer in animation.action.layers
         for strip in layer.strips
         for bag in strip.channelbags
         if bag.slot == animation.action_slot
-        for curve in bag.fcurves
     ]
+
+
+def remove_fcurves(datablock: bpy.types.ID, paths: Sequence[str]) -> None:
+    """Remove the F-curves of these data paths."""
+    for bag in _channelbags(datablock):
+        for curve in [curve for curve in bag.fcurves if curve.data_path in paths]:
+            bag.fcurves.remove(curve)
 
 
 def node_tree(owner: bpy.types.Material | bpy.types.World | bpy.types.Light) -> bpy.types.NodeTree:

@@ -42,7 +42,7 @@ def take(wanted: str, scene: bpy.types.Scene) -> str:
 
 
 def follow(wanted: str, scene: bpy.types.Scene) -> None:
-    """Have a scene rendered on what the preferences of an artist's Blender say, which is its processor at first."""
+    """Have a scene rendered on what the preferences of an artist's Blender say: its processor at first."""
     scene.cycles.device = "CPU" if wanted == "cpu" else "GPU"
 
 

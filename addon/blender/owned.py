@@ -13,8 +13,11 @@ from typing import Any
 
 import bpy
 
+from ..errors import Error
+
 MARK = "firetwin_part"  # not "firetwin": the panel keeps its choices there
 ROOT = "Firetwin"
+MADE = "made"  # a scene that was not there before
 
 
 def mark(block: Any, what: str = "") -> Any:
@@ -30,8 +33,9 @@ def unmark(block: Any) -> None:
 
 
 def ours(block: Any, what: str = "") -> bool:
-    """Whether we made it (and, unless empty, as `what`)."""
-    if getattr(block, "library", None) is not None or MARK not in block:
+    """Whether we made it (and, unless empty, as `what`); what is linked from another file is not ours."""
+    linked = getattr(block, "library", None) or getattr(block, "override_library", None)
+    if linked is not None or MARK not in block:
         return False
     return not what or block[MARK] == what
 
@@ -62,27 +66,64 @@ class Stage:
         return next((thing for thing in self.root.all_objects if ours(thing, f"camera {name}")), None)
 
 
+def built(scene: bpy.types.Scene) -> bool:
+    """Whether there is anything of ours in a scene."""
+    return ours(scene) or _root(scene) is not None
+
+
+def scene(uid: int) -> bpy.types.Scene:
+    """The scene with this `session_uid`, which it keeps when it is renamed, and through undo.
+
+    Raises
+    ------
+    Error
+        It is gone.
+    """
+    found = next((each for each in bpy.data.scenes if each.session_uid == uid), None)
+    if found is None:
+        raise Error(
+            "the scene is gone: it was deleted, undone, or another file was opened; nothing more is done"
+        )
+    return found
+
+
 def stage(scene: bpy.types.Scene) -> Stage:
     """Our part of a scene, made where it is missing."""
     root = _root(scene)
     return Stage(scene, root if root is not None else child(scene.collection, ""))
 
 
-def adopt(scene: bpy.types.Scene) -> Stage:
+def new_scene() -> bpy.types.Scene:
+    """A new scene of our own, "Firetwin", marked as `MADE`: it may be deleted when nothing is in it."""
+    made = bpy.data.scenes.new(ROOT)
+    adopt(made, MADE)
+    return made
+
+
+def adopt(scene: bpy.types.Scene, what: str = "") -> Stage:
     """Our part of a scene that is ours as a whole from now on: a new one, or one that held nothing."""
     if not ours(scene):
-        mark(scene)
+        mark(scene, what)
         if len(scene.view_layers) == 1:  # the one that every new scene has
             mark(scene.view_layers[0], "spare")
     return stage(scene)
 
 
 def remove(scene: bpy.types.Scene) -> None:
-    """Take away all that we made in a scene, and no more."""
+    """Take away all that we made in a scene, and no more.
+
+    A collection that holds something of an artist's stays, and what another scene shows too stays there.
+    """
     root = _root(scene)
-    if root is not None:
+    if root is not None and any(root in set(other.collection.children) for other in _others(scene)):
+        scene.collection.children.unlink(root)
+    elif root is not None:
+        for name in [name for name, value in root.items() if isinstance(value, bpy.types.ID)]:
+            del root[name]
         _clear(root)
         _drop(root)
+    if ours(scene) and scene.world is not None and ours(scene.world):
+        scene.world = None
     unmark(scene)
     purge()
 
@@ -118,6 +159,10 @@ def purge() -> None:
 
 def _root(scene: bpy.types.Scene) -> bpy.types.Collection | None:
     return next((child for child in scene.collection.children if ours(child, "root")), None)
+
+
+def _others(scene: bpy.types.Scene) -> list[bpy.types.Scene]:
+    return [other for other in bpy.data.scenes if other != scene]
 
 
 def _clear(collection: bpy.types.Collection) -> None:

@@ -10,9 +10,18 @@ from . import worker
 
 
 def run(
-    choice: Choice, progress: Progress = silent, tell: Tell = untold, stop: worker.Stop | None = None
+    choice: Choice,
+    progress: Progress = silent,
+    tell: Tell = untold,
+    stop: worker.Stop | None = None,
+    together: bool = False,
 ) -> list[Path]:
     """Write the volumes that are not there, of each camera by itself as `render` wants them.
+
+    Parameters
+    ----------
+    together
+        Of all cameras at once, as one scene that holds them all wants it.
 
     Returns
     -------
@@ -20,19 +29,19 @@ def run(
     """
     if not choice.shot().settings.smoke.enabled:
         return []
-    task = {"choice": choice.plain()}
+    task = {"choice": choice.plain(), "together": together}
     return [
         Path(place) for place in worker.run(f"{__name__}:in_blender", task, progress, stop=stop, tell=tell)
     ]
 
 
-def in_blender(choice: dict[str, str], progress: Progress, tell: Tell) -> list[str]:
+def in_blender(choice: dict[str, str], together: bool, progress: Progress, tell: Tell) -> list[str]:
     """Bake and return the folders of the volumes."""
     from ..scene.smoke import bake
 
     shot = Choice(**choice).shot()
     for text in shot.warnings():
         tell(text)
-    alone = [shot.of(camera.name) for camera in shot.settings.cameras]
-    places = {bake.folder(each): each for each in alone}
+    shots = [shot] if together else [shot.of(camera.name) for camera in shot.settings.cameras]
+    places = {bake.folder(each): each for each in shots}
     return [str(bake.bake(each, progress)) for each in places.values()]

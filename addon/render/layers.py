@@ -7,7 +7,7 @@ are not ours stay as they are, and so do ours once they are made: what an artist
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 import bpy
 
@@ -20,7 +20,10 @@ from .picture import Picture
 
 
 def build(settings: Settings, stage: Stage) -> None:
-    """Make view layers and compositor of a scene of our own, last of all: layers leave out what exists."""
+    """Make view layers and compositor of a scene of our own, and set the layers as the settings say.
+
+    Last of all, for layers leave out what exists.
+    """
     if not stage.own:
         return
     for each in passes.known().values():
@@ -31,8 +34,23 @@ def build(settings: Settings, stage: Stage) -> None:
             setattr(layer, each.enable, True)
         layer.use = still(each) or each.name in settings.render.passes
         layer.samples = each.samples or 0
-        _leave_out(layer, each)
+        _leave_out(layer, each, None)
     _compositor(stage.scene)
+
+
+def complete(settings: Settings, stage: Stage, parts: Collection[str]) -> None:
+    """After some parts were built again: layers leave out what they do not see of these, the rest stays.
+
+    Layers are made where they are missing.
+    """
+    if not stage.own:
+        return
+    there = {layer.get(owned.MARK) for layer in stage.scene.view_layers}
+    if any(f"pass {name}" not in there for name in passes.known()):
+        build(settings, stage)
+        return
+    for each in passes.known().values():
+        _leave_out(_layer(stage.scene, each), each, parts)
 
 
 def remove(scene: bpy.types.Scene) -> None:
@@ -46,7 +64,9 @@ def remove(scene: bpy.types.Scene) -> None:
     if tree is not None and owned.ours(tree):
         for node in [node for node in tree.nodes if owned.ours(node)]:
             tree.nodes.remove(node)
-        if not tree.nodes:
+        if tree.nodes:
+            owned.unmark(tree)
+        else:
             compat.no_compositor(scene)
 
 
@@ -85,12 +105,15 @@ def _layer(scene: bpy.types.Scene, each: Pass) -> bpy.types.ViewLayer:
     return owned.mark(layer, what)
 
 
-def _leave_out(layer: bpy.types.ViewLayer, each: Pass) -> None:
+def _leave_out(layer: bpy.types.ViewLayer, each: Pass, parts: Collection[str] | None) -> None:
+    """Exclude the collections that a pass does not see: of these parts, None: of all."""
     pending = list(layer.layer_collection.children)
     while pending:
         child = pending.pop()
         if owned.ours(child.collection):
-            child.exclude = str(child.collection[owned.MARK]).lower() in each.leaves_out
+            part = str(child.collection[owned.MARK]).lower()
+            if parts is None or part in parts:
+                child.exclude = part in each.leaves_out
         if not child.exclude:
             pending += child.children
 

@@ -36,7 +36,11 @@ def build(
     parts: Sequence[str] = tuple(PARTS),
     tell: Callable[[str], None] = lambda _: None,
 ) -> bpy.types.Scene:
-    """Build parts into `scene` (the current one unless given); what was built of them before goes first."""
+    """Build parts into `scene` (the current one unless given); what was built of them before goes first.
+
+    Of a scene that is not our own (see `owned.adopt`) nothing else is changed: engine, world, colours,
+    frames, view layers and compositor stay.
+    """
     scene = scene or bpy.context.scene
     for _ in steps(shot, scene, parts, tell):
         pass
@@ -51,26 +55,33 @@ def steps(
 ) -> Iterator[str]:
     """Build parts step by step, each named before it is taken.
 
+    Between two steps people may rename the scene or undo something else: it is looked up for each of them.
+
     Parameters
     ----------
     tell
         Is given every sentence that people should read: what could not be built as it should be.
     """
+    uid, grown = scene.session_uid, None
+
+    def stage() -> owned.Stage:
+        return owned.stage(owned.scene(uid))
+
     yield "surveying the ground"
-    stage = owned.stage(scene)
-    clock.build(shot, stage)
     _ = shot.paths
-    grown = None
+    clock.build(shot, stage())
+    if set(parts) == set(PARTS):
+        clock.frames(shot, stage())
     if shot.settings.forest.trees and _WITH_STAND & set(parts):
         yield "growing the forest"
         grown = stand.grow(shot)
     builders = {
-        "ground": lambda: ground.build(shot, stage, grown),
-        "forest": lambda: forest.build(shot, stage, grown),
-        "fire": lambda: fire.build(shot, stage, grown),
-        "smoke": lambda: smoke.build(shot, stage),
-        "light": lambda: [tell(text) for text in light.build(shot, stage)],
-        "cameras": lambda: camera.build(shot, stage),
+        "ground": lambda: ground.build(shot, stage(), grown),
+        "forest": lambda: forest.build(shot, stage(), grown),
+        "fire": lambda: fire.build(shot, stage(), grown),
+        "smoke": lambda: smoke.build(shot, stage()),
+        "light": lambda: [tell(text) for text in light.build(shot, stage())],
+        "cameras": lambda: camera.build(shot, stage()),
     }
     for part, text in PARTS.items():
         if part in parts:

@@ -10,31 +10,49 @@ from ..shot.shot import Shot
 
 
 def build(shot: Shot, stage: Stage) -> None:
-    """Animate the scene property that shaders read the model time from; set our own scene's frames."""
+    """Animate the scene property that shaders read the model time from."""
     scene, frames = stage.scene, shot.frames
     scene[nodes.TIME] = frames.first
     if scene.animation_data is None or scene.animation_data.action is None or _ours(scene):
         _curve(shot, scene)
     else:  # the artist's action stays as it is
         _driver(shot, scene)
+
+
+def frames(shot: Shot, stage: Stage) -> None:
+    """Set the frame range of our own scene, and show its first frame."""
     if stage.own:
-        scene.frame_start, scene.frame_end = 1, frames.count
+        scene = stage.scene
+        scene.frame_start, scene.frame_end = 1, shot.frames.count
         scene.render.fps, scene.render.fps_base = shot.settings.time.fps, 1.0
         scene.frame_set(1)
 
 
 def remove(scene: bpy.types.Scene) -> None:
-    """Take the property away, and what animates it."""
+    """Take the property away, and what animates it; what an artist animates in our action stays."""
     data = scene.animation_data
     if data is not None:
         for driver in [driver for driver in data.drivers if driver.data_path == _PATH]:
             data.drivers.remove(driver)
         if _ours(scene):
-            bpy.data.actions.remove(data.action)
+            _empty(scene, (_PATH, *(_OF_OUR_OWN if owned.ours(scene) else ())))
+        if data.action is None and not data.drivers and not data.nla_tracks:
+            scene.animation_data_clear()
     scene.pop(nodes.TIME, None)
 
 
 _PATH = f'["{nodes.TIME}"]'
+_OF_OUR_OWN = ("view_settings.exposure",)  # what else is animated in our own scene
+
+
+def _empty(scene: bpy.types.Scene, paths: tuple[str, ...]) -> None:
+    """Remove these curves from our action, and the action where nothing else is in it."""
+    action = scene.animation_data.action
+    compat.remove_fcurves(scene, paths)
+    if compat.fcurves(scene):
+        owned.unmark(action)
+    else:
+        bpy.data.actions.remove(action)
 
 
 def _ours(scene: bpy.types.Scene) -> bool:

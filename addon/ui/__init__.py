@@ -2,9 +2,17 @@
 
 import bpy
 
-from . import build, clock, command, job, properties, render, run
+from . import build, command, preferences, properties, render, run, time, working
 
-classes = (*properties.classes, *job.classes, *run.classes, *build.classes, *clock.classes, *render.classes)
+classes = (
+    *preferences.classes,
+    *properties.classes,
+    *working.classes,
+    *run.classes,
+    *build.classes,
+    *time.classes,
+    *render.classes,
+)
 
 
 def register() -> None:
@@ -17,7 +25,7 @@ def register() -> None:
 
 def unregister() -> None:
     """Undo `register` in reverse order; work that still goes on is ended."""
-    job.abandon()
+    working.abandon()
     command.unregister()
     del bpy.types.Scene.firetwin
     for cls in reversed(classes):

@@ -1,11 +1,23 @@
-"""Build the scene in the window."""
+"""Build the scene in the window, parts of it again, and take it away."""
 
 from __future__ import annotations
 
+import functools
+
 import bpy
 
-from . import clock, job, run, view
-from .job import Away, Steps, Working
+from ..blender import owned
+from ..scene.build import PARTS
+from ..shot.shot import Shot
+from . import job, keys, run, stage, time, view, working
+from .job import Away, Steps, Told
+from .working import Working
+
+ALL = "all"
+_CHOICES = (
+    (ALL, "All", "Everything, as the scene file says"),
+    *((name, keys.label(name), f"Only the {name}; the rest stays") for name in PARTS),
+)
 
 
 class FIRETWIN_OT_build(Working, bpy.types.Operator):
@@ -14,6 +26,20 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
     bl_idname = "firetwin.build"
     bl_label = "Build scene"
     bl_options = {"REGISTER", "UNDO"}
+
+    part: bpy.props.EnumProperty(
+        name="Part", description="What to build", items=_CHOICES, default=ALL, options={"SKIP_SAVE"}
+    )
+
+    @classmethod
+    def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """The tooltip."""
+        if properties.part == ALL:
+            return (
+                "Build the world of the run, in place of the last one built. "
+                "A scene that holds something else stays as it is: a new one is made"
+            )
+        return f"Build the {properties.part} again; what was changed by hand in the rest stays"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -24,24 +50,90 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """The smoke in a worker process, then everything else here."""
-        from .. import jobs
-        from ..render import engine
+        from ..jobs import bake
         from ..scene import build
 
-        scene, settings = context.scene, context.scene.firetwin
-        chosen = run.choice(settings)
-        project, opened = chosen.load()
-        if settings.smoke and project.smoke.enabled:
-            yield Away("smoke", lambda progress, stop: jobs.bake(chosen, progress, stop))
+        uid, settings = context.scene.session_uid, context.scene.firetwin
+        part = self.part
+        parts = tuple(PARTS) if part == ALL else (part,)
+        chosen, smoke = run.choice(settings), settings.smoke and "smoke" in parts
+        shot = yield Away("reading the run", lambda **_: chosen.shot())
+        if smoke and shot.settings.smoke.enabled:
+            yield Away("smoke", functools.partial(bake.run, chosen, together=True))
         yield "clearing the stage"
-        gone = view.clear_startup(scene)
-        yield from build.steps(project, opened, scene)
-        engine.apply(project, scene)
-        clock.remember(settings, project, opened)
-        view.remember(settings, opened)
-        view.look(context, scene)
-        told = f"Built {project.time.frames} frames of {opened.name}"
-        return told + ("; the startup cube, light and camera went (undo brings them back)" if gone else "")
+        new = not owned.built(owned.scene(uid))
+        before, (uid, words) = uid, stage.prepare(owned.scene(uid), part=part != ALL)
+        new = new or uid != before
+        told: list[str] = shot.warnings()
+        yield from build.steps(shot, owned.scene(uid), parts, told.append)
+        _finish(owned.scene(uid), shot, parts, new)
+        for text in told:
+            yield Told(text, "WARNING")
+        what = f"{shot.frames.count} frames" if part == ALL else f"the {part}"
+        return f"Built {what} of {shot.run.name}" + (f"; {words}" if words else "")
+
+
+def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: bool) -> None:
+    """Set what renders it, if the scene is ours; what the panel knows; and how far views see."""
+    from ..blender import devices
+    from ..render import engine, layers
+
+    here = owned.stage(scene)
+    if here.own and (new or len(parts) == len(PARTS)):
+        layers.build(shot.settings, here)
+        engine.apply(shot.settings, scene)
+        devices.follow(shot.settings.render.device, scene)
+    else:
+        layers.complete(shot.settings, here, parts)
+    time.remember(scene.firetwin, shot)
+    view.remember(scene.firetwin, shot.run)
+    if new:
+        view.look(scene)
+    else:
+        view.widen(scene)
+
+
+class FIRETWIN_OT_remove(bpy.types.Operator):
+    """Take away what Firetwin built in this scene, and nothing else"""
+
+    bl_idname = "firetwin.remove"
+    bl_label = "Remove scene"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not owned.built(context.scene):
+            cls.poll_message_set("There is nothing of Firetwin's in this scene")
+            return False
+        if context.mode != "OBJECT":
+            cls.poll_message_set("Leave the edit mode first")
+            return False
+        return working.free(cls)
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        return context.window_manager.invoke_confirm(self, event)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        scene = context.scene
+        view.narrow(scene)
+        time.forget(scene.firetwin)
+        stage.remove(scene)
+        self.report({"INFO"}, "Removed what Firetwin built")
+        return {"FINISHED"}
+
+
+class FIRETWIN_MT_parts(bpy.types.Menu):
+    """Build one part again, or remove everything"""
+
+    bl_idname = "FIRETWIN_MT_parts"
+    bl_label = "Parts"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        for name, label, _ in _CHOICES[1:]:
+            layout.operator(FIRETWIN_OT_build.bl_idname, text=f"{label} again").part = name
+        layout.separator()
+        layout.operator(FIRETWIN_OT_remove.bl_idname, text="Remove all", icon="TRASH")
 
 
 class FIRETWIN_PT_build(bpy.types.Panel):
@@ -58,13 +150,22 @@ class FIRETWIN_PT_build(bpy.types.Panel):
         layout, settings = self.layout, context.scene.firetwin
         row = layout.row(align=True)
         row.scale_y = 1.3
-        job.button(row, FIRETWIN_OT_build, "WORLD")
+        working.button(row, FIRETWIN_OT_build, "WORLD")
+        if job.Job.current is None:
+            row.menu(FIRETWIN_MT_parts.bl_idname, text="", icon="DOWNARROW_HLT")
         column = layout.column()
         column.enabled = job.Job.current is None
         column.prop(settings, "smoke")
         row = layout.row(align=True)
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Through camera", icon="CAMERA_DATA").whole = False
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Whole run", icon="WORLD_DATA").whole = True
+        working.message(context, layout, FIRETWIN_OT_build)
 
 
-classes = (FIRETWIN_OT_build, view.FIRETWIN_OT_view, FIRETWIN_PT_build)
+classes = (
+    FIRETWIN_OT_build,
+    FIRETWIN_OT_remove,
+    *view.classes,
+    FIRETWIN_MT_parts,
+    FIRETWIN_PT_build,
+)

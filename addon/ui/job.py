@@ -1,8 +1,11 @@
-"""Long work in the window: it shows how far it is, lets people go on looking, and Esc stops it.
+"""Long work in steps.
 
-An operator's work is a generator. It yields a text before each step that has to be taken in Blender itself,
-or `Away(...)`, a function for a thread (which most often waits for a worker process), and gets back what
-that returned. In the background, and when called by a script, the same steps follow one another at once.
+The work is a generator. It yields a text before each step that has to be taken in Blender itself;
+`Told(...)`, a sentence for people; or `Away(...)`, a function for a thread (which most often waits for a
+worker process), and gets back what that returned.
+
+At every yield people may rename, delete or undo anything, so no data-block is held across one: `owned.scene`
+finds the scene again.
 """
 
 from __future__ import annotations
@@ -14,25 +17,40 @@ from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-import bpy
-
 from ..errors import Error, UsageError
+from ..jobs.worker import Stop, StoppedError
 from ..progress import duration
-from ..worker import Stop, StoppedError
 
-_TICK = 0.1  # s
+_UNDONE = "undo was used while the scene was being built, so it is not complete; build it again"
 
 
 @dataclass(frozen=True)
 class Away:
-    """Work that needs no Blender data: ``function(progress=..., stop=...)``, called in a thread."""
+    """Work that needs no Blender data: ``function(progress=..., tell=..., stop=...)``, called in a thread."""
 
     what: str
     function: Callable[..., Any]
 
 
-Steps = Generator["str | Away", Any, str]
+@dataclass(frozen=True)
+class Told:
+    """A sentence for people: "INFO", "WARNING" or "ERROR"."""
+
+    text: str
+    level: str = "INFO"
+
+
+Steps = Generator["str | Away | Told", Any, str]
 """The steps of a work; it returns what to tell when it is done."""
+
+
+@dataclass(frozen=True)
+class Ended:
+    """What the last work that ended had to tell, and the file that was open then (None: whichever)."""
+
+    name: str
+    told: tuple[Told, ...]
+    file: str | None
 
 
 class Job:
@@ -40,16 +58,25 @@ class Job:
 
     Attributes
     ----------
+    last
+        What the one before had to tell.
     touched
         Whether a step in Blender has been taken, so that there is something to undo.
+    undone
+        Whether undo or redo was used after that.
+    said
+        Sentences for people so far.
     """
 
     current: ClassVar[Job | None] = None
+    last: ClassVar[Ended | None] = None
 
     def __init__(self, name: str, steps: Steps) -> None:
         self.name, self.steps = name, steps
         self.what, self.done, self.total = name, 0, 1
-        self.stop, self.touched, self.told = Stop(), False, ""
+        self.stop, self.touched, self.undone = Stop(), False, False
+        self.said: list[Told] = []
+        self.told = ""
         self._since = time.monotonic()
         self._thread: threading.Thread | None = None
         self._outcome: dict[str, Any] = {}
@@ -77,6 +104,10 @@ class Job:
             self.what, self._since = what, time.monotonic()
         self.done, self.total = done, total
 
+    def tell(self, text: str) -> None:
+        """A sentence for people, from the thread."""
+        self.said.append(Told(text))
+
     @property
     def factor(self) -> float:
         """How much of the present step is done, 0 to 1."""
@@ -99,13 +130,12 @@ class Job:
             self._thread.join()
             self._thread = None
         outcome, self._outcome = self._outcome, {}
+        if self.undone:
+            outcome["error"] = Error(_UNDONE)
         if self.stop.asked:
             outcome.setdefault("error", StoppedError())
         try:
-            if "error" in outcome:
-                step = self.steps.throw(outcome["error"])
-            else:
-                step = self.steps.send(outcome.get("result"))
+            step = self._next(outcome)
         except StopIteration as end:
             self.told = end.value or ""
             return True
@@ -118,12 +148,22 @@ class Job:
             self.touched = True
         return False
 
+    def _next(self, outcome: dict[str, Any]) -> str | Away:
+        if "error" in outcome:
+            step = self.steps.throw(outcome["error"])
+        else:
+            step = self.steps.send(outcome.get("result"))
+        while isinstance(step, Told):
+            self.said.append(step)
+            step = next(self.steps)
+        return step
+
     def _send_away(self, function: Callable[..., Any]) -> None:
         outcome: dict[str, Any] = {}
 
         def work() -> None:
             try:
-                outcome["result"] = function(progress=self.progress, stop=self.stop)
+                outcome["result"] = function(progress=self.progress, tell=self.tell, stop=self.stop)
             except BaseException as error:
                 outcome["error"] = error
 
@@ -147,134 +187,3 @@ def words(error: BaseException) -> str:
         return f"{error.filename}: {error.strerror}"
     traceback.print_exception(error)
     return f"Unexpected {type(error).__name__}: {error} (details are in the system console)"
-
-
-def free(cls: type[bpy.types.Operator]) -> bool:
-    """Whether no work goes on; says so where it does."""
-    if Job.current is not None:
-        cls.poll_message_set(f"{Job.current.name} is not finished; Esc stops it")
-    return Job.current is None
-
-
-def abandon() -> None:
-    """End whatever goes on, without a word: its operator goes away."""
-    if Job.current is not None:
-        Job.current.stop.now()
-        Job.current = None
-        _show(bpy.context, None)
-
-
-class Working:
-    """An operator whose `steps(context)` are taken one by one while its window stays usable."""
-
-    _timer: bpy.types.Timer | None = None
-
-    def steps(self, context: bpy.types.Context) -> Steps:
-        """The work."""
-        raise NotImplementedError
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        work = Job(self.bl_label, self.steps(context))
-        try:
-            self.report({"INFO"}, work.run())
-        except Exception as error:
-            return self._failed(work, error)
-        return {"FINISHED"}
-
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if bpy.app.background or context.window is None:
-            return self.execute(context)
-        self.job = Job.current = Job(self.bl_label, self.steps(context))
-        self._timer = context.window_manager.event_timer_add(_TICK, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        _show(context, self.job)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if Job.current is not self.job:  # the add-on was switched off
-            self._end(context)
-            return {"CANCELLED"}
-        if event.type == "ESC" and event.value == "PRESS":
-            self.job.stop.now()
-            return {"RUNNING_MODAL"}
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"} if not self.job.touched else {"RUNNING_MODAL"}
-        try:
-            over = self.job.advance()
-        except Exception as error:
-            self._end(context)
-            return self._failed(self.job, error)
-        if not over:
-            _show(context, self.job)
-            return {"RUNNING_MODAL"}
-        self._end(context)
-        self.report({"INFO"}, self.job.told)
-        return {"FINISHED"}
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Another file is opened, or Blender ends."""
-        self.job.stop.now()
-        self._end(context)
-
-    def _failed(self, work: Job, error: Exception) -> set[str]:
-        if isinstance(error, StoppedError):
-            undo = "; undo takes back what was made" if work.touched else "; what was finished is kept"
-            self.report({"WARNING"}, f"{work.name} stopped{undo}")
-        else:
-            self.report({"ERROR"}, words(error))
-        return {"FINISHED"} if work.touched else {"CANCELLED"}  # what is half made can then be undone
-
-    def _end(self, context: bpy.types.Context) -> None:
-        if self._timer is not None:
-            context.window_manager.event_timer_remove(self._timer)
-            self._timer = None
-        if Job.current is self.job:
-            Job.current = None
-        _show(context, None)
-
-
-def _show(context: bpy.types.Context, work: Job | None) -> None:
-    """Draw the sidebars and the status bar anew."""
-    if context.workspace is not None:
-        context.workspace.status_text_set(f"{work.name}: {work.text}    Esc stops" if work else None)
-    redraw()
-
-
-def redraw() -> None:
-    """Draw the sidebars anew; the 3D views themselves may take long."""
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                for region in area.regions:
-                    if region.type == "UI":
-                        region.tag_redraw()
-
-
-def button(layout: bpy.types.UILayout, operator: type[bpy.types.Operator], icon: str) -> None:
-    """The button of a work; while it goes on, how far it is and a button to stop it, in the same place."""
-    if Job.current is not None and Job.current.name == operator.bl_label:
-        layout.progress(factor=Job.current.factor, text=Job.current.text)
-        layout.operator(FIRETWIN_OT_stop.bl_idname, text="", icon="CANCEL")
-    else:
-        layout.operator(operator.bl_idname, icon=icon)
-
-
-class FIRETWIN_OT_stop(bpy.types.Operator):
-    """Stop what Firetwin is doing. What is finished is kept"""
-
-    bl_idname = "firetwin.stop"
-    bl_label = "Stop"
-    bl_options = {"INTERNAL"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        if Job.current is None:
-            cls.poll_message_set("Nothing goes on")
-        return Job.current is not None
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        Job.current.stop.now()
-        return {"FINISHED"}
-
-
-classes = (FIRETWIN_OT_stop,)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import bpy
 
-from . import clock, render, run
+from ..shot.settings import Render
+from . import keys, preferences, render, run, time
 
 _BLEND_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
 
@@ -25,7 +26,10 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup):
         "Without one the whole run is shown by two cameras that see all of the fire",
         subtype="FILE_PATH",
         options=_BLEND_RELATIVE,
-        update=run.scene_file_chosen,
+        update=run.chosen,
+    )
+    shown_run: bpy.props.StringProperty(
+        name="Run", description="The run that the scene file names", get=run.shown_run, options=set()
     )
     output: bpy.props.StringProperty(
         name="Output",
@@ -55,35 +59,18 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup):
         subtype="FACTOR",
         min=0.0,
         max=1.0,
-        get=clock.position,
-        set=clock.go_to,
+        get=time.position,
+        set=time.go_to,
         options=set(),
     )
-    engine: bpy.props.EnumProperty(
-        name="Engine",
-        description="What renders",
-        items=(
-            ("scene", "Scene file's", "The engine that the scene file names"),
-            ("cycles", "Cycles", "Light is traced: smoke and fire light each other"),
-            ("eevee", "EEVEE", "Faster and simpler, needs OpenGL"),
-        ),
-    )
+    engine: keys.prop(Render, "engine", preferences.AS_FILE)
     camera: bpy.props.EnumProperty(name="Camera", description="Cameras that film", items=render.camera_items)
-    passes: bpy.props.EnumProperty(
-        name="Passes",
-        description="What is recorded",
-        items=(
-            ("rgb", "RGB", "The visible picture"),
-            ("depth", "Depth", "Metres to ground and trees, 32-bit EXR"),
-            (
-                "thermal",
-                "Thermal",
-                "Temperature in kelvin, 32-bit EXR, and the picture with its gradient added",
-            ),
-        ),
-        options={"ENUM_FLAG"},
-        default={"rgb"},
+    scene_passes: bpy.props.BoolProperty(
+        name="Scene file's passes",
+        description="Record what the scene file says for each camera, instead of the passes chosen here",
+        default=True,
     )
+    passes: keys.prop(Render, "passes", default={"rgb"})
     which: bpy.props.EnumProperty(
         name="Frames",
         description="Which frames to render",
@@ -101,6 +88,13 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup):
         description="Render only what is missing or was made with other settings",
         default=True,
     )
+
+
+def copy(source: FIRETWIN_PG_scene, target: FIRETWIN_PG_scene) -> None:
+    """Give another scene's panel the same choices and facts, while a work goes on."""
+    for prop in source.bl_rna.properties:
+        if not prop.is_readonly and prop.identifier not in ("name", "model_time"):
+            setattr(target, prop.identifier, getattr(source, prop.identifier))
 
 
 classes = (FIRETWIN_PG_scene,)

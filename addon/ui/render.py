@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import functools
 from pathlib import Path
 
 import bpy
 
-from . import job, run
-from .job import Away, Steps, Working
+from ..progress import count
+from ..shot import passes
+from . import job, run, working
+from .job import Away, Steps
+from .text import paragraph
+from .working import Working
 
 NO_OUTPUT = "Save the .blend file or choose an output folder first"
 _items: list[tuple[str, str, str]] = []  # Blender keeps no reference of its own to these texts
@@ -21,6 +26,13 @@ def camera_items(settings: bpy.types.PropertyGroup, context: bpy.types.Context) 
         *((name, name, f"The camera {name}") for name in cameras),
     ]
     return _items
+
+
+def asked_passes(settings: bpy.types.PropertyGroup) -> str | None:
+    """Names of the chosen passes; None: those of the scene file."""
+    if settings.scene_file and settings.scene_passes:
+        return None
+    return ",".join(name for name in passes.known() if name in settings.passes)
 
 
 class FIRETWIN_OT_render(Working, bpy.types.Operator):
@@ -37,29 +49,25 @@ class FIRETWIN_OT_render(Working, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         settings = context.scene.firetwin
-        if settings.run and not run.output(settings):
+        if run.source(settings) and not run.output(settings):
             cls.poll_message_set(NO_OUTPUT)
             return False
-        if settings.run and not settings.passes:
+        if run.source(settings) and asked_passes(settings) == "":
             cls.poll_message_set("Choose at least one pass")
             return False
         return run.ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """All of it in a worker process."""
-        from .. import jobs
-        from ..wording import count
+        from ..jobs import render
 
         settings = context.scene.firetwin
-        frames = {"frame": str(context.scene.frame_current), "list": settings.frame_list, "all": ""}
+        frames = {"frame": str(context.scene.frame_current), "list": settings.frame_list, "all": None}
         out = Path(run.output(settings))
         camera = None if settings.camera == "*" else settings.camera
-        passes = ",".join(name for name in ("rgb", "depth", "thermal") if name in settings.passes)
-        asked = jobs.Asked(out, frames[settings.which], camera, passes, settings.resume)
+        asked = render.Asked(out, frames[settings.which], camera, asked_passes(settings), settings.resume)
         chosen = run.choice(settings)
-        made = yield Away(
-            "starting Blender", lambda progress, stop: jobs.render(chosen, asked, progress, stop=stop)
-        )
+        made = yield Away("starting Blender", functools.partial(render.run, chosen, asked))
         return f"Rendered {count(made, 'picture')} to {out}" if made else f"All is finished in {out}"
 
 
@@ -83,21 +91,27 @@ class FIRETWIN_PT_render(bpy.types.Panel):
         column.prop(settings, "engine")
         column.prop(settings, "camera")
         column.prop(settings, "resume")
-        for name in ("passes", "which"):
-            row = column.row(align=True)
-            row.use_property_split = False
-            row.prop(settings, name, expand=True)
+        if settings.scene_file:
+            column.prop(settings, "scene_passes")
+        chosen = column.row(align=True)
+        chosen.use_property_split = False
+        chosen.enabled = not (settings.scene_file and settings.scene_passes)
+        chosen.prop(settings, "passes", expand=True)
+        row = column.row(align=True)
+        row.use_property_split = False
+        row.prop(settings, "which", expand=True)
         if settings.which == "list":
             column.prop(settings, "frame_list")
         row = layout.row(align=True)
         row.scale_y = 1.3
-        job.button(row, FIRETWIN_OT_render, "RENDER_STILL")
+        working.button(row, FIRETWIN_OT_render, "RENDER_STILL")
         out = run.output(settings)
         folder = row.row(align=True)
         folder.enabled = bool(out)
         folder.operator("wm.path_open", text="", icon="FILE_FOLDER").filepath = out
         if not out:
-            run.paragraph(context, layout.column(align=True), NO_OUTPUT, "INFO")
+            paragraph(context, layout.column(align=True), NO_OUTPUT, "INFO")
+        working.message(context, layout, FIRETWIN_OT_render)
 
 
 classes = (FIRETWIN_OT_render, FIRETWIN_PT_render)

@@ -9,38 +9,41 @@ from typing import Any
 
 import bpy
 
-from . import job
-from .job import Away, Steps, Working
+from ..blender import owned
+from ..shot.choice import Choice
+from . import job, preferences, working
+from .job import Away, Steps
+from .text import labelled, paragraph
+from .working import Working
 
 
 def chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """Another run folder: look into it."""
-    settings.facts = settings.problem = ""
-    if settings.run and job.Job.current is None:
-        _inspect(settings)
-    job.redraw()
-
-
-def scene_file_chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """Another scene file: it says which run, which is looked into at once."""
-    settings.problem = ""
-    if not settings.scene_file:
+    """Another run folder or scene file: look into it."""
+    if job.Job.current is not None:
         return
-    from .. import project
-
-    try:
-        settings.run = str(project.load(absolute(settings.scene_file)).run)
-    except Exception as error:
-        settings.problem = job.words(error)
-        job.redraw()
+    settings.facts = settings.problem = ""
+    if source(settings):
+        _inspect(settings)
+    working.redraw()
 
 
 def _inspect(settings: bpy.types.PropertyGroup) -> None:
     """Call the operator; what it has to say about a failure is in `problem`, so no error is raised here."""
     try:
-        bpy.ops.firetwin.inspect("INVOKE_DEFAULT")
+        with bpy.context.temp_override(scene=settings.id_data):
+            bpy.ops.firetwin.inspect("INVOKE_DEFAULT")
     except RuntimeError as error:
         settings.problem = settings.problem or str(error)
+
+
+def source(settings: bpy.types.PropertyGroup) -> str:
+    """The scene file, else the run folder that is chosen."""
+    return settings.scene_file or settings.run
+
+
+def shown_run(settings: bpy.types.PropertyGroup) -> str:
+    """The run of the scene file, once that is read."""
+    return read(settings.facts)["run"] if settings.scene_file and settings.facts else ""
 
 
 def absolute(path: str) -> str:
@@ -55,30 +58,30 @@ def output(settings: bpy.types.PropertyGroup) -> str:
     return absolute(settings.output)
 
 
-def choice(settings: bpy.types.PropertyGroup) -> Any:
-    """What the panel chooses, as `choice.Choice`."""
-    from ..choice import Choice
-
+def choice(settings: bpy.types.PropertyGroup) -> Choice:
+    """What the panel and the preferences choose; a scene file's run and cache are its own."""
     scene_file, folder = absolute(settings.scene_file), output(settings)
-    cache = str(Path(folder) / "cache") if folder and not scene_file else ""
-    engine = "" if settings.engine == "scene" else settings.engine
-    return Choice(scene_file, absolute(settings.run), cache, engine)
+    engine = "" if settings.engine == preferences.AS_FILE[0] else settings.engine
+    if scene_file:
+        return Choice(scene_file, engine=engine, device=preferences.device())
+    cache = str(Path(folder) / "cache") if folder else ""
+    return Choice(run=absolute(settings.run), cache=cache, engine=engine, device=preferences.device())
 
 
 def ready(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Whether there is a run and nothing else goes on; says what is missing."""
     settings = context.scene.firetwin
-    if not settings.run:
+    if not source(settings):
         cls.poll_message_set("Choose a run folder or a scene file first")
         return False
     if not settings.scene_file and not output(settings):
         cls.poll_message_set("Save the .blend file or choose an output folder first: the smoke is kept there")
         return False
-    return job.free(cls)
+    return working.free(cls)
 
 
 class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
-    """Look into the run again: grids, extent, times, burned area, warnings"""
+    """Look into scene file and run again: grids, extent, times, burned area, warnings"""
 
     bl_idname = "firetwin.inspect"
     bl_label = "Read run"
@@ -86,40 +89,38 @@ class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not context.scene.firetwin.run:
-            cls.poll_message_set("Choose a run folder first")
+        if not source(context.scene.firetwin):
+            cls.poll_message_set("Choose a run folder or a scene file first")
             return False
-        return job.free(cls)
+        return working.free(cls)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Gather in a thread; then write down."""
-        settings = context.scene.firetwin
+        uid, settings = context.scene.session_uid, context.scene.firetwin
         settings.problem = settings.facts = ""
         chosen = choice(settings)
         try:
-            found = yield Away("reading the run", lambda progress, stop: facts(chosen))
+            found = yield Away("reading the run", lambda **_: facts(chosen))
         except Exception as error:
-            settings.problem = job.words(error)
+            owned.scene(uid).firetwin.problem = job.words(error)
             raise
-        settings.facts = json.dumps(found)
+        owned.scene(uid).firetwin.facts = json.dumps(found)
         return f"Read {found['name']}"
 
 
-def facts(chosen: Any) -> dict[str, Any]:
-    """What the panel shows of a choice: name, rows of label and text, warnings and cameras."""
-    from firetwin_core import run as runs
+def facts(chosen: Choice) -> dict[str, Any]:
+    """What the panel shows of a choice: name, folder, rows of label and text, warnings and cameras."""
+    from ..run import info
 
-    from .. import info
-
-    project = chosen.project()
-    found = info.gather(runs.open(project.run), project.time.zone)
-    cameras = [camera.name for camera in project.cameras] if chosen.scene else ["overview", "satellite"]
+    shot = chosen.shot()
+    found = info.gather(shot.run, shot.settings.time.zone)
     return {
         "name": found["name"],
+        "run": str(shot.settings.run),
         "synthetic": found["synthetic"],
         "rows": info.brief(found),
         "warnings": found["warnings"],
-        "cameras": cameras,
+        "cameras": [camera.name for camera in shot.settings.cameras],
     }
 
 
@@ -146,7 +147,12 @@ class FIRETWIN_PT_run(bpy.types.Panel):
         row = labelled(column, "Scene file")
         row.prop(settings, "scene_file", text="", placeholder="Optional")
         row = labelled(column, "Run")
-        row.prop(settings, "run", text="")
+        if settings.scene_file:
+            line = row.row(align=True)
+            line.enabled = False
+            line.prop(settings, "shown_run", text="")
+        else:
+            row.prop(settings, "run", text="")
         row.operator(FIRETWIN_OT_inspect.bl_idname, text="", icon="FILE_REFRESH")
         if settings.problem:
             box = layout.box().column(align=True)
@@ -175,23 +181,6 @@ class FIRETWIN_PT_facts(bpy.types.Panel):
             labelled(column, label).label(text=text)
         for warning in found["warnings"]:
             paragraph(context, column, warning, "ERROR")
-
-
-def labelled(layout: bpy.types.UILayout, label: str) -> bpy.types.UILayout:
-    """A row after a label that takes less room than Blender's own."""
-    line = layout.split(factor=0.3)
-    line.label(text=label)
-    return line.row(align=True)
-
-
-def paragraph(context: bpy.types.Context, layout: bpy.types.UILayout, text: str, icon: str = "NONE") -> None:
-    """Text on as many lines as the sidebar's width asks for."""
-    import textwrap
-
-    scale = context.preferences.system.ui_scale
-    letters = max(int((context.region.width / scale - 60) / 6.5), 16)
-    for number, line in enumerate(textwrap.wrap(text, letters)):
-        layout.label(text=line, icon=icon if number == 0 else ("BLANK1" if icon != "NONE" else "NONE"))
 
 
 classes = (FIRETWIN_OT_inspect, FIRETWIN_PT_run, FIRETWIN_PT_facts)

@@ -6,8 +6,9 @@ from datetime import datetime, timedelta
 
 import bpy
 
-from .. import times
-from . import run
+from ..run import times
+from ..shot.shot import Shot
+from .text import labelled
 
 
 def position(settings: bpy.types.PropertyGroup) -> float:
@@ -21,12 +22,17 @@ def go_to(settings: bpy.types.PropertyGroup, value: float) -> None:
     settings.id_data.frame_current = 1 + round(value * max(settings.frames - 1, 0))
 
 
-def remember(settings: bpy.types.PropertyGroup, project: object, run: object) -> None:
+def remember(settings: bpy.types.PropertyGroup, shot: Shot) -> None:
     """Keep how frames and model time belong together."""
-    first, _ = times.window(project, run)
-    settings.first_time = times.moment(run, first).isoformat()
-    settings.seconds_per_frame = times.step(project, run)
-    settings.frames, settings.zone = project.time.frames, project.time.zone
+    settings.first_time = shot.moment(1).isoformat()
+    settings.seconds_per_frame = shot.frames.step
+    settings.frames, settings.zone = shot.frames.count, shot.settings.time.zone
+
+
+def forget(settings: bpy.types.PropertyGroup) -> None:
+    """Nothing is built any more."""
+    for name in ("first_time", "seconds_per_frame", "frames", "zone"):
+        settings.property_unset(name)
 
 
 def moment(settings: bpy.types.PropertyGroup) -> datetime:
@@ -37,10 +43,10 @@ def moment(settings: bpy.types.PropertyGroup) -> datetime:
     )
 
 
-class FIRETWIN_PT_clock(bpy.types.Panel):
+class FIRETWIN_PT_time(bpy.types.Panel):
     """The model time of the frame that is shown"""
 
-    bl_idname = "FIRETWIN_PT_clock"
+    bl_idname = "FIRETWIN_PT_time"
     bl_label = "Model Time"
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
@@ -62,7 +68,7 @@ class FIRETWIN_PT_clock(bpy.types.Panel):
             ("UTC", f"{now.day} {now:%b %Y %H:%M}"),
             ("Frame", f"{context.scene.frame_current} of {settings.frames}"),
         ):
-            run.labelled(column, label).label(text=text)
+            labelled(column, label).label(text=text)
 
 
-classes = (FIRETWIN_PT_clock,)
+classes = (FIRETWIN_PT_time,)

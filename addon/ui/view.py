@@ -9,7 +9,7 @@ import numpy as np
 from firetwin_core.run import Run
 from mathutils import Euler
 
-from .. import areas
+from ..run import areas
 
 # m. Blender's own 1000 m show nothing of such a world; nearer than 20 m, depths are too coarse to tell far
 # smoke from the ground.
@@ -17,18 +17,40 @@ NEAR, FAR = 20.0, 500_000.0
 _TILT = 0.9  # rad from straight down
 
 
-def spaces() -> Iterator[bpy.types.SpaceView3D]:
-    """All 3D views of all windows."""
+def spaces(scene: bpy.types.Scene) -> Iterator[bpy.types.SpaceView3D]:
+    """The 3D views of the windows that show a scene."""
     for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                yield area.spaces.active
+        if window.scene == scene:
+            for area in window.screen.areas:
+                if area.type == "VIEW_3D":
+                    yield area.spaces.active
 
 
-def look(context: bpy.types.Context, scene: bpy.types.Scene, whole: bool = False) -> None:
-    """Let every view see the whole distance, through the scene's camera or the whole run from the south."""
-    for space in spaces():
-        space.clip_start, space.clip_end = NEAR, FAR
+def widen(scene: bpy.types.Scene) -> None:
+    """Let the views of a scene see the whole distance, but those whose clipping an artist has set."""
+    _clip(scene, _usual(), (NEAR, FAR))
+
+
+def narrow(scene: bpy.types.Scene) -> None:
+    """Give views that `widen` widened the clipping that they had."""
+    _clip(scene, (NEAR, FAR), _usual())
+
+
+def _usual() -> tuple[float, float]:
+    known = bpy.types.SpaceView3D.bl_rna.properties
+    return known["clip_start"].default, known["clip_end"].default
+
+
+def _clip(scene: bpy.types.Scene, before: tuple[float, float], after: tuple[float, float]) -> None:
+    for space in spaces(scene):
+        if np.allclose((space.clip_start, space.clip_end), before, rtol=1.0e-6, atol=0.0):
+            space.clip_start, space.clip_end = after
+
+
+def look(scene: bpy.types.Scene, whole: bool = False) -> None:
+    """Turn the views of a scene to its camera, or let them see the whole run from the south."""
+    widen(scene)
+    for space in spaces(scene):
         region = space.region_3d
         if region is None:
             continue
@@ -47,22 +69,6 @@ def remember(settings: bpy.types.PropertyGroup, run: Run) -> None:
     dx, dy = areas.spacing(run.latitude, run.longitude)
     settings.extent = max(dx * len(run.longitude), dy * len(run.latitude))
     settings.height = float(np.nanmean(run.elevation))
-
-
-def clear_startup(scene: bpy.types.Scene) -> bool:
-    """Remove the cube, light and camera that a new file begins with; whether there were just these."""
-    names = {thing.name for thing in scene.objects}
-    cube = scene.objects.get("Cube")
-    untouched = (
-        not bpy.data.filepath
-        and names == {"Camera", "Cube", "Light"}
-        and cube.type == "MESH"
-        and len(cube.data.vertices) == 8
-        and cube.matrix_world.is_identity
-    )
-    if untouched:
-        bpy.data.batch_remove([scene.objects[name] for name in names])
-    return untouched
 
 
 class FIRETWIN_OT_view(bpy.types.Operator):
@@ -91,5 +97,8 @@ class FIRETWIN_OT_view(bpy.types.Operator):
         return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        look(context, context.scene, self.whole)
+        look(context.scene, self.whole)
         return {"FINISHED"}
+
+
+classes = (FIRETWIN_OT_view,)

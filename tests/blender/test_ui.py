@@ -6,7 +6,14 @@ from types import SimpleNamespace
 import bpy
 import firetwin
 import pytest
-from firetwin.ui import clock, job, render, run, view
+from firetwin.blender import devices, owned
+from firetwin.errors import Error, InputError, input_error
+from firetwin.jobs.worker import StoppedError
+from firetwin.shot import passes
+from firetwin.shot.schema import parts
+from firetwin.shot.settings import Render, Smoke
+from firetwin.ui import build, job, keys, preferences, render, run, view, working
+from firetwin.ui import time as model_time
 
 SCENE = """\
 run = "{run}"
@@ -15,7 +22,7 @@ cache = "cache"
 start = 2014-09-17T21:00:00Z
 end = 2014-09-17T22:00:00Z
 frames = 3
-[terrain]
+[ground]
 near_radius = 0.0
 apron = 20000.0
 [forest]
@@ -92,12 +99,14 @@ def test_every_refusal_says_what_to_do(settings, run_folder, scene_file):
     settings.run = str(run_folder)
     assert "Save the .blend file" in refusal(bpy.ops.firetwin.build)
     assert "Save the .blend file" in refusal(bpy.ops.firetwin.render)
+    assert "nothing of Firetwin's" in refusal(bpy.ops.firetwin.remove)
     settings.scene_file = str(scene_file)
     assert bpy.ops.firetwin.build.poll()  # a scene file says where the smoke is kept
     assert "Save the .blend file" in refusal(bpy.ops.firetwin.render)
     settings.output = str(run_folder.parent / "out")
-    assert bpy.ops.firetwin.render.poll()
     settings.passes = set()
+    assert bpy.ops.firetwin.render.poll()  # the scene file's
+    settings.scene_passes = False
     assert "pass" in refusal(bpy.ops.firetwin.render)
     settings.passes = {"rgb"}
     job.Job.current = job.Job("Build scene", iter(()))
@@ -120,10 +129,111 @@ def test_a_run_is_known_as_soon_as_it_is_chosen(settings, run_folder):
 
 
 def test_a_scene_file_brings_its_run(settings, scene_file, run_folder):
+    settings.run = "elsewhere"
     settings.scene_file = str(scene_file)
-    assert settings.run == str(run_folder)
+    assert settings.shown_run == str(run_folder)
     assert run.read(settings.facts)["cameras"] == ["drone"]
     assert not settings.problem
+    chosen = run.choice(settings)
+    assert (chosen.scene, chosen.run, chosen.cache) == (str(scene_file), "", "")
+    settings.scene_file = ""
+    assert run.choice(settings).run == bpy.path.abspath("elsewhere")
+    assert settings.shown_run == ""
+    assert settings.problem
+
+
+def test_a_scene_file_says_which_passes_unless_others_are_chosen(settings, scene_file):
+    settings.passes = {"thermal", "rgb"}
+    assert render.asked_passes(settings) == "rgb,thermal"
+    settings.scene_file = str(scene_file)
+    assert render.asked_passes(settings) is None
+    settings.scene_passes = False
+    assert render.asked_passes(settings) == "rgb,thermal"
+
+
+def test_properties_say_what_the_schema_says(settings):
+    known = {part.name: part.key for part in parts(Render)}
+    shown = settings.bl_rna.properties
+    own = preferences.FIRETWIN_AP_preferences.bl_rna.properties
+    for prop, key, more in (
+        (shown["engine"], known["engine"], ["scene"]),
+        (shown["passes"], known["passes"], []),
+        (own["device"], known["device"], ["scene"]),
+    ):
+        assert [item.identifier for item in prop.enum_items] == [*more, *key.names()]
+        assert prop.description == keys.sentence(key.described())
+        for item in prop.enum_items[len(more) :]:
+            assert item.description == keys.sentence(key.names()[item.identifier])
+    assert [item.name for item in shown["passes"].enum_items] == ["RGB", "Depth", "Thermal"]
+    assert [item.identifier for item in shown["passes"].enum_items] == list(passes.known())
+
+
+@pytest.mark.parametrize("kind", [Render, Smoke])
+def test_every_plain_key_can_become_a_property(kind):
+    names = [part.name for part in parts(kind) if part.name != "resolution"]
+    group = type(
+        "Group", (bpy.types.PropertyGroup,), {"__annotations__": {n: keys.prop(kind, n) for n in names}}
+    )
+    bpy.utils.register_class(group)
+    try:
+        for part in parts(kind):
+            if part.name in names and not part.key.choices:
+                assert group.bl_rna.properties[part.name].default == pytest.approx(part.default)
+    finally:
+        bpy.utils.unregister_class(group)
+
+
+def test_the_preferences_say_what_renders_on(settings, monkeypatch):
+    assert preferences.device() == ""
+    chosen = SimpleNamespace(preferences=SimpleNamespace(device="gpu"))
+    known = SimpleNamespace(preferences=SimpleNamespace(addons={"firetwin": chosen}))
+    monkeypatch.setattr(preferences, "bpy", SimpleNamespace(context=known))
+    assert run.choice(settings).device == "gpu"
+    chosen.preferences.device = "scene"
+    assert run.choice(settings).device == ""
+
+
+def faked_cycles(monkeypatch, *gpus):
+    """Preferences of Cycles on a machine with these GPUs: pairs of kind and name."""
+    found = [SimpleNamespace(type=kind, name=name, use=False) for kind, name in gpus]
+    processor = SimpleNamespace(type="CPU", name="Processor", use=True)
+    given = SimpleNamespace(
+        compute_device_type="NONE",
+        devices=[*found, processor],
+        get_device_types=lambda context: [(kind, kind, "", 0) for kind in ("NONE", "CUDA", "OPTIX")],
+        get_devices_for_type=lambda kind: [each for each in found if each.type == kind] + [processor],
+    )
+    monkeypatch.setattr(devices, "_preferences", lambda: given)
+    return given
+
+
+def test_a_gpu_is_taken_and_named(scene, monkeypatch):
+    given = faked_cycles(monkeypatch, ("CUDA", "Card"), ("OPTIX", "Card"))
+    for wanted in ("auto", "gpu"):
+        assert devices.take(wanted, scene) == "Card by OptiX"
+        assert scene.cycles.device == "GPU"
+        assert given.compute_device_type == "OPTIX"
+        assert [each.type for each in given.devices if each.use] == ["OPTIX"]
+    assert devices.take("cpu", scene) == "the processor"
+    assert scene.cycles.device == "CPU"
+
+
+def test_without_a_gpu_auto_takes_the_processor_and_says_so(scene, monkeypatch):
+    faked_cycles(monkeypatch)
+    assert devices.take("auto", scene) == "the processor (no GPU found)"
+    assert scene.cycles.device == "CPU"
+    with pytest.raises(
+        Error, match=r'device = "gpu", but Cycles finds no GPU here.*"auto" or "cpu"'
+    ) as refused:
+        devices.take("gpu", scene)
+    assert "\n" not in str(refused.value)
+
+
+def test_an_artists_renders_follow_the_preferences(scene):
+    devices.follow("cpu", scene)
+    assert scene.cycles.device == "CPU"
+    devices.follow("auto", scene)
+    assert scene.cycles.device == "GPU"  # which is the processor where the preferences name no GPU
 
 
 @pytest.mark.parametrize(
@@ -155,30 +265,179 @@ def test_build_takes_the_place_of_the_startup_scene(settings, scene_file):
     settings.scene_file = str(scene_file)
     assert bpy.ops.firetwin.build() == {"FINISHED"}
     names = {thing.name for thing in bpy.context.scene.objects}
-    assert {"Firetwin Terrain", "Firetwin Camera drone", "Firetwin Sun"} <= names
+    assert owned.ours(bpy.context.scene)
+    assert len(bpy.data.scenes) == 1
+    assert {"Firetwin Ground", "Firetwin Camera drone", "Firetwin Sun"} <= names
+    assert bpy.context.scene.world.name == "Firetwin Sky"
+    assert {"rgb", "depth", "thermal"} == {layer.name for layer in bpy.context.scene.view_layers}
     assert not {"Cube", "Light", "Camera"} & names
     assert settings.frames == 3
     assert settings.extent == pytest.approx(24 * 370, rel=0.05)
 
 
-def test_build_keeps_what_somebody_made(settings, scene_file):
+@pytest.mark.parametrize("somebody", ["moved the cube", "coloured the world", "animated the scene"])
+def test_build_leaves_a_scene_that_somebody_uses(settings, scene_file, somebody):
+    before = bpy.context.scene
+    if somebody == "moved the cube":
+        bpy.data.objects["Cube"].location.x = 1.0
+        bpy.context.view_layer.update()
+    elif somebody == "coloured the world":
+        before.world.node_tree.nodes["Background"].inputs["Color"].default_value = (1.0, 0.0, 0.0, 1.0)
+    else:
+        before.keyframe_insert("gravity")
+    settings.scene_file, settings.which = str(scene_file), "all"
+    bpy.ops.firetwin.build()
+    assert {thing.name for thing in before.objects} == {"Cube", "Light", "Camera"}
+    assert before.world.name == "World"
+    after = bpy.context.window.scene
+    assert after.name == "Firetwin"
+    assert owned.ours(after)
+    assert not owned.built(before)
+    assert "Firetwin Ground" in after.objects
+    assert (after.firetwin.scene_file, after.firetwin.which) == (str(scene_file), "all")
+    assert after.firetwin.frames == 3
+    assert before.firetwin.frames == 0
+    assert "Scene stays as it is" in working.told(build.FIRETWIN_OT_build)[-1].text
+
+
+def test_building_again_builds_into_the_same_scene(settings, scene_file):
+    settings.scene_file = str(scene_file)
+    bpy.ops.firetwin.build()
+    names = sorted(bpy.data.objects.keys())
+    bpy.ops.firetwin.build()
+    assert sorted(bpy.data.objects.keys()) == names
+    assert len(bpy.data.scenes) == 1
+
+
+def test_a_part_built_again_leaves_the_rest(settings, scene_file):
+    settings.scene_file = str(scene_file)
+    bpy.ops.firetwin.build()
+    scene = bpy.context.scene
+    camera = bpy.data.objects["Firetwin Camera drone"]
+    camera.animation_data_clear()
+    camera.name, camera.location.z = "Mine", 5000.0
+    sun = bpy.data.objects["Firetwin Sun"].session_uid
+    trees = bpy.data.objects["Firetwin Trees"].session_uid
+    scene.frame_end, scene.render.resolution_x = 2, 100
+    scene.view_layers["thermal"].samples = 7
+    assert bpy.ops.firetwin.build(part="forest") == {"FINISHED"}
+    assert (scene.objects["Mine"].location.z, scene.camera.name) == (5000.0, "Mine")
+    assert bpy.data.objects["Firetwin Sun"].session_uid == sun
+    assert bpy.data.objects["Firetwin Trees"].session_uid != trees
+    assert (scene.frame_end, scene.render.resolution_x) == (2, 100)
+    assert scene.view_layers["thermal"].samples == 7
+    assert working.told(build.FIRETWIN_OT_build)[-1].text == "Built the forest of Test"
+    bpy.ops.firetwin.build(part="cameras")
+    assert scene.camera.name == "Firetwin Camera drone"
+    assert "Mine" not in scene.objects
+
+
+def left_out(scene):
+    """Our collections that depth does not see."""
+    children = scene.view_layers["depth"].layer_collection.children["Firetwin"].children
+    return {child.name for child in children if child.exclude}
+
+
+def test_parts_one_by_one_make_the_whole(settings, scene_file):
+    settings.scene_file = str(scene_file)
+    for part in build.PARTS:
+        bpy.ops.firetwin.build(part=part)
+    scene = bpy.context.scene
+    one_by_one, without = sorted(scene.objects.keys()), left_out(scene)
+    bpy.ops.firetwin.build()
+    assert sorted(scene.objects.keys()) == one_by_one
+    assert left_out(scene) == without
+    assert "Firetwin Fire" in without
+
+
+def test_remove_takes_away_all_of_ours(settings, scene_file):
+    settings.scene_file = str(scene_file)
+    bpy.ops.firetwin.build()
+    assert bpy.ops.firetwin.remove() == {"FINISHED"}
+    scene = bpy.context.scene
+    assert not scene.objects
+    assert not owned.built(scene)
+    assert len(scene.view_layers) == 1
+    assert settings.first_time == ""
+    assert "Build the scene first" in refusal(bpy.ops.firetwin.view)
+    assert not [block.name for block in owned._blocks() if owned.ours(block)]
+    bpy.ops.firetwin.build()
+    assert "Firetwin Ground" in scene.objects
+
+
+def test_remove_takes_a_scene_that_was_made_for_it(settings, scene_file):
     bpy.data.objects["Cube"].location.x = 1.0
     bpy.context.view_layer.update()
     settings.scene_file = str(scene_file)
     bpy.ops.firetwin.build()
-    assert {"Cube", "Light", "Camera", "Firetwin Terrain"} <= {o.name for o in bpy.context.scene.objects}
+    bpy.ops.firetwin.remove()
+    assert bpy.data.scenes.keys() == ["Scene"]
+    assert bpy.context.scene.name == "Scene"
+
+
+def test_remove_keeps_a_scene_that_something_was_added_to(settings, scene_file):
+    bpy.data.objects["Cube"].location.x = 1.0
+    bpy.context.view_layer.update()
+    settings.scene_file = str(scene_file)
+    bpy.ops.firetwin.build()
+    scene = bpy.context.scene
+    scene.collection.objects.link(bpy.data.objects.new("Mine", None))
+    bpy.ops.firetwin.remove()
+    assert scene.objects.keys() == ["Mine"]
+    assert not owned.built(scene)
+
+
+def test_undo_takes_back_what_was_built_and_removed(settings, scene_file):
+    settings.scene_file = str(scene_file)
+    bpy.ops.ed.undo_push(message="before")
+    bpy.ops.firetwin.build()
+    bpy.ops.ed.undo_push(message="built")
+    bpy.ops.firetwin.remove()
+    bpy.ops.ed.undo_push(message="removed")
+    assert not bpy.data.objects
+    bpy.ops.ed.undo()
+    assert "Firetwin Ground" in bpy.context.scene.objects
+    bpy.ops.ed.undo()
+    assert set(bpy.context.scene.objects.keys()) == {"Cube", "Light", "Camera"}
+    assert bpy.context.scene.world.name == "World"
+
+
+def space(start=0.01, end=1000.0):
+    return SimpleNamespace(clip_start=start, clip_end=end, region_3d=SimpleNamespace())
 
 
 def test_views_reach_as_far_as_the_world(settings, scene_file, monkeypatch):
-    space = SimpleNamespace(clip_start=0.1, clip_end=1000.0, region_3d=SimpleNamespace())
-    monkeypatch.setattr(view, "spaces", lambda: [space])
+    usual, own = space(), space(0.5, 2000.0)
+    monkeypatch.setattr(view, "spaces", lambda scene: [usual, own])
     settings.scene_file = str(scene_file)
     bpy.ops.firetwin.build()
-    assert space.clip_end > 200_000
-    assert space.region_3d.view_perspective == "CAMERA"
+    assert usual.clip_end > 200_000
+    assert (own.clip_start, own.clip_end) == (0.5, 2000.0)
+    assert usual.region_3d.view_perspective == "CAMERA"
     bpy.ops.firetwin.view(whole=True)
-    assert space.region_3d.view_perspective == "PERSP"
-    assert space.region_3d.view_distance > settings.extent
+    assert usual.region_3d.view_perspective == "PERSP"
+    assert usual.region_3d.view_distance > settings.extent
+    bpy.ops.firetwin.build(part="light")
+    assert usual.region_3d.view_perspective == "PERSP"
+    bpy.ops.firetwin.remove()
+    assert (usual.clip_start, usual.clip_end) == pytest.approx((0.01, 1000.0))
+    assert (own.clip_start, own.clip_end) == (0.5, 2000.0)
+
+
+def test_only_views_of_windows_that_show_the_scene_are_ours_to_set(monkeypatch):
+    shown, other = bpy.context.scene, bpy.data.scenes.new("Other")
+    here, elsewhere = (
+        SimpleNamespace(type="VIEW_3D", spaces=SimpleNamespace(active=space())) for _ in range(2)
+    )
+    windows = [
+        SimpleNamespace(scene=shown, screen=SimpleNamespace(areas=[here, SimpleNamespace(type="INFO")])),
+        SimpleNamespace(scene=other, screen=SimpleNamespace(areas=[elsewhere])),
+    ]
+    manager = SimpleNamespace(window_manager=SimpleNamespace(windows=windows))
+    monkeypatch.setattr(view, "bpy", SimpleNamespace(context=manager, types=bpy.types))
+    view.widen(shown)
+    assert here.spaces.active.clip_end == view.FAR
+    assert elsewhere.spaces.active.clip_end == 1000.0
 
 
 def test_model_time_and_frame_are_one(settings, scene_file):
@@ -187,7 +446,7 @@ def test_model_time_and_frame_are_one(settings, scene_file):
     scene = bpy.context.scene
     settings.model_time = 0.5
     assert scene.frame_current == 2
-    assert clock.moment(settings).strftime("%H:%M %Z") == "21:30 UTC"
+    assert model_time.moment(settings).strftime("%H:%M %Z") == "21:30 UTC"
     scene.frame_set(3)
     assert settings.model_time == 1.0
     scene.frame_set(50)
@@ -196,7 +455,7 @@ def test_model_time_and_frame_are_one(settings, scene_file):
 
 def test_render_makes_what_the_command_line_makes(settings, scene_file, tmp_path):
     settings.scene_file, settings.output = str(scene_file), str(tmp_path / "out")
-    settings.which, settings.frame_list = "list", "2"
+    settings.which, settings.frame_list, settings.scene_passes = "list", "2", False
     assert bpy.ops.firetwin.render() == {"FINISHED"}
     files = sorted(path.name for path in (tmp_path / "out").rglob("*") if path.is_file())
     assert [name for name in files if name.startswith("drone")] == [
@@ -204,6 +463,10 @@ def test_render_makes_what_the_command_line_makes(settings, scene_file, tmp_path
         "drone_rgb_000002.png",
     ]
     assert "manifest.json" in files
+    told = [each.text for each in working.told(render.FIRETWIN_OT_render)]
+    assert "rendering 1 picture of drone" in told
+    assert any(text.startswith("Cycles renders on the processor") for text in told)
+    assert told[-1] == f"Rendered 1 picture to {tmp_path / 'out'}"
     settings.frame_list = "2,9"
     with pytest.raises(RuntimeError, match=r'Frames: "9" is outside of 1-3'):
         bpy.ops.firetwin.render()
@@ -213,8 +476,11 @@ def test_work_in_the_window_goes_step_by_step():
     taken = []
 
     def steps():
-        got = yield job.Away("counting", lambda progress, stop: progress(2, 4, "apples") or 7)
+        got = yield job.Away(
+            "counting", lambda progress, tell, stop: progress(2, 4, "apples") or tell("it counts") or 7
+        )
         taken.append(got)
+        yield job.Told("it draws", "WARNING")
         yield "drawing"
         taken.append("drawn")
         return "all done"
@@ -226,6 +492,7 @@ def test_work_in_the_window_goes_step_by_step():
         time.sleep(0.01)
     assert taken == [7, "drawn"]
     assert work.told == "all done"
+    assert work.said == [job.Told("it counts"), job.Told("it draws", "WARNING")]
 
 
 def test_the_progress_of_work_says_how_far_it_is():
@@ -239,13 +506,13 @@ def test_the_progress_of_work_says_how_far_it_is():
 
 
 def test_errors_of_a_thread_arrive_where_the_work_is():
-    def fail(progress, stop):
-        raise firetwin.errors.input_error("a.txt", 3, 4, "is wrong; write it otherwise")
+    def fail(progress, tell, stop):
+        raise input_error("a.txt", 3, 4, "is wrong; write it otherwise")
 
     def steps():
         yield job.Away("failing", fail)
 
-    with pytest.raises(firetwin.errors.InputError) as failed:
+    with pytest.raises(InputError) as failed:
         job.Job("Test", steps()).run()
     assert job.words(failed.value) == "a.txt:3:4: is wrong; write it otherwise"
 
@@ -259,10 +526,191 @@ def test_a_render_is_stopped_in_the_middle_and_leaves_nothing(settings, scene_fi
         assert not work.advance()
         time.sleep(0.02)
     work.stop.now()
-    with pytest.raises(firetwin.worker.StoppedError):
+    with pytest.raises(StoppedError):
         work.run()
     assert not list(tmp_path.rglob(".part-*"))
     assert not list(tmp_path.rglob("*.png"))
+
+
+class Window:
+    """A window whose only 3D view has its sidebar at 800 to 1000 across and 100 to 700 up."""
+
+    def __init__(self):
+        sidebar = SimpleNamespace(type="UI", x=800, y=100, width=200, height=600)
+        picture = SimpleNamespace(type="WINDOW", x=0, y=100, width=1000, height=600)
+        area = SimpleNamespace(type="VIEW_3D", regions=[picture, sidebar])
+        self.screen = SimpleNamespace(areas=[area, SimpleNamespace(type="OUTLINER", regions=[sidebar])])
+        manager = SimpleNamespace(
+            event_timer_add=lambda *_, **__: "timer",
+            event_timer_remove=lambda timer: None,
+            modal_handler_add=lambda operator: None,
+        )
+        self.context = SimpleNamespace(
+            window=self, window_manager=manager, workspace=None, scene=bpy.context.scene
+        )
+
+
+def event(kind="TIMER", x=100, y=300, value="PRESS"):
+    return SimpleNamespace(type=kind, value=value, mouse_x=x, mouse_y=y)
+
+
+class Operator(working.Working):
+    """Work in the window, without one."""
+
+    bl_label = "Test"
+
+    def __init__(self, steps):
+        self.steps, self.reports = lambda context: steps, []
+        self.window = Window()
+        assert self.begin(self.window.context) == {"RUNNING_MODAL"}
+
+    def report(self, level, text):
+        self.reports.append((*level, text))
+
+    def happens(self, *arguments, **options):
+        return self.modal(self.window.context, event(*arguments, **options))
+
+    def goes_on(self):
+        """Timer after timer until the work is over, or a step in Blender is about to be taken."""
+        for _ in range(500):
+            if (done := self.happens()) != {"PASS_THROUGH"}:
+                return done
+            time.sleep(0.01)
+        raise TimeoutError
+
+
+def wait(progress, tell, stop):
+    while not stop.asked:
+        time.sleep(0.01)
+
+
+@pytest.fixture
+def waiting():
+    def steps():
+        yield job.Away("waiting", wait)
+        return "done"
+
+    work = Operator(steps())
+    for _ in range(3):
+        work.happens()
+    yield work
+    work.job.stop.now()
+    working.abandon()
+
+
+def test_esc_stops_work_only_with_the_pointer_over_the_sidebar(waiting):
+    assert waiting.happens("ESC") == {"PASS_THROUGH"}
+    assert waiting.happens("ESC", x=799) == {"PASS_THROUGH"}
+    assert waiting.happens("ESC", x=900, y=50) == {"PASS_THROUGH"}
+    assert waiting.happens("ESC", x=900, value="RELEASE") == {"PASS_THROUGH"}
+    assert not waiting.job.stop.asked
+    assert waiting.happens("ESC", x=900) == {"RUNNING_MODAL"}
+    assert waiting.job.stop.asked
+    assert waiting.goes_on() == {"CANCELLED"}
+    assert waiting.reports == [("WARNING", "Test stopped; what was finished is kept")]
+    assert job.Job.current is None
+
+
+def test_while_it_waits_the_window_can_be_used(waiting):
+    assert waiting.happens("LEFTMOUSE") == waiting.happens("A") == {"PASS_THROUGH"}
+
+
+def test_while_steps_are_taken_only_the_sidebar_can_be_used():
+    def steps():
+        yield "one"
+        yield "two"
+        return "done"
+
+    work = Operator(steps())
+    for _ in range(3):
+        work.happens()
+    assert work.job.touched
+    assert work.happens("LEFTMOUSE", x=900) == {"PASS_THROUGH"}  # Stop is there
+    assert work.happens("ESC") == {"PASS_THROUGH"}
+    assert work.happens("LEFTMOUSE") == work.happens("Z", x=900) == {"RUNNING_MODAL"}
+    work.job.stop.now()
+    assert work.goes_on() == {"FINISHED"}
+    assert work.reports == [("WARNING", "Test stopped; undo takes back what was made")]
+
+
+def test_what_is_told_is_reported_and_stays_in_the_panel():
+    def steps():
+        yield job.Away("counting", lambda progress, tell, stop: tell("it counts"))
+        yield job.Told("it is dark", "WARNING")
+        return "done"
+
+    work = Operator(steps())
+    assert work.goes_on() == {"FINISHED"}
+    assert work.reports == [("INFO", "it counts"), ("WARNING", "it is dark"), ("INFO", "done")]
+    assert [each.text for each in working.told(Operator)] == ["it counts", "it is dark", "done"]
+
+
+def test_undo_in_the_middle_of_building_ends_it_with_one_report():
+    bpy.ops.ed.undo_push(message="before")
+
+    def steps():
+        yield "one"
+        bpy.data.objects.new("Half", None)
+        yield "two"
+        raise AssertionError("never comes here")
+
+    work = Operator(steps())
+    for _ in range(5):
+        work.happens()
+    assert work.job.what == "two"
+    bpy.ops.ed.undo_push(message="other")
+    bpy.ops.ed.undo()
+    assert work.goes_on() == {"FINISHED"}
+    assert [level for level, _ in work.reports] == ["ERROR"]
+    assert "undo was used" in work.reports[0][1]
+    assert working._undone not in bpy.app.handlers.undo_post
+
+
+def test_undo_while_it_waits_does_no_harm(waiting):
+    bpy.ops.ed.undo_push(message="one")
+    bpy.ops.ed.undo_push(message="two")
+    bpy.ops.ed.undo()
+    assert not waiting.job.undone
+
+
+def test_another_file_ends_work_with_one_message(waiting):
+    waiting.cancel(waiting.window.context)
+    bpy.ops.wm.read_homefile(use_empty=True)
+    assert job.Job.current is None
+    assert waiting.job.stop.asked
+    assert [each.text for each in working.told(Operator)] == ["Test stopped, for another file was opened"]
+
+
+def real(settings, **options):
+    """The steps of Build as the window takes them."""
+    operator = SimpleNamespace(part="all", **options)
+    return Operator(build.FIRETWIN_OT_build.steps(operator, bpy.context))
+
+
+@pytest.mark.parametrize("when", ["reading the run", "planting the forest"])
+def test_a_scene_deleted_during_a_build_ends_it_with_one_report(settings, scene_file, when):
+    settings.scene_file = str(scene_file)
+    work = real(settings)
+    while work.job.what != when:
+        work.happens()
+        time.sleep(0.01)
+    bpy.data.scenes.new("Other")
+    bpy.data.scenes.remove(bpy.context.scene)
+    assert work.goes_on() in ({"CANCELLED"}, {"FINISHED"})
+    assert [level for level, _ in work.reports] == ["ERROR"]
+    assert "the scene is gone" in work.reports[0][1]
+
+
+def test_a_build_in_the_window_outlives_renames_and_undo_before_it_begins(settings, scene_file):
+    settings.scene_file = str(scene_file)
+    bpy.ops.ed.undo_push(message="chosen")
+    work = real(settings)
+    bpy.context.scene.name = "Renamed"
+    bpy.ops.ed.undo_push(message="renamed")
+    bpy.ops.ed.undo()
+    assert work.goes_on() == {"FINISHED"}
+    assert work.reports[-1][0] == "INFO"
+    assert "Firetwin Ground" in bpy.context.scene.objects
 
 
 def test_unregister_ends_what_goes_on(settings):

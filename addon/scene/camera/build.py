@@ -18,15 +18,16 @@ NEAR, FAR = 0.5, 300_000.0  # m
 
 
 def build(shot: Shot, stage: Stage) -> list[bpy.types.Object]:
-    """Build "Firetwin Camera <name>" for every path; the first becomes the scene's camera.
+    """Build "Firetwin Camera <name>" for every path; the scene's camera stays, or is the first.
 
-    Blender may cut the name short: `stage.camera(name)` finds the object. The camera of a scene that is not
-    our own stays.
+    Blender may cut the name short: `stage.camera(name)` finds the object.
     """
+    before = stage.scene.camera
+    chosen = before[owned.MARK] if before is not None and owned.ours(before) else ""
     collection = stage.part("Cameras")
     built = [_camera(view, collection) for view in shot.paths]
-    if stage.own or stage.scene.camera is None:
-        stage.scene.camera = built[0] if built else None
+    if stage.scene.camera is None and built:
+        stage.scene.camera = next((thing for thing in built if owned.ours(thing, chosen)), built[0])
     return built
 
 

@@ -1,0 +1,35 @@
+"""What an artist chooses once for all files."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..shot.settings import Render
+from . import keys
+
+_PACKAGE = __package__.rpartition(".")[0]
+AS_FILE = ("scene", "Scene file's", "As the scene file says")
+"""The choice that leaves the scene file its word."""
+
+
+class FIRETWIN_AP_preferences(bpy.types.AddonPreferences):
+    """Choices of this machine"""
+
+    bl_idname = _PACKAGE
+
+    device: keys.prop(Render, "device", AS_FILE)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "device")
+
+
+def device() -> str:
+    """What Cycles renders on, as `choice.Choice` takes it: empty as the scene file says."""
+    addon = bpy.context.preferences.addons.get(_PACKAGE)
+    chosen = addon.preferences.device if addon is not None and addon.preferences is not None else AS_FILE[0]
+    return "" if chosen == AS_FILE[0] else chosen
+
+
+classes = (FIRETWIN_AP_preferences,)

@@ -1,0 +1,219 @@
+"""Long work in the window: it shows how far it is, lets people go on looking, and can be stopped.
+
+In the background, and when called by a script, the steps of a work follow one another at once. In the
+window they are taken by a modal operator. Esc stops it with the pointer over the sidebar alone: elsewhere it
+belongs to something else. While steps are taken in Blender only the mouse in the sidebar does anything.
+"""
+
+from __future__ import annotations
+
+import bpy
+
+from ..jobs.worker import StoppedError
+from . import text
+from .job import Ended, Job, Steps, Told, words
+
+_TICK = 0.1  # s
+_MOUSE = ("MOUSEMOVE", "INBETWEEN_MOUSEMOVE", "LEFTMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN")
+_ICONS = {"INFO": "INFO", "WARNING": "ERROR", "ERROR": "CANCEL"}
+
+
+def free(cls: type[bpy.types.Operator]) -> bool:
+    """Whether no work goes on; says so where it does."""
+    if Job.current is not None:
+        cls.poll_message_set(f"{Job.current.name} is not finished; Stop, in Firetwin's sidebar, ends it")
+    return Job.current is None
+
+
+def abandon() -> None:
+    """End whatever goes on, without a word: its operator goes away."""
+    if Job.current is not None:
+        Job.current.stop.now()
+        Job.current = None
+        _show(bpy.context, None)
+    _watch(False)
+
+
+def _watch(on: bool) -> None:
+    """Notice undo and redo, or no longer."""
+    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
+        if _undone in handlers:
+            handlers.remove(_undone)
+        if on:
+            handlers.append(_undone)
+
+
+def _undone(*_: object) -> None:
+    if Job.current is not None and Job.current.touched:
+        Job.current.undone = True
+
+
+def over_sidebar(window: bpy.types.Window, event: bpy.types.Event) -> bool:
+    """Whether the pointer is over the sidebar of a 3D view."""
+    return any(
+        region.x <= event.mouse_x < region.x + region.width
+        and region.y <= event.mouse_y < region.y + region.height
+        for area in window.screen.areas
+        if area.type == "VIEW_3D"
+        for region in area.regions
+        if region.type == "UI" and region.width > 1
+    )
+
+
+class Working:
+    """An operator whose `steps(context)` are taken one by one while its window stays usable."""
+
+    _timer: bpy.types.Timer | None = None
+
+    def steps(self, context: bpy.types.Context) -> Steps:
+        """The work."""
+        raise NotImplementedError
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        work = Job.current = Job(self.bl_label, self.steps(context))
+        try:
+            work.run()
+        except Exception as error:
+            return self._failed(work, error)
+        finally:
+            Job.current = None
+        self._tell(work, Told(work.told))
+        return {"FINISHED"}
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if bpy.app.background or context.window is None:
+            return self.execute(context)
+        return self.begin(context)
+
+    def begin(self, context: bpy.types.Context) -> set[str]:
+        """Take the first step when the window is next idle."""
+        self.job = Job.current = Job(self.bl_label, self.steps(context))
+        self._timer = context.window_manager.event_timer_add(_TICK, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        _watch(True)
+        _show(context, self.job)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if Job.current is not self.job:  # the add-on was switched off
+            self._end(context)
+            return {"CANCELLED"}
+        here = over_sidebar(context.window, event)
+        if event.type == "ESC" and event.value == "PRESS" and here:
+            self.job.stop.now()
+            return {"RUNNING_MODAL"}
+        if event.type != "TIMER":
+            free = not self.job.touched or event.type == "ESC" or (here and event.type in _MOUSE)
+            return {"PASS_THROUGH"} if free else {"RUNNING_MODAL"}
+        return self._advance(context)
+
+    def _advance(self, context: bpy.types.Context) -> set[str]:
+        try:
+            over = self.job.advance()
+        except Exception as error:
+            self._end(context)
+            return self._failed(self.job, error)
+        if not over:
+            _show(context, self.job)
+            return {"PASS_THROUGH"}  # others wait for timers too
+        self._end(context)
+        self._tell(self.job, Told(self.job.told))
+        return {"FINISHED"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Another file is opened, or Blender ends."""
+        self.job.stop.now()
+        self._end(context)
+        gone = Told(f"{self.job.name} stopped, for another file was opened", "WARNING")
+        Job.last = Ended(self.job.name, (gone,), None)
+
+    def _tell(self, work: Job, last: Told) -> None:
+        """Report what was told, and keep it for the panel."""
+        told = tuple(each for each in (*work.said, last) if each.text)
+        Job.last = Ended(work.name, told, bpy.data.filepath)
+        for each in told:
+            self.report({each.level}, each.text)
+
+    def _failed(self, work: Job, error: Exception) -> set[str]:
+        if isinstance(error, StoppedError):
+            undo = "; undo takes back what was made" if work.touched else "; what was finished is kept"
+            self._tell(work, Told(f"{work.name} stopped{undo}", "WARNING"))
+        else:
+            self._tell(work, Told(words(error), "ERROR"))
+        return {"FINISHED"} if work.touched else {"CANCELLED"}  # what is half made can then be undone
+
+    def _end(self, context: bpy.types.Context) -> None:
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
+        if Job.current is self.job:
+            Job.current = None
+            _watch(False)
+        _show(context, None)
+
+
+def _show(context: bpy.types.Context, work: Job | None) -> None:
+    """Draw the sidebars and the status bar anew."""
+    if context.workspace is not None:
+        how = "Stop in the sidebar, or Esc over it, ends this"
+        context.workspace.status_text_set(f"{work.name}: {work.text}    {how}" if work else None)
+    redraw()
+
+
+def redraw() -> None:
+    """Draw the sidebars anew; the 3D views themselves may take long."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()
+
+
+def button(layout: bpy.types.UILayout, operator: type[bpy.types.Operator], icon: str) -> None:
+    """The button of a work; while it goes on, how far it is and a button to stop it, in the same place."""
+    if Job.current is not None and Job.current.name == operator.bl_label:
+        layout.progress(factor=Job.current.factor, text=Job.current.text)
+        layout.operator(FIRETWIN_OT_stop.bl_idname, text="", icon="CANCEL")
+    else:
+        layout.operator(operator.bl_idname, icon=icon)
+
+
+def message(
+    context: bpy.types.Context, layout: bpy.types.UILayout, operator: type[bpy.types.Operator]
+) -> None:
+    """What the operator's last work had to tell; while it goes on, how it is stopped."""
+    column = layout.column(align=True)
+    if Job.current is not None and Job.current.name == operator.bl_label:
+        text.paragraph(context, column, "Stop, or Esc with the pointer here, ends this")
+    elif Job.current is None:
+        for each in told(operator):
+            text.paragraph(context, column, each.text, _ICONS[each.level])
+
+
+def told(operator: type[bpy.types.Operator]) -> tuple[Told, ...]:
+    """What the last work had to tell, if it was this operator's and in this file."""
+    last = Job.last
+    here = last is not None and last.name == operator.bl_label and last.file in (None, bpy.data.filepath)
+    return last.told if here else ()
+
+
+class FIRETWIN_OT_stop(bpy.types.Operator):
+    """Stop what goes on, as Esc does with the pointer over this sidebar. What is finished is kept"""
+
+    bl_idname = "firetwin.stop"
+    bl_label = "Stop"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if Job.current is None:
+            cls.poll_message_set("Nothing goes on")
+        return Job.current is not None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        Job.current.stop.now()
+        return {"FINISHED"}
+
+
+classes = (FIRETWIN_OT_stop,)
