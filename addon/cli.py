@@ -44,6 +44,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _report(error)
 
 
+def _passes() -> str:
+    """A line about each pass."""
+    from .shot import passes
+
+    return "\n".join(f"  {name:<9}{text}" for name, text in passes.helps().items())
+
+
 def _report(error: Exception) -> int:
     """One line that says what is wrong and what to do; the exit status for it."""
     from .errors import Error, UsageError
@@ -105,7 +112,7 @@ def _parser() -> argparse.ArgumentParser:
     bake = command("bake", "write the smoke volumes that the scene needs", BAKE)
     _scene(bake)
 
-    render = command("render", "render pictures and films", RENDER)
+    render = command("render", "render pictures and films", RENDER.format(passes=_passes()))
     _scene(render)
     render.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the pictures")
     render.add_argument(
@@ -166,16 +173,14 @@ BAKE = """\
 `render` and `build` do this by themselves; bake alone to spread the work or to look at the volumes."""
 
 RENDER = """\
-DIR/CAMERA/rgb/CAMERA_rgb_000001.png           picture in display colours (AgX)
-DIR/CAMERA/rgb/CAMERA_rgb_000001.exr           the same, scene-linear, half float
-DIR/CAMERA/depth/CAMERA_depth_000001.exr       metres along the view axis, 32-bit float; sky 1e10
-DIR/CAMERA/thermal/CAMERA_thermal_000001.exr   kelvin, 32-bit float
-DIR/CAMERA/thermal/CAMERA_thermal_000001.png   the picture with the gradient of temperatures added to it
-DIR/CAMERA/CAMERA_PASS.mp4                     films, with the model time in each frame
-DIR/manifest.json                              settings, versions, input hashes, a hash of every file
+DIR/CAMERA/PASS/CAMERA_PASS_000001.png   and .exr, whatever the pass has
+DIR/CAMERA/CAMERA_PASS.mp4               films of pictures, with the model time in each frame
+DIR/manifest.json                        settings, versions, input hashes, a hash of every file
 
-Depth is that of the ground and the trees: flames and smoke do not hide them. The temperature is seen through
-smoke, as long-wave infrared nearly does. Without --resume everything asked for is rendered again."""
+passes:
+{passes}
+
+Without --resume everything asked for is rendered again."""
 
 SCHEMA = """\
 Save it and name it in the first line of a scene file (`#:schema firetwin.json`): editors that know TOML then

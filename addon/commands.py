@@ -75,7 +75,9 @@ def render(arguments: argparse.Namespace) -> None:
     """Render what is asked for and not finished, then the films."""
     from .jobs import render
 
-    asked = render.Asked(arguments.out, arguments.frames, arguments.camera, arguments.passes, arguments.resume)
+    asked = render.Asked(
+        arguments.out, arguments.frames, arguments.camera, arguments.passes, arguments.resume
+    )
     render.run(_choice(arguments), asked, Reporter(), say)
     _list(arguments.out)
 

@@ -28,7 +28,9 @@ def run(
     out = out.absolute()
     _writable(out)
     choice.shot()
-    worker.run(f"{__name__}:in_blender", {"choice": choice.plain(), "out": str(out)}, progress, stop=stop, tell=tell)
+    worker.run(
+        f"{__name__}:in_blender", {"choice": choice.plain(), "out": str(out)}, progress, stop=stop, tell=tell
+    )
 
 
 def _writable(out: Path) -> None:

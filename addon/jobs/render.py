@@ -100,9 +100,7 @@ def in_blender(
     video.make(shot, Path(out), made_with, progress)
 
 
-def _camera(
-    shot: Shot, out: Path, wanted: list[Any], made_with: Any, progress: Progress, tell: Tell
-) -> None:
+def _camera(shot: Shot, out: Path, wanted: list[Any], made_with: Any, progress: Progress, tell: Tell) -> None:
     """Render the pictures of a shot's one camera; its smoke is baked a frame ahead of them."""
     from ..blender import devices
     from ..render import pictures

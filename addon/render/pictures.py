@@ -95,9 +95,7 @@ class _Frame:
     def files(self, name: str, finished: bool = False) -> dict[str, Path]:
         """Files of a pass by suffix: where they are made, or where they are once they are finished."""
         paths = map(Path, self.pictures[name].files())
-        return {
-            path.suffix[1:]: self.out / path if finished else self.part / path.name for path in paths
-        }
+        return {path.suffix[1:]: self.out / path if finished else self.part / path.name for path in paths}
 
 
 def _publish(out: Path, part: Path, pictures: list[Picture], made_with: Fingerprints, when: str) -> None:

@@ -1,5 +1,5 @@
+#include "base/error.hpp"
 #include "bindings.hpp"
-#include "error.hpp"
 
 #include <pybind11/gil_safe_call_once.h>
 

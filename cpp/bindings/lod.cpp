@@ -1,16 +1,16 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "broadcast.hpp"
-#include "lod/levels.hpp"
 #include "lod/pool.hpp"
 #include "lod/select.hpp"
+#include "lod/table.hpp"
 #include "lod/visible.hpp"
+#include "views.hpp"
 
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 
 namespace firetwin::bindings {
 namespace py = pybind11;
@@ -23,12 +23,12 @@ template <class T> Array<T> like(const Array<double>& array) {
   return new_array<T>({array.shape(), array.shape() + array.ndim()});
 }
 
-Array<std::uint8_t> levels(const Table& table, const py::object& distance) {
+Array<std::uint8_t> details(const Table& table, const py::object& distance) {
   const auto d = to_array<double>(distance, "distance");
   auto result = like<std::uint8_t>(d);
   const auto out = writable(result);
   const py::gil_scoped_release release;
-  table.levels(view(d), out);
+  table.details(view(d), out);
   return result;
 }
 
@@ -57,28 +57,13 @@ Array<std::int64_t> select(const py::object& position, const py::object& camera,
   return give(std::move(chosen), {n});
 }
 
-std::vector<lod::View> views(const Array<double>& camera, const Array<double>& rotation,
-                             const Array<double>& fov) {
-  std::vector<lod::View> path(static_cast<std::size_t>(camera.shape(0)));
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    std::copy_n(camera.data() + 3 * i, 3, path[i].position.begin());
-    std::copy_n(rotation.data() + 9 * i, 9, path[i].to_world.begin());
-    path[i].width = fov.data()[2 * i];
-    path[i].height = fov.data()[2 * i + 1];
-  }
-  return path;
-}
-
 Array<std::int32_t> seen(const py::object& position, const py::object& radius,
                          const py::object& camera, const py::object& rotation,
                          const py::object& fov, double near, double far, double margin,
                          const geo::HeightField* ground) {
   const auto centres = to_array<double>(position, "position", {-1, 3});
   const auto radii = spread<double>(radius, "radius", {centres.shape(0)});
-  const auto cameras = to_array<double>(camera, "camera", {-1, 3});
-  const py::ssize_t m = cameras.shape(0);
-  const auto rotations = spread<double>(rotation, "rotation", {m, 3, 3});
-  const auto path = views(cameras, rotations, spread<double>(fov, "fov", {m, 2}));
+  const std::vector<lod::View> path = views(camera, rotation, fov);
   std::vector<std::int32_t> frames;
   {
     const py::gil_scoped_release release;
@@ -118,11 +103,11 @@ void init_lod(py::module_ module) {
            py::arg("multipliers") = std::vector<double>{1.0, 0.7, 0.4})
       .def_property_readonly("thresholds", &Table::thresholds)
       .def_property_readonly("multipliers", &Table::multipliers)
-      .def("levels", &levels, py::arg("distance"), "Level of each distance (m).")
+      .def("levels", &details, py::arg("distance"), "Level of each distance (m).")
       .def("multiplier", &multiplier, py::arg("distance"),
            "Particle multiplier of each distance (m).");
   module.def(
-      "levels", [](const py::object& distance) { return levels(Table(), distance); },
+      "levels", [](const py::object& distance) { return details(Table(), distance); },
       py::arg("distance"), "Level of each distance (m): <= 1500 -> 0, <= 3500 -> 1, else 2.");
   module.def("select", &select, py::arg("position"), py::arg("camera"), py::arg("budget"),
              "Indices of the `budget` positions (n, 3) nearest to any camera (m, 3).");

@@ -2,11 +2,10 @@
 #include "bindings.hpp"
 #include "broadcast.hpp"
 #include "particles/advance.hpp"
-#include "particles/emission.hpp"
+#include "particles/cloud.hpp"
 
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 

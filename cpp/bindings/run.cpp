@@ -2,6 +2,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "io/name.hpp"
 #include "run/grid_file.hpp"
 #include "run/read_ahead.hpp"
 
@@ -207,7 +208,7 @@ template <Field field> Array<float> fuel_view(const py::object& self) {
 
 /// The path as Python has it, which opens the folder whatever bytes its name is made of.
 py::object path_of(const Run& run) {
-  const std::string bytes = run.path().string();
+  const std::string bytes = io::utf8(run.path());
   PyObject* decoded =
       PyUnicode_DecodeFSDefaultAndSize(bytes.data(), static_cast<py::ssize_t>(bytes.size()));
   if (decoded == nullptr) {
@@ -225,8 +226,9 @@ py::list warnings(const Run& run) {
 }
 
 py::str describe(const Run& run) {
-  return readable("<Run '" + run.manifest().name + "': " + std::to_string(run.latitude().size()) +
-                  " x " + std::to_string(run.longitude().size()) + " cells, " +
+  return readable("<Run '" + run.description().name +
+                  "': " + std::to_string(run.latitude().size()) + " x " +
+                  std::to_string(run.longitude().size()) + " cells, " +
                   std::to_string(run.times().size()) + " times>");
 }
 
@@ -242,11 +244,11 @@ void init_run(py::module_ module) {
       .def("__next__", &Frames::next);
   py::class_<Run, std::shared_ptr<Run>>(module, "Run", "A model run on disk.")
       .def_property_readonly("path", &path_of)
-      .def_property_readonly("name", [](const Run& r) { return readable(r.manifest().name); })
-      .def_property_readonly("synthetic", [](const Run& r) { return r.manifest().synthetic; })
-      .def_property_readonly("event", [](const Run& r) { return r.manifest().event; })
-      .def_property_readonly("start", [](const Run& r) { return r.manifest().start; })
-      .def_property_readonly("vertical", [](const Run& r) { return r.manifest().vertical; })
+      .def_property_readonly("name", [](const Run& r) { return readable(r.description().name); })
+      .def_property_readonly("synthetic", [](const Run& r) { return r.description().synthetic; })
+      .def_property_readonly("event", [](const Run& r) { return r.description().event; })
+      .def_property_readonly("start", [](const Run& r) { return r.description().start; })
+      .def_property_readonly("vertical", [](const Run& r) { return r.description().vertical; })
       .def_property_readonly("times", &axis_view<&Run::times>)
       .def_property_readonly("latitude", &axis_view<&Run::latitude>)
       .def_property_readonly("longitude", &axis_view<&Run::longitude>)

@@ -10,7 +10,6 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -19,7 +18,6 @@ namespace py = pybind11;
 namespace {
 
 using sensor::Band;
-using Metadata = std::map<std::string, std::string>;
 
 /// Applies `function(value, band)` to every element.
 template <class Function>
@@ -82,7 +80,7 @@ Array<float> read_image(const std::filesystem::path& path) {
 }
 
 void write_image(const std::filesystem::path& path, const py::object& pixels,
-                 const std::optional<Metadata>& metadata) {
+                 const std::optional<io::Metadata>& metadata) {
   const auto image = to_array<float>(pixels, "pixels");
   if (image.ndim() != 2 && image.ndim() != 3) {
     wrong("pixels", "must have shape (h, w) or (h, w, channels), not " + shape_text(image));
@@ -90,7 +88,8 @@ void write_image(const std::filesystem::path& path, const py::object& pixels,
   const auto size = [&](py::ssize_t axis) { return static_cast<std::size_t>(image.shape(axis)); };
   const std::size_t channels = image.ndim() == 3 ? size(2) : 1;
   const py::gil_scoped_release release;
-  sensor::write_image(path, view(image), size(0), size(1), channels, metadata.value_or(Metadata{}));
+  sensor::write_image(path, view(image), size(0), size(1), channels,
+                      metadata.value_or(io::Metadata{}));
 }
 
 } // namespace

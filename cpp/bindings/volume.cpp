@@ -1,17 +1,16 @@
+#include "arrays.hpp"
+#include "base/check.hpp"
 #include "bindings.hpp"
-
-#include "error.hpp"
+#include "broadcast.hpp"
+#include "views.hpp"
+#include "volume/dense.hpp"
 #include "volume/levels.hpp"
 #include "volume/puffs.hpp"
 #include "volume/smoke.hpp"
-#include "volume/vdb.hpp"
 
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -20,115 +19,33 @@ namespace firetwin::bindings {
 namespace py = pybind11;
 namespace {
 
-template <typename T> using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
+using lod::Sight;
+using volume::Frame;
+using volume::Puffs;
+using volume::PuffSettings;
+using Path = std::filesystem::path;
 
-template <typename T> std::span<const T> view(const Array<T>& array) {
-  return {array.data(), static_cast<std::size_t>(array.size())};
-}
-
-/// A read-only array over a vector that `owner` keeps alive.
-template <typename T>
-py::array view_of(py::handle owner, const std::vector<T>& values, py::ssize_t columns = 1) {
-  const auto rows = static_cast<py::ssize_t>(values.size()) / columns;
-  std::vector<py::ssize_t> shape{rows};
-  if (columns > 1) {
-    shape.push_back(columns);
-  }
-  py::array_t<T> array(shape, values.data(), owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
-}
-
-/// Throws unless `array` has `shape` and holds finite numbers.
-void require(const Array<double>& array, const std::vector<py::ssize_t>& shape,
-             const std::string& name) {
-  bool fits = array.ndim() == static_cast<py::ssize_t>(shape.size());
-  for (std::size_t i = 0; fits && i < shape.size(); ++i) {
-    fits = array.shape(static_cast<py::ssize_t>(i)) == shape[i];
-  }
-  if (!fits) {
-    std::string text = name + " must have shape (";
-    for (std::size_t i = 0; i < shape.size(); ++i) {
-      text += (i > 0 ? ", " : "") + std::to_string(shape[i]);
-    }
-    throw Error(text + ")");
-  }
-  for (const double value : view(array)) {
-    if (!std::isfinite(value)) {
-      throw Error(name + " must be finite; leave out cells that never burn");
-    }
-  }
-}
-
-void require_positive(double value, const char* name) {
-  if (!(value > 0.0) || !std::isfinite(value)) {
-    throw Error(std::string(name) + " must be positive and finite");
-  }
-}
-
-Puffs make_puffs(double time, const Array<double>& arrival, const Array<double>& fuel,
-                 const Array<double>& position, Array<double> wind, double cell_area,
-                 const PuffSettings& settings) {
+Puffs puffs(double time, const py::object& arrival_object, const py::object& fuel_object,
+            const py::object& position_object, const py::object& wind_object, double cell_area,
+            const PuffSettings& settings) {
+  const auto arrival = to_array<double>(arrival_object, "arrival", {-1});
   const py::ssize_t cells = arrival.size();
-  require(arrival, {cells}, "arrival");
-  require(fuel, {cells}, "fuel");
-  require(position, {cells, 3}, "position");
-  if (wind.ndim() == 1 && wind.size() == 2) {
-    const double east = wind.data()[0];
-    const double north = wind.data()[1];
-    wind = Array<double>(std::vector<py::ssize_t>{cells, 2});
-    auto values = wind.mutable_unchecked<2>();
-    for (py::ssize_t i = 0; i < cells; ++i) {
-      values(i, 0) = east;
-      values(i, 1) = north;
-    }
-  }
-  require(wind, {cells, 2}, "wind");
-  require_positive(cell_area, "cell_area");
-  require_positive(settings.interval, "interval");
-  require_positive(settings.max_age, "max_age");
-  require_positive(settings.burn_time, "burn_time");
-  require_positive(settings.stability, "stability");
-  require_positive(settings.block, "block");
-  require_positive(settings.merge_radius, "merge_radius");
-  require_positive(settings.smallest, "smallest");
-  require_positive(settings.smoke_fraction, "smoke_fraction");
-  require_positive(settings.heat_of_combustion, "heat_of_combustion");
-  if (!std::isfinite(time)) {
-    throw Error("time must be finite");
-  }
-  const Burn burn{view(arrival), view(fuel), view(position), view(wind), cell_area};
+  const auto fuel = to_array<double>(fuel_object, "fuel", {cells});
+  const auto position = to_array<double>(position_object, "position", {cells, 3});
+  const auto wind = spread<double>(wind_object, "wind", {cells, 2});
+  const volume::Burn burn{view(arrival), view(fuel), view(position), view(wind), cell_area};
   const py::gil_scoped_release release;
-  return puffs(time, burn, settings);
+  return volume::puffs(time, burn, settings);
 }
 
-/// Flames of two arrays that stay alive, or none.
-Flames make_flames(const std::optional<Array<double>>& position,
-                   const std::optional<Array<double>>& power) {
-  if (position.has_value() != power.has_value()) {
-    throw Error("give flame_position and flame_power together");
-  }
-  if (!power) {
-    return {};
-  }
-  require(*power, {power->size()}, "flame_power");
-  require(*position, {power->size(), 3}, "flame_position");
-  return {view(*position), view(*power)};
-}
-
-Sight make_sight(const Array<double>& camera, const Array<double>& rotation,
-                 const Array<double>& fov, const std::array<double, 3>& sun, double floor) {
-  const py::ssize_t views = camera.ndim() == 2 ? camera.shape(0) : 0;
-  require(camera, {views, 3}, "camera");
-  require(rotation, {views, 3, 3}, "rotation");
-  require(fov, {views, 2}, "fov");
+Sight make_sight(const py::object& camera, const py::object& rotation, const py::object& fov,
+                 const Vector& sun, double floor) {
   Sight sight;
-  for (py::ssize_t i = 0; i < views; ++i) {
-    lod::View view{};
-    std::copy_n(camera.data() + 3 * i, 3, view.position.begin());
-    std::copy_n(rotation.data() + 9 * i, 9, view.to_world.begin());
-    view.width = fov.at(i, 0);
-    view.height = fov.at(i, 1);
+  for (const lod::View& view : views(camera, rotation, fov)) {
+    check_finite(view.position, "camera");
+    check_finite(view.to_world, "rotation");
+    check_finite(view.width, "fov");
+    check_finite(view.height, "fov");
     sight.cameras.emplace_back(view, 0.0, std::numeric_limits<double>::infinity());
   }
   sight.sun = sun;
@@ -136,124 +53,151 @@ Sight make_sight(const Array<double>& camera, const Array<double>& rotation,
   return sight;
 }
 
-Wanted make_wanted(const std::optional<Array<double>>& position,
-                   const std::optional<Array<double>>& power,
-                   const std::optional<std::vector<std::string>>& grids,
-                   const std::optional<Sight>& sight, const std::optional<Metadata>& metadata) {
-  Wanted wanted;
-  wanted.flames = make_flames(position, power);
-  for (const std::string& name : grids.value_or(std::vector<std::string>{})) {
-    wanted.grids.push_back(smoke_grid(name));
-  }
-  wanted.sight = sight.value_or(Sight{});
-  wanted.metadata = metadata.value_or(Metadata{});
-  return wanted;
-}
-
-VolumeFrame smoke_file(const std::filesystem::path& path, const Puffs& smoke, double voxel_size,
-                       const std::optional<Array<double>>& position,
-                       const std::optional<Array<double>>& power,
-                       const std::optional<Metadata>& metadata,
-                       const std::optional<std::vector<std::string>>& grids,
-                       const std::optional<Sight>& sight) {
-  const Wanted wanted = make_wanted(position, power, grids, sight, metadata);
-  const py::gil_scoped_release release;
-  return write_smoke(path.string(), smoke, voxel_size, wanted);
-}
-
-/// Throws unless `array` has `shape`.
-void require_shape(const Array<float>& array, const std::vector<py::ssize_t>& shape,
-                   const std::string& name) {
-  const std::vector<py::ssize_t> found(array.shape(), array.shape() + array.ndim());
-  if (found != shape) {
-    throw Error(name + " must fit latitude, longitude and height (nz, ny, nx)");
-  }
-}
-
-VolumeFrame levels_file(
-    const std::filesystem::path& path, const geo::LocalFrame& frame, const Array<double>& latitude,
-    const Array<double>& longitude, const Array<float>& ground, const Array<float>& height,
-    const Array<float>& smoke, double voxel_size, const std::optional<Array<float>>& temperature,
-    const std::optional<Array<double>>& position, const std::optional<Array<double>>& power,
-    const std::optional<Metadata>& metadata, const std::optional<std::vector<std::string>>& grids,
-    const std::optional<Sight>& sight) {
-  const py::ssize_t ny = latitude.size();
-  const py::ssize_t nx = longitude.size();
-  require(latitude, {ny}, "latitude");
-  require(longitude, {nx}, "longitude");
-  if (height.ndim() != 3 || height.shape(0) < 2 || ny < 2 || nx < 2) {
-    throw Error("height must have shape (nz, ny, nx), each 2 or more");
-  }
-  const py::ssize_t nz = height.shape(0);
-  require_shape(ground, {ny, nx}, "ground");
-  require_shape(height, {nz, ny, nx}, "height");
-  require_shape(smoke, {nz, ny, nx}, "smoke");
-  if (temperature) {
-    require_shape(*temperature, {nz, ny, nx}, "temperature");
-  }
-  const Wanted wanted = make_wanted(position, power, grids, sight, metadata);
-  const Levels levels{view(latitude),
-                      view(longitude),
-                      view(ground),
-                      view(height),
-                      view(smoke),
-                      temperature ? view(*temperature) : std::span<const float>{},
-                      static_cast<std::size_t>(nz)};
-  const py::gil_scoped_release release;
-  return write_levels(path.string(), frame, levels, voxel_size, wanted);
-}
-
-VolumeFrame dense_file(const std::filesystem::path& path,
-                       const std::map<std::string, Array<float>>& grids, double voxel_size,
-                       const std::array<double, 3>& origin, bool half, float tolerance,
-                       const std::optional<Metadata>& metadata) {
-  std::map<std::string, DenseField> fields;
-  for (const auto& [name, array] : grids) {
-    if (array.ndim() != 3 || array.size() == 0) {
-      throw Error("grid \"" + name + "\" must have shape (nx, ny, nz), none of them 0");
+/// What both kinds of smoke take besides the smoke; keeps the arrays of the flames.
+class WantedArrays {
+public:
+  WantedArrays(const py::object& flame_position, const py::object& flame_power,
+               const std::optional<std::vector<std::string>>& grids,
+               const std::optional<Sight>& sight, const std::optional<io::Metadata>& metadata) {
+    if (flame_position.is_none() != flame_power.is_none()) {
+      wrong("flame_position", "and flame_power must be given together");
     }
-    fields[name] = {view(array),
-                    {static_cast<std::int32_t>(array.shape(0)),
-                     static_cast<std::int32_t>(array.shape(1)),
-                     static_cast<std::int32_t>(array.shape(2))}};
+    if (!flame_power.is_none()) {
+      power_ = to_array<double>(flame_power, "flame_power", {-1});
+      position_ = to_array<double>(flame_position, "flame_position", {power_.size(), 3});
+      check_finite(view(power_), "flame_power");
+      check_finite(view(position_), "flame_position");
+      wanted.flames = {view(position_), view(power_)};
+    }
+    for (const std::string& name : grids.value_or(std::vector<std::string>{})) {
+      wanted.grids.push_back(volume::smoke_grid(name));
+    }
+    wanted.sight = sight.value_or(Sight{});
+    wanted.metadata = metadata.value_or(io::Metadata{});
+  }
+
+  volume::Wanted wanted;
+
+private:
+  Array<double> position_;
+  Array<double> power_;
+};
+
+Frame write_smoke(const Path& path, const Puffs& smoke, double voxel_size,
+                  const py::object& flame_position, const py::object& flame_power,
+                  const std::optional<io::Metadata>& metadata,
+                  const std::optional<std::vector<std::string>>& grids,
+                  const std::optional<Sight>& sight) {
+  const WantedArrays arrays(flame_position, flame_power, grids, sight, metadata);
+  const py::gil_scoped_release release;
+  return volume::write_smoke(path, smoke, voxel_size, arrays.wanted);
+}
+
+/// Smoke on levels, with its arrays.
+struct LevelArrays {
+  Array<double> latitude;
+  Array<double> longitude;
+  Array<float> ground;
+  Array<float> height;
+  Array<float> smoke;
+  std::optional<Array<float>> temperature;
+
+  LevelArrays(const py::object& lat, const py::object& lon, const py::object& ground_object,
+              const py::object& height_object, const py::object& smoke_object,
+              const py::object& kelvin)
+      : latitude(to_array<double>(lat, "latitude", {-1})),
+        longitude(to_array<double>(lon, "longitude", {-1})),
+        ground(to_array<float>(ground_object, "ground", {latitude.size(), longitude.size()})),
+        height(to_array<float>(height_object, "height", {-1, latitude.size(), longitude.size()})) {
+    const std::vector<py::ssize_t> shape(height.shape(), height.shape() + 3);
+    smoke = to_array<float>(smoke_object, "smoke", shape);
+    if (!kelvin.is_none()) {
+      temperature = to_array<float>(kelvin, "temperature", shape);
+    }
+    check_finite(view(latitude), "latitude");
+    check_finite(view(longitude), "longitude");
+    if (shape[0] < 2 || shape[1] < 2 || shape[2] < 2) {
+      wrong("height", "must have two or more levels, latitudes and longitudes");
+    }
+  }
+
+  volume::Levels levels() const {
+    return {view(latitude),
+            view(longitude),
+            view(ground),
+            view(height),
+            view(smoke),
+            temperature ? view(*temperature) : std::span<const float>{},
+            static_cast<std::size_t>(height.shape(0))};
+  }
+};
+
+Frame write_levels(const Path& path, const geo::LocalFrame& frame, const py::object& latitude,
+                   const py::object& longitude, const py::object& ground, const py::object& height,
+                   const py::object& smoke, double voxel_size, const py::object& temperature,
+                   const py::object& flame_position, const py::object& flame_power,
+                   const std::optional<io::Metadata>& metadata,
+                   const std::optional<std::vector<std::string>>& grids,
+                   const std::optional<Sight>& sight) {
+  const LevelArrays model(latitude, longitude, ground, height, smoke, temperature);
+  const WantedArrays arrays(flame_position, flame_power, grids, sight, metadata);
+  const volume::Levels levels = model.levels();
+  const py::gil_scoped_release release;
+  return volume::write_levels(path, frame, levels, voxel_size, arrays.wanted);
+}
+
+Frame write(const Path& path, const std::map<std::string, py::object>& grids, double voxel_size,
+            const Vector& origin, bool half, float tolerance,
+            const std::optional<io::Metadata>& metadata) {
+  std::map<std::string, Array<float>> arrays;
+  std::map<std::string, volume::DenseField> fields;
+  for (const auto& [name, object] : grids) {
+    const auto array = to_array<float>(object, name, {-1, -1, -1});
+    if (array.size() == 0) {
+      wrong(name, "must hold a number or more");
+    }
+    const auto side = [&array](py::ssize_t axis) {
+      return static_cast<std::int32_t>(array.shape(axis));
+    };
+    fields[name] = {view(array), {side(0), side(1), side(2)}};
+    arrays[name] = array;
   }
   const py::gil_scoped_release release;
-  return write_dense(path.string(), fields, voxel_size, origin, half, tolerance,
-                     metadata.value_or(Metadata{}));
+  return volume::write_dense(path, fields, voxel_size, origin, half, tolerance,
+                             metadata.value_or(io::Metadata{}));
+}
+
+template <auto member> auto column(const py::object& self) {
+  return lend_column(self.cast<const Puffs&>().*member, self);
 }
 
 void bind_types(py::module_& module) {
   py::class_<Puffs>(module, "Puffs", "Smoke of one moment as n balls.")
-      .def_property_readonly(
-          "position",
-          [](py::object self) { return view_of(self, self.cast<const Puffs&>().position, 3); })
-      .def_property_readonly(
-          "radius", [](py::object self) { return view_of(self, self.cast<const Puffs&>().radius); })
-      .def_property_readonly(
-          "density",
-          [](py::object self) { return view_of(self, self.cast<const Puffs&>().density); })
-      .def_property_readonly(
-          "age", [](py::object self) { return view_of(self, self.cast<const Puffs&>().age); })
-      .def_property_readonly(
-          "mass", [](py::object self) { return view_of(self, self.cast<const Puffs&>().mass); })
-      .def_property_readonly(
-          "identity",
-          [](py::object self) { return view_of(self, self.cast<const Puffs&>().identity); })
+      .def_property_readonly("position",
+                             [](const py::object& self) {
+                               const auto& p = self.cast<const Puffs&>();
+                               return lend<float>(p.position, {length(p.size()), 3}, self);
+                             })
+      .def_property_readonly("radius", &column<&Puffs::radius>)
+      .def_property_readonly("density", &column<&Puffs::density>)
+      .def_property_readonly("age", &column<&Puffs::age>)
+      .def_property_readonly("mass", &column<&Puffs::mass>)
+      .def_property_readonly("identity", &column<&Puffs::identity>)
       .def_readonly("emitted", &Puffs::emitted)
       .def_readonly("left", &Puffs::left)
       .def("__len__", &Puffs::size);
   py::class_<Sight>(module, "Sight", "What the cameras of a moment see, and what shadows it.")
       .def(py::init(&make_sight), py::arg("camera"), py::arg("rotation"), py::arg("fov"),
-           py::arg("sun") = std::array<double, 3>{}, py::arg("floor") = 0.0)
+           py::arg("sun") = Vector{}, py::arg("floor") = 0.0)
       .def("counts", &Sight::counts, py::arg("centre"), py::arg("radius"),
            "Whether a ball is in view or throws its shadow on a place that is.");
-  py::class_<VolumeFrame>(module, "Frame", "What one VDB file holds.")
-      .def_readonly("active_voxels", &VolumeFrame::active_voxels)
-      .def_readonly("voxels", &VolumeFrame::voxels)
-      .def_readonly("bytes", &VolumeFrame::bytes)
-      .def_readonly("mass", &VolumeFrame::mass)
-      .def_readonly("hidden", &VolumeFrame::hidden)
-      .def_property_readonly("bounds", [](const VolumeFrame& frame) {
+  py::class_<Frame>(module, "Frame", "What one VDB file holds.")
+      .def_readonly("active_voxels", &Frame::active_voxels)
+      .def_readonly("voxels", &Frame::voxels)
+      .def_readonly("bytes", &Frame::bytes)
+      .def_readonly("mass", &Frame::mass)
+      .def_readonly("hidden", &Frame::hidden)
+      .def_property_readonly("bounds", [](const Frame& frame) {
         return py::array_t<double>({2, 3}, frame.bounds.data());
       });
 }
@@ -263,18 +207,18 @@ void bind_types(py::module_& module) {
 void init_volume(py::module_ module) {
   module.doc() = "Smoke and flames as OpenVDB volumes.";
   bind_types(module);
-  module.attr("FRESH_SMOKE") = kFreshSmoke;
+  module.attr("FRESH_SMOKE") = volume::fresh_smoke;
   const PuffSettings defaults;
   module.def(
       "puffs",
-      [](double time, const Array<double>& arrival, const Array<double>& fuel,
-         const Array<double>& position, const Array<double>& wind, double cell_area,
-         double interval, double max_age, double burn_time, double stability, std::uint64_t seed,
-         double smoke_fraction, double heat_of_combustion, double block, double merge_radius,
-         double smallest, double turbulence) {
-        return make_puffs(time, arrival, fuel, position, wind, cell_area,
-                          {interval, max_age, burn_time, stability, block, merge_radius, smallest,
-                           turbulence, smoke_fraction, heat_of_combustion, seed});
+      [](double time, const py::object& arrival, const py::object& fuel, const py::object& position,
+         const py::object& wind, double cell_area, double interval, double max_age,
+         double burn_time, double stability, std::uint64_t seed, double smoke_fraction,
+         double heat_of_combustion, double block, double merge_radius, double smallest,
+         double turbulence) {
+        return puffs(time, arrival, fuel, position, wind, cell_area,
+                     {interval, max_age, burn_time, stability, block, merge_radius, smallest,
+                      turbulence, smoke_fraction, heat_of_combustion, seed});
       },
       py::arg("time"), py::arg("arrival"), py::arg("fuel"), py::arg("position"), py::arg("wind"),
       py::arg("cell_area"), py::arg("interval") = defaults.interval,
@@ -285,20 +229,20 @@ void init_volume(py::module_ module) {
       py::arg("block") = defaults.block, py::arg("merge_radius") = defaults.merge_radius,
       py::arg("smallest") = defaults.smallest, py::arg("turbulence") = defaults.turbulence,
       "Closed-form puffs at `time` from cells that burned.");
-  module.def("write_smoke", &smoke_file, py::arg("path"), py::arg("puffs"), py::arg("voxel_size"),
+  module.def("write_smoke", &write_smoke, py::arg("path"), py::arg("puffs"), py::arg("voxel_size"),
              py::arg("flame_position") = py::none(), py::arg("flame_power") = py::none(),
              py::arg("metadata") = py::none(), py::arg("grids") = py::none(),
              py::arg("sight") = py::none(), "Write the puffs as a smoke volume.");
-  module.def("write_levels", &levels_file, py::arg("path"), py::arg("frame"), py::arg("latitude"),
+  module.def("write_levels", &write_levels, py::arg("path"), py::arg("frame"), py::arg("latitude"),
              py::arg("longitude"), py::arg("ground"), py::arg("height"), py::arg("smoke"),
              py::arg("voxel_size"), py::arg("temperature") = py::none(),
              py::arg("flame_position") = py::none(), py::arg("flame_power") = py::none(),
              py::arg("metadata") = py::none(), py::arg("grids") = py::none(),
              py::arg("sight") = py::none(),
              "Write smoke on terrain-following levels as a smoke volume.");
-  module.def("write", &dense_file, py::arg("path"), py::arg("grids"), py::arg("voxel_size"),
-             py::arg("origin") = std::array<double, 3>{0.0, 0.0, 0.0}, py::arg("half") = true,
-             py::arg("tolerance") = 0.0F, py::arg("metadata") = py::none(),
+  module.def("write", &write, py::arg("path"), py::arg("grids"), py::arg("voxel_size"),
+             py::arg("origin") = Vector{}, py::arg("half") = true, py::arg("tolerance") = 0.0F,
+             py::arg("metadata") = py::none(),
              "Write dense arrays (nx, ny, nz) as sparse fog volumes.");
 }
 

@@ -12,13 +12,19 @@ endforeach()
 set_property(TARGET TIFF::TIFF APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${jpeg_LIBRARY} ${deflate_LIBRARY} ${z_LIBRARY})
 set_property(TARGET OpenImageIO::OpenImageIO APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${boost_thread_LIBRARY})
 
-target_link_libraries(firetwin_libraries INTERFACE ${openvdb_LIBRARY} ${blosc_LIBRARY} ${lz4_LIBRARY} ${z_LIBRARY}
-  OpenImageIO::OpenImageIO ${GeographicLib_LIBRARIES} TBB::tbb)
-target_include_directories(firetwin_libraries SYSTEM INTERFACE ${OPENVDB_INCLUDE_DIR})
+# A target of its own and not a file among others, so that what it needs comes after it.
+add_library(library::openvdb STATIC IMPORTED)
+set_target_properties(library::openvdb PROPERTIES IMPORTED_LOCATION ${openvdb_LIBRARY})
+target_link_libraries(library::openvdb INTERFACE ${blosc_LIBRARY} ${lz4_LIBRARY} ${z_LIBRARY} TBB::tbb)
+add_library(library::openimageio INTERFACE IMPORTED)
+target_link_libraries(library::openimageio INTERFACE OpenImageIO::OpenImageIO)
+add_library(library::geographiclib INTERFACE IMPORTED)
+target_link_libraries(library::geographiclib INTERFACE ${GeographicLib_LIBRARIES})
+target_include_directories(library::openvdb INTERFACE ${OPENVDB_INCLUDE_DIR})
+target_compile_definitions(library::openvdb INTERFACE OPENVDB_STATICLIB)
+target_compile_definitions(library::openimageio INTERFACE OIIO_STATIC_DEFINE)
 # oneTBB's concepts reject what OpenVDB 10 passes to it in C++20.
-target_compile_definitions(firetwin_libraries INTERFACE __TBB_USE_CONSTRAINTS=0 OIIO_STATIC_DEFINE
-  OPENVDB_STATICLIB)
+add_compile_definitions(__TBB_USE_CONSTRAINTS=0)
 # Without -z nodynamic-undefined-weak Blender's allocator would step in for TBB's, which is left out.
-target_link_options(firetwin_libraries INTERFACE -Wl,--exclude-libs,ALL
-  -Wl,--version-script,${CMAKE_SOURCE_DIR}/cpp/portable/exports.map -Wl,-z,nodynamic-undefined-weak
-  -Wl,--strip-all)
+add_link_options(-Wl,--exclude-libs,ALL -Wl,--version-script,${CMAKE_SOURCE_DIR}/cpp/portable/exports.map
+  -Wl,-z,nodynamic-undefined-weak -Wl,--strip-all)

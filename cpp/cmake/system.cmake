@@ -11,12 +11,19 @@ find_library(OPENIMAGEIO_UTIL_LIBRARY OpenImageIO_Util REQUIRED)
 find_path(GEOGRAPHICLIB_INCLUDE_DIR GeographicLib/LocalCartesian.hpp REQUIRED)
 find_library(GEOGRAPHICLIB_LIBRARY NAMES GeographicLib Geographic REQUIRED)
 
-target_link_libraries(firetwin_libraries INTERFACE ${OPENVDB_LIBRARY} ${GEOGRAPHICLIB_LIBRARY}
-  ${OPENIMAGEIO_LIBRARY} ${OPENIMAGEIO_UTIL_LIBRARY} PkgConfig::Imath TBB::tbb)
-target_include_directories(firetwin_libraries SYSTEM INTERFACE
-  ${OPENVDB_INCLUDE_DIR} ${OPENIMAGEIO_INCLUDE_DIR} ${GEOGRAPHICLIB_INCLUDE_DIR})
+foreach(library openvdb openimageio geographiclib)
+  add_library(library::${library} INTERFACE IMPORTED)
+endforeach()
+target_link_libraries(library::openvdb INTERFACE ${OPENVDB_LIBRARY} PkgConfig::Imath TBB::tbb)
+target_link_libraries(library::openimageio INTERFACE ${OPENIMAGEIO_LIBRARY} ${OPENIMAGEIO_UTIL_LIBRARY} PkgConfig::Imath)
+target_link_libraries(library::geographiclib INTERFACE ${GEOGRAPHICLIB_LIBRARY})
+target_include_directories(library::openvdb INTERFACE ${OPENVDB_INCLUDE_DIR})
+target_include_directories(library::openimageio INTERFACE ${OPENIMAGEIO_INCLUDE_DIR})
+target_include_directories(library::geographiclib INTERFACE ${GEOGRAPHICLIB_INCLUDE_DIR})
 
 # OpenVDB's registry of types breaks when its inline statics are hidden or unique to one library:
 # default visibility and -fno-gnu-unique are both needed (openvdb#1583).
 # -fno-semantic-interposition: functions of default visibility may still be inlined.
-target_compile_options(firetwin_libraries INTERFACE -fno-gnu-unique -fno-semantic-interposition)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options(-fno-gnu-unique -fno-semantic-interposition)
+endif()

@@ -4,14 +4,18 @@ find_package(OpenVDB CONFIG REQUIRED)
 find_package(OpenImageIO CONFIG REQUIRED)
 find_package(GeographicLib CONFIG REQUIRED)
 
-target_link_libraries(firetwin_libraries INTERFACE OpenVDB::openvdb OpenImageIO::OpenImageIO
-  ${GeographicLib_LIBRARIES} TBB::tbb)
-target_compile_definitions(firetwin_libraries INTERFACE __TBB_USE_CONSTRAINTS=0)
+foreach(library openvdb openimageio geographiclib)
+  add_library(library::${library} INTERFACE IMPORTED)
+endforeach()
+target_link_libraries(library::openvdb INTERFACE OpenVDB::openvdb TBB::tbb)
+target_link_libraries(library::openimageio INTERFACE OpenImageIO::OpenImageIO)
+target_link_libraries(library::geographiclib INTERFACE ${GeographicLib_LIBRARIES})
+add_compile_definitions(__TBB_USE_CONSTRAINTS=0)
 if(APPLE)
   # What the libraries hold must not meet the OpenVDB, TBB and OpenImageIO inside Blender.
-  target_link_options(firetwin_libraries INTERFACE -Wl,-exported_symbol,_PyInit_firetwin_core -Wl,-dead_strip)
+  add_link_options(-Wl,-exported_symbol,_PyInit_firetwin_core -Wl,-dead_strip)
   # std::jthread is still behind this switch in Apple's standard library.
-  target_compile_definitions(firetwin_libraries INTERFACE _LIBCPP_ENABLE_EXPERIMENTAL)
+  add_compile_definitions(_LIBCPP_ENABLE_EXPERIMENTAL)
 endif()
 
 # Each library's licence goes into the wheel beside its code.

@@ -117,7 +117,7 @@ private:
 /// Seconds over which a flux is a mean.
 double mean_of(const run::Run& run, bool averaged) {
   constexpr double whole_interval = std::numeric_limits<double>::infinity();
-  return averaged ? run.manifest().mean_s.value_or(whole_interval) : 0.0;
+  return averaged ? run.description().mean_s.value_or(whole_interval) : 0.0;
 }
 
 /// Reads pairs of successive frames, each frame once where the pairs follow each other.

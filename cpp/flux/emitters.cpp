@@ -16,8 +16,7 @@ void reserve(Emitters& e, std::size_t n) {
   e.flux.reserve(n);
 }
 
-} // namespace
-
+/// F_curved, see emitters.hpp.
 double curved(double flux, double flux_min, double flux_max) {
   const double range = flux_max - flux_min;
   if (range == 0.0) {
@@ -26,6 +25,8 @@ double curved(double flux, double flux_min, double flux_max) {
   const double normalised = std::clamp((flux - flux_min) / range, 0.0, 1.0);
   return normalised * std::sqrt(normalised);
 }
+
+} // namespace
 
 Emitters emitters(std::span<const float> flux, std::span<const double> position, double flux_min,
                   double flux_max) {

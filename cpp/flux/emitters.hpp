@@ -18,13 +18,10 @@ struct Emitters {
   std::size_t invalid = 0;        ///< cells without an emitter because their flux is NaN
 };
 
-/// F_curved = clamp((F - Fmin)/(Fmax - Fmin), 0, 1)^1.5 (FIRETWIN paper, equations 1 and 2). Where
-/// Fmax == Fmin it is 1 for F >= Fmax and 0 below, the limit of the formula. +infinity gives 1.
-double curved(double flux, double flux_min, double flux_max);
-
 /// Algorithm 1 of the FIRETWIN paper: an emitter where flux > 0, with scale = 100 + 50 F_curved and
-/// colour = 100 + 400 F_curved. The range is that of the whole run: a range per frame would
-/// flicker.
+/// colour = 100 + 400 F_curved, where F_curved = clamp((F - Fmin)/(Fmax - Fmin), 0, 1)^1.5
+/// (equations 1 and 2). Where Fmax == Fmin that is 1 for F >= Fmax and 0 below, the limit of the
+/// formula; +infinity gives 1. The range is that of the whole run: a range per frame would flicker.
 /// @param position [3 n] m, one per flux
 /// @throws std::invalid_argument unless flux_min <= flux_max are finite.
 Emitters emitters(std::span<const float> flux, std::span<const double> position, double flux_min,

@@ -1,6 +1,7 @@
 #include "forest/scatter.hpp"
 
-#include "forest/ground.hpp"
+#include "base/check.hpp"
+#include "forest/placement.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -103,15 +104,15 @@ Plants scatter(const Site& site, bool trees, Fuel fuel, Write write) {
   if (!(site.jitter >= 0.0 && site.jitter <= 1.0)) {
     throw std::invalid_argument("jitter must be between 0 and 1");
   }
-  const Ground ground(site);
+  const Placement placement(site);
   const auto grows = [&](std::size_t cell) {
-    return static_cast<bool>(fuel(cell) & ground.holds(cell));
+    return static_cast<bool>(fuel(cell) & placement.holds(cell));
   };
   const std::size_t columns = site.longitude.size();
   const std::vector<std::size_t> offset = offsets(site.latitude.size(), columns, grows);
   Plants plants = make_plants(offset.back(), trees);
   tbb::parallel_for(Range(0, site.latitude.size(), rows_per_task), [&](const Range& rows) {
-    Ground::Row row(columns);
+    Placement::Row row(columns);
     Buffer<std::uint32_t> column(columns + 1);
     for (std::size_t y = rows.begin(); y < rows.end(); ++y) {
       const std::size_t n = offset[y + 1] - offset[y];
@@ -121,7 +122,7 @@ Plants scatter(const Site& site, bool trees, Fuel fuel, Write write) {
         row.north[column[k]] = random[0];
         row.east[column[k]] = random[1];
       }
-      ground.place(y, row);
+      placement.place(y, row);
       for (std::size_t k = 0; k < n; ++k) {
         const std::size_t i = offset[y] + k, x = column[k];
         plants.cell[i] = static_cast<std::int64_t>(y * columns + x);
@@ -146,9 +147,7 @@ float largest_fuel(std::span<const float> fuel) {
 }
 
 Plants trees(std::span<const float> canopy_fuel, const Site& site, double max_fuel) {
-  if (!(max_fuel > 0.0) || !std::isfinite(max_fuel)) {
-    throw std::invalid_argument("max_fuel must be finite and above 0");
-  }
+  check_above_zero(max_fuel, "max_fuel");
   const auto fuel = [canopy_fuel](std::size_t cell) {
     return static_cast<bool>((double{canopy_fuel[cell]} > least_canopy_fuel) &
                              std::isfinite(canopy_fuel[cell]));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "buffer.hpp"
+#include "base/buffer.hpp"
 #include "forest/site.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/random.hpp"
 #include "geo/local_frame.hpp"
-#include "philox.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <array>
+#include "base/vector.hpp"
+
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -66,8 +67,8 @@ public:
 
   /// @param meridian longitude from the origin's
   /// @return m
-  std::array<double, 3> to_local(const SineCosine& parallel, const Radii& radii,
-                                 const SineCosine& meridian, double height) const {
+  Vector to_local(const SineCosine& parallel, const Radii& radii, const SineCosine& meridian,
+                  double height) const {
     const double r = (radii.normal + height) * parallel.cosine;
     const double dr = r * meridian.cosine - r0_;
     const double dz = (radii.normal_polar + height) * parallel.sine - z0_;

@@ -68,12 +68,12 @@ HeightField::HeightField(std::span<const double> x, std::span<const double> y,
     highest_ = h > highest_ ? double{h} : highest_;
   }
   smallest_cell_ = std::min(smallest_step(x_), smallest_step(y_));
-  build_levels();
+  build_blocks();
 }
 
-void HeightField::build_levels() {
+void HeightField::build_blocks() {
   const std::size_t nx = x_.size();
-  Level cells{y_.size() - 1, nx - 1, {}};
+  Blocks cells{y_.size() - 1, nx - 1, {}};
   cells.lowest.resize(cells.rows * cells.columns);
   for (std::size_t r = 0; r < cells.rows; ++r) {
     for (std::size_t c = 0; c < cells.columns; ++c) {
@@ -83,10 +83,10 @@ void HeightField::build_levels() {
                                                   : -std::numeric_limits<float>::infinity();
     }
   }
-  levels_.push_back(std::move(cells));
-  while (levels_.back().rows > 1 || levels_.back().columns > 1) {
-    const Level& fine = levels_.back();
-    Level coarse{(fine.rows + 1) / 2, (fine.columns + 1) / 2, {}};
+  blocks_.push_back(std::move(cells));
+  while (blocks_.back().rows > 1 || blocks_.back().columns > 1) {
+    const Blocks& fine = blocks_.back();
+    Blocks coarse{(fine.rows + 1) / 2, (fine.columns + 1) / 2, {}};
     coarse.lowest.assign(coarse.rows * coarse.columns, std::numeric_limits<float>::infinity());
     for (std::size_t r = 0; r < fine.rows; ++r) {
       for (std::size_t c = 0; c < fine.columns; ++c) {
@@ -94,7 +94,7 @@ void HeightField::build_levels() {
         low = std::min(low, fine.lowest[r * fine.columns + c]);
       }
     }
-    levels_.push_back(std::move(coarse));
+    blocks_.push_back(std::move(coarse));
   }
 }
 
@@ -113,11 +113,11 @@ double HeightField::lowest(double x, double y, double half) const {
   for (; right - left > 1 || high - low > 1; ++k) {
     left /= 2, right /= 2, low /= 2, high /= 2;
   }
-  const Level& level = levels_[k];
+  const Blocks& blocks = blocks_[k];
   float least = std::numeric_limits<float>::infinity();
   for (std::size_t r = low; r <= high; ++r) {
     for (std::size_t c = left; c <= right; ++c) {
-      least = std::min(least, level.lowest[r * level.columns + c]);
+      least = std::min(least, blocks.lowest[r * blocks.columns + c]);
     }
   }
   return double{least};

@@ -27,17 +27,17 @@ public:
   double lowest(double x, double y, double half) const;
 
 private:
-  /// The lowest node of each block of 2^k x 2^k cells (with its rim), level k = 0 first.
-  struct Level {
+  /// The lowest node of each block of 2^k x 2^k cells (with its rim).
+  struct Blocks {
     std::size_t rows;
     std::size_t columns;
     std::vector<float> lowest;
   };
-  void build_levels();
+  void build_blocks();
 
   std::vector<double> x_, y_;
   std::vector<float> height_; ///< ascending in both axes
-  std::vector<Level> levels_;
+  std::vector<Blocks> blocks_;
   double highest_;
   double smallest_cell_;
 };

@@ -30,8 +30,8 @@ LocalFrame::LocalFrame(double latitude, double longitude, double height)
     : latitude_(latitude), longitude_(longitude), height_(height),
       cartesian_(make_cartesian(latitude, longitude, height)) {}
 
-std::array<double, 3> LocalFrame::forward(double latitude, double longitude, double height) const {
-  std::array<double, 3> p{};
+Vector LocalFrame::forward(double latitude, double longitude, double height) const {
+  Vector p{};
   cartesian_.Forward(latitude, longitude, height, p[0], p[1], p[2]);
   return p;
 }

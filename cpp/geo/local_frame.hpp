@@ -1,8 +1,9 @@
 #pragma once
 
+#include "base/vector.hpp"
+
 #include <GeographicLib/LocalCartesian.hpp>
 
-#include <array>
 #include <span>
 
 namespace firetwin::geo {
@@ -19,7 +20,7 @@ public:
   double height() const { return height_; }
 
   /// One point -> east, north, up (GeographicLib::LocalCartesian).
-  std::array<double, 3> forward(double latitude, double longitude, double height) const;
+  Vector forward(double latitude, double longitude, double height) const;
 
   /// n scattered points -> enu[3 n].
   void forward(std::span<const double> latitude, std::span<const double> longitude,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lod/vector.hpp"
+#include "base/vector.hpp"
 
 #include <array>
 

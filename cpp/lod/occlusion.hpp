@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/vector.hpp"
 #include "geo/height_field.hpp"
-#include "lod/vector.hpp"
 
 namespace firetwin::lod {
 

@@ -1,6 +1,6 @@
 #include "lod/pool.hpp"
 
-#include "philox.hpp"
+#include "base/random.hpp"
 
 #include <algorithm>
 #include <limits>

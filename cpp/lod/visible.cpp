@@ -13,7 +13,7 @@
 namespace firetwin::lod {
 namespace {
 
-void check(std::span<const double> radius, std::span<const View> path, const Sight& sight) {
+void check(std::span<const double> radius, std::span<const View> path, const ViewLimits& limits) {
   const auto bad_angle = [](double a) { return a <= 0.0 || a >= std::numbers::pi; };
   for (const View& view : path) {
     if (bad_angle(view.width) || bad_angle(view.height)) {
@@ -21,19 +21,19 @@ void check(std::span<const double> radius, std::span<const View> path, const Sig
     }
   }
   if (std::any_of(radius.begin(), radius.end(), [](double r) { return r < 0.0; }) ||
-      !(sight.margin >= 0.0)) {
+      !(limits.margin >= 0.0)) {
     throw std::invalid_argument("radius and margin must be 0 or more");
   }
-  if (std::isnan(sight.near) || std::isnan(sight.far)) {
+  if (std::isnan(limits.near) || std::isnan(limits.far)) {
     throw std::invalid_argument("near and far must be distances, not NaN");
   }
 }
 
 class Path {
 public:
-  Path(std::span<const View> views, const Sight& sight) : views_(views), sight_(sight) {
+  Path(std::span<const View> views, const ViewLimits& limits) : views_(views), limits_(limits) {
     for (const View& view : views) {
-      frusta_.emplace_back(view, sight.near, sight.far);
+      frusta_.emplace_back(view, limits.near, limits.far);
     }
   }
 
@@ -41,23 +41,23 @@ public:
 
   bool sees(std::int32_t view, const Vector& centre, double radius) const {
     const auto v = static_cast<std::size_t>(view);
-    const double wide = radius + sight_.margin;
+    const double wide = radius + limits_.margin;
     return frusta_[v].touches(centre, wide) &&
-           !(sight_.ground && hidden(views_[v].position, centre, wide, *sight_.ground));
+           !(limits_.ground && hidden(views_[v].position, centre, wide, *limits_.ground));
   }
 
 private:
   std::span<const View> views_;
   std::vector<Frustum> frusta_;
-  Sight sight_;
+  ViewLimits limits_;
 };
 
 } // namespace
 
 std::vector<std::int32_t> seen(std::span<const double> centre, std::span<const double> radius,
-                               std::span<const View> path, const Sight& sight) {
-  check(radius, path, sight);
-  const Path all(path, sight);
+                               std::span<const View> path, const ViewLimits& limits) {
+  check(radius, path, limits);
+  const Path all(path, limits);
   std::vector<std::int32_t> result(2 * radius.size(), -1);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, radius.size(), 16), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {

@@ -9,7 +9,8 @@
 
 namespace firetwin::lod {
 
-struct Sight {
+/// How far every view of a path reaches.
+struct ViewLimits {
   double near;                    ///< m
   double far;                     ///< m, may be infinite
   double margin;                  ///< added to every radius, m
@@ -24,6 +25,6 @@ struct Sight {
 /// @param radius [n] m
 /// @throws std::invalid_argument for angles outside 0 .. pi and for negative radii or margins.
 std::vector<std::int32_t> seen(std::span<const double> centre, std::span<const double> radius,
-                               std::span<const View> path, const Sight& sight);
+                               std::span<const View> path, const ViewLimits& limits);
 
 } // namespace firetwin::lod

@@ -1,12 +1,12 @@
 #include "particles/advance.hpp"
 
+#include "base/check.hpp"
 #include "particles/landing.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 namespace firetwin::particles {
@@ -54,9 +54,7 @@ void move(const Particles& p, Motion motion, std::size_t i, double step,
 
 void advance(const Particles& particles, const Forces& forces, double step,
              const geo::HeightField* ground) {
-  if (!(step >= 0.0) || !std::isfinite(step)) {
-    throw std::invalid_argument("step must be finite and 0 or more");
-  }
+  check_zero_or_more(step, "step");
   if (!std::all_of(forces.relaxation.begin(), forces.relaxation.end(),
                    [](double tau) { return tau >= 0.0; })) {
     throw std::invalid_argument("relaxation must be 0 or more");

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <array>
+#include "base/vector.hpp"
 
 namespace firetwin::particles {
-
-using Vector = std::array<double, 3>;
 
 /// Standard gravity, m/s2.
 constexpr double gravity = 9.80665;

@@ -1,7 +1,7 @@
 #include "run/folder.hpp"
 
-#include "error.hpp"
-#include "run/names.hpp"
+#include "io/name.hpp"
+#include "run/fields.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -13,13 +13,9 @@ namespace firetwin::run {
 namespace fs = std::filesystem;
 namespace {
 
-[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-  throw InputError(path.string(), 0, 0, reason);
-}
-
 /// The time index in a name like 000042.txt.
 std::optional<std::size_t> frame_index(const fs::path& path) {
-  const std::string stem = path.stem().string();
+  const std::string stem = io::utf8(path.stem());
   const bool data = path.extension() == ".txt" || path.extension() == ".npy";
   std::size_t index = 0;
   const auto [end, code] = std::from_chars(stem.data(), stem.data() + stem.size(), index);
@@ -42,7 +38,7 @@ template <class Visit> void for_each_entry(const fs::path& folder, Visit visit) 
     visit(*it);
   }
   if (code) {
-    fail(folder, "cannot be listed: " + code.message());
+    io::fail(folder, "cannot be listed: " + code.message());
   }
 }
 
@@ -52,17 +48,17 @@ Folder::Folder(const fs::path& path) {
   std::error_code code;
   path_ = fs::canonical(path, code);
   if (code) {
-    fail(path, "there is no such run folder; check the path");
+    io::fail(path, "there is no such run folder; check the path");
   }
   if (!fs::is_directory(path_, code)) {
-    fail(path, "is not a folder; give the folder that holds run.toml");
+    io::fail(path, "is not a folder; give the folder that holds run.toml");
   }
   for_each_entry(path_, [this](const fs::directory_entry& entry) { add(entry); });
   std::sort(fields_.begin(), fields_.end());
   std::sort(strangers_.begin(), strangers_.end());
   const auto twice = std::adjacent_find(fields_.begin(), fields_.end());
   if (twice != fields_.end()) {
-    fail(path_ / *twice, "is there more than once (.txt, .npy or a folder); keep one of them");
+    io::fail(path_ / *twice, "is there more than once (.txt, .npy or a folder); keep one of them");
   }
 }
 
@@ -73,11 +69,11 @@ void Folder::add(const fs::directory_entry& entry) {
   if (!data && !entry.is_directory(code)) {
     return;
   }
-  const std::string field = data ? name.stem().string() : name.string();
+  const std::string field = io::utf8(data ? name.stem() : name);
   if (find_field(field)) {
     fields_.push_back(field);
   } else if (data) {
-    strangers_.push_back(name.string());
+    strangers_.push_back(io::utf8(name));
   }
 }
 
@@ -89,11 +85,11 @@ fs::path Folder::inside(const fs::path& path) const {
   std::error_code code;
   const fs::path real = fs::canonical(path, code);
   if (code) {
-    fail(path, "the file is missing; a run folder must hold it");
+    io::fail(path, "the file is missing; a run folder must hold it");
   }
   const auto [end, rest] = std::mismatch(path_.begin(), path_.end(), real.begin(), real.end());
   if (end != path_.end()) {
-    fail(path, "is a link to a place outside the run folder; put the file itself there");
+    io::fail(path, "is a link to a place outside the run folder; put the file itself there");
   }
   return real;
 }
@@ -110,8 +106,8 @@ fs::path Folder::field_file(const std::string& field) const {
   }
   const fs::path text = path_ / (field + ".txt");
   if (!fs::exists(text, code)) {
-    fail(text,
-         "the field is missing; a run folder must hold " + field + ".txt or " + field + ".npy");
+    io::fail(text,
+             "the field is missing; a run folder must hold " + field + ".txt or " + field + ".npy");
   }
   return inside(text);
 }
@@ -120,8 +116,8 @@ fs::path Folder::npy_file(const std::string& field) const {
   std::error_code code;
   const fs::path npy = path_ / (field + ".npy");
   if (!fs::exists(npy, code)) {
-    fail(npy,
-         "the file is missing; " + field + " is read as one .npy only, save it with numpy.save");
+    io::fail(npy, "the file is missing; " + field +
+                      " is read as one .npy only, save it with numpy.save");
   }
   return inside(npy);
 }
@@ -131,7 +127,7 @@ std::vector<fs::path> Folder::frames(const fs::path& folder) const {
   for_each_entry(folder, [&](const fs::directory_entry& entry) {
     if (const auto index = frame_index(entry.path())) {
       if (!found.emplace(*index, entry.path()).second) {
-        fail(folder / frame_name(*index), "is there as .txt and as .npy; keep one of them");
+        io::fail(folder / frame_name(*index), "is there as .txt and as .npy; keep one of them");
       }
     }
   });
@@ -143,9 +139,10 @@ std::vector<fs::path> Folder::frames(const fs::path& folder) const {
     result.push_back(inside(path));
   }
   if (found.empty() || result.size() < found.size()) {
-    fail(folder / (frame_name(result.size()) + ".txt"),
-         "the file is missing; model times are numbered from 000000 on without gaps, as .txt or "
-         ".npy");
+    io::fail(
+        folder / (frame_name(result.size()) + ".txt"),
+        "the file is missing; model times are numbered from 000000 on without gaps, as .txt or "
+        ".npy");
   }
   return result;
 }
@@ -159,8 +156,8 @@ Series Folder::series(const std::string& field, std::size_t rows, std::size_t co
   }
   const fs::path folder = path_ / field;
   if (!fs::is_directory(folder, code)) {
-    fail(folder, "the field is missing; a run folder must hold " + field + ".npy or " + field +
-                     "/000000.txt and so on");
+    io::fail(folder, "the field is missing; a run folder must hold " + field + ".npy or " + field +
+                         "/000000.txt and so on");
   }
   return {frames(inside(folder)), rows, columns, no_data};
 }

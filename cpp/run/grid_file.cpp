@@ -1,6 +1,7 @@
 #include "run/grid_file.hpp"
 
-#include "error.hpp"
+#include "io/file.hpp"
+#include "io/name.hpp"
 #include "run/npy.hpp"
 #include "run/text.hpp"
 
@@ -16,12 +17,8 @@ namespace {
 /// A text grid of 2000 x 2000 needs about 60 MB.
 constexpr std::uint64_t largest_text = 1U << 30;
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
-  throw InputError(path.string(), 0, 0, reason);
-}
-
 bool is_npy(const std::filesystem::path& path) {
-  const File file(path);
+  const io::File file(path);
   std::array<char, 6> magic{};
   if (file.size() < magic.size()) {
     return false;
@@ -34,13 +31,13 @@ template <class T> Grid<T> read_npy(const std::filesystem::path& path) {
   const NpyFile file(path);
   const auto& shape = file.shape();
   if (shape.empty() || shape.size() > 2) {
-    fail(path, "has shape " + shape_text(shape) + " where two dimensions are needed");
+    io::fail(path, "has shape " + shape_text(shape) + " where two dimensions are needed");
   }
   Grid<T> grid;
   grid.rows = shape.size() == 2 ? shape[0] : 1;
   grid.columns = shape.back();
   if (grid.rows == 0 || grid.columns == 0) {
-    fail(path, "has shape " + shape_text(shape) + " and so holds no numbers");
+    io::fail(path, "has shape " + shape_text(shape) + " and so holds no numbers");
   }
   grid.values.resize(grid.rows * grid.columns);
   file.read(0, std::span<T>(grid.values));
@@ -51,7 +48,7 @@ template <class T> Grid<T> read_any(const std::filesystem::path& path) {
   if (path.extension() == ".npy" || is_npy(path)) {
     return read_npy<T>(path);
   }
-  return parse_text<T>(read_all(path, largest_text), path.string());
+  return parse_text<T>(io::read_all(path, largest_text), io::utf8(path));
 }
 
 [[noreturn]] void wrong_size(const std::filesystem::path& path, std::size_t rows,
@@ -65,7 +62,7 @@ template <class T> Grid<T> read_any(const std::filesystem::path& path) {
   } else {
     reason += "; make the field fit the axes";
   }
-  fail(path, reason);
+  io::fail(path, reason);
 }
 
 void check_axis_value(const std::filesystem::path& path, std::size_t index, double value,
@@ -77,7 +74,7 @@ void check_axis_value(const std::filesystem::path& path, std::size_t index, doub
   reason += std::isfinite(value) ? ", beyond " + std::to_string(static_cast<int>(limit)) +
                                        " degrees; are latitude and longitude swapped?"
                                  : "; an axis needs a number for every row and column";
-  fail(path, reason);
+  io::fail(path, reason);
 }
 
 } // namespace
@@ -89,16 +86,16 @@ Grid<float> read_grid(const std::filesystem::path& path) {
 std::vector<double> read_axis(const std::filesystem::path& path, double limit) {
   Grid<double> grid = read_any<double>(path);
   if (grid.rows != 1 && grid.columns != 1) {
-    fail(path,
-         "expected one row or one column of numbers, found " + size_text(grid.rows, grid.columns));
+    io::fail(path, "expected one row or one column of numbers, found " +
+                       size_text(grid.rows, grid.columns));
   }
   const std::vector<double>& v = grid.values;
   for (std::size_t i = 0; i < v.size(); ++i) {
     check_axis_value(path, i, v[i], limit);
     if (i > 0 && (v[i] == v[i - 1] || (v[i] > v[i - 1]) != (v[1] > v[0]))) {
-      fail(path, "value " + std::to_string(i + 1) +
-                     " is not beyond the one before; an axis must "
-                     "ascend or descend throughout, without duplicates");
+      io::fail(path, "value " + std::to_string(i + 1) +
+                         " is not beyond the one before; an axis must "
+                         "ascend or descend throughout, without duplicates");
     }
   }
   return std::move(grid.values);

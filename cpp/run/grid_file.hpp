@@ -1,6 +1,6 @@
 #pragma once
 
-#include "grid.hpp"
+#include "base/grid.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "run/npy.hpp"
 
-#include "error.hpp"
+#include "io/name.hpp"
 #include "run/npy_header.hpp"
 
 #include <algorithm>
@@ -18,8 +18,8 @@ static_assert(std::endian::native == std::endian::little, "npy files are read as
 
 constexpr std::size_t longest_header = 1 << 20;
 
-[[noreturn]] void fail(const File& file, const std::string& reason) {
-  throw InputError(file.path().string(), 0, 0, reason);
+[[noreturn]] void fail(const io::File& file, const std::string& reason) {
+  io::fail(file.path(), reason);
 }
 
 /// Number of bytes, or nothing where it overflows.
@@ -39,7 +39,7 @@ struct Prefix {
   std::size_t header_size;
 };
 
-Prefix read_prefix(const File& file) {
+Prefix read_prefix(const io::File& file) {
   std::array<char, 12> start{};
   const std::size_t have = std::min<std::uint64_t>(file.size(), start.size());
   file.read(0, std::span(start).first(have));
@@ -59,17 +59,17 @@ Prefix read_prefix(const File& file) {
   return {12, byte(8) | byte(9) << 8 | byte(10) << 16 | byte(11) << 24};
 }
 
-NpyHeader read_header(const File& file, const Prefix& prefix) {
+NpyHeader read_header(const io::File& file, const Prefix& prefix) {
   if (prefix.header_size > longest_header ||
       prefix.header_offset + prefix.header_size > file.size()) {
     fail(file, "the .npy header is cut off; copy the file again");
   }
   std::vector<char> text(prefix.header_size);
   file.read(prefix.header_offset, text);
-  return parse_npy_header({text.data(), text.size()}, prefix.header_offset, file.path().string());
+  return parse_npy_header({text.data(), text.size()}, prefix.header_offset, io::utf8(file.path()));
 }
 
-std::size_t item_size(const File& file, const std::string& descr) {
+std::size_t item_size(const io::File& file, const std::string& descr) {
   if (descr == "<f4") {
     return 4;
   }

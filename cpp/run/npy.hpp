@@ -1,6 +1,6 @@
 #pragma once
 
-#include "run/file.hpp"
+#include "io/file.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -28,7 +28,7 @@ public:
   void read(std::uint64_t first, std::span<double> out) const;
 
 private:
-  File file_;
+  io::File file_;
   std::vector<std::size_t> shape_;
   std::size_t item_size_ = 0;
   std::uint64_t data_offset_ = 0;

@@ -1,6 +1,6 @@
 #include "run/npy_header.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <cctype>
 #include <charconv>

@@ -1,7 +1,8 @@
 #include "run/run.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 #include "geo/axis.hpp"
+#include "io/name.hpp"
 #include "run/grid_file.hpp"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ template <class Field>
 const Field& need(const std::optional<Field>& series, const std::filesystem::path& folder,
                   const std::string& name) {
   if (!series) {
-    throw Error(folder.string() + ": this run has no " + name);
+    throw Error(io::utf8(folder) + ": this run has no " + name);
   }
   return *series;
 }
@@ -40,11 +41,11 @@ const Field& need(const std::optional<Field>& series, const std::filesystem::pat
 } // namespace
 
 Run::Run(const std::filesystem::path& folder)
-    : folder_(folder), manifest_(read_manifest(folder_.file("run.toml"))) {
-  if (manifest_.no_data) {
-    no_data_ = static_cast<float>(*manifest_.no_data);
+    : folder_(folder), description_(read_description(folder_.file("run.toml"))) {
+  if (description_.no_data) {
+    no_data_ = static_cast<float>(*description_.no_data);
   }
-  warnings_ = manifest_.warnings;
+  warnings_ = description_.warnings;
   for (const std::string& name : folder_.strangers()) {
     warnings_.push_back(name + " is not a field of a run and is ignored");
   }
@@ -87,9 +88,9 @@ std::optional<Series> Run::optional_series(const std::string& field) const {
   }
   Series series = folder_.series(field, latitude_.size(), longitude_.size(), no_data_);
   if (series.size() != heat_flux_->size()) {
-    throw InputError((path() / field).string(), 0, 0,
-                     "has " + std::to_string(series.size()) + " times where heat_flux has " +
-                         std::to_string(heat_flux_->size()) + "; every field needs all times");
+    io::fail(path() / field,
+             "has " + std::to_string(series.size()) + " times where heat_flux has " +
+                 std::to_string(heat_flux_->size()) + "; every field needs all times");
   }
   return series;
 }
@@ -100,8 +101,8 @@ void Run::open_series() {
   wind_east_ = optional_series("wind_east");
   wind_north_ = optional_series("wind_north");
   if (wind_east_.has_value() != wind_north_.has_value()) {
-    throw InputError((path() / (wind_east_ ? "wind_north" : "wind_east")).string(), 0, 0,
-                     "the field is missing; wind needs wind_east and wind_north");
+    io::fail(path() / (wind_east_ ? "wind_north" : "wind_east"),
+             "the field is missing; wind needs wind_east and wind_north");
   }
 }
 
@@ -122,35 +123,32 @@ void Run::open_levels() {
       continue;
     }
     if (!height_3d_) {
-      throw InputError((path() / "height_3d.npy").string(), 0, 0,
-                       "the field is missing; fields on levels need the heights of the levels");
+      io::fail(path() / "height_3d.npy",
+               "the field is missing; fields on levels need the heights of the levels");
     }
     if ((*field)->levels() != height_3d_->levels()) {
-      throw InputError((*field)->path().string(), 0, 0,
-                       "has " + std::to_string((*field)->levels()) +
-                           " levels where height_3d has " + std::to_string(height_3d_->levels()) +
-                           "; save both on the same levels");
+      io::fail((*field)->path(),
+               "has " + std::to_string((*field)->levels()) + " levels where height_3d has " +
+                   std::to_string(height_3d_->levels()) + "; save both on the same levels");
     }
   }
 }
 
 void Run::set_times() {
   const std::size_t nt = heat_flux_->size();
-  times_ = manifest_.times_s;
-  if (manifest_.interval_s) {
+  times_ = description_.times_s;
+  if (description_.interval_s) {
     times_.resize(nt);
     for (std::size_t i = 0; i < nt; ++i) {
-      times_[i] = static_cast<double>(i) * *manifest_.interval_s;
+      times_[i] = static_cast<double>(i) * *description_.interval_s;
     }
   }
   if (times_.size() != nt) {
-    throw InputError((path() / "run.toml").string(), 0, 0,
-                     "times_s lists " + std::to_string(times_.size()) +
-                         " times but heat_flux has " + std::to_string(nt));
+    io::fail(path() / "run.toml", "times_s lists " + std::to_string(times_.size()) +
+                                      " times but heat_flux has " + std::to_string(nt));
   }
   if (!std::isfinite(times_.back())) {
-    throw InputError((path() / "run.toml").string(), 0, 0,
-                     "interval_s is so long that the last time is not a number");
+    io::fail(path() / "run.toml", "interval_s is so long that the last time is not a number");
   }
 }
 
@@ -231,7 +229,7 @@ std::pair<float, float> Run::flux_range() const {
     scan = scan_for(0.0);
   }
   if (scan->smallest > scan->largest) {
-    throw InputError((path() / "heat_flux").string(), 0, 0, "has no finite value at any time");
+    io::fail(path() / "heat_flux", "has no finite value at any time");
   }
   return {scan->smallest, scan->largest};
 }

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "run/description.hpp"
 #include "run/folder.hpp"
-#include "run/levels.hpp"
-#include "run/manifest.hpp"
+#include "run/level_series.hpp"
 #include "run/scan.hpp"
 #include "run/series.hpp"
 
@@ -20,13 +20,13 @@ namespace firetwin::run {
 /// All of it may be used from several threads.
 class Run {
 public:
-  /// @throws InputError for everything that is wrong with the manifest, the axes, a field's shape
+  /// @throws InputError for everything that is wrong with run.toml, the axes, a field's shape
   /// or
   ///         the number of model times.
   explicit Run(const std::filesystem::path& folder);
 
   const std::filesystem::path& path() const { return folder_.path(); }
-  const Manifest& manifest() const { return manifest_; }
+  const Description& description() const { return description_; }
   const std::vector<std::string>& fields() const { return folder_.fields(); }
   /// What is odd but usable, one sentence each; scans of the heat flux add to it.
   std::vector<std::string> warnings() const;
@@ -78,7 +78,7 @@ private:
   std::shared_ptr<const Scan> scan_for(double threshold) const;
 
   Folder folder_;
-  Manifest manifest_;
+  Description description_;
   std::optional<float> no_data_;
   std::vector<double> times_, latitude_, longitude_, fuel_latitude_, fuel_longitude_;
   std::vector<float> elevation_, surface_fuel_, canopy_fuel_, fuel_elevation_;

@@ -1,6 +1,6 @@
 #include "run/series.hpp"
 
-#include "error.hpp"
+#include "io/name.hpp"
 #include "run/grid_file.hpp"
 
 #include <stdexcept>
@@ -13,10 +13,9 @@ Series::Series(NpyFile file, std::size_t rows, std::size_t columns, std::optiona
     : file_(std::move(file)), rows_(rows), columns_(columns), no_data_(no_data) {
   const auto& shape = file_->shape();
   if (shape.size() != 3 || shape[0] == 0 || shape[1] != rows || shape[2] != columns) {
-    throw InputError(file_->path().string(), 0, 0,
-                     "expected shape (times, " + std::to_string(rows) + ", " +
-                         std::to_string(columns) + "), found " + shape_text(shape) +
-                         "; make the field fit the axes");
+    io::fail(file_->path(), "expected shape (times, " + std::to_string(rows) + ", " +
+                                std::to_string(columns) + "), found " + shape_text(shape) +
+                                "; make the field fit the axes");
   }
 }
 

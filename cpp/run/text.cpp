@@ -1,11 +1,10 @@
 #include "run/text.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 #include "run/number.hpp"
 
 #include <fast_float/fast_float.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 

@@ -1,6 +1,6 @@
 #include "run/toml_guard.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
 #include <string_view>

@@ -1,15 +1,13 @@
 #include "sensor/image.hpp"
 
-#include "error.hpp"
-#include "run/file.hpp"
-#include "system.hpp"
+#include "io/file.hpp"
+#include "io/name.hpp"
+#include "io/new_file.hpp"
 
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <memory>
 #include <mutex>
 #include <string_view>
 
@@ -20,14 +18,10 @@ constexpr int largest_megabytes = 1024;
 constexpr int most_channels = 64;
 constexpr OIIO::imagesize_t most_values = 256'000'000; // 1 GB of floats
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
-  throw InputError(path.string(), 0, 0, reason);
-}
-
 /// OpenImageIO's name of a format, by the first bytes.
 std::string format_of(const std::filesystem::path& path) {
   using namespace std::string_view_literals;
-  const run::File file(path);
+  const io::File file(path);
   std::array<char, 8> start{};
   const std::size_t have = std::min<std::uint64_t>(file.size(), start.size());
   file.read(0, std::span(start).first(have));
@@ -44,7 +38,7 @@ std::string format_of(const std::filesystem::path& path) {
   if (bytes.starts_with("\xff\xd8\xff"sv)) {
     return "jpeg";
   }
-  fail(path, "is not a PNG, OpenEXR, TIFF or JPEG image");
+  io::fail(path, "is not a PNG, OpenEXR, TIFF or JPEG image");
 }
 
 void set_limits() {
@@ -56,7 +50,7 @@ void set_limits() {
 }
 
 OIIO::ImageSpec make_spec(std::size_t height, std::size_t width, std::size_t channels, bool exr,
-                          const std::map<std::string, std::string>& metadata) {
+                          const io::Metadata& metadata) {
   OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height),
                        static_cast<int>(channels),
                        exr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
@@ -69,52 +63,25 @@ OIIO::ImageSpec make_spec(std::size_t height, std::size_t width, std::size_t cha
   return spec;
 }
 
-/// Removes a temporary file unless it was renamed.
-class Temporary {
-public:
-  explicit Temporary(const std::filesystem::path& target)
-      : path_(target.parent_path() /
-              ("." + target.stem().string() + "." + std::to_string(system::process()) +
-               target.extension().string())) {}
-  ~Temporary() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
-
-  std::string path() const { return path_.string(); }
-  void rename(const std::filesystem::path& target) const {
-    std::error_code code;
-    std::filesystem::rename(path_, target, code);
-    if (code) {
-      fail(target, "cannot be written: " + code.message());
-    }
-  }
-
-private:
-  std::filesystem::path path_;
-};
-
 void check_size(const std::filesystem::path& path, std::size_t height, std::size_t width,
                 std::size_t channels) {
   constexpr std::size_t longest = 1U << 20;
   if (height == 0 || width == 0 || channels == 0 || height > longest || width > longest ||
       channels > most_channels) {
-    fail(path, "an image needs at least one pixel and at most 64 channels");
+    io::fail(path, "an image needs at least one pixel and at most 64 channels");
   }
 }
 
 /// What a header claims, before memory is given to it (OpenImageIO 2.4 checks only some formats).
 void check_spec(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
   if (spec.deep || spec.depth > 1) {
-    fail(path, "is a deep or volume image; write it flat");
+    io::fail(path, "is a deep or volume image; write it flat");
   }
   if (spec.nchannels < 1 || spec.nchannels > most_channels ||
       spec.image_pixels() > most_values / static_cast<unsigned>(spec.nchannels)) {
-    fail(path, "has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                   " pixels of " + std::to_string(spec.nchannels) +
-                   " channels; the limit is 256 million values and 64 channels");
+    io::fail(path, "has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                       " pixels of " + std::to_string(spec.nchannels) +
+                       " channels; the limit is 256 million values and 64 channels");
   }
 }
 
@@ -124,8 +91,8 @@ Image read_image(const std::filesystem::path& path) {
   set_limits();
   const auto input = OIIO::ImageInput::create(format_of(path));
   OIIO::ImageSpec spec;
-  if (!input || !input->open(path.string(), spec)) {
-    fail(path, "cannot be read: " + (input ? input->geterror() : OIIO::geterror()));
+  if (!input || !input->open(io::utf8(path), spec)) {
+    io::fail(path, "cannot be read: " + (input ? input->geterror() : OIIO::geterror()));
   }
   check_spec(path, spec);
   Image image{static_cast<std::size_t>(spec.height),
@@ -134,28 +101,28 @@ Image read_image(const std::filesystem::path& path) {
               {}};
   image.pixels.resize(image.height * image.width * image.channels);
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
-    fail(path, "cannot be read: " + input->geterror());
+    io::fail(path, "cannot be read: " + input->geterror());
   }
   return image;
 }
 
 void write_image(const std::filesystem::path& path, std::span<const float> pixels,
                  std::size_t height, std::size_t width, std::size_t channels,
-                 const std::map<std::string, std::string>& metadata) {
+                 const io::Metadata& metadata) {
   const bool exr = path.extension() == ".exr";
   if (!exr && path.extension() != ".png") {
-    fail(path, "an image file must end in .png or .exr");
+    io::fail(path, "an image file must end in .png or .exr");
   }
   check_size(path, height, width, channels);
   set_limits();
-  const Temporary temporary(path);
+  const io::NewFile file(path);
   const auto output = OIIO::ImageOutput::create(exr ? "openexr" : "png");
   if (!output ||
-      !output->open(temporary.path(), make_spec(height, width, channels, exr, metadata)) ||
+      !output->open(io::utf8(file.path()), make_spec(height, width, channels, exr, metadata)) ||
       !output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) || !output->close()) {
-    fail(path, "cannot be written: " + (output ? output->geterror() : OIIO::geterror()));
+    io::fail(path, "cannot be written: " + (output ? output->geterror() : OIIO::geterror()));
   }
-  temporary.rename(path);
+  file.put_in_place();
 }
 
 } // namespace firetwin::sensor

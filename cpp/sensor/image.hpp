@@ -1,8 +1,9 @@
 #pragma once
 
+#include "io/metadata.hpp"
+
 #include <cstddef>
 #include <filesystem>
-#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,10 +21,10 @@ struct Image {
 /// is ever started. At most 256 million values (1 GB) and 64 channels. @throws InputError
 Image read_image(const std::filesystem::path& path);
 
-/// Writes .png (8 bit, values clamped to 0..1) or .exr (32-bit float, ZIP) to a temporary file
-/// beside `path` that is then renamed. @throws InputError when that cannot be done.
+/// Writes .png (8 bit, values clamped to 0..1) or .exr (32-bit float, ZIP) in one step
+/// (see io/new_file.hpp). @throws InputError when that cannot be done.
 void write_image(const std::filesystem::path& path, std::span<const float> pixels,
                  std::size_t height, std::size_t width, std::size_t channels,
-                 const std::map<std::string, std::string>& metadata);
+                 const io::Metadata& metadata);
 
 } // namespace firetwin::sensor

@@ -1,31 +1,26 @@
-#include "archive.hpp"
+#include "volume/archive.hpp"
 
-#include "error.hpp"
-#include "lanes.hpp"
-#include "system.hpp"
+#include "io/new_file.hpp"
+#include "volume/fog.hpp"
+#include "volume/leaf_writer.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
 #include <openvdb/io/Compression.h>
 #include <openvdb/io/GridDescriptor.h>
 #include <openvdb/io/io.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <numeric>
 #include <sstream>
-#include <system_error>
 
-namespace firetwin {
+namespace firetwin::volume {
 namespace {
 
-namespace fs = std::filesystem;
 using Leaf = openvdb::FloatTree::LeafNodeType;
 
-constexpr std::size_t kChunk = 32; // leaves that are compressed into one block
+constexpr std::size_t leaves_per_piece = 32;
 
 /// A tree of leaves without values. Their numbers, in the order in which a file holds them, go
 /// into `order`.
@@ -42,103 +37,14 @@ void plant(openvdb::FloatTree& tree, const SharedLeaves& leaves, std::vector<std
   }
 }
 
-/// Removes the temporary file unless it was renamed.
-class Temporary {
-public:
-  explicit Temporary(const fs::path& target)
-      : path_(target.string() + "." + std::to_string(system::process()) + ".tmp") {}
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
-  ~Temporary() {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-  }
-  const fs::path& path() const { return path_; }
-
-private:
-  fs::path path_;
-};
-
-void require_folder(const fs::path& target) {
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  std::error_code error;
-  if (!fs::is_directory(folder, error)) {
-    throw InputError(folder.string(), 0, 0, "no such folder; make it first");
-  }
-}
-
-using HalfValues = std::array<std::uint16_t, kLeafVoxels>;
-
-/// Rounds to half floats, nearest or even, as Imath's half does, but without branches: exponents
-/// too small for half are made by adding 1/2 (the sum's last bits are the half's), others by moving
-/// the exponent.
-FIRETWIN_CLONES void to_half(const float* values, std::uint16_t* halves) {
-  constexpr std::uint32_t kSmallest = 113U << 23;  // 2^-14
-  constexpr std::uint32_t kInfinite = 0x477ff000U; // 65520
-  for (std::size_t i = 0; i < kLeafVoxels; ++i) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, values + i, sizeof bits);
-    const std::uint32_t sign = bits >> 16 & 0x8000U;
-    bits &= 0x7fffffffU;
-    float magnitude = 0.0F;
-    std::memcpy(&magnitude, &bits, sizeof magnitude);
-    const float small = magnitude + 0.5F;
-    std::uint32_t denormal = 0;
-    std::memcpy(&denormal, &small, sizeof denormal);
-    denormal -= 0x3f000000U;
-    const std::uint32_t normal = (bits - (112U << 23) + 0xfffU + (bits >> 13 & 1U)) >> 13;
-    std::uint32_t half = bits < kSmallest ? denormal : normal;
-    half = bits >= kInfinite ? 0x7c00U : half;
-    half = bits > 0x7f800000U ? 0x7e00U : half;
-    halves[i] = static_cast<std::uint16_t>(half | sign);
-  }
-}
-
-/// Values of one grid, leaf after leaf, as LeafNode::writeBuffers writes them when all values that
-/// are not active are the background.
-class LeafWriter {
-public:
-  void write(const LeafMask& mask, std::span<const openvdb::Index> active,
-             const LeafValues& values) {
-    to_half(values.data(), halves_.data());
-    if (active.size() < kLeafVoxels) {
-      for (std::size_t i = 0; i < active.size(); ++i) {
-        halves_[i] = halves_[active[i]];
-      }
-    }
-    mask.save(stream_);
-    stream_.put(openvdb::io::NO_MASK_OR_INACTIVE_VALS);
-    const std::size_t bytes = active.size() * sizeof(std::uint16_t);
-    if (active.size() == known_count_ && std::memcmp(halves_.data(), known_.data(), bytes) == 0) {
-      stream_ << known_bytes_; // deep smoke and its shade are the same for leaves on end
-      return;
-    }
-    const auto before = static_cast<std::size_t>(stream_.tellp());
-    openvdb::io::bloscToStream(stream_, reinterpret_cast<const char*>(halves_.data()),
-                               sizeof(std::uint16_t), active.size());
-    known_bytes_ = stream_.view().substr(before);
-    known_ = halves_;
-    known_count_ = active.size();
-  }
-
-  std::string take() { return std::move(stream_).str(); }
-
-private:
-  std::ostringstream stream_{std::ios_base::binary};
-  HalfValues halves_;
-  HalfValues known_;
-  std::size_t known_count_ = 0;
-  std::string known_bytes_;
-};
-
 } // namespace
 
-VolumeArchive::VolumeArchive() {
+VdbArchive::VdbArchive() {
   setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
 }
 
-VolumeArchive::Stored VolumeArchive::begin(const openvdb::GridBase& grid,
-                                           std::ostringstream& stream) const {
+VdbArchive::Stored VdbArchive::begin(const openvdb::GridBase& grid,
+                                     std::ostringstream& stream) const {
   openvdb::io::setDataCompression(stream, compression());
   setGridCompression(stream, grid);
   const auto copy = openvdb::ConstPtrCast<openvdb::GridBase>(grid.copyGrid()); // with the same tree
@@ -156,7 +62,7 @@ VolumeArchive::Stored VolumeArchive::begin(const openvdb::GridBase& grid,
           {}};
 }
 
-void VolumeArchive::count(const openvdb::GridBase& grid) {
+void VdbArchive::count(const openvdb::GridBase& grid) {
   const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
   const std::uint64_t voxels = grid.activeVoxelCount();
   frame_.voxels += voxels;
@@ -169,13 +75,13 @@ void VolumeArchive::count(const openvdb::GridBase& grid) {
   frame_.bounds = {low[0], low[1], low[2], high[0], high[1], high[2]};
 }
 
-void VolumeArchive::add(const std::vector<GridName>& grids, double voxel_size,
-                        const SharedLeaves& leaves, const FillLeaf& fill) {
+void VdbArchive::add(const std::vector<GridName>& grids, double voxel_size,
+                     const SharedLeaves& leaves, const FillLeaf& fill) {
   const openvdb::FloatGrid::Ptr grid = fog_grid("", voxel_size, {0.0, 0.0, 0.0}, "");
   grid->setSaveFloatAsHalf(true);
   std::vector<std::size_t> order;
   plant(grid->tree(), leaves, order);
-  const std::size_t chunks = (leaves.size() + kChunk - 1) / kChunk;
+  const std::size_t chunks = (leaves.size() + leaves_per_piece - 1) / leaves_per_piece;
   const std::size_t first = grids_.size();
   for (const auto& [name, units] : grids) {
     grid->setName(name);
@@ -191,8 +97,8 @@ void VolumeArchive::add(const std::vector<GridName>& grids, double voxel_size,
     std::vector<LeafValues> values(grids.size());
     std::vector<LeafWriter> writers(grids.size());
     std::vector<openvdb::Index> active;
-    const std::size_t last = std::min((chunk + 1) * kChunk, order.size());
-    for (std::size_t i = chunk * kChunk; i < last; ++i) {
+    const std::size_t last = std::min((chunk + 1) * leaves_per_piece, order.size());
+    for (std::size_t i = chunk * leaves_per_piece; i < last; ++i) {
       const LeafMask& mask = leaves.masks[order[i]];
       active.clear();
       for (auto voxel = mask.beginOn(); voxel; ++voxel) {
@@ -209,7 +115,7 @@ void VolumeArchive::add(const std::vector<GridName>& grids, double voxel_size,
   });
 }
 
-void VolumeArchive::add(const openvdb::GridPtrVec& grids) {
+void VdbArchive::add(const openvdb::GridPtrVec& grids) {
   const std::size_t first = grids_.size();
   grids_.resize(first + grids.size());
   tbb::parallel_for(std::size_t{0}, grids.size(), [&](std::size_t i) {
@@ -224,29 +130,13 @@ void VolumeArchive::add(const openvdb::GridPtrVec& grids) {
   }
 }
 
-VolumeFrame VolumeArchive::write(const std::string& path, const Metadata& metadata) const {
-  const fs::path target(path);
-  require_folder(target);
-  const Temporary temporary(target);
-  try {
-    std::ofstream file;
-    file.exceptions(std::ios_base::badbit | std::ios_base::failbit);
-    file.open(temporary.path(), std::ios_base::binary);
-    write(file, metadata);
-    file.close();
-    fs::rename(temporary.path(), target);
-    VolumeFrame frame = frame_;
-    frame.bytes = fs::file_size(target);
-    return frame;
-  } catch (const std::ios_base::failure&) {
-    throw InputError(path, 0, 0,
-                     "cannot write the volume: " + std::generic_category().message(errno));
-  } catch (const fs::filesystem_error& error) {
-    throw InputError(path, 0, 0, "cannot write the volume: " + error.code().message());
-  }
+Frame VdbArchive::write(const std::filesystem::path& path, const io::Metadata& metadata) const {
+  Frame frame = frame_;
+  frame.bytes = io::write_file(path, [&](std::ostream& file) { write(file, metadata); });
+  return frame;
 }
 
-void VolumeArchive::write(std::ostream& file, const Metadata& metadata) const {
+void VdbArchive::write(std::ostream& file, const io::Metadata& metadata) const {
   writeHeader(file, true);
   openvdb::MetaMap entries;
   for (const auto& [key, value] : metadata) {
@@ -272,4 +162,4 @@ void VolumeArchive::write(std::ostream& file, const Metadata& metadata) const {
   }
 }
 
-} // namespace firetwin
+} // namespace firetwin::volume

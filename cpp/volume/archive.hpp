@@ -1,20 +1,20 @@
 #pragma once
 
-#include "depth.hpp"
-#include "vdb.hpp"
+#include "io/metadata.hpp"
+#include "volume/frame.hpp"
+#include "volume/leaf.hpp"
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/openvdb.h>
 
+#include <filesystem>
 #include <functional>
 #include <iosfwd>
 #include <span>
 #include <string>
 #include <vector>
 
-namespace firetwin {
-
-using LeafMask = openvdb::FloatTree::LeafNodeType::NodeMaskType;
+namespace firetwin::volume {
 
 /// Name and units of a grid.
 struct GridName {
@@ -41,9 +41,9 @@ using FillLeaf = std::function<void(std::size_t leaf, std::span<LeafValues> grid
 /// (the first time to learn its size, for "delayed loading"). Here leaves are compressed once, in
 /// parallel, as soon as their values are known, and no grid is ever whole in memory. What is
 /// written piece by piece is written by OpenVDB's functions; see its io/Archive.cc for the order.
-class VolumeArchive : private openvdb::io::Archive {
+class VdbArchive : private openvdb::io::Archive {
 public:
-  VolumeArchive();
+  VdbArchive();
 
   /// Adds half-precision fog volumes with cubic voxels and the same active voxels.
   void add(const std::vector<GridName>& grids, double voxel_size, const SharedLeaves& leaves,
@@ -51,9 +51,8 @@ public:
   /// Adds whole grids, each on its own thread.
   void add(const openvdb::GridPtrVec& grids);
 
-  /// Writes a temporary file beside `path` and renames it.
   /// @throws InputError when the folder or file cannot be written.
-  VolumeFrame write(const std::string& path, const Metadata& metadata) const;
+  Frame write(const std::filesystem::path& path, const io::Metadata& metadata) const;
 
 private:
   /// A grid as it lies in a file.
@@ -61,17 +60,17 @@ private:
     std::string name;
     std::string type;
     bool half = false;
-    std::size_t topology_end = 0;    // bytes, where the first piece's values begin
-    std::vector<std::string> pieces; // compression, metadata, transform and topology; values
+    std::size_t topology_end = 0;    ///< bytes, where the first piece's values begin
+    std::vector<std::string> pieces; ///< compression, metadata, transform and topology; values
   };
 
   /// Everything but the values.
   Stored begin(const openvdb::GridBase& grid, std::ostringstream& stream) const;
   void count(const openvdb::GridBase& grid);
-  void write(std::ostream& file, const Metadata& metadata) const;
+  void write(std::ostream& file, const io::Metadata& metadata) const;
 
   std::vector<Stored> grids_;
-  VolumeFrame frame_;
+  Frame frame_;
 };
 
-} // namespace firetwin
+} // namespace firetwin::volume

@@ -1,18 +1,13 @@
-#include "bins.hpp"
+#include "volume/bins.hpp"
 
-#include "error.hpp"
-
-#include <tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace firetwin {
+namespace firetwin::volume {
 namespace {
-
-constexpr int kLeaf = 8;
-constexpr std::size_t kMostLeaves = 100'000'000;
 
 struct Range {
   std::array<std::int32_t, 3> low;
@@ -33,7 +28,7 @@ Range leaves(const Puffs& puffs, std::size_t ball, float reach, double side) {
 
 LeafBox::LeafBox(const Puffs& puffs, std::span<const float> reach, double voxel_size)
     : low(0), count(0) {
-  const double side = voxel_size * kLeaf;
+  const double side = voxel_size * static_cast<double>(leaf_side);
   openvdb::CoordBBox box;
   for (std::size_t i = 0; i < reach.size(); ++i) {
     if (reach[i] > 0.0F) {
@@ -47,10 +42,7 @@ LeafBox::LeafBox(const Puffs& puffs, std::span<const float> reach, double voxel_
   }
   low = box.min();
   count = box.dim();
-  if (size() > kMostLeaves) {
-    throw Error("voxels of " + std::to_string(voxel_size) +
-                " m are too small for smoke this wide; use larger ones");
-  }
+  check_leaf_count(size(), voxel_size);
 }
 
 std::size_t LeafBox::size() const {
@@ -63,14 +55,12 @@ openvdb::Coord LeafBox::origin(std::size_t leaf) const {
   const std::int64_t z = number % count.z();
   const std::int64_t y = number / count.z() % count.y();
   const std::int64_t x = number / count.z() / count.y();
-  return openvdb::Coord((low.x() + static_cast<int>(x)) * kLeaf,
-                        (low.y() + static_cast<int>(y)) * kLeaf,
-                        (low.z() + static_cast<int>(z)) * kLeaf);
+  return first_voxel(low.offsetBy(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z)));
 }
 
 Bins::Bins(const LeafBox& box, const Puffs& puffs, std::span<const float> reach,
            double voxel_size) {
-  const double side = voxel_size * kLeaf;
+  const double side = voxel_size * static_cast<double>(leaf_side);
   const std::size_t total = box.size();
   std::vector<Range> ranges(reach.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, reach.size(), 4096), [&](const auto& part) {
@@ -125,4 +115,4 @@ Bins::Bins(const LeafBox& box, const Puffs& puffs, std::span<const float> reach,
   visit([&](std::size_t leaf, std::uint32_t ball) { balls_[next[leaf]++] = ball; });
 }
 
-} // namespace firetwin
+} // namespace firetwin::volume

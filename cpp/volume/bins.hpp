@@ -1,6 +1,7 @@
 #pragma once
 
-#include "puffs.hpp"
+#include "volume/leaf.hpp"
+#include "volume/puffs.hpp"
 
 #include <openvdb/openvdb.h>
 
@@ -8,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace firetwin {
+namespace firetwin::volume {
 
 /// The box of leaves (8^3 voxels) that balls reach.
 struct LeafBox {
@@ -38,4 +39,4 @@ private:
   std::vector<std::uint32_t> balls_;
 };
 
-} // namespace firetwin
+} // namespace firetwin::volume

@@ -1,16 +1,18 @@
-#include "depth.hpp"
+#include "volume/depth.hpp"
 
-#include "lanes.hpp"
+#include "base/clones.hpp"
+#include "volume/lanes.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 
-namespace firetwin {
+namespace firetwin::volume {
 namespace {
 
-constexpr float kNowhere = -std::numeric_limits<float>::infinity();
+constexpr float nowhere = -std::numeric_limits<float>::infinity();
 
 struct View {
   const float* x;
@@ -21,9 +23,10 @@ struct View {
 };
 
 /// Depths of one point in all the balls; returns the largest.
-FIRETWIN_CLONES float depths_at(const View& balls, const float* point, float* depths) {
-  Lanes most = Lanes{} + kNowhere;
-  for (std::size_t i = 0; i < balls.count; i += kLanes) {
+FIRETWIN_CLONES("avx2")
+float depths_at(const View& balls, const float* point, float* depths) {
+  Lanes most = Lanes{} + nowhere;
+  for (std::size_t i = 0; i < balls.count; i += lane_count) {
     Lanes x;
     Lanes y;
     Lanes z;
@@ -36,36 +39,37 @@ FIRETWIN_CLONES float depths_at(const View& balls, const float* point, float* de
     y -= point[1];
     z -= point[2];
     Lanes depth = x * x + y * y + z * z;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
       depth[lane] = std::sqrt(depth[lane]);
     }
     depth = radius - depth;
     std::memcpy(depths + i, &depth, sizeof depth);
     most = depth > most ? depth : most;
   }
-  float largest = kNowhere;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+  float largest = nowhere;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
     largest = std::max(largest, most[lane]);
   }
   return largest;
 }
 
 /// Depth of eight points in their deepest ball and its radius.
-FIRETWIN_CLONES void deepest(const View& balls, const float* points, float* depths, float* radii) {
+FIRETWIN_CLONES("avx2")
+void deepest(const View& balls, const float* points, float* depths, float* radii) {
   Lanes px;
   Lanes py;
   Lanes pz;
   std::memcpy(&px, points, sizeof px);
-  std::memcpy(&py, points + kLanes, sizeof py);
-  std::memcpy(&pz, points + 2 * kLanes, sizeof pz);
-  Lanes most = Lanes{} - kOutside;
+  std::memcpy(&py, points + lane_count, sizeof py);
+  std::memcpy(&pz, points + 2 * lane_count, sizeof pz);
+  Lanes most = Lanes{} - depth_outside;
   Lanes chosen{};
   for (std::size_t i = 0; i < balls.count; ++i) {
     const Lanes x = px - balls.x[i];
     const Lanes y = py - balls.y[i];
     const Lanes z = pz - balls.z[i];
     Lanes depth = x * x + y * y + z * z;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
       depth[lane] = std::sqrt(depth[lane]);
     }
     const Lanes radius = Lanes{} + balls.radius[i];
@@ -79,15 +83,15 @@ FIRETWIN_CLONES void deepest(const View& balls, const float* points, float* dept
 }
 
 std::size_t voxel_at(std::size_t x, std::size_t y, std::size_t z) {
-  return (x * kLeafSide + y) * kLeafSide + z;
+  return (x * leaf_side + y) * leaf_side + z;
 }
 
 } // namespace
 
 void DepthMeter::Balls::reserve(std::size_t most) {
-  if (x.size() < most + kLanes) {
+  if (x.size() < most + lane_count) {
     for (std::vector<float>* column : {&x, &y, &z, &radius}) {
-      column->resize(most + kLanes);
+      column->resize(most + lane_count);
     }
   }
   count = 0;
@@ -102,9 +106,9 @@ void DepthMeter::Balls::add(float ball_x, float ball_y, float ball_z, float ball
 }
 
 void DepthMeter::Balls::fill_up() {
-  for (std::size_t i = count; i < count + kLanes; ++i) {
+  for (std::size_t i = count; i < count + lane_count; ++i) {
     x[i] = y[i] = z[i] = 0.0F;
-    radius[i] = kNowhere;
+    radius[i] = nowhere;
   }
 }
 
@@ -115,20 +119,20 @@ void DepthMeter::measure(const Puffs& puffs, std::span<const std::uint32_t> ball
   voxel_ = voxel_size;
   depth_ = &depth;
   radius_ = &radius;
-  depth.fill(-kOutside);
+  depth.fill(-depth_outside);
   radius.fill(0.0F);
-  for (Balls& level : balls_) {
-    level.reserve(balls.size());
+  for (Balls& round : balls_) {
+    round.reserve(balls.size());
   }
-  if (depths_.size() < balls.size() + kLanes) {
-    depths_.resize(balls.size() + kLanes);
+  if (depths_.size() < balls.size() + lane_count) {
+    depths_.resize(balls.size() + lane_count);
   }
   for (const std::uint32_t ball : balls) {
     const float* centre = &puffs.position[3 * ball];
     balls_[0].add(centre[0], centre[1], centre[2], puffs.radius[ball]);
   }
   balls_[0].fill_up();
-  refine({{0, 0, 0}, kLeafSide, 0}, wanted);
+  refine({{0, 0, 0}, leaf_side, 0}, wanted);
 }
 
 std::array<float, 3> DepthMeter::place(const Block& block, float offset) const {
@@ -140,18 +144,18 @@ std::array<float, 3> DepthMeter::place(const Block& block, float offset) const {
 }
 
 void DepthMeter::refine(const Block& block, std::uint64_t wanted) {
-  const Balls& from = balls_[block.level];
-  Balls& left = balls_[block.level + 1];
+  const Balls& from = balls_[block.round];
+  Balls& left = balls_[block.round + 1];
   const float middle = 0.5F * static_cast<float>(block.side - 1);
   // From the centre to the outermost voxels, and a little for rounding.
   const float half = middle * voxel_ * std::numbers::sqrt3_v<float> * 1.0001F + 0.1F;
-  const std::size_t lanes = (from.count + kLanes - 1) / kLanes * kLanes;
+  const std::size_t lanes = (from.count + lane_count - 1) / lane_count * lane_count;
   const View view{from.x.data(), from.y.data(), from.z.data(), from.radius.data(), lanes};
   const float most = depths_at(view, place(block, middle).data(), depths_.data());
-  if (most < -kOutside - half) {
+  if (most < -depth_outside - half) {
     return;
   }
-  if (most - half >= kInside) {
+  if (most - half >= depth_inside) {
     const auto ball = static_cast<std::size_t>(
         std::find(depths_.begin(), depths_.begin() + static_cast<std::ptrdiff_t>(from.count),
                   most) -
@@ -166,7 +170,7 @@ void DepthMeter::refine(const Block& block, std::uint64_t wanted) {
     }
     return;
   }
-  const float limit = std::max(most - 2.0F * half, -kOutside - half);
+  const float limit = std::max(most - 2.0F * half, -depth_outside - half);
   left.count = 0;
   for (std::size_t i = 0; i < from.count; ++i) {
     left.x[left.count] = from.x[i];
@@ -183,7 +187,7 @@ void DepthMeter::refine(const Block& block, std::uint64_t wanted) {
   const std::size_t half_side = block.side / 2;
   const std::size_t count = half_side / 2; // blocks of 2^3 along a part
   for (std::size_t part = 0; part < 8; ++part) {
-    Block next{block.origin, half_side, block.level + 1};
+    Block next{block.origin, half_side, block.round + 1};
     next.origin[0] += (part >> 2 & 1) * half_side;
     next.origin[1] += (part >> 1 & 1) * half_side;
     next.origin[2] += (part & 1) * half_side;
@@ -201,25 +205,25 @@ void DepthMeter::refine(const Block& block, std::uint64_t wanted) {
 }
 
 void DepthMeter::measure_voxels(const Block& block, const Balls& balls) {
-  std::array<float, 3 * kLanes> points{};
-  std::array<std::size_t, kLanes> voxels{};
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+  std::array<float, 3 * lane_count> points{};
+  std::array<std::size_t, lane_count> voxels{};
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const std::array<std::size_t, 3> at{block.origin[0] + (lane >> 2 & 1),
                                         block.origin[1] + (lane >> 1 & 1),
                                         block.origin[2] + (lane & 1)};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      points[axis * kLanes + lane] = corner_[axis] + static_cast<float>(at[axis]) * voxel_;
+      points[axis * lane_count + lane] = corner_[axis] + static_cast<float>(at[axis]) * voxel_;
     }
     voxels[lane] = voxel_at(at[0], at[1], at[2]);
   }
-  std::array<float, kLanes> depths{};
-  std::array<float, kLanes> radii{};
+  std::array<float, lane_count> depths{};
+  std::array<float, lane_count> radii{};
   deepest({balls.x.data(), balls.y.data(), balls.z.data(), balls.radius.data(), balls.count},
           points.data(), depths.data(), radii.data());
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
     (*depth_)[voxels[lane]] = depths[lane];
     (*radius_)[voxels[lane]] = radii[lane];
   }
 }
 
-} // namespace firetwin
+} // namespace firetwin::volume

@@ -1,22 +1,17 @@
 #pragma once
 
-#include "puffs.hpp"
+#include "volume/leaf.hpp"
+#include "volume/puffs.hpp"
 
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace firetwin {
+namespace firetwin::volume {
 
-constexpr float kInside = 300.0F;  // m of depth at which density reaches 1
-constexpr float kOutside = 150.0F; // m outside the balls where voxels end
-
-constexpr std::size_t kLeafSide = 8;
-constexpr std::size_t kLeafVoxels = kLeafSide * kLeafSide * kLeafSide;
-
-/// A value for each voxel of an 8^3 leaf, z running fastest.
-using LeafValues = std::array<float, kLeafVoxels>;
+constexpr float depth_inside = 300.0F;  ///< m of depth at which density reaches 1
+constexpr float depth_outside = 150.0F; ///< m outside the balls where voxels end
 
 /// Depth in the union of balls, leaf by leaf. Keeps its memory from leaf to leaf: one for each
 /// thread.
@@ -27,9 +22,9 @@ using LeafValues = std::array<float, kLeafVoxels>;
 /// voxel.
 class DepthMeter {
 public:
-  /// Depth (m, positive inside, at least -kOutside) and radius of the deepest ball. Only the blocks
-  /// of 2^3 voxels with a bit in `wanted` (z fastest) are measured; the others keep -kOutside and
-  /// 0. Depths over kInside may be too small, but never smaller than that.
+  /// Depth (m, positive inside, at least -depth_outside) and radius of the deepest ball. Only the
+  /// blocks of 2^3 voxels with a bit in `wanted` (z fastest) are measured; the others keep
+  /// -depth_outside and 0. Depths over depth_inside may be too small, but never smaller than that.
   void measure(const Puffs& puffs, std::span<const std::uint32_t> balls,
                const std::array<float, 3>& corner, float voxel_size, std::uint64_t wanted,
                LeafValues& depth, LeafValues& radius);
@@ -45,16 +40,16 @@ private:
     void fill_up();
   };
   struct Block {
-    std::array<std::size_t, 3> origin; // its first voxel in the leaf
-    std::size_t side;                  // voxels
-    std::size_t level;
+    std::array<std::size_t, 3> origin; ///< its first voxel in the leaf
+    std::size_t side;                  ///< voxels
+    std::size_t round;                 ///< how often balls were left out
   };
 
   void refine(const Block& block, std::uint64_t wanted);
   void measure_voxels(const Block& block, const Balls& balls);
   std::array<float, 3> place(const Block& block, float offset) const;
 
-  std::array<Balls, 4> balls_; // of the leaf, and what is left after 8^3, 4^3 and 2^3
+  std::array<Balls, 4> balls_; ///< of the leaf, and what is left after 8^3, 4^3 and 2^3
   std::vector<float> depths_;
   std::array<float, 3> corner_{};
   float voxel_ = 0.0F;
@@ -62,4 +57,4 @@ private:
   LeafValues* radius_ = nullptr;
 };
 
-} // namespace firetwin
+} // namespace firetwin::volume

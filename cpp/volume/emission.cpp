@@ -1,14 +1,14 @@
-#include "emission.hpp"
+#include "volume/emission.hpp"
 
-#include "hash.hpp"
+#include "base/random.hpp"
 
-#include <tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
-namespace firetwin {
+namespace firetwin::volume {
 namespace {
 
 /// Seconds of [low, high] during which a cell that caught fire at `arrival` burns.
@@ -73,8 +73,8 @@ Source source(double time, const Burn& burn, const PuffSettings& settings, const
     for (std::size_t axis = 0; axis < 2; ++axis) {
       result.wind[axis] += all * burn.wind[2 * cell + axis];
     }
-    const double step = settings.interval / static_cast<double>(kStems);
-    for (std::size_t i = 0; i < kStems; ++i) {
+    const double step = settings.interval / static_cast<double>(stem_count);
+    for (std::size_t i = 0; i < stem_count; ++i) {
       const double low = result.start + static_cast<double>(i) * step;
       result.stems[i] +=
           rate * overlap(arrival, settings.burn_time, low, std::min(low + step, time));
@@ -141,4 +141,4 @@ Emission gather(double time, const Burn& burn, const PuffSettings& settings) {
   return result;
 }
 
-} // namespace firetwin
+} // namespace firetwin::volume

@@ -1,16 +1,19 @@
-#include "grids.hpp"
+#include "volume/grids.hpp"
 
-#include "error.hpp"
+#include "volume/fog.hpp"
 
-#include <tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
-namespace firetwin {
+namespace firetwin::volume {
 namespace {
 
-constexpr double kSeenMargin = 300.0; // m round a leaf: noise, and light that smoke passes on
+constexpr double seen_margin = 300.0; // m round a leaf: noise, and light that smoke passes on
 
 struct NamedGrid {
   SmokeGrid grid;
@@ -18,13 +21,13 @@ struct NamedGrid {
   const char* units;
 };
 
-constexpr std::array<NamedGrid, 7> kGrids{{{SmokeGrid::density, "density", ""},
-                                           {SmokeGrid::dilution, "dilution", "1e-5 kg/m3"},
-                                           {SmokeGrid::shade, "shade", "1e-5 kg/m3"},
-                                           {SmokeGrid::size, "size", "km"},
-                                           {SmokeGrid::temperature, "temperature", "K"},
-                                           {SmokeGrid::glow, "glow", "1"},
-                                           {SmokeGrid::flame, "flame", "1"}}};
+constexpr std::array<NamedGrid, 7> all_grids{{{SmokeGrid::density, "density", ""},
+                                              {SmokeGrid::dilution, "dilution", "1e-5 kg/m3"},
+                                              {SmokeGrid::shade, "shade", "1e-5 kg/m3"},
+                                              {SmokeGrid::size, "size", "km"},
+                                              {SmokeGrid::temperature, "temperature", "K"},
+                                              {SmokeGrid::glow, "glow", "1"},
+                                              {SmokeGrid::flame, "flame", "1"}}};
 
 bool is_wanted(const Wanted& wanted, SmokeGrid grid) {
   const bool lit = grid == SmokeGrid::glow || grid == SmokeGrid::flame;
@@ -35,12 +38,12 @@ bool is_wanted(const Wanted& wanted, SmokeGrid grid) {
          std::find(wanted.grids.begin(), wanted.grids.end(), grid) != wanted.grids.end();
 }
 
-bool counts(const openvdb::Coord& origin, double voxel_size, const Sight& sight) {
-  const double middle = 0.5 * static_cast<double>(kLeafSide - 1);
-  const double half = 0.5 * static_cast<double>(kLeafSide) * voxel_size;
+bool counts(const openvdb::Coord& origin, double voxel_size, const lod::Sight& sight) {
+  const double middle = 0.5 * static_cast<double>(leaf_side - 1);
+  const double half = 0.5 * static_cast<double>(leaf_side) * voxel_size;
   return sight.counts({(origin.x() + middle) * voxel_size, (origin.y() + middle) * voxel_size,
                        (origin.z() + middle) * voxel_size},
-                      std::sqrt(3.0) * half + kSeenMargin);
+                      std::sqrt(3.0) * half + seen_margin);
 }
 
 /// Power of the flames within 1.5 voxels in GW, at most 1.
@@ -66,57 +69,54 @@ openvdb::FloatGrid::Ptr flame_grid(const Flames& flames, double voxel_size) {
   return grid;
 }
 
-} // namespace
+/// The leaves that count.
+struct Chosen {
+  SharedLeaves leaves;
+  std::vector<std::size_t> number; ///< of each among all the source's
+  double hidden = 0.0;             ///< kg in the others
+};
 
-std::array<float, 3> corner_of(const openvdb::Coord& origin, float voxel_size) {
-  return {static_cast<float>(origin.x()) * voxel_size, static_cast<float>(origin.y()) * voxel_size,
-          static_cast<float>(origin.z()) * voxel_size};
+Chosen choose(const LeafSource& source, double voxel_size, const lod::Sight& sight) {
+  const SharedLeaves& all = source.leaves;
+  std::vector<char> seen(all.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+    seen[i] = counts(all.origins[i], voxel_size, sight) ? 1 : 0;
+  });
+  Chosen chosen;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (seen[i] != 0) {
+      chosen.leaves.origins.push_back(all.origins[i]);
+      chosen.leaves.masks.push_back(all.masks[i]);
+      chosen.number.push_back(i);
+    } else {
+      LeafValues dilution;
+      source.values(i, SmokeGrid::dilution, dilution);
+      chosen.hidden += mass_of(all.masks[i], dilution, voxel_size) * fresh_smoke;
+    }
+  }
+  return chosen;
 }
+
+} // namespace
 
 SmokeGrid smoke_grid(const std::string& name) {
   std::string known;
-  for (const NamedGrid& grid : kGrids) {
+  for (const NamedGrid& grid : all_grids) {
     if (name == grid.name) {
       return grid.grid;
     }
     known += (known.empty() ? "" : ", ") + std::string(grid.name);
   }
-  throw Error("there is no smoke grid \"" + name + "\"; choose from " + known);
+  throw std::invalid_argument("there is no smoke grid \"" + name + "\"; choose from " + known);
 }
 
-/// Integral over active voxels.
-double mass_of(const LeafMask& mask, const LeafValues& values, double voxel_size) {
-  double sum = 0.0;
-  for (auto voxel = mask.beginOn(); voxel; ++voxel) {
-    sum += static_cast<double>(values[voxel.pos()]);
-  }
-  return sum * voxel_size * voxel_size * voxel_size;
-}
-
-VolumeFrame write_leaves(const std::string& path, const LeafSource& source, double voxel_size,
-                         const Wanted& wanted) {
-  const SharedLeaves& all = source.leaves;
-  std::vector<char> seen(all.size());
-  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-    seen[i] = counts(all.origins[i], voxel_size, wanted.sight) ? 1 : 0;
-  });
-  SharedLeaves leaves;
-  std::vector<std::size_t> number;
-  double hidden = 0.0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (seen[i] != 0) {
-      leaves.origins.push_back(all.origins[i]);
-      leaves.masks.push_back(all.masks[i]);
-      number.push_back(i);
-    } else {
-      LeafValues dilution;
-      source.values(i, SmokeGrid::dilution, dilution);
-      hidden += mass_of(all.masks[i], dilution, voxel_size) * kFreshSmoke;
-    }
-  }
+Frame write_leaves(const std::filesystem::path& path, const LeafSource& source, double voxel_size,
+                   const Wanted& wanted) {
+  const Chosen chosen = choose(source, voxel_size, wanted.sight);
+  const SharedLeaves& leaves = chosen.leaves;
   std::vector<SmokeGrid> grids;
   std::vector<GridName> names;
-  for (const NamedGrid& grid : kGrids) {
+  for (const NamedGrid& grid : all_grids) {
     if (grid.grid != SmokeGrid::flame && is_wanted(wanted, grid.grid)) {
       grids.push_back(grid.grid);
       names.push_back({grid.name, grid.grid == SmokeGrid::density ? source.density_units
@@ -124,7 +124,7 @@ VolumeFrame write_leaves(const std::string& path, const LeafSource& source, doub
     }
   }
   std::vector<double> mass(leaves.size()); // kg
-  VolumeArchive archive;
+  VdbArchive archive;
   archive.add(names, voxel_size, leaves, [&](std::size_t i, std::span<LeafValues> out) {
     for (std::size_t g = 0; g < grids.size(); ++g) {
       if (grids[g] == SmokeGrid::glow) {
@@ -133,19 +133,19 @@ VolumeFrame write_leaves(const std::string& path, const LeafSource& source, doub
                     out[g]);
         continue;
       }
-      source.values(number[i], grids[g], out[g]);
+      source.values(chosen.number[i], grids[g], out[g]);
       if (grids[g] == SmokeGrid::dilution) {
-        mass[i] = mass_of(leaves.masks[i], out[g], voxel_size) * kFreshSmoke;
+        mass[i] = mass_of(leaves.masks[i], out[g], voxel_size) * fresh_smoke;
       }
     }
   });
   if (is_wanted(wanted, SmokeGrid::flame)) {
     archive.add({flame_grid(wanted.flames, voxel_size)});
   }
-  VolumeFrame frame = archive.write(path, wanted.metadata);
+  Frame frame = archive.write(path, wanted.metadata);
   frame.mass = std::accumulate(mass.begin(), mass.end(), 0.0);
-  frame.hidden = hidden;
+  frame.hidden = chosen.hidden;
   return frame;
 }
 
-} // namespace firetwin
+} // namespace firetwin::volume

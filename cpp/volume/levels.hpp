@@ -1,24 +1,21 @@
 #pragma once
 
 #include "geo/local_frame.hpp"
-#include "grids.hpp"
+#include "volume/grids.hpp"
 
+#include <filesystem>
 #include <span>
-#include <string>
 
-namespace firetwin {
-
-/// Dilution of smoke that is thick in every voxel.
-constexpr double kThick = 0.1;
+namespace firetwin::volume {
 
 /// Smoke of one moment on terrain-following levels [nz ny nx], heights ascending.
 struct Levels {
-  std::span<const double> latitude;   // [ny] degrees
-  std::span<const double> longitude;  // [nx]
-  std::span<const float> ground;      // [ny nx] m, elevation
-  std::span<const float> height;      // m
-  std::span<const float> smoke;       // kg/m3; what is not a number or negative counts as 0
-  std::span<const float> temperature; // K; empty: of the International Standard Atmosphere
+  std::span<const double> latitude;   ///< [ny] degrees
+  std::span<const double> longitude;  ///< [nx]
+  std::span<const float> ground;      ///< [ny nx] m, elevation
+  std::span<const float> height;      ///< m
+  std::span<const float> smoke;       ///< kg/m3; what is not a number or negative counts as 0
+  std::span<const float> temperature; ///< K; empty: of the International Standard Atmosphere
   std::size_t levels = 0;
 };
 
@@ -29,12 +26,14 @@ struct Levels {
 /// centimetres) fields and heights of the levels are bilinear, and the field is linear in height
 /// between levels: linear functions of height are kept exactly. Below the lowest level its value
 /// holds down to the ground; above the highest, outside the grid and under the ground there is no
-/// smoke. Nothing is scaled: VolumeFrame::mass is the integral of what was found.
+/// smoke. Nothing is scaled: Frame::mass is the integral of what was found.
 ///
 /// The model gives no surface, so one is made of its concentration: `density` is a smoothstep of
-/// `dilution` from kThinnest to kThick, `shade` follows from both as in write_smoke, and `size` is
-/// the spacing of the model's columns, below which only noise can show detail.
-VolumeFrame write_levels(const std::string& path, const geo::LocalFrame& frame,
-                         const Levels& levels, double voxel_size, const Wanted& wanted);
+/// `dilution` from thinnest_dilution to 0.1, thick in every voxel, `shade` follows from both as in
+/// write_smoke, and `size` is the spacing of the model's columns, below which only noise can show
+/// detail.
+/// @throws std::invalid_argument unless voxel_size > 0; Error where heights do not ascend
+Frame write_levels(const std::filesystem::path& path, const geo::LocalFrame& frame,
+                   const Levels& levels, double voxel_size, const Wanted& wanted);
 
-} // namespace firetwin
+} // namespace firetwin::volume

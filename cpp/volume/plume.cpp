@@ -1,36 +1,38 @@
-#include "plume.hpp"
+#include "volume/plume.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace firetwin {
+namespace firetwin::volume {
 namespace {
 
-constexpr double kGravity = 9.81;     // m/s2
-constexpr double kHeatOfAir = 1005.0; // J/(kg K)
-constexpr double kAirDensity = 1.2;   // kg/m3
-constexpr double kAirKelvin = 290.0;  // K
-constexpr double kConvective = 0.7;   // part of the heat that is not radiated away
-constexpr double kBriggsHeight = 300.0;
-constexpr double kLeastWind = 0.5; // m/s; less counts as a calm, as in EMRISE
-constexpr double kWindExponent = 0.1;
-constexpr int kSteps = 12; // of the drift integral: within 0.2 % of the limit
+constexpr double gravity = 9.81;          // m/s2
+constexpr double heat_of_air = 1005.0;    // J/(kg K)
+constexpr double air_density = 1.2;       // kg/m3
+constexpr double air_temperature = 290.0; // K
+constexpr double convective_part = 0.7;   // part of the heat that is not radiated away
+constexpr double briggs_height = 300.0;
+constexpr double least_wind = 0.5; // m/s; less counts as a calm, as in EMRISE
+constexpr double wind_exponent = 0.1;
+constexpr int drift_steps = 12; // of the drift integral: within 0.2 % of the limit
+
+/// Of a fire of `power` W, m4/s3.
+double buoyancy_flux(double power) {
+  return gravity * convective_part * power /
+         (std::numbers::pi * heat_of_air * air_density * air_temperature);
+}
+
+/// Wind at `height` m above the ground for a wind of `wind10` m/s at 10 m.
+double wind_at(double wind10, double height) {
+  return wind10 * std::pow(std::max(height, 10.0) / 10.0, wind_exponent);
+}
 
 } // namespace
 
-double buoyancy_flux(double power) {
-  return kGravity * kConvective * power /
-         (std::numbers::pi * kHeatOfAir * kAirDensity * kAirKelvin);
-}
-
-double wind_at(double wind10, double height) {
-  return wind10 * std::pow(std::max(height, 10.0) / 10.0, kWindExponent);
-}
-
 Plume::Plume(double power, double wind, double stability)
     : flux_(buoyancy_flux(std::max(power, 0.0))), wind_(std::max(wind, 0.0)),
-      wind_aloft_(std::max(wind_at(wind_, kBriggsHeight), kLeastWind)) {
+      wind_aloft_(std::max(wind_at(wind_, briggs_height), least_wind)) {
   const double windy = 2.6 * std::cbrt(flux_ / (wind_aloft_ * stability));
   const double calm = 5.3 * std::pow(flux_, 0.25) * std::pow(stability, -0.375);
   final_rise_ = std::min(windy, calm);
@@ -49,11 +51,11 @@ double Plume::rise(double age) const {
 double Plume::drift(double age) const {
   // Midpoint rule in u with t = age u^2: short steps where the smoke rises fastest.
   double sum = 0.0;
-  for (int i = 0; i < kSteps; ++i) {
-    const double u = (i + 0.5) / kSteps;
+  for (int i = 0; i < drift_steps; ++i) {
+    const double u = (i + 0.5) / drift_steps;
     sum += wind_at(wind_, rise(age * u * u)) * 2.0 * u;
   }
-  return std::max(age, 0.0) * sum / kSteps;
+  return std::max(age, 0.0) * sum / drift_steps;
 }
 
-} // namespace firetwin
+} // namespace firetwin::volume

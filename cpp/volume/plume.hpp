@@ -1,6 +1,6 @@
 #pragma once
 
-namespace firetwin {
+namespace firetwin::volume {
 
 /// One buoyant plume in a stably stratified wind.
 ///
@@ -22,18 +22,12 @@ public:
   double rise(double age) const;
   /// Distance downwind of smoke `age` seconds old, m: the integral of the wind at its own height.
   double drift(double age) const;
-  double final_rise() const { return final_rise_; }
 
 private:
-  double flux_;       // Fb, m4/s3
-  double wind_;       // at 10 m, m/s
-  double wind_aloft_; // at 300 m, m/s
-  double final_rise_; // m
+  double flux_;       ///< Fb, m4/s3
+  double wind_;       ///< at 10 m, m/s
+  double wind_aloft_; ///< at 300 m, m/s
+  double final_rise_; ///< m
 };
 
-/// Buoyancy flux of a fire of `power` W, m4/s3.
-double buoyancy_flux(double power);
-/// Wind at `height` m above the ground for a wind of `wind10` m/s at 10 m.
-double wind_at(double wind10, double height);
-
-} // namespace firetwin
+} // namespace firetwin::volume

@@ -1,28 +1,28 @@
-#include "puffs.hpp"
+#include "volume/puffs.hpp"
 
-#include "emission.hpp"
-#include "hash.hpp"
-#include "plume.hpp"
+#include "base/check.hpp"
+#include "base/random.hpp"
+#include "base/smoothstep.hpp"
+#include "base/vector.hpp"
+#include "volume/emission.hpp"
+#include "volume/plume.hpp"
 
-#include <tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
-namespace firetwin {
+namespace firetwin::volume {
 namespace {
 
-constexpr double kEntrainment = 0.3;
-constexpr double kTurbulentGrowth = 0.02;
-constexpr double kFireFlux = 1.0e5;       // W/m2
-constexpr double kFaint = 2.0e-8;         // kg/m3; thinner smoke has no edge to shape
-constexpr std::uint64_t kStemKeys = 1000; // apart from the keys of surface balls
-constexpr int kChildren = 16;
-constexpr int kGrandchildren = 9;
-
-using Vector = std::array<double, 3>;
+constexpr double entrainment = 0.3;
+constexpr double turbulent_growth = 0.02;
+constexpr double fire_flux = 1.0e5;       // W/m2
+constexpr double faint_density = 2.0e-8;  // kg/m3; thinner smoke has no edge to shape
+constexpr std::uint64_t stem_keys = 1000; // apart from the keys of surface balls
+constexpr int child_count = 16;
+constexpr int grandchild_count = 9;
 
 struct Ball {
   Vector position;
@@ -33,9 +33,23 @@ struct Ball {
   std::uint64_t identity;
 };
 
-double smoothstep(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
+void check(double time, const Burn& burn, const PuffSettings& settings) {
+  check_finite(time, "time");
+  check_finite(burn.arrival, "arrival (leave out cells that never burn)");
+  check_finite(burn.fuel, "fuel");
+  check_finite(burn.position, "position");
+  check_finite(burn.wind, "wind");
+  check_above_zero(burn.cell_area, "cell_area");
+  check_above_zero(settings.interval, "interval");
+  check_above_zero(settings.max_age, "max_age");
+  check_above_zero(settings.burn_time, "burn_time");
+  check_above_zero(settings.stability, "stability");
+  check_above_zero(settings.block, "block");
+  check_above_zero(settings.merge_radius, "merge_radius");
+  check_above_zero(settings.smallest, "smallest");
+  check_above_zero(settings.smoke_fraction, "smoke_fraction");
+  check_above_zero(settings.heat_of_combustion, "heat_of_combustion");
+  check_finite(settings.turbulence, "turbulence");
 }
 
 /// Point `index` of a Fibonacci lattice on the unit sphere, turned and shaken by `key`.
@@ -50,9 +64,9 @@ Vector direction(int index, int count, std::uint64_t key) {
 
 /// Adds the balls on the surface of `parent`: sixteen, then nine on each of those.
 void add_surface(std::vector<Ball>& balls, const Ball& parent, double smallest, int generation) {
-  const int count = generation == 1 ? kChildren : kGrandchildren;
+  const int count = generation == 1 ? child_count : grandchild_count;
   const double least = generation == 1 ? 0.28 : 0.3;
-  if (parent.radius * 0.5 <= smallest || parent.density < kFaint) {
+  if (parent.radius * 0.5 <= smallest || parent.density < faint_density) {
     return;
   }
   for (int i = 0; i < count; ++i) {
@@ -62,8 +76,8 @@ void add_surface(std::vector<Ball>& balls, const Ball& parent, double smallest, 
       continue;
     }
     // None appears or goes at full size.
-    radius *=
-        smoothstep(1.0, 1.5, radius / smallest) * smoothstep(1.0, 2.0, parent.density / kFaint);
+    radius *= smoothstep(1.0, 1.5, radius / smallest) *
+              smoothstep(1.0, 2.0, parent.density / faint_density);
     const Vector way = direction(i, count, parent.identity);
     Ball child = parent;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -89,12 +103,12 @@ public:
     const double grown = smoothstep(1.5, 3.0, age / settings_.interval);
     const double fade = 1.0 - smoothstep(0.5, 1.0, age / settings_.max_age);
     if (grown < 1.0) {
-      const double step = settings_.interval / kStems;
-      for (std::size_t i = 0; i < kStems; ++i) {
+      const double step = settings_.interval / stem_count;
+      for (std::size_t i = 0; i < stem_count; ++i) {
         const double stem_age = age - static_cast<double>(i) * step;
         if (stem_age > 0.0) {
           const double size = std::cbrt(1.0 - grown) * smoothstep(0.0, 3.0 * step, stem_age);
-          add(balls, source, mix(source.key, kStemKeys + i), stem_age, size,
+          add(balls, source, mix(source.key, stem_keys + i), stem_age, size,
               source.stems[i] * (1.0 - grown) * fade);
         }
       }
@@ -113,8 +127,8 @@ private:
     const Plume plume(source.merged_power * vigour * vigour * vigour, speed, settings_.stability);
     const double rise = plume.rise(age);
     const double drift = plume.drift(age);
-    const double fire = std::sqrt(source.power / (std::numbers::pi * kFireFlux));
-    const double full = fire + kEntrainment * rise + kTurbulentGrowth * drift;
+    const double fire = std::sqrt(source.power / (std::numbers::pi * fire_flux));
+    const double full = fire + entrainment * rise + turbulent_growth * drift;
     const double sway = settings_.turbulence * full;
     const double turn = 2.0 * std::numbers::pi * uniform(key, 2);
     const double sideways = 0.55 * sway * std::sqrt(uniform(key, 3));
@@ -141,6 +155,7 @@ private:
 } // namespace
 
 Puffs puffs(double time, const Burn& burn, const PuffSettings& settings) {
+  check(time, burn, settings);
   const Emission emission = gather(time, burn, settings);
   const Follower follower(time, settings);
   std::vector<std::vector<Ball>> parts(emission.sources.size());
@@ -169,4 +184,4 @@ Puffs puffs(double time, const Burn& burn, const PuffSettings& settings) {
   return result;
 }
 
-} // namespace firetwin
+} // namespace firetwin::volume

@@ -4,42 +4,42 @@
 #include <span>
 #include <vector>
 
-namespace firetwin {
+namespace firetwin::volume {
 
 /// Cells that burned, n of them; positions are (n, 3) and winds (n, 2), row by row.
 struct Burn {
-  std::span<const double> arrival;  // s
-  std::span<const double> fuel;     // kg/m2 consumed
-  std::span<const double> position; // m
-  std::span<const double> wind;     // m/s east and north, 10 m up, when the cell burned
-  double cell_area = 0.0;           // m2
+  std::span<const double> arrival;  ///< s
+  std::span<const double> fuel;     ///< kg/m2 consumed
+  std::span<const double> position; ///< m
+  std::span<const double> wind;     ///< m/s east and north, 10 m up, when the cell burned
+  double cell_area = 0.0;           ///< m2
 };
 
 struct PuffSettings {
-  double interval = 60.0;               // s of emission gathered in one puff
-  double max_age = 5400.0;              // s
-  double burn_time = 600.0;             // s over which a cell burns out, at an even rate
-  double stability = 1.0e-4;            // 1/s2, square of the buoyancy frequency
-  double block = 400.0;                 // m, side of the squares whose cells share a puff
-  double merge_radius = 2000.0;         // m, distance over which plumes rise as one
-  double smallest = 50.0;               // m, no surface ball is smaller than this
-  double turbulence = 1.0;              // 0 keeps every puff on its plume's axis
-  double smoke_fraction = 0.02;         // of burned fuel (WRF-SFIRE's fire_tracer_smoke)
-  double heat_of_combustion = 17.433e6; // J/kg (WRF-SFIRE's cmbcnst)
+  double interval = 60.0;               ///< s of emission gathered in one puff
+  double max_age = 5400.0;              ///< s
+  double burn_time = 600.0;             ///< s over which a cell burns out, at an even rate
+  double stability = 1.0e-4;            ///< 1/s2, square of the buoyancy frequency
+  double block = 400.0;                 ///< m, side of the squares whose cells share a puff
+  double merge_radius = 2000.0;         ///< m, distance over which plumes rise as one
+  double smallest = 50.0;               ///< m, no surface ball is smaller than this
+  double turbulence = 1.0;              ///< 0 keeps every puff on its plume's axis
+  double smoke_fraction = 0.02;         ///< of burned fuel (WRF-SFIRE's fire_tracer_smoke)
+  double heat_of_combustion = 17.433e6; ///< J/kg (WRF-SFIRE's cmbcnst)
   std::uint64_t seed = 0;
 };
 
 /// Smoke of one moment as balls. Balls of mass 0 shape the surface of the puff that they sit on.
 struct Puffs {
-  std::vector<float> position; // (n, 3) m
-  std::vector<float> radius;   // m
-  std::vector<float> density;  // kg/m3 of the puff's own smoke; its parent's for a surface ball
-  std::vector<float> age;      // s
-  std::vector<double> mass;    // kg
-  std::vector<std::uint64_t> identity; // the same ball keeps it from moment to moment
-  double emitted = 0.0;                // kg of smoke up to this moment
-  double left = 0.0;                   // kg of it that is too old or too thin to be shown
-  double heat_per_smoke = 0.0;         // J released per kg of smoke
+  std::vector<float> position; ///< (n, 3) m
+  std::vector<float> radius;   ///< m
+  std::vector<float> density;  ///< kg/m3 of the puff's own smoke; its parent's for a surface ball
+  std::vector<float> age;      ///< s
+  std::vector<double> mass;    ///< kg
+  std::vector<std::uint64_t> identity; ///< the same ball keeps it from moment to moment
+  double emitted = 0.0;                ///< kg of smoke up to this moment
+  double left = 0.0;                   ///< kg of it that is too old or too thin to be shown
+  double heat_per_smoke = 0.0;         ///< J released per kg of smoke
 
   std::size_t size() const { return radius.size(); }
 };
@@ -57,6 +57,8 @@ struct Puffs {
 /// on its mass fades, and goes into `left`.
 /// On its surface sit sixteen balls of 0.28-0.5 R, and on each of those nine of 0.3-0.5 of it,
 /// as far as they are larger than `smallest`.
+/// @throws std::invalid_argument unless all numbers are finite, and the area and the settings (but
+/// turbulence) above 0.
 Puffs puffs(double time, const Burn& burn, const PuffSettings& settings);
 
-} // namespace firetwin
+} // namespace firetwin::volume

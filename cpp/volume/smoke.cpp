@@ -1,23 +1,24 @@
-#include "smoke.hpp"
+#include "volume/smoke.hpp"
 
-#include "archive.hpp"
-#include "bins.hpp"
-#include "grids.hpp"
+#include "base/check.hpp"
+#include "base/smoothstep.hpp"
+#include "volume/archive.hpp"
+#include "volume/bins.hpp"
+#include "volume/grids.hpp"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numeric>
 #include <vector>
 
-namespace firetwin {
+namespace firetwin::volume {
 namespace {
 
-constexpr auto kThinnestSmoke = static_cast<float>(kThinnest * kFreshSmoke); // kg/m3
-constexpr float kHeatOfAir = 1206.0F;                                        // J/(m3 K)
+constexpr auto thinnest_smoke = static_cast<float>(thinnest_dilution * fresh_smoke); // kg/m3
+constexpr float heat_of_air = 1206.0F;                                               // J/(m3 K)
 
 /// What is known of a leaf with smoke before the mass of the whole is.
 struct Leaf {
@@ -30,8 +31,8 @@ struct Leaf {
 /// Blocks of 2^3 voxels with one that is thick enough, as DepthMeter wants them.
 std::uint64_t thick_blocks(const LeafValues& concentration) {
   std::uint64_t blocks = 0;
-  for (std::size_t i = 0; i < kLeafVoxels; ++i) {
-    if (concentration[i] > kThinnestSmoke) {
+  for (std::size_t i = 0; i < leaf_voxels; ++i) {
+    if (concentration[i] > thinnest_smoke) {
       blocks |= std::uint64_t{1} << ((i / 128 * 4 + i / 16 % 4) * 4 + i / 2 % 4);
     }
   }
@@ -44,13 +45,13 @@ std::vector<std::unique_ptr<Leaf>> fill(const Puffs& puffs, double voxel_size) {
   std::vector<float> reach(puffs.size());
   std::vector<float> edge(puffs.size());
   for (std::size_t i = 0; i < puffs.size(); ++i) {
-    edge[i] = puffs.radius[i] > 0.0F ? puffs.radius[i] + kOutside : 0.0F;
+    edge[i] = puffs.radius[i] > 0.0F ? puffs.radius[i] + depth_outside : 0.0F;
     reach[i] = puffs.mass[i] > 0.0 ? spread(puffs.radius[i], voxel) : 0.0F;
   }
   const LeafBox box(puffs, reach, voxel_size); // there is no smoke where no mass is
   const Bins with_mass(box, puffs, reach, voxel_size);
   const Bins near(box, puffs, edge, voxel_size);
-  const Smoke smoke(puffs, voxel);
+  const SpreadMass smoke(puffs, voxel);
   std::vector<std::unique_ptr<Leaf>> leaves(box.size());
   tbb::enumerable_thread_specific<DepthMeter> meters;
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
@@ -60,15 +61,15 @@ std::vector<std::unique_ptr<Leaf>> fill(const Puffs& puffs, double voxel_size) {
     const openvdb::Coord origin = box.origin(i);
     const std::array<float, 3> corner = corner_of(origin, voxel);
     const Nodes nodes = smoke.at_nodes(corner, voxel, with_mass.balls(i));
-    if (largest(nodes) <= static_cast<double>(kThinnestSmoke)) {
+    if (largest(nodes) <= static_cast<double>(thinnest_smoke)) {
       return;
     }
     auto leaf = std::make_unique<Leaf>();
     interpolate(nodes, leaf->concentration);
     meters.local().measure(puffs, near.balls(i), corner, voxel, thick_blocks(leaf->concentration),
                            leaf->depth, leaf->radius);
-    for (openvdb::Index at = 0; at < kLeafVoxels; ++at) {
-      if (leaf->depth[at] > -kOutside && leaf->concentration[at] > kThinnestSmoke) {
+    for (openvdb::Index at = 0; at < leaf_voxels; ++at) {
+      if (leaf->depth[at] > -depth_outside && leaf->concentration[at] > thinnest_smoke) {
         leaf->mask.setOn(at);
       }
     }
@@ -86,7 +87,7 @@ std::vector<std::unique_ptr<Leaf>> fill(const Puffs& puffs, double voxel_size) {
 class Values {
 public:
   Values(float voxel, float factor, float heat_per_smoke)
-      : voxel_(voxel), factor_(factor), heat_(heat_per_smoke / kHeatOfAir) {}
+      : voxel_(voxel), factor_(factor), heat_(heat_per_smoke / heat_of_air) {}
 
   void fill(const Leaf& leaf, SmokeGrid grid, LeafValues& out) const {
     switch (grid) {
@@ -105,35 +106,35 @@ public:
 
 private:
   void density(const Leaf& leaf, LeafValues& out) const {
-    for (std::size_t i = 0; i < kLeafVoxels; ++i) {
+    for (std::size_t i = 0; i < leaf_voxels; ++i) {
       out[i] = std::clamp(part(leaf, i), 0.0F, 1.0F);
     }
   }
   void dilution(const Leaf& leaf, LeafValues& out) const {
-    for (std::size_t i = 0; i < kLeafVoxels; ++i) {
+    for (std::size_t i = 0; i < leaf_voxels; ++i) {
       out[i] = leaf.concentration[i] * factor_;
     }
   }
   void shade(const Leaf& leaf, LeafValues& out) const {
-    for (std::size_t i = 0; i < kLeafVoxels; ++i) {
-      out[i] = leaf.concentration[i] * smoothstep(kEdgeLow, kEdgeHigh, part(leaf, i)) * factor_;
+    for (std::size_t i = 0; i < leaf_voxels; ++i) {
+      out[i] = leaf.concentration[i] * smoothstep(edge_low, edge_high, part(leaf, i)) * factor_;
     }
   }
   void size(const Leaf& leaf, LeafValues& out) const {
-    for (std::size_t i = 0; i < kLeafVoxels; ++i) {
+    for (std::size_t i = 0; i < leaf_voxels; ++i) {
       out[i] = std::min(leaf.radius[i] / 1000.0F, 1.0F);
     }
   }
   void temperature(const Leaf& leaf, LeafValues& out) const {
     const float low = static_cast<float>(leaf.origin.z()) * voxel_;
-    for (std::size_t i = 0; i < kLeafVoxels; ++i) {
-      const float height = low + static_cast<float>(i % kLeafSide) * voxel_;
-      out[i] = std::min(air_kelvin(height) + heat_ * leaf.concentration[i], kHottest);
+    for (std::size_t i = 0; i < leaf_voxels; ++i) {
+      const float height = low + static_cast<float>(i % leaf_side) * voxel_;
+      out[i] = std::min(air_kelvin(height) + heat_ * leaf.concentration[i], hottest);
     }
   }
 
   static float part(const Leaf& leaf, std::size_t i) {
-    return (leaf.depth[i] + kInside) / (2.0F * kInside);
+    return (leaf.depth[i] + depth_inside) / (2.0F * depth_inside);
   }
 
   float voxel_;
@@ -143,9 +144,9 @@ private:
 
 } // namespace
 
-VolumeFrame write_smoke(const std::string& path, const Puffs& puffs, double voxel_size,
-                        const Wanted& wanted) {
-  fog_grid("check", voxel_size, {0.0, 0.0, 0.0}, ""); // reports a bad voxel size
+Frame write_smoke(const std::filesystem::path& path, const Puffs& puffs, double voxel_size,
+                  const Wanted& wanted) {
+  check_above_zero(voxel_size, "voxel_size");
   const std::vector<std::unique_ptr<Leaf>> all = fill(puffs, voxel_size);
   LeafSource source;
   source.density_units = "(m + 300) / 600";
@@ -156,7 +157,7 @@ VolumeFrame write_smoke(const std::string& path, const Puffs& puffs, double voxe
     mass += leaf->mass;
   }
   const double total = std::accumulate(puffs.mass.begin(), puffs.mass.end(), 0.0);
-  const double factor = mass > 0.0 ? total / mass / kFreshSmoke : 0.0;
+  const double factor = mass > 0.0 ? total / mass / fresh_smoke : 0.0;
   const Values values(static_cast<float>(voxel_size), static_cast<float>(factor),
                       static_cast<float>(puffs.heat_per_smoke));
   source.values = [&](std::size_t leaf, SmokeGrid grid, LeafValues& out) {
@@ -165,4 +166,4 @@ VolumeFrame write_smoke(const std::string& path, const Puffs& puffs, double voxe
   return write_leaves(path, source, voxel_size, wanted);
 }
 
-} // namespace firetwin
+} // namespace firetwin::volume

@@ -1,16 +1,16 @@
 #pragma once
 
-#include "grids.hpp"
-#include "puffs.hpp"
+#include "volume/grids.hpp"
+#include "volume/puffs.hpp"
 
-#include <string>
+#include <filesystem>
 
-namespace firetwin {
+namespace firetwin::volume {
 
 /// Writes the smoke as grids of one sparse OpenVDB file (half precision):
 /// - `density`: clamp((d + 300 m) / 600 m, 0, 1), d the distance into the union of the balls; 0 and
 ///   inactive farther than 150 m outside, and where dilution is under 0.002, too thin to be seen;
-/// - `dilution`: smoke in units of kFreshSmoke; each puff spread by
+/// - `dilution`: smoke in units of fresh_smoke; each puff spread by
 ///   21 / (16 pi s^3) (1 - r^4 / s^4), s = 1.5 R + 60 m but at least 3.6 voxels, the whole scaled
 ///   so that the grid holds the puffs' mass;
 /// - `shade`: `dilution`, but falling to 0 as a smoothstep of density from 0.46 to 0.55: smoke
@@ -19,7 +19,7 @@ namespace firetwin {
 /// - `temperature`: K, of the air at that height (ISA) plus what the smoke's own heat adds;
 /// - with flames, `glow`: sum of P / 1e9 W exp(-r / 1100 m) / (1 + (r / 250 m)^2), so 1 amid flames
 ///   of 1 GW, and `flame`: power of the flames within 1.5 voxels in GW, at most 1.
-VolumeFrame write_smoke(const std::string& path, const Puffs& puffs, double voxel_size,
-                        const Wanted& wanted);
+Frame write_smoke(const std::filesystem::path& path, const Puffs& puffs, double voxel_size,
+                  const Wanted& wanted);
 
-} // namespace firetwin
+} // namespace firetwin::volume

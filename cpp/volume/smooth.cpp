@@ -1,25 +1,27 @@
-#include "smooth.hpp"
+#include "volume/smooth.hpp"
 
-#include "lanes.hpp"
+#include "base/clones.hpp"
+#include "volume/lanes.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
-namespace firetwin {
+namespace firetwin::volume {
 namespace {
 
-constexpr float kGlowReach = 6000.0F; // m; exp(-6000 / 1100) is 0.4 %
-constexpr float kGlowFade = 1100.0F;  // m
-constexpr float kGlowCore = 250.0F;   // m
-constexpr double kGlowPower = 1.0e9;  // W
-constexpr std::size_t kRows = 9;      // of nodes, along z
+constexpr float glow_reach = 6000.0F; // m; exp(-6000 / 1100) is 0.4 %
+constexpr float glow_fade = 1100.0F;  // m
+constexpr float glow_core = 250.0F;   // m
+constexpr double glow_power = 1.0e9;  // W
+constexpr std::size_t row_count = 9;  // of nodes, along z
 
 /// Node coordinates of a leaf along each axis, m; the fourth stands far away.
 using Ticks = std::array<std::array<double, 4>, 3>;
 
 Ticks ticks(const std::array<float, 3>& corner, float voxel_size) {
-  const double step = 0.5 * static_cast<double>(kLeafSide) * static_cast<double>(voxel_size);
+  const double step = 0.5 * static_cast<double>(leaf_side) * static_cast<double>(voxel_size);
   Ticks result{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < 4; ++i) {
@@ -36,15 +38,16 @@ struct Puff {
   double weight;
 };
 
-FIRETWIN_CLONES void add_puffs(const Puff* puffs, std::size_t count, const Ticks& at, Nodes& sum) {
-  std::array<WideLanes, kRows> rows{};
+FIRETWIN_CLONES("avx2")
+void add_puffs(const Puff* puffs, std::size_t count, const Ticks& at, Nodes& sum) {
+  std::array<WideLanes, row_count> rows{};
   WideLanes up;
   std::memcpy(&up, at[2].data(), sizeof up);
   for (std::size_t i = 0; i < count; ++i) {
     const Puff& puff = puffs[i];
     const WideLanes dz = up - puff.position[2];
     const WideLanes dz2 = dz * dz;
-    for (std::size_t row = 0; row < kRows; ++row) {
+    for (std::size_t row = 0; row < row_count; ++row) {
       const double dx = at[0][row / 3] - puff.position[0];
       const double dy = at[1][row % 3] - puff.position[1];
       const WideLanes part2 = (dz2 + (dx * dx + dy * dy)) * puff.inverse;
@@ -80,50 +83,52 @@ struct Light {
   float power;
 };
 
-FIRETWIN_CLONES void add_lights(const Light* lights, std::size_t count, float step, Nodes& sum) {
-  constexpr std::size_t kGroups = 4; // 27 nodes in lanes
-  std::array<Lanes, kGroups> glow{};
-  std::array<Lanes, kGroups> x{};
-  std::array<Lanes, kGroups> y{};
-  std::array<Lanes, kGroups> z{};
+FIRETWIN_CLONES("avx2")
+void add_lights(const Light* lights, std::size_t count, float step, Nodes& sum) {
+  constexpr std::size_t group_count = 4; // 27 nodes in lanes
+  std::array<Lanes, group_count> glow{};
+  std::array<Lanes, group_count> x{};
+  std::array<Lanes, group_count> y{};
+  std::array<Lanes, group_count> z{};
   for (std::size_t node = 0; node < 27; ++node) {
-    x[node / kLanes][node % kLanes] = static_cast<float>(node / 9) * step;
-    y[node / kLanes][node % kLanes] = static_cast<float>(node / 3 % 3) * step;
-    z[node / kLanes][node % kLanes] = static_cast<float>(node % 3) * step;
+    x[node / lane_count][node % lane_count] = static_cast<float>(node / 9) * step;
+    y[node / lane_count][node % lane_count] = static_cast<float>(node / 3 % 3) * step;
+    z[node / lane_count][node % lane_count] = static_cast<float>(node % 3) * step;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t group = 0; group < kGroups; ++group) {
+    for (std::size_t group = 0; group < group_count; ++group) {
       const Lanes dx = x[group] - lights[i].position[0];
       const Lanes dy = y[group] - lights[i].position[1];
       const Lanes dz = z[group] - lights[i].position[2];
       const Lanes distance2 = dx * dx + dy * dy + dz * dz;
       Lanes distance = distance2;
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
         distance[lane] = std::sqrt(distance[lane]);
       }
-      Lanes faded = distance * (1.0F / kGlowFade);
+      Lanes faded = distance * (1.0F / glow_fade);
       exp_negative(faded);
-      glow[group] += faded * lights[i].power / (distance2 + kGlowCore * kGlowCore);
+      glow[group] += faded * lights[i].power / (distance2 + glow_core * glow_core);
     }
   }
   for (std::size_t node = 0; node < 27; ++node) {
-    sum[node / 3 * 4 + node % 3] = static_cast<double>(glow[node / kLanes][node % kLanes]);
+    sum[node / 3 * 4 + node % 3] = static_cast<double>(glow[node / lane_count][node % lane_count]);
   }
 }
 
-FIRETWIN_CLONES void interpolate_lanes(const Nodes& nodes, LeafValues& values) {
+FIRETWIN_CLONES("avx2")
+void interpolate_lanes(const Nodes& nodes, LeafValues& values) {
   WideLanes part; // of the way between two nodes
   for (std::size_t i = 0; i < 4; ++i) {
     part[i] = static_cast<double>(i) / 4.0;
   }
-  std::array<std::array<WideLanes, 2>, kRows> rows; // eight voxels along z at each node (x, y)
-  for (std::size_t row = 0; row < kRows; ++row) {
+  std::array<std::array<WideLanes, 2>, row_count> rows; // eight voxels along z at each node (x, y)
+  for (std::size_t row = 0; row < row_count; ++row) {
     for (std::size_t i = 0; i < 2; ++i) {
       const double low = nodes[row * 4 + i];
       rows[row][i] = (nodes[row * 4 + i + 1] - low) * part + low;
     }
   }
-  for (std::size_t x = 0; x < kLeafSide; ++x) {
+  for (std::size_t x = 0; x < leaf_side; ++x) {
     const double along = static_cast<double>(x % 4) / 4.0;
     std::array<std::array<WideLanes, 2>, 3> line; // at node y
     for (std::size_t y = 0; y < 3; ++y) {
@@ -132,9 +137,9 @@ FIRETWIN_CLONES void interpolate_lanes(const Nodes& nodes, LeafValues& values) {
         line[y][i] = (rows[(x / 4 + 1) * 3 + y][i] - low) * along + low;
       }
     }
-    for (std::size_t y = 0; y < kLeafSide; ++y) {
+    for (std::size_t y = 0; y < leaf_side; ++y) {
       const double across = static_cast<double>(y % 4) / 4.0;
-      float* out = &values[(x * kLeafSide + y) * kLeafSide];
+      float* out = &values[(x * leaf_side + y) * leaf_side];
       for (std::size_t i = 0; i < 2; ++i) {
         const WideLanes low = line[y / 4][i];
         const WideLanes value = (line[y / 4 + 1][i] - low) * across + low;
@@ -148,23 +153,23 @@ FIRETWIN_CLONES void interpolate_lanes(const Nodes& nodes, LeafValues& values) {
 
 } // namespace
 
-Smoke::Smoke(const Puffs& puffs, float voxel_size) : sources_(puffs.size()) {
-  for (std::size_t i = 0; i < sources_.size(); ++i) {
+SpreadMass::SpreadMass(const Puffs& puffs, float voxel_size) : balls_(puffs.size()) {
+  for (std::size_t i = 0; i < balls_.size(); ++i) {
     const auto reach = static_cast<double>(spread(puffs.radius[i], voxel_size));
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      sources_[i].position[axis] = static_cast<double>(puffs.position[3 * i + axis]);
+      balls_[i].position[axis] = static_cast<double>(puffs.position[3 * i + axis]);
     }
-    sources_[i].inverse = 1.0 / (reach * reach);
-    sources_[i].weight = puffs.mass[i] * 21.0 / (16.0 * std::numbers::pi) / (reach * reach * reach);
+    balls_[i].inverse = 1.0 / (reach * reach);
+    balls_[i].weight = puffs.mass[i] * 21.0 / (16.0 * std::numbers::pi) / (reach * reach * reach);
   }
 }
 
-Nodes Smoke::at_nodes(const std::array<float, 3>& corner, float voxel_size,
-                      std::span<const std::uint32_t> balls) const {
+Nodes SpreadMass::at_nodes(const std::array<float, 3>& corner, float voxel_size,
+                           std::span<const std::uint32_t> balls) const {
   std::vector<Puff> puffs(balls.size());
   for (std::size_t i = 0; i < balls.size(); ++i) {
-    const Source& source = sources_[balls[i]];
-    puffs[i] = {source.position.data(), source.inverse, source.weight};
+    const Ball& ball = balls_[balls[i]];
+    puffs[i] = {ball.position.data(), ball.inverse, ball.weight};
   }
   Nodes sum{};
   add_puffs(puffs.data(), puffs.size(), ticks(corner, voxel_size), sum);
@@ -172,7 +177,7 @@ Nodes Smoke::at_nodes(const std::array<float, 3>& corner, float voxel_size,
 }
 
 Nodes glow_at_nodes(const std::array<float, 3>& corner, float voxel_size, const Flames& flames) {
-  const float side = voxel_size * static_cast<float>(kLeafSide);
+  const float side = voxel_size * static_cast<float>(leaf_side);
   std::vector<Light> near;
   for (std::size_t i = 0; i < flames.power.size(); ++i) {
     Light light{};
@@ -183,9 +188,9 @@ Nodes glow_at_nodes(const std::array<float, 3>& corner, float voxel_size, const 
       const float gap = std::max({-light.position[axis], light.position[axis] - side, 0.0F});
       gap2 += gap * gap;
     }
-    light.power = static_cast<float>(flames.power[i] * static_cast<double>(kGlowCore) *
-                                     static_cast<double>(kGlowCore) / kGlowPower);
-    if (gap2 < kGlowReach * kGlowReach) {
+    light.power = static_cast<float>(flames.power[i] * static_cast<double>(glow_core) *
+                                     static_cast<double>(glow_core) / glow_power);
+    if (gap2 < glow_reach * glow_reach) {
       near.push_back(light);
     }
   }
@@ -202,8 +207,9 @@ double largest(const Nodes& nodes) {
   return most;
 }
 
+// The clones stay in this file.
 void interpolate(const Nodes& nodes, LeafValues& values) {
   interpolate_lanes(nodes, values);
 }
 
-} // namespace firetwin
+} // namespace firetwin::volume

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "depth.hpp"
-#include "puffs.hpp"
+#include "volume/depth.hpp"
+#include "volume/puffs.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace firetwin {
+namespace firetwin::volume {
 
 /// Light of flames: positions (n, 3) m and powers (n,) W.
 struct Flames {
@@ -27,10 +27,10 @@ inline float spread(float radius, float voxel_size) {
 /// three along z ends with a fourth value that means nothing.
 using Nodes = std::array<double, 9 * 4>;
 
-/// Smoke of puffs with mass, ready to be summed at many places.
-class Smoke {
+/// The mass of puffs, spread, ready to be summed at many places.
+class SpreadMass {
 public:
-  Smoke(const Puffs& puffs, float voxel_size);
+  SpreadMass(const Puffs& puffs, float voxel_size);
 
   /// kg/m3 at the nodes of the leaf whose lowest voxel is centred on `corner`: each puff is 21 M /
   /// (16 pi s^3) (1 - r^4 / s^4), s = spread(radius, voxel_size). `balls` are numbers of puffs.
@@ -38,12 +38,12 @@ public:
                  std::span<const std::uint32_t> balls) const;
 
 private:
-  struct Source {
+  struct Ball {
     std::array<double, 3> position;
-    double inverse; // 1 / s^2, 1/m2
-    double weight;  // kg/m3 in the middle
+    double inverse; ///< 1 / s^2, 1/m2
+    double weight;  ///< kg/m3 in the middle
   };
-  std::vector<Source> sources_;
+  std::vector<Ball> balls_;
 };
 
 /// Glow of flames at the nodes of a leaf, see write_smoke.
@@ -55,4 +55,4 @@ double largest(const Nodes& nodes);
 /// Trilinear values in between.
 void interpolate(const Nodes& nodes, LeafValues& values);
 
-} // namespace firetwin
+} // namespace firetwin::volume

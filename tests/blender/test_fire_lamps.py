@@ -5,12 +5,14 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from firetwin.blender import compat, nodes
+from firetwin.blender import compat, nodes, owned
 from firetwin.render import layers
 from firetwin.scene import build
+from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import lamp_objects, lamps
+from firetwin.scene.smoke import build as smoke
 from firetwin.shot import heat, overview, sun
-from firetwin.shot.settings import Light
+from firetwin.shot.settings import Light, Smoke
 from firetwin.shot.shot import Shot
 
 
@@ -183,3 +185,18 @@ def test_a_run_without_a_scene_file_is_built_by_night(settings, run, stage, sun_
     sun_at(-20.0)
     built(replace(settings, cameras=overview.cameras(run)), run, stage)
     assert bpy.data.objects["Firetwin Flames"].users_scene == (stage.scene,)
+
+
+def test_all_that_fire_and_smoke_make_is_ours_and_goes_again(near, run, scene, sun_at):
+    sun_at(-20.0)
+    shot = Shot(replace(near, smoke=Smoke(voxel_size=120.0)), run)
+    kinds = ("objects", "meshes", "lights", "volumes", "materials", "node_groups", "collections", "actions")
+    before = {block for kind in kinds for block in getattr(bpy.data, kind)}
+    stage = owned.stage(scene)
+    fire.build(shot, stage)
+    smoke.build(shot, stage)
+    made = {block for kind in kinds for block in getattr(bpy.data, kind)} - before
+    assert len(made) > 50
+    assert [block.name for block in made if not owned.ours(block)] == []
+    owned.remove(scene)
+    assert {block for kind in kinds for block in getattr(bpy.data, kind)} == before

@@ -26,7 +26,7 @@ FLOORS: dict[str, set[str]] = {
     "jobs": BASE | {"shot", "blender", "scene", "render"},
     "bench": BASE | {"data", "shot", "blender", "scene", "render", "jobs"},
     "commands": BASE | {"data", "run", "shot", "render", "jobs", "bench"},
-    "cli": BASE | {"commands"},
+    "cli": BASE | {"commands", "shot"},
     "ui": BASE | {"run", "shot", "blender", "scene", "render", "jobs", "cli"},
     "__main__": {"cli"},
     "__init__": {"ui"},
@@ -78,7 +78,9 @@ def imports(name: str, inside_functions: bool = True) -> set[str]:
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
-            base = ".".join(package.split(".")[: len(package.split(".")) + 1 - node.level]) if node.level else ""
+            base = (
+                ".".join(package.split(".")[: len(package.split(".")) + 1 - node.level]) if node.level else ""
+            )
             origin = ".".join(filter(None, (base, node.module)))
             inner = {f"{origin}.{alias.name}" for alias in node.names}
             found |= {each if each in MODULES else origin for each in inner}

@@ -13,7 +13,9 @@ KNOWN = passes.known()
 
 
 def test_passes_come_in_their_order():
-    assert list(KNOWN) == ["rgb", "depth", "thermal"]
+    assert [name for name in KNOWN if name in ("thermal", "depth", "rgb")] == ["rgb", "depth", "thermal"]
+    orders = [each.order for each in KNOWN.values()]
+    assert orders == sorted(set(orders))
     assert passes.helps()["rgb"] == "The visible picture"
 
 
@@ -55,13 +57,13 @@ def test_passes_of_a_camera_come_in_order():
 def test_a_pass_is_added_by_one_file(tmp_path, monkeypatch):
     (tmp_path / "mask.py").write_text(
         '"""Where fire is."""\nfrom firetwin.shot.passes import Pass\n'
-        'PASS = Pass("mask", 25, "Where fire is", ("exr",), "Image", frozenset({"fire"}), needs=("depth",))\n'
+        'PASS = Pass("mask", 29, "Where fire is", ("exr",), "Image", frozenset({"fire"}), needs=("depth",))\n'
     )
     (tmp_path / "_helper.py").write_text("raise ImportError")
     monkeypatch.setattr(passes, "__path__", [*passes.__path__, str(tmp_path)])
     passes.known.cache_clear()
     try:
-        assert list(passes.known()) == ["rgb", "depth", "mask", "thermal"]
+        assert list(passes.known()) == [*KNOWN][: [*KNOWN].index("thermal")] + ["mask", "thermal"]
         assert passes.known()["mask"].aspects == {"fire"} | KNOWN["depth"].shows
     finally:
         passes.known.cache_clear()

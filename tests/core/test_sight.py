@@ -3,7 +3,7 @@
 import firetwin_core as core
 import numpy as np
 import pytest
-from firetwin_core import Error, volume
+from firetwin_core import volume
 from test_volume import read, smoke
 
 NORTH = np.column_stack([[1, 0, 0], [0, 0, 1], [0, -1, 0]]).astype(float)  # looks north
@@ -89,7 +89,7 @@ def test_only_the_wanted_grids_are_written(tmp_path):
     assert frame.voxels == 2 * frame.active_voxels
     volume.write_smoke(path, puffs, 150.0, grids=["dilution", "glow"])
     assert set(read(path)) == {"dilution"}
-    with pytest.raises(Error, match="choose from density"):
+    with pytest.raises(ValueError, match="choose from density"):
         volume.write_smoke(path, puffs, 150.0, grids=["smoke"])
 
 

@@ -90,9 +90,7 @@ def finished(tmp_path):
     for name in picture.files():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_bytes(name.encode())
-    store.add(
-        tmp_path, made_with["drone", "rgb"], {n: store.describe(tmp_path / n) for n in picture.files()}
-    )
+    store.add(tmp_path, made_with["drone", "rgb"], {n: store.describe(tmp_path / n) for n in picture.files()})
     return tmp_path, picture, made_with
 
 

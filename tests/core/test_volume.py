@@ -5,7 +5,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from firetwin_core import Error, InputError, volume
+from firetwin_core import InputError, volume
 
 CELL = 74.0
 HEAT = 17.433e6
@@ -225,7 +225,7 @@ def test_dense_arrays_come_back(tmp_path):
 
 def test_half_grids_refuse_what_they_cannot_hold(tmp_path):
     field = np.full((2, 2, 2), 70_000.0, np.float32)
-    with pytest.raises(Error, match="65504"):
+    with pytest.raises(ValueError, match="65504"):
         volume.write(tmp_path / "flux.vdb", {"heat": field}, 1.0)
     volume.write(tmp_path / "flux.vdb", {"heat": field}, 1.0, half=False)
 
@@ -238,15 +238,22 @@ def test_a_missing_folder_is_named(tmp_path):
 
 @pytest.mark.parametrize("change", [{"voxel_size": 0.0}, {"voxel_size": float("nan")}])
 def test_a_bad_voxel_size_is_refused(tmp_path, change):
-    with pytest.raises(Error, match="voxel_size"):
+    with pytest.raises(ValueError, match="voxel_size"):
         volume.write_smoke(tmp_path / "smoke.vdb", smoke(100.0), **change)
 
 
 def test_bad_cells_are_refused():
     arrival, fuel, position = burn()
-    with pytest.raises(Error, match="never burn"):
+    with pytest.raises(ValueError, match="never burn"):
         smoke(0.0, cells=(np.full_like(arrival, np.nan), fuel, position))
-    with pytest.raises(Error, match="shape"):
+    with pytest.raises(ValueError, match="shape"):
         smoke(0.0, cells=(arrival, fuel[:-1], position))
-    with pytest.raises(Error, match="stability"):
+    with pytest.raises(ValueError, match="stability must be finite and above 0"):
         smoke(0.0, stability=0.0)
+
+
+def test_what_cannot_be_put_in_place_leaves_nothing(tmp_path):
+    (tmp_path / "smoke.vdb").mkdir()
+    with pytest.raises(InputError, match="cannot be written"):
+        volume.write_smoke(tmp_path / "smoke.vdb", smoke(100.0), 100.0)
+    assert [path.name for path in tmp_path.iterdir()] == ["smoke.vdb"]

@@ -159,7 +159,7 @@ def test_heights_must_ascend(tmp_path, level):
 
 
 def test_shapes_must_fit(tmp_path):
-    with pytest.raises(Error, match="smoke must fit"):
+    with pytest.raises(ValueError, match="smoke must have shape"):
         write(tmp_path / "bad.vdb", np.zeros((9, 3, 3), np.float32))
 
 

@@ -1,8 +1,8 @@
-// run.toml alone: a manifest whose values keep their promises, or an InputError.
+// run.toml alone: a description whose values keep their promises, or an InputError.
 
 #include "check.hpp"
 #include "memory_file.hpp"
-#include "run/manifest.hpp"
+#include "run/description.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace {
 using namespace firetwin;
 
 void read(const std::filesystem::path& path) {
-  const run::Manifest m = run::read_manifest(path);
+  const run::Description m = run::read_description(path);
   fuzz::check(m.interval_s.has_value() != !m.times_s.empty(), "times come in one of two ways");
   fuzz::check(!m.interval_s || (std::isfinite(*m.interval_s) && *m.interval_s > 0), "interval_s");
   for (std::size_t i = 0; i < m.times_s.size(); ++i) {

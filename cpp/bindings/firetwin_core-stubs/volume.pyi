@@ -64,7 +64,7 @@ def puffs(
     arrival, fuel, position
         (n,) s, (n,) kg/m2 consumed and (n, 3) m; finite: leave out cells that never burn.
     wind
-        (2,) or (n, 2) m/s east and north 10 m above the ground, when the cell burned.
+        (n, 2), or what broadcasts to it, m/s east and north 10 m above the ground, when the cell burned.
     cell_area
         m2.
     interval
@@ -86,7 +86,7 @@ def puffs(
 
     Raises
     ------
-    Error
+    ValueError
         An array has the wrong shape or holds NaN, or a number is not positive.
     """
 
@@ -153,6 +153,10 @@ def write_smoke(
 
     Raises
     ------
+    ValueError
+        An array has the wrong shape, voxel_size is not positive, or no grid has such a name.
+    Error
+        The voxels are far too small for smoke this wide.
     InputError
         The folder is missing or cannot be written.
     """
@@ -193,8 +197,10 @@ def write_levels(
 
     Raises
     ------
+    ValueError
+        Shapes that do not fit, voxel_size is not positive, or no grid has such a name.
     Error
-        Shapes that do not fit, or heights that do not ascend.
+        Heights that do not ascend, or voxels far too small.
     InputError
         The folder is missing or cannot be written.
     """
@@ -215,8 +221,8 @@ def write(
 
     Raises
     ------
-    Error
-        A value is not finite, or too large for half precision.
+    ValueError
+        An array has the wrong shape, or a value is not finite or too large for half precision.
     InputError
         The folder is missing or cannot be written.
     """

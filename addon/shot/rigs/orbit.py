@@ -1,0 +1,72 @@
+"""An orbit: a camera that circles a point and looks at it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .. import path
+from ..path import SENSOR, Path
+from ..schema import key
+from . import Rig
+
+if TYPE_CHECKING:
+    from ..ground import Ground
+    from ..settings import Camera
+    from ..shot import Shot
+    from . import Place
+
+
+@dataclass(frozen=True)
+class Orbit(Rig):
+    """In perspective, circling a point and looking at it."""
+
+    focal_length: float = key(35.0, "of the lens; film is 36 mm wide", unit="mm", at_least=1, at_most=5000)
+    latitude: float | None = key(
+        None,
+        "of the point; left out, the middle of the run",
+        unit="degrees north",
+        at_least=-90,
+        at_most=90,
+    )
+    longitude: float | None = key(
+        None,
+        "of the point; west is negative, left out, the middle of the run",
+        unit="degrees east",
+        at_least=-180,
+        at_most=180,
+    )
+    target_height: float = key(0.0, "height above the ground of what it looks at", unit="m")
+    radius: float = key(3000.0, "of the circle", unit="m", above=0)
+    height: float = key(1000.0, "above the ground at the point", unit="m", above=0)
+    speed: float = key(15.0, "along the circle in model time; negative is counter-clockwise", unit="m/s")
+    bearing: float = key(180.0, "of the camera from the point in the first frame", unit="degrees")
+    clearance: float = key(50.0, "kept above hills under the circle", unit="m", at_least=0)
+
+    def places(self) -> list[Place]:
+        """The point that it circles."""
+        if self.latitude is None or self.longitude is None:
+            return []
+        return [(("latitude",), self.latitude, self.longitude)]
+
+    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+        """Round the point at its speed; hills under the circle lift it smoothly."""
+        middle = ground.frame
+        point = ground.point(
+            middle.latitude if self.latitude is None else self.latitude,
+            middle.longitude if self.longitude is None else self.longitude,
+        )[0]
+        elapsed = shot.frames.times - shot.frames.first
+        angle = np.radians(self.bearing) + self.speed * elapsed / self.radius
+        circle = np.stack([np.sin(angle), np.cos(angle), np.zeros(len(angle))], axis=-1)
+        position = point + self.radius * circle + np.array([0.0, 0.0, self.height])
+        position[:, 2] += path.eased(path.below(ground, position, np.full(len(angle), self.clearance)))
+        target = np.repeat(point[None] + np.array([0.0, 0.0, self.target_height]), len(angle), axis=0)
+        width, height = shot.settings.render.resolution
+        half = 0.5 * SENSOR / self.focal_length
+        return Path(camera, position, path.look(position, target), target, (half, half * height / width))
+
+
+RIG = Orbit

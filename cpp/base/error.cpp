@@ -1,0 +1,63 @@
+#include "base/error.hpp"
+
+#include <array>
+#include <cstdio>
+#include <utility>
+
+namespace firetwin {
+namespace {
+
+constexpr std::size_t longest_reason = 1000;
+
+/// Text from a file may hold anything; a message is one line that no terminal acts upon.
+std::string one_line(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= ' ' && byte != 0x7F) {
+      result += c;
+      continue;
+    }
+    std::array<char, 8> escape{};
+    std::snprintf(escape.data(), escape.size(), "\\x%02x", byte);
+    result += escape.data();
+  }
+  return result;
+}
+
+/// Cut where a character of UTF-8 begins.
+std::string shortened(std::string text) {
+  if (text.size() > longest_reason) {
+    std::size_t end = longest_reason;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
+      --end;
+    }
+    text.resize(end);
+    text += " ...";
+  }
+  return text;
+}
+
+std::string message(const std::string& path, std::int64_t line, std::int64_t column,
+                    const std::string& reason) {
+  std::string text = one_line(path);
+  if (line > 0) {
+    text += ":" + std::to_string(line);
+    if (column > 0) {
+      text += ":" + std::to_string(column);
+    }
+  }
+  return text + ": " + reason;
+}
+
+} // namespace
+
+InputError::InputError(std::string path, std::int64_t line, std::int64_t column, std::string reason)
+    : InputError(std::move(path), line, column, shortened(one_line(reason)), Clean{}) {}
+
+InputError::InputError(std::string path, std::int64_t line, std::int64_t column, std::string reason,
+                       Clean)
+    : Error(message(path, line, column, reason)), path_(std::move(path)), line_(line),
+      column_(column), reason_(std::move(reason)) {}
+
+} // namespace firetwin

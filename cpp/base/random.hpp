@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+/// Random numbers without a state: each depends on its key and counter alone, so any thread can
+/// draw any of them.
+namespace firetwin {
+
+/// A number of 128 bits.
+struct Wide {
+  std::uint64_t high, low;
+};
+
+constexpr Wide product(std::uint64_t a, std::uint64_t b) {
+#ifdef __SIZEOF_INT128__
+  __extension__ using Number = unsigned __int128;
+  const Number whole = Number{a} * b;
+  return {static_cast<std::uint64_t>(whole >> 64), static_cast<std::uint64_t>(whole)};
+#else // by halves of 32 bits: Visual C++
+  constexpr std::uint64_t half = 0xFFFFFFFF;
+  const std::uint64_t low = (a & half) * (b & half);
+  const std::uint64_t left = (a >> 32) * (b & half) + (low >> 32);
+  const std::uint64_t right = (a & half) * (b >> 32) + (left & half);
+  return {(a >> 32) * (b >> 32) + (left >> 32) + (right >> 32), (right << 32) | (low & half)};
+#endif
+}
+
+/// Philox4x64-10: a counter-based random number generator (Salmon et al. 2011, "Parallel random
+/// numbers: as easy as 1, 2, 3", doi:10.1145/2063384.2063405). numpy.random.Philox gives the same.
+constexpr std::array<std::uint64_t, 4> philox(std::array<std::uint64_t, 4> counter,
+                                              std::array<std::uint64_t, 2> key) {
+  for (int round = 0; round < 10; ++round) {
+    const Wide a = product(0xD2E7470EE14C6C93, counter[0]);
+    const Wide b = product(0xCA5A826395121157, counter[2]);
+    counter = {b.high ^ counter[1] ^ key[0], b.low, a.high ^ counter[3] ^ key[1], a.low};
+    key[0] += 0x9E3779B97F4A7C15;
+    key[1] += 0xBB67AE8584CAA73B;
+  }
+  return counter;
+}
+
+/// The upper 53 bits as a number in [0, 1).
+constexpr double unit(std::uint64_t bits) {
+  return static_cast<double>(bits >> 11) * 0x1p-53;
+}
+
+/// SplitMix64's finaliser (Steele, Lea, Flood 2014): every input bit changes every output bit.
+/// Makes keys of keys.
+constexpr std::uint64_t mix(std::uint64_t x) {
+  x += 0x9E3779B97F4A7C15;
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EB;
+  return x ^ (x >> 31);
+}
+
+constexpr std::uint64_t mix(std::uint64_t key, std::uint64_t value) {
+  return mix(key ^ mix(value));
+}
+
+/// The `use`-th number of `key`, in [0, 1).
+constexpr double uniform(std::uint64_t key, std::uint64_t use) {
+  return unit(mix(key, use));
+}
+
+} // namespace firetwin

@@ -1,0 +1,42 @@
+#ifndef _WIN32
+#include "io/system.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace firetwin::io::system {
+
+int open(const std::filesystem::path& path) {
+  return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+}
+
+std::optional<std::uint64_t> size(int descriptor) {
+  struct stat status{};
+  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
+    return std::nullopt;
+  }
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+std::ptrdiff_t read(int descriptor, std::uint64_t offset, std::span<char> out) {
+  for (;;) {
+    const auto n = ::pread(descriptor, out.data(), out.size(), static_cast<off_t>(offset));
+    if (n >= 0 || errno != EINTR) {
+      return n;
+    }
+  }
+}
+
+void close(int descriptor) {
+  ::close(descriptor);
+}
+
+int process() {
+  return ::getpid();
+}
+
+} // namespace firetwin::io::system
+#endif

@@ -1,0 +1,56 @@
+#ifdef _WIN32
+#include "io/system.hpp"
+
+#include <fcntl.h>
+#include <io.h>
+#include <process.h>
+#include <share.h>
+#include <sys/stat.h>
+#include <windows.h>
+
+#include <algorithm>
+#include <cerrno>
+
+namespace firetwin::io::system {
+
+int open(const std::filesystem::path& path) {
+  int descriptor = -1;
+  ::_wsopen_s(&descriptor, path.c_str(), _O_RDONLY | _O_BINARY | _O_NOINHERIT, _SH_DENYNO, 0);
+  return descriptor;
+}
+
+std::optional<std::uint64_t> size(int descriptor) {
+  struct _stat64 status{};
+  if (::_fstat64(descriptor, &status) != 0 || (status.st_mode & _S_IFMT) != _S_IFREG) {
+    return std::nullopt;
+  }
+  return static_cast<std::uint64_t>(status.st_size);
+}
+
+std::ptrdiff_t read(int descriptor, std::uint64_t offset, std::span<char> out) {
+  OVERLAPPED place{}; // an offset of its own for each call, as with pread
+  place.Offset = static_cast<DWORD>(offset);
+  place.OffsetHigh = static_cast<DWORD>(offset >> 32);
+  const auto most = static_cast<DWORD>(std::min<std::size_t>(out.size(), 1U << 30));
+  const auto handle = reinterpret_cast<HANDLE>(::_get_osfhandle(descriptor));
+  DWORD n = 0;
+  if (::ReadFile(handle, out.data(), most, &n, &place) == 0) {
+    if (::GetLastError() == ERROR_HANDLE_EOF) {
+      return 0;
+    }
+    errno = EIO;
+    return -1;
+  }
+  return static_cast<std::ptrdiff_t>(n);
+}
+
+void close(int descriptor) {
+  ::_close(descriptor);
+}
+
+int process() {
+  return ::_getpid();
+}
+
+} // namespace firetwin::io::system
+#endif

@@ -1,0 +1,228 @@
+#include "run/description.hpp"
+
+#include "io/file.hpp"
+#include "io/name.hpp"
+#include "run/fields.hpp"
+#include "run/spelling.hpp"
+#include "run/toml.hpp"
+#include "run/toml_guard.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+namespace firetwin::run {
+namespace {
+
+constexpr std::uint64_t largest_description = 16U << 20;
+constexpr std::array<std::string_view, 10> known_keys = {
+    "name",     "start", "interval_s", "times_s",   "mean_s",
+    "vertical", "units", "no_data",    "synthetic", "event"};
+
+/// Seconds of UTC -> "2014-09-17T04:45:00Z", with a fraction only where there is one.
+std::string iso_text(const toml::date_time& t) {
+  using namespace std::chrono;
+  const sys_days day = year(t.date.year) / month(t.date.month) / t.date.day;
+  const auto moment = day + hours(t.time.hour) + minutes(t.time.minute - t.offset->minutes) +
+                      seconds(t.time.second);
+  const sys_days utc_day = floor<days>(moment);
+  const year_month_day date(utc_day);
+  const hh_mm_ss clock(moment - utc_day);
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%04d-%02u-%02uT%02d:%02d:%02d",
+                static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                static_cast<unsigned>(date.day()), static_cast<int>(clock.hours().count()),
+                static_cast<int>(clock.minutes().count()),
+                static_cast<int>(clock.seconds().count()));
+  std::string result = text.data();
+  if (t.time.nanosecond != 0) {
+    std::snprintf(text.data(), text.size(), ".%09u", t.time.nanosecond);
+    result += text.data();
+  }
+  return result + "Z";
+}
+
+class Reader {
+public:
+  Reader(const toml::table& table, const std::filesystem::path& path)
+      : table_(table), path_(path) {}
+
+  Description read() {
+    check_keys();
+    Description m;
+    m.name = text("name", io::utf8(path_.parent_path().filename()));
+    m.start = start();
+    m.vertical = vertical(m);
+    m.event = text("event", "");
+    if (const toml::node* node = table_.get("synthetic")) {
+      m.synthetic = value<bool>(*node, "synthetic must be true or false");
+    }
+    if (const toml::node* node = table_.get("no_data")) {
+      m.no_data = number(*node, "no_data must be a number");
+    }
+    if (const toml::node* node = table_.get("mean_s")) {
+      const std::string form = "mean_s must be a number of seconds, 0 for fluxes at their time";
+      m.mean_s = number(*node, form);
+      if (*m.mean_s < 0.0) {
+        fail(node->source(), form);
+      }
+    }
+    read_times(m);
+    check_units();
+    return m;
+  }
+
+private:
+  void check_keys() const {
+    for (const auto& [key, node] : table_) {
+      const std::string_view name = key.str();
+      if (std::find(known_keys.begin(), known_keys.end(), name) == known_keys.end()) {
+        fail(key.source(), unknown("key", name, known_keys));
+      }
+    }
+  }
+
+  static std::string unknown(const std::string& kind, std::string_view name,
+                             std::span<const std::string_view> known) {
+    const std::string_view nearest = nearest_name(name, known);
+    return "unknown " + kind + " '" + std::string(name) + "'; " +
+           (nearest.empty() ? "remove it" : "did you mean '" + std::string(nearest) + "'?");
+  }
+
+  std::string text(const char* key, std::string otherwise) const {
+    const toml::node* node = table_.get(key);
+    return node ? value<std::string>(*node, std::string(key) + " must be a text in quotes")
+                : std::move(otherwise);
+  }
+
+  std::string start() const {
+    const toml::node* node = table_.get("start");
+    const std::string form = "start must be a date and time with its offset from UTC, like "
+                             "2014-09-17T04:45:00Z";
+    if (!node) {
+      fail({}, form + "; add it");
+    }
+    const auto time = value<toml::date_time>(*node, form);
+    if (!time.offset) {
+      fail(node->source(), form);
+    }
+    return iso_text(time);
+  }
+
+  std::string vertical(Description& m) const {
+    const toml::node* node = table_.get("vertical");
+    if (!node) {
+      m.warnings.push_back("run.toml does not say what elevations refer to; vertical = "
+                           "\"orthometric\" (above sea level) is assumed");
+      return "orthometric";
+    }
+    const std::string form = "vertical must be \"orthometric\" or \"ellipsoidal\"";
+    std::string vertical = value<std::string>(*node, form);
+    if (vertical != "orthometric" && vertical != "ellipsoidal") {
+      fail(node->source(), form);
+    }
+    return vertical;
+  }
+
+  void read_times(Description& m) const {
+    const toml::node* interval = table_.get("interval_s");
+    const toml::node* times = table_.get("times_s");
+    if (!interval == !times) {
+      fail(interval ? interval->source() : toml::source_region{},
+           "exactly one of interval_s (seconds between model times) and times_s (a list of "
+           "seconds since start) is needed");
+    }
+    if (interval) {
+      m.interval_s = number(*interval, "interval_s must be a number of seconds above 0");
+      if (!(*m.interval_s > 0.0)) {
+        fail(interval->source(), "interval_s must be a number of seconds above 0");
+      }
+      return;
+    }
+    const std::string form = "times_s must be a list of strictly ascending seconds since start";
+    const toml::array* list = times->as_array();
+    if (!list || list->empty()) {
+      fail(times->source(), form);
+    }
+    for (const toml::node& node : *list) {
+      const double time = number(node, form);
+      if (!m.times_s.empty() && !(time > m.times_s.back())) {
+        fail(node.source(), form + "; sort the times and the frames, and remove duplicates");
+      }
+      m.times_s.push_back(time);
+    }
+  }
+
+  void check_units() const {
+    const toml::node* node = table_.get("units");
+    if (!node) {
+      return;
+    }
+    const toml::table* units = node->as_table();
+    if (!units) {
+      fail(node->source(), "units must be a table of field = \"unit\"");
+    }
+    std::vector<std::string_view> names;
+    for (const FieldUnit& f : field_units()) {
+      names.push_back(f.field);
+    }
+    for (const auto& [key, unit] : *units) {
+      const FieldUnit* field = find_field(key.str());
+      if (!field) {
+        fail(key.source(), unknown("field", key.str(), names));
+      }
+      const auto given = value<std::string>(unit, "a unit must be a text in quotes");
+      if (std::find(field->spellings.begin(), field->spellings.end(), given) ==
+          field->spellings.end()) {
+        fail(unit.source(), std::string(key.str()) + " is in '" + given + "' but must be in '" +
+                                std::string(field->spellings.front()) +
+                                "'; convert the field and say so here");
+      }
+    }
+  }
+
+  double number(const toml::node& node, const std::string& reason) const {
+    if (!node.is_number()) {
+      fail(node.source(), reason);
+    }
+    const double number = *node.value<double>();
+    if (!std::isfinite(number)) {
+      fail(node.source(), reason);
+    }
+    return number;
+  }
+
+  template <class T> T value(const toml::node& node, const std::string& reason) const {
+    const auto found = node.value_exact<T>();
+    if (!found) {
+      fail(node.source(), reason);
+    }
+    return *found;
+  }
+
+  [[noreturn]] void fail(const toml::source_region& place, const std::string& reason) const {
+    io::fail(path_, place.begin.line, place.begin.column, reason);
+  }
+
+  const toml::table& table_;
+  const std::filesystem::path& path_;
+};
+
+} // namespace
+
+Description read_description(const std::filesystem::path& path) {
+  const Buffer<char> bytes = io::read_all(path, largest_description);
+  toml::table table;
+  try {
+    guard_toml(bytes, io::utf8(path));
+    table = toml::parse(std::string_view(bytes.data(), bytes.size()), io::utf8(path));
+  } catch (const toml::parse_error& e) {
+    const auto& place = e.source().begin;
+    io::fail(path, place.line, place.column, "is not valid TOML: " + std::string(e.description()));
+  }
+  return Reader(table, path).read();
+}
+
+} // namespace firetwin::run

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace firetwin::run {
+
+/// What run.toml says.
+struct Description {
+  std::string name;
+  std::string start;                ///< UTC, "2014-09-17T04:45:00Z"
+  std::optional<double> interval_s; ///< one of interval_s and times_s is there
+  std::vector<double> times_s;      ///< strictly ascending seconds since start
+  std::optional<double> mean_s;     ///< each heat flux is the mean over the seconds before its time
+  std::string vertical;             ///< "orthometric" or "ellipsoidal"
+  std::optional<double> no_data;    ///< the value that stands for "no value"
+  bool synthetic = false;
+  std::string event;
+  std::vector<std::string> warnings;
+};
+
+/// @throws InputError with line and column for bad TOML, unknown or missing keys, wrong types,
+/// units
+///         other than those of fields.hpp, and times that do not ascend.
+Description read_description(const std::filesystem::path& path);
+
+} // namespace firetwin::run

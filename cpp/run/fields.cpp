@@ -1,0 +1,53 @@
+#include "run/fields.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace firetwin::run {
+namespace {
+
+using Spellings = std::array<std::string_view, 5>;
+
+constexpr Spellings degrees_north = {"degrees_north", "degrees", "degree", "deg", "deg N"};
+constexpr Spellings degrees_east = {"degrees_east", "degrees", "degree", "deg", "deg E"};
+constexpr Spellings metres = {"m", "metre", "metres", "meter", "meters"};
+constexpr Spellings load = {"kg/m2", "kg/m^2", "kg/m²", "kg m-2", "kg m^-2"};
+constexpr Spellings flux = {"W/m2", "W/m^2", "W/m²", "W m-2", "W m^-2"};
+constexpr Spellings kelvin = {"K", "kelvin", "Kelvin", "degK", "deg K"};
+constexpr Spellings speed = {"m/s", "m s-1", "m s^-1", "ms-1", "metres per second"};
+constexpr Spellings seconds = {"s", "second", "seconds", "sec", "secs"};
+constexpr Spellings density = {"kg/m3", "kg/m^3", "kg/m³", "kg m-3", "kg m^-3"};
+
+constexpr std::array<FieldUnit, 19> fields = {{{"latitude", degrees_north},
+                                               {"longitude", degrees_east},
+                                               {"elevation", metres},
+                                               {"fuel_latitude", degrees_north},
+                                               {"fuel_longitude", degrees_east},
+                                               {"fuel_elevation", metres},
+                                               {"fuel_arrival_time", seconds},
+                                               {"surface_fuel", load},
+                                               {"canopy_fuel", load},
+                                               {"heat_flux", flux},
+                                               {"temperature", kelvin},
+                                               {"wind_east", speed},
+                                               {"wind_north", speed},
+                                               {"temperature_3d", kelvin},
+                                               {"smoke_3d", density},
+                                               {"height_3d", metres},
+                                               {"wind_east_3d", speed},
+                                               {"wind_north_3d", speed},
+                                               {"wind_up_3d", speed}}};
+
+} // namespace
+
+std::span<const FieldUnit> field_units() {
+  return fields;
+}
+
+const FieldUnit* find_field(std::string_view name) {
+  const auto found = std::find_if(fields.begin(), fields.end(),
+                                  [name](const FieldUnit& f) { return f.field == name; });
+  return found == fields.end() ? nullptr : &*found;
+}
+
+} // namespace firetwin::run

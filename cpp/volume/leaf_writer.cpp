@@ -1,0 +1,64 @@
+#include "volume/leaf_writer.hpp"
+
+#include "base/clones.hpp"
+
+#include <openvdb/io/Compression.h>
+#include <openvdb/io/io.h>
+
+#include <cstring>
+
+namespace firetwin::volume {
+namespace {
+
+/// Rounds to half floats, nearest or even, as Imath's half does, but without branches: exponents
+/// too small for half are made by adding 1/2 (the sum's last bits are the half's), others by moving
+/// the exponent.
+FIRETWIN_CLONES("avx2")
+void to_half(const LeafValues& values, HalfValues& halves) {
+  constexpr std::uint32_t smallest_normal = 113U << 23; // 2^-14
+  constexpr std::uint32_t infinite = 0x477ff000U;       // 65520
+  for (std::size_t i = 0; i < leaf_voxels; ++i) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &values[i], sizeof bits);
+    const std::uint32_t sign = bits >> 16 & 0x8000U;
+    bits &= 0x7fffffffU;
+    float magnitude = 0.0F;
+    std::memcpy(&magnitude, &bits, sizeof magnitude);
+    const float small = magnitude + 0.5F;
+    std::uint32_t denormal = 0;
+    std::memcpy(&denormal, &small, sizeof denormal);
+    denormal -= 0x3f000000U;
+    const std::uint32_t normal = (bits - (112U << 23) + 0xfffU + (bits >> 13 & 1U)) >> 13;
+    std::uint32_t half = bits < smallest_normal ? denormal : normal;
+    half = bits >= infinite ? 0x7c00U : half;
+    half = bits > 0x7f800000U ? 0x7e00U : half;
+    halves[i] = static_cast<std::uint16_t>(half | sign);
+  }
+}
+
+} // namespace
+
+void LeafWriter::write(const LeafMask& mask, std::span<const openvdb::Index> active,
+                       const LeafValues& values) {
+  to_half(values, halves_);
+  if (active.size() < leaf_voxels) {
+    for (std::size_t i = 0; i < active.size(); ++i) {
+      halves_[i] = halves_[active[i]];
+    }
+  }
+  mask.save(stream_);
+  stream_.put(openvdb::io::NO_MASK_OR_INACTIVE_VALS);
+  const std::size_t bytes = active.size() * sizeof(std::uint16_t);
+  if (active.size() == known_count_ && std::memcmp(halves_.data(), known_.data(), bytes) == 0) {
+    stream_ << known_bytes_; // deep smoke and its shade are the same for leaves on end
+    return;
+  }
+  const auto before = static_cast<std::size_t>(stream_.tellp());
+  openvdb::io::bloscToStream(stream_, reinterpret_cast<const char*>(halves_.data()),
+                             sizeof(std::uint16_t), active.size());
+  known_bytes_ = stream_.view().substr(before);
+  known_ = halves_;
+  known_count_ = active.size();
+}
+
+} // namespace firetwin::volume
