@@ -397,6 +397,24 @@ def test_a_camera_that_was_chosen_stays_chosen(scene, stage, shot):
     assert scene.camera == mine
 
 
+def test_an_artists_copy_of_ours_stays(scene, stage, shot):
+    build.build(shot, scene)
+    original = stage.camera("drone")
+    original.name = "First"
+    copy = original.copy()
+    copy.data = original.data.copy()
+    original.users_collection[0].objects.link(copy)
+    copy.name = "A copy"
+    assert stage.camera("drone") == original
+    build.build(shot, scene)
+    assert "A copy" in scene.objects
+    assert "First" not in scene.objects
+    assert stage.camera("drone").name == "Firetwin Camera drone"
+    build.remove(scene)
+    assert scene.objects.keys() == ["A copy"]
+    assert scene.objects["A copy"].data is not None
+
+
 def test_what_an_artist_animates_in_our_action_stays(scene, stage, shot):
     build.build(shot, scene)
     scene.keyframe_insert("gravity", index=2, frame=1)

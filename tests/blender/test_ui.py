@@ -702,6 +702,19 @@ def test_a_scene_deleted_during_a_build_ends_it_with_one_report(settings, scene_
     assert "the scene is gone" in work.reports[0][1]
 
 
+def test_edit_mode_entered_during_the_wait_ends_it_before_anything_is_touched(settings, scene_file):
+    settings.scene_file = str(scene_file)
+    work = real(settings)
+    while work.job.what != "clearing the stage":
+        work.happens()
+        time.sleep(0.01)
+    bpy.ops.object.mode_set(mode="EDIT")
+    work.goes_on()
+    assert work.reports == [("ERROR", "leave the edit mode, then build again")]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert set(bpy.context.scene.objects.keys()) == {"Cube", "Light", "Camera"}
+
+
 def test_a_build_in_the_window_outlives_renames_and_undo_before_it_begins(settings, scene_file):
     settings.scene_file = str(scene_file)
     bpy.ops.ed.undo_push(message="chosen")
