@@ -137,6 +137,8 @@ def _open(folder: Path) -> Run:
 
 
 def _choice(arguments: argparse.Namespace) -> Choice:
+    """What the command line names; reading it may take a while, so that is said first."""
     from .shot.choice import Choice
 
+    say(f"reading {arguments.scene} and its run")
     return Choice(scene=str(arguments.scene))
