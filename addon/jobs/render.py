@@ -80,7 +80,7 @@ def in_blender(
     progress: Progress,
     tell: Tell,
 ) -> None:
-    """Render these pictures, each camera in a scene of its own, then make the films of these cameras and passes."""
+    """Render these pictures, each camera in a scene of its own, then films of these cameras and passes."""
     from ..render import fingerprint, video
     from ..render.picture import Picture
 
