@@ -17,7 +17,7 @@ def firetwin(*arguments, **options):
 def assert_one_line(result, status, *words):
     assert result.returncode == status
     assert result.stdout == ""
-    lines = result.stderr.splitlines()
+    lines = [line for line in result.stderr.splitlines() if not line.startswith("firetwin: reading ")]
     assert len(lines) == 1, result.stderr
     assert lines[0].startswith("firetwin: ")
     assert all(word in lines[0] for word in words), lines[0]
