@@ -92,10 +92,9 @@ def schema(arguments: argparse.Namespace) -> None:
 
 def bench(arguments: argparse.Namespace) -> int:
     """Measure, print the tables, and say whether every target is met."""
-    from . import bench
-    from .bench import plots, table
+    from .bench import measure, plots, table
 
-    report = bench.measure(arguments.full, Reporter())
+    report = measure(arguments.full, Reporter())
     text = json.dumps(report.as_json(), indent=1)
     if arguments.json:
         print(text)
@@ -137,8 +136,6 @@ def _open(folder: Path) -> Run:
 
 
 def _choice(arguments: argparse.Namespace) -> Choice:
-    """What the command line names; reading it may take a while, so that is said first."""
     from .shot.choice import Choice
 
-    say(f"reading {arguments.scene} and its run")
     return Choice(scene=str(arguments.scene))

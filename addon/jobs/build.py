@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from ..errors import input_error
-from ..progress import Progress, Tell, silent, untold
+from ..progress import READING, Progress, Tell, patience, silent, untold
 from ..shot.choice import Choice
 from . import worker
 
@@ -27,7 +27,8 @@ def run(
     """
     out = out.absolute()
     _writable(out)
-    choice.shot()
+    with patience(READING):
+        choice.shot()
     worker.run(
         f"{__name__}:in_blender", {"choice": choice.plain(), "out": str(out)}, progress, stop=stop, tell=tell
     )

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..progress import Progress, Tell, count, silent, untold
+from ..progress import READING, Progress, Tell, count, patience, silent, untold
 from ..shot.choice import Choice
 from ..shot.shot import Shot
 from . import worker
@@ -39,11 +39,12 @@ def run(
     """
     from ..render import films, fingerprint, part, plan
 
-    shot = choice.shot()
     out = asked.out
-    wanted = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
-    made_with = fingerprint.of_pictures(shot.settings, wanted)
-    undone = plan.missing(out, wanted, made_with)
+    with patience(READING):
+        shot = choice.shot()
+        wanted = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
+        made_with = fingerprint.of_pictures(shot.settings, wanted)
+        undone = plan.missing(out, wanted, made_with)
     finished = len(wanted) - len(undone)
     if not asked.resume:
         if finished:
@@ -80,7 +81,7 @@ def in_blender(
     progress: Progress,
     tell: Tell,
 ) -> None:
-    """Render these pictures, each camera in a scene of its own, then make the films of these cameras and passes."""
+    """Render these pictures, each camera in a scene of its own, then films of these cameras and passes."""
     from ..render import fingerprint, video
     from ..render.picture import Picture
 

@@ -19,8 +19,8 @@ Film = tuple[str, str, dict[str, Any]]
 def missing(shot: Shot, out: Path, made_with: Fingerprints) -> list[Film]:
     """Films of at least two pictures that are not there, are damaged, or are not of the pictures there are.
 
-    Only pictures made with these settings, by camera and pass, belong in a film, and only those that are still
-    there.
+    Only pictures made with these settings, by camera and pass, belong in a film, and only those that are
+    still there.
     """
     if not shot.settings.render.video:
         return []

@@ -14,8 +14,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from ..run.content import fingerprint, sha256
 from ..errors import input_error
+from ..run.content import fingerprint, sha256
 
 NAME = "manifest.json"
 

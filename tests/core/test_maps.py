@@ -125,7 +125,10 @@ def test_labels_tell_ticks_apart(make_run, scale):
         for name in ("latitude", "longitude", "fuel_latitude", "fuel_longitude")
     }
     (map_of_fuel, *_) = maps.fuel_map(runs.open(make_run(**axes))).axes
-    for axis, limits in ((map_of_fuel.xaxis, map_of_fuel.get_xlim()), (map_of_fuel.yaxis, map_of_fuel.get_ylim())):
+    for axis, limits in (
+        (map_of_fuel.xaxis, map_of_fuel.get_xlim()),
+        (map_of_fuel.yaxis, map_of_fuel.get_ylim()),
+    ):
         ticks = [tick for tick in axis.get_majorticklocs() if limits[0] <= tick <= limits[1]]
         labels = [axis.get_major_formatter()(tick) for tick in ticks]
         assert len(set(labels)) == len(labels) >= 2
