@@ -28,8 +28,7 @@ def take(wanted: str, scene: bpy.types.Scene) -> str:
     if wanted == "gpu" and not names:
         tried = ", ".join(_NAMES.values())
         raise Error(
-            f'[render] device = "gpu", but Cycles finds no GPU here (tried {tried}); '
-            'set it to "auto" or "cpu"'
+            f'device = "gpu", but Cycles finds no GPU here (tried {tried}); set it to "auto" or "cpu"'
         )
     scene.cycles.device = "GPU" if names else "CPU"
     if not names:

@@ -86,6 +86,7 @@ def in_blender(
     from ..render.picture import Picture
 
     shot = Choice(**choice).shot()
+    _check_device(shot)
     todo = [Picture(*picture) for picture in pictures]
     made_with = fingerprint.of_pairs(shot.settings, [(camera, name) for camera, name in filmed])
     frames = len({(picture.camera, picture.frame) for picture in todo})
@@ -99,6 +100,25 @@ def in_blender(
         _camera(shot.of(camera), Path(out), wanted, made_with, counted, tell)
         done += len({picture.frame for picture in wanted})
     video.make(shot, Path(out), made_with, progress)
+
+
+def _check_device(shot: Shot) -> None:
+    """Find out before anything is built whether there is what Cycles shall render on."""
+    import bpy
+
+    from ..blender import devices
+    from ..errors import Error
+    from ..shot import file
+
+    render, path = shot.settings.render, shot.settings.path
+    if render.engine != "cycles":
+        return
+    try:
+        devices.take(render.device, bpy.context.scene)
+    except Error as error:
+        if path.is_file():
+            raise file.error_at(path, ("render", "device"), str(error)) from None
+        raise
 
 
 def _camera(shot: Shot, out: Path, wanted: list[Any], made_with: Any, progress: Progress, tell: Tell) -> None:

@@ -18,8 +18,8 @@ def build_scene(shot: Shot, progress: Progress, tell: Tell) -> Stage:
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     stage = owned.adopt(bpy.context.scene)
     total = len(build.PARTS) + 2
-    for done, step in enumerate(build.steps(shot, stage.scene, tell=tell)):
-        progress(done, total, f"building the scene: {step}")
+    for done, _ in enumerate(build.steps(shot, stage.scene, tell=tell)):
+        progress(done, total, "building the scene")
     layers.build(shot.settings, stage)
     engine.apply(shot.settings, stage.scene)
     devices.follow(shot.settings.render.device, stage.scene)

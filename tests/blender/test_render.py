@@ -202,6 +202,21 @@ def test_ctrl_c_stops_cleanly(command, tmp_path):
     assert not list(out.glob(".part-*"))
 
 
+def test_a_gpu_that_is_not_there_is_one_line_before_anything_is_built(firetwin, tmp_path):
+    out, err = firetwin("--out", tmp_path / "out", render='device = "gpu"', status=1)
+    assert out == ""
+    assert "building" not in err
+    last = err.splitlines()[-1]
+    assert 'scene.toml:15:1: device = "gpu", but Cycles finds no GPU' in last
+    assert "log of Blender" not in last
+
+
+def test_what_renders_is_told(firetwin, tmp_path):
+    scene = ("--frames", "2", "--camera", "satellite")
+    _, err = firetwin("--out", tmp_path / "out", *scene, render='device = "cpu"')
+    assert "firetwin: Cycles renders on the processor\n" in err
+
+
 def test_the_blend_file_is_complete_and_needs_no_add_on(firetwin, tmp_path):
     import bpy
 
