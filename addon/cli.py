@@ -65,6 +65,8 @@ def _report(error: Exception) -> int:
         text = f"{error.filename}: {error.strerror}"
     elif isinstance(error, ModuleNotFoundError) and error.name == "bpy":
         text = "Blender's Python module is missing; install it with: pip install 'firetwin[blender]'"
+    elif isinstance(error, ModuleNotFoundError) and error.name == f"{__package__}.bench":
+        text = "the benchmarks are not in Blender's extension; run them from a checkout (see the README)"
     elif isinstance(error, ModuleNotFoundError) and error.name == "matplotlib":  # not in Blender
         pip = f"{shlex.quote(sys.executable)} -m pip install matplotlib"
         text = f"maps and plots need matplotlib; install it with: {pip}"

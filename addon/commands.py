@@ -120,10 +120,10 @@ def schema(arguments: argparse.Namespace) -> None:
 
 def bench(arguments: argparse.Namespace) -> int:
     """Measure, print the tables, and say whether every target is met."""
-    from . import bench, files
-    from .bench import plots, table
+    from . import files
+    from .bench import measure, plots, table
 
-    report = bench.measure(arguments.full, Reporter())
+    report = measure(arguments.full, Reporter())
     text = json.dumps(report.as_json(), indent=1)
     if arguments.json:
         print(text)

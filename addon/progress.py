@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 Progress = Callable[..., None]
 """Called as ``progress(done, total)`` or ``progress(done, total, "what is done")`` while work goes on."""
+
+READING = "reading the scene file and its run"
 
 Tell = Callable[[str], None]
 """Called with a sentence that a person should read."""
@@ -16,6 +20,18 @@ Tell = Callable[[str], None]
 def say(text: str) -> None:
     """Tell the person at the keyboard; stdout is kept for results."""
     print(f"firetwin: {text}", file=sys.stderr, flush=True)
+
+
+@contextlib.contextmanager
+def patience(text: str, seconds: float = 1.0) -> Iterator[None]:
+    """Say what goes on within once it has taken so long: what is quick or wrong says nothing else."""
+    timer = threading.Timer(seconds, say, [text])
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
 
 
 def silent(done: int, total: int, what: str = "") -> None:

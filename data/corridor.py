@@ -7,8 +7,8 @@ Along this way the sample's wind is turned and quickened, and the simulated fire
 import numpy as np
 from numpy.typing import NDArray
 
-from .grid import FUEL_CELL_SIZE, cell_of
 from .fractal import fractal, smooth
+from .grid import FUEL_CELL_SIZE, cell_of
 
 # From the head of that morning to Hell Hole Reservoir: latitude, longitude.
 WAY = (

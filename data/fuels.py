@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .fractal import fractal, smooth
 from .grid import FUEL_CELL_SIZE, cell_of
 from .history import Event
-from .fractal import fractal, smooth
 from .terrain import Terrain
 
 CANOPY_CELLS = 363_632

@@ -9,10 +9,10 @@ from pyretechnics.eulerian_level_set import SpreadState, spread_fire_with_phi_fi
 from pyretechnics.space_time_cube import SpaceTimeCube
 
 from . import corridor, stored, weather
+from .fractal import fractal, smooth
 from .fuels import Fuels
 from .grid import FUEL_CELL_SIZE, FUEL_CELLS, MODEL_CELLS, cell_of
 from .history import Event
-from .fractal import fractal, smooth
 from .terrain import Terrain
 from .weather import Channel
 

@@ -13,9 +13,9 @@ from scipy.interpolate import PchipInterpolator, RBFInterpolator
 from scipy.ndimage import distance_transform_edt
 
 from .drainage import Drainage
+from .fractal import fractal, smooth
 from .grid import FUEL_CELL_SIZE, FUEL_CELLS, cell_of, local
 from .history import Event, Place
-from .fractal import fractal, smooth
 
 MARGIN = (
     80  # fuel cells around the domain, so that valleys do not end at its edge and Pyramid Peak is on the map

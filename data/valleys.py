@@ -4,8 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import corridor
-from .grid import MODEL_CELL_SIZE, block_mean
 from .fractal import smooth
+from .grid import MODEL_CELL_SIZE, block_mean
 from .weather import Channel
 
 WIDTH = 900.0  # m, half width of a canyon

@@ -2,8 +2,8 @@
 # Installs the extension in the real Blender 5.2 and uses it in its window, as an artist does, and takes pictures.
 #
 #   tests/window.sh                  everything
-#   tests/window.sh panel build      only these of: commands panel build scrub render undo file; it is always
-#                                    installed before and uninstalled after
+#   tests/window.sh panel build      only these of: commands panel build parts scrub render undo beside file; it
+#                                    is always installed before and uninstalled after
 #
 # Debian's development release has that Blender, with Python 3.14. It is kept in build/debian/sid, or in
 # $FIRETWIN_DEBIAN/sid (tests/in_debian.sh); the core is built there, and a zip made that carries it. The pictures

@@ -16,6 +16,7 @@ import bpy
 from ..errors import Error
 
 MARK = "firetwin_part"  # not "firetwin": the panel keeps its choices there
+NAME = "firetwin_name"  # of an object as it was made: copies have it too
 ROOT = "Firetwin"
 MADE = "made"  # a scene that was not there before
 
@@ -28,8 +29,9 @@ def mark(block: Any, what: str = "") -> Any:
 
 def unmark(block: Any) -> None:
     """Make it the artist's."""
-    if MARK in block:
-        del block[MARK]
+    for name in (MARK, NAME):
+        if name in block:
+            del block[name]
 
 
 def ours(block: Any, what: str = "") -> bool:
@@ -63,7 +65,8 @@ class Stage:
 
     def camera(self, name: str) -> bpy.types.Object | None:
         """The object of the camera called `name` in the scene file, whatever it is called by now."""
-        return next((thing for thing in self.root.all_objects if ours(thing, f"camera {name}")), None)
+        found = [thing for thing in self.root.all_objects if ours(thing, f"camera {name}")]
+        return min(found, key=_originality, default=None)
 
 
 def built(scene: bpy.types.Scene) -> bool:
@@ -145,6 +148,7 @@ def add(
 ) -> bpy.types.Object:
     """A new object of ours, "Firetwin <name>", with `data` (ours too) in `collection`."""
     thing = mark(bpy.data.objects.new(f"{ROOT} {name}", data), what)
+    thing[NAME] = thing.name
     if data is not None:
         mark(data)
     collection.objects.link(thing)
@@ -171,7 +175,16 @@ def _clear(collection: bpy.types.Collection) -> None:
         if ours(inner):
             _clear(inner)
             _drop(inner)
-    bpy.data.batch_remove([thing for thing in collection.objects if ours(thing)])
+    originals: dict[str, bpy.types.Object] = {}
+    for thing in sorted(filter(ours, collection.objects), key=_originality):
+        if originals.setdefault(thing.get(NAME), thing) != thing:
+            unmark(thing)  # an artist's copy
+    bpy.data.batch_remove(originals.values())
+
+
+def _originality(thing: bpy.types.Object) -> tuple[bool, int]:
+    """Of an object and the copies that people made of it, the original comes first."""
+    return thing.name != thing.get(NAME), thing.session_uid
 
 
 def _drop(collection: bpy.types.Collection) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..progress import Progress, Tell, silent, untold
+from ..progress import READING, Progress, Tell, patience, silent, untold
 from ..shot.choice import Choice
 from . import worker
 
@@ -27,7 +27,9 @@ def run(
     -------
     The folders that hold them; none without smoke.
     """
-    if not choice.shot().settings.smoke.enabled:
+    with patience(READING):
+        shot = choice.shot()
+    if not shot.settings.smoke.enabled:
         return []
     task = {"choice": choice.plain(), "together": together}
     return [

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from .. import files
 from ..errors import FULL, disk_is_full, input_error, no_room
-from ..progress import Progress, Tell, silent, untold
+from ..progress import READING, Progress, Tell, patience, silent, untold
 from ..shot.choice import Choice
 from . import worker
 
@@ -28,7 +28,8 @@ def run(
     """
     out = out.absolute()
     _writable(out)
-    choice.shot()
+    with patience(READING):
+        choice.shot()
     worker.run(
         f"{__name__}:in_blender", {"choice": choice.plain(), "out": str(out)}, progress, stop=stop, tell=tell
     )

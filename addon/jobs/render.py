@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import Error
-from ..progress import Progress, Tell, count, silent, untold
+from ..progress import READING, Progress, Tell, count, patience, silent, untold
 from ..shot.choice import Choice
 from ..shot.shot import Shot
 from . import worker
@@ -42,9 +42,10 @@ def run(
     from ..render import claims, films, fingerprint, plan
     from ..render.store import Store
 
-    shot = choice.shot()
     out = asked.out
-    wanted = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
+    with patience(READING):
+        shot = choice.shot()
+        wanted = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
     made_with = fingerprint.of_pictures(shot, wanted, progress)
     with Store(out) as store:
         undone = plan.missing(store, wanted, made_with)
@@ -106,20 +107,25 @@ def in_blender(
 
     shot = Choice(**choice).shot()
     todo = [Picture(*picture) for picture in pictures]
-    frames = len({(picture.camera, picture.frame) for picture in todo})
+    frames = _frames(todo)
     made_with = fingerprint.of_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
     with Store(Path(out), create=True) as store, Claims(store, owner) as claims:
         making = Making(store, claims, made_with, after)
         while todo := making.free(todo, tell):
+            done = frames - _frames(todo)
             for camera, group in itertools.groupby(todo, key=lambda picture: picture.camera):
                 wanted = list(group)
-                left = {(picture.camera, picture.frame) for picture in making.missing(todo)}
 
-                def counted(here: int, of: int, what: str = "", before: int = frames - len(left)) -> None:
+                def counted(here: int, of: int, what: str = "", before: int = done) -> None:
                     progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
 
                 _camera(shot.of(camera), making, wanted, counted, tell)
+                done += _frames(wanted)
         video.make(shot, making, progress)
+
+
+def _frames(pictures: list[Any]) -> int:
+    return len({(picture.camera, picture.frame) for picture in pictures})
 
 
 def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell: Tell) -> None:

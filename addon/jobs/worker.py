@@ -60,7 +60,7 @@ def run(
     stop: Stop | None = None,
     tell: Tell = untold,
 ) -> Any:
-    """Call ``package.module:function`` in a child process, as ``function(progress=..., tell=..., **arguments)``.
+    """Call ``package.module:function`` in a child process: ``function(progress=..., tell=..., **arguments)``.
 
     Parameters
     ----------

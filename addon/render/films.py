@@ -22,7 +22,7 @@ def missing(shot: Shot, store: Store, made_with: Fingerprints) -> Iterator[Film]
     """Films of at least two pictures that are not there, are damaged, or are not of the pictures there are.
 
     Only pictures made with these settings, by camera and pass, belong in a film, and only those that are
-    still there. They are looked at one by one only where the film or the folder of its pictures changed since.
+    still there. They are looked at one by one only where the film, or the folder of its pictures, changed.
     """
     if not shot.settings.render.video:
         return

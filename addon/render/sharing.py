@@ -114,8 +114,8 @@ class Line:
 
     def _next(self) -> tuple[Frame, list[str]] | None:
         others = self.claims.of_others() if self.waiting else set()
-        for frame in [each for each in self.waiting if _name(*each) not in others]:
-            if self.claims.take(_name(*frame)):
+        for frame in list(self.waiting):
+            if _name(*frame) not in others and self.claims.take(_name(*frame)):
                 if missing := self.making.missing(self.waiting.pop(frame)):
                     return frame, [each.name for each in missing]
                 self.claims.give(_name(*frame))

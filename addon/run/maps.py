@@ -133,15 +133,23 @@ def _page(run: Run, title: str, subtitle: str) -> tuple[Figure, Axes]:
     axes.set_xlim(sorted((west, east)) if west != east else (west - 0.01, east + 0.01))
     axes.set_ylim(sorted((south, north)) if south != north else (south - 0.01, north + 0.01))
     axes.set_aspect(1 / np.cos(np.radians(np.mean(axes.get_ylim()))), adjustable="box", anchor="SW")
-    axes.xaxis.set_major_formatter(lambda x, _: f"{abs(x):.1f}°{'W' if x < 0 else 'E'}")
-    axes.yaxis.set_major_formatter(lambda y, _: f"{abs(y):.1f}°{'S' if y < 0 else 'N'}")
     axes.locator_params(nbins=6)
+    for axis, (negative, positive) in ((axes.xaxis, "WE"), (axes.yaxis, "SN")):
+        axis.set_major_formatter(_degrees(axis.get_majorticklocs(), negative, positive))
     axes.tick_params(direction="out", length=3, color="#444444")
     axes.grid(color="black", alpha=0.14, linewidth=0.5, linestyle=(0, (4, 3)), zorder=5)
     if width > 0:  # a single cell does not say how wide it is
         _scale_bar(axes, width)
     _north_arrow(axes)
     return figure, axes
+
+
+def _degrees(ticks: NDArray[np.float64], negative: str, positive: str) -> FuncFormatter:
+    """Labels such as ``120.6°W`` with as many digits as tell the ticks apart."""
+    step = float(np.min(np.diff(ticks))) if len(ticks) > 1 else 0.1
+    digits = max(1, int(np.ceil(-np.log10(step) - 1e-9)))
+    digits += round(step * 10**digits, 6) % 1 > 0  # such as steps of 0.25
+    return FuncFormatter(lambda at, _: f"{abs(at):.{digits}f}°{negative if at < 0 else positive}")
 
 
 def _show(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -67,23 +66,15 @@ class Path:
             local = (points[left] - self.position[moment.frame].astype(np.float32)) @ self.rotation[
                 moment.frame
             ].astype(np.float32)
-            wide = margin if moment.still else math.sqrt(3.0) * margin + moment.moved
-            inside = (local**2).sum(1) < (reach + moment.moved) ** 2
-            inside &= local[:, 2] < wide
-            scale = np.maximum(-local[:, 2], 0.0) if self.perspective else 1.0
-            half = self.half if moment.still else self._opened(moment.turned)
-            inside &= np.abs(local[:, 0]) <= scale * half[0] + wide
-            inside &= np.abs(local[:, 1]) <= scale * half[1] + wide
+            away = (local**2).sum(1)
+            # In any of its frames a point lies at most so much elsewhere, seen from the camera.
+            shift = moment.moved + moment.turned * np.sqrt(away) if moment.moved or moment.turned else 0.0
+            inside = (away < (reach + moment.moved) ** 2) & (local[:, 2] < margin + shift)
+            scale = np.maximum(-local[:, 2], 0.0) + shift if self.perspective else 1.0
+            inside &= np.abs(local[:, 0]) <= scale * self.half[0] + margin + shift
+            inside &= np.abs(local[:, 1]) <= scale * self.half[1] + margin + shift
             seen[left[inside]] = True
         return seen
-
-    def _opened(self, turned: float) -> tuple[float, float]:
-        """`half` of a view that holds this one however it is turned by up to `turned` radians."""
-        if not self.perspective:
-            corner = math.hypot(*self.half)
-            return tuple(min(side + turned * corner, corner) for side in self.half)
-        widest = turned * math.hypot(1.0, *self.half)  # angles off one axis grow faster away from the other
-        return tuple(math.tan(min(math.atan(side) + widest, 0.499 * math.pi)) for side in self.half)
 
     def distance(self, points: ArrayLike) -> NDArray[np.float32]:
         """Least distance (n,) in metres of points (n, 3) from the path; of a long path not more than that."""
@@ -102,7 +93,7 @@ class Path:
         """Frames that stand for those round them, one for each while there are few."""
         every = np.arange(len(self.position))
         whole = _moment(self, every)
-        if whole.still:
+        if whole.moved == whole.turned == 0.0:
             return [whole]
         return [_moment(self, part) for part in np.array_split(every, min(len(every), _VIEWS))]
 
@@ -114,11 +105,6 @@ class _Moment:
     frame: int
     moved: float
     turned: float
-
-    @property
-    def still(self) -> bool:
-        """Whether it stands for one view alone."""
-        return self.moved == 0.0 and self.turned == 0.0
 
 
 def _moment(path: Path, frames: NDArray[np.int64]) -> _Moment:

@@ -7,6 +7,7 @@ import functools
 import bpy
 
 from ..blender import owned
+from ..errors import Error
 from ..scene.build import PARTS
 from ..shot.shot import Shot
 from . import job, keys, run, stage, time, view, working
@@ -61,13 +62,15 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
         if smoke and shot.settings.smoke.enabled:
             yield Away("smoke", functools.partial(bake.run, chosen, together=True))
         yield "clearing the stage"
+        if bpy.context.mode != "OBJECT":
+            raise Error("leave the edit mode, then build again")
         new = not owned.built(owned.scene(uid))
         before, (uid, words) = uid, stage.prepare(owned.scene(uid), part=part != ALL)
         new = new or uid != before
-        told: list[str] = shot.warnings()
+        told: list[str] = []
         yield from build.steps(shot, owned.scene(uid), parts, told.append)
         _finish(owned.scene(uid), shot, parts, new)
-        for text in told:
+        for text in (*shot.warnings(), *told):
             yield Told(text, "WARNING")
         what = f"{shot.frames.count} frames" if part == ALL else f"the {part}"
         return f"Built {what} of {shot.run.name}" + (f"; {words}" if words else "")

@@ -54,10 +54,10 @@ def manifest(wheels: list[Path], platforms: list[str], version: str) -> str:
 
 
 def stage(folder: Path, wheels: list[Path], text: str) -> None:
-    """Lay out the extension as Blender unpacks it: the add-on, with data/ as its package `data`."""
+    """Lay out the extension as Blender unpacks it: the add-on without its benchmarks, and data/ in it."""
     shutil.rmtree(folder, ignore_errors=True)
     ignore = shutil.ignore_patterns("__pycache__", "*.pyc")
-    shutil.copytree(ROOT / "addon", folder, ignore=ignore)
+    shutil.copytree(ROOT / "addon", folder, ignore=shutil.ignore_patterns("__pycache__", "*.pyc", "bench"))
     shutil.copytree(ROOT / "data", folder / "data", ignore=ignore)
     shutil.copy(ROOT / "LICENSE", folder)
     (folder / "wheels").mkdir()

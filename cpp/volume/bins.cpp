@@ -24,6 +24,27 @@ Range leaves(const Puffs& puffs, std::size_t ball, float reach, double side) {
   return range;
 }
 
+/// The leaves of a box that each ball reaches; none for a ball that does not matter.
+std::vector<Range> ranges_in(const LeafBox& box, const Puffs& puffs, std::span<const float> reach,
+                             double side) {
+  std::vector<Range> ranges(reach.size(), Range{{1, 1, 1}, {0, 0, 0}});
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, reach.size(), 4096), [&](const auto& part) {
+    for (std::size_t i = part.begin(); i < part.end(); ++i) {
+      if (!(reach[i] > 0.0F)) {
+        continue;
+      }
+      ranges[i] = leaves(puffs, i, reach[i], side);
+      for (std::size_t axis = 0; axis < 3; ++axis) { // balls may stick out of the box
+        const int first = box.low[static_cast<int>(axis)];
+        const int last = first + box.count[static_cast<int>(axis)] - 1;
+        ranges[i].low[axis] = std::max(ranges[i].low[axis], first);
+        ranges[i].high[axis] = std::min(ranges[i].high[axis], last);
+      }
+    }
+  });
+  return ranges;
+}
+
 } // namespace
 
 LeafBox::LeafBox(const Puffs& puffs, std::span<const float> reach, double voxel_size)
@@ -62,21 +83,7 @@ Bins::Bins(const LeafBox& box, const Puffs& puffs, std::span<const float> reach,
            double voxel_size) {
   const double side = voxel_size * static_cast<double>(leaf_side);
   const std::size_t total = box.size();
-  std::vector<Range> ranges(reach.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, reach.size(), 4096), [&](const auto& part) {
-    for (std::size_t i = part.begin(); i < part.end(); ++i) {
-      ranges[i] = {{1, 1, 1}, {0, 0, 0}};
-      if (reach[i] > 0.0F) {
-        ranges[i] = leaves(puffs, i, reach[i], side);
-        for (std::size_t axis = 0; axis < 3; ++axis) { // balls may stick out of the box
-          const int first = box.low[static_cast<int>(axis)];
-          const int last = first + box.count[static_cast<int>(axis)] - 1;
-          ranges[i].low[axis] = std::max(ranges[i].low[axis], first);
-          ranges[i].high[axis] = std::min(ranges[i].high[axis], last);
-        }
-      }
-    }
-  });
+  const std::vector<Range> ranges = ranges_in(box, puffs, reach, side);
   // Every task has the leaves of some planes to itself and looks through all the balls for them.
   const auto visit = [&](auto&& act) {
     const auto planes = static_cast<std::size_t>(box.count.x());

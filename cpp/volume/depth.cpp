@@ -86,6 +86,19 @@ std::size_t voxel_at(std::size_t x, std::size_t y, std::size_t z) {
   return (x * leaf_side + y) * leaf_side + z;
 }
 
+/// The bits of the blocks of 2^3 voxels in a larger one.
+std::uint64_t small_blocks(const std::array<std::size_t, 3>& origin, std::size_t side) {
+  const std::size_t count = side / 2;
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < count * count * count; ++i) {
+    const std::size_t x = origin[0] / 2 + i / (count * count);
+    const std::size_t y = origin[1] / 2 + i / count % count;
+    const std::size_t z = origin[2] / 2 + i % count;
+    bits |= std::uint64_t{1} << ((x * 4 + y) * 4 + z);
+  }
+  return bits;
+}
+
 } // namespace
 
 void DepthMeter::Balls::reserve(std::size_t most) {
@@ -103,6 +116,18 @@ void DepthMeter::Balls::add(float ball_x, float ball_y, float ball_z, float ball
   z[count] = ball_z;
   radius[count] = ball_radius;
   ++count;
+}
+
+void DepthMeter::Balls::keep(const Balls& from, std::span<const float> depths, float least) {
+  count = 0;
+  for (std::size_t i = 0; i < from.count; ++i) { // without branches, which could not be predicted
+    x[count] = from.x[i];
+    y[count] = from.y[i];
+    z[count] = from.z[i];
+    radius[count] = from.radius[i];
+    count += depths[i] >= least ? 1 : 0;
+  }
+  fill_up();
 }
 
 void DepthMeter::Balls::fill_up() {
@@ -156,50 +181,36 @@ void DepthMeter::refine(const Block& block, std::uint64_t wanted) {
     return;
   }
   if (most - half >= depth_inside) {
-    const auto ball = static_cast<std::size_t>(
-        std::find(depths_.begin(), depths_.begin() + static_cast<std::ptrdiff_t>(from.count),
-                  most) -
-        depths_.begin());
-    for (std::size_t x = 0; x < block.side; ++x) {
-      for (std::size_t y = 0; y < block.side; ++y) {
-        const std::size_t row = voxel_at(block.origin[0] + x, block.origin[1] + y, block.origin[2]);
-        std::fill_n(depth_->begin() + static_cast<std::ptrdiff_t>(row), block.side, most - half);
-        std::fill_n(radius_->begin() + static_cast<std::ptrdiff_t>(row), block.side,
-                    from.radius[ball]);
-      }
-    }
+    const auto end = depths_.begin() + static_cast<std::ptrdiff_t>(from.count);
+    const auto ball = std::find(depths_.begin(), end, most) - depths_.begin();
+    fill(block, most - half, from.radius[static_cast<std::size_t>(ball)]);
     return;
   }
   const float limit = std::max(most - 2.0F * half, -depth_outside - half);
-  left.count = 0;
-  for (std::size_t i = 0; i < from.count; ++i) {
-    left.x[left.count] = from.x[i];
-    left.y[left.count] = from.y[i];
-    left.z[left.count] = from.z[i];
-    left.radius[left.count] = from.radius[i];
-    left.count += depths_[i] >= limit ? 1 : 0;
-  }
-  left.fill_up();
+  left.keep(from, depths_, limit);
   if (block.side == 2) {
     measure_voxels(block, left);
     return;
   }
-  const std::size_t half_side = block.side / 2;
-  const std::size_t count = half_side / 2; // blocks of 2^3 along a part
+  const std::size_t side = block.side / 2;
   for (std::size_t part = 0; part < 8; ++part) {
-    Block next{block.origin, half_side, block.round + 1};
-    next.origin[0] += (part >> 2 & 1) * half_side;
-    next.origin[1] += (part >> 1 & 1) * half_side;
-    next.origin[2] += (part & 1) * half_side;
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < count * count * count; ++i) {
-      const std::size_t x = next.origin[0] / 2 + i / (count * count);
-      const std::size_t y = next.origin[1] / 2 + i / count % count;
-      const std::size_t z = next.origin[2] / 2 + i % count;
-      bits |= std::uint64_t{1} << ((x * 4 + y) * 4 + z);
-    }
-    if ((wanted & bits) != 0) {
+    Block next{block.origin, side, block.round + 1};
+    next.origin[0] += (part >> 2 & 1) * side;
+    next.origin[1] += (part >> 1 & 1) * side;
+    next.origin[2] += (part & 1) * side;
+    if ((wanted & small_blocks(next.origin, side)) != 0) {
       refine(next, wanted);
+    }
+  }
+}
+
+void DepthMeter::fill(const Block& block, float depth, float radius) {
+  for (std::size_t x = 0; x < block.side; ++x) {
+    for (std::size_t y = 0; y < block.side; ++y) {
+      const auto row = static_cast<std::ptrdiff_t>(
+          voxel_at(block.origin[0] + x, block.origin[1] + y, block.origin[2]));
+      std::fill_n(depth_->begin() + row, block.side, depth);
+      std::fill_n(radius_->begin() + row, block.side, radius);
     }
   }
 }

@@ -37,6 +37,8 @@ private:
 
     void reserve(std::size_t most);
     void add(float ball_x, float ball_y, float ball_z, float ball_radius);
+    /// Takes over the balls that are at least so deep.
+    void keep(const Balls& from, std::span<const float> depths, float least);
     void fill_up();
   };
   struct Block {
@@ -46,6 +48,7 @@ private:
   };
 
   void refine(const Block& block, std::uint64_t wanted);
+  void fill(const Block& block, float depth, float radius);
   void measure_voxels(const Block& block, const Balls& balls);
   std::array<float, 3> place(const Block& block, float offset) const;
 

@@ -129,5 +129,5 @@ def test_our_camera_is_looked_through_unless_the_artist_has_another(shot, scene)
     scene.camera = mine
     cameras.build(shot, stage)
     assert scene.camera == mine
-    (ours,) = cameras.build(shot, owned.adopt(scene))
-    assert scene.camera == ours
+    cameras.build(shot, owned.adopt(scene))
+    assert scene.camera == mine

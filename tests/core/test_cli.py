@@ -17,7 +17,7 @@ def firetwin(*arguments, **options):
 def assert_one_line(result, status, *words):
     assert result.returncode == status
     assert result.stdout == ""
-    lines = result.stderr.splitlines()
+    lines = [line for line in result.stderr.splitlines() if not line.startswith("firetwin: reading ")]
     assert len(lines) == 1, result.stderr
     assert lines[0].startswith("firetwin: ")
     assert all(word in lines[0] for word in words), lines[0]
@@ -63,6 +63,21 @@ sys.exit(main(["maps", *sys.argv[1:]]))
     assert last.startswith("firetwin: maps and plots need matplotlib")
     assert last.endswith(f"{sys.executable} -m pip install matplotlib")
     assert "Traceback" not in result.stderr
+
+
+def test_the_extension_has_no_benchmarks_and_says_so():
+    code = """
+import sys
+from firetwin.cli import main
+class Gone:  # as in the extension
+    def find_spec(self, name, path=None, target=None):
+        if name == "firetwin.bench":
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+sys.meta_path.insert(0, Gone())
+sys.exit(main(["bench"]))
+"""
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert_one_line(result, 1, "benchmarks", "checkout")
 
 
 @pytest.mark.parametrize("command", ["sample", "info", "maps", "build", "bake", "render", "schema", "bench"])

@@ -114,3 +114,23 @@ def test_maps_of_a_single_cell(make_run, tmp_path):
     run = runs.open(make_run(**one))
     for path in maps.draw(run, tmp_path, ZONE):
         assert path.stat().st_size > 10_000
+
+
+@pytest.mark.parametrize("scale", [0.002, 0.02, 0.3, 5.0])
+def test_labels_tell_ticks_apart(make_run, scale):
+    """A run whose cells are smaller or larger than the small run's."""
+    fields = small_fields()
+    axes = {
+        name: fields[name][0] + (fields[name] - fields[name][0]) * scale
+        for name in ("latitude", "longitude", "fuel_latitude", "fuel_longitude")
+    }
+    (map_of_fuel, *_) = maps.fuel_map(runs.open(make_run(**axes))).axes
+    for axis, limits in (
+        (map_of_fuel.xaxis, map_of_fuel.get_xlim()),
+        (map_of_fuel.yaxis, map_of_fuel.get_ylim()),
+    ):
+        ticks = [tick for tick in axis.get_majorticklocs() if limits[0] <= tick <= limits[1]]
+        labels = [axis.get_major_formatter()(tick) for tick in ticks]
+        assert len(set(labels)) == len(labels) >= 2
+        for tick, label in zip(ticks, labels, strict=True):
+            assert float(label[:-2]) == pytest.approx(abs(tick), abs=1e-9)

@@ -6,7 +6,7 @@ from firetwin.shot import fit, overview
 from firetwin.shot.choice import Choice
 from firetwin_core import InputError
 from firetwin_core import run as runs
-from small_run import FX, FY
+from small_run import FX, FY, small_fields
 
 
 @pytest.fixture
@@ -63,3 +63,33 @@ def test_a_run_alone_has_cameras_that_fit_it(make_run):
     fit.check(shot.settings, shot.run)
     assert [camera.name for camera in shot.settings.cameras] == ["overview", "satellite"]
     assert Choice(**Choice(run="here", engine="eevee").plain()) == Choice(run="here", engine="eevee")
+
+
+def test_a_camera_that_ridges_hide_is_told_and_stays(make_run, tmp_path):
+    """A ridge stands between a low lookout and the fire."""
+    fields = small_fields()
+    elevation = np.full_like(fields["elevation"], 500.0)
+    elevation[:, 2] = 1500.0
+    arrival = np.full((FY, FX), np.nan, np.float32)
+    arrival[:, 8:] = np.linspace(0.0, 100.0, FY)[:, None]
+    folder = make_run(elevation=elevation, fuel_arrival_time=arrival)
+    scene = tmp_path / "scene.toml"
+
+    def shot(raised):
+        scene.write_text(
+            f'run = "{folder}"\n[time]\nframes = 2\n[ground]\nnear_radius = 0.0\napron = 0.0\n'
+            f'[[cameras]]\nname = "lookout"\nover_ridges = {raised}\n'
+            'keys = [{latitude = 38.9045, longitude = -120.6, height = 60.0, target = "fire"}]\n'
+        )
+        return Choice(str(scene)).shot()
+
+    low, high = shot("false"), shot("true")
+    above = [s.paths[0].position[0][2] - s.ground.up(*s.paths[0].position[0][:2])[0] for s in (low, high)]
+    assert above[0] == pytest.approx(60.0, abs=1.0)
+    assert above[1] > 500.0
+    (text,) = low.warnings()
+    assert "2 of 2 frames" in text
+    would = float(text.split(";")[1].split()[0].replace(",", ""))
+    assert would == pytest.approx(above[1], abs=1.0)
+    (text,) = high.warnings()
+    assert f"{above[1] - above[0]:,.0f} m higher" in text

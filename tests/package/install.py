@@ -17,7 +17,7 @@ NAME = "bl_ext.user_default.firetwin"
 BUNDLED = ("firetwin_core", "astral", "tqdm")
 SCENE = """\
 run = "run"
-[terrain]
+[ground]
 near_radius = 0.0
 apron = 5000.0
 [forest]
@@ -78,15 +78,13 @@ def same(before, after):
 
 def use(bpy, folder):
     """Build a small scene with the installed package."""
-    import firetwin_core
-
     (folder / "run").mkdir()
     (folder / "run/run.toml").write_text(small_run.RUN_TOML)
     for name, values in small_run.small_fields().items():
         small_run.write_field(folder / "run", name, values, "npy")
     (folder / "scene.toml").write_text(SCENE)
-    project = importlib.import_module(NAME + ".project").load(str(folder / "scene.toml"))
-    importlib.import_module(NAME + ".scene.build").build(project, firetwin_core.run.open(project.run))
+    shot = importlib.import_module(NAME + ".shot.choice").Choice(str(folder / "scene.toml")).shot()
+    importlib.import_module(NAME + ".scene.build").build(shot)
     assert [object for object in bpy.data.objects if object.type == "CAMERA"]
     assert sum(len(mesh.vertices) for mesh in bpy.data.meshes) > 20
     cli = importlib.import_module(NAME + ".cli")

@@ -52,10 +52,11 @@ def picture(name: str) -> None:
     say(f"picture {path.name}")
 
 
-def keys(*names: str) -> None:
-    """Press keys with the mouse over the 3D view."""
-    area = view()
-    x, y = area.x + 200, bpy.context.window_manager.windows[0].height - area.y - area.height // 2
+def keys(*names: str, over: str = "WINDOW") -> None:
+    """Press keys with the mouse over the 3D view, or over its sidebar ("UI")."""
+    place = next(region for region in view().regions if region.type == over)
+    x = place.x + (200 if over == "WINDOW" else place.width // 2)
+    y = bpy.context.window_manager.windows[0].height - place.y - place.height // 2
     subprocess.run(["xdotool", "mousemove", str(x), str(y)], check=True)
     time.sleep(0.3)
     subprocess.run(["xdotool", "key", "--delay", "100", *names], check=True)
@@ -133,7 +134,9 @@ def panel() -> Iterator[object]:
     picture("03-panel")
     check(not bpy.ops.firetwin.build.poll(), "Build scene waits for a run")
     settings().scene_file = str(FOLDER / "broken.toml")
-    yield 3
+    yield 1
+    yield idle
+    yield 2
     check("broken.toml:2:" in settings().problem, f"a broken scene file: {settings().problem}")
     picture("04-broken-scene-file")
     settings().scene_file = str(FOLDER / "scene.toml")
@@ -141,6 +144,7 @@ def panel() -> Iterator[object]:
     yield idle
     yield 3
     check(settings().facts != "", "the run is known")
+    check(settings().shown_run.endswith("sample"), f"the scene file's run is shown: {settings().shown_run}")
     picture("05-run")
 
 
@@ -153,9 +157,48 @@ def build() -> Iterator[object]:
     picture("06-building")
     yield idle
     yield 5
-    check("Firetwin Terrain" in built() and "Firetwin Smoke" in built(), f"built {len(built())} objects")
+    check("Firetwin Ground" in built() and "Firetwin Smoke" in built(), f"built {len(built())} objects")
+    check(len(bpy.data.scenes) == 1, "into the startup scene, which nobody used")
     check(view().spaces.active.clip_end > 100_000, "the view reaches as far as the scene")
     picture("07-built")
+
+
+def uid(name: str) -> int:
+    """Which object has this name; 0: none."""
+    thing = bpy.context.scene.objects.get(name)
+    return thing.session_uid if thing else 0
+
+
+def parts() -> Iterator[object]:
+    """A part again, then everything away; each is undone."""
+    bpy.context.scene.camera.name = "Mine"
+    bpy.ops.ed.undo_push(message="Rename")
+    before = {name: uid(name) for name in ("Mine", "Firetwin Ground", "Firetwin Trees")}
+    call(bpy.ops.firetwin.build, part="forest")
+    yield 1
+    yield idle
+    yield 3
+    after = {name: uid(name) for name in before}
+    same = [name for name in before if before[name] == after[name]]
+    check(
+        same == ["Mine", "Firetwin Ground"] and after["Firetwin Trees"] != 0, f"the forest again, not {same}"
+    )
+    check(bpy.context.scene.camera.name == "Mine", "a renamed camera stays")
+    picture("07-forest-again")
+    keys("ctrl+z")
+    yield 4
+    check({name: uid(name) for name in before} == before, "undo brings the first forest back")
+    with bpy.context.temp_override(**here()):
+        bpy.ops.firetwin.remove("EXEC_DEFAULT", True)
+    yield 3
+    check(not built() and "Mine" not in bpy.context.scene.objects, "removed")
+    check(view().spaces.active.clip_end < 2000, "the view has its own clipping again")
+    picture("07-removed")
+    keys("ctrl+z")
+    yield 5
+    check({name: uid(name) for name in before} == before, "undo brings the scene back")
+    call(bpy.ops.firetwin.view, whole=False)
+    yield 2
 
 
 def scrub() -> Iterator[object]:
@@ -174,6 +217,7 @@ def scrub() -> Iterator[object]:
 def render() -> Iterator[object]:
     """Debian builds Cycles without NanoVDB: it draws no volume grid, not even Blender's own. EEVEE does."""
     settings().engine, settings().output = "eevee", str(FOLDER / "pictures")
+    settings().scene_passes, settings().passes = False, {"rgb"}
     call(bpy.ops.firetwin.render)
     yield 5
     picture("10-rendering")
@@ -199,10 +243,16 @@ def render() -> Iterator[object]:
     yield 8
     check(busy(), "rendering again")
     keys("Escape")
+    yield 2
+    check(busy() and not stopping(), "Esc over the 3D view belongs to something else")
+    keys("Escape", over="UI")
     yield stopping
     asked = time.monotonic()
     yield idle
-    check(time.monotonic() - asked < 60, f"Esc stops it, {time.monotonic() - asked:.1f} s later")
+    check(
+        time.monotonic() - asked < 60,
+        f"Esc over the sidebar stops it, {time.monotonic() - asked:.1f} s later",
+    )
     check(not list((FOLDER / "stopped").rglob(".part-*")), "a stopped render leaves nothing half made")
     yield 1
     picture("12-stopped")
@@ -220,21 +270,53 @@ def mean_difference(one: Path, other: Path) -> float:
 
 
 def undo() -> Iterator[object]:
-    for _ in range(12):
+    for _ in range(20):
         if not built():
             break
         keys("ctrl+z")
         yield 4
     check(not built(), "undo takes the scene back")
     check("Cube" in bpy.context.scene.objects, "undo brings the startup cube back")
+    check(bpy.context.scene.world is not None, "and its world")
     picture("13-undone")
-    for _ in range(12):
+    for _ in range(20):
         if built():
             break
         keys("ctrl+shift+z")
         yield 4
-    check("Firetwin Terrain" in built(), "redo builds it again")
+    check("Firetwin Ground" in built(), "redo builds it again")
     picture("14-redone")
+
+
+def beside() -> Iterator[object]:
+    """Somebody's scene stays as it is: a new one is made, shown, and undone."""
+    window, path = bpy.context.window_manager.windows[0], settings().scene_file
+    before = window.scene.name
+    with bpy.context.temp_override(**here()):
+        bpy.ops.scene.new(type="NEW")
+    mine = window.scene
+    mine.name = "Somebody's"
+    mine.collection.objects.link(bpy.data.objects.new("Theirs", None))
+    mine.firetwin.scene_file = path
+    yield 1
+    yield idle
+    bpy.ops.ed.undo_push(message="Somebody's scene")
+    call(bpy.ops.firetwin.build)
+    yield 1
+    yield idle
+    yield 4
+    check(window.scene.name.startswith("Firetwin") and built() != [], f"built into {window.scene.name}")
+    check(bpy.data.scenes["Somebody's"].objects.keys() == ["Theirs"], "somebody's scene stays as it is")
+    picture("14-beside")
+    keys("ctrl+z")
+    yield 5
+    names = [scene.name for scene in bpy.data.scenes]
+    check(not any(name.startswith("Firetwin") for name in names), f"undo takes it back, and leaves {names}")
+    check(window.scene.name == "Somebody's", f"the window shows {window.scene.name}")
+    with bpy.context.temp_override(**here()):
+        bpy.ops.scene.delete()
+    window.scene = bpy.data.scenes[before]
+    yield 2
 
 
 def file() -> Iterator[object]:
@@ -243,7 +325,7 @@ def file() -> Iterator[object]:
     yield 1
     bpy.ops.wm.open_mainfile(filepath=str(path))
     yield 5
-    check("Firetwin Terrain" in built(), "saved and opened again")
+    check("Firetwin Ground" in built(), "saved and opened again")
     check(settings().facts != "" and settings().first_time != "", "the panel remembers")
     tab()
     yield 3
@@ -283,7 +365,7 @@ def session() -> Iterator[object]:
     before = inventory.take(USER)
     picture("01-start")
     yield from install()
-    for step in (panel, build, scrub, render, undo, file):
+    for step in (panel, build, parts, scrub, render, undo, beside, file):
         if step.__name__ in STEPS:
             yield from step()
     yield from leave(before)

@@ -1,8 +1,8 @@
 """Kinds of camera: each module of this folder is one, unless its name begins with "_".
 
-It defines a frozen dataclass derived from `Rig`, made of keys (see `schema.key`) that lie flat in the camera's
-table, and names it `RIG`. The module's name is the kind's name, the first line of the class's docstring its
-description.
+It defines a frozen dataclass derived from `Rig`, made of keys (see `schema.key`) that lie flat in the
+camera's table, and names it `RIG`. The module's name is the kind's name, the first line of the class's
+docstring its description.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Rig:
         return None
 
     def places(self) -> list[Place]:
-        """Where in the camera's table a place stands, and its latitude and longitude: all must be on the ground."""
+        """Where in the table a place stands, and its latitude and longitude: all must be on the ground."""
         return []
 
     def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
