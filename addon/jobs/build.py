@@ -74,9 +74,9 @@ def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell)
     bpy.context.preferences.filepaths.save_version = 0
     try:
         bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True, relative_remap=False)
-        files.publish(part, out)
+        files.publish(part, Path(out))
     except RuntimeError as error:
         reason = f"cannot be written: {' '.join(str(error).split())}"
-        raise input_error(out, 0, 0, FULL if disk_is_full(error) or no_room(out) else reason) from None
+        raise input_error(out, 0, 0, FULL if disk_is_full(error) or no_room(Path(out)) else reason) from None
     finally:
         part.unlink(missing_ok=True)

@@ -111,9 +111,9 @@ def in_blender(
     made_with = fingerprint.of_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
     with Store(Path(out), create=True) as store, Claims(store, owner) as claims:
         making = Making(store, claims, made_with, after)
-        while todo := making.free(todo, tell):
-            done = frames - _frames(todo)
-            for camera, group in itertools.groupby(todo, key=lambda picture: picture.camera):
+        while free := making.free(todo, tell):
+            done = frames - _frames(free)
+            for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
                 wanted = list(group)
 
                 def counted(here: int, of: int, what: str = "", before: int = done) -> None:

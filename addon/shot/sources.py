@@ -32,8 +32,12 @@ def of(aspects: Iterable[str], cameras: Iterable[Camera], *more: str | Path) -> 
     scene = [f"scene/{name}" for name in sorted(aspects) if (PACKAGE / "scene" / name).is_dir()]
     rigs = {inspect.getfile(type(camera.rig)) for camera in cameras}
     places = [PACKAGE / place for place in (*EVERYWHERE, *scene, *rigs, *more)]
-    found = {"/".join(place.parts[-2:]): _hash(place) for place in places}
+    found = {_name(place): _hash(place) for place in places}
     return {"core": _core()} | dict(sorted(found.items()))
+
+
+def _name(place: Path) -> str:
+    return place.relative_to(PACKAGE).as_posix() if place.is_relative_to(PACKAGE) else place.name
 
 
 @functools.cache
