@@ -17,8 +17,8 @@ from pathlib import Path
 from ..errors import Error, writing
 from .store import Store
 
-BEAT = 4.0  # s between two signs of life
-PATIENCE = 25.0  # s
+BEAT = 3.0  # s between two signs of life
+PATIENCE = 16.0  # s
 _PART = ".part-"
 
 

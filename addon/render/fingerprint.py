@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
 import sys
 from importlib import metadata
@@ -19,7 +20,7 @@ from .picture import Picture
 Fingerprints = dict[tuple[str, str], dict[str, Any]]
 """By camera and pass."""
 
-_RENDERING = ("render/engine.py", "render/layers.py", "render/pictures.py")
+_RENDERING = ("render/engine.py", "render/layers.py", "render/pictures.py", "render/png.py")
 
 
 def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) -> dict[str, Any]:
@@ -48,6 +49,7 @@ def _modules(name: str) -> list[str]:
     return [file, *(each for need in passes.known()[name].needs for each in _modules(need))]
 
 
+@functools.cache
 def versions() -> dict[str, str]:
     """Versions of Firetwin and of Blender, which need not be loaded for it."""
     if "bpy" in sys.modules:

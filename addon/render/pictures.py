@@ -13,7 +13,7 @@ from ..errors import writing
 from ..progress import Progress, silent
 from ..shot import passes
 from ..shot.shot import Shot
-from . import engine, layers, plan, whole
+from . import engine, layers, plan, png, whole
 from .picture import Picture
 from .sharing import Making
 from .store import describe
@@ -117,6 +117,9 @@ def _publish(shot: Shot, making: Making, part: Path, pictures: list[Picture]) ->
     """Look at the files of a complete frame, give them their names, and only then enter them in the store."""
     made = {name: part / Path(name).name for each in pictures for name in each.files()}
     for path in made.values():
+        if path.suffix == ".png" and path.exists():
+            with writing(path):
+                png.forget_times(path)
         whole.picture(path, shot.settings.render.resolution)
     for picture in pictures:
         entries = {}

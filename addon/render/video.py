@@ -27,8 +27,10 @@ def make(shot: Shot, making: Making, progress: Progress = silent) -> None:
         path = picture.film(camera, name)
         making.alone(path)
         try:  # another render may have made it meanwhile
-            for film in films.missing(shot, making.store, {(camera, name): making.made_with[camera, name]}):
+            this = {(camera, name): making.made_with[camera, name]}
+            for film in films.missing(shot, making.store, this):
                 _film(shot, making, *film)
+            any(films.missing(shot, making.store, this))  # so that it is known to be right
         finally:
             making.claims.give(path)
         progress(done, len(wanted), "filming")

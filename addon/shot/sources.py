@@ -32,21 +32,17 @@ def of(aspects: Iterable[str], cameras: Iterable[Camera], *more: str | Path) -> 
     scene = [f"scene/{name}" for name in sorted(aspects) if (PACKAGE / "scene" / name).is_dir()]
     rigs = {inspect.getfile(type(camera.rig)) for camera in cameras}
     places = [PACKAGE / place for place in (*EVERYWHERE, *scene, *rigs, *more)]
-    found = {_name(place): _hash(place) for place in places}
-    return {"core": _core()} | dict(sorted(found.items()))
-
-
-def _name(place: Path) -> str:
-    return place.relative_to(PACKAGE).as_posix() if place.is_relative_to(PACKAGE) else place.name
+    return {"core": _core()} | dict(sorted(map(_hash, places)))
 
 
 @functools.cache
-def _hash(place: Path) -> str:
-    """Of a file, or of the modules in a folder and not of those in its folders; alike on every system."""
+def _hash(place: Path) -> tuple[str, str]:
+    """Name and hash of a file, or of a folder's modules without those in its folders; on any system alike."""
+    name = place.relative_to(PACKAGE).as_posix() if place.is_relative_to(PACKAGE) else place.name
     found = hashlib.sha256()
     for path in sorted(place.glob("*.py")) if place.is_dir() else [place]:
         found.update(path.name.encode() + b"\0" + path.read_bytes().replace(b"\r\n", b"\n") + b"\0")
-    return found.hexdigest()[:16]
+    return name, found.hexdigest()[:16]
 
 
 @functools.cache

@@ -40,8 +40,8 @@ NEVER_BPY = (
     *(
         f"firetwin.render.{name}"
         for name in (
-            *("claims", "database", "fingerprint", "films", "manifest", "picture", "plan", "sharing"),
-            *("store", "whole"),
+            *("claims", "database", "fingerprint", "films", "manifest", "picture", "plan", "png"),
+            *("sharing", "store", "whole"),
         )
     ),
     *(f"firetwin.scene.fire.{name}" for name in ("firebrands", "flames", "lamps")),

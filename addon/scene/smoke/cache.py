@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import re
 import threading
 import time
@@ -12,13 +13,10 @@ from pathlib import Path
 
 from ...errors import input_error, writing
 
-USED = "used"
-"""File whose time of change is the last use of the folder that it is in."""
-
 IN_USE = 600.0  # s after the last sign of use; also how long a file in the making may stand still
 _SIGN = 60.0  # s between two signs
 _MAGIC = b" BDV\0\0\0\0"
-_OURS = re.compile(r"smoke_\d{6,}\.vdb(\..*\.tmp)?|used")
+_OURS = re.compile(r"smoke_\d{6,}\.vdb(\..*\.tmp)?")
 
 
 @dataclass(frozen=True)
@@ -69,16 +67,16 @@ def remove(volumes: Kept) -> bool:
 
 @contextlib.contextmanager
 def in_use(folder: Path) -> Iterator[None]:
-    """Give signs of use."""
+    """Give signs of use: the time of change of a folder is that of its last use."""
     over = threading.Event()
 
     def signs() -> None:
         while not over.wait(_SIGN):
             with contextlib.suppress(OSError):
-                (folder / USED).touch()
+                os.utime(folder)
 
     with writing(folder):
-        (folder / USED).touch()
+        os.utime(folder)
     thread = threading.Thread(target=signs, daemon=True)
     thread.start()
     try:
@@ -113,5 +111,4 @@ def check(path: Path, size: int) -> None:
 
 def _kept(folder: Path) -> Kept:
     states = [path.stat() for path in folder.iterdir() if _OURS.fullmatch(path.name)]
-    used = max((state.st_mtime for state in states), default=folder.stat().st_mtime)
-    return Kept(folder, sum(state.st_size for state in states), used)
+    return Kept(folder, sum(state.st_size for state in states), folder.stat().st_mtime)
