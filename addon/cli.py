@@ -9,8 +9,8 @@ from __future__ import annotations
 import argparse
 import io
 import os
+import re
 import shlex
-import string
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -165,15 +165,14 @@ def _count(text: str) -> int:
 _UNITS = {"": 1, "B": 1, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
 
 
+_UNITS = {"": 1, "B": 1, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
+
+
 def _size(text: str) -> int:
-    number = text.strip().rstrip(string.ascii_letters)
-    unit = text.strip()[len(number) :]
-    try:
-        return round(
-            float(number) * {"": 1, "B": 1, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}[unit.upper()]
-        )
-    except (KeyError, ValueError):
-        raise argparse.ArgumentTypeError(f"must be a size such as 500MB or 20GB, not {text!r}") from None
+    found = re.fullmatch(r"(\d+(?:\.\d+)?) ?([A-Za-z]*)", text.strip(), re.ASCII)
+    if not found or found[2].upper() not in _UNITS:
+        raise argparse.ArgumentTypeError(f"must be a size such as 500MB or 20GB, not {text!r}")
+    return round(float(found[1]) * _UNITS[found[2].upper()])
 
 
 class _Version(argparse.Action):

@@ -43,17 +43,18 @@ def writing(path: str | PathLike[str]) -> Iterator[None]:
         reason = FULL if disk_is_full(error) else f"cannot be written ({_words(error)}); choose another place"
         raise input_error(path, 0, 0, reason) from error
     except Error as error:
-        if disk_is_full(error) and FULL not in str(error):
+        silent = "cannot be written" in str(error) and no_room(Path(path))
+        if (silent or disk_is_full(error)) and FULL not in str(error):
             raise input_error(path, 0, 0, FULL) from error
         raise
 
 
 def disk_is_full(error: BaseException) -> bool:
-    """Whether an error says that there is no room left: Python's, the core's, Blender's or SQLite's."""
+    """Whether an error says that there is no room left: Python's, NumPy's, the core's or SQLite's."""
     if isinstance(error, OSError) and error.errno is not None:
         return error.errno in _NO_ROOM
     text = str(error)
-    return any(words in text for words in (strerror(errno.ENOSPC), "disk is full"))
+    return any(words in text for words in (strerror(errno.ENOSPC), "disk is full", " requested and "))
 
 
 def no_room(path: Path) -> bool:
