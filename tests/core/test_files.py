@@ -219,6 +219,18 @@ def test_notes_of_how_long_it_took_are_taken_out_of_a_picture(tmp_path):
     assert path.read_bytes() == plain[:-30]
 
 
+def test_a_system_without_time_zones_says_what_to_install():
+    code = """
+import sys, zoneinfo
+zoneinfo.reset_tzpath([])  # as on Windows
+sys.modules["tzdata"] = None
+from firetwin.shot import settings
+print(settings._zone("America/Los_Angeles"))
+"""
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert "install the Python package tzdata" in result.stdout, result.stderr
+
+
 def test_nothing_of_rendering_needs_locks_of_one_system():
     code = """
 import sys
