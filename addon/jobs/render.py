@@ -99,18 +99,14 @@ def in_blender(
 
     Pictures that other renders make at the same time are left to them.
     """
-    from ..render import fingerprint, video
-    from ..render.claims import Claims
+    from ..render import fingerprint, sharing, video
     from ..render.picture import Picture
-    from ..render.sharing import Making
-    from ..render.store import Store
 
     shot = Choice(**choice).shot()
     todo = [Picture(*picture) for picture in pictures]
     frames = _frames(todo)
     made_with = fingerprint.of_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
-    with Store(Path(out), create=True) as store, Claims(store, owner) as claims:
-        making = Making(store, claims, made_with, after)
+    with sharing.making(Path(out), made_with, owner, after) as making:
         while free := making.free(todo, tell):
             done = frames - _frames(free)
             for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):

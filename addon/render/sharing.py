@@ -7,10 +7,11 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 
 from ..progress import Tell, count
 from . import plan
-from .claims import Claims
+from .claims import Claims, new_owner
 from .fingerprint import Fingerprints
 from .picture import Picture
 from .store import Store
@@ -67,6 +68,13 @@ class Making:
             self.claims.of_others()
             time.sleep(_LOOK)
         return True
+
+
+@contextmanager
+def making(out: Path, made_with: Fingerprints, owner: str | None = None, after: int = 0) -> Iterator[Making]:
+    """Begin to make files in a folder; the store is made where it is missing."""
+    with Store(out, create=True) as store, Claims(store, owner or new_owner()) as claims:
+        yield Making(store, claims, made_with, after)
 
 
 class Line:

@@ -45,17 +45,29 @@ keys = [{{latitude = 38.83, longitude = -120.55, height = 500, target = "fire"}}
 
 
 @pytest.fixture
-def start(run_folder, tmp_path):
-    """Start a render: start(out, package=..., smoke=..., height=..., frames=...) -> process."""
+def package(tmp_path):
+    """A copy of the package, so that its sources change when a test wants it and never else."""
+    copy = tmp_path / "package"
+    for place in firetwin.__path__:
+        if (Path(place) / "scene").is_dir():
+            shutil.copytree(place, copy / "firetwin", ignore=shutil.ignore_patterns("__pycache__"))
+        if (Path(place) / "data").is_dir():
+            shutil.copytree(Path(place) / "data", copy / "firetwin" / "data", dirs_exist_ok=True)
+    return copy
 
-    def begin(out, package=None, smoke="false", height=400, frames=3):
+
+@pytest.fixture
+def start(run_folder, package, tmp_path):
+    """Start a render: start(out, before=..., smoke=..., height=..., frames=...) -> process."""
+
+    def begin(out, before=None, smoke="false", height=400, frames=3):
         scene = tmp_path / f"scene-{height}-{frames}.toml"
         scene.write_text(
             SCENE.format(run=run_folder, cache=tmp_path / "cache", smoke=smoke, height=height, frames=frames)
         )
         environment = dict(os.environ)
-        if package:
-            environment["PYTHONPATH"] = os.pathsep.join([str(package), environment.get("PYTHONPATH", "")])
+        path = [str(each) for each in (before, package) if each]
+        environment["PYTHONPATH"] = os.pathsep.join([*path, environment.get("PYTHONPATH", "")])
         return subprocess.Popen(
             [sys.executable, "-m", "firetwin", "render", scene, "--out", out, "--resume"],
             stdout=subprocess.DEVNULL,
@@ -149,28 +161,23 @@ def test_settings_of_one_camera_make_its_pictures_again(render, tmp_path):
     assert "nothing to render" in render(out, smoke="true", height=450)
 
 
-def test_a_changed_source_of_the_smoke_makes_what_shows_smoke_again(render, tmp_path):
-    out, package = tmp_path / "out", tmp_path / "package"
-    for place in firetwin.__path__:
-        if (Path(place) / "scene").is_dir():
-            shutil.copytree(place, package / "firetwin", ignore=shutil.ignore_patterns("__pycache__"))
-        if (Path(place) / "data").is_dir():
-            shutil.copytree(Path(place) / "data", package / "firetwin" / "data", dirs_exist_ok=True)
-    render(out, package=package, smoke="true")
+def test_a_changed_source_of_the_smoke_makes_what_shows_smoke_again(render, package, tmp_path):
+    out = tmp_path / "out"
+    render(out, smoke="true")
     before, cache = _made(out), set((tmp_path / "cache").iterdir())
     source = package / "firetwin" / "scene" / "smoke" / "stability.py"
     source.write_text(source.read_text() + "\nMORE = 1\n")
-    render(out, package=package, smoke="true")
+    render(out, smoke="true")
     again = _passes(before, _made(out))
     assert again == {(camera, name) for camera in ("drone", "other") for name in ("rgb", "thermal")}
     assert len({each for each in (tmp_path / "cache").iterdir() if each.is_dir()} - cache) == 2
 
 
 def test_a_cut_off_picture_is_never_entered(start, tmp_path):
-    out, package = tmp_path / "out", tmp_path / "package"
-    package.mkdir()
-    (package / "sitecustomize.py").write_text(_CUT)
-    process = start(out, package=package)
+    out, before = tmp_path / "out", tmp_path / "before"
+    before.mkdir()
+    (before / "sitecustomize.py").write_text(_CUT)
+    process = start(out, before)
     said = process.communicate(timeout=300)[1]
     assert process.returncode == 1
     assert "drone_depth_000001.exr" in said.splitlines()[-1]

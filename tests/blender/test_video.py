@@ -6,9 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from firetwin.render import films, picture, video
-from firetwin.render.claims import Claims
 from firetwin.render.picture import Picture
-from firetwin.render.sharing import Making
+from firetwin.render.sharing import making
 from firetwin.render.store import Store, describe
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
@@ -50,8 +49,8 @@ def _missing(shot, out, made_with):
 
 
 def _make(shot, out, made_with):
-    with Store(out, create=True) as store, Claims(store, "me") as claims:
-        video.make(shot, Making(store, claims, made_with))
+    with making(out, made_with) as here:
+        video.make(shot, here)
 
 
 def _picture(frame):
