@@ -1,4 +1,4 @@
-"""The command line: ``firetwin sample | info | maps | build | bake | render | schema | bench``.
+"""The command line: ``firetwin sample | info | maps | build | bake | render | cache | schema | bench``.
 
 Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage,
 130: Ctrl-C. Nothing heavy is imported before it is needed, so that help and mistakes answer at once.
@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import io
 import os
+import re
 import shlex
 import sys
 from collections.abc import Sequence
@@ -126,6 +127,20 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument("--passes", metavar="LIST", help="such as rgb,thermal (as the scene file says)")
     render.add_argument("--resume", action="store_true", help="keep what is finished and still matches")
 
+    cache = command("cache", "list the smoke volumes that are kept, or make room", CACHE)
+    cache.add_argument(
+        "places", metavar="SCENE|DIR", nargs="*", type=Path, help="scene files or cache folders (./cache)"
+    )
+    cache.add_argument("--prune", action="store_true", help="remove volumes used longest ago")
+    cache.add_argument(
+        "--limit",
+        metavar="SIZE",
+        type=_size,
+        default=_size("20GB"),
+        help="such as 500MB; keep as much (20GB)",
+    )
+    cache.add_argument("--dry-run", action="store_true", help="say what --prune would remove, remove nothing")
+
     command("schema", "print the JSON Schema of scene files, for TOML editors", SCHEMA)
 
     bench = command("bench", "measure run time against error, beside the alternatives", BENCH)
@@ -145,6 +160,19 @@ def _count(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"must be a whole number above 0, not {text!r}")
     return int(text)
+
+
+_UNITS = {"": 1, "B": 1, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
+
+
+_UNITS = {"": 1, "B": 1, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
+
+
+def _size(text: str) -> int:
+    found = re.fullmatch(r"(\d+(?:\.\d+)?) ?([A-Za-z]*)", text.strip(), re.ASCII)
+    if not found or found[2].upper() not in _UNITS:
+        raise argparse.ArgumentTypeError(f"must be a size such as 500MB or 20GB, not {text!r}")
+    return round(float(found[1]) * _UNITS[found[2].upper()])
 
 
 class _Version(argparse.Action):
@@ -182,7 +210,12 @@ DIR/manifest.json                        settings, versions, input hashes, a has
 passes:
 {passes}
 
-Without --resume everything asked for is rendered again."""
+Without --resume everything asked for is rendered again. Several renders, also of several computers, may write
+to one folder at once: they share the frames."""
+
+CACHE = """\
+Lists each shot's volumes with their size and last use, those used last first. With --prune the ones used
+longest ago go, until the rest fits into --limit; what a bake or a render is using stays."""
 
 SCHEMA = """\
 Save it and name it in the first line of a scene file (`#:schema firetwin.json`): editors that know TOML then

@@ -5,14 +5,17 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+import time
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .progress import Reporter, count, say
+from .progress import Reporter, count, duration, say, size
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run
 
+    from .jobs.cache import Kept
     from .shot.choice import Choice
 
 
@@ -82,6 +85,31 @@ def render(arguments: argparse.Namespace) -> None:
     _list(arguments.out)
 
 
+def cache(arguments: argparse.Namespace) -> None:
+    """List smoke volumes that are kept, or remove those used longest ago."""
+    from .jobs import cache
+
+    folders = cache.folders(arguments.places or [Path("cache")])
+    volumes = cache.kept(folders)
+    where = " and ".join(map(str, folders))
+    if not arguments.prune:
+        _volumes(volumes)
+        say(f"{size(sum(each.bytes for each in volumes))} of smoke volumes in {where}")
+        return
+    gone = cache.prune(volumes, arguments.limit, arguments.dry_run)
+    _volumes(gone)
+    freed = sum(each.bytes for each in gone)
+    left = sum(each.bytes for each in volumes) - freed
+    word = "would free" if arguments.dry_run else "freed"
+    say(f"{word} {size(freed)}; {size(left)} of smoke volumes stay in {where}")
+
+
+def _volumes(volumes: Iterable[Kept]) -> None:
+    for each in volumes:
+        ago = "in use" if each.in_use else f"used {duration(time.time() - each.used)} ago"
+        print(f"{each.folder}  {size(each.bytes)}  {ago}")
+
+
 def schema(arguments: argparse.Namespace) -> None:
     """Print the JSON Schema of scene files."""
     from .shot.json_schema import json_schema
@@ -92,6 +120,7 @@ def schema(arguments: argparse.Namespace) -> None:
 
 def bench(arguments: argparse.Namespace) -> int:
     """Measure, print the tables, and say whether every target is met."""
+    from . import files
     from .bench import measure, plots, table
 
     report = measure(arguments.full, Reporter())
@@ -103,9 +132,8 @@ def bench(arguments: argparse.Namespace) -> int:
     if arguments.out:
         for path in plots.draw(report, arguments.out):
             say(f"wrote {path}")
-        part = arguments.out / "bench.part.json"
-        part.write_text(text + "\n", encoding="utf-8")
-        part.replace(arguments.out / "bench.json")
+        path = arguments.out / "bench.json"
+        files.write(path, lambda part: part.write_text(text + "\n", encoding="utf-8"))
     missed = sum(not target.met for target in report.targets)
     say(f"{len(report.targets) - missed} of {len(report.targets)} targets met")
     return 1 if missed else 0
@@ -113,9 +141,11 @@ def bench(arguments: argparse.Namespace) -> int:
 
 def _list(out: Path) -> None:
     """Name what there is, a line per folder of pictures and per film."""
-    from .render import store
+    from .render import manifest
+    from .render.store import Store
 
-    files = store.load(out)["files"]
+    with Store(out) as store:
+        files = store.names()
     folders: dict[str, int] = {}
     for name in files:
         if not name.endswith(".mp4"):
@@ -126,7 +156,7 @@ def _list(out: Path) -> None:
     for name in files:
         if name.endswith(".mp4"):
             print(out / name)
-    print(out / store.NAME)
+    print(out / manifest.NAME)
 
 
 def _open(folder: Path) -> Run:

@@ -112,6 +112,11 @@ def count(number: int, noun: str) -> str:
     return f"{number:,} {noun}" + ("" if number == 1 else "s")
 
 
+def size(count: float) -> str:
+    """Bytes in words: ``120 MB``, ``1.2 GB``."""
+    return f"{count / 1e9:.1f} GB" if count >= 0.9995e9 else f"{count / 1e6:.0f} MB"
+
+
 def duration(seconds: float) -> str:
     """Time in words: ``8 s``, ``2 min 5 s``, ``1 h 20 min``."""
     whole = round(seconds)
@@ -119,4 +124,6 @@ def duration(seconds: float) -> str:
         return f"{whole} s"
     if whole < 3600:
         return f"{whole // 60} min {whole % 60} s"
-    return f"{whole // 3600} h {whole % 3600 // 60} min"
+    if whole < 48 * 3600:
+        return f"{whole // 3600} h {whole % 3600 // 60} min"
+    return f"{whole // 86400} days"

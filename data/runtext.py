@@ -1,19 +1,20 @@
 """Write the fields of a run folder, as .npy arrays or as text."""
 
+import math
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
-from numpy.lib.format import open_memmap
+from numpy.lib.format import write_array_header_1_0
 from numpy.typing import NDArray
 
 Put = Callable[[int, Sequence[NDArray]], None]
 
 
 class NpyWriter:
-    """One .npy per field; a series is one memory-mapped float32 array [nt, ny, nx]."""
+    """One .npy per field; a series is one float32 array [nt, ny, nx]."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -25,18 +26,19 @@ class NpyWriter:
     @contextmanager
     def series(self, names: Sequence[str], times: int, shape: tuple[int, int]) -> Iterator[Put]:
         """Give a function put(index, fields), which stores one time of all the named fields."""
-        files = [
-            open_memmap(self.folder / f"{name}.npy", mode="w+", dtype=np.float32, shape=(times, *shape))
-            for name in names
-        ]
+        with ExitStack() as stack:  # written, not mapped into memory: a full disk ends a process that maps
+            files = [stack.enter_context((self.folder / f"{name}.npy").open("wb")) for name in names]
+            for file in files:
+                described = {"descr": "<f4", "fortran_order": False, "shape": (times, *shape)}
+                write_array_header_1_0(file, described)
+            begin, size = files[0].tell(), 4 * math.prod(shape)
 
-        def put(index: int, fields: Sequence[NDArray]) -> None:
-            for file, values in zip(files, fields, strict=True):
-                file[index] = values
+            def put(index: int, fields: Sequence[NDArray]) -> None:
+                for file, values in zip(files, fields, strict=True):
+                    file.seek(begin + index * size)
+                    file.write(np.ascontiguousarray(values, "<f4"))
 
-        yield put
-        for file in files:
-            file.flush()
+            yield put
 
 
 class TextWriter:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import input_error
+from ..errors import input_error, writing
 from . import air, release, runtext, stored, weather
 from .grid import (
     FUEL_CELL_SIZE,
@@ -55,6 +55,13 @@ def write(
     if format not in FORMATS:
         raise input_error(out, 0, 0, f"no format is called {format!r}; choose {' or '.join(FORMATS)}")
     minutes = _minutes(out, frames)
+    with writing(out):
+        _write(out, minutes, format, progress)
+
+
+def _write(
+    out: Path, minutes: NDArray[np.int64], format: str, progress: Callable[[int, int], None] | None
+) -> None:
     out.parent.mkdir(parents=True, exist_ok=True)
     work = Path(tempfile.mkdtemp(prefix=f".{out.name}.", dir=out.parent))
     try:

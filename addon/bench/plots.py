@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-import os
 from collections import defaultdict
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
+from .. import files
 from .harness import OURS, Report, Row
 
 COLOURS = {OURS: "#d1410c", "rival": ("#31688e", "#35b779", "#440154", "#8c6d31", "#666666")}
@@ -19,7 +19,6 @@ def draw(report: Report, out: Path) -> list[Path]:
     import matplotlib
 
     matplotlib.use("Agg")
-    out.mkdir(parents=True, exist_ok=True)
     return [
         _figure(
             out / "work_precision.png", "Run time against error", _with_error(report.rows), _work_precision
@@ -56,10 +55,8 @@ def _figure(path: Path, title: str, rows: list[Row], panel: Callable[[Any, list[
         panel(axis, found)
         axis.legend(fontsize=7, framealpha=0.6)
     figure.suptitle(title)
-    part = path.with_suffix(".part.png")
-    figure.savefig(part, dpi=110)
+    files.write(path, lambda part: figure.savefig(part, dpi=110))
     pyplot.close(figure)
-    os.replace(part, path)
     return path
 
 

@@ -45,5 +45,5 @@ def in_blender(choice: dict[str, str], together: bool, progress: Progress, tell:
     for text in shot.warnings():
         tell(text)
     shots = [shot] if together else [shot.of(camera.name) for camera in shot.settings.cameras]
-    places = {bake.folder(each): each for each in shots}
+    places = {bake.folder(each, progress): each for each in shots}
     return [str(bake.bake(each, progress)) for each in places.values()]

@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from ..errors import input_error
+from .. import files
+from ..errors import FULL, disk_is_full, input_error, no_room
 from ..progress import READING, Progress, Tell, patience, silent, untold
 from ..shot.choice import Choice
 from . import worker
@@ -73,9 +74,9 @@ def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell)
     bpy.context.preferences.filepaths.save_version = 0
     try:
         bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True, relative_remap=False)
-        part.replace(out)
-    except (OSError, RuntimeError) as error:
-        reason = " ".join(str(getattr(error, "strerror", None) or error).split())
-        raise input_error(out, 0, 0, f"cannot be written: {reason}") from None
+        files.publish(part, Path(out))
+    except RuntimeError as error:
+        reason = f"cannot be written: {' '.join(str(error).split())}"
+        raise input_error(out, 0, 0, FULL if disk_is_full(error) or no_room(Path(out)) else reason) from None
     finally:
         part.unlink(missing_ok=True)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..errors import Error
 from ..progress import READING, Progress, Tell, count, patience, silent, untold
 from ..shot.choice import Choice
 from ..shot.shot import Shot
@@ -37,39 +39,49 @@ def run(
     -------
     How many pictures were made.
     """
-    from ..render import films, fingerprint, part, plan
+    from ..render import claims, films, fingerprint, plan
+    from ..render.store import Store
 
     out = asked.out
     with patience(READING):
         shot = choice.shot()
         wanted = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
-        made_with = fingerprint.of_pictures(shot.settings, wanted)
-        undone = plan.missing(out, wanted, made_with)
-    finished = len(wanted) - len(undone)
-    if not asked.resume:
-        if finished:
-            tell(f"rendering {count(finished, 'picture')} again that match; --resume would keep them")
-        undone = wanted
-    elif finished:
+    made_with = fingerprint.of_pictures(shot, wanted, progress)
+    with Store(out) as store:
+        undone = plan.missing(store, wanted, made_with)
+        finished = len(wanted) - len(undone)
+        before = 0 if asked.resume else store.number()
+        if not undone and asked.resume and not any(films.missing(shot, store, made_with)):
+            tell(f"{finished} of {count(len(wanted), 'picture')} are finished and match; nothing to render")
+            store.export()
+            return 0
+    if asked.resume and finished:
         tell(f"{finished} of {count(len(wanted), 'picture')} are finished and match")
-    out.mkdir(parents=True, exist_ok=True)
+    elif finished:
+        tell(f"rendering {count(finished, 'picture')} again that match; --resume would keep them")
+    undone = undone if asked.resume else wanted
     if undone:
         cameras = " and ".join(dict.fromkeys(picture.camera for picture in undone))
         tell(f"rendering {count(len(undone), 'picture')} of {cameras}")
-    elif not films.missing(shot, out, made_with):
-        tell("nothing to render")
-        return 0
     task = {
         "choice": choice.plain(),
         "out": str(out.absolute()),
         "pictures": [[picture.camera, picture.frame, picture.name] for picture in undone],
         "filmed": [list(pair) for pair in made_with],
+        "owner": claims.new_owner(),
+        "after": before,
     }
-    try:
-        eevee = shot.settings.render.engine == "eevee"
-        worker.run(f"{__name__}:in_blender", task, progress, eevee=eevee, stop=stop, tell=tell)
-    finally:
-        part.sweep(out)
+    with Store(out, create=True) as store:
+        try:
+            eevee = shot.settings.render.engine == "eevee"
+            worker.run(f"{__name__}:in_blender", task, progress, eevee=eevee, stop=stop, tell=tell)
+        except BaseException:
+            with contextlib.suppress(Error):  # what stopped the work is what to tell
+                claims.leave(store, task["owner"])
+                store.export()
+            raise
+        claims.leave(store, task["owner"])
+        store.export()
     return len(undone)
 
 
@@ -78,28 +90,36 @@ def in_blender(
     out: str,
     pictures: list[list[Any]],
     filmed: list[list[str]],
+    owner: str,
+    after: int,
     progress: Progress,
     tell: Tell,
 ) -> None:
-    """Render these pictures, each camera in a scene of its own, then films of these cameras and passes."""
-    from ..render import fingerprint, video
+    """Render these pictures, each camera in a scene of its own, then films of these cameras and passes.
+
+    Pictures that other renders make at the same time are left to them.
+    """
+    from ..render import fingerprint, sharing, video
     from ..render.picture import Picture
 
     shot = Choice(**choice).shot()
-    _check_device(shot)
     todo = [Picture(*picture) for picture in pictures]
-    made_with = fingerprint.of_pairs(shot.settings, [(camera, name) for camera, name in filmed])
-    frames = len({(picture.camera, picture.frame) for picture in todo})
-    done = 0
-    for camera, group in itertools.groupby(todo, key=lambda picture: picture.camera):
-        wanted = list(group)
+    if todo:
+        _check_device(shot)
+    frames = _frames(todo)
+    made_with = fingerprint.of_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
+    with sharing.making(Path(out), made_with, owner, after) as making:
+        while free := making.free(todo, tell):
+            done = frames - _frames(free)
+            for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
+                wanted = list(group)
 
-        def counted(here: int, of: int, what: str = "", before: int = done) -> None:
-            progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
+                def counted(here: int, of: int, what: str = "", before: int = done) -> None:
+                    progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
 
-        _camera(shot.of(camera), Path(out), wanted, made_with, counted, tell)
-        done += len({picture.frame for picture in wanted})
-    video.make(shot, Path(out), made_with, progress)
+                _camera(shot.of(camera), making, wanted, counted, tell)
+                done += _frames(wanted)
+        video.make(shot, making, progress)
 
 
 def _check_device(shot: Shot) -> None:
@@ -121,7 +141,11 @@ def _check_device(shot: Shot) -> None:
         raise
 
 
-def _camera(shot: Shot, out: Path, wanted: list[Any], made_with: Any, progress: Progress, tell: Tell) -> None:
+def _frames(pictures: list[Any]) -> int:
+    return len({(picture.camera, picture.frame) for picture in pictures})
+
+
+def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell: Tell) -> None:
     """Render the pictures of a shot's one camera; its smoke is baked a frame ahead of them."""
     from ..blender import devices
     from ..render import pictures
@@ -134,7 +158,7 @@ def _camera(shot: Shot, out: Path, wanted: list[Any], made_with: Any, progress: 
     if shot.settings.render.engine == "cycles":
         tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
     with bake.ahead(shot, _smoky(shot, wanted), progress, tell) as ready:
-        pictures.render(shot, stage, out, wanted, made_with, progress, ready)
+        pictures.render(shot, stage, making, wanted, progress, ready)
 
 
 def _smoky(shot: Shot, wanted: list[Any]) -> list[int]:

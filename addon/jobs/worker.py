@@ -182,16 +182,22 @@ def _environment(eevee: bool) -> dict[str, str]:
 
 
 def _ending(code: int, eevee: bool) -> str:
-    if code < 0:
-        how = f"stopped on signal {-code} ({signal.Signals(-code).name})"
-    else:
-        how = f"stopped with exit status {code}"
+    how = f"signal {-code} ({_signal(-code)})" if code < 0 else f"exit status {code}"
+    how = f"stopped {'on' if code < 0 else 'with'} {how}"
     if eevee:
         need = "EEVEE needs OpenGL (on Debian: libegl1 libgl1-mesa-dri)"
         return f'Blender {how}; {need}, or set engine = "cycles" in [render]'
-    if code == -signal.SIGKILL:
+    if code < 0 and _signal(-code) == "SIGKILL":
         return f"Blender {how}; most likely memory ran out: larger voxels or a lower resolution need less"
     return f"Blender {how}"
+
+
+def _signal(number: int) -> str:
+    """Name of a signal; systems know different ones."""
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return "of no name"
 
 
 def serve() -> None:

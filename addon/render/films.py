@@ -2,45 +2,49 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+import contextlib
+from collections.abc import Iterator
 from typing import Any
 
+from ..errors import Error
+from ..run.content import fingerprint, stamp
 from ..shot import passes
 from ..shot.shot import Shot
-from . import store
 from .fingerprint import Fingerprints
 from .picture import Picture, film
-from .store import fingerprint
+from .store import Store
 
 Film = tuple[str, str, dict[str, Any]]
 """Camera, pass, and what the film is made from."""
 
 
-def missing(shot: Shot, out: Path, made_with: Fingerprints) -> list[Film]:
+def missing(shot: Shot, store: Store, made_with: Fingerprints) -> Iterator[Film]:
     """Films of at least two pictures that are not there, are damaged, or are not of the pictures there are.
 
     Only pictures made with these settings, by camera and pass, belong in a film, and only those that are
-    still there.
+    still there. They are looked at one by one only where the film, or the folder of its pictures, changed.
     """
     if not shot.settings.render.video:
-        return []
-    finished = store.load(out)
-    found = []
+        return
+    filmed = [each.name for each in passes.known().values() if each.filmed]
     for camera in shot.settings.cameras:
-        for name in [each.name for each in passes.known().values() if each.filmed]:
+        for name in filmed:
             if (camera.name, name) not in made_with:
                 continue
-            key = fingerprint(made_with[camera.name, name])
-            pictures = [
-                [frame, finished["files"][path]["sha256"]]
-                for frame in shot.frames_of(camera)
-                if store.intact(out, finished, key, [path := Picture(camera.name, frame, name).file("png")])
-            ]
-            made_from = _made_from(shot, camera.name, name, pictures)
-            path = film(camera.name, name)
-            if len(pictures) > 1 and not store.intact(out, finished, fingerprint(made_from), [path]):
-                found.append((camera.name, name, made_from))
-    return found
+            key, path = fingerprint(made_with[camera.name, name]), film(camera.name, name)
+            state = _state(shot, store, camera.name, name, key)
+            if store.note(path) == state:
+                continue
+            frames = set(shot.frames_of(camera))
+            found = store.pictures(camera.name, name, key, ".png")
+            made_from = _made_from(
+                shot, camera.name, name, [[frame, found[frame]] for frame in found if frame in frames]
+            )
+            if len(made_from["frames"]) > 1 and not store.intact(fingerprint(made_from), [path]):
+                yield camera.name, name, made_from
+            else:
+                with contextlib.suppress(Error):  # a folder that is only read
+                    store.write_note(path, state)
 
 
 def _made_from(shot: Shot, camera: str, name: str, pictures: list[list[Any]]) -> dict[str, Any]:
@@ -53,3 +57,17 @@ def _made_from(shot: Shot, camera: str, name: str, pictures: list[list[Any]]) ->
         "fps": time.fps,
         "captions": [frames.first, frames.last, frames.count, time.zone, shot.run.synthetic],
     }
+
+
+def _state(shot: Shot, store: Store, camera: str, name: str, key: str) -> str:
+    """Another one where a film may have to be made again: it costs the same for any number of pictures."""
+    stamps = []
+    for path in (store.out / film(camera, name), (store.out / Picture(camera, 1, name).file("png")).parent):
+        try:
+            stamps.append(list(stamp(path)))
+        except OSError:
+            stamps.append([])
+    frames = shot.camera(camera).frames
+    return fingerprint(
+        {"film": _made_from(shot, camera, name, []), "key": key, "of": frames, "stamps": stamps}
+    )

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import functools
+import inspect
 import sys
 from importlib import metadata
 from typing import Any
 
 import firetwin_core
 
+from ..progress import Progress, silent
 from ..run.content import inputs
-from ..shot import passes, schema
+from ..shot import passes, schema, sources
 from ..shot.settings import Settings
+from ..shot.shot import Shot
 from .picture import Picture
 
 Fingerprints = dict[tuple[str, str], dict[str, Any]]
 """By camera and pass."""
+
+_RENDERING = ("render/engine.py", "render/layers.py", "render/pictures.py", "render/png.py")
 
 
 def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) -> dict[str, Any]:
@@ -25,15 +31,25 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
     run
         Hashes of the run's fields.
     """
+    aspects = passes.known()[name].aspects
+    cameras = [each for each in settings.cameras if each.name == camera]
     return {
         "versions": versions(),
+        "sources": sources.of(aspects, cameras, *_RENDERING, *_modules(name)),
         "run": run,
         "camera": camera,
         "pass": name,
-        "settings": schema.chosen(settings, passes.known()[name].aspects, camera),
+        "settings": schema.chosen(settings, aspects, camera),
     }
 
 
+def _modules(name: str) -> list[str]:
+    """Files of a pass and of those that it is made from."""
+    file = inspect.getfile(sys.modules[f"{passes.__name__}.{name}"])
+    return [file, *(each for need in passes.known()[name].needs for each in _modules(need))]
+
+
+@functools.cache
 def versions() -> dict[str, str]:
     """Versions of Firetwin and of Blender, which need not be loaded for it."""
     if "bpy" in sys.modules:
@@ -46,15 +62,14 @@ def versions() -> dict[str, str]:
     return {"firetwin": firetwin_core.__version__, "blender": blender}
 
 
-def of_pictures(settings: Settings, pictures: list[Picture]) -> Fingerprints:
+def of_pictures(shot: Shot, pictures: list[Picture], progress: Progress = silent) -> Fingerprints:
     """Those of every (camera, pass) among the pictures, and of the passes that these are made from."""
-    return of_pairs(
-        settings,
-        [(p.camera, name) for p in pictures for name in (p.name, *passes.known()[p.name].needs)],
-    )
+    asked = {(p.camera, p.name) for p in pictures}
+    needed = {(camera, need) for camera, name in asked for need in passes.known()[name].needs}
+    return of_pairs(shot, asked | needed, progress)
 
 
-def of_pairs(settings: Settings, pairs: list[tuple[str, str]]) -> Fingerprints:
-    """Those of each (camera, pass); the run is hashed once."""
-    run = inputs(settings.run)
-    return {pair: of_picture(settings, run, *pair) for pair in sorted(set(pairs))}
+def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silent) -> Fingerprints:
+    """Those of each (camera, pass); what of the run was never read is read now."""
+    run = inputs(shot.run, shot.settings.cache, progress=progress)
+    return {pair: of_picture(shot.settings, run, *pair) for pair in sorted(pairs)}

@@ -2,50 +2,61 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable
 from pathlib import Path
 
 import bpy
 
+from .. import files
 from ..blender.owned import Stage
+from ..errors import writing
 from ..progress import Progress, silent
 from ..shot import passes
 from ..shot.shot import Shot
-from . import engine, layers, plan, store
-from .fingerprint import Fingerprints
-from .part import part_folder
+from . import engine, layers, plan, png, whole
 from .picture import Picture
+from .sharing import Making
+from .store import describe
 
 
 def render(
     shot: Shot,
     stage: Stage,
-    out: Path,
+    making: Making,
     wanted: list[Picture],
-    made_with: Fingerprints,
     progress: Progress = silent,
-    ready: Callable[[int], None] = lambda frame: None,
-) -> None:
-    """Render these pictures of a built scene into `out`, frame by frame, and enter them in its store.
+    ready: Callable[[int, list[int]], None] = lambda frame, ahead: None,
+) -> int:
+    """Render those of these pictures of a built scene that no other render makes, and enter them.
 
     Parameters
     ----------
     ready
-        Called before each frame: what it shows has to be on the disk when this returns.
+        Called before each frame, with the frame that comes after it: what the frame shows has to be on the
+        disk when this returns.
+
+    Returns
+    -------
+    Number of frames that were made.
     """
     engine.label(shot.run, stage.scene)
-    frames = [
-        (camera, frame, [picture.name for picture in group])
-        for (camera, frame), group in itertools.groupby(wanted, key=lambda each: (each.camera, each.frame))
-    ]
-    with part_folder(out) as part:
-        for done, (camera, frame, names) in enumerate(frames):
-            progress(done, len(frames), "rendering")
-            ready(frame)
-            finished = _Frame(shot, stage, out, part, camera, frame, made_with).render(names)
-            _publish(out, part, finished, made_with, shot.moment(frame).isoformat(timespec="seconds"))
-    progress(len(frames), len(frames), "rendering")
+    total, made = len({(each.camera, each.frame) for each in wanted}), 0
+    with making.claims.part_folder() as part, making.line(wanted) as line:
+        while line.step():
+            progress(made, total, "rendering")
+            ready(line.frame, line.ahead)
+            try:
+                frame = _Frame(shot, stage, making, part, line.camera, line.frame)
+                finished = frame.render(line.names)
+            except Exception:
+                if line.held():
+                    raise
+                continue  # another took it over, with the files that were being made
+            if line.held():
+                _publish(shot, making, part, finished)
+                made += 1
+    progress(total, total, "rendering")
+    return made
 
 
 class _Frame:
@@ -55,15 +66,13 @@ class _Frame:
         self,
         shot: Shot,
         stage: Stage,
-        out: Path,
+        making: Making,
         part: Path,
         camera: str,
         frame: int,
-        made_with: Fingerprints,
     ) -> None:
-        self.shot, self.scene, self.out, self.part = shot, stage.scene, out, part
+        self.shot, self.scene, self.making, self.part = shot, stage.scene, making, part
         self.pictures = {name: Picture(camera, frame, name) for name in passes.known()}
-        self.made_with = made_with
         self.scene.camera = stage.camera(camera)
         self.scene.frame_set(frame)
 
@@ -71,7 +80,8 @@ class _Frame:
         """Make the files of these passes in the temporary folder, and of no others that can be spared."""
         known = passes.known()
         needed = {need for name in names for need in known[name].needs} - set(names)
-        lacking = {need for need in needed if plan.missing(self.out, [self.pictures[need]], self.made_with)}
+        store, made_with = self.making.store, self.making.made_with
+        lacking = {need for need in needed if plan.missing(store, [self.pictures[need]], made_with)}
         drawn = [known[name] for name in known if name in names or name in lacking]
         for centres in (False, True):
             if group := [each.name for each in drawn if each.pixel_centres is centres]:
@@ -79,7 +89,9 @@ class _Frame:
         for each in drawn:
             if each.finish:
                 there = {need: self.files(need, need in needed - lacking) for need in each.needs}
-                each.finish(self.files(each.name), there, self.shot.settings)
+                mine = self.files(each.name)
+                with writing(mine[each.files[0]]):
+                    each.finish(mine, there, self.shot.settings)
         return [self.pictures[name] for name in names]
 
     def draw(self, names: list[str], centres: bool) -> None:
@@ -95,20 +107,28 @@ class _Frame:
     def files(self, name: str, finished: bool = False) -> dict[str, Path]:
         """Files of a pass by suffix: where they are made, or where they are once they are finished."""
         paths = map(Path, self.pictures[name].files())
-        return {path.suffix[1:]: self.out / path if finished else self.part / path.name for path in paths}
+        return {
+            path.suffix[1:]: self.making.store.out / path if finished else self.part / path.name
+            for path in paths
+        }
 
 
-def _publish(out: Path, part: Path, pictures: list[Picture], made_with: Fingerprints, when: str) -> None:
-    """Give the files of a complete frame their names, and only then enter them in the store."""
+def _publish(shot: Shot, making: Making, part: Path, pictures: list[Picture]) -> None:
+    """Look at the files of a complete frame, give them their names, and only then enter them in the store."""
+    made = {name: part / Path(name).name for each in pictures for name in each.files()}
+    for path in made.values():
+        if path.suffix == ".png" and path.exists():
+            with writing(path):
+                png.forget_times(path)
+        whole.picture(path, shot.settings.render.resolution)
     for picture in pictures:
         entries = {}
         for name in picture.files():
-            made = part / Path(name).name
-            entries[name] = store.describe(made) | {
+            entries[name] = describe(made[name]) | {
                 "camera": picture.camera,
                 "pass": picture.name,
                 "frame": picture.frame,
-                "time": when,
+                "time": shot.moment(picture.frame).isoformat(timespec="seconds"),
             }
-            store.publish(made, out / name)
-        store.add(out, made_with[picture.camera, picture.name], entries)
+            files.publish(made[name], making.store.out / name)
+        making.store.add(making.made_with[picture.camera, picture.name], entries)

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from ..errors import UsageError
+from ..run.content import fingerprint
 from ..shot import frame_list, passes
 from ..shot.nearest import suggestion
+from ..shot.settings import Camera
 from ..shot.shot import Shot
-from . import store
 from .fingerprint import Fingerprints
 from .picture import Picture
-from .store import fingerprint
+from .store import Store
 
 
 def pictures(
@@ -37,7 +36,7 @@ def pictures(
     if frames is not None and not frames.strip():
         raise UsageError("--frames: is empty; name some, such as 1-10, or leave --frames out for all")
     try:
-        wanted = set(frame_list.parse(frames or "", shot.frames.count))
+        wanted = frame_list.parse(frames or "", shot.frames.count)
     except ValueError as error:
         raise UsageError(f"--frames: {error}") from None
     cameras = [shot.camera(camera)] if camera else settings.cameras
@@ -47,8 +46,7 @@ def pictures(
     found = [
         Picture(c.name, frame, name)
         for c in cameras
-        for frame in shot.frames_of(c)
-        if frame in wanted
+        for frame in _frames(shot, c, wanted)
         for name in chosen or [each.name for each in passes.of_camera(settings, c)]
     ]
     if not found:
@@ -58,15 +56,28 @@ def pictures(
     return found
 
 
-def missing(out: Path, wanted: list[Picture], made_with: Fingerprints) -> list[Picture]:
-    """Those of the pictures whose files are not there, are damaged, or were made with other settings."""
-    finished = store.load(out)
+def missing(store: Store, wanted: list[Picture], made_with: Fingerprints, after: int = 0) -> list[Picture]:
+    """Those of the pictures whose files are not there, are damaged, or were made with other settings.
+
+    Parameters
+    ----------
+    after
+        Only what was entered after this number of the store counts as there.
+    """
     keys = {which: fingerprint(values) for which, values in made_with.items()}
     return [
         picture
         for picture in wanted
-        if not store.intact(out, finished, keys[picture.camera, picture.name], picture.files())
+        if not store.intact(keys[picture.camera, picture.name], picture.files(), after)
     ]
+
+
+def _frames(shot: Shot, camera: Camera, asked: list[int]) -> list[int]:
+    """Those of the frames that a camera films."""
+    if not camera.frames.strip():
+        return asked
+    own = set(shot.frames_of(camera))
+    return [frame for frame in asked if frame in own]
 
 
 def _passes(text: str) -> tuple[str, ...]:

@@ -1,105 +1,148 @@
-"""What is finished in an output folder: which files there are, what made them, and how to tell.
+"""What is finished in an output folder, and what made it.
 
-``manifest.json`` holds, for every finished file, its size, its SHA-256 and the fingerprint of the settings
-that made it, and for every fingerprint these settings in full. It is rewritten whole, under a lock, to a
-temporary file that then takes its name: valid at any moment, and many processes may share one folder.
+``store.sqlite`` holds for every finished file its size, its SHA-256 and the fingerprint of the settings that
+made it, and for every fingerprint these settings in full. Several renders, also of several machines, may
+share a folder (see `claims`). ``manifest.json`` tells the same for people and other programs.
 """
 
 from __future__ import annotations
 
-import contextlib
 import json
-import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from ..errors import input_error
-from ..run.content import fingerprint, sha256
+from ..run.content import fingerprint, sha256, stamp
+from . import manifest
+from .database import Database
 
-NAME = "manifest.json"
+NAME = "store.sqlite"
+_TABLES = """
+CREATE TABLE files (number INTEGER PRIMARY KEY AUTOINCREMENT, path TEXT UNIQUE, settings TEXT, camera TEXT,
+                    pass TEXT, frame INTEGER, stamp TEXT, entry TEXT);
+CREATE INDEX pictures ON files (camera, pass, frame);
+CREATE TABLE settings (key TEXT PRIMARY KEY, made TEXT);
+CREATE TABLE notes (name TEXT PRIMARY KEY, note TEXT);
+CREATE TABLE owners (owner TEXT PRIMARY KEY, beat INTEGER);
+CREATE TABLE claims (name TEXT PRIMARY KEY, owner TEXT);
+"""
 
 
-def load(out: Path) -> dict[str, Any]:
-    """The manifest of an output folder, an empty one where there is none.
+class Store:
+    """The store of an output folder; each thread has one of its own.
+
+    Parameters
+    ----------
+    create
+        Make it where there is none; otherwise an empty one stands in for it.
 
     Raises
     ------
     InputError
-        The file is there and is not a manifest.
+        What is there is no store, or the manifest beside it none of ours.
     """
-    path = out / NAME
-    try:
-        manifest = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        return {"format": 1, "settings": {}, "files": {}}
-    except (OSError, ValueError) as error:
-        raise input_error(path, getattr(error, "lineno", 0), getattr(error, "colno", 0), _BROKEN) from None
-    if not isinstance(manifest, dict) or manifest.get("format") != 1:
-        raise input_error(path, 0, 0, _BROKEN)
-    return manifest
 
+    def __init__(self, out: Path, create: bool = False) -> None:
+        self.out = out
+        if not (out / NAME).exists():
+            manifest.read(out)
+        self.data = Database(out / NAME, _TABLES, create)
 
-_BROKEN = "is not a manifest of Firetwin; move it away, or render to another folder"
+    def __enter__(self) -> Store:
+        return self
 
+    def __exit__(self, *_: object) -> None:
+        self.data.close()
 
-def add(out: Path, settings: dict[str, Any], files: dict[str, dict[str, Any]]) -> None:
-    """Enter finished files (path -> what `describe` returned and more), all made with these `settings`."""
-    key = fingerprint(settings)
-    with _locked(out):
-        manifest = load(out)
-        manifest["settings"][key] = settings
-        for path, entry in files.items():
-            manifest["files"][path] = entry | {"settings": key}
-        used = {entry["settings"] for entry in manifest["files"].values()}
-        manifest["settings"] = {k: v for k, v in manifest["settings"].items() if k in used}
-        manifest["files"] = dict(sorted(manifest["files"].items()))
-        _write(out / NAME, json.dumps(manifest, indent=1) + "\n")
+    def add(self, settings: dict[str, Any], entries: dict[str, dict[str, Any]]) -> None:
+        """Enter finished files (path -> what `describe` returned and more), made with these `settings`."""
+        key = fingerprint(settings)
+        with self.data.change():
+            self.data.do("INSERT OR IGNORE INTO settings VALUES (?, ?)", key, json.dumps(settings))
+            for path, entry in entries.items():
+                self.data.do(
+                    "INSERT OR REPLACE INTO files (path, settings, camera, pass, frame, stamp, entry) "
+                    "VALUES (?, ?, ?, ?, ?, ?, ?)",
+                    *(path, key, entry.get("camera"), entry.get("pass"), entry.get("frame")),
+                    *(self._stamp(path), json.dumps(entry)),
+                )
 
+    def intact(self, key: str, paths: Iterable[str], after: int = 0) -> bool:
+        """Whether all these files were made with the settings of fingerprint `key` and are as they were then.
 
-def intact(out: Path, manifest: dict[str, Any], key: str, paths: Iterable[str]) -> bool:
-    """Whether all these files were made with the settings of fingerprint `key` and are as they were then."""
-    for path in paths:
-        entry = manifest["files"].get(path)
-        if entry is None or entry["settings"] != key:
-            return False
-        try:
-            if (out / path).stat().st_size != entry["bytes"] or sha256(out / path) != entry["sha256"]:
+        Parameters
+        ----------
+        after
+            Only what was entered after this `number` counts.
+        """
+        query = "SELECT number, settings, stamp, entry FROM files WHERE path = ?"
+        for path in paths:
+            row = self.data.one(query, path)
+            if row is None or row[0] <= after or row[1] != key or not self._as_it_was(path, *row[2:]):
                 return False
+        return True
+
+    def pictures(self, camera: str, name: str, key: str, suffix: str) -> dict[int, str]:
+        """Hashes, by frame, of a camera's pictures in a pass made with these settings, if still there."""
+        rows = self.data.all(
+            "SELECT frame, path, stamp, entry FROM files WHERE camera = ? AND pass = ? AND settings = ? "
+            "AND frame IS NOT NULL ORDER BY frame",
+            *(camera, name, key),
+        )
+        return {
+            frame: json.loads(entry)["sha256"]
+            for frame, path, state, entry in rows
+            if path.endswith(suffix) and self._as_it_was(path, state, entry)
+        }
+
+    def number(self) -> int:
+        """Of what was entered last; every entry has a higher one than those before it."""
+        return self.data.one("SELECT max(number) FROM files")[0] or 0
+
+    def names(self) -> list[str]:
+        """Paths of everything that is finished, in order."""
+        return [path for (path,) in self.data.all("SELECT path FROM files ORDER BY path")]
+
+    def note(self, name: str) -> str | None:
+        """What was noted under a name."""
+        row = self.data.one("SELECT note FROM notes WHERE name = ?", name)
+        return row[0] if row else None
+
+    def write_note(self, name: str, note: str) -> None:
+        """Note something under a name."""
+        self.data.do("INSERT OR REPLACE INTO notes VALUES (?, ?)", name, note)
+
+    def export(self) -> None:
+        """Write the manifest, unless it tells all already."""
+        number = str(self.number())
+        if self.note("exported") == number and (self.out / manifest.NAME).exists():
+            return
+        rows = self.data.all("SELECT path, settings, entry FROM files ORDER BY path")
+        used = {key for _, key, _ in rows}
+        made = self.data.all("SELECT key, made FROM settings ORDER BY key")
+        settings = {key: json.loads(text) for key, text in made if key in used}
+        entries = {path: json.loads(entry) | {"settings": key} for path, key, entry in rows}
+        manifest.write(self.out, settings, entries)
+        self.write_note("exported", number)
+
+    def _stamp(self, path: str) -> str | None:
+        try:
+            return json.dumps(stamp(self.out / path))
         except OSError:
+            return None
+
+    def _as_it_was(self, path: str, state: str | None, entry: str) -> bool:
+        """By its stamp; where that changed (a copy has another) by its content."""
+        now = self._stamp(path)
+        if now is None or now == state:
+            return now is not None
+        made = json.loads(entry)
+        try:
+            return json.loads(now)[0] == made["bytes"] and sha256(self.out / path) == made["sha256"]
+        except (OSError, KeyError):
             return False
-    return True
 
 
 def describe(path: Path) -> dict[str, Any]:
     """Size and hash of a finished file."""
     return {"bytes": path.stat().st_size, "sha256": sha256(path)}
-
-
-def publish(part: Path, path: Path) -> None:
-    """Give a finished temporary file its name, once what is in it has reached the disk."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with part.open("rb") as file:
-        os.fsync(file.fileno())
-    part.replace(path)
-
-
-def _write(path: Path, text: str) -> None:
-    for left in path.parent.glob(f"{path.name}.part-*"):  # of a killed process: who writes holds the lock
-        left.unlink(missing_ok=True)
-    part = path.with_name(f"{path.name}.part-{os.getpid()}")
-    part.write_text(text, encoding="utf-8")
-    publish(part, path)
-
-
-@contextlib.contextmanager
-def _locked(out: Path) -> Iterator[None]:
-    """Hold the folder's lock; where the system has no such locks, one process at a time may render."""
-    try:
-        import fcntl
-    except ImportError:
-        yield
-        return
-    with (out / ".lock").open("w") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)
-        yield

@@ -7,39 +7,52 @@ from typing import Any
 
 import bpy
 
+from .. import files
 from ..blender import compat
+from ..errors import writing
 from ..progress import Progress, silent
 from ..run import times
 from ..shot.settings import Settings
 from ..shot.shot import Shot
-from . import engine, films, picture, store
-from .fingerprint import Fingerprints
-from .part import part_folder
+from . import engine, films, picture, whole
 from .picture import Picture
+from .sharing import Making
+from .store import describe
 
 
-def make(shot: Shot, out: Path, made_with: Fingerprints, progress: Progress = silent) -> None:
+def make(shot: Shot, making: Making, progress: Progress = silent) -> None:
     """Make the films of these cameras and passes that are missing or older than their pictures."""
-    wanted = films.missing(shot, out, made_with)
-    for done, (camera, name, film) in enumerate(wanted, start=1):
-        _film(shot, out, camera, name, film)
+    wanted = list(films.missing(shot, making.store, making.made_with))
+    for done, (camera, name, _) in enumerate(wanted, start=1):
+        path = picture.film(camera, name)
+        making.alone(path)
+        try:  # another render may have made it meanwhile
+            this = {(camera, name): making.made_with[camera, name]}
+            for film in films.missing(shot, making.store, this):
+                _film(shot, making, *film)
+            any(films.missing(shot, making.store, this))  # so that it is known to be right
+        finally:
+            making.claims.give(path)
         progress(done, len(wanted), "filming")
 
 
-def _film(shot: Shot, out: Path, camera: str, name: str, made_from: dict[str, Any]) -> None:
+def _film(shot: Shot, making: Making, camera: str, name: str, made_from: dict[str, Any]) -> None:
+    out = making.store.out
     path = out / picture.film(camera, name)
     scene = bpy.data.scenes.new("Firetwin Film")
     try:
-        with part_folder(out) as part:
+        with making.claims.part_folder() as part:
             made = part / path.name
             frames = [frame for frame, _ in made_from["frames"]]
             _settings(shot.settings, scene, made, len(frames))
             engine.label(shot.run, scene)
             _strips(shot, scene, out, camera, name, frames)
-            bpy.ops.render.render(animation=True, scene=scene.name)
-            entry = store.describe(made) | {"camera": camera, "pass": name}
-            store.publish(made, path)
-            store.add(out, made_from, {picture.film(camera, name): entry})
+            with writing(path):
+                bpy.ops.render.render(animation=True, scene=scene.name)
+            whole.film(made)
+            entry = describe(made) | {"camera": camera, "pass": name}
+            files.publish(made, path)
+            making.store.add(made_from, {picture.film(camera, name): entry})
     finally:
         bpy.data.scenes.remove(scene)
 

@@ -14,6 +14,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, LogLocator
 from numpy.typing import NDArray
 
+from .. import files
 from ..data import history
 from . import areas, times
 
@@ -33,7 +34,6 @@ DPI = 160
 
 def draw(run: Run, out: Path, zone: str) -> list[Path]:
     """Write ``fuel.png`` and ``intensity.png`` into the folder `out` and return their paths."""
-    out.mkdir(parents=True, exist_ok=True)
     paths = [out / "fuel.png", out / "intensity.png"]
     _save(fuel_map(run), paths[0])
     _save(intensity_map(run, zone), paths[1])
@@ -267,6 +267,4 @@ _PLATE = {"facecolor": "white", "alpha": 0.78, "edgecolor": "none"}
 
 
 def _save(figure: Figure, path: Path) -> None:
-    part = path.with_suffix(".part.png")
-    figure.savefig(part, dpi=DPI, metadata={"Software": "Firetwin"})
-    part.replace(path)
+    files.write(path, lambda part: figure.savefig(part, dpi=DPI, metadata={"Software": "Firetwin"}))

@@ -28,6 +28,8 @@ def _zone(value: str) -> str | None:
     try:
         zoneinfo.ZoneInfo(value)
     except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):
+        if not zoneinfo.available_timezones():  # Windows has none of its own
+            return "cannot be looked up: install the Python package tzdata"
         return f'"{value}" is not a time zone' + suggestion(value, sorted(zoneinfo.available_timezones()))
     return None
 

@@ -8,6 +8,7 @@ import pytest
 from firetwin.blender import compat, nodes, owned
 from firetwin.render import engine, layers, pictures
 from firetwin.render.picture import Picture
+from firetwin.render.sharing import making
 from firetwin.scene.build import PARTS
 from firetwin.shot import passes
 from firetwin_core import sensor
@@ -69,7 +70,8 @@ def render(plain, shot, stage, tmp_path):
     def shoot(*names):
         wanted = [Picture("drone", 2, name) for name in names]
         made_with = {("drone", name): {"pass": name} for name in passes.known()}
-        pictures.render(shot, stage, tmp_path / "out", wanted, made_with)
+        with making(tmp_path / "out", made_with) as here:
+            pictures.render(shot, stage, here, wanted)
         return {
             path: np.asarray(sensor.read_image(tmp_path / "out" / path))
             for picture in wanted
@@ -155,7 +157,7 @@ def test_only_the_files_of_the_passes_asked_for_are_made(render, tmp_path):
     files = {
         str(path.relative_to(tmp_path / "out")) for path in (tmp_path / "out").rglob("*") if path.is_file()
     }
-    assert files == {"manifest.json", ".lock", "drone/depth/drone_depth_000002.exr"}
+    assert files == {"store.sqlite", "drone/depth/drone_depth_000002.exr"}
 
 
 def test_a_scene_as_built_writes_no_stray_files(plain, tmp_path):

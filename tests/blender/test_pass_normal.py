@@ -6,6 +6,7 @@ import pytest
 from firetwin.blender import nodes, owned
 from firetwin.render import engine, layers, pictures
 from firetwin.render.picture import Picture
+from firetwin.render.sharing import making
 from firetwin_core import sensor
 
 
@@ -33,7 +34,8 @@ def render(settings, shot, stage, tmp_path):
         layers.build(settings, stage)
         engine.apply(settings, stage.scene)
         picture = Picture("drone", 1, "normal")
-        pictures.render(shot, stage, tmp_path, [picture], {("drone", "normal"): {}})
+        with making(tmp_path, {("drone", "normal"): {}}) as here:
+            pictures.render(shot, stage, here, [picture])
         return np.asarray(sensor.read_image(tmp_path / picture.file("exr")))
 
     return shoot

@@ -10,6 +10,7 @@ import time
 import pytest
 from firetwin.errors import Error
 from firetwin.jobs import worker
+from firetwin.render.store import Store
 from firetwin.shot import passes
 
 FRAMES = 3
@@ -87,7 +88,7 @@ def _state(out):
     return {
         str(path.relative_to(out)): (path.stat().st_mtime_ns, path.stat().st_ino)
         for path in out.rglob("*")
-        if path.is_file() and path.name != ".lock"
+        if path.is_file() and not path.name.startswith("store.sqlite")
     }
 
 
@@ -127,6 +128,7 @@ def test_the_manifest_tells_what_made_each_file(film):
     settings = manifest["settings"][entry["settings"]]
     assert settings["settings"]["render"]["samples"] == 1
     assert set(settings["versions"]) == {"firetwin", "blender"}
+    assert {"core", "scene", "scene/smoke", "shot/passes/rgb.py"} <= set(settings["sources"])
     assert len(settings["run"]["heat_flux.npy"]) == 64
 
 
@@ -178,8 +180,8 @@ def test_a_killed_render_leaves_nothing_that_resume_accepts_wrongly(command, fir
         time.sleep(0.002)
     os.killpg(process.pid, signal.SIGKILL)
     process.communicate()
-    path = out / "manifest.json"
-    finished = set(json.loads(path.read_text())["files"]) if path.exists() else set()
+    with Store(out) as store:
+        finished = set(store.names())
     assert len(finished) < len(EVERYTHING) - 1
     before = _state(out)
     firetwin("--out", out, "--resume", render="seed = 1")

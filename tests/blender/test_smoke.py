@@ -2,7 +2,6 @@
 
 import os
 import shutil
-import subprocess
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -14,7 +13,7 @@ import pytest
 from firetwin.blender import compat, owned
 from firetwin.render import layers
 from firetwin.scene import build
-from firetwin.scene.smoke import bake, baker, view
+from firetwin.scene.smoke import bake, baker, cache, view
 from firetwin.scene.smoke import build as smoke
 from firetwin.shot import burning, file
 from firetwin.shot.rigs.satellite import Satellite
@@ -132,11 +131,10 @@ def test_frames_in_parallel_are_the_frames_one_by_one(smoky, run, tmp_path, monk
 def test_what_a_killed_process_left_is_cleared(shot):
     place = bake.folder(shot)
     place.mkdir(parents=True)
-    gone = subprocess.Popen(["true"])
-    gone.wait()
-    left, alive = place / f"smoke_000001.vdb.{gone.pid}.tmp", place / f"smoke_000009.vdb.{os.getpid()}.tmp"
+    left, alive = place / "smoke_000001.vdb.1234abcd.tmp", place / "smoke_000009.vdb.1234abcd.tmp.7.tmp"
     left.touch()
     alive.touch()
+    os.utime(left, (0, time.time() - 2 * cache.IN_USE))
     bake.bake(shot)
     assert not left.exists()
     assert alive.exists()

@@ -5,8 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from firetwin.render import films, picture, store, video
+from firetwin.render import films, picture, video
 from firetwin.render.picture import Picture
+from firetwin.render.sharing import making
+from firetwin.render.store import Store, describe
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
 
@@ -26,9 +28,29 @@ def filmed(settings, run, tmp_path):
         name = Picture("drone", frame, "rgb").file("png")
         (out / name).parent.mkdir(parents=True, exist_ok=True)
         sensor.write_image(out / name, _picture(frame))
-        entries[name] = store.describe(out / name)
-    store.add(out, MADE_WITH["drone", "rgb"], entries)
+        entries |= _entry(out, frame)
+    _enter(out, MADE_WITH["drone", "rgb"], entries)
     return Shot(made, run), out
+
+
+def _enter(out, settings, entries):
+    with Store(out, create=True) as store:
+        store.add(settings, entries)
+
+
+def _entry(out, frame):
+    name = Picture("drone", frame, "rgb").file("png")
+    return {name: describe(out / name) | {"camera": "drone", "pass": "rgb", "frame": frame}}
+
+
+def _missing(shot, out, made_with):
+    with Store(out) as store:
+        return list(films.missing(shot, store, made_with))
+
+
+def _make(shot, out, made_with):
+    with making(out, made_with) as here:
+        video.make(shot, here)
 
 
 def _picture(frame):
@@ -56,7 +78,7 @@ def _probe(path, what):
 @pytest.fixture
 def film(filmed):
     shot, out = filmed
-    video.make(shot, out, MADE_WITH)
+    _make(shot, out, MADE_WITH)
     return out / picture.film("drone", "rgb")
 
 
@@ -90,45 +112,44 @@ def test_the_model_time_is_burnt_into_each_frame(film, tmp_path):
 def test_a_film_is_made_again_only_when_it_must_be(filmed, film):
     shot, out = filmed
     written = film.stat().st_mtime_ns
-    assert films.missing(shot, out, MADE_WITH) == []
-    video.make(shot, out, MADE_WITH)
+    assert _missing(shot, out, MADE_WITH) == []
+    _make(shot, out, MADE_WITH)
     assert film.stat().st_mtime_ns == written
     settings = shot.settings
     for other in (
         replace(settings, time=replace(settings.time, fps=24)),
         replace(settings, time=replace(settings.time, zone="UTC")),
     ):
-        assert [f[:2] for f in films.missing(Shot(other, shot.run), out, MADE_WITH)] == [("drone", "rgb")]
+        assert [f[:2] for f in _missing(Shot(other, shot.run), out, MADE_WITH)] == [("drone", "rgb")]
     silent = replace(settings, render=replace(settings.render, video=False))
-    assert films.missing(Shot(silent, shot.run), out, MADE_WITH) == []
+    assert _missing(Shot(silent, shot.run), out, MADE_WITH) == []
     name = Picture("drone", 2, "rgb").file("png")
     sensor.write_image(out / name, _picture(5))
-    store.add(out, MADE_WITH["drone", "rgb"], {name: store.describe(out / name)})
-    assert [f[:2] for f in films.missing(shot, out, MADE_WITH)] == [("drone", "rgb")]
+    _enter(out, MADE_WITH["drone", "rgb"], _entry(out, 2))
+    assert [f[:2] for f in _missing(shot, out, MADE_WITH)] == [("drone", "rgb")]
     film.write_bytes(film.read_bytes()[:-1])
-    video.make(shot, out, MADE_WITH)
-    assert films.missing(shot, out, MADE_WITH) == []
+    _make(shot, out, MADE_WITH)
+    assert _missing(shot, out, MADE_WITH) == []
 
 
 def test_one_picture_makes_no_film(filmed):
     shot, out = filmed
     settings = shot.settings
     alone = replace(settings, cameras=(replace(settings.cameras[0], frames="2"),))
-    assert films.missing(Shot(alone, shot.run), out, MADE_WITH) == []
+    assert _missing(Shot(alone, shot.run), out, MADE_WITH) == []
 
 
 def test_pictures_made_with_other_settings_stay_out_of_a_film(filmed):
     shot, out = filmed
-    name = Picture("drone", 2, "rgb").file("png")
-    store.add(out, {"samples": 2}, {name: store.describe(out / name)})
-    ((_, _, film),) = films.missing(shot, out, MADE_WITH)
+    _enter(out, {"samples": 2}, _entry(out, 2))
+    ((_, _, film),) = _missing(shot, out, MADE_WITH)
     assert [frame for frame, _ in film["frames"]] == [1, 3]
 
 
 def test_a_picture_that_was_deleted_leaves_no_hole(filmed, film, tmp_path):
     shot, out = filmed
     (out / Picture("drone", 2, "rgb").file("png")).unlink()
-    video.make(shot, out, MADE_WITH)
+    _make(shot, out, MADE_WITH)
     decoded = _decode(film, tmp_path)
     assert len(decoded) == 2
     for frame, shown in zip((1, 3), decoded, strict=True):

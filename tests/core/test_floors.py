@@ -13,9 +13,10 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PLACES = {"firetwin": ROOT / "addon", "firetwin.data": ROOT / "data"}
 
-BASE = {"errors", "progress"}
+BASE = {"errors", "files", "progress"}
 FLOORS: dict[str, set[str]] = {
     "errors": set(),
+    "files": {"errors"},
     "progress": set(),
     "data": {"errors"},
     "blender": {"errors"},
@@ -36,12 +37,18 @@ FLOORS: dict[str, set[str]] = {
 NEVER_BPY = (
     *("firetwin.errors", "firetwin.progress", "firetwin.cli", "firetwin.commands", "firetwin.data"),
     *("firetwin.run", "firetwin.shot", "firetwin.jobs", "firetwin.bench"),
-    *(f"firetwin.render.{name}" for name in ("fingerprint", "films", "part", "picture", "plan", "store")),
+    *(
+        f"firetwin.render.{name}"
+        for name in (
+            *("claims", "database", "fingerprint", "films", "manifest", "picture", "plan", "png"),
+            *("sharing", "store", "whole"),
+        )
+    ),
     *(f"firetwin.scene.fire.{name}" for name in ("firebrands", "flames", "lamps")),
     "firetwin.scene.forest.stand",
     "firetwin.scene.ground.grid_mesh",
     "firetwin.scene.light.sky",
-    *(f"firetwin.scene.smoke.{name}" for name in ("bake", "stability", "view")),
+    *(f"firetwin.scene.smoke.{name}" for name in ("bake", "cache", "stability", "view")),
 )
 """Packages and modules that load without Blender; those of `run` and `shot` never ask for it at all."""
 

@@ -1,17 +1,23 @@
 """Which pictures are asked for, and which count as finished. Without Blender."""
 
 import json
-import os
+import shutil
+import sqlite3
 import subprocess
 import sys
+import time
 from dataclasses import replace
+from pathlib import Path
 
+import numpy as np
 import pytest
 from firetwin.errors import InputError, UsageError
-from firetwin.render import fingerprint, part, plan, store
+from firetwin.render import claims, fingerprint, manifest, plan, store
+from firetwin.render.claims import Claims
 from firetwin.render.picture import Picture
+from firetwin.render.store import Store
 from firetwin.run import content
-from firetwin.shot import passes
+from firetwin.shot import passes, sources
 from firetwin.shot import settings as s
 from firetwin.shot.rigs._key import CameraKey
 from firetwin.shot.rigs.drone import Drone
@@ -90,14 +96,36 @@ def finished(tmp_path):
     for name in picture.files():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_bytes(name.encode())
-    store.add(tmp_path, made_with["drone", "rgb"], {n: store.describe(tmp_path / n) for n in picture.files()})
+    with Store(tmp_path, create=True) as made:
+        made.add(made_with["drone", "rgb"], {n: store.describe(tmp_path / n) for n in picture.files()})
     return tmp_path, picture, made_with
+
+
+def missing(out, wanted, made_with, after=0):
+    with Store(out) as made:
+        return plan.missing(made, wanted, made_with, after)
 
 
 def test_a_finished_shot_is_not_missing(finished):
     out, picture, made_with = finished
-    assert plan.missing(out, [picture], made_with) == []
-    assert plan.missing(out, [replace(picture, frame=2)], made_with) == [replace(picture, frame=2)]
+    assert missing(out, [picture], made_with) == []
+    assert missing(out, [replace(picture, frame=2)], made_with) == [replace(picture, frame=2)]
+
+
+def test_what_was_entered_before_a_number_counts_for_nothing(finished):
+    out, picture, made_with = finished
+    with Store(out) as made:
+        number = made.number()
+        assert missing(out, [picture], made_with, number) == [picture]
+        made.add(made_with["drone", "rgb"], {n: store.describe(out / n) for n in picture.files()})
+    assert missing(out, [picture], made_with, number) == []
+
+
+def test_a_copied_folder_is_finished_too(finished, tmp_path_factory):
+    out, picture, made_with = finished
+    copy = tmp_path_factory.mktemp("copy") / "out"
+    shutil.copytree(out, copy)  # other times, other places on the disk
+    assert missing(copy, [picture], made_with) == []
 
 
 @pytest.mark.parametrize("which", [0, 1])
@@ -115,43 +143,115 @@ def test_a_damaged_file_is_missing(finished, which, damage):
         path.write_bytes(b"")
     elif damage == "folder":
         path.mkdir()
-    assert plan.missing(out, [picture], made_with) == [picture]
+    assert missing(out, [picture], made_with) == [picture]
 
 
 def test_other_settings_make_a_picture_missing(finished):
     out, picture, _ = finished
-    assert plan.missing(out, [picture], {("drone", "rgb"): {"samples": 7}}) == [picture]
+    assert missing(out, [picture], {("drone", "rgb"): {"samples": 7}}) == [picture]
 
 
 def test_a_file_that_nothing_names_is_missing(finished):
     out, picture, made_with = finished
     (out / store.NAME).unlink()
-    assert plan.missing(out, [picture], made_with) == [picture]
+    assert missing(out, [picture], made_with) == [picture]
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"format": 2}', "\x00\x01"])
 def test_what_is_not_a_manifest_is_not_overwritten(tmp_path, text):
-    (tmp_path / store.NAME).write_text(text)
+    (tmp_path / manifest.NAME).write_text(text)
     with pytest.raises(InputError, match="not a manifest"):
-        store.load(tmp_path)
+        Store(tmp_path)
     with pytest.raises(InputError, match="not a manifest"):
-        store.add(tmp_path, {}, {"a": {}})
-    assert (tmp_path / store.NAME).read_text() == text
+        Store(tmp_path, create=True)
+    assert (tmp_path / manifest.NAME).read_text() == text
+
+
+def test_what_is_not_a_store_is_not_overwritten(tmp_path):
+    other = sqlite3.connect(tmp_path / store.NAME)
+    other.execute("CREATE TABLE mine (a)")
+    other.close()
+    with pytest.raises(InputError, match="not a store"):
+        Store(tmp_path, create=True)
+    (tmp_path / store.NAME).write_text("somebody's own words, long enough for a header" * 9)
+    with pytest.raises(InputError, match="not a store"):
+        Store(tmp_path)
+    assert "somebody" in (tmp_path / store.NAME).read_text()
+
+
+def test_nothing_is_made_to_look(tmp_path):
+    with Store(tmp_path / "out") as made:
+        assert made.names() == []
+    assert not (tmp_path / "out").exists()
 
 
 def test_processes_that_render_into_one_folder_lose_no_entries(tmp_path):
     code = """
 import pathlib, sys
-from firetwin.render import store
+from firetwin.render.store import Store
 for i in range(20):
-    store.add(pathlib.Path(sys.argv[1]), {"by": sys.argv[2]}, {sys.argv[2] + str(i): {}})
+    with Store(pathlib.Path(sys.argv[1]), create=True) as store:
+        store.add({"by": sys.argv[2]}, {sys.argv[2] + str(i): {}})
+store.__init__(pathlib.Path(sys.argv[1]))
+store.export()
 """
     command = [sys.executable, "-c", code, str(tmp_path)]
     running = [subprocess.Popen([*command, name]) for name in "abc"]
     assert [process.wait() for process in running] == [0, 0, 0]
-    files = json.loads((tmp_path / store.NAME).read_text())["files"]
+    files = json.loads((tmp_path / manifest.NAME).read_text())["files"]
     assert len(files) == 60
-    assert {path.name for path in tmp_path.iterdir()} == {store.NAME, ".lock"}
+    assert {path.name for path in tmp_path.iterdir()} == {store.NAME, manifest.NAME}
+
+
+def test_the_manifest_is_written_when_there_is_something_new(finished):
+    out, picture, made_with = finished
+    with Store(out) as made:
+        made.export()
+        told = json.loads((out / manifest.NAME).read_text())
+        key = content.fingerprint(made_with["drone", "rgb"])
+        assert told["settings"] == {key: made_with["drone", "rgb"]}
+        assert set(told["files"]) == set(picture.files())
+        first = picture.files()[0]
+        assert told["files"][first] == store.describe(out / first) | {"settings": key}
+        before = (out / manifest.NAME).stat()
+        made.export()
+        assert (out / manifest.NAME).stat().st_ino == before.st_ino
+        made.add({"samples": 7}, {picture.files()[0]: {"bytes": 0}})
+        made.export()
+        assert len(json.loads((out / manifest.NAME).read_text())["settings"]) == 2
+
+
+def test_what_one_claims_another_cannot(tmp_path, monkeypatch):
+    with Store(tmp_path, create=True) as made, Claims(made, "a") as a:
+        with Claims(made, "b") as b:
+            assert a.take("frame 1")
+            assert not b.take("frame 1")
+            assert b.take("frame 2")
+            assert a.of_others() == {"frame 2"}
+            a.give("frame 1")
+            assert b.take("frame 1")
+            assert not a.held("frame 1")
+        assert a.of_others() == set()
+        assert a.take("frame 2")
+
+
+def test_the_claims_of_who_gives_no_sign_of_life_are_taken_over(tmp_path, monkeypatch):
+    monkeypatch.setattr(claims, "BEAT", 0.05)
+    monkeypatch.setattr(claims, "PATIENCE", 0.5)
+    with Store(tmp_path, create=True) as made, Claims(made, "living") as living, Claims(made, "me") as me:
+        assert living.take("frame 1")
+        dead = Claims(made, "dead")
+        with dead.part_folder():
+            assert dead.take("frame 2")
+            dead._over.set()  # as a kill, a crash or a pulled plug would
+            dead._thread.join()
+            assert me.of_others() == {"frame 1", "frame 2"}
+            end = time.monotonic() + 10.0
+            while me.of_others() != {"frame 1"} and time.monotonic() < end:
+                time.sleep(0.05)
+            assert me.take("frame 2")
+            assert not dead.held("frame 2")
+            assert not list(tmp_path.glob(".part-dead"))
 
 
 def test_a_picture_depends_on_the_settings_that_it_shows():
@@ -191,27 +291,132 @@ def test_a_picture_depends_on_its_own_camera_and_no_other():
     assert before[1] != after[1]
 
 
-def test_input_hashes_follow_every_file(make_run):
+def test_input_hashes_follow_every_field(make_run, tmp_path):
     folder = make_run("text")
-    before = content.inputs(folder)
+    run = runs.open(folder)
+    before = content.inputs(run, tmp_path / "cache")
     assert {"run.toml", "heat_flux", "elevation.txt"} <= set(before)
-    (folder / ".hidden").write_text("x")
-    assert content.inputs(folder) == before
+    assert "wind_east" in before
+    assert "wind_east" not in content.inputs(run, tmp_path / "cache", leave_out=("wind_east",))
     one = folder / "heat_flux" / "000001.txt"
     one.write_text(one.read_text().replace("1000.5", "1000.6"))
-    after = content.inputs(folder)
+    after = content.inputs(run, tmp_path / "cache")
     assert {name for name in before if before[name] != after[name]} == {"heat_flux"}
 
 
+def test_what_else_lies_in_the_run_folder_changes_nothing(make_run):
+    folder = make_run()
+    run = runs.open(folder)
+    before = content.inputs(run, folder / "cache")
+    (folder / "cache" / "0123456789abcdef").mkdir(parents=True)
+    (folder / "cache" / "0123456789abcdef" / "smoke_000001.vdb").write_bytes(b"smoke")
+    (folder / "film").mkdir()
+    (folder / "film" / "elevation.npy").write_bytes(b"x")
+    (folder / "notes.md").write_text("mine")
+    assert content.inputs(run, folder / "cache") == before
+
+
+def _aged(folder):
+    """Wait until files count as old enough to be remembered."""
+    youngest = max(path.stat().st_ctime for path in folder.rglob("*"))
+    time.sleep(max(0.0, youngest + content._YOUNG + 0.05 - time.time()))
+
+
+def test_hashes_are_remembered(make_run, tmp_path, monkeypatch):
+    folder, read = make_run(), []
+    run, original = runs.open(folder), content.sha256
+    monkeypatch.setattr(content, "sha256", lambda path, step: read.append(path.name) or original(path, step))
+    _aged(folder)
+
+    def again():
+        content._read.clear()  # as in another process
+        read.clear()
+        return content.inputs(run, tmp_path / "cache")
+
+    first = again()
+    assert len(read) == len(first)
+    assert again() == first
+    assert read == []
+    (folder / content.REMEMBERED).write_text('{"elevation.npy": [1, {}')
+    assert again() == first
+    assert len(read) == len(first)
+    flux = np.load(folder / "heat_flux.npy")
+    np.save(folder / "heat_flux.npy", 2 * flux)
+    assert again() != first
+    assert read == ["heat_flux.npy"]
+    again()
+    assert read == ["heat_flux.npy"]  # too young to be remembered
+
+
+def test_a_run_that_cannot_be_written_is_remembered_in_the_cache(make_run, tmp_path, monkeypatch):
+    folder = make_run()
+    run = runs.open(folder)
+    _aged(folder)
+    write = Path.write_text
+
+    def refuse(path, *arguments, **options):
+        if path.parent == folder:
+            raise PermissionError(13, "Permission denied")
+        return write(path, *arguments, **options)
+
+    monkeypatch.setattr(Path, "write_text", refuse)
+    content._read.clear()
+    first = content.inputs(run, tmp_path / "cache")
+    assert [path.name[:4] for path in (tmp_path / "cache").iterdir()] == ["run-"]
+    assert not (folder / content.REMEMBERED).exists()
+    content._read.clear()
+    monkeypatch.setattr(content, "sha256", None)
+    assert content.inputs(run, tmp_path / "cache") == first
+
+
+def test_the_first_reading_of_a_large_run_shows_how_far_it_is(make_run, tmp_path):
+    folder, told = make_run(), []
+    run = runs.open(folder)
+    with (folder / "temperature.npy").open("ab") as file:
+        file.truncate(20_000_000)
+    content._read.clear()
+    content.inputs(run, tmp_path, progress=lambda *how: told.append(how))
+    assert told[-1][:2] == (20, 20)
+    assert told[-1][2].startswith("reading the run")
+
+
+def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatch):
+    shutil.copytree(sources.PACKAGE, tmp_path / "addon", ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(sources, "PACKAGE", tmp_path / "addon")
+
+    def keys():
+        sources._hash.cache_clear()
+        made = {n: fingerprint.of_picture(SETTINGS, {}, "drone", n) for n in passes.known()}
+        return {name: content.fingerprint(each) for name, each in made.items()}
+
+    def changed(name):
+        before, path = keys(), tmp_path / "addon" / name
+        path.write_text(path.read_text() + "# more\n")
+        after = keys()
+        return {name for name in before if before[name] != after[name]}
+
+    assert changed("scene/smoke/material.py") == {"rgb", "thermal"}
+    assert changed("scene/fire/flames.py") == {"rgb", "thermal"}
+    assert changed("scene/ground/build.py") == set(passes.known())
+    assert changed("scene/haze.py") == set(passes.known())
+    assert changed("shot/heat.py") == set(passes.known())
+    assert changed("render/engine.py") == set(passes.known())
+    assert changed("ui/render.py") == changed("bench/text.py") == changed("render/store.py") == set()
+    before = keys()
+    path = tmp_path / "addon" / "scene/smoke/bake.py"
+    path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
+    assert keys() == before
+    sources._hash.cache_clear()
+
+
 def test_files_in_the_making_are_cleared_away(tmp_path):
-    dead = subprocess.run(
-        [sys.executable, "-c", "import os; print(os.getpid())"], capture_output=True, text=True
-    )
-    left = tmp_path / f".part-{dead.stdout.strip()}"
-    left.mkdir()
-    alive = tmp_path / f".part-{os.getppid()}"
-    alive.mkdir()
-    with part.part_folder(tmp_path) as folder:
-        assert folder.is_dir()
-        (folder / "x").write_text("x")
-    assert [path for path in (left, folder, alive) if path.exists()] == [alive]
+    with Store(tmp_path, create=True) as made, Claims(made, "alive"):
+        left = tmp_path / ".part-gone"
+        left.mkdir()
+        alive = tmp_path / ".part-alive"
+        alive.mkdir()
+        with Claims(made, "me") as me, me.part_folder() as folder:
+            assert folder.is_dir()
+            (folder / "x").write_text("x")
+            assert [path for path in (left, folder, alive) if path.exists()] == [folder, alive]
+        assert [path for path in (left, folder, alive) if path.exists()] == [alive]

@@ -1,8 +1,8 @@
 """The smoke volumes of a shot on disk: one OpenVDB file per frame, made once.
 
 They lie in ``<cache>/<key>/smoke_000001.vdb``; the key is a hash of what is in the run's files, of the
-settings that change the smoke and of the core, so that a changed setting never shows old smoke, and a
-repeated bake has nothing to do. Every file is complete: it is written under another name and then renamed.
+settings that change the smoke and of the code that makes it, so that a changed setting never shows old
+smoke, and a repeated bake has nothing to do. Every file is whole: it gets its name when it is complete.
 """
 
 from __future__ import annotations
@@ -15,14 +15,12 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import firetwin_core
-
-from ...errors import input_error
-from ...progress import Progress, Tell, count, silent, untold
+from ...errors import writing
+from ...progress import Progress, Tell, count, silent, size, untold
 from ...run import content
-from ...shot import schema
+from ...shot import schema, sources
 from ...shot.shot import Shot
-from . import baker
+from . import baker, cache
 from .baker import Baker
 from .view import resolution, shot_frames
 
@@ -33,12 +31,12 @@ _MOST_AT_ONCE = 8
 _NOT_IN_FILES = ("enabled", "extinction", "voxel_size")  # of [smoke]: how it is drawn; voxels have their own
 
 
-def folder(shot: Shot) -> Path:
-    """Where the smoke of this shot is kept.
+def folder(shot: Shot, progress: Progress = silent) -> Path:
+    """Where the smoke of this shot is kept; what of the run was never read is read now.
 
     It is absolute: Blender takes other paths for places beside the .blend file.
     """
-    return shot.settings.cache.absolute() / _key(shot)
+    return shot.settings.cache.absolute() / _key(shot, progress)
 
 
 def file(shot: Shot, frame: int) -> Path:
@@ -60,7 +58,7 @@ def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None =
     InputError
         The cache cannot be written.
     """
-    place = _prepared(shot)
+    place = _prepared(shot, progress)
     wanted = shot_frames(shot) if frames is None else _of_shot(shot, frames)
     missing = [frame for frame in wanted if not _in(place, frame).exists()]
     done = len(wanted) - len(missing)
@@ -68,7 +66,7 @@ def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None =
     if not missing:
         return place
     maker = Baker(shot)
-    with ThreadPoolExecutor(_at_once(len(missing))) as pool:
+    with cache.in_use(place), ThreadPoolExecutor(_at_once(len(missing))) as pool:
         tasks = [pool.submit(maker.write, _in(place, frame), frame) for frame in missing]
         try:
             for task in as_completed(tasks):
@@ -84,11 +82,12 @@ def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None =
 @contextmanager
 def ahead(
     shot: Shot, frames: Iterable[int], progress: Progress = silent, tell: Tell = untold
-) -> Iterator[Callable[[int], None]]:
+) -> Iterator[Callable[..., None]]:
     """Write volumes while pictures are made, one frame before it is shown.
 
-    Gives a function ``ready(frame)`` that waits until the volume of a frame is there and has the next one
-    that is missing made meanwhile. It raises what went wrong with that frame. With smoke off it does nothing.
+    Gives a function ``ready(frame, ahead)`` that waits until the volume of a frame is there and has the first
+    of the frames `ahead` whose volume is missing made meanwhile; left out, they are those that come after it.
+    It raises what went wrong with that frame. With smoke off it does nothing.
 
     Parameters
     ----------
@@ -106,13 +105,14 @@ def ahead(
     """
     wanted = _of_shot(shot, frames)
     if not wanted or not shot.settings.smoke.enabled:
-        yield lambda frame: None
+        yield lambda frame, ahead=None: None
         return
     line = _Line(shot, wanted, progress, tell)
-    try:
-        yield line.ready
-    finally:
-        line.pool.shutdown(cancel_futures=True)
+    with cache.in_use(line.place):
+        try:
+            yield line.ready
+        finally:
+            line.pool.shutdown(cancel_futures=True)
 
 
 def estimate(shot: Shot, frames: Iterable[int]) -> int | None:
@@ -127,7 +127,7 @@ class _Line:
     def __init__(self, shot: Shot, frames: list[int], progress: Progress, tell: Tell) -> None:
         self.shot, self.frames = shot, frames
         self.progress, self.tell = progress, tell
-        self.place = _prepared(shot)
+        self.place = _prepared(shot, progress)
         self.pool = ThreadPoolExecutor(1)
         self.tasks: dict[int, Future[Any]] = {}
 
@@ -135,12 +135,14 @@ class _Line:
     def maker(self) -> Baker:
         return Baker(self.shot)
 
-    def ready(self, frame: int) -> None:
+    def ready(self, frame: int, ahead: Iterable[int] | None = None) -> None:
         """Wait for a frame and have the next one begun."""
         if frame not in self.frames:
             return
         self._begin(frame)
         after = self.frames[self.frames.index(frame) + 1 :]
+        if ahead is not None:
+            after = [each for each in ahead if each in self.frames]
         following = next((each for each in after if not _in(self.place, each).exists()), None)
         if following is not None:
             self._begin(following)
@@ -154,9 +156,8 @@ class _Line:
 
     def _room(self) -> str:
         """How much the volumes need, in words."""
-        needed = (estimate(self.shot, self.frames) or 0) / 1.0e6
-        size = f"{needed / 1000.0:.1f} GB" if needed >= 1000.0 else f"{max(needed, 1.0):.0f} MB"
-        return f"smoke of {count(len(self.frames), 'frame')} takes about {size} in {self.place}"
+        needed = size(max(estimate(self.shot, self.frames) or 0, 1e6))
+        return f"smoke of {count(len(self.frames), 'frame')} takes about {needed} in {self.place}"
 
     def _begin(self, frame: int) -> None:
         path = _in(self.place, frame)
@@ -173,16 +174,12 @@ def _of_shot(shot: Shot, frames: Iterable[int]) -> list[int]:
     return [frame for frame in dict.fromkeys(frames) if 1 <= frame <= shot.frames.count]
 
 
-def _prepared(shot: Shot) -> Path:
+def _prepared(shot: Shot, progress: Progress) -> Path:
     """The folder of the volumes, made and swept."""
-    place = folder(shot)
-    try:
+    place = folder(shot, progress)
+    with writing(place):
         place.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise input_error(
-            place, 0, 0, f"cannot make the folder ({error.strerror}); set `cache` to one that can be written"
-        ) from None
-    _sweep(place)
+    cache.sweep(place)
     return place
 
 
@@ -195,25 +192,7 @@ def _at_once(frames: int) -> int:
     return max(1, min(frames, os.cpu_count() or 1, _MOST_AT_ONCE, free // _FRAME_MEMORY))
 
 
-def _sweep(place: Path) -> None:
-    """Remove what killed processes left unfinished: ``smoke_000001.vdb.<anything>.<process>.tmp``."""
-    for path in place.glob("*.vdb.*.tmp"):
-        process = path.name.split(".")[-2]
-        if process.isdigit() and not _runs(int(process)):
-            path.unlink(missing_ok=True)
-
-
-def _runs(process: int) -> bool:
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except OSError:
-        return True
-    return True
-
-
-def _key(shot: Shot) -> str:
+def _key(shot: Shot, progress: Progress) -> str:
     """Hash of everything that the volumes depend on."""
     settings, complete = shot.settings, shot.settings.smoke.complete
     found = schema.chosen(settings, {"time", "smoke"} if complete else {"time", "smoke", "camera", "ground"})
@@ -224,17 +203,10 @@ def _key(shot: Shot) -> str:
         found["sight"] = [height / width, [shot.frames_of(camera) for camera in settings.cameras]]
     return content.fingerprint(
         {
-            "core": _core(),
-            "run": content.inputs(Path(shot.run.path), leave_out=("temperature",)),
+            "sources": sources.of({"smoke"}, settings.cameras),
+            "run": content.inputs(shot.run, settings.cache, ("temperature",), progress),
             "settings": found,
             "voxel": round(resolution(shot).voxel, 3),
             "grids": None if complete else baker.SHOWN,
         }
-        | baker.CONSTANTS
     )
-
-
-@functools.cache
-def _core() -> str:
-    """Hash of the compiled core."""
-    return content.sha256(Path(firetwin_core.__file__))

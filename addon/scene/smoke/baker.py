@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import uuid
 from pathlib import Path
 from typing import Any
@@ -12,21 +11,17 @@ import numpy as np
 from firetwin_core import volume
 from numpy.typing import NDArray
 
+from ... import files
+from ...errors import Error, writing
 from ...shot import burning, heat
 from ...shot.shot import Shot
-from . import stability
+from . import cache, stability
 from .view import Sights, resolution
 
 SHOWN = ("density", "dilution", "shade", "size", "glow")  # grids that the material asks for
 _GLOW_BLOCK = 300.0  # m; flames this near each other light the smoke as one
 _GLOW_COUNT = 400
 _FLAME_HEIGHT = 20.0  # m over the ground, where their light comes from
-
-CONSTANTS = {
-    "plume": [stability.DAY, stability.NIGHT, stability.MERGE, burning.BURN_TIME],
-    "flames": [_GLOW_BLOCK, _GLOW_COUNT, _FLAME_HEIGHT],
-}
-"""What the volumes depend on beside settings, run and core."""
 
 
 class Baker:
@@ -83,12 +78,13 @@ class Baker:
         }
         if len(power):
             more |= {"flame_position": position, "flame_power": power}
-        mine = path.with_name(f"{path.name}.{uuid.uuid4().hex[:8]}.{os.getpid()}.tmp")
-        if own:
-            written = self._write_levels(mine, time, more)
-        else:
-            written = volume.write_smoke(mine, self.puffs(frame), self.resolution.voxel, **more)
-        _put(mine, path)
+        mine = path.with_name(f"{path.name}.{uuid.uuid4().hex[:8]}.tmp")
+        with writing(path):
+            if own:
+                written = self._write_levels(mine, time, more)
+            else:
+                written = volume.write_smoke(mine, self.puffs(frame), self.resolution.voxel, **more)
+        _put(mine, path, written.bytes)
         return written
 
     def _write_levels(self, path: Path, time: float, more: dict[str, Any]) -> volume.Frame:
@@ -113,11 +109,12 @@ class Baker:
         )
 
 
-def _put(mine: Path, path: Path) -> None:
+def _put(mine: Path, path: Path, size: int) -> None:
     """Give a complete file its name; who comes second replaces the same by the same."""
     try:
-        mine.replace(path)
-    except PermissionError:  # Windows replaces no file that is being read
+        cache.check(mine, size)
+        files.publish(mine, path)
+    except Error:  # Windows replaces no file that is being read
         mine.unlink(missing_ok=True)
         if not path.exists():
             raise

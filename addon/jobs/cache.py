@@ -1,0 +1,47 @@
+"""Look at caches of smoke volumes and make room in them; needs no worker process."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from ..errors import UsageError, writing
+from ..scene.smoke import cache
+from ..scene.smoke.cache import Kept
+from ..shot import file
+
+
+def folders(places: Iterable[Path]) -> list[Path]:
+    """Cache folders that scene files name, or that are named themselves; each once.
+
+    Raises
+    ------
+    UsageError
+        A folder is not there.
+    """
+    found = [file.read(place).cache if place.suffix == ".toml" else place for place in places]
+    for place, named in zip(found, places, strict=True):
+        if place == named and not place.is_dir():
+            raise UsageError(f"cache: there is no folder {place}; name a cache folder or a scene file")
+    return list(dict.fromkeys(place.absolute() for place in found))
+
+
+def kept(places: Iterable[Path]) -> list[Kept]:
+    """Volumes in these folders, those used last first."""
+    return sorted((each for place in places for each in cache.kept(place)), key=lambda each: -each.used)
+
+
+def prune(volumes: list[Kept], limit: int, dry_run: bool = False) -> list[Kept]:
+    """Remove the volumes used longest ago until the rest has at most `limit` bytes; those removed.
+
+    What is in use now is never removed. With `dry_run` nothing is; those are returned that would be.
+    """
+    going = cache.beyond(volumes, limit)
+    if dry_run:
+        return going
+    gone = []
+    for each in going:
+        with writing(each.folder):
+            if cache.remove(each):
+                gone.append(each)
+    return gone

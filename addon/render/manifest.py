@@ -1,0 +1,47 @@
+"""``manifest.json``: what a store holds, for people and other programs; written when a render ends.
+
+Every finished file has its size, its SHA-256 and the fingerprint of the settings that made it, and every
+fingerprint these settings in full.
+"""
+
+from __future__ import annotations
+
+import json
+import uuid
+from pathlib import Path
+from typing import Any
+
+from .. import files
+from ..errors import input_error
+from .database import BROKEN
+
+NAME = "manifest.json"
+_FORMAT = 1
+
+
+def read(out: Path) -> dict[str, Any]:
+    """The manifest of an output folder, an empty one where there is none.
+
+    Raises
+    ------
+    InputError
+        The file is there and is not a manifest.
+    """
+    path = out / NAME
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except (FileNotFoundError, NotADirectoryError):
+        return {"format": _FORMAT, "settings": {}, "files": {}}
+    except (OSError, ValueError) as error:
+        place = getattr(error, "lineno", 0), getattr(error, "colno", 0)
+        raise input_error(path, *place, BROKEN.format("a manifest")) from None
+    if not isinstance(found, dict) or found.get("format") != _FORMAT:
+        raise input_error(path, 0, 0, BROKEN.format("a manifest"))
+    return found
+
+
+def write(out: Path, settings: dict[str, Any], entries: dict[str, Any]) -> None:
+    """Write the manifest as a whole; a reader finds this one or the one before."""
+    text = json.dumps({"format": _FORMAT, "settings": settings, "files": entries}, indent=1) + "\n"
+    part = out / f".{NAME}.{uuid.uuid4().hex[:8]}.part"
+    files.write(out / NAME, lambda path: path.write_text(text, encoding="utf-8"), part)

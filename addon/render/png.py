@@ -1,0 +1,23 @@
+"""PNG files without what differs from render to render: Cycles notes in them how long it took."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+
+_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+_TIMES = b"cycles."
+
+
+def forget_times(path: Path) -> None:
+    """Take the notes of Cycles out; what is no PNG, or is cut off, stays as it is."""
+    data = path.read_bytes()
+    kept, place = [_SIGNATURE], len(_SIGNATURE)
+    while place + 12 <= len(data):
+        length, kind = struct.unpack_from(">I4s", data, place)
+        chunk = data[place : place + length + 12]
+        if kind != b"tEXt" or not chunk[8:].startswith(_TIMES):
+            kept.append(chunk)
+        place += length + 12
+    if data.startswith(_SIGNATURE) and place == len(data):
+        path.write_bytes(b"".join(kept))

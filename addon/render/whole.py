@@ -1,0 +1,67 @@
+"""Is a file whole? What is damaged is never entered in a store."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+
+from firetwin_core import sensor
+
+from ..errors import FULL, Error, input_error, no_room
+
+_PNG_END = b"\0\0\0\0IEND\xaeB`\x82"
+
+
+def picture(path: Path, size: tuple[int, int]) -> None:
+    """Open a picture of `size` (width, height) and read all of it.
+
+    Raises
+    ------
+    InputError
+        It is missing, cut off or of another size.
+    """
+    try:
+        height, width = sensor.read_image(path).shape[:2]
+        complete = path.suffix != ".png" or _end(path, len(_PNG_END)) == _PNG_END
+    except (Error, OSError) as error:
+        raise _damaged(path, getattr(error, "reason", str(error))) from None
+    if not complete:
+        raise _damaged(path, "is cut off")
+    if (width, height) != tuple(size):
+        raise _damaged(path, f"has {width} x {height} pixels instead of {size[0]} x {size[1]}")
+
+
+def film(path: Path) -> None:
+    """Walk through the boxes of an MP4 film.
+
+    Raises
+    ------
+    InputError
+        It is missing or cut off.
+    """
+    kinds = set()
+    try:
+        whole, place = path.stat().st_size, 0
+        with path.open("rb") as file:
+            while place < whole:
+                file.seek(place)
+                length, kind = struct.unpack(">I4s", file.read(8))
+                length = struct.unpack(">Q", file.read(8))[0] if length == 1 else length or whole - place
+                kinds.add(kind)
+                place += max(length, 8)
+    except (OSError, struct.error):
+        raise _damaged(path, "is missing or cut off") from None
+    if place != whole or not {b"ftyp", b"moov", b"mdat"} <= kinds:
+        raise _damaged(path, "is cut off")
+
+
+def _end(path: Path, count: int) -> bytes:
+    with path.open("rb") as file:
+        file.seek(-count, 2)
+        return file.read()
+
+
+def _damaged(path: Path, reason: str) -> Exception:
+    return input_error(
+        path, 0, 0, FULL if no_room(path) else f"{reason}; Blender left it damaged, so render it again"
+    )

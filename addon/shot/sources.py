@@ -1,0 +1,50 @@
+"""Which of our own code makes an aspect of a product: so that files know what made them.
+
+The rule: the code of an aspect is the folder of its name in ``scene``. Whatever is made, so do the modules
+that lie loose in ``scene``, what is in `EVERYWHERE`, the cameras' rigs, and the compiled core.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import inspect
+from collections.abc import Iterable
+from pathlib import Path
+
+import firetwin_core
+
+from ..run.content import sha256
+from .settings import Camera
+
+EVERYWHERE = ("scene", "blender", "run", "shot", "shot/rigs/_key.py")
+PACKAGE = Path(__file__).parents[1]
+
+
+def of(aspects: Iterable[str], cameras: Iterable[Camera], *more: str | Path) -> dict[str, str]:
+    """Hashes of the code that makes these aspects as these cameras see them, by folder or file.
+
+    Parameters
+    ----------
+    more
+        Further files of the package, such as "render/engine.py", or of other places.
+    """
+    scene = [f"scene/{name}" for name in sorted(aspects) if (PACKAGE / "scene" / name).is_dir()]
+    rigs = {inspect.getfile(type(camera.rig)) for camera in cameras}
+    places = [PACKAGE / place for place in (*EVERYWHERE, *scene, *rigs, *more)]
+    return {"core": _core()} | dict(sorted(map(_hash, places)))
+
+
+@functools.cache
+def _hash(place: Path) -> tuple[str, str]:
+    """Name and hash of a file, or of a folder's modules without those in its folders; on any system alike."""
+    name = place.relative_to(PACKAGE).as_posix() if place.is_relative_to(PACKAGE) else place.name
+    found = hashlib.sha256()
+    for path in sorted(place.glob("*.py")) if place.is_dir() else [place]:
+        found.update(path.name.encode() + b"\0" + path.read_bytes().replace(b"\r\n", b"\n") + b"\0")
+    return name, found.hexdigest()[:16]
+
+
+@functools.cache
+def _core() -> str:
+    return sha256(Path(firetwin_core.__file__))[:16]

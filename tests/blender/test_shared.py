@@ -1,0 +1,202 @@
+"""Renders that share a folder, and what made their files: kills, settings of one camera, changed sources."""
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import firetwin
+import pytest
+from firetwin.render.store import Store
+from firetwin_core import sensor
+
+KILLS = int(os.environ.get("FIRETWIN_KILLS", "3"))
+SEED = int(os.environ.get("FIRETWIN_SEED", "1"))
+SCENE = """\
+run = "{run}"
+cache = "{cache}"
+[time]
+frames = {frames}
+[ground]
+near_radius = 0.0
+apron = 20000.0
+[forest]
+stand_radius = 0.0
+[smoke]
+enabled = {smoke}
+voxel_size = 120.0
+[render]
+resolution = [64, 36]
+samples = 1
+denoise = false
+passes = ["rgb", "depth", "normal", "thermal"]
+[[cameras]]
+name = "drone"
+keys = [{{latitude = 38.825, longitude = -120.56, height = {height}, target = "fire"}}]
+[[cameras]]
+name = "other"
+frames = "1-2"
+keys = [{{latitude = 38.83, longitude = -120.55, height = 500, target = "fire"}}]
+"""
+
+
+@pytest.fixture
+def package(tmp_path):
+    """A copy of the package, so that its sources change when a test wants it and never else."""
+    copy = tmp_path / "package"
+    for place in firetwin.__path__:
+        if (Path(place) / "scene").is_dir():
+            shutil.copytree(place, copy / "firetwin", ignore=shutil.ignore_patterns("__pycache__"))
+        if (Path(place) / "data").is_dir():
+            shutil.copytree(Path(place) / "data", copy / "firetwin" / "data", dirs_exist_ok=True)
+    return copy
+
+
+@pytest.fixture
+def start(run_folder, package, tmp_path):
+    """Start a render: start(out, before=..., smoke=..., height=..., frames=...) -> process."""
+
+    def begin(out, before=None, smoke="false", height=400, frames=3):
+        scene = tmp_path / f"scene-{height}-{frames}.toml"
+        scene.write_text(
+            SCENE.format(run=run_folder, cache=tmp_path / "cache", smoke=smoke, height=height, frames=frames)
+        )
+        environment = dict(os.environ)
+        path = [str(each) for each in (before, package) if each]
+        environment["PYTHONPATH"] = os.pathsep.join([*path, environment.get("PYTHONPATH", "")])
+        return subprocess.Popen(
+            [sys.executable, "-m", "firetwin", "render", scene, "--out", out, "--resume"],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+            env=environment,
+        )
+
+    return begin
+
+
+@pytest.fixture
+def render(start):
+    """Run a render to its end; what it said."""
+
+    def run(*arguments, **options):
+        process = start(*arguments, **options)
+        said = process.communicate(timeout=600)[1]
+        assert process.returncode == 0, said
+        return said
+
+    return run
+
+
+def _contents(out):
+    """Bytes of every file but the store, whose pages depend on the order of entries."""
+    return {
+        str(path.relative_to(out)): path.read_bytes()
+        for path in out.rglob("*")
+        if path.is_file() and path.name != "store.sqlite"
+    }
+
+
+def _made(out):
+    """Number of each entry: what was made again has another."""
+    with Store(out) as store:
+        return dict(store.data.all("SELECT path, number FROM files"))
+
+
+def _passes(before, after):
+    """Camera and pass of what was made again."""
+    return {tuple(Path(path).parts[:2]) for path in after if before[path] != after[path] and "_0" in path}
+
+
+def test_two_renders_killed_at_random_make_the_files_of_one(start, render, tmp_path):
+    chance = random.Random(SEED)
+    undisturbed, shared = tmp_path / "one", tmp_path / "two"
+    begun = time.monotonic()
+    render(undisturbed, frames=6)
+    alone = time.monotonic() - begun
+    running = [start(shared, frames=6), start(shared, frames=6)]
+    for _ in range(KILLS):
+        time.sleep(chance.uniform(0.2, 1.2) * alone)
+        which = chance.randrange(2)
+        with_child = chance.random() < 0.5  # or the parent alone, or both
+        if running[which].poll() is None:
+            (os.killpg if with_child else os.kill)(running[which].pid, signal.SIGKILL)
+        running[which].communicate()
+        running[which] = start(shared, frames=6)
+    for process in running:
+        said = process.communicate(timeout=600)[1]
+        assert process.returncode == 0, said
+    wanted, found = _contents(undisturbed), _contents(shared)
+    assert set(found) == set(wanted)
+    assert [name for name in wanted if found[name] != wanted[name]] == []
+
+
+def test_two_renders_make_no_picture_twice(start, tmp_path):
+    out = tmp_path / "out"
+    running = [start(out, frames=6), start(out, frames=6)]
+    for process in running:
+        assert process.wait(timeout=600) == 0, process.stderr.read()
+    with Store(out) as store:
+        count, last = store.data.one("SELECT count(*), max(number) FROM files")
+    assert count == last == 6 * (2 * (2 + 1 + 1 + 2)) // 2 + 2 * 6 + 4
+
+
+def test_settings_of_one_camera_make_its_pictures_again(render, tmp_path):
+    out = tmp_path / "out"
+    render(out, smoke="true")
+    before = _made(out)
+    volumes = {path: path.stat().st_mtime_ns for path in (tmp_path / "cache").glob("*/*.vdb")}
+    render(out, smoke="true", height=450)
+    after = _made(out)
+    assert {path for path in before if path.startswith("other/")} <= {
+        path for path in after if after[path] == before[path]
+    }
+    assert {path for path in after if path.startswith("drone/") and after[path] == before[path]} == set()
+    assert all(path.stat().st_mtime_ns == changed for path, changed in volumes.items())
+    assert "nothing to render" in render(out, smoke="true", height=450)
+
+
+def test_a_changed_source_of_the_smoke_makes_what_shows_smoke_again(render, package, tmp_path):
+    out = tmp_path / "out"
+    render(out, smoke="true")
+    before, cache = _made(out), set((tmp_path / "cache").iterdir())
+    source = package / "firetwin" / "scene" / "smoke" / "stability.py"
+    source.write_text(source.read_text() + "\nMORE = 1\n")
+    render(out, smoke="true")
+    again = _passes(before, _made(out))
+    assert again == {(camera, name) for camera in ("drone", "other") for name in ("rgb", "thermal")}
+    assert len({each for each in (tmp_path / "cache").iterdir() if each.is_dir()} - cache) == 2
+
+
+def test_a_cut_off_picture_is_never_entered(start, tmp_path):
+    out, before = tmp_path / "out", tmp_path / "before"
+    before.mkdir()
+    (before / "sitecustomize.py").write_text(_CUT)
+    process = start(out, before)
+    said = process.communicate(timeout=300)[1]
+    assert process.returncode == 1
+    assert "drone_depth_000001.exr" in said.splitlines()[-1]
+    assert not list(out.glob("drone/*/*_000001.*"))
+    with Store(out) as store:
+        assert store.names() == []
+    process = start(out)
+    assert process.wait(timeout=300) == 0
+    for path in out.glob("*/*/*.exr"):
+        assert sensor.read_image(path).shape[:2] == (36, 64)
+
+
+_CUT = """\
+import firetwin_core.sensor, pathlib
+read = firetwin_core.sensor.read_image
+def cut(path):  # as a full disk would
+    path = pathlib.Path(path)
+    if "depth" in path.name:
+        path.write_bytes(path.read_bytes()[:-40])
+    return read(path)
+firetwin_core.sensor.read_image = cut
+"""

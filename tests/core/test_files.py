@@ -1,0 +1,240 @@
+"""Files: whole or not there, on the disk before their names are, and clear words when the disk is full."""
+
+import ast
+import contextlib
+import errno
+import os
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+from pathlib import Path
+
+import firetwin
+import numpy as np
+import pytest
+from firetwin import files
+from firetwin.data import sample
+from firetwin.errors import FULL, InputError, disk_is_full, no_room, writing
+from firetwin.jobs import worker
+from firetwin.render import png, whole
+from firetwin.render.store import NAME, Store
+from firetwin_core import Error, sensor
+
+ADDON = next(Path(place) for place in firetwin.__path__ if (Path(place) / "render").is_dir())
+
+
+@pytest.fixture
+def tiny():
+    """A disk of 1 MB."""
+    place = Path("/tmp") / f"firetwin-tiny-{os.getpid()}"
+    place.mkdir()
+    command = ["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", str(place)]
+    try:
+        mounted = subprocess.run(command, capture_output=True).returncode == 0
+    except FileNotFoundError:
+        mounted = False
+    if not mounted:
+        place.rmdir()
+        pytest.skip("cannot mount a small disk here")
+    yield place
+    subprocess.run(["umount", str(place)], check=True)
+    place.rmdir()
+
+
+def _fill(folder):
+    with contextlib.suppress(OSError), (folder / "filler").open("wb", buffering=0) as file:
+        while file.write(bytes(4096)):
+            pass
+
+
+def test_a_full_disk_is_named_and_leaves_nothing(tiny):
+    _fill(tiny)
+    path = tiny / "map.png"
+    with pytest.raises(InputError, match=r"map\.png: the disk is full; free some room"):
+        files.write(path, lambda part: part.write_bytes(bytes(9999)))
+    assert [each.name for each in tiny.iterdir()] == ["filler"]
+    assert no_room(path)
+
+
+def test_a_full_disk_under_the_core(tiny):
+    _fill(tiny)
+    pixels = np.random.default_rng(1).uniform(size=(99, 99, 3)).astype(np.float32)
+    for path in (tiny / "a.exr", tiny / "a.png"):
+        with pytest.raises(InputError, match="the disk is full"):
+            _write_and_look(path, pixels)
+
+
+def _write_and_look(path, pixels):
+    with writing(path):
+        sensor.write_image(path, pixels)
+    whole.picture(path, (99, 99))
+
+
+def test_a_full_disk_under_the_store(tiny):
+    with Store(tiny, create=True) as store:
+        _fill(tiny)
+        with pytest.raises(InputError, match=f"{NAME}: the disk is full"):
+            store.add({}, {f"{i}.png": {"sha256": "0" * 64} for i in range(10_000)})
+        (tiny / "filler").unlink()
+        store.add({}, {"1.png": {}})
+        assert store.names() == ["1.png"]
+
+
+@pytest.mark.parametrize("form", sample.FORMATS)
+def test_a_full_disk_under_the_sample(tiny, form):
+    with pytest.raises(InputError, match="run: the disk is full"):
+        sample.write(tiny / "run", frames=3, format=form)
+    assert list(tiny.iterdir()) == []
+
+
+def test_errors_of_writing_say_what_to_do(tmp_path):
+    reason = r"a: cannot be written \(Permission denied\); choose another place"
+    with pytest.raises(InputError, match=reason), writing("a"):
+        raise PermissionError(errno.EACCES, "Permission denied")
+    with pytest.raises(InputError) as caught, writing("a"):
+        raise OSError(errno.ENOSPC, "No space left on device")
+    assert caught.value.reason == FULL
+    assert disk_is_full(Error("a.vdb: cannot be written: No space left on device"))
+    assert not disk_is_full(OSError(errno.EIO, "No space left on device"))
+    with pytest.raises(Error, match="else"), writing("a"):
+        raise Error("something else")
+
+
+def test_all_of_a_file_is_on_the_disk_before_its_name(tmp_path, monkeypatch):
+    done = []
+    sync, replace = os.fsync, Path.replace
+
+    def fsync(handle):
+        import fcntl  # of Linux; Windows refuses handles that cannot write
+
+        path = Path(os.readlink(f"/proc/self/fd/{handle}"))
+        if path.is_file():
+            assert fcntl.fcntl(handle, fcntl.F_GETFL) & os.O_ACCMODE != os.O_RDONLY
+        done.append(("sync", path.name))
+        sync(handle)
+
+    monkeypatch.setattr(os, "fsync", fsync)
+    monkeypatch.setattr(Path, "replace", lambda a, b: done.append(("name", b.name)) or replace(a, b))
+    (tmp_path / "part").write_bytes(b"x")
+    files.publish(tmp_path / "part", tmp_path / "sub" / "whole")
+    assert done == [("sync", "part"), ("name", "whole"), ("sync", "sub")]
+
+
+def test_folders_that_cannot_be_opened_are_no_error(tmp_path, monkeypatch):
+    def refuse(path, *_):
+        raise PermissionError(errno.EACCES, "as on Windows", str(path))
+
+    monkeypatch.setattr(os, "open", refuse)
+    (tmp_path / "part").write_bytes(b"x")
+    files.publish(tmp_path / "part", tmp_path / "whole")
+    assert (tmp_path / "whole").read_bytes() == b"x"
+
+
+def test_nothing_is_asked_that_some_systems_lack():
+    """No process numbers (os.kill(pid, 0) is Ctrl-C on Windows), no fcntl, no SIGKILL."""
+    for path in ADDON.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            named = ast.unparse(node) if isinstance(node, ast.Attribute) else ""
+            assert named not in ("os.kill", "os.getpid", "signal.SIGKILL", "os.killpg", "os.fork"), path
+            if isinstance(node, ast.Import | ast.ImportFrom):
+                names = {alias.name for alias in node.names} | {getattr(node, "module", "")}
+                assert not names & {"fcntl", "pwd", "resource", "termios"}, path
+
+
+def test_how_a_worker_ended_is_said_on_any_system(monkeypatch):
+    assert "most likely memory ran out" in worker._ending(-9, eevee=False)
+    assert "exit status 3221225477" in worker._ending(3221225477, eevee=False)
+    assert "signal 77" in worker._ending(-77, eevee=False)
+    monkeypatch.delattr(signal, "SIGKILL")
+    assert "Blender stopped" in worker._ending(-6, eevee=False)
+
+
+@pytest.fixture(params=["png", "exr"])
+def picture(request, tmp_path):
+    path = tmp_path / f"a.{request.param}"
+    sensor.write_image(path, np.random.default_rng(1).uniform(size=(36, 64, 3)).astype(np.float32))
+    return path
+
+
+def test_a_whole_picture_passes(picture):
+    whole.picture(picture, (64, 36))
+
+
+@pytest.mark.parametrize("left", [0, 1, 40, 0.5, -1, -4, -12, -40])
+def test_a_picture_that_is_cut_off_does_not(picture, left):
+    data = picture.read_bytes()
+    picture.write_bytes(data[: int(left * len(data)) if isinstance(left, float) else left])
+    with pytest.raises(InputError, match=rf"a\{picture.suffix}: .*render it again"):
+        whole.picture(picture, (64, 36))
+
+
+def test_a_picture_of_another_size_or_none_does_not(picture):
+    with pytest.raises(InputError, match="64 x 36 pixels instead of 32 x 36"):
+        whole.picture(picture, (32, 36))
+    picture.unlink()
+    with pytest.raises(InputError, match="render it again"):
+        whole.picture(picture, (64, 36))
+
+
+def test_a_damaged_picture_on_a_full_disk_says_so(picture, tiny):
+    path = tiny / picture.name
+    shutil.copy(picture, path)
+    _fill(tiny)
+    path.write_bytes(path.read_bytes()[:100])
+    with pytest.raises(InputError, match="the disk is full"):
+        whole.picture(path, (64, 36))
+
+
+def test_a_film_is_walked_through(tmp_path):
+    path = tmp_path / "a.mp4"
+    boxes = [(b"ftyp", b"isom"), (b"mdat", b"x" * 99), (b"moov", b"y" * 9)]
+    data = b"".join(struct.pack(">I4s", len(body) + 8, kind) + body for kind, body in boxes)
+    path.write_bytes(data)
+    whole.film(path)
+    for left in (0, 4, 12, 50, len(data) - 17, len(data) - 1):
+        path.write_bytes(data[:left])
+        with pytest.raises(InputError, match="cut off"):
+            whole.film(path)
+    path.unlink()
+    with pytest.raises(InputError, match="missing"):
+        whole.film(path)
+
+
+def test_notes_of_how_long_it_took_are_taken_out_of_a_picture(tmp_path):
+    path = tmp_path / "a.png"
+    pixels = np.random.default_rng(1).integers(0, 255, (36, 64, 3)).astype(np.float32) / 255
+    sensor.write_image(path, pixels, {"Note": "kept"})
+    plain = path.read_bytes()
+    png.forget_times(path)
+    assert path.read_bytes() == plain
+    body = b"tEXtcycles.rgb.total_time\x0000:01.25"
+    note = struct.pack(">I", len(body) - 4) + body + struct.pack(">I", 0)
+    path.write_bytes(plain[:33] + note + plain[33:])
+    png.forget_times(path)
+    assert path.read_bytes() == plain
+    path.write_bytes(plain[:-30])
+    png.forget_times(path)
+    assert path.read_bytes() == plain[:-30]
+
+
+def test_a_system_without_time_zones_says_what_to_install():
+    code = """
+import sys, zoneinfo
+zoneinfo.reset_tzpath([])  # as on Windows
+sys.modules["tzdata"] = None
+from firetwin.shot import settings
+print(settings._zone("America/Los_Angeles"))
+"""
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert "install the Python package tzdata" in result.stdout, result.stderr
+
+
+def test_nothing_of_rendering_needs_locks_of_one_system():
+    code = """
+import sys
+sys.modules["fcntl"] = None
+import firetwin.render.store, firetwin.render.claims, firetwin.jobs.render, firetwin.scene.smoke.bake
+"""
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
