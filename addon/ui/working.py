@@ -129,7 +129,7 @@ class Working:
 
     def _tell(self, work: Job, last: Told) -> None:
         """Report what was told, and keep it for the panel."""
-        told = tuple(each for each in (*work.said, last) if each.text)
+        told = tuple({each.text: each for each in (*work.said, last) if each.text}.values())  # each once
         Job.last = Ended(work.name, told, bpy.data.filepath)
         for each in told:
             self.report({each.level}, each.text)

@@ -637,7 +637,8 @@ def test_while_steps_are_taken_only_the_sidebar_can_be_used():
 def test_what_is_told_is_reported_and_stays_in_the_panel():
     def steps():
         yield job.Away("counting", lambda progress, tell, stop: tell("it counts"))
-        yield job.Told("it is dark", "WARNING")
+        yield job.Away("looking", lambda progress, tell, stop: tell("it is dark"))
+        yield job.Told("it is dark", "WARNING")  # told once, as loudly as it was at last
         return "done"
 
     work = Operator(steps())
