@@ -56,7 +56,7 @@ def keys(*names: str, over: str = "WINDOW") -> None:
     """Press keys with the mouse over the 3D view, or over its sidebar ("UI")."""
     place = next(region for region in view().regions if region.type == over)
     x = place.x + (200 if over == "WINDOW" else place.width // 2)
-    y = bpy.context.window_manager.windows[0].height - place.y - place.height // 2
+    y = bpy.context.window_manager.windows[0].height - place.y - place.height // 4  # reports are in the middle
     subprocess.run(["xdotool", "mousemove", str(x), str(y)], check=True)
     time.sleep(0.3)
     subprocess.run(["xdotool", "key", "--delay", "100", *names], check=True)
@@ -139,6 +139,8 @@ def panel() -> Iterator[object]:
     yield 2
     check("broken.toml:2:" in settings().problem, f"a broken scene file: {settings().problem}")
     picture("04-broken-scene-file")
+    keys("Escape")  # closes the report, which would take the next keys
+    yield 2
     settings().scene_file = str(FOLDER / "scene.toml")
     yield 0.5
     yield idle
