@@ -56,7 +56,8 @@ def keys(*names: str, over: str = "WINDOW") -> None:
     """Press keys with the mouse over the 3D view, or over its sidebar ("UI")."""
     place = next(region for region in view().regions if region.type == over)
     x = place.x + (200 if over == "WINDOW" else place.width // 2)
-    y = bpy.context.window_manager.windows[0].height - place.y - place.height // 4  # reports are in the middle
+    height = bpy.context.window_manager.windows[0].height
+    y = height - place.y - place.height // 4  # not in the middle, where reports are
     subprocess.run(["xdotool", "mousemove", str(x), str(y)], check=True)
     time.sleep(0.3)
     subprocess.run(["xdotool", "key", "--delay", "100", *names], check=True)
