@@ -38,27 +38,28 @@ flow::Box box(const py::object& levels, const std::array<Index, 2>& shape, doubl
 }
 
 flow::Settings settings(double side_width, double side_time, double top, double top_time,
-                        double ground_time, double source_depth, double gust_strength,
-                        double gust_size, double gust_time, std::uint64_t seed) {
+                        double ground_time, double mixing, double source_depth,
+                        double gust_strength, double gust_size, double gust_time,
+                        std::uint64_t seed) {
   return {{side_width, side_time, top, top_time, ground_time},
           {gust_strength, gust_size, gust_time, seed},
+          mixing,
           source_depth};
 }
 
-std::shared_ptr<Solver> make(const py::object& levels, const std::array<Index, 2>& shape,
-                             double spacing, const py::object& height,
-                             const py::object& potential_temperature, const py::object& wind,
-                             const py::object& water, double pressure,
-                             const std::array<double, 2>& corner, const py::object& ground,
-                             double side_width, double side_time, double top, double top_time,
-                             double ground_time, double source_depth, double gust_strength,
-                             double gust_size, double gust_time, std::uint64_t seed) {
+std::shared_ptr<Solver>
+make(const py::object& levels, const std::array<Index, 2>& shape, double spacing,
+     const py::object& height, const py::object& potential_temperature, const py::object& wind,
+     const py::object& water, double pressure, const std::array<double, 2>& corner,
+     const py::object& ground, double side_width, double side_time, double top, double top_time,
+     double ground_time, double mixing, double source_depth, double gust_strength, double gust_size,
+     double gust_time, std::uint64_t seed) {
   auto where = box(levels, shape, spacing, corner, ground);
   flow::Profile profile{
       numbers(height, "height"), numbers(potential_temperature, "potential_temperature"),
       pairs(wind, "wind"), water.is_none() ? std::vector<double>() : numbers(water, "water"),
       pressure};
-  const auto how = settings(side_width, side_time, top, top_time, ground_time, source_depth,
+  const auto how = settings(side_width, side_time, top, top_time, ground_time, mixing, source_depth,
                             gust_strength, gust_size, gust_time, seed);
   const py::gil_scoped_release release;
   return std::make_shared<Solver>(std::move(where), std::move(profile), how);
@@ -68,10 +69,11 @@ std::shared_ptr<Solver> nest(const std::shared_ptr<Solver>& outer, const py::obj
                              const std::array<Index, 2>& shape, double spacing,
                              const std::array<double, 2>& corner, const py::object& ground,
                              double side_width, double side_time, double top, double top_time,
-                             double ground_time, double source_depth, double gust_strength,
-                             double gust_size, double gust_time, std::uint64_t seed) {
+                             double ground_time, double mixing, double source_depth,
+                             double gust_strength, double gust_size, double gust_time,
+                             std::uint64_t seed) {
   auto where = box(levels, shape, spacing, corner, ground);
-  const auto how = settings(side_width, side_time, top, top_time, ground_time, source_depth,
+  const auto how = settings(side_width, side_time, top, top_time, ground_time, mixing, source_depth,
                             gust_strength, gust_size, gust_time, seed);
   const py::gil_scoped_release release;
   return std::make_shared<Solver>(std::move(where), outer, how);
@@ -225,11 +227,11 @@ void init_flow(py::module_ module) {
            "potential_temperature"_a, "wind"_a, py::kw_only(), "water"_a = py::none(),
            "pressure"_a = 101325.0, "corner"_a = std::array<double, 2>{}, "ground"_a = py::none(),
            "side_width"_a = 8.0, "side_time"_a = 40.0, "top"_a = 0.22, "top_time"_a = 60.0,
-           "ground_time"_a = 300.0, "source_depth"_a = 90.0, "gust_strength"_a = 0.0,
-           "gust_size"_a = 400.0, "gust_time"_a = 90.0, "seed"_a = 0)
+           "ground_time"_a = 300.0, "mixing"_a = 0.18, "source_depth"_a = 90.0,
+           "gust_strength"_a = 0.0, "gust_size"_a = 400.0, "gust_time"_a = 90.0, "seed"_a = 0)
       .def("nest", &nest, "levels"_a, "shape"_a, "spacing"_a, "corner"_a, py::kw_only(),
            "ground"_a = py::none(), "side_width"_a = 10.0, "side_time"_a = 8.0, "top"_a = 0.22,
-           "top_time"_a = 60.0, "ground_time"_a = 300.0, "source_depth"_a = 90.0,
+           "top_time"_a = 60.0, "ground_time"_a = 300.0, "mixing"_a = 0.18, "source_depth"_a = 90.0,
            "gust_strength"_a = 0.0, "gust_size"_a = 400.0, "gust_time"_a = 90.0, "seed"_a = 0,
            "A finer box within this one, which is stepped after it.")
       .def("set_sources", &set_sources, "position"_a, "heat"_a, "smoke"_a, "water"_a = py::none(),

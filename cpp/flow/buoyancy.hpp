@@ -15,6 +15,9 @@ public:
 
   void push(State& state, double dt);
 
+  /// Memory that is free between pushes.
+  Field& scratch() { return force_; }
+
 private:
   void weigh(const State& state, Index k);
   void lift(State& state, float dt, Index k) const;

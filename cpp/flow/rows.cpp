@@ -95,6 +95,31 @@ void carry_row(Index n, const float* __restrict in, const float* __restrict out,
 }
 
 FIRETWIN_LANES
+void exchange_row(Index n, const float* __restrict a, const float* __restrict b, float factor,
+                  float most, float* __restrict out) {
+  for (Index i = 0; i < n; ++i) {
+    const float air = 0.5F * (a[i] + b[i]) * factor;
+    out[i] = air < most ? air : most;
+  }
+}
+
+FIRETWIN_LANES
+void mixed_row(Index n, const float* __restrict exchange, float factor, const float* __restrict low,
+               const float* __restrict high, float* __restrict mixed) {
+  for (Index i = 0; i < n; ++i) {
+    mixed[i] = exchange[i] * factor * (high[i] - low[i]);
+  }
+}
+
+FIRETWIN_LANES
+void stir_row(Index n, const float* __restrict low, const float* __restrict high,
+              const float* __restrict inverse, float* __restrict q) {
+  for (Index i = 0; i < n; ++i) {
+    q[i] += (high[i] - low[i]) * inverse[i];
+  }
+}
+
+FIRETWIN_LANES
 void rescale_row(Index n, const float* __restrict mass, const float* __restrict in,
                  const float* __restrict out, float base, float* __restrict q) {
   const float inverse = 1.0F / base;

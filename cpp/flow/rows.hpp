@@ -35,6 +35,17 @@ void face_row(Index n, const float* flux, const float* courant, const Stencil& q
 /// 1 / (mass + in - out)
 void inverse_row(Index n, const float* mass, const float* in, const float* out, float* inverse);
 
+/// Air that eddies exchange between two rows of cells whose K are `a` and `b`: their mean x factor,
+/// at most `most`.
+void exchange_row(Index n, const float* a, const float* b, float factor, float most, float* out);
+
+/// What eddies bring through each face: exchange x (q above - q below) x factor.
+void mixed_row(Index n, const float* exchange, float factor, const float* low, const float* high,
+               float* mixed);
+
+/// q after eddies brought `high` through the upper faces and took `low` through the lower ones.
+void stir_row(Index n, const float* low, const float* high, const float* inverse, float* q);
+
 /// q after `in` came with `low` through the lower faces and `out` left with `high` through the
 /// upper ones. A constant stays what it is, to the bit.
 void carry_row(Index n, const float* in, const float* out, const float* low, const float* high,

@@ -55,8 +55,9 @@ Solver::Solver(Box box, Profile profile, const Settings& settings,
       profile_(std::move(profile)), settings_(settings), outer_(std::move(outer)),
       ground_(ground_of(lattice_, box.ground, outer_.get())), ambient_(lattice_, ground_, profile_),
       state_(lattice_, ambient_.moist()), transport_(lattice_, ambient_.air()),
-      pressure_(lattice_, ambient_.air()), buoyancy_(lattice_, ground_, ambient_),
-      sides_(lattice_, ambient_, settings.edges), shares_(shares(lattice_, settings.source_depth)) {
+      pressure_(lattice_, ambient_.air()), mixing_(lattice_, ambient_, settings.mixing),
+      buoyancy_(lattice_, ground_, ambient_), sides_(lattice_, ambient_, settings.edges),
+      shares_(shares(lattice_, settings.source_depth)) {
   check_finite(corner_, "corner");
   check_above_zero(settings.source_depth, "source_depth");
   check_zero_or_more(settings.gusts.strength, "gust_strength");
@@ -149,13 +150,17 @@ void Solver::follow(double dt) {
 }
 
 void Solver::carry(double dt) {
-  const std::array<Field*, 4> all{&state_.smoke, &state_.age, &state_.theta, &state_.water};
+  const std::array<Field*, 4> dry{&state_.smoke, &state_.age, &state_.theta, &state_.water};
   const std::array<Field*, 4> moist{&state_.smoke, &state_.age, &state_.water, &state_.theta};
   std::array<Crossed, 4> crossed{};
   const std::size_t count = ambient_.moist() ? 4 : 3;
-  substeps_ =
-      transport_.advance(state_.wind, std::span(ambient_.moist() ? moist : all).first(count), 1, dt,
-                         steps_ % 2 == 1, crossed);
+  Field* mixing = nullptr;
+  if (mixing_.on()) {
+    mixing = &buoyancy_.scratch();
+    mixing_.strengths(state_, *mixing);
+  }
+  const auto fields = std::span(ambient_.moist() ? moist : dry).first(count);
+  substeps_ = transport_.advance(state_.wind, fields, 1, dt, steps_ % 2 == 1, crossed, mixing);
   mass_.entered += crossed[0].in;
   mass_.left += crossed[0].out;
 }

@@ -2,6 +2,7 @@
 
 #include "flow/ambient.hpp"
 #include "flow/buoyancy.hpp"
+#include "flow/mixing.hpp"
 #include "flow/nest.hpp"
 #include "flow/pressure.hpp"
 #include "flow/sides.hpp"
@@ -28,6 +29,7 @@ struct Box {
 struct Settings {
   Edges edges;
   Gusts gusts;
+  double mixing = 0.18;       ///< Smagorinsky's constant; 0: the advection's diffusion alone
   double source_depth = 90.0; ///< heat and smoke go in as exp(-height / depth), m
 };
 
@@ -120,6 +122,7 @@ private:
   State state_;
   Transport transport_;
   Pressure pressure_;
+  Mixing mixing_;
   Buoyancy buoyancy_;
   Sides sides_;
   std::vector<double> shares_;

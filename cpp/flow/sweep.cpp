@@ -12,12 +12,17 @@ namespace {
 class Desk {
 public:
   explicit Desk(Index length)
-      : length_(length), memory_(static_cast<std::size_t>(length * (13 + 4 * 4))) {}
+      : length_(length),
+        memory_(static_cast<std::size_t>(length * (11 + 8 * static_cast<Index>(most_fields)))) {}
   float* flux(Index f) { return slot(f & 3); }
   float* mass(Index p) { return slot(4 + (p & 3)); }
   float* value(std::size_t field, Index f) {
-    return slot(13 + 4 * static_cast<Index>(field) + (f & 3));
+    return slot(11 + 8 * static_cast<Index>(field) + (f & 3));
   }
+  float* mixed(std::size_t field, Index f) {
+    return slot(15 + 8 * static_cast<Index>(field) + (f & 3));
+  }
+  float* exchange() { return slot(10); }
   float* courant() { return slot(8); }
   float* inverse() { return slot(9); }
 
@@ -55,11 +60,21 @@ void along_x(const Sweep& s, Index k, Index j, Desk& desk, std::span<Crossed> cr
   placed(s, s.mass, k, j, first - 1, n + 2, mass - 1);
   courant_row(n + 1, flux, mass - 1, mass, desk.courant());
   inverse_row(n, mass, flux, flux + 1, desk.inverse());
+  if (s.exchange) {
+    placed(s, *s.exchange, k, j, first, n + 1, desk.exchange());
+  }
   for (std::size_t m = 0; m < s.fields.size(); ++m) {
     float* q = s.fields[m]->row(k, j) + first;
     float* value = desk.value(m, 0);
+    float* mixed = desk.mixed(m, 0);
     face_row(n + 1, flux, desk.courant(), {q - 2, q - 1, q, q + 1}, value);
+    if (s.exchange) {
+      mixed_row(n + 1, desk.exchange(), s.mixing, q - 1, q, mixed);
+    }
     carry_row(n, flux, flux + 1, value, value + 1, desk.inverse(), q);
+    if (s.exchange) {
+      stir_row(n, mixed, mixed + 1, desk.inverse(), q);
+    }
     if (m < s.rescaled && !s.rest.empty()) {
       rescale_row(n, mass, flux, flux + 1, s.rest[static_cast<std::size_t>(k)], q);
     }
@@ -115,9 +130,16 @@ private:
     float* flux = desk_.flux(f);
     placed(s_, s_.flux, level(f, s_.flux.levels()), line(f), first_, n_, flux);
     courant_row(n_, flux, desk_.mass(f - 1), desk_.mass(f), desk_.courant());
+    if (s_.exchange) {
+      placed(s_, *s_.exchange, level(f, s_.flux.levels()), line(f), first_, n_, desk_.exchange());
+    }
     for (std::size_t m = 0; m < s_.fields.size(); ++m) {
-      face_row(n_, flux, desk_.courant(), {row(m, f - 2), row(m, f - 1), row(m, f), row(m, f + 1)},
+      const float *low = row(m, f - 1), *high = row(m, f);
+      face_row(n_, flux, desk_.courant(), {row(m, f - 2), low, high, row(m, f + 1)},
                desk_.value(m, f));
+      if (s_.exchange) {
+        mixed_row(n_, desk_.exchange(), s_.mixing, low, high, desk_.mixed(m, f));
+      }
     }
   }
 
@@ -127,6 +149,9 @@ private:
     for (std::size_t m = 0; m < s_.fields.size(); ++m) {
       float* q = row(m, p);
       carry_row(n_, in, out, desk_.value(m, p), desk_.value(m, p + 1), desk_.inverse(), q);
+      if (s_.exchange) {
+        stir_row(n_, desk_.mixed(m, p), desk_.mixed(m, p + 1), desk_.inverse(), q);
+      }
       if (m < s_.rescaled && !s_.rest.empty()) {
         const auto k = static_cast<std::size_t>(level(p, s_.lattice.nz));
         rescale_row(n_, mass, in, out, s_.rest[k], q);

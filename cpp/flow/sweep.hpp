@@ -33,6 +33,9 @@ struct Sweep {
   /// Fields that are carried, at most `most_fields`, and how many of them are rescaled to `rest`.
   std::span<Field* const> fields;
   std::size_t rescaled = 0;
+  /// Air that eddies exchange through the same faces, kg/m2, or null; and how much more of it.
+  const Field* exchange = nullptr;
+  float mixing = 1.0F;
 };
 
 inline constexpr std::size_t most_fields = 4;
