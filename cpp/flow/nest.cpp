@@ -91,10 +91,9 @@ void Window::level(const Axes& axes, const Part& part, Index k, Index reach) con
       float* out = part.to->row(k, j);
       for (Index i = first; i < first + n; ++i) {
         const Knot& x = axes.x[static_cast<std::size_t>(i + halo)];
-        out[i] = value(*part.from, x) + part.constant;
-        if (part.from_rest) {
-          out[i] += part.to_rest->row(k, j)[i] - value(*part.from_rest, x);
-        }
+        const float here = value(*part.from, x);
+        out[i] = part.from_rest ? part.to_rest->row(k, j)[i] + (here - value(*part.from_rest, x))
+                                : here + part.constant;
       }
     });
   }

@@ -152,6 +152,15 @@ void descend_row(Index n, const float* __restrict high, const float* __restrict 
 }
 
 FIRETWIN_LANES
+void grow_old_row(Index n, const float* __restrict smoke, float dt, float oldest,
+                  float* __restrict age) {
+  for (Index i = 0; i < n; ++i) {
+    const float older = age[i] + smoke[i] * dt, most = smoke[i] * oldest;
+    age[i] = older < most ? older : most;
+  }
+}
+
+FIRETWIN_LANES
 void relax_row(Index n, float target, const float* __restrict weight, float share,
                float* __restrict q) {
   for (Index i = 0; i < n; ++i) {

@@ -70,6 +70,10 @@ void divergence_row(Index n, const Faces& faces, float across, float above, floa
 /// q -= (high - low) x scale
 void descend_row(Index n, const float* high, const float* low, float scale, float* q);
 
+/// Smoke x age after dt, at most smoke x oldest: where there is next to none of it, the limiter may
+/// treat the two unlike.
+void grow_old_row(Index n, const float* smoke, float dt, float oldest, float* age);
+
 /// q += (target - q) x weight x share
 void relax_row(Index n, float target, const float* weight, float share, float* q);
 void relax_row(Index n, const float* target, const float* weight, float share, float* q);

@@ -41,6 +41,19 @@ void blend(const Lattice& l, const Field& b, float share, Field& a) {
   });
 }
 
+/// Adds a wind to each level.
+void shift(const Lattice& l, const std::vector<std::array<float, 2>>& change, Wind& wind) {
+  each(l.nz, [&](Index k) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const float more = change[static_cast<std::size_t>(k)][axis];
+      float* values = (axis == 0 ? wind.u : wind.v).row(k, -halo) - halo;
+      for (Index i = 0; i < l.plane; ++i) {
+        values[i] += more;
+      }
+    }
+  });
+}
+
 } // namespace
 
 Solver::Solver(Box box, Profile profile, const Settings& settings)
@@ -106,16 +119,10 @@ void Solver::set_wind(const std::vector<std::array<double, 2>>& wind) {
   }
   profile_.wind = wind;
   const auto change = ambient_.set_wind(lattice_, profile_);
-  each(lattice_.nz, [&](Index k) {
-    const auto& more = change[static_cast<std::size_t>(k)];
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      Field& part = axis == 0 ? state_.wind.u : state_.wind.v;
-      float* values = part.row(k, -halo) - halo;
-      for (Index i = 0; i < lattice_.plane; ++i) {
-        values[i] += more[axis];
-      }
-    }
-  });
+  shift(lattice_, change, state_.wind);
+  if (outside_) {
+    shift(lattice_, change, outside_->wind);
+  }
 }
 
 /// What is around a nest at the end of its step, between two steps of the flow around.
@@ -194,11 +201,8 @@ void Solver::add_to_level(const Deposit& deposit, double dt, Index k) {
 void Solver::burn(double dt) {
   each(lattice_.nz, [&](Index k) {
     for (Index j = 0; j < lattice_.ny; ++j) {
-      const float* smoke = state_.smoke.row(k, j);
-      float* age = state_.age.row(k, j);
-      for (Index i = 0; i < lattice_.nx; ++i) {
-        age[i] += smoke[i] * static_cast<float>(dt);
-      }
+      grow_old_row(lattice_.nx, state_.smoke.row(k, j), static_cast<float>(dt),
+                   static_cast<float>(time_ + dt), state_.age.row(k, j));
     }
   });
   if (sources_.position.empty()) {

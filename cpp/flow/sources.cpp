@@ -44,20 +44,22 @@ double noise(std::uint64_t seed, const std::array<double, 3>& at) {
   return sum / std::sqrt(squares);
 }
 
-/// Of each source, so that the heat's sum stays.
+/// Of each source.
 std::vector<double> factors(const Sources& sources, const Gusts& gusts, double time) {
   std::vector<double> result(sources.heat.size(), 1.0);
-  if (gusts.strength == 0.0) {
-    return result;
-  }
-  double before = 0.0, after = 0.0;
-  for (std::size_t i = 0; i < result.size(); ++i) {
+  for (std::size_t i = 0; gusts.strength > 0.0 && i < result.size(); ++i) {
     result[i] = gust(gusts, sources.position[i][0], sources.position[i][1], time);
-    before += sources.heat[i];
-    after += sources.heat[i] * result[i];
   }
-  for (double& factor : result) {
-    factor *= after > 0.0 ? before / after : 1.0;
+  return result;
+}
+
+/// Amounts times their factors, with the amounts' sum.
+std::vector<double> shared(const std::vector<double>& amount, const std::vector<double>& factor) {
+  const double before = std::accumulate(amount.begin(), amount.end(), 0.0);
+  const double after = std::inner_product(amount.begin(), amount.end(), factor.begin(), 0.0);
+  std::vector<double> result(amount.size());
+  for (std::size_t i = 0; i < amount.size(); ++i) {
+    result[i] = after > 0.0 ? amount[i] * factor[i] * (before / after) : 0.0;
   }
   return result;
 }
@@ -75,6 +77,8 @@ Deposit deposit(const Sources& sources, const Lattice& lattice, const std::array
   Deposit result{std::vector<double>(columns), std::vector<double>(columns),
                  std::vector<double>(sources.water.empty() ? 0 : columns)};
   const std::vector<double> factor = factors(sources, gusts, time);
+  const auto heat = shared(sources.heat, factor), smoke = shared(sources.smoke, factor);
+  const auto water = shared(sources.water, factor);
   for (std::size_t n = 0; n < sources.position.size(); ++n) {
     const double x = (sources.position[n][0] - origin[0]) / lattice.spacing - 0.5;
     const double y = (sources.position[n][1] - origin[1]) / lattice.spacing - 0.5;
@@ -86,12 +90,12 @@ Deposit deposit(const Sources& sources, const Lattice& lattice, const std::array
     const double a = x - static_cast<double>(i), b = y - static_cast<double>(j);
     for (Index corner = 0; corner < 4; ++corner) {
       const Index right = corner & 1, up = corner >> 1;
-      const double weight = factor[n] * (right ? a : 1.0 - a) * (up ? b : 1.0 - b);
+      const double weight = (right ? a : 1.0 - a) * (up ? b : 1.0 - b);
       const auto column = static_cast<std::size_t>((j + up) * lattice.nx + i + right);
-      result.heat[column] += weight * sources.heat[n];
-      result.smoke[column] += weight * sources.smoke[n];
+      result.heat[column] += weight * heat[n];
+      result.smoke[column] += weight * smoke[n];
       if (!sources.water.empty()) {
-        result.water[column] += weight * sources.water[n];
+        result.water[column] += weight * water[n];
       }
     }
   }

@@ -16,7 +16,7 @@ struct Sources {
   std::vector<double> water;                   ///< vapour, kg/s, or empty
 };
 
-/// A fire flickers: shares its heat and smoke out unevenly and leaves their sums. A lognormal
+/// A fire flickers: its heat and smoke are shared out unevenly, and their sums stay. A lognormal
 /// factor that is alike within `size` m and `time` s; it depends on seed, place and time alone.
 struct Gusts {
   double strength = 0.0; ///< standard deviation of the factor's logarithm
