@@ -12,6 +12,9 @@
 namespace firetwin::flow {
 namespace {
 
+constexpr int coldest = 150; // K, of the table of saturation
+constexpr int kelvins = 250;
+
 std::vector<double> part(const std::vector<std::array<double, 2>>& wind, std::size_t axis) {
   std::vector<double> result;
   for (const auto& w : wind) {
@@ -119,6 +122,9 @@ void Ambient::weigh(const Lattice& lattice, const Profile& p) {
       exner_.push_back(exner);
       density_.push_back(dense(pressure_.back(), lattice.middle[k]));
       air_.cell.push_back(static_cast<float>(density_.back() * lattice.depth[k]));
+      for (int t = coldest; moist_ && t < coldest + kelvins; ++t) {
+        held_.push_back(static_cast<float>(0.9999 * saturation(t, pressure_.back())));
+      }
     }
   }
 }
@@ -159,12 +165,27 @@ void Ambient::rest(const Lattice& lattice, const Ground& ground, const Profile& 
   });
 }
 
+/// Whether the air would hold its water even were it a little colder: saves most of the
+/// exponentials.
+bool Ambient::surely_clear(Index k, double temperature, double water) const {
+  const double above = temperature - coldest;
+  if (!(above >= 0.0 && above < kelvins)) {
+    return false;
+  }
+  return water <= static_cast<double>(
+                      held_[static_cast<std::size_t>(k * kelvins + static_cast<Index>(above))]);
+}
+
 double Ambient::virtual_theta(Index k, double theta, double water, double* cloud) const {
   const double whole = theta + reference_;
   if (!moist_) {
     return whole;
   }
-  const double condensed = cloud_water(whole * exner(k), water, pressure(k));
+  const double temperature = whole * exner(k);
+  if (surely_clear(k, temperature, water)) {
+    return whole * (1.0 + vapour_lightness * water);
+  }
+  const double condensed = cloud_water(temperature, water, pressure(k));
   if (cloud) {
     *cloud = condensed;
   }

@@ -74,12 +74,14 @@ public:
 
 private:
   void weigh(const Lattice& lattice, const Profile& profile);
+  bool surely_clear(Index k, double temperature, double water) const;
   void rest(const Lattice& lattice, const Ground& ground, const Profile& profile);
 
   bool moist_;
   Air air_;
   double reference_;
   std::vector<double> density_, exner_, pressure_;
+  std::vector<float> held_; ///< [nz][kelvins] water that air holds as vapour, of whole kelvins
   std::vector<std::array<float, 2>> wind_;
   Field theta_, water_, virtual_;
 };

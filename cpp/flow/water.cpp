@@ -30,11 +30,12 @@ double cloud_water(double temperature, double water, double pressure) {
     return 0.0;
   }
   constexpr double warming = latent_heat / heat_capacity;
-  double cloud = 0.0;
-  for (int round = 0; round < 4; ++round) { // Newton's; the third leaves 1e-9 kg/kg
+  double cloud = 0.0, change = 1.0;
+  for (int round = 0; round < 6 && std::abs(change) > 1e-8; ++round) { // Newton's
     const double t = temperature + warming * cloud;
-    held = saturation(t, pressure);
-    cloud += (water - cloud - held) / (1.0 + warming * slope(t, held));
+    held = round > 0 ? saturation(t, pressure) : held;
+    change = (water - cloud - held) / (1.0 + warming * slope(t, held));
+    cloud += change;
   }
   return std::clamp(cloud, 0.0, water);
 }
