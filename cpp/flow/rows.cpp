@@ -218,12 +218,4 @@ double sum_row(Index n, const float* q) {
   return sum;
 }
 
-double dot_row(Index n, const float* a, const float* b) {
-  double sum = 0.0;
-  for (Index i = 0; i < n; ++i) {
-    sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
-  }
-  return sum;
-}
-
 } // namespace firetwin::flow

@@ -83,8 +83,7 @@ void relax_row(Index n, const float* target, float share, float* q);
 float most_row(Index n, const float* q);
 float least_row(Index n, const float* q);
 
-/// Sum in float64, and sum of products.
+/// Sum in float64.
 double sum_row(Index n, const float* q);
-double dot_row(Index n, const float* a, const float* b);
 
 } // namespace firetwin::flow
