@@ -91,7 +91,7 @@ def blob(solver, centre, radius):
 
 
 def test_pure_advection_keeps_mass_and_shape():
-    """A Gaussian blob of radius 4 cells carried 20 cells: mass to 1e-6, shape within 8 %, peak within 20 %."""
+    """A Gaussian blob of 4 cells' radius carried 20: mass to 1e-6, shape within 8 %, peak within 20 %."""
     solver = box((48, 64), wind=(10.0, 6.0), lapse=0.0)
     state = solver.state()
     state["smoke"] = 1e-3 * blob(solver, (2000.0, 1700.0, 1000.0), 400.0)

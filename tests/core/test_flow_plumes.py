@@ -36,10 +36,10 @@ def middles(solver):
 def bent(spacing, wind=10.0, gradient=0.01, rise=1000.0, depth=90.0, radius=0.0):
     """Mean height of a plume's smoke over what Briggs says, and the account of its smoke.
 
-    A steady source, a point or a disc of `radius` m, in a uniform wind and stable air; smoke from 2.5 to 4.5 km
-    downwind. The final rise is 2.6 (F / (U s))^(1/3). The source is a cell wide, or the disc, and about 2 x `depth`
-    high, so the plume begins with the radius of that area, R0, and (z + R0 / beta)^3 = rise^3 + (R0 / beta)^3
-    (Briggs 1984); it begins at the height `depth`.
+    A steady source, a point or a disc of `radius` m, in a uniform wind and stable air; smoke from 2.5 to
+    4.5 km downwind. The final rise is 2.6 (F / (U s))^(1/3). The source is a cell wide, or the disc, and
+    about 2 x `depth` high, so the plume begins with the radius of that area, R0, at the height `depth`, and
+    (z + R0 / beta)^3 = rise^3 + (R0 / beta)^3 (Briggs 1984).
     """
     shape = (round(4000 / spacing), round(7600 / spacing))
     solver = still_air(
