@@ -29,6 +29,7 @@ name = "drone"
 [[cameras.keys]]
 latitude = 38.89
 longitude = -120.6
+target = "fire"
 """
 
 
