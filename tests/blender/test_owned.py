@@ -12,6 +12,7 @@ from firetwin.shot.shot import Shot
 
 # What the window and Blender's own bookkeeping change, and what is worked out from other things.
 _SKIPPED = {
+    "storage_type",  # of attributes: how 5.x keeps them at the moment, one value for all or an array
     "rna_type",
     "bl_rna",
     "original",

@@ -69,7 +69,7 @@ def firetwin(command):
 
     def run(*arguments, status=0, **options):
         process = command(*arguments, **options)
-        out, err = process.communicate(timeout=300)
+        out, err = process.communicate(timeout=900)
         assert process.returncode == status, err
         return out, err
 
