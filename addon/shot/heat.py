@@ -141,14 +141,6 @@ class Heat:
             np.concatenate([self.fuel_cell[lit], np.full(len(alone), -1)]),
         )
 
-    def fuel_cell_at(self, position: Array) -> NDArray[np.int64]:
-        """Flat index on the fuel grid of the cell that each scene point (n, 3) lies in."""
-        if len(position) == 0:
-            return np.empty(0, np.int64)
-        latitude, longitude, _ = local_frame(self.run).reverse(np.ascontiguousarray(position))
-        row = _nearest(self.run.fuel_latitude, latitude)
-        return row * len(self.run.fuel_longitude) + _nearest(self.run.fuel_longitude, longitude)
-
 
 def lights(sources: Sources, block: float = 300.0, count: int = 400) -> Sources:
     """Sources merged into at most `count`, without losing heat and without jumps from moment to moment.
