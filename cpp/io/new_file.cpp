@@ -3,8 +3,11 @@
 #include "io/name.hpp"
 #include "io/system.hpp"
 
+#include <array>
 #include <cerrno>
+#include <cstdio>
 #include <fstream>
+#include <random>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -17,29 +20,55 @@ namespace {
   fail(path, "cannot be written: " + code.message());
 }
 
+[[noreturn]] void cannot_write(const fs::path& path) {
+  cannot_write(path, {errno, std::generic_category()});
+}
+
+std::string random_name() {
+  std::random_device device;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%08x%08x", device(), device());
+  return text.data();
+}
+
+/// A file in the making; what was not put in place is removed.
+class NewFile {
+public:
+  explicit NewFile(fs::path target) : target_(std::move(target)), temporary_(target_) {
+    const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
+    std::error_code code;
+    if (!fs::is_directory(folder, code)) {
+      fail(folder, "no such folder; make it first");
+    }
+    temporary_ += "." + random_name() + ".tmp";
+  }
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+  ~NewFile() {
+    std::error_code ignored;
+    fs::remove(temporary_, ignored);
+  }
+
+  const fs::path& path() const { return temporary_; }
+
+  /// Gives a whole, closed file its name.
+  void put_in_place() const {
+    if (!system::sync(temporary_)) {
+      cannot_write(target_);
+    }
+    std::error_code code;
+    fs::rename(temporary_, target_, code);
+    if (code) {
+      cannot_write(target_, code);
+    }
+  }
+
+private:
+  fs::path target_;
+  fs::path temporary_;
+};
+
 } // namespace
-
-NewFile::NewFile(fs::path target) : target_(std::move(target)), temporary_(target_) {
-  const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
-  std::error_code code;
-  if (!fs::is_directory(folder, code)) {
-    fail(folder, "no such folder; make it first");
-  }
-  temporary_ += "." + std::to_string(system::process()) + ".tmp";
-}
-
-NewFile::~NewFile() {
-  std::error_code ignored;
-  fs::remove(temporary_, ignored);
-}
-
-void NewFile::put_in_place() const {
-  std::error_code code;
-  fs::rename(temporary_, target_, code);
-  if (code) {
-    cannot_write(target_, code);
-  }
-}
 
 std::uint64_t write_file(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   const NewFile file(path);
@@ -52,7 +81,7 @@ std::uint64_t write_file(const fs::path& path, const std::function<void(std::ost
     bytes = static_cast<std::uint64_t>(std::streamoff{stream.tellp()});
     stream.close();
   } catch (const std::ios_base::failure&) {
-    cannot_write(path, {errno, std::generic_category()});
+    cannot_write(path);
   }
   file.put_in_place();
   return bytes;

@@ -7,29 +7,11 @@
 
 namespace firetwin::io {
 
-/// A file in the making. It is written under another name in the same folder, `NAME.PROCESS.tmp`,
-/// and then renamed, so that whoever opens the file finds all of it or none. What was not put in
-/// place is removed.
-class NewFile {
-public:
-  /// @throws InputError when the folder is not there.
-  explicit NewFile(std::filesystem::path target);
-  NewFile(const NewFile&) = delete;
-  NewFile& operator=(const NewFile&) = delete;
-  ~NewFile();
-
-  /// Where to write.
-  const std::filesystem::path& path() const { return temporary_; }
-  /// Gives a whole, closed file its name. @throws InputError
-  void put_in_place() const;
-
-private:
-  std::filesystem::path target_;
-  std::filesystem::path temporary_;
-};
-
-/// Writes a new file through a stream and puts it in place. @return its length in bytes
-/// @throws InputError when the folder or the file cannot be written.
+/// Writes a new file through a stream. It is written under another name in the same folder,
+/// `NAME.RANDOM.tmp`, which no other thread, process or machine uses, and gets its own once it is
+/// whole and on the disk, so that whoever opens the file finds all of it or none.
+/// @return its length in bytes
+/// @throws InputError when the folder is not there or the file cannot be written; nothing is left.
 std::uint64_t write_file(const std::filesystem::path& path,
                          const std::function<void(std::ostream&)>& write);
 

@@ -16,13 +16,16 @@ int open(const std::filesystem::path& path);
 /// Bytes in a regular file; nothing for anything else.
 std::optional<std::uint64_t> size(int descriptor);
 
-/// Reads up to out.size() bytes from `offset` on, and leaves the place of other readers alone. The
-/// number of bytes read, 0 at the end; -1 with errno set.
+/// Bytes asked for at once: macOS refuses more than 2^31 - 1, Windows more than 2^32 - 1.
+constexpr std::size_t most_at_once = 1U << 30;
+
+/// Reads up to out.size() bytes from `offset` on, or fewer, and leaves the place of other readers
+/// alone. The number of bytes read, 0 at the end; -1 with errno set.
 std::ptrdiff_t read(int descriptor, std::uint64_t offset, std::span<char> out);
 
 void close(int descriptor);
 
-/// Different from that of every other program that runs.
-int process();
+/// Brings what was written to a file to the disk. False with errno set where that fails.
+bool sync(const std::filesystem::path& path);
 
 } // namespace firetwin::io::system

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 
 namespace firetwin::io::system {
@@ -22,8 +23,9 @@ std::optional<std::uint64_t> size(int descriptor) {
 }
 
 std::ptrdiff_t read(int descriptor, std::uint64_t offset, std::span<char> out) {
+  const std::size_t most = std::min(out.size(), most_at_once);
   for (;;) {
-    const auto n = ::pread(descriptor, out.data(), out.size(), static_cast<off_t>(offset));
+    const auto n = ::pread(descriptor, out.data(), most, static_cast<off_t>(offset));
     if (n >= 0 || errno != EINTR) {
       return n;
     }
@@ -34,8 +36,18 @@ void close(int descriptor) {
   ::close(descriptor);
 }
 
-int process() {
-  return ::getpid();
+bool sync(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0) {
+    return false;
+  }
+  const bool done = ::fsync(descriptor) == 0;
+  const int error = errno;
+  const bool closed = ::close(descriptor) == 0;
+  if (!done) {
+    errno = error;
+  }
+  return done && closed;
 }
 
 } // namespace firetwin::io::system

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <io.h>
-#include <process.h>
 #include <share.h>
 #include <sys/stat.h>
 #include <windows.h>
@@ -31,7 +30,7 @@ std::ptrdiff_t read(int descriptor, std::uint64_t offset, std::span<char> out) {
   OVERLAPPED place{}; // an offset of its own for each call, as with pread
   place.Offset = static_cast<DWORD>(offset);
   place.OffsetHigh = static_cast<DWORD>(offset >> 32);
-  const auto most = static_cast<DWORD>(std::min<std::size_t>(out.size(), 1U << 30));
+  const auto most = static_cast<DWORD>(std::min(out.size(), most_at_once));
   const auto handle = reinterpret_cast<HANDLE>(::_get_osfhandle(descriptor));
   DWORD n = 0;
   if (::ReadFile(handle, out.data(), most, &n, &place) == 0) {
@@ -48,8 +47,18 @@ void close(int descriptor) {
   ::_close(descriptor);
 }
 
-int process() {
-  return ::_getpid();
+bool sync(const std::filesystem::path& path) {
+  int descriptor = -1; // for writing: nothing comes to the disk through a handle for reading
+  if (::_wsopen_s(&descriptor, path.c_str(), _O_RDWR | _O_BINARY | _O_NOINHERIT, _SH_DENYNO, 0)) {
+    return false;
+  }
+  const bool done = ::_commit(descriptor) == 0;
+  const int error = errno;
+  const bool closed = ::_close(descriptor) == 0;
+  if (!done) {
+    errno = error;
+  }
+  return done && closed;
 }
 
 } // namespace firetwin::io::system

@@ -3,15 +3,14 @@
 #include "io/file.hpp"
 #include "io/name.hpp"
 #include "run/fields.hpp"
+#include "run/iso_time.hpp"
 #include "run/spelling.hpp"
 #include "run/toml.hpp"
 #include "run/toml_guard.hpp"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 
 namespace firetwin::run {
 namespace {
@@ -21,27 +20,9 @@ constexpr std::array<std::string_view, 10> known_keys = {
     "name",     "start", "interval_s", "times_s",   "mean_s",
     "vertical", "units", "no_data",    "synthetic", "event"};
 
-/// Seconds of UTC -> "2014-09-17T04:45:00Z", with a fraction only where there is one.
-std::string iso_text(const toml::date_time& t) {
-  using namespace std::chrono;
-  const sys_days day = year(t.date.year) / month(t.date.month) / t.date.day;
-  const auto moment = day + hours(t.time.hour) + minutes(t.time.minute - t.offset->minutes) +
-                      seconds(t.time.second);
-  const sys_days utc_day = floor<days>(moment);
-  const year_month_day date(utc_day);
-  const hh_mm_ss clock(moment - utc_day);
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%04d-%02u-%02uT%02d:%02d:%02d",
-                static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
-                static_cast<unsigned>(date.day()), static_cast<int>(clock.hours().count()),
-                static_cast<int>(clock.minutes().count()),
-                static_cast<int>(clock.seconds().count()));
-  std::string result = text.data();
-  if (t.time.nanosecond != 0) {
-    std::snprintf(text.data(), text.size(), ".%09u", t.time.nanosecond);
-    result += text.data();
-  }
-  return result + "Z";
+Moment moment_of(const toml::date_time& t) {
+  return {t.date.year,   t.date.month,  t.date.day,        t.time.hour,
+          t.time.minute, t.time.second, t.time.nanosecond, t.offset->minutes};
 }
 
 class Reader {
@@ -104,11 +85,21 @@ private:
     if (!node) {
       fail({}, form + "; add it");
     }
-    const auto time = value<toml::date_time>(*node, form);
-    if (!time.offset) {
+    const auto moment = start_moment(*node);
+    const auto text = moment ? utc_text(*moment) : std::nullopt;
+    if (!text) {
       fail(node->source(), form);
     }
-    return iso_text(time);
+    return *text;
+  }
+
+  /// As TOML's own date and time, or as a text; nothing where it is something else.
+  static std::optional<Moment> start_moment(const toml::node& node) {
+    if (const auto text = node.value_exact<std::string_view>()) {
+      return parse_iso(*text);
+    }
+    const auto time = node.value_exact<toml::date_time>();
+    return time && time->offset ? std::optional(moment_of(*time)) : std::nullopt;
   }
 
   std::string vertical(Description& m) const {

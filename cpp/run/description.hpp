@@ -21,6 +21,7 @@ struct Description {
   std::vector<std::string> warnings;
 };
 
+/// `start` may be a date and time of TOML, or a text as parse_iso (iso_time.hpp) reads it.
 /// @throws InputError with line and column for bad TOML, unknown or missing keys, wrong types,
 /// units
 ///         other than those of fields.hpp, and times that do not ascend.

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -65,40 +64,14 @@ template <class T> Grid<T> read_any(const std::filesystem::path& path) {
   io::fail(path, reason);
 }
 
-void check_axis_value(const std::filesystem::path& path, std::size_t index, double value,
-                      double limit) {
-  if (std::abs(value) <= limit) {
-    return;
-  }
-  std::string reason = "value " + std::to_string(index + 1) + " is " + std::to_string(value);
-  reason += std::isfinite(value) ? ", beyond " + std::to_string(static_cast<int>(limit)) +
-                                       " degrees; are latitude and longitude swapped?"
-                                 : "; an axis needs a number for every row and column";
-  io::fail(path, reason);
-}
-
 } // namespace
 
 Grid<float> read_grid(const std::filesystem::path& path) {
   return read_any<float>(path);
 }
 
-std::vector<double> read_axis(const std::filesystem::path& path, double limit) {
-  Grid<double> grid = read_any<double>(path);
-  if (grid.rows != 1 && grid.columns != 1) {
-    io::fail(path, "expected one row or one column of numbers, found " +
-                       size_text(grid.rows, grid.columns));
-  }
-  const std::vector<double>& v = grid.values;
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    check_axis_value(path, i, v[i], limit);
-    if (i > 0 && (v[i] == v[i - 1] || (v[i] > v[i - 1]) != (v[1] > v[0]))) {
-      io::fail(path, "value " + std::to_string(i + 1) +
-                         " is not beyond the one before; an axis must "
-                         "ascend or descend throughout, without duplicates");
-    }
-  }
-  return std::move(grid.values);
+Grid<double> read_double_grid(const std::filesystem::path& path) {
+  return read_any<double>(path);
 }
 
 void read_grid(const std::filesystem::path& path, std::size_t rows, std::size_t columns,

@@ -6,17 +6,13 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace firetwin::run {
 
 /// Reads a text or .npy grid (told apart by content). A one-dimensional array is one row.
 /// @throws InputError for everything that text.hpp and npy.hpp refuse, and for three dimensions.
 Grid<float> read_grid(const std::filesystem::path& path);
-
-/// Reads an axis: one line or one column of text, or a one-dimensional .npy.
-/// @throws InputError when it is not strictly monotone, or not finite and within +-`limit`.
-std::vector<double> read_axis(const std::filesystem::path& path, double limit);
+Grid<double> read_double_grid(const std::filesystem::path& path);
 
 /// Reads a grid that must be rows x columns, with no_data as NaN. @throws InputError
 void read_grid(const std::filesystem::path& path, std::size_t rows, std::size_t columns,

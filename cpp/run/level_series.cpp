@@ -36,7 +36,7 @@ void LevelSeries::read(std::size_t index, std::span<float> out) const {
     throw std::out_of_range("time index " + std::to_string(index) + " of a run with " +
                             std::to_string(times_) + " times");
   }
-  file_.read(steady_ ? 0 : std::uint64_t{index} * cells_, out);
+  file_.read(steady_ ? 0 : index, out);
   blank(out, no_data_);
 }
 

@@ -21,6 +21,8 @@ public:
   std::size_t levels() const { return levels_; }
   std::size_t cells() const { return cells_; } ///< levels x rows x columns
   const std::filesystem::path& path() const { return file_.path(); }
+  /// Whether reading one time goes through all of the file, as in Fortran order.
+  bool scattered() const { return !steady_ && file_.scattered(); }
 
   /// The field [nz, ny, nx] at one time, no_data as NaN. Several threads may read at once.
   /// @throws std::out_of_range, InputError

@@ -5,18 +5,19 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 namespace firetwin::run {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "npy files are read as little-endian");
-
 constexpr std::size_t longest_header = 1 << 20;
+constexpr std::size_t block_bytes = 1 << 20; ///< read at once where values are converted
+/// Of a file in Fortran order, values further apart are read one by one: a call to the system costs
+/// as much as copying about so many bytes.
+constexpr std::size_t near_bytes = 2048;
 
 [[noreturn]] void fail(const io::File& file, const std::string& reason) {
   io::fail(file.path(), reason);
@@ -69,64 +70,129 @@ NpyHeader read_header(const io::File& file, const Prefix& prefix) {
   return parse_npy_header({text.data(), text.size()}, prefix.header_offset, io::utf8(file.path()));
 }
 
-std::size_t item_size(const io::File& file, const std::string& descr) {
-  if (descr == "<f4") {
-    return 4;
-  }
-  if (descr == "<f8") {
-    return 8;
+NpyItem item_of(const io::File& file, const std::string& descr) {
+  if (const auto item = parse_item(descr)) {
+    return *item;
   }
   if (descr.find('O') != std::string::npos) {
     fail(file, "holds Python objects, which are never loaded; save it with astype('<f4')");
   }
-  fail(file, "has type '" + descr + "' where '<f4' or '<f8' is needed; save it with astype('<f4')");
+  fail(file, "has type '" + descr +
+                 "' where integers, '<f4' or '<f8' are needed; save it with astype('<f4')");
 }
+
+/// Goes through the places of an array as they lie in Fortran order and says where each lies in C
+/// order.
+class Places {
+public:
+  explicit Places(std::span<const std::size_t> shape)
+      : shape_(shape), index_(shape.size(), 0), stride_(shape.size(), 1) {
+    for (std::size_t axis = shape.size(); axis-- > 1;) {
+      stride_[axis - 1] = stride_[axis] * shape[axis];
+    }
+  }
+
+  std::size_t next() {
+    const std::size_t place = place_;
+    for (std::size_t axis = 0; axis < shape_.size(); ++axis) {
+      place_ += stride_[axis];
+      if (++index_[axis] < shape_[axis]) {
+        break;
+      }
+      place_ -= stride_[axis] * shape_[axis];
+      index_[axis] = 0;
+    }
+    return place;
+  }
+
+private:
+  std::span<const std::size_t> shape_;
+  std::vector<std::size_t> index_, stride_;
+  std::size_t place_ = 0;
+};
 
 } // namespace
 
 NpyFile::NpyFile(const std::filesystem::path& path) : file_(path) {
   const Prefix prefix = read_prefix(file_);
   NpyHeader header = read_header(file_, prefix);
-  item_size_ = item_size(file_, header.descr);
-  if (header.fortran_order && header.shape.size() > 1) {
-    fail(file_, "is in Fortran order; save it with numpy.ascontiguousarray");
-  }
+  item_ = item_of(file_, header.descr);
   shape_ = std::move(header.shape);
+  fortran_order_ = header.fortran_order && shape_.size() > 1;
   data_offset_ = prefix.header_offset + prefix.header_size;
-  const auto bytes = bytes_of(shape_, item_size_);
+  const auto bytes = bytes_of(shape_, item_.size);
   if (bytes != file_.size() - data_offset_) {
-    fail(file_, "its header says " + shape_text(shape_) + " of " + std::to_string(item_size_) +
+    fail(file_, "its header says " + shape_text(shape_) + " of " + std::to_string(item_.size) +
                     " bytes each, but " + std::to_string(file_.size() - data_offset_) +
                     " bytes of data follow; copy or save the file again");
   }
+  const std::size_t values = *bytes / item_.size;
+  part_ = shape_.empty() || values == 0 ? 1 : values / shape_.front();
 }
 
-void NpyFile::read(std::uint64_t first, std::span<float> out) const {
-  if (item_size_ == 4) {
-    file_.read(data_offset_ + 4 * first, {reinterpret_cast<char*>(out.data()), out.size() * 4});
+void NpyFile::read(std::size_t first, std::span<float> out) const {
+  read_as(first, out);
+}
+
+void NpyFile::read(std::size_t first, std::span<double> out) const {
+  read_as(first, out);
+}
+
+template <class T> void NpyFile::read_as(std::size_t first, std::span<T> out) const {
+  if (out.empty()) {
     return;
   }
-  std::vector<double> wide(out.size());
-  read(first, std::span(wide));
-  for (std::size_t i = 0; i < wide.size(); ++i) {
-    // The largest double that still rounds to a finite float is just below 2^128 - 2^103.
-    if (std::isfinite(wide[i]) && std::abs(wide[i]) >= 0x1.ffffffp127) {
-      fail(file_,
-           "value " + std::to_string(first + i) +
-               " of the flattened array is too large for a 32-bit float; use nan or no_data");
+  const std::uint64_t begin = std::uint64_t{first} * part_;
+  const bool as_it_is = item_.kind == 'f' && item_.size == sizeof(T) && !item_.swapped;
+  const std::span<char> raw(reinterpret_cast<char*>(out.data()), out.size_bytes());
+  if (fortran_order_ && as_it_is) {
+    gather(first, out.size() / part_, raw);
+  } else if (fortran_order_) {
+    std::vector<char> bytes(out.size() * item_.size);
+    gather(first, out.size() / part_, bytes);
+    convert_values(begin, bytes, out);
+  } else if (as_it_is) {
+    file_.read(data_offset_ + begin * item_.size, raw);
+  } else {
+    const std::size_t at_once = block_bytes / item_.size;
+    std::vector<char> bytes(std::min(out.size(), at_once) * item_.size);
+    for (std::size_t done = 0; done < out.size(); done += at_once) {
+      const auto part = out.subspan(done, std::min(at_once, out.size() - done));
+      const auto block = std::span(bytes).first(part.size() * item_.size);
+      file_.read(data_offset_ + (begin + done) * item_.size, block);
+      convert_values(begin + done, block, part);
     }
-    out[i] = static_cast<float>(wide[i]);
   }
 }
 
-void NpyFile::read(std::uint64_t first, std::span<double> out) const {
-  if (item_size_ == 8) {
-    file_.read(data_offset_ + 8 * first, {reinterpret_cast<char*>(out.data()), out.size() * 8});
-    return;
+template <class T>
+void NpyFile::convert_values(std::uint64_t begin, std::span<const char> bytes,
+                             std::span<T> out) const {
+  if (const auto too_large = convert(item_, bytes, out)) {
+    fail(file_, "value " + std::to_string(begin + *too_large) +
+                    " of the flattened array is too large for a 32-bit float; use nan or no_data");
   }
-  std::vector<float> narrow(out.size());
-  read(first, std::span(narrow));
-  std::copy(narrow.begin(), narrow.end(), out.begin());
+}
+
+/// array[first : first + count] of a file in Fortran order, where values of one place are
+/// neighbours, as bytes in C order.
+void NpyFile::gather(std::size_t first, std::size_t count, std::span<char> out) const {
+  const std::size_t size = item_.size, row = shape_.front() * size;
+  const bool together = count == shape_.front() || row <= near_bytes;
+  const std::size_t rows = together ? std::max<std::size_t>(block_bytes / row, 1) : 1;
+  Places places{std::span(shape_).subspan(1)};
+  std::vector<char> block;
+  for (std::size_t done = 0; done < part_; done += rows) {
+    const std::size_t now = std::min(rows, part_ - done);
+    block.resize((now - 1) * row + count * size);
+    file_.read(data_offset_ + done * row + first * size, block);
+    for (std::size_t i = 0; i < now; ++i) {
+      const std::size_t place = places.next();
+      for (std::size_t j = 0; j < count; ++j) {
+        std::memcpy(&out[(j * part_ + place) * size], &block[i * row + j * size], size);
+      }
+    }
+  }
 }
 
 std::string shape_text(std::span<const std::size_t> shape) {

@@ -40,14 +40,18 @@ void ReadAhead::work(const std::stop_token& stop) {
 
 std::optional<std::vector<float>> ReadAhead::next() {
   std::unique_lock lock(mutex_);
+  const auto slot = [this]() -> Slot& { return slots_[taken_ % slots_.size()]; };
+  // Another thread may take frames, the last one too, while this one waits.
+  ready_.wait(lock, [&] { return taken_ == indices_.size() || slot().ready; });
   if (taken_ == indices_.size()) {
     return std::nullopt;
   }
-  Slot& slot = slots_[taken_ % slots_.size()];
-  ready_.wait(lock, [&slot] { return slot.ready; });
-  Slot found = std::exchange(slot, Slot{});
+  Slot found = std::exchange(slot(), Slot{});
   ++taken_;
   free_.notify_all();
+  if (taken_ == indices_.size()) {
+    ready_.notify_all();
+  }
   if (found.error) {
     std::rethrow_exception(found.error);
   }

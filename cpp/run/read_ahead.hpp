@@ -25,8 +25,9 @@ public:
   ReadAhead& operator=(const ReadAhead&) = delete;
   ~ReadAhead();
 
-  /// The next frame, in the order chosen; nothing after the last. @throws what reading it threw;
-  /// the frames after it can still be had.
+  /// The next frame, in the order chosen; nothing after the last. Several threads may share one
+  /// object: each frame goes to one of them. @throws what reading it threw; the frames after it can
+  /// still be had.
   std::optional<std::vector<float>> next();
 
 private:

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "geo/axis.hpp"
 #include "io/name.hpp"
+#include "run/axis_file.hpp"
 #include "run/grid_file.hpp"
 
 #include <algorithm>
@@ -11,10 +12,6 @@
 
 namespace firetwin::run {
 namespace {
-
-constexpr double latitude_limit = 90.0;
-/// Generous: runs may count eastwards past 180 or 360 degrees.
-constexpr double longitude_limit = 540.0;
 
 template <class Test> std::size_t count(const std::vector<float>& values, Test test) {
   return static_cast<std::size_t>(std::count_if(values.begin(), values.end(), test));
@@ -54,14 +51,16 @@ Run::Run(const std::filesystem::path& folder)
   open_series();
   open_levels();
   set_times();
+  check_order();
   check_values();
 }
 
 void Run::read_axes() {
-  latitude_ = read_axis(folder_.field_file("latitude"), latitude_limit);
-  longitude_ = read_axis(folder_.field_file("longitude"), longitude_limit);
-  fuel_latitude_ = read_axis(folder_.field_file("fuel_latitude"), latitude_limit);
-  fuel_longitude_ = read_axis(folder_.field_file("fuel_longitude"), longitude_limit);
+  latitude_ = read_latitude(folder_.field_file("latitude"));
+  longitude_ = read_longitude(folder_.field_file("longitude"), 0.0);
+  fuel_latitude_ = read_latitude(folder_.field_file("fuel_latitude"));
+  const double middle = 0.5 * (longitude_.front() + longitude_.back());
+  fuel_longitude_ = read_longitude(folder_.field_file("fuel_longitude"), middle);
 }
 
 std::vector<float> Run::read_grid_of(const std::string& field, std::size_t rows,
@@ -150,6 +149,22 @@ void Run::set_times() {
   if (!std::isfinite(times_.back())) {
     io::fail(path() / "run.toml", "interval_s is so long that the last time is not a number");
   }
+}
+
+void Run::check_order() {
+  const auto check = [this](const std::string& field, const auto& series) {
+    if (series && series->scattered()) {
+      warnings_.push_back(field + ".npy is in Fortran order, so that reading one time goes through "
+                                  "all of the file; save it with numpy.ascontiguousarray");
+    }
+  };
+  check("heat_flux", heat_flux_);
+  check("temperature", temperature_);
+  check("wind_east", wind_east_);
+  check("wind_north", wind_north_);
+  check("smoke_3d", smoke_3d_);
+  check("height_3d", height_3d_);
+  check("temperature_3d", temperature_3d_);
 }
 
 void Run::check_values() {

@@ -31,14 +31,16 @@ public:
   /// What is odd but usable, one sentence each; scans of the heat flux add to it.
   std::vector<std::string> warnings() const;
 
-  const std::vector<double>& times() const { return times_; }                   ///< s since start
-  const std::vector<double>& latitude() const { return latitude_; }             ///< [ny] degrees
-  const std::vector<double>& longitude() const { return longitude_; }           ///< [nx] degrees
-  const std::vector<float>& elevation() const { return elevation_; }            ///< [ny nx] m
-  const std::vector<double>& fuel_latitude() const { return fuel_latitude_; }   ///< [fy]
-  const std::vector<double>& fuel_longitude() const { return fuel_longitude_; } ///< [fx]
-  const std::vector<float>& surface_fuel() const { return surface_fuel_; }      ///< [fy fx] kg/m2
-  const std::vector<float>& canopy_fuel() const { return canopy_fuel_; }        ///< [fy fx] kg/m2
+  const std::vector<double>& times() const { return times_; }       ///< s since start
+  const std::vector<double>& latitude() const { return latitude_; } ///< [ny] degrees
+  /// [nx] degrees east, without a jump; the middle lies in -180..180
+  const std::vector<double>& longitude() const { return longitude_; }
+  const std::vector<float>& elevation() const { return elevation_; }          ///< [ny nx] m
+  const std::vector<double>& fuel_latitude() const { return fuel_latitude_; } ///< [fy]
+  /// [fx] degrees east, counted as `longitude` is
+  const std::vector<double>& fuel_longitude() const { return fuel_longitude_; }
+  const std::vector<float>& surface_fuel() const { return surface_fuel_; } ///< [fy fx] kg/m2
+  const std::vector<float>& canopy_fuel() const { return canopy_fuel_; }   ///< [fy fx] kg/m2
   /// [fy fx] m: the field of that name, or the elevation resampled bilinearly.
   const std::vector<float>& fuel_elevation() const { return fuel_elevation_; }
 
@@ -69,6 +71,7 @@ private:
   void read_grids();
   void open_series();
   void set_times();
+  void check_order();
   void check_values();
   void open_levels();
   std::optional<Series> optional_series(const std::string& field) const;

@@ -36,7 +36,7 @@ void Series::read(std::size_t index, std::span<float> out) const {
     read_grid(frames_[index], rows_, columns_, no_data_, out);
     return;
   }
-  file_->read(std::uint64_t{index} * cells(), out);
+  file_->read(index, out);
   blank(out, no_data_);
 }
 

@@ -20,6 +20,8 @@ public:
 
   std::size_t size() const { return file_ ? file_->shape()[0] : frames_.size(); }
   std::size_t cells() const { return rows_ * columns_; }
+  /// Whether reading one time goes through all of the file, as in Fortran order.
+  bool scattered() const { return file_ && file_->scattered(); }
   /// The file that holds a time, for messages.
   const std::filesystem::path& path(std::size_t index) const;
 

@@ -57,13 +57,11 @@ private:
     skip_separator();
   }
 
-  /// What nearly every value is: a finite number without a plus in front or a D in it, before a
-  /// blank or the end of the line.
+  /// What nearly every value is: a finite number without a plus in front or a D in it.
   bool parse_plain_value() {
     T value{};
     const auto [end, code] = fast_float::from_chars(position_, end_, value);
-    if (code != std::errc() || !std::isfinite(value) || end == end_ ||
-        !(is_blank(*end) || *end == '\n')) {
+    if (code != std::errc() || !std::isfinite(value) || !ends_value(end)) {
       return false;
     }
     grid_.values.push_back(value);
@@ -78,7 +76,7 @@ private:
       fail(first, explain_word(first, end_, number.error));
     }
     position_ = number.end;
-    if (!at_line_end() && !is_blank(*position_) && *position_ != ',') {
+    if (!ends_value(position_)) {
       fail(first, explain_word(first, end_, NumberError::malformed));
     }
     if (number.error == NumberError::too_large) {
@@ -87,15 +85,12 @@ private:
     grid_.values.push_back(number.value);
   }
 
-  /// Blanks with at most one comma, which another value has to follow.
+  /// Blanks with at most one comma, which may end a row: many programs write one after each value.
   void skip_separator() {
     skip_blanks();
     if (position_ < end_ && *position_ == ',') {
-      const char* comma = position_++;
+      ++position_;
       skip_blanks();
-      if (at_line_end()) {
-        fail(comma, "a value is missing after the comma; remove the comma or write nan");
-      }
     }
   }
 
@@ -118,11 +113,17 @@ private:
     }
   }
 
-  bool at_line_end() const {
-    if (position_ == end_ || *position_ == '\n' || *position_ == '#') {
+  bool at_line_end() const { return is_line_end(position_); }
+
+  bool is_line_end(const char* c) const {
+    if (c == end_ || *c == '\n' || *c == '#') {
       return true;
     }
-    return *position_ == '\r' && (position_ + 1 == end_ || position_[1] == '\n');
+    return *c == '\r' && (c + 1 == end_ || c[1] == '\n');
+  }
+
+  bool ends_value(const char* c) const {
+    return (c < end_ && (is_blank(*c) || *c == ',')) || is_line_end(c);
   }
 
   void next_line() {

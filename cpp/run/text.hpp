@@ -9,8 +9,9 @@ namespace firetwin::run {
 
 /// Parses a text grid; T is float or double.
 ///
-/// Numbers are separated by blanks, tabs or single commas; `#` starts a comment; lines end in LF or
-/// CRLF; lines without numbers are skipped; a leading UTF-8 byte order mark is skipped. Exponents
+/// Numbers are separated by blanks, tabs or single commas, and a comma may follow a row's last one;
+/// `#` starts a comment; lines end in LF or CRLF; lines without numbers are skipped; a leading
+/// UTF-8 byte order mark is skipped. Exponents
 /// may be written with E or D. `nan`, `inf` and `infinity` in any case are values. Each value is
 /// the T nearest to its decimal text: what is too small becomes 0 (with its sign), what is too
 /// large for a T is an error. Every line holds one row; all rows are equally long.

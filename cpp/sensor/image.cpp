@@ -4,11 +4,13 @@
 #include "io/name.hpp"
 #include "io/new_file.hpp"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <array>
 #include <mutex>
+#include <ostream>
 #include <string_view>
 
 namespace firetwin::sensor {
@@ -85,6 +87,19 @@ void check_spec(const std::filesystem::path& path, const OIIO::ImageSpec& spec) 
   }
 }
 
+std::vector<unsigned char> encode(const std::filesystem::path& path, std::span<const float> pixels,
+                                  const OIIO::ImageSpec& spec, bool exr) {
+  set_limits();
+  OIIO::Filesystem::IOVecOutput memory;
+  const auto output = OIIO::ImageOutput::create(exr ? "openexr" : "png");
+  if (!output || !output->set_ioproxy(&memory) ||
+      !output->open(exr ? "memory.exr" : "memory.png", spec) ||
+      !output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) || !output->close()) {
+    io::fail(path, "cannot be written: " + (output ? output->geterror() : OIIO::geterror()));
+  }
+  return memory.buffer();
+}
+
 } // namespace
 
 Image read_image(const std::filesystem::path& path) {
@@ -114,15 +129,13 @@ void write_image(const std::filesystem::path& path, std::span<const float> pixel
     io::fail(path, "an image file must end in .png or .exr");
   }
   check_size(path, height, width, channels);
-  set_limits();
-  const io::NewFile file(path);
-  const auto output = OIIO::ImageOutput::create(exr ? "openexr" : "png");
-  if (!output ||
-      !output->open(io::utf8(file.path()), make_spec(height, width, channels, exr, metadata)) ||
-      !output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()) || !output->close()) {
-    io::fail(path, "cannot be written: " + (output ? output->geterror() : OIIO::geterror()));
-  }
-  file.put_in_place();
+  // Into memory first: OpenImageIO does not say when the end of an EXR finds no room on the disk.
+  const std::vector<unsigned char> bytes =
+      encode(path, pixels, make_spec(height, width, channels, exr, metadata), exr);
+  io::write_file(path, [&bytes](std::ostream& stream) {
+    stream.write(reinterpret_cast<const char*>(bytes.data()),
+                 static_cast<std::streamsize>(bytes.size()));
+  });
 }
 
 } // namespace firetwin::sensor

@@ -21,7 +21,7 @@ struct Image {
 /// is ever started. At most 256 million values (1 GB) and 64 channels. @throws InputError
 Image read_image(const std::filesystem::path& path);
 
-/// Writes .png (8 bit, values clamped to 0..1) or .exr (32-bit float, ZIP) in one step
+/// Writes .png (8 bit, values clamped to 0..1) or .exr (32-bit float, ZIP), all of it or nothing
 /// (see io/new_file.hpp). @throws InputError when that cannot be done.
 void write_image(const std::filesystem::path& path, std::span<const float> pixels,
                  std::size_t height, std::size_t width, std::size_t channels,
