@@ -77,7 +77,7 @@ std::vector<openvdb::Coord> reached_leaves(const geo::LocalFrame& frame, const L
   if (parts.empty()) {
     return {};
   }
-  check_leaf_count(all.volume(), voxel_size);
+  check_leaf_count(static_cast<double>(all.volume()), voxel_size);
   const openvdb::Coord count = all.dim();
   const auto number = [&](const openvdb::Coord& leaf) {
     const openvdb::Coord place = leaf - all.min();

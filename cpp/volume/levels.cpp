@@ -3,7 +3,6 @@
 #include "base/check.hpp"
 #include "base/error.hpp"
 #include "base/smoothstep.hpp"
-#include "volume/archive.hpp"
 #include "volume/level_leaves.hpp"
 #include "volume/level_sampler.hpp"
 
@@ -20,7 +19,7 @@ namespace {
 
 constexpr double thick_dilution = 0.1;
 
-struct Leaf {
+struct SmokeLeaf {
   openvdb::Coord origin;
   LeafMask mask;
   LeafValues concentration{};
@@ -89,10 +88,10 @@ private:
   std::array<LevelSampler::Place, 8> corners_{};
 };
 
-std::unique_ptr<Leaf> sample(const geo::LocalFrame& frame, const Levels& levels,
-                             std::span<const float> smoke, const openvdb::Coord& origin,
-                             double voxel_size) {
-  auto leaf = std::make_unique<Leaf>();
+std::unique_ptr<SmokeLeaf> sample(const geo::LocalFrame& frame, const Levels& levels,
+                                  std::span<const float> smoke, const openvdb::Coord& origin,
+                                  double voxel_size) {
+  auto leaf = std::make_unique<SmokeLeaf>();
   leaf->origin = origin;
   const double middle = 0.5 * (levels.longitude.front() + levels.longitude.back());
   const LeafPlaces places(frame, origin, voxel_size, middle);
@@ -117,7 +116,7 @@ std::unique_ptr<Leaf> sample(const geo::LocalFrame& frame, const Levels& levels,
   return leaf->mask.isOff() ? nullptr : std::move(leaf);
 }
 
-void fill(const Leaf& leaf, SmokeGrid grid, float size, LeafValues& out) {
+void fill(const SmokeLeaf& leaf, SmokeGrid grid, float size, LeafValues& out) {
   if (grid == SmokeGrid::size || grid == SmokeGrid::temperature) {
     out = leaf.temperature;
     if (grid == SmokeGrid::size) {
@@ -154,7 +153,7 @@ Frame write_levels(const std::filesystem::path& path, const geo::LocalFrame& fra
   check_heights(levels);
   const std::vector<float> smoke = clean(levels.smoke);
   const std::vector<openvdb::Coord> origins = reached_leaves(frame, levels, smoke, voxel_size);
-  std::vector<std::unique_ptr<Leaf>> all(origins.size());
+  std::vector<std::unique_ptr<SmokeLeaf>> all(origins.size());
   tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t i) {
     all[i] = sample(frame, levels, smoke, origins[i], voxel_size);
   });
