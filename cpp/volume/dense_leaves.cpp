@@ -48,14 +48,24 @@ double sum_of(const LeafValues& values, float tolerance) {
   return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
 }
 
+/// 1 for each value beyond the tolerance, else 0.
+FIRETWIN_CLONES("avx2")
+void mark(const LeafValues& values, float tolerance, std::array<std::uint8_t, leaf_voxels>& marks) {
+  for (std::size_t i = 0; i < leaf_voxels; ++i) {
+    marks[i] = std::abs(values[i]) > tolerance ? 1 : 0;
+  }
+}
+
 LeafMask active(const LeafValues& values, float tolerance) {
+  std::array<std::uint8_t, leaf_voxels> marks;
+  mark(values, tolerance, marks);
   LeafMask mask;
-  for (openvdb::Index word = 0; word < LeafMask::WORD_COUNT; ++word) {
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < 64; ++i) {
-      bits |= std::uint64_t{std::abs(values[word * 64 + i]) > tolerance} << i;
-    }
-    mask.getWord<LeafMask::Word>(word) = bits;
+  for (openvdb::Index i = 0; i < leaf_voxels / 8; ++i) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, &marks[8 * i], sizeof eight);
+    // The product's highest byte has bit n where byte n of the factor is 1.
+    const std::uint64_t bits = eight * 0x0102040810204080U >> 56;
+    mask.getWord<LeafMask::Word>(i / 8) |= bits << i % 8 * 8;
   }
   return mask;
 }
