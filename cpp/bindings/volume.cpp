@@ -148,7 +148,7 @@ Frame write_levels(const Path& path, const geo::LocalFrame& frame, const py::obj
 
 Frame write(const Path& path, const std::map<std::string, py::object>& grids, double voxel_size,
             const Vector& origin, bool half, float tolerance,
-            const std::optional<io::Metadata>& metadata) {
+            const std::optional<io::Metadata>& metadata, const std::optional<Sight>& sight) {
   std::map<std::string, Array<float>> arrays;
   std::map<std::string, volume::DenseField> fields;
   for (const auto& [name, object] : grids) {
@@ -163,7 +163,8 @@ Frame write(const Path& path, const std::map<std::string, py::object>& grids, do
     arrays[name] = array;
   }
   const py::gil_scoped_release release;
-  return volume::write_dense(path, fields, voxel_size, origin, half, tolerance,
+  return volume::write_dense(path, fields,
+                             {voxel_size, origin, half, tolerance, sight.value_or(Sight{})},
                              metadata.value_or(io::Metadata{}));
 }
 
@@ -242,7 +243,7 @@ void init_volume(py::module_ module) {
              "Write smoke on terrain-following levels as a smoke volume.");
   module.def("write", &write, py::arg("path"), py::arg("grids"), py::arg("voxel_size"),
              py::arg("origin") = Vector{}, py::arg("half") = true, py::arg("tolerance") = 0.0F,
-             py::arg("metadata") = py::none(),
+             py::arg("metadata") = py::none(), py::arg("sight") = py::none(),
              "Write dense arrays (nx, ny, nz) as sparse fog volumes.");
 }
 

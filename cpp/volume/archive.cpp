@@ -1,50 +1,122 @@
 #include "volume/archive.hpp"
 
 #include "io/new_file.hpp"
-#include "volume/fog.hpp"
 #include "volume/leaf_writer.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_pipeline.h>
 #include <openvdb/io/Compression.h>
 #include <openvdb/io/GridDescriptor.h>
 #include <openvdb/io/io.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
-#include <memory>
-#include <numeric>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
 
 namespace firetwin::volume {
 namespace {
 
-using Leaf = openvdb::FloatTree::LeafNodeType;
-
 constexpr std::size_t leaves_per_piece = 32;
+constexpr std::size_t most_pieces = 256; // in memory at once; of 32 to 64 kB each
 
-/// A tree of leaves without values. Their numbers, in the order in which a file holds them, go
-/// into `order`.
-void plant(openvdb::FloatTree& tree, const SharedLeaves& leaves, std::vector<std::size_t>& order) {
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    auto leaf = std::make_unique<Leaf>(openvdb::PartialCreate(), leaves.origins[i]);
-    leaf->setValueMask(leaves.masks[i]);
-    leaf->setTransientData(static_cast<openvdb::Index32>(i));
-    tree.addLeaf(leaf.release()); // the tree owns it now
-  }
-  order.reserve(leaves.size());
-  for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
-    order.push_back(leaf->transientData());
-  }
-}
+/// What a file's header ends with. OpenVDB puts random digits there, with which the same grids
+/// would not make the same file.
+constexpr std::string_view no_tag = "00000000-0000-0000-0000-000000000000";
 
 } // namespace
+
+/// What a grid is written in: first everything but the values, then the values of some leaves.
+struct VdbArchive::Piece {
+  std::size_t grid = 0;
+  bool head = true;
+  std::size_t first = 0; ///< leaf, in the order of the file
+  std::size_t last = 0;
+  std::string bytes;
+};
+
+/// The pieces of all grids, in the order of the file.
+class VdbArchive::Pieces {
+public:
+  explicit Pieces(const std::vector<LeafGrid>& grids) : leaves_(grids.size()) {
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+      std::as_const(*grids[i].grid).tree().getNodes(leaves_[i]);
+    }
+  }
+
+  /// The next piece, without its bytes.
+  std::optional<Piece> next() {
+    if (next_.grid == leaves_.size()) {
+      return std::nullopt;
+    }
+    Piece piece = next_;
+    const std::size_t all = leaves_[piece.grid].size();
+    next_.head = piece.last == all;
+    next_.grid += next_.head ? 1 : 0;
+    next_.first = next_.head ? 0 : piece.last;
+    next_.last = next_.head ? 0 : std::min(next_.first + leaves_per_piece, all);
+    return piece;
+  }
+
+  bool is_last(const Piece& piece) const { return piece.last == leaves_[piece.grid].size(); }
+
+  /// Values of the leaves of a piece.
+  std::string values(const LeafGrid& from, const Piece& piece) const {
+    LeafWriter writer(from.grid->saveFloatAsHalf());
+    LeafValues values;
+    for (std::size_t i = piece.first; i < piece.last; ++i) {
+      const Leaf& leaf = *leaves_[piece.grid][i];
+      from.fill(leaf, values);
+      writer.write(leaf.getValueMask(), values);
+    }
+    return writer.take();
+  }
+
+private:
+  std::vector<std::vector<const Leaf*>> leaves_; ///< of each grid
+  Piece next_;
+};
+
+/// Puts pieces into a file one after the other, and tells at the head of each grid where its parts
+/// lie.
+class VdbArchive::File {
+public:
+  explicit File(std::ostream& file) : file_(file) {}
+
+  void write(const openvdb::GridBase& grid, const Piece& piece, bool is_last) {
+    if (piece.head) {
+      place_ = openvdb::io::GridDescriptor(grid.getName(), grid.type(), grid.saveFloatAsHalf());
+      place_.writeHeader(file_);
+      offsets_ = file_.tellp();
+      place_.writeStreamPos(file_); // to be written again
+      place_.setGridPos(file_.tellp());
+    }
+    file_.write(piece.bytes.data(), static_cast<std::streamsize>(piece.bytes.size()));
+    if (piece.head) {
+      place_.setBlockPos(file_.tellp());
+    }
+    if (is_last) {
+      place_.setEndPos(file_.tellp());
+      file_.seekp(offsets_);
+      place_.writeStreamPos(file_);
+      file_.seekp(place_.getEndPos());
+    }
+  }
+
+private:
+  std::ostream& file_;
+  openvdb::io::GridDescriptor place_;
+  std::streampos offsets_;
+};
 
 VdbArchive::VdbArchive() {
   setCompression(openvdb::io::COMPRESS_BLOSC | openvdb::io::COMPRESS_ACTIVE_MASK);
 }
 
-VdbArchive::Stored VdbArchive::begin(const openvdb::GridBase& grid,
-                                     std::ostringstream& stream) const {
+void VdbArchive::describe(const openvdb::GridBase& grid, std::ostream& stream) const {
   openvdb::io::setDataCompression(stream, compression());
   setGridCompression(stream, grid);
   const auto copy = openvdb::ConstPtrCast<openvdb::GridBase>(grid.copyGrid()); // with the same tree
@@ -55,79 +127,20 @@ VdbArchive::Stored VdbArchive::begin(const openvdb::GridBase& grid,
   copy->writeMeta(stream);
   copy->writeTransform(stream);
   copy->writeTopology(stream);
-  return {grid.getName(),
-          grid.type(),
-          grid.saveFloatAsHalf(),
-          static_cast<std::size_t>(stream.tellp()),
-          {}};
 }
 
-void VdbArchive::count(const openvdb::GridBase& grid) {
-  const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
-  const std::uint64_t voxels = grid.activeVoxelCount();
+void VdbArchive::add(LeafGrid grid) {
+  const std::uint64_t voxels = grid.grid->activeVoxelCount();
   frame_.voxels += voxels;
-  if (box.empty() || voxels <= frame_.active_voxels) {
-    return;
+  if (voxels > frame_.active_voxels) {
+    frame_.active_voxels = voxels;
+    const openvdb::CoordBBox box = grid.grid->evalActiveVoxelBoundingBox();
+    const openvdb::Vec3d half(0.5);
+    const openvdb::Vec3d low = grid.grid->indexToWorld(box.min().asVec3d() - half);
+    const openvdb::Vec3d high = grid.grid->indexToWorld(box.max().asVec3d() + half);
+    frame_.bounds = {low[0], low[1], low[2], high[0], high[1], high[2]};
   }
-  frame_.active_voxels = voxels;
-  const openvdb::Vec3d low = grid.indexToWorld(box.min().asVec3d() - openvdb::Vec3d(0.5));
-  const openvdb::Vec3d high = grid.indexToWorld(box.max().asVec3d() + openvdb::Vec3d(0.5));
-  frame_.bounds = {low[0], low[1], low[2], high[0], high[1], high[2]};
-}
-
-void VdbArchive::add(const std::vector<GridName>& grids, double voxel_size,
-                     const SharedLeaves& leaves, const FillLeaf& fill) {
-  const openvdb::FloatGrid::Ptr grid = fog_grid("", voxel_size, {0.0, 0.0, 0.0}, "");
-  grid->setSaveFloatAsHalf(true);
-  std::vector<std::size_t> order;
-  plant(grid->tree(), leaves, order);
-  const std::size_t chunks = (leaves.size() + leaves_per_piece - 1) / leaves_per_piece;
-  const std::size_t first = grids_.size();
-  for (const auto& [name, units] : grids) {
-    grid->setName(name);
-    grid->insertMeta("units", openvdb::StringMetadata(units));
-    std::ostringstream stream(std::ios_base::binary);
-    Stored stored = begin(*grid, stream);
-    stored.pieces.resize(1 + chunks);
-    stored.pieces[0] = std::move(stream).str();
-    grids_.push_back(std::move(stored));
-    count(*grid);
-  }
-  tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
-    std::vector<LeafValues> values(grids.size());
-    std::vector<LeafWriter> writers(grids.size());
-    std::vector<openvdb::Index> active;
-    const std::size_t last = std::min((chunk + 1) * leaves_per_piece, order.size());
-    for (std::size_t i = chunk * leaves_per_piece; i < last; ++i) {
-      const LeafMask& mask = leaves.masks[order[i]];
-      active.clear();
-      for (auto voxel = mask.beginOn(); voxel; ++voxel) {
-        active.push_back(voxel.pos());
-      }
-      fill(order[i], values);
-      for (std::size_t g = 0; g < grids.size(); ++g) {
-        writers[g].write(mask, active, values[g]);
-      }
-    }
-    for (std::size_t g = 0; g < grids.size(); ++g) {
-      grids_[first + g].pieces[1 + chunk] = writers[g].take();
-    }
-  });
-}
-
-void VdbArchive::add(const openvdb::GridPtrVec& grids) {
-  const std::size_t first = grids_.size();
-  grids_.resize(first + grids.size());
-  tbb::parallel_for(std::size_t{0}, grids.size(), [&](std::size_t i) {
-    std::ostringstream stream(std::ios_base::binary);
-    Stored stored = begin(*grids[i], stream);
-    grids[i]->writeBuffers(stream);
-    stored.pieces.push_back(std::move(stream).str());
-    grids_[first + i] = std::move(stored);
-  });
-  for (const openvdb::GridBase::Ptr& grid : grids) {
-    count(*grid);
-  }
+  grids_.push_back(std::move(grid));
 }
 
 Frame VdbArchive::write(const std::filesystem::path& path, const io::Metadata& metadata) const {
@@ -138,6 +151,8 @@ Frame VdbArchive::write(const std::filesystem::path& path, const io::Metadata& m
 
 void VdbArchive::write(std::ostream& file, const io::Metadata& metadata) const {
   writeHeader(file, true);
+  file.seekp(-static_cast<std::streamoff>(no_tag.size()), std::ios_base::cur);
+  file << no_tag;
   openvdb::MetaMap entries;
   for (const auto& [key, value] : metadata) {
     entries.insertMeta(key, openvdb::StringMetadata(value));
@@ -145,20 +160,44 @@ void VdbArchive::write(std::ostream& file, const io::Metadata& metadata) const {
   entries.writeMeta(file);
   const auto grids = static_cast<std::int32_t>(grids_.size());
   file.write(reinterpret_cast<const char*>(&grids), sizeof grids);
-  for (const Stored& grid : grids_) {
-    openvdb::io::GridDescriptor place(grid.name, grid.type, grid.half);
-    place.writeHeader(file);
-    const std::int64_t start = std::int64_t{file.tellp()} + 3 * std::int64_t{sizeof start};
-    const auto size = std::accumulate(
-        grid.pieces.begin(), grid.pieces.end(), std::size_t{0},
-        [](std::size_t sum, const std::string& piece) { return sum + piece.size(); });
-    place.setGridPos(start);
-    place.setBlockPos(start + static_cast<std::int64_t>(grid.topology_end));
-    place.setEndPos(start + static_cast<std::int64_t>(size));
-    place.writeStreamPos(file);
-    for (const std::string& piece : grid.pieces) {
-      file.write(piece.data(), static_cast<std::streamsize>(piece.size()));
+
+  Pieces pieces(grids_);
+  File parts(file);
+  int reason = 0; // every thread has an errno of its own
+  const auto take = [&](tbb::flow_control& control) {
+    std::optional<Piece> piece = pieces.next();
+    if (!piece) {
+      control.stop();
     }
+    return std::move(piece).value_or(Piece{});
+  };
+  const auto fill = [&](Piece piece) {
+    const LeafGrid& from = grids_[piece.grid];
+    if (piece.head) {
+      std::ostringstream stream(std::ios_base::binary);
+      describe(*from.grid, stream);
+      piece.bytes = std::move(stream).str();
+    } else {
+      piece.bytes = pieces.values(from, piece);
+    }
+    return piece;
+  };
+  const auto put = [&](const Piece& piece) {
+    try {
+      parts.write(*grids_[piece.grid].grid, piece, pieces.is_last(piece));
+    } catch (const std::ios_base::failure&) {
+      reason = errno;
+      throw;
+    }
+  };
+  try {
+    tbb::parallel_pipeline(
+        most_pieces, tbb::make_filter<void, Piece>(tbb::filter_mode::serial_in_order, take) &
+                         tbb::make_filter<Piece, Piece>(tbb::filter_mode::parallel, fill) &
+                         tbb::make_filter<Piece, void>(tbb::filter_mode::serial_in_order, put));
+  } catch (const std::ios_base::failure&) {
+    errno = reason;
+    throw;
   }
 }
 

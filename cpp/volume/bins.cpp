@@ -3,59 +3,39 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace firetwin::volume {
 namespace {
 
-struct Range {
-  std::array<std::int32_t, 3> low;
-  std::array<std::int32_t, 3> high;
-};
-
-Range leaves(const Puffs& puffs, std::size_t ball, float reach, double side) {
-  Range range;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double centre = static_cast<double>(puffs.position[3 * ball + axis]);
-    range.low[axis] = static_cast<int>(std::floor((centre - static_cast<double>(reach)) / side));
-    range.high[axis] = static_cast<int>(std::floor((centre + static_cast<double>(reach)) / side));
+/// Lists of numbers one after the other, filled in two rounds by `visit`, which hands pairs of a
+/// list and a number to what it is given, the same both times.
+template <class Visit>
+void make_lists(std::size_t count, const Visit& visit, std::vector<std::size_t>& starts,
+                std::vector<std::uint32_t>& numbers) {
+  starts.assign(count + 1, 0);
+  visit([&](std::size_t list, std::uint32_t) { ++starts[list + 1]; });
+  for (std::size_t i = 0; i < count; ++i) {
+    starts[i + 1] += starts[i];
   }
-  return range;
-}
-
-/// The leaves of a box that each ball reaches; none for a ball that does not matter.
-std::vector<Range> ranges_in(const LeafBox& box, const Puffs& puffs, std::span<const float> reach,
-                             double side) {
-  std::vector<Range> ranges(reach.size(), Range{{1, 1, 1}, {0, 0, 0}});
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, reach.size(), 4096), [&](const auto& part) {
-    for (std::size_t i = part.begin(); i < part.end(); ++i) {
-      if (!(reach[i] > 0.0F)) {
-        continue;
-      }
-      ranges[i] = leaves(puffs, i, reach[i], side);
-      for (std::size_t axis = 0; axis < 3; ++axis) { // balls may stick out of the box
-        const int first = box.low[static_cast<int>(axis)];
-        const int last = first + box.count[static_cast<int>(axis)] - 1;
-        ranges[i].low[axis] = std::max(ranges[i].low[axis], first);
-        ranges[i].high[axis] = std::min(ranges[i].high[axis], last);
-      }
-    }
-  });
-  return ranges;
+  numbers.resize(starts[count]);
+  std::vector<std::size_t> next(starts.begin(), starts.end() - 1);
+  visit([&](std::size_t list, std::uint32_t number) { numbers[next[list]++] = number; });
 }
 
 } // namespace
 
 LeafBox::LeafBox(const Puffs& puffs, std::span<const float> reach, double voxel_size)
     : low(0), count(0) {
-  const double side = voxel_size * static_cast<double>(leaf_side);
   openvdb::CoordBBox box;
   for (std::size_t i = 0; i < reach.size(); ++i) {
-    if (reach[i] > 0.0F) {
-      const Range range = leaves(puffs, i, reach[i], side);
-      box.expand(openvdb::Coord(range.low[0], range.low[1], range.low[2]));
-      box.expand(openvdb::Coord(range.high[0], range.high[1], range.high[2]));
+    for (int way = -1; way <= 1 && reach[i] > 0.0F; way += 2) {
+      openvdb::Coord end;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        end[static_cast<int>(axis)] = leaf_number(
+            static_cast<double>(puffs.position[3 * i + axis]) + way * static_cast<double>(reach[i]),
+            voxel_size);
+      }
+      box.expand(end);
     }
   }
   if (box.empty()) {
@@ -63,63 +43,64 @@ LeafBox::LeafBox(const Puffs& puffs, std::span<const float> reach, double voxel_
   }
   low = box.min();
   count = box.dim();
-  check_leaf_count(size(), voxel_size);
+  check_leaf_count(static_cast<double>(count.x()) * static_cast<double>(count.y()) *
+                       static_cast<double>(count.z()),
+                   voxel_size);
 }
 
-std::size_t LeafBox::size() const {
-  return static_cast<std::size_t>(count.x()) * static_cast<std::size_t>(count.y()) *
-         static_cast<std::size_t>(count.z());
+std::size_t LeafBox::leaves_in_plane() const {
+  return static_cast<std::size_t>(count.y()) * static_cast<std::size_t>(count.z());
 }
 
-openvdb::Coord LeafBox::origin(std::size_t leaf) const {
-  const auto number = static_cast<std::int64_t>(leaf);
-  const std::int64_t z = number % count.z();
-  const std::int64_t y = number / count.z() % count.y();
-  const std::int64_t x = number / count.z() / count.y();
-  return first_voxel(low.offsetBy(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z)));
+openvdb::Coord LeafBox::origin(std::size_t plane, std::size_t leaf) const {
+  const auto x = static_cast<int>(plane);
+  const auto number = static_cast<int>(leaf);
+  return first_voxel(low.offsetBy(x, number / count.z(), number % count.z()));
 }
 
-Bins::Bins(const LeafBox& box, const Puffs& puffs, std::span<const float> reach,
-           double voxel_size) {
-  const double side = voxel_size * static_cast<double>(leaf_side);
-  const std::size_t total = box.size();
-  const std::vector<Range> ranges = ranges_in(box, puffs, reach, side);
-  // Every task has the leaves of some planes to itself and looks through all the balls for them.
-  const auto visit = [&](auto&& act) {
-    const auto planes = static_cast<std::size_t>(box.count.x());
-    const std::size_t grain = std::max<std::size_t>(1, planes / 8);
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, planes, grain),
-        [&](const auto& slab) {
-          const int first = box.low.x() + static_cast<int>(slab.begin());
-          const int last = box.low.x() + static_cast<int>(slab.end()) - 1;
-          for (std::size_t i = 0; i < ranges.size(); ++i) {
-            const Range& range = ranges[i];
-            const int low = std::max(range.low[0], first);
-            const int high = std::min(range.high[0], last);
-            for (int x = low; x <= high; ++x) {
-              for (int y = range.low[1]; y <= range.high[1]; ++y) {
-                const auto row = static_cast<std::size_t>(
-                    (static_cast<std::int64_t>(x - box.low.x()) * box.count.y() + y - box.low.y()) *
-                    box.count.z());
-                for (int z = range.low[2]; z <= range.high[2]; ++z) {
-                  act(row + static_cast<std::size_t>(z - box.low.z()),
-                      static_cast<std::uint32_t>(i));
-                }
-              }
+Bins::Bins(const LeafBox& box, const Puffs& puffs, std::span<const float> reach, double voxel_size)
+    : box_(box), ranges_(reach.size(), Range{{1, 1, 1}, {0, 0, 0}}) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, reach.size(), 4096), [&](const auto& part) {
+    for (std::size_t i = part.begin(); i < part.end(); ++i) {
+      for (std::size_t axis = 0; axis < 3 && reach[i] > 0.0F; ++axis) {
+        const double centre = static_cast<double>(puffs.position[3 * i + axis]);
+        const auto far = static_cast<double>(reach[i]);
+        const int first = box.low[static_cast<int>(axis)];
+        const int last = first + box.count[static_cast<int>(axis)] - 1;
+        ranges_[i].low[axis] = std::max(leaf_number(centre - far, voxel_size), first) - first;
+        ranges_[i].high[axis] = std::min(leaf_number(centre + far, voxel_size), last) - first;
+      }
+    }
+  });
+  make_lists(
+      box.planes(),
+      [&](auto&& add) {
+        for (std::size_t i = 0; i < ranges_.size(); ++i) {
+          for (int x = ranges_[i].low[0]; x <= ranges_[i].high[0]; ++x) {
+            add(static_cast<std::size_t>(x), static_cast<std::uint32_t>(i));
+          }
+        }
+      },
+      starts_, crossing_);
+}
+
+Bins::Plane::Plane(const Bins& bins, std::size_t plane) {
+  const LeafBox& box = bins.box_;
+  const std::span<const std::uint32_t> crossing{bins.crossing_.data() + bins.starts_[plane],
+                                                bins.crossing_.data() + bins.starts_[plane + 1]};
+  make_lists(
+      box.leaves_in_plane(),
+      [&](auto&& add) {
+        for (const std::uint32_t ball : crossing) {
+          const Range& range = bins.ranges_[ball];
+          for (int y = range.low[1]; y <= range.high[1]; ++y) {
+            for (int z = range.low[2]; z <= range.high[2]; ++z) {
+              add(static_cast<std::size_t>(std::int64_t{y} * box.count.z() + z), ball);
             }
           }
-        },
-        tbb::simple_partitioner());
-  };
-  starts_.assign(total + 1, 0);
-  visit([&](std::size_t leaf, std::uint32_t) { ++starts_[leaf + 1]; });
-  for (std::size_t i = 0; i < total; ++i) {
-    starts_[i + 1] += starts_[i];
-  }
-  balls_.resize(starts_[total]);
-  std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
-  visit([&](std::size_t leaf, std::uint32_t ball) { balls_[next[leaf]++] = ball; });
+        }
+      },
+      starts_, balls_);
 }
 
 } // namespace firetwin::volume

@@ -2,6 +2,7 @@
 
 #include "base/vector.hpp"
 #include "io/metadata.hpp"
+#include "lod/sight.hpp"
 #include "volume/frame.hpp"
 
 #include <array>
@@ -19,12 +20,21 @@ struct DenseField {
   std::array<std::int32_t, 3> shape;
 };
 
-/// Writes dense arrays as sparse fog volumes: voxels within `tolerance` of 0 are left out. The
-/// frame's mass is the sum of `density` (kg/m3) over voxels times their volume, where there is such
-/// a grid.
+struct DenseSettings {
+  double voxel_size = 1.0; ///< m
+  Vector origin{};         ///< centre of voxel (0, 0, 0), m
+  bool half = true;        ///< precision
+  float tolerance = 0.0F;  ///< values this near 0 are left out
+  lod::Sight sight;        ///< leaves that do not count are left out, see Seen
+};
+
+/// Writes dense arrays as sparse fog volumes, each with its own active voxels: those beyond the
+/// tolerance. Leaves of one value become tiles. The frame's mass is the sum of `density` (kg/m3)
+/// over voxels times their volume, where there is such a grid, and `hidden` that of what is left
+/// out because it is not seen.
 /// @throws std::invalid_argument for values that are not finite or too large for half precision
 Frame write_dense(const std::filesystem::path& path,
-                  const std::map<std::string, DenseField>& fields, double voxel_size,
-                  const Vector& origin, bool half, float tolerance, const io::Metadata& metadata);
+                  const std::map<std::string, DenseField>& fields, const DenseSettings& settings,
+                  const io::Metadata& metadata);
 
 } // namespace firetwin::volume

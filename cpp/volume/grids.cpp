@@ -1,19 +1,19 @@
 #include "volume/grids.hpp"
 
+#include "volume/archive.hpp"
 #include "volume/fog.hpp"
+#include "volume/seen.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <memory>
 #include <numeric>
 #include <stdexcept>
 
 namespace firetwin::volume {
 namespace {
-
-constexpr double seen_margin = 300.0; // m round a leaf: noise, and light that smoke passes on
 
 struct NamedGrid {
   SmokeGrid grid;
@@ -36,14 +36,6 @@ bool is_wanted(const Wanted& wanted, SmokeGrid grid) {
   }
   return wanted.grids.empty() ||
          std::find(wanted.grids.begin(), wanted.grids.end(), grid) != wanted.grids.end();
-}
-
-bool counts(const openvdb::Coord& origin, double voxel_size, const lod::Sight& sight) {
-  const double middle = 0.5 * static_cast<double>(leaf_side - 1);
-  const double half = 0.5 * static_cast<double>(leaf_side) * voxel_size;
-  return sight.counts({(origin.x() + middle) * voxel_size, (origin.y() + middle) * voxel_size,
-                       (origin.z() + middle) * voxel_size},
-                      std::sqrt(3.0) * half + seen_margin);
 }
 
 /// Power of the flames within 1.5 voxels in GW, at most 1.
@@ -69,33 +61,76 @@ openvdb::FloatGrid::Ptr flame_grid(const Flames& flames, double voxel_size) {
   return grid;
 }
 
-/// The leaves that count.
-struct Chosen {
-  SharedLeaves leaves;
-  std::vector<std::size_t> number; ///< of each among all the source's
-  double hidden = 0.0;             ///< kg in the others
-};
+/// The grid with its own leaves.
+LeafGrid whole(const openvdb::FloatGrid::Ptr& grid) {
+  return {grid, [](const Leaf& leaf, LeafValues& values) {
+            std::copy_n(leaf.buffer().data(), leaf_voxels, values.begin());
+          }};
+}
 
-Chosen choose(const LeafSource& source, double voxel_size, const lod::Sight& sight) {
-  const SharedLeaves& all = source.leaves;
-  std::vector<char> seen(all.size());
-  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-    seen[i] = counts(all.origins[i], voxel_size, sight) ? 1 : 0;
-  });
-  Chosen chosen;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (seen[i] != 0) {
-      chosen.leaves.origins.push_back(all.origins[i]);
-      chosen.leaves.masks.push_back(all.masks[i]);
-      chosen.number.push_back(i);
-    } else {
-      LeafValues dilution;
-      source.values(i, SmokeGrid::dilution, dilution);
-      chosen.hidden += mass_of(all.masks[i], dilution, voxel_size) * fresh_smoke;
+/// Those leaves of a source that count, and what is known of them.
+class Chosen {
+public:
+  Chosen(const LeafSource& source, double voxel_size, const lod::Sight& sight)
+      : source_(source), voxel_size_(voxel_size), tree_(std::make_shared<openvdb::FloatTree>()),
+        mass_(source.leaves.size()) {
+    const SharedLeaves& all = source.leaves;
+    const Seen seen(sight, voxel_size, {0.0, 0.0, 0.0});
+    std::vector<char> counts(all.size());
+    std::vector<double> hidden(all.size());
+    tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+      counts[i] = seen.counts(all.origins[i], static_cast<int>(leaf_side)) ? 1 : 0;
+      if (counts[i] == 0) {
+        LeafValues dilution;
+        source.values(i, SmokeGrid::dilution, dilution);
+        hidden[i] = mass_of(all.masks[i], dilution, voxel_size) * fresh_smoke;
+      }
+    });
+    hidden_ = std::accumulate(hidden.begin(), hidden.end(), 0.0);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (counts[i] != 0) {
+        auto leaf = std::make_unique<Leaf>(openvdb::PartialCreate(), all.origins[i]);
+        leaf->setValueMask(all.masks[i]);
+        leaf->setTransientData(static_cast<openvdb::Index32>(i));
+        tree_->addLeaf(leaf.release()); // the tree owns it now
+      }
     }
   }
-  return chosen;
-}
+
+  LeafGrid grid(const NamedGrid& named, const Flames& flames) {
+    const bool is_density = named.grid == SmokeGrid::density;
+    const openvdb::FloatGrid::Ptr grid =
+        fog_grid(named.name, voxel_size_, {0.0, 0.0, 0.0},
+                 is_density ? source_.density_units : std::string(named.units));
+    grid->setSaveFloatAsHalf(true);
+    grid->setTree(tree_);
+    if (named.grid == SmokeGrid::glow) {
+      return {grid, [this, &flames](const Leaf& leaf, LeafValues& values) {
+                const auto voxel = static_cast<float>(voxel_size_);
+                interpolate(glow_at_nodes(corner_of(leaf.origin(), voxel), voxel, flames), values);
+              }};
+    }
+    return {grid, [this, wanted = named.grid](const Leaf& leaf, LeafValues& values) {
+              const std::size_t i = leaf.transientData();
+              source_.values(i, wanted, values);
+              if (wanted == SmokeGrid::dilution) {
+                mass_[i] = mass_of(leaf.getValueMask(), values, voxel_size_) * fresh_smoke;
+              }
+            }};
+  }
+
+  /// kg of the dilution that was asked for.
+  double mass() const { return std::accumulate(mass_.begin(), mass_.end(), 0.0); }
+  /// kg in the leaves that do not count.
+  double hidden() const { return hidden_; }
+
+private:
+  const LeafSource& source_;
+  double voxel_size_;
+  openvdb::FloatTree::Ptr tree_;
+  std::vector<double> mass_;
+  double hidden_ = 0.0;
+};
 
 } // namespace
 
@@ -112,39 +147,17 @@ SmokeGrid smoke_grid(const std::string& name) {
 
 Frame write_leaves(const std::filesystem::path& path, const LeafSource& source, double voxel_size,
                    const Wanted& wanted) {
-  const Chosen chosen = choose(source, voxel_size, wanted.sight);
-  const SharedLeaves& leaves = chosen.leaves;
-  std::vector<SmokeGrid> grids;
-  std::vector<GridName> names;
-  for (const NamedGrid& grid : all_grids) {
-    if (grid.grid != SmokeGrid::flame && is_wanted(wanted, grid.grid)) {
-      grids.push_back(grid.grid);
-      names.push_back({grid.name, grid.grid == SmokeGrid::density ? source.density_units
-                                                                  : std::string(grid.units)});
-    }
-  }
-  std::vector<double> mass(leaves.size()); // kg
+  Chosen chosen(source, voxel_size, wanted.sight);
   VdbArchive archive;
-  archive.add(names, voxel_size, leaves, [&](std::size_t i, std::span<LeafValues> out) {
-    for (std::size_t g = 0; g < grids.size(); ++g) {
-      if (grids[g] == SmokeGrid::glow) {
-        const auto voxel = static_cast<float>(voxel_size);
-        interpolate(glow_at_nodes(corner_of(leaves.origins[i], voxel), voxel, wanted.flames),
-                    out[g]);
-        continue;
-      }
-      source.values(chosen.number[i], grids[g], out[g]);
-      if (grids[g] == SmokeGrid::dilution) {
-        mass[i] = mass_of(leaves.masks[i], out[g], voxel_size) * fresh_smoke;
-      }
+  for (const NamedGrid& named : all_grids) {
+    if (is_wanted(wanted, named.grid)) {
+      archive.add(named.grid == SmokeGrid::flame ? whole(flame_grid(wanted.flames, voxel_size))
+                                                 : chosen.grid(named, wanted.flames));
     }
-  });
-  if (is_wanted(wanted, SmokeGrid::flame)) {
-    archive.add({flame_grid(wanted.flames, voxel_size)});
   }
   Frame frame = archive.write(path, wanted.metadata);
-  frame.mass = std::accumulate(mass.begin(), mass.end(), 0.0);
-  frame.hidden = chosen.hidden;
+  frame.mass = chosen.mass();
+  frame.hidden = chosen.hidden();
   return frame;
 }
 

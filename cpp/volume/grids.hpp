@@ -2,7 +2,8 @@
 
 #include "io/metadata.hpp"
 #include "lod/sight.hpp"
-#include "volume/archive.hpp"
+#include "volume/frame.hpp"
+#include "volume/leaf.hpp"
 #include "volume/smooth.hpp"
 
 #include <filesystem>
@@ -40,6 +41,14 @@ struct Wanted {
   Flames flames;
   lod::Sight sight;
   io::Metadata metadata;
+};
+
+/// Leaves that several grids have in common: where they begin and which voxels are active.
+struct SharedLeaves {
+  std::vector<openvdb::Coord> origins;
+  std::vector<LeafMask> masks;
+
+  std::size_t size() const { return origins.size(); }
 };
 
 /// Smoke leaf by leaf.

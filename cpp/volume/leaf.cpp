@@ -2,12 +2,20 @@
 
 #include "base/error.hpp"
 
-#include <string>
+#include <cmath>
+#include <sstream>
 
 namespace firetwin::volume {
 namespace {
 
-constexpr std::uint64_t most_leaves = 100'000'000;
+constexpr double most_leaves = 1.0e8;
+constexpr double farthest_leaf = 1 << 27; // its voxels, eight times as many, are 32-bit integers
+
+[[noreturn]] void too_small(double voxel_size) {
+  std::ostringstream text;
+  text << "voxels of " << voxel_size << " m are too small for smoke this wide; use larger ones";
+  throw Error(text.str());
+}
 
 } // namespace
 
@@ -29,10 +37,17 @@ double mass_of(const LeafMask& mask, const LeafValues& values, double voxel_size
   return sum * voxel_size * voxel_size * voxel_size;
 }
 
-void check_leaf_count(std::uint64_t count, double voxel_size) {
+int leaf_number(double place, double voxel_size) {
+  const double number = std::floor(place / (voxel_size * static_cast<double>(leaf_side)));
+  if (!(std::abs(number) < farthest_leaf)) {
+    too_small(voxel_size);
+  }
+  return static_cast<int>(number);
+}
+
+void check_leaf_count(double count, double voxel_size) {
   if (count > most_leaves) {
-    throw Error("voxels of " + std::to_string(voxel_size) +
-                " m are too small for smoke this wide; use larger ones");
+    too_small(voxel_size);
   }
 }
 

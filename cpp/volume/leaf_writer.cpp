@@ -5,7 +5,9 @@
 #include <openvdb/io/Compression.h>
 #include <openvdb/io/io.h>
 
+#include <bit>
 #include <cstring>
+#include <string_view>
 
 namespace firetwin::volume {
 namespace {
@@ -36,29 +38,47 @@ void to_half(const LeafValues& values, HalfValues& halves) {
   }
 }
 
-} // namespace
-
-void LeafWriter::write(const LeafMask& mask, std::span<const openvdb::Index> active,
-                       const LeafValues& values) {
-  to_half(values, halves_);
-  if (active.size() < leaf_voxels) {
-    for (std::size_t i = 0; i < active.size(); ++i) {
-      halves_[i] = halves_[active[i]];
+/// Moves the active values to the front. @return how many there are
+template <class T> std::size_t gather(const LeafMask& mask, std::array<T, leaf_voxels>& values) {
+  if (mask.isOn()) {
+    return leaf_voxels;
+  }
+  std::size_t count = 0;
+  for (openvdb::Index word = 0; word < LeafMask::WORD_COUNT; ++word) {
+    for (auto bits = mask.getWord<std::uint64_t>(word); bits != 0; bits &= bits - 1) {
+      values[count++] = values[word * 64 + static_cast<std::size_t>(std::countr_zero(bits))];
     }
   }
+  return count;
+}
+
+} // namespace
+
+void LeafWriter::write(const LeafMask& mask, const LeafValues& values) {
+  if (half_) {
+    to_half(values, halves_);
+    const std::size_t count = gather(mask, halves_);
+    put(mask, reinterpret_cast<const char*>(halves_.data()), sizeof halves_[0], count);
+  } else {
+    values_ = values;
+    const std::size_t count = gather(mask, values_);
+    put(mask, reinterpret_cast<const char*>(values_.data()), sizeof values_[0], count);
+  }
+}
+
+void LeafWriter::put(const LeafMask& mask, const char* values, std::size_t value_size,
+                     std::size_t count) {
   mask.save(stream_);
   stream_.put(openvdb::io::NO_MASK_OR_INACTIVE_VALS);
-  const std::size_t bytes = active.size() * sizeof(std::uint16_t);
-  if (active.size() == known_count_ && std::memcmp(halves_.data(), known_.data(), bytes) == 0) {
+  const std::string_view bytes(values, count * value_size);
+  if (bytes == known_) {
     stream_ << known_bytes_; // deep smoke and its shade are the same for leaves on end
     return;
   }
   const auto before = static_cast<std::size_t>(stream_.tellp());
-  openvdb::io::bloscToStream(stream_, reinterpret_cast<const char*>(halves_.data()),
-                             sizeof(std::uint16_t), active.size());
+  openvdb::io::bloscToStream(stream_, values, value_size, count);
   known_bytes_ = stream_.view().substr(before);
-  known_ = halves_;
-  known_count_ = active.size();
+  known_ = bytes;
 }
 
 } // namespace firetwin::volume

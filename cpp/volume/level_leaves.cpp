@@ -3,102 +3,184 @@
 #include "volume/grids.hpp"
 #include "volume/leaf.hpp"
 
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_sort.h>
+
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 namespace firetwin::volume {
 namespace {
 
-/// Where the nodes of the levels lie in the local frame.
-class LevelNodes {
+constexpr std::size_t rows_in_band = 16;
+
+/// Leaves, each once, counted in leaves.
+class LeafSet {
 public:
-  LevelNodes(const geo::LocalFrame& frame, const Levels& levels)
-      : rows_(levels.latitude.size()), columns_(levels.longitude.size()),
-        places_(levels.levels + 1, std::vector<double>(3 * rows_ * columns_)) {
-    const std::size_t plane = rows_ * columns_;
-    for (std::size_t level = 0; level < places_.size(); ++level) {
-      const std::span<const float> from =
-          level == 0 ? levels.ground : levels.height.subspan((level - 1) * plane, plane);
-      const std::vector<double> height(from.begin(), from.end());
-      frame.forward_grid(levels.latitude, levels.longitude, height, places_[level]);
+  explicit LeafSet(double voxel_size) : voxel_size_(voxel_size) {}
+
+  void add(const openvdb::CoordBBox& box) {
+    if (last_.isInside(box)) {
+      return; // cells smaller than leaves
+    }
+    const openvdb::Vec3d size = box.extents().asVec3d();
+    const double added = size[0] * size[1] * size[2];
+    check_leaf_count(added, voxel_size_);
+    leaves_.fill(box, true);
+    last_ = box;
+    unchecked_ += added;
+    if (unchecked_ > 1.0e7) {
+      check();
+      unchecked_ = 0.0;
     }
   }
 
-  /// The box round a cell of a level: its neighbours, and those below and above. Below the lowest
-  /// is the ground, to which its smoke reaches.
-  openvdb::BBoxd round(std::size_t level, std::size_t row, std::size_t column) const {
-    openvdb::BBoxd box;
-    for (std::size_t k = level; k <= std::min(level + 2, places_.size() - 1); ++k) {
-      for (std::size_t y = row > 0 ? row - 1 : 0; y <= std::min(row + 1, rows_ - 1); ++y) {
-        for (std::size_t x = column > 0 ? column - 1 : 0; x <= std::min(column + 1, columns_ - 1);
-             ++x) {
-          const double* at = &places_[k][3 * (y * columns_ + x)];
-          box.expand(openvdb::Vec3d(at[0], at[1], at[2]));
-        }
+  void take(LeafSet& other) {
+    leaves_.topologyUnion(other.leaves_);
+    other.leaves_.clear();
+    check();
+  }
+
+  std::vector<openvdb::Coord> first_voxels() const {
+    std::vector<openvdb::Coord> result;
+    result.reserve(leaves_.activeVoxelCount());
+    for (auto part = leaves_.cbeginValueOn(); part; ++part) { // leaves of the set, or many at once
+      const openvdb::CoordBBox box = part.getBoundingBox();
+      for (auto leaf = box.begin(); leaf; ++leaf) {
+        result.push_back(first_voxel(*leaf));
       }
     }
-    return box;
+    tbb::parallel_sort(result.begin(), result.end());
+    return result;
   }
 
 private:
-  std::size_t rows_;
-  std::size_t columns_;
-  std::vector<std::vector<double>> places_; ///< of the ground, then of each level
+  void check() const {
+    check_leaf_count(static_cast<double>(leaves_.activeVoxelCount()), voxel_size_);
+  }
+
+  double voxel_size_;
+  openvdb::MaskTree leaves_;
+  openvdb::CoordBBox last_; ///< the one added last
+  double unchecked_ = 0.0;  ///< added since the last check, some of it there already
 };
 
-/// Boxes of leaves round all cells with smoke, counted in leaves.
-std::vector<openvdb::CoordBBox> boxes(const geo::LocalFrame& frame, const Levels& levels,
-                                      std::span<const float> smoke, double voxel_size) {
-  const LevelNodes nodes(frame, levels);
-  const std::size_t nx = levels.longitude.size();
-  const std::size_t plane = levels.latitude.size() * nx;
-  const auto thin = static_cast<float>(thinnest_dilution * fresh_smoke);
-  const double side = voxel_size * static_cast<double>(leaf_side);
-  const openvdb::Vec3d margin(1.0); // curvature and rounding
-  std::vector<openvdb::CoordBBox> result;
-  for (std::size_t i = 0; i < smoke.size(); ++i) {
-    if (smoke[i] > thin) {
-      const openvdb::BBoxd box = nodes.round(i / plane, i % plane / nx, i % nx);
-      result.emplace_back(openvdb::Coord::floor((box.min() - margin) / side),
-                          openvdb::Coord::floor((box.max() + margin) / side));
+/// Some rows of cells between two levels that follow each other, or between the ground, to which
+/// smoke of the lowest level reaches, and that level.
+class Band {
+public:
+  /// @param layer 0 over the ground, n over level n - 1
+  Band(const geo::LocalFrame& frame, const Levels& levels, std::size_t layer, std::size_t first,
+       std::size_t last)
+      : frame_(frame), levels_(levels), columns_(levels.longitude.size()), layer_(layer),
+        first_(first), rows_(last - first + 1) {}
+
+  /// Adds the leaves round all its cells with smoke at a corner.
+  void reach(double voxel_size, LeafSet& leaves) const {
+    if (!has_smoke()) {
+      return;
+    }
+    const std::vector<double> low = nodes(layer_);
+    const std::vector<double> high = nodes(layer_ + 1);
+    for (std::size_t y = 0; y + 1 < rows_; ++y) {
+      for (std::size_t x = 0; x + 1 < columns_; ++x) {
+        if (is_smoke(y, x)) {
+          openvdb::BBoxd box;
+          for (const std::size_t i : corners(y, x)) {
+            box.expand(openvdb::Vec3d(&low[3 * i]));
+            box.expand(openvdb::Vec3d(&high[3 * i]));
+          }
+          leaves.add(leaves_round(box, voxel_size));
+        }
+      }
     }
   }
-  return result;
-}
+
+private:
+  std::array<std::size_t, 4> corners(std::size_t y, std::size_t x) const {
+    const std::size_t i = y * columns_ + x;
+    return {i, i + 1, i + columns_, i + columns_ + 1};
+  }
+
+  /// A field's values at the upper or lower nodes of the band.
+  std::span<const float> rows(std::span<const float> field, std::size_t level) const {
+    const std::size_t plane = levels_.latitude.size() * columns_;
+    return field.subspan(level * plane + first_ * columns_, rows_ * columns_);
+  }
+
+  static bool is_thick(float smoke) {
+    return known_smoke(smoke) > static_cast<float>(thinnest_dilution * fresh_smoke);
+  }
+
+  bool has_smoke() const {
+    const auto any = [&](std::size_t level) {
+      const std::span<const float> smoke = rows(levels_.smoke, level);
+      return std::any_of(smoke.begin(), smoke.end(), is_thick);
+    };
+    return (layer_ < levels_.levels && any(layer_)) || (layer_ > 0 && any(layer_ - 1));
+  }
+
+  bool is_smoke(std::size_t y, std::size_t x) const {
+    const std::array<std::size_t, 4> at = corners(y, x);
+    const auto any = [&](std::size_t level) {
+      const std::span<const float> smoke = rows(levels_.smoke, level);
+      return std::any_of(at.begin(), at.end(), [&](std::size_t i) { return is_thick(smoke[i]); });
+    };
+    return any(layer_) || (layer_ > 0 && any(layer_ - 1));
+  }
+
+  /// Where the band's nodes lie in the local frame: of the ground, or of level `number` - 1.
+  std::vector<double> nodes(std::size_t number) const {
+    const std::span<const float> lowest = rows(levels_.height, 0);
+    const std::span<const float> from =
+        number == 0 ? rows(levels_.ground, 0) : rows(levels_.height, number - 1);
+    std::vector<double> height(from.begin(), from.end());
+    for (std::size_t i = 0; number == 0 && i < height.size(); ++i) {
+      height[i] = std::isfinite(height[i]) ? height[i] : static_cast<double>(lowest[i]);
+    }
+    std::vector<double> places(3 * height.size());
+    frame_.forward_grid(levels_.latitude.subspan(first_, rows_), levels_.longitude, height, places);
+    return places;
+  }
+
+  static openvdb::CoordBBox leaves_round(const openvdb::BBoxd& box, double voxel_size) {
+    // A cell's sides are curved: parallels at 85 degrees by d^2 / (8 * 560 km), meridians less.
+    const double bulge = 1.0 + box.extents().lengthSqr() / 4.0e6; // m
+    openvdb::CoordBBox leaves;
+    for (int axis = 0; axis < 3; ++axis) {
+      leaves.min()[axis] = leaf_number(box.min()[axis] - bulge, voxel_size);
+      leaves.max()[axis] = leaf_number(box.max()[axis] + bulge, voxel_size);
+    }
+    return leaves;
+  }
+
+  const geo::LocalFrame& frame_;
+  const Levels& levels_;
+  std::size_t columns_;
+  std::size_t layer_;
+  std::size_t first_; ///< row
+  std::size_t rows_;
+};
 
 } // namespace
 
 std::vector<openvdb::Coord> reached_leaves(const geo::LocalFrame& frame, const Levels& levels,
-                                           std::span<const float> smoke, double voxel_size) {
-  openvdb::CoordBBox all;
-  const std::vector<openvdb::CoordBBox> parts = boxes(frame, levels, smoke, voxel_size);
-  for (const openvdb::CoordBBox& part : parts) {
-    all.expand(part);
+                                           double voxel_size) {
+  const std::size_t cells = levels.latitude.size() - 1; // rows of them
+  const std::size_t bands = (cells + rows_in_band - 1) / rows_in_band;
+  tbb::enumerable_thread_specific<LeafSet> sets{LeafSet(voxel_size)};
+  tbb::parallel_for(std::size_t{0}, levels.levels * bands, [&](std::size_t i) {
+    const std::size_t first = i % bands * rows_in_band;
+    const Band band(frame, levels, i / bands, first, std::min(first + rows_in_band, cells));
+    band.reach(voxel_size, sets.local());
+  });
+  LeafSet all(voxel_size);
+  for (LeafSet& set : sets) {
+    all.take(set);
   }
-  if (parts.empty()) {
-    return {};
-  }
-  check_leaf_count(all.volume(), voxel_size);
-  const openvdb::Coord count = all.dim();
-  const auto number = [&](const openvdb::Coord& leaf) {
-    const openvdb::Coord place = leaf - all.min();
-    return (static_cast<std::size_t>(place.x()) * static_cast<std::size_t>(count.y()) +
-            static_cast<std::size_t>(place.y())) *
-               static_cast<std::size_t>(count.z()) +
-           static_cast<std::size_t>(place.z());
-  };
-  std::vector<char> hit(all.volume());
-  for (const openvdb::CoordBBox& part : parts) {
-    for (auto leaf = part.begin(); leaf; ++leaf) {
-      hit[number(*leaf)] = 1;
-    }
-  }
-  std::vector<openvdb::Coord> result;
-  for (auto leaf = all.begin(); leaf; ++leaf) {
-    if (hit[number(*leaf)] != 0) {
-      result.push_back(first_voxel(*leaf));
-    }
-  }
-  return result;
+  return all.first_voxels();
 }
 
 } // namespace firetwin::volume

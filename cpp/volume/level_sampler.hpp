@@ -10,66 +10,116 @@
 
 namespace firetwin::volume {
 
+/// Follows places along an axis, strictly ascending or descending: looks for each beside the one
+/// before.
+class AxisFollower {
+public:
+  explicit AxisFollower(std::span<const double> axis)
+      : axis_(axis), ascending_(axis.front() < axis.back()) {}
+
+  /// Moves to a place; false where the axis does not reach.
+  bool move(double value) {
+    if (before(value, axis_.front()) || before(axis_.back(), value)) {
+      return false;
+    }
+    if (!placed_) {
+      interval_ = geo::bracket(axis_, value).lower;
+      placed_ = true;
+    }
+    while (interval_ > 0 && before(value, axis_[interval_])) {
+      --interval_;
+    }
+    while (interval_ + 2 < axis_.size() && !before(value, axis_[interval_ + 1])) {
+      ++interval_;
+    }
+    fraction_ = (value - axis_[interval_]) / (axis_[interval_ + 1] - axis_[interval_]);
+    return true;
+  }
+
+  std::size_t interval() const { return interval_; }
+  double fraction() const { return fraction_; } ///< of the way through the interval
+
+private:
+  bool before(double a, double b) const { return ascending_ ? a < b : a > b; }
+
+  std::span<const double> axis_;
+  bool ascending_;
+  bool placed_ = false;
+  std::size_t interval_ = 0;
+  double fraction_ = 0.0;
+};
+
 /// Reads fields at any place. Keeps where it found the last one, for neighbours lie near.
 class LevelSampler {
 public:
   using Place = std::array<double, 3>; ///< latitude, longitude, height
 
   explicit LevelSampler(const Levels& levels)
-      : levels_(levels), columns_(levels.longitude.size()),
-        plane_(levels.latitude.size() * levels.longitude.size()) {}
+      : levels_(levels), row_(levels.latitude), column_(levels.longitude),
+        columns_(levels.longitude.size()), plane_(levels.latitude.size() * columns_) {}
 
   /// Moves to a place; false where there is no smoke to be found.
   bool move(const Place& place) {
-    if (!inside(levels_.latitude, place[0]) || !inside(levels_.longitude, place[1])) {
+    if (!row_.move(place[0]) || !column_.move(place[1])) {
       return false;
     }
-    const geo::Bracket row = geo::bracket(levels_.latitude, place[0]);
-    const geo::Bracket column = geo::bracket(levels_.longitude, place[1]);
-    cells_ = {row.lower * columns_ + column.lower, row.lower * columns_ + column.upper,
-              row.upper * columns_ + column.lower, row.upper * columns_ + column.upper};
-    weights_ = {(1.0 - row.fraction) * (1.0 - column.fraction),
-                (1.0 - row.fraction) * column.fraction, row.fraction * (1.0 - column.fraction),
-                row.fraction * column.fraction};
+    const std::size_t cell = row_.interval() * columns_ + column_.interval();
+    cells_ = {cell, cell + 1, cell + columns_, cell + columns_ + 1};
+    const double north = row_.fraction();
+    const double east = column_.fraction();
+    weights_ = {(1.0 - north) * (1.0 - east), (1.0 - north) * east, north * (1.0 - east),
+                north * east};
     return find_level(place[2]);
   }
 
-  double value(std::span<const float> field) const {
-    const double low = level_value(field, level_);
-    return low + part_ * (level_value(field, level_ + 1) - low);
+  /// Smoke where the sampler is, kg/m3.
+  double smoke() const {
+    return between([&](std::size_t i) { return known_smoke(levels_.smoke[i]); });
+  }
+  double temperature() const { ///< K
+    return between([&](std::size_t i) { return levels_.temperature[i]; });
   }
 
 private:
-  static bool inside(std::span<const double> axis, double value) {
-    return value >= std::min(axis.front(), axis.back()) &&
-           value <= std::max(axis.front(), axis.back());
+  /// Linear between the levels below and above.
+  template <class Field> double between(const Field& field) const {
+    const double low = on_level(field, level_);
+    return low + part_ * (on_level(field, level_ + 1) - low);
   }
 
-  double level_value(std::span<const float> field, std::size_t level) const {
+  template <class Field> double on_level(const Field& field, std::size_t level) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < 4; ++i) {
-      sum += weights_[i] * static_cast<double>(field[level * plane_ + cells_[i]]);
+      sum += weights_[i] * static_cast<double>(field(level * plane_ + cells_[i]));
     }
     return sum;
   }
 
-  bool find_level(double height) {
-    while (level_ > 0 && height < level_value(levels_.height, level_)) {
-      --level_;
+  double height(std::size_t level) const {
+    return on_level([&](std::size_t i) { return levels_.height[i]; }, level);
+  }
+
+  bool find_level(double place) {
+    double low = height(level_);
+    double high = height(level_ + 1);
+    while (level_ > 0 && place < low) {
+      high = low;
+      low = height(--level_);
     }
-    while (level_ + 2 < levels_.levels && height >= level_value(levels_.height, level_ + 1)) {
-      ++level_;
+    while (level_ + 2 < levels_.levels && place >= high) {
+      low = high;
+      high = height(++level_ + 1);
     }
-    const double low = level_value(levels_.height, level_);
-    const double high = level_value(levels_.height, level_ + 1);
-    if (height > high || height < level_value(levels_.ground, 0)) {
+    if (place > high || place < on_level([&](std::size_t i) { return levels_.ground[i]; }, 0)) {
       return false;
     }
-    part_ = height < low ? 0.0 : (height - low) / (high - low);
+    part_ = place < low ? 0.0 : (place - low) / (high - low);
     return true;
   }
 
   const Levels& levels_;
+  AxisFollower row_;
+  AxisFollower column_;
   std::size_t columns_;
   std::size_t plane_;
   std::array<std::size_t, 4> cells_{};

@@ -3,11 +3,11 @@
 #include "base/check.hpp"
 #include "base/error.hpp"
 #include "base/smoothstep.hpp"
-#include "volume/archive.hpp"
 #include "volume/level_leaves.hpp"
 #include "volume/level_sampler.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double thick_dilution = 0.1;
 
-struct Leaf {
+struct SmokeLeaf {
   openvdb::Coord origin;
   LeafMask mask;
   LeafValues concentration{};
@@ -29,22 +29,25 @@ struct Leaf {
 
 void check_heights(const Levels& levels) {
   const std::size_t plane = levels.latitude.size() * levels.longitude.size();
-  for (std::size_t i = 0; i < levels.height.size(); ++i) {
+  const auto is_wrong = [&](std::size_t i) {
     const float height = levels.height[i];
-    if (!std::isfinite(height) || (i >= plane && height <= levels.height[i - plane])) {
-      throw Error("height_3d: the heights of the levels must be numbers and ascend; level " +
-                  std::to_string(i / plane) + " of cell " + std::to_string(i % plane) + " is at " +
-                  std::to_string(height) + " m");
-    }
+    return !std::isfinite(height) || (i >= plane && height <= levels.height[i - plane]);
+  };
+  using Range = tbb::blocked_range<std::size_t>;
+  const std::size_t wrong = tbb::parallel_reduce(
+      Range(0, levels.height.size(), 1 << 16), levels.height.size(),
+      [&](const Range& range, std::size_t found) {
+        for (std::size_t i = range.begin(); i < std::min(range.end(), found); ++i) {
+          found = is_wrong(i) ? i : found;
+        }
+        return found;
+      },
+      [](std::size_t a, std::size_t b) { return std::min(a, b); });
+  if (wrong < levels.height.size()) {
+    throw Error("height_3d: the heights of the levels must be numbers and ascend; level " +
+                std::to_string(wrong / plane) + " of cell " + std::to_string(wrong % plane) +
+                " is at " + std::to_string(levels.height[wrong]) + " m");
   }
-}
-
-/// Smoke without gaps: what is no number or negative becomes 0.
-std::vector<float> clean(std::span<const float> smoke) {
-  std::vector<float> result(smoke.size());
-  std::transform(smoke.begin(), smoke.end(), result.begin(),
-                 [](float v) { return v > 0.0F && std::isfinite(v) ? v : 0.0F; });
-  return result;
 }
 
 /// Geodetic place of every voxel of a leaf from those of its corners.
@@ -69,55 +72,59 @@ public:
     }
   }
 
-  LevelSampler::Place at(std::size_t x, std::size_t y, std::size_t z) const {
-    const std::array<double, 3> part{static_cast<double>(x) / 7.0, static_cast<double>(y) / 7.0,
-                                     static_cast<double>(z) / 7.0};
-    LevelSampler::Place place{};
+  /// The lowest and the highest voxel of a row along z.
+  std::array<LevelSampler::Place, 2> row(std::size_t x, std::size_t y) const {
+    const double east = static_cast<double>(x) / 7.0;
+    const double north = static_cast<double>(y) / 7.0;
+    const std::array<double, 4> weights{(1.0 - east) * (1.0 - north), (1.0 - east) * north,
+                                        east * (1.0 - north), east * north};
+    std::array<LevelSampler::Place, 2> ends{};
     for (std::size_t corner = 0; corner < 8; ++corner) {
-      double weight = 1.0;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        weight *= (corner >> (2 - axis) & 1) != 0 ? part[axis] : 1.0 - part[axis];
-      }
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        place[axis] += weight * corners_[corner][axis];
+        ends[corner % 2][axis] += weights[corner / 2] * corners_[corner][axis];
       }
     }
-    return place;
+    return ends;
   }
 
 private:
   std::array<LevelSampler::Place, 8> corners_{};
 };
 
-std::unique_ptr<Leaf> sample(const geo::LocalFrame& frame, const Levels& levels,
-                             std::span<const float> smoke, const openvdb::Coord& origin,
-                             double voxel_size) {
-  auto leaf = std::make_unique<Leaf>();
+std::unique_ptr<SmokeLeaf> sample(const geo::LocalFrame& frame, const Levels& levels,
+                                  const openvdb::Coord& origin, double voxel_size) {
+  auto leaf = std::make_unique<SmokeLeaf>();
   leaf->origin = origin;
   const double middle = 0.5 * (levels.longitude.front() + levels.longitude.back());
   const LeafPlaces places(frame, origin, voxel_size, middle);
   LevelSampler sampler(levels);
-  for (openvdb::Index i = 0; i < leaf_voxels; ++i) {
-    const LevelSampler::Place place = places.at(i / 64, i / 8 % 8, i % 8);
-    if (!sampler.move(place)) {
-      continue;
+  for (openvdb::Index i = 0; i < leaf_voxels; i += leaf_side) {
+    const auto [low, high] = places.row(i / 64, i / 8 % 8);
+    for (openvdb::Index z = 0; z < leaf_side; ++z) {
+      LevelSampler::Place place{};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        place[axis] = low[axis] + static_cast<double>(z) / 7.0 * (high[axis] - low[axis]);
+      }
+      if (!sampler.move(place)) {
+        continue;
+      }
+      const double found = sampler.smoke();
+      if (found <= thinnest_dilution * fresh_smoke) {
+        continue;
+      }
+      const double kelvin = levels.temperature.empty()
+                                ? static_cast<double>(air_kelvin(static_cast<float>(place[2])))
+                                : sampler.temperature();
+      leaf->mask.setOn(i + z);
+      leaf->concentration[i + z] = static_cast<float>(found);
+      leaf->temperature[i + z] =
+          std::clamp(std::isfinite(kelvin) ? static_cast<float>(kelvin) : 0.0F, 0.0F, hottest);
     }
-    const double found = sampler.value(smoke);
-    if (found <= thinnest_dilution * fresh_smoke) {
-      continue;
-    }
-    leaf->mask.setOn(i);
-    leaf->concentration[i] = static_cast<float>(found);
-    const double kelvin = levels.temperature.empty()
-                              ? static_cast<double>(air_kelvin(static_cast<float>(place[2])))
-                              : sampler.value(levels.temperature);
-    leaf->temperature[i] =
-        std::clamp(std::isfinite(kelvin) ? static_cast<float>(kelvin) : 0.0F, 0.0F, hottest);
   }
   return leaf->mask.isOff() ? nullptr : std::move(leaf);
 }
 
-void fill(const Leaf& leaf, SmokeGrid grid, float size, LeafValues& out) {
+void fill(const SmokeLeaf& leaf, SmokeGrid grid, float size, LeafValues& out) {
   if (grid == SmokeGrid::size || grid == SmokeGrid::temperature) {
     out = leaf.temperature;
     if (grid == SmokeGrid::size) {
@@ -152,12 +159,10 @@ Frame write_levels(const std::filesystem::path& path, const geo::LocalFrame& fra
                    const Levels& levels, double voxel_size, const Wanted& wanted) {
   check_above_zero(voxel_size, "voxel_size");
   check_heights(levels);
-  const std::vector<float> smoke = clean(levels.smoke);
-  const std::vector<openvdb::Coord> origins = reached_leaves(frame, levels, smoke, voxel_size);
-  std::vector<std::unique_ptr<Leaf>> all(origins.size());
-  tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t i) {
-    all[i] = sample(frame, levels, smoke, origins[i], voxel_size);
-  });
+  const std::vector<openvdb::Coord> origins = reached_leaves(frame, levels, voxel_size);
+  std::vector<std::unique_ptr<SmokeLeaf>> all(origins.size());
+  tbb::parallel_for(std::size_t{0}, origins.size(),
+                    [&](std::size_t i) { all[i] = sample(frame, levels, origins[i], voxel_size); });
   std::erase(all, nullptr);
   LeafSource source;
   source.density_units = "smoothstep of dilution";

@@ -4,6 +4,7 @@
 #include "volume/grids.hpp"
 
 #include <filesystem>
+#include <limits>
 #include <span>
 
 namespace firetwin::volume {
@@ -18,6 +19,11 @@ struct Levels {
   std::span<const float> temperature; ///< K; empty: of the International Standard Atmosphere
   std::size_t levels = 0;
 };
+
+/// Smoke without gaps: what is not a number or negative is none.
+inline float known_smoke(float smoke) {
+  return smoke > 0.0F && smoke <= std::numeric_limits<float>::max() ? smoke : 0.0F;
+}
 
 /// Writes a model's smoke on a regular grid of voxels in the local frame, with the grids of
 /// write_smoke.

@@ -2,7 +2,6 @@
 
 #include "base/check.hpp"
 #include "base/smoothstep.hpp"
-#include "volume/archive.hpp"
 #include "volume/bins.hpp"
 #include "volume/grids.hpp"
 
@@ -10,6 +9,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <numeric>
 #include <vector>
@@ -21,7 +21,7 @@ constexpr auto thinnest_smoke = static_cast<float>(thinnest_dilution * fresh_smo
 constexpr float heat_of_air = 1206.0F;                                               // J/(m3 K)
 
 /// What is known of a leaf with smoke before the mass of the whole is.
-struct Leaf {
+struct SmokeLeaf {
   openvdb::Coord origin;
   LeafMask mask;
   LeafValues depth, radius, concentration;
@@ -39,8 +39,10 @@ std::uint64_t thick_blocks(const LeafValues& concentration) {
   return blocks;
 }
 
+using Leaves = std::vector<std::unique_ptr<SmokeLeaf>>;
+
 /// Leaves with smoke in them.
-std::vector<std::unique_ptr<Leaf>> fill(const Puffs& puffs, double voxel_size) {
+Leaves fill(const Puffs& puffs, double voxel_size) {
   const auto voxel = static_cast<float>(voxel_size);
   std::vector<float> reach(puffs.size());
   std::vector<float> edge(puffs.size());
@@ -52,34 +54,41 @@ std::vector<std::unique_ptr<Leaf>> fill(const Puffs& puffs, double voxel_size) {
   const Bins with_mass(box, puffs, reach, voxel_size);
   const Bins near(box, puffs, edge, voxel_size);
   const SpreadMass smoke(puffs, voxel);
-  std::vector<std::unique_ptr<Leaf>> leaves(box.size());
+  std::vector<Leaves> planes(box.planes());
   tbb::enumerable_thread_specific<DepthMeter> meters;
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
-    if (with_mass.balls(i).empty() || near.balls(i).empty()) {
-      return;
-    }
-    const openvdb::Coord origin = box.origin(i);
-    const std::array<float, 3> corner = corner_of(origin, voxel);
-    const Nodes nodes = smoke.at_nodes(corner, voxel, with_mass.balls(i));
-    if (largest(nodes) <= static_cast<double>(thinnest_smoke)) {
-      return;
-    }
-    auto leaf = std::make_unique<Leaf>();
-    interpolate(nodes, leaf->concentration);
-    meters.local().measure(puffs, near.balls(i), corner, voxel, thick_blocks(leaf->concentration),
-                           leaf->depth, leaf->radius);
-    for (openvdb::Index at = 0; at < leaf_voxels; ++at) {
-      if (leaf->depth[at] > -depth_outside && leaf->concentration[at] > thinnest_smoke) {
-        leaf->mask.setOn(at);
+  tbb::parallel_for(std::size_t{0}, planes.size(), [&](std::size_t plane) {
+    const Bins::Plane masses(with_mass, plane);
+    const Bins::Plane edges(near, plane);
+    for (std::size_t i = 0; i < box.leaves_in_plane(); ++i) {
+      if (masses.balls(i).empty() || edges.balls(i).empty()) {
+        continue;
+      }
+      const openvdb::Coord origin = box.origin(plane, i);
+      const std::array<float, 3> corner = corner_of(origin, voxel);
+      const Nodes nodes = smoke.at_nodes(corner, voxel, masses.balls(i));
+      if (largest(nodes) <= static_cast<double>(thinnest_smoke)) {
+        continue;
+      }
+      auto leaf = std::make_unique<SmokeLeaf>();
+      interpolate(nodes, leaf->concentration);
+      meters.local().measure(puffs, edges.balls(i), corner, voxel,
+                             thick_blocks(leaf->concentration), leaf->depth, leaf->radius);
+      for (openvdb::Index at = 0; at < leaf_voxels; ++at) {
+        if (leaf->depth[at] > -depth_outside && leaf->concentration[at] > thinnest_smoke) {
+          leaf->mask.setOn(at);
+        }
+      }
+      if (!leaf->mask.isOff()) {
+        leaf->origin = origin;
+        leaf->mass = mass_of(leaf->mask, leaf->concentration, voxel_size);
+        planes[plane].push_back(std::move(leaf));
       }
     }
-    if (!leaf->mask.isOff()) {
-      leaf->origin = origin;
-      leaf->mass = mass_of(leaf->mask, leaf->concentration, voxel_size);
-      leaves[i] = std::move(leaf);
-    }
   });
-  std::erase(leaves, nullptr);
+  Leaves leaves;
+  for (Leaves& plane : planes) {
+    std::move(plane.begin(), plane.end(), std::back_inserter(leaves));
+  }
   return leaves;
 }
 
@@ -89,7 +98,7 @@ public:
   Values(float voxel, float factor, float heat_per_smoke)
       : voxel_(voxel), factor_(factor), heat_(heat_per_smoke / heat_of_air) {}
 
-  void fill(const Leaf& leaf, SmokeGrid grid, LeafValues& out) const {
+  void fill(const SmokeLeaf& leaf, SmokeGrid grid, LeafValues& out) const {
     switch (grid) {
     case SmokeGrid::density:
       return density(leaf, out);
@@ -105,27 +114,27 @@ public:
   }
 
 private:
-  void density(const Leaf& leaf, LeafValues& out) const {
+  void density(const SmokeLeaf& leaf, LeafValues& out) const {
     for (std::size_t i = 0; i < leaf_voxels; ++i) {
       out[i] = std::clamp(part(leaf, i), 0.0F, 1.0F);
     }
   }
-  void dilution(const Leaf& leaf, LeafValues& out) const {
+  void dilution(const SmokeLeaf& leaf, LeafValues& out) const {
     for (std::size_t i = 0; i < leaf_voxels; ++i) {
       out[i] = leaf.concentration[i] * factor_;
     }
   }
-  void shade(const Leaf& leaf, LeafValues& out) const {
+  void shade(const SmokeLeaf& leaf, LeafValues& out) const {
     for (std::size_t i = 0; i < leaf_voxels; ++i) {
       out[i] = leaf.concentration[i] * smoothstep(edge_low, edge_high, part(leaf, i)) * factor_;
     }
   }
-  void size(const Leaf& leaf, LeafValues& out) const {
+  void size(const SmokeLeaf& leaf, LeafValues& out) const {
     for (std::size_t i = 0; i < leaf_voxels; ++i) {
       out[i] = std::min(leaf.radius[i] / 1000.0F, 1.0F);
     }
   }
-  void temperature(const Leaf& leaf, LeafValues& out) const {
+  void temperature(const SmokeLeaf& leaf, LeafValues& out) const {
     const float low = static_cast<float>(leaf.origin.z()) * voxel_;
     for (std::size_t i = 0; i < leaf_voxels; ++i) {
       const float height = low + static_cast<float>(i % leaf_side) * voxel_;
@@ -133,7 +142,7 @@ private:
     }
   }
 
-  static float part(const Leaf& leaf, std::size_t i) {
+  static float part(const SmokeLeaf& leaf, std::size_t i) {
     return (leaf.depth[i] + depth_inside) / (2.0F * depth_inside);
   }
 
@@ -147,7 +156,7 @@ private:
 Frame write_smoke(const std::filesystem::path& path, const Puffs& puffs, double voxel_size,
                   const Wanted& wanted) {
   check_above_zero(voxel_size, "voxel_size");
-  const std::vector<std::unique_ptr<Leaf>> all = fill(puffs, voxel_size);
+  const Leaves all = fill(puffs, voxel_size);
   LeafSource source;
   source.density_units = "(m + 300) / 600";
   double mass = 0.0;

@@ -1,0 +1,226 @@
+#include "volume/dense_leaves.hpp"
+
+#include "base/clones.hpp"
+#include "volume/seen.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace firetwin::volume {
+namespace {
+
+constexpr auto side = static_cast<std::int32_t>(leaf_side);
+constexpr std::int32_t block_side = 16 * side; // voxels that are looked for at once
+constexpr float largest_half = 65504.0F;
+constexpr std::size_t lanes = 8;
+
+/// Largest magnitude as bits, which are in the order of the numbers; infinite and NaN are the
+/// largest.
+FIRETWIN_CLONES("avx2")
+std::uint32_t largest_bits(const LeafValues& values) {
+  std::uint32_t largest = 0;
+  for (const float value : values) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    largest = std::max(largest, bits & 0x7fffffffU);
+  }
+  return largest;
+}
+
+/// Sum of the values beyond the tolerance, in eight parts, whatever the processor.
+FIRETWIN_CLONES("avx2")
+double sum_of(const LeafValues& values, float tolerance) {
+  std::array<double, lanes> sums{};
+  for (std::size_t i = 0; i < leaf_voxels; i += lanes) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const float value = values[i + lane];
+      sums[lane] += static_cast<double>(std::abs(value) > tolerance ? value : 0.0F);
+    }
+  }
+  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
+}
+
+/// 1 for each value beyond the tolerance, else 0.
+FIRETWIN_CLONES("avx2")
+void mark(const LeafValues& values, float tolerance, std::array<std::uint8_t, leaf_voxels>& marks) {
+  for (std::size_t i = 0; i < leaf_voxels; ++i) {
+    marks[i] = std::abs(values[i]) > tolerance ? 1 : 0;
+  }
+}
+
+LeafMask active(const LeafValues& values, float tolerance) {
+  std::array<std::uint8_t, leaf_voxels> marks;
+  mark(values, tolerance, marks);
+  LeafMask mask;
+  for (openvdb::Index i = 0; i < leaf_voxels / 8; ++i) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, &marks[8 * i], sizeof eight);
+    // The product's highest byte has bit n where byte n of the factor is 1.
+    const std::uint64_t bits = eight * 0x0102040810204080U >> 56;
+    mask.getWord<LeafMask::Word>(i / 8) |= bits << i % 8 * 8;
+  }
+  return mask;
+}
+
+bool is_constant(const LeafValues& values) {
+  return std::all_of(values.begin(), values.end(), [&](float v) { return v == values[0]; });
+}
+
+/// The leaves that stand on each other.
+struct Column {
+  DenseLeaves found;
+  std::vector<std::unique_ptr<Leaf>> leaves;
+  std::vector<std::pair<openvdb::Coord, float>> tiles;
+};
+
+/// Which blocks of 128^3 voxels count. What holds a ball that counts does so itself, so the leaves
+/// of the others need not be asked for.
+class Blocks {
+public:
+  Blocks(const DenseField& field, const Seen& seen) {
+    std::size_t size = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      count_[axis] = (field.shape[axis] - 1) / block_side + 1;
+      size *= static_cast<std::size_t>(count_[axis]);
+    }
+    seen_.resize(size);
+    tbb::parallel_for(std::size_t{0}, size, [&](std::size_t i) {
+      const auto number = static_cast<std::int64_t>(i);
+      const auto z = static_cast<std::int32_t>(number % count_[2]);
+      const auto y = static_cast<std::int32_t>(number / count_[2] % count_[1]);
+      const auto x = static_cast<std::int32_t>(number / count_[2] / count_[1]);
+      const openvdb::Coord lowest(x * block_side, y * block_side, z * block_side);
+      seen_[i] = seen.counts(lowest, block_side) ? 1 : 0;
+    });
+  }
+
+  bool counts(const openvdb::Coord& voxel) const {
+    const auto row =
+        std::int64_t{voxel.x() / block_side} * count_[1] + std::int64_t{voxel.y() / block_side};
+    return seen_[static_cast<std::size_t>(row * count_[2] + voxel.z() / block_side)] != 0;
+  }
+
+private:
+  std::array<std::int32_t, 3> count_{};
+  std::vector<char> seen_;
+};
+
+/// Looks through a field leaf by leaf.
+class Scan {
+public:
+  Scan(const DenseField& field, const DenseSettings& settings, bool wanted)
+      : field_(field), settings_(settings), wanted_(wanted),
+        seen_(settings.sight, settings.voxel_size, settings.origin), blocks_(field, seen_) {}
+
+  void column(std::int32_t x, std::int32_t y, Column& column) const {
+    for (std::int32_t z = 0; z < field_.shape[2]; z += side) {
+      const openvdb::Coord origin(x, y, z);
+      const bool counts = blocks_.counts(origin) && seen_.counts(origin, side);
+      if (counts || wanted_) {
+        leaf(origin, counts, column);
+      }
+    }
+  }
+
+private:
+  void leaf(const openvdb::Coord& origin, bool counts, Column& column) const {
+    LeafValues values;
+    copy_leaf(field_, origin, values);
+    const std::uint32_t largest = largest_bits(values);
+    const float most = settings_.half ? largest_half : std::numeric_limits<float>::max();
+    if (largest > std::bit_cast<std::uint32_t>(most)) {
+      if (!column.found.bad) {
+        column.found.bad = first_beyond(values, most, origin);
+      }
+      return;
+    }
+    if (largest <= std::bit_cast<std::uint32_t>(std::abs(settings_.tolerance))) {
+      return;
+    }
+    (counts ? column.found.sum : column.found.hidden) += sum_of(values, settings_.tolerance);
+    if (!counts) {
+      return;
+    }
+    const LeafMask mask = active(values, settings_.tolerance);
+    if (mask.isOn() && is_constant(values)) {
+      column.tiles.emplace_back(origin, values[0]);
+    } else {
+      column.leaves.push_back(std::make_unique<Leaf>(openvdb::PartialCreate(), origin));
+      column.leaves.back()->setValueMask(mask);
+    }
+  }
+
+  static openvdb::Coord first_beyond(const LeafValues& values, float most,
+                                     const openvdb::Coord& origin) {
+    const auto at = std::find_if_not(values.begin(), values.end(),
+                                     [most](float value) { return std::abs(value) <= most; });
+    const auto number = static_cast<std::int32_t>(at - values.begin());
+    return origin.offsetBy(number / side / side, number / side % side, number % side);
+  }
+
+  const DenseField& field_;
+  const DenseSettings& settings_;
+  bool wanted_;
+  Seen seen_;
+  Blocks blocks_;
+};
+
+} // namespace
+
+void copy_leaf(const DenseField& field, const openvdb::Coord& origin, LeafValues& values) {
+  const auto rest = [&](int axis) {
+    return std::min(side, field.shape[static_cast<std::size_t>(axis)] - origin[axis]);
+  };
+  const std::int32_t nx = rest(0);
+  const std::int32_t ny = rest(1);
+  const auto nz = static_cast<std::size_t>(rest(2));
+  if (nx < side || ny < side || nz < leaf_side) {
+    values.fill(0.0F);
+  }
+  for (std::int32_t x = 0; x < nx; ++x) {
+    const std::int64_t plane = std::int64_t{origin.x() + x} * field.shape[1] + origin.y();
+    for (std::int32_t y = 0; y < ny; ++y) {
+      const float* row = field.values.data() + (plane + y) * field.shape[2] + origin.z();
+      float* to = &values[static_cast<std::size_t>((x * side + y) * side)];
+      if (nz == leaf_side) {
+        std::memcpy(to, row, sizeof(float) * leaf_side); // a length known here is faster
+      } else {
+        std::memcpy(to, row, sizeof(float) * nz);
+      }
+    }
+  }
+}
+
+DenseLeaves find_leaves(const DenseField& field, const DenseSettings& settings, bool wanted,
+                        openvdb::FloatTree& tree) {
+  const Scan scan(field, settings, wanted);
+  const auto rows = static_cast<std::size_t>((field.shape[1] - 1) / side + 1);
+  std::vector<Column> columns(static_cast<std::size_t>((field.shape[0] - 1) / side + 1) * rows);
+  tbb::parallel_for(std::size_t{0}, columns.size(), [&](std::size_t i) {
+    scan.column(static_cast<std::int32_t>(i / rows) * side,
+                static_cast<std::int32_t>(i % rows) * side, columns[i]);
+  });
+  DenseLeaves all;
+  for (Column& column : columns) {
+    all.sum += column.found.sum;
+    all.hidden += column.found.hidden;
+    all.bad = all.bad ? all.bad : column.found.bad;
+    for (std::unique_ptr<Leaf>& leaf : column.leaves) {
+      tree.addLeaf(leaf.release()); // the tree owns it now
+    }
+    for (const auto& [origin, value] : column.tiles) {
+      tree.addTile(1, origin, value, true);
+    }
+  }
+  return all;
+}
+
+} // namespace firetwin::volume
