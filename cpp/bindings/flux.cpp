@@ -1,8 +1,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "flux/arrival.hpp"
-#include "flux/at_time.hpp"
 #include "flux/emitters.hpp"
+#include "flux/interpolator.hpp"
 
 #include <memory>
 
@@ -20,22 +19,39 @@ std::shared_ptr<Emitters> emitters(const py::object& flux_object, const py::obje
   return std::make_shared<Emitters>(flux::emitters(view(flux), view(points), flux_min, flux_max));
 }
 
-Array<float> at_time(const run::Run& run, double time) {
-  std::vector<float> flux;
-  {
-    const py::gil_scoped_release release;
-    flux = flux::at_time(run, time);
-  }
-  return give(std::move(flux), {length(run.latitude().size()), length(run.longitude().size())});
+using flux::Interpolator;
+
+std::unique_ptr<Interpolator> interpolator(std::shared_ptr<const run::Run> run) {
+  const py::gil_scoped_release release;
+  return std::make_unique<Interpolator>(std::move(run));
 }
 
-Array<float> arrival_time(const run::Run& run, bool averaged) {
-  std::vector<float> times;
-  {
-    const py::gil_scoped_release release;
-    times = flux::arrival_time(run, averaged);
+flux::Frame frame(const Interpolator& model, double time) {
+  const py::gil_scoped_release release;
+  return model.at(time);
+}
+
+/// The flux of every cell. NumPy's zeros are memory that nothing has touched yet.
+Array<float> at(const Interpolator& model, double time) {
+  const flux::Frame found = frame(model, time);
+  const py::tuple shape =
+      py::make_tuple(model.run().latitude().size(), model.run().longitude().size());
+  Array<float> whole = py::module_::import("numpy").attr("zeros")(shape, "f4");
+  const auto out = writable(whole);
+  for (std::size_t i = 0; i < found.cell.size(); ++i) {
+    out[static_cast<std::size_t>(found.cell[i])] = found.flux[i];
   }
-  return give(std::move(times), {length(run.latitude().size()), length(run.longitude().size())});
+  return whole;
+}
+
+py::tuple burning(const Interpolator& model, double time) {
+  flux::Frame found = frame(model, time);
+  const py::ssize_t count = length(found.cell.size());
+  return py::make_tuple(give(std::move(found.cell), {count}), give(std::move(found.flux), {count}));
+}
+
+Array<float> at_time(std::shared_ptr<const run::Run> run, double time) {
+  return at(*interpolator(std::move(run)), time);
 }
 
 template <auto member> auto column(const py::object& self) {
@@ -62,10 +78,14 @@ void init_flux(py::module_ module) {
       .def("__len__", [](const Emitters& e) { return e.cell.size(); });
   module.def("emitters", &emitters, py::arg("flux"), py::arg("position"), py::arg("flux_min"),
              py::arg("flux_max"), "Algorithm 1: emitters where flux (ny, nx) W/m2 is above 0.");
+  py::class_<Interpolator>(module, "Interpolator", "The heat flux of a run at any time.")
+      .def(py::init(&interpolator), py::arg("run"))
+      .def("at", &at, py::arg("time"),
+           "Heat flux (ny, nx) in W/m2 at a time (seconds since start).")
+      .def("burning", &burning, py::arg("time"),
+           "The cells whose flux is not 0, and their flux: (n,) y nx + x and (n,) W/m2.");
   module.def("at_time", &at_time, py::arg("run"), py::arg("time"),
-             "Heat flux (ny, nx) in W/m2 at any time (seconds since start); zero outside the run.");
-  module.def("arrival_time", &arrival_time, py::arg("run"), py::arg("averaged") = true,
-             "When each cell begins to burn (ny, nx), s since start, between the model times.");
+             "Interpolator(run).at(time); ask an Interpolator for more than one moment.");
 }
 
 } // namespace firetwin::bindings

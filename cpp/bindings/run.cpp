@@ -2,6 +2,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "flux/arrival.hpp"
 #include "io/name.hpp"
 #include "run/grid_file.hpp"
 #include "run/read_ahead.hpp"
@@ -9,6 +10,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <numeric>
 #include <stdexcept>
@@ -171,22 +173,33 @@ py::tuple flux_range(const Run& run) {
   return py::make_tuple(double{range.first}, double{range.second});
 }
 
-Array<float> arrival_time(const Run& run, double threshold) {
-  std::vector<float> times;
+Array<double> arrival_time(const Run& run) {
+  std::vector<double> times;
   {
     const py::gil_scoped_release release;
-    times = run.arrival_time(threshold);
+    times = flux::arrival_time(run);
   }
   return give(std::move(times), grid_shape(run));
 }
 
-Array<float> fuel_arrival_time(const Run& run) {
-  std::vector<float> times;
+Array<double> fuel_arrival_time(const Run& run) {
+  std::vector<double> times;
   {
     const py::gil_scoped_release release;
-    times = run.fuel_arrival_time();
+    times = flux::fuel_arrival_time(run);
   }
   return give(std::move(times), fuel_shape(run));
+}
+
+Array<double> heat_released(const Run& run) {
+  std::vector<double> heat;
+  {
+    const py::gil_scoped_release release;
+    const auto& cells = run.scan().cells;
+    heat.resize(cells.size());
+    std::transform(cells.begin(), cells.end(), heat.begin(), [](const auto& c) { return c.heat; });
+  }
+  return give(std::move(heat), grid_shape(run));
 }
 
 using Axis = const std::vector<double>& (Run::*)() const;
@@ -278,9 +291,11 @@ void init_run(py::module_ module) {
       .def("frames", &frames, py::arg("field") = "heat_flux", py::arg("indices") = py::none(),
            py::arg("ahead") = 8, "Iterate over frames that worker threads read ahead.")
       .def("flux_range", &flux_range, "Smallest and largest finite heat flux of the run, W/m2.")
-      .def("arrival_time", &arrival_time, py::arg("threshold") = 0.0,
-           "(ny, nx) s since start when the flux first exceeds threshold, NaN where never.")
-      .def("fuel_arrival_time", &fuel_arrival_time, "(fy, fx) s since start, NaN where never.")
+      .def("heat_released", &heat_released, "(ny, nx) J/m2 over the whole run.")
+      .def("arrival_time", &arrival_time,
+           "(ny, nx) s since start when the front passes the centre of a cell, NaN where never.")
+      .def("fuel_arrival_time", &fuel_arrival_time,
+           "(fy, fx) s since start, the same for the fuel cells, NaN where never.")
       .def("__repr__", &describe);
 }
 

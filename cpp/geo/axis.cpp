@@ -49,11 +49,13 @@ Extent cell_extent(std::span<const double> axis, std::size_t index) {
   return {axis[index] - 0.5 * before, axis[index] + 0.5 * after};
 }
 
-double bilinear(std::span<const float> values, std::size_t columns, const Bracket& y,
-                const Bracket& x) {
+namespace {
+
+template <class T>
+double between(std::span<const T> values, std::size_t columns, const Bracket& y, const Bracket& x) {
   const std::array<double, 4> corner = {
-      values[y.lower * columns + x.lower], values[y.lower * columns + x.upper],
-      values[y.upper * columns + x.lower], values[y.upper * columns + x.upper]};
+      double{values[y.lower * columns + x.lower]}, double{values[y.lower * columns + x.upper]},
+      double{values[y.upper * columns + x.lower]}, double{values[y.upper * columns + x.upper]}};
   const std::array<double, 4> weight = {(1.0 - y.fraction) * (1.0 - x.fraction),
                                         (1.0 - y.fraction) * x.fraction,
                                         y.fraction * (1.0 - x.fraction), y.fraction * x.fraction};
@@ -70,6 +72,18 @@ double bilinear(std::span<const float> values, std::size_t columns, const Bracke
     }
   }
   return sum / total;
+}
+
+} // namespace
+
+double bilinear(std::span<const float> values, std::size_t columns, const Bracket& y,
+                const Bracket& x) {
+  return between(values, columns, y, x);
+}
+
+double bilinear(std::span<const double> values, std::size_t columns, const Bracket& y,
+                const Bracket& x) {
+  return between(values, columns, y, x);
 }
 
 std::vector<float> resample(std::span<const float> values, std::span<const double> from_y,

@@ -31,6 +31,8 @@ Extent cell_extent(std::span<const double> axis, std::size_t index);
 /// NaN are left out (the others' weights grow); where the nearest corner is NaN the result is NaN.
 double bilinear(std::span<const float> values, std::size_t columns, const Bracket& y,
                 const Bracket& x);
+double bilinear(std::span<const double> values, std::size_t columns, const Bracket& y,
+                const Bracket& x);
 
 /// values on (from_y, from_x) -> bilinear values at (to_y, to_x), row-major.
 std::vector<float> resample(std::span<const float> values, std::span<const double> from_y,

@@ -189,11 +189,13 @@ void Run::check_values() {
 
 std::vector<std::string> Run::warnings() const {
   std::vector<std::string> result = warnings_;
-  const std::lock_guard lock(mutex_);
-  if (scan_ && scan_->not_finite) {
+  if (!scanned_) {
+    return result;
+  }
+  if (scan_->not_finite) {
     result.push_back("heat_flux has no value " + std::to_string(scan_->not_finite) + " times");
   }
-  if (scan_ && scan_->negative) {
+  if (scan_->negative) {
     result.push_back("heat_flux is negative " + std::to_string(scan_->negative) + " times");
   }
   return result;
@@ -219,52 +221,24 @@ const LevelSeries& Run::temperature_3d() const {
   return need(temperature_3d_, path(), "temperature_3d");
 }
 
-std::shared_ptr<const Scan> Run::scan_for(double threshold) const {
-  {
-    const std::lock_guard lock(mutex_);
-    if (scan_ && scan_threshold_ == threshold) {
-      return scan_;
-    }
-  }
-  // Outside the lock: a thread that waits here could be one that the scan needs.
-  auto fresh = std::make_shared<const Scan>(scan(*heat_flux_, threshold));
-  const std::lock_guard lock(mutex_);
-  scan_ = fresh;
-  scan_threshold_ = threshold;
-  return fresh;
+const Scan& Run::scan() const {
+  tbb::collaborative_call_once(once_, [this] {
+    scan_ = run::scan(*heat_flux_, times_);
+    scanned_ = true;
+  });
+  return *scan_;
 }
 
 std::pair<float, float> Run::flux_range() const {
-  std::shared_ptr<const Scan> scan;
-  {
-    const std::lock_guard lock(mutex_);
-    scan = scan_;
-  }
-  if (!scan) {
-    scan = scan_for(0.0);
-  }
-  if (scan->smallest > scan->largest) {
+  const Scan& all = scan();
+  if (all.smallest > all.largest) {
     io::fail(path() / "heat_flux", "has no finite value at any time");
   }
-  return {scan->smallest, scan->largest};
+  return {all.smallest, all.largest};
 }
 
-std::vector<float> Run::arrival_time(double threshold) const {
-  const auto scan = scan_for(threshold);
-  std::vector<float> result(scan->first.size(), std::numeric_limits<float>::quiet_NaN());
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    if (scan->first[i] != Scan::never) {
-      result[i] = static_cast<float>(times_[scan->first[i]]);
-    }
-  }
-  return result;
-}
-
-std::vector<float> Run::fuel_arrival_time() const {
-  if (folder_.has("fuel_arrival_time")) {
-    return read_grid_of("fuel_arrival_time", fuel_latitude_.size(), fuel_longitude_.size());
-  }
-  return geo::resample(arrival_time(0.0), latitude_, longitude_, fuel_latitude_, fuel_longitude_);
+std::vector<float> Run::own_arrival_time() const {
+  return read_grid_of("fuel_arrival_time", fuel_latitude_.size(), fuel_longitude_.size());
 }
 
 } // namespace firetwin::run

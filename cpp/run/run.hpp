@@ -6,9 +6,10 @@
 #include "run/scan.hpp"
 #include "run/series.hpp"
 
+#include <oneapi/tbb/collaborative_call_once.h>
+
+#include <atomic>
 #include <filesystem>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -58,13 +59,12 @@ public:
   const LevelSeries& height_3d() const;      ///< m
   const LevelSeries& temperature_3d() const; ///< K
 
-  /// Smallest and largest finite heat flux of the whole run, W/m2. Reads every frame once.
+  /// Smallest and largest finite heat flux of the whole run, W/m2. Asks for the scan.
   std::pair<float, float> flux_range() const;
-  /// [ny nx] time in s of the first frame whose flux exceeds `threshold` (W/m2), NaN where none
-  /// does.
-  std::vector<float> arrival_time(double threshold) const;
-  /// [fy fx] s, NaN where never: the field of that name, or arrival_time(0) resampled bilinearly.
-  std::vector<float> fuel_arrival_time() const;
+  /// What one pass over every heat flux tells; made when it is first asked for, and once.
+  const Scan& scan() const;
+  /// [fy fx] s, NaN where never: the field of that name. @throws Error when the run has none.
+  std::vector<float> own_arrival_time() const;
 
 private:
   void read_axes();
@@ -78,7 +78,6 @@ private:
   std::optional<LevelSeries> optional_levels(const std::string& field, bool steady) const;
   std::vector<float> read_grid_of(const std::string& field, std::size_t rows,
                                   std::size_t columns) const;
-  std::shared_ptr<const Scan> scan_for(double threshold) const;
 
   Folder folder_;
   Description description_;
@@ -89,9 +88,10 @@ private:
   std::optional<LevelSeries> smoke_3d_, height_3d_, temperature_3d_;
   std::vector<std::string> warnings_;
 
-  mutable std::mutex mutex_;
-  mutable std::shared_ptr<const Scan> scan_; ///< of the last threshold asked for
-  mutable double scan_threshold_ = 0.0;
+  /// Threads that wait for the scan take part in it: one of them could hold what it needs.
+  mutable tbb::collaborative_once_flag once_;
+  mutable std::optional<Scan> scan_;
+  mutable std::atomic<bool> scanned_ = false;
 };
 
 } // namespace firetwin::run

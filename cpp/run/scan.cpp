@@ -1,65 +1,120 @@
 #include "run/scan.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_reduce.h>
+#include "run/read_ahead.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <numeric>
+#include <span>
 
 namespace firetwin::run {
 namespace {
 
-Scan empty_scan(std::size_t cells) {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  return {infinity, -infinity, 0, 0, std::vector<std::uint32_t>(cells, Scan::never)};
-}
+constexpr std::size_t chunk = 1U << 15U;
 
-void add_frame(Scan& scan, std::span<const float> flux, std::uint32_t index, double threshold) {
-  for (std::size_t i = 0; i < flux.size(); ++i) {
-    const float f = flux[i];
-    if (!std::isfinite(f)) {
-      ++scan.not_finite;
-      continue;
+/// A frame and what its place in the run says.
+struct Frame {
+  std::span<const float> flux;
+  std::uint32_t index;
+  bool last;
+  double time;  ///< s after the first
+  double share; ///< s of the run that count as this frame's
+};
+
+/// Part of the cells, and what they add to the whole.
+struct Part {
+  float smallest = std::numeric_limits<float>::infinity();
+  float largest = -std::numeric_limits<float>::infinity();
+  std::size_t not_finite = 0;
+  std::size_t negative = 0;
+  std::vector<std::size_t> begun; ///< cells that began at the frame before
+
+  void add(std::span<Scan::Cell> cells, const Frame& frame);
+
+private:
+  void add(std::span<Scan::Cell> cells, std::size_t i, const Frame& frame);
+};
+
+void Part::add(std::span<Scan::Cell> cells, const Frame& frame) {
+  for (const std::size_t i : begun) {
+    cells[i].next = frame.flux[i];
+  }
+  begun.clear();
+  bool zeros = false;
+  for (std::size_t i = 0; i < frame.flux.size(); ++i) {
+    if (frame.flux[i] == 0.0F) { // most are: their cells need no look
+      zeros = true;
+    } else if (std::isfinite(frame.flux[i])) {
+      add(cells, i, frame);
+    } else {
+      ++not_finite;
     }
-    scan.smallest = std::min(scan.smallest, f);
-    scan.largest = std::max(scan.largest, f);
-    scan.negative += f < 0.0F;
-    if (double{f} > threshold) {
-      scan.first[i] = std::min(scan.first[i], index);
-    }
+  }
+  if (zeros) {
+    smallest = std::min(smallest, 0.0F);
+    largest = std::max(largest, 0.0F);
   }
 }
 
-/// Every member combines by minimum, maximum or integer sum: any order gives the same.
-Scan merge(Scan a, const Scan& b) {
-  a.smallest = std::min(a.smallest, b.smallest);
-  a.largest = std::max(a.largest, b.largest);
-  a.not_finite += b.not_finite;
-  a.negative += b.negative;
-  for (std::size_t i = 0; i < a.first.size(); ++i) {
-    a.first[i] = std::min(a.first[i], b.first[i]);
+void Part::add(std::span<Scan::Cell> cells, std::size_t i, const Frame& frame) {
+  const float flux = frame.flux[i];
+  smallest = std::min(smallest, flux);
+  largest = std::max(largest, flux);
+  if (flux < 0.0F) {
+    ++negative;
+    return;
   }
-  return a;
+  Scan::Cell& cell = cells[i];
+  if (flux >= least_fire && cell.first == Scan::never) {
+    cell.first = frame.index;
+    cell.flux = flux;
+    cell.next = std::numeric_limits<float>::quiet_NaN();
+    begun.push_back(i);
+  }
+  const double heat = double{flux} * frame.share;
+  cell.heat += heat;
+  cell.moment += heat * frame.time;
+  cell.last = frame.last ? flux : 0.0F;
+}
+
+double share(const std::vector<double>& times, std::size_t i) {
+  const double before = i > 0 ? times[i] - times[i - 1] : 0.0;
+  const double after = i + 1 < times.size() ? times[i + 1] - times[i] : 0.0;
+  return 0.5 * (before + after);
 }
 
 } // namespace
 
-Scan scan(const Series& flux, double threshold) {
-  constexpr std::size_t times_per_task = 64;
-  const std::size_t cells = flux.cells();
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, flux.size(), times_per_task), empty_scan(cells),
-      [&](const tbb::blocked_range<std::size_t>& range, Scan part) {
-        std::vector<float> frame(cells);
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          flux.read(i, frame);
-          add_frame(part, frame, static_cast<std::uint32_t>(i), threshold);
-        }
-        return part;
-      },
-      [](Scan a, const Scan& b) { return merge(std::move(a), b); });
+Scan scan(const Series& flux, const std::vector<double>& times) {
+  std::vector<std::size_t> all(flux.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::size_t readers = std::clamp<std::size_t>(
+      static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()), 1, 8);
+  ReadAhead frames(flux, all, 2 * readers, readers);
+  Scan result;
+  result.cells.resize(flux.cells());
+  const std::span<Scan::Cell> cells = result.cells;
+  std::vector<Part> parts((cells.size() + chunk - 1) / chunk);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::vector<float> values = *frames.next();
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
+      const std::size_t begin = k * chunk, size = std::min(chunk, cells.size() - begin);
+      parts[k].add(cells.subspan(begin, size),
+                   {std::span(values).subspan(begin, size), static_cast<std::uint32_t>(i),
+                    i + 1 == all.size(), times[i] - times.front(), share(times, i)});
+    });
+  }
+  for (const Part& part : parts) {
+    result.smallest = std::min(result.smallest, part.smallest);
+    result.largest = std::max(result.largest, part.largest);
+    result.not_finite += part.not_finite;
+    result.negative += part.negative;
+  }
+  return result;
 }
 
 } // namespace firetwin::run
