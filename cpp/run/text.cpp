@@ -1,9 +1,8 @@
 #include "run/text.hpp"
 
 #include "base/error.hpp"
+#include "run/decimal.hpp"
 #include "run/number.hpp"
-
-#include <fast_float/fast_float.h>
 
 #include <cmath>
 #include <cstring>
@@ -61,7 +60,7 @@ private:
   /// blank or the end of the line.
   bool parse_plain_value() {
     T value{};
-    const auto [end, code] = fast_float::from_chars(position_, end_, value);
+    const auto [end, code] = read_decimal(position_, end_, value);
     if (code != std::errc() || !std::isfinite(value) || end == end_ ||
         !(is_blank(*end) || *end == '\n')) {
       return false;
