@@ -78,6 +78,12 @@ def test_what_only_begins_like_a_number_is_an_error(read, word):
 def test_axes_are_the_nearest_doubles(make_run):
     """They are read as float64, straight from the text."""
     folder = make_run("text")
-    words = [f"{38.9 + 0.0031 * i:.12f}" for i in range(4)]
-    (folder / "latitude.txt").write_text(" ".join(words) + AFTER)
-    assert runs.open(folder).latitude.tolist() == list(map(float, words))
+    axes = {
+        "latitude": [f"{38.9 + 0.0031 * i:.12f}" for i in range(4)],
+        "longitude": [f"{-120.6 + 0.0041 * i:.14f}" for i in range(5)],  # of 17 digits: too many for a double
+    }
+    for name, words in axes.items():
+        (folder / f"{name}.txt").write_text(" ".join(words) + AFTER)
+    run = runs.open(folder)
+    for name, words in axes.items():
+        assert getattr(run, name).tolist() == list(map(float, words))
