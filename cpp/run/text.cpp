@@ -1,9 +1,8 @@
 #include "run/text.hpp"
 
 #include "base/error.hpp"
+#include "run/decimal.hpp"
 #include "run/number.hpp"
-
-#include <fast_float/fast_float.h>
 
 #include <cmath>
 #include <cstring>
@@ -60,7 +59,7 @@ private:
   /// What nearly every value is: a finite number without a plus in front or a D in it.
   bool parse_plain_value() {
     T value{};
-    const auto [end, code] = fast_float::from_chars(position_, end_, value);
+    const auto [end, code] = read_decimal(position_, end_, value);
     if (code != std::errc() || !std::isfinite(value) || !ends_value(end)) {
       return false;
     }
