@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import uuid
 from collections.abc import Callable
 from pathlib import Path
 
@@ -26,15 +27,20 @@ def publish(part: Path, path: Path) -> None:
         _sync_folder(path.parent)
 
 
-def write(path: Path, put: Callable[[Path], object], part: Path | None = None) -> None:
-    """Have ``put(part)`` write a temporary file (of its own name beside `path`, or `part`) and publish it.
+def part_of(path: Path) -> Path:
+    """Name for `path` while it is made: beside it, of the same kind, and of no other thread, process or machine."""
+    return path.with_name(f".{path.stem}.{uuid.uuid4().hex[:12]}.part{path.suffix}")
+
+
+def write(path: Path, put: Callable[[Path], object]) -> None:
+    """Have ``put(part)`` write a temporary file and publish it.
 
     Raises
     ------
     InputError
         The disk is full, or the folder cannot be written.
     """
-    part = part or path.with_name(f".{path.stem}.part{path.suffix}")
+    part = part_of(path)
     try:
         with writing(path):
             path.parent.mkdir(parents=True, exist_ok=True)

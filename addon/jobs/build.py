@@ -41,7 +41,7 @@ def _writable(out: Path) -> None:
         raise input_error(out, 0, 0, "is a folder; name a file in it that ends in .blend")
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
-        part = _part(out)
+        part = files.part_of(out)
         part.touch()
         part.unlink()
     except OSError as error:
@@ -49,10 +49,6 @@ def _writable(out: Path) -> None:
         raise input_error(out, 0, 0, reason) from None
     if out.exists() and not os.access(out, os.W_OK):
         raise input_error(out, 0, 0, "is write-protected; choose another name")
-
-
-def _part(out: Path) -> Path:
-    return out.with_name(f".{out.stem}.part.blend")
 
 
 def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell) -> None:
@@ -70,7 +66,7 @@ def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell)
         bake.bake(shot, progress)
     setting.build_scene(shot, progress, tell)
     smoke.relative(Path(out))
-    part = _part(Path(out))
+    part = files.part_of(Path(out))
     bpy.context.preferences.filepaths.save_version = 0
     try:
         bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True, relative_remap=False)

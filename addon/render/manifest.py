@@ -7,7 +7,6 @@ fingerprint these settings in full.
 from __future__ import annotations
 
 import json
-import uuid
 from pathlib import Path
 from typing import Any
 
@@ -43,5 +42,4 @@ def read(out: Path) -> dict[str, Any]:
 def write(out: Path, settings: dict[str, Any], entries: dict[str, Any]) -> None:
     """Write the manifest as a whole; a reader finds this one or the one before."""
     text = json.dumps({"format": _FORMAT, "settings": settings, "files": entries}, indent=1) + "\n"
-    part = out / f".{NAME}.{uuid.uuid4().hex[:8]}.part"
-    files.write(out / NAME, lambda path: path.write_text(text, encoding="utf-8"), part)
+    files.write(out / NAME, lambda path: path.write_text(text, encoding="utf-8"))

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -25,8 +26,22 @@ inline std::string shape_text(const pybind11::array& array) {
   return pybind11::str(array.attr("shape")).cast<std::string>();
 }
 
+/// Whether every value of an integer array is one of type T.
+template <class T> bool fits(const pybind11::array& array) {
+  namespace py = pybind11;
+  const py::module_ numpy = py::module_::import("numpy");
+  const py::dtype wanted = py::dtype::of<T>();
+  if (array.size() == 0 || numpy.attr("can_cast")(array.dtype(), wanted).template cast<bool>()) {
+    return true;
+  }
+  const py::object limits = numpy.attr("iinfo")(wanted);
+  const auto python = py::module_::import("builtins").attr("int");
+  return python(array.attr("min")()) >= limits.attr("min") &&
+         python(array.attr("max")()) <= limits.attr("max");
+}
+
 /// Anything array-like of real numbers -> contiguous T. Text, complex numbers and objects are
-/// refused.
+/// refused; where T is an integer, so is what is not one, or lies beyond T.
 template <class T> Array<T> to_array(const pybind11::handle& object, const std::string& name) {
   namespace py = pybind11;
   const py::array any = py::array::ensure(object);
@@ -37,6 +52,15 @@ template <class T> Array<T> to_array(const pybind11::handle& object, const std::
   const char kind = any.dtype().kind();
   if (kind != 'f' && kind != 'i' && kind != 'u' && kind != 'b') {
     wrong(name, "must hold real numbers, not " + py::str(any.dtype()).cast<std::string>());
+  }
+  if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+    if (any.size() > 0 && kind != 'i' && kind != 'u') { // an empty list is an array of floats
+      wrong(name, "must hold integers, not " + py::str(any.dtype()).cast<std::string>());
+    }
+    if (!fits<T>(any)) {
+      wrong(name, "holds an integer too large or too small for " +
+                      py::str(py::dtype::of<T>()).cast<std::string>());
+    }
   }
   return py::array_t < T, py::array::c_style | py::array::forcecast > (any);
 }

@@ -119,5 +119,19 @@ def test_flames_light_the_picture_and_burn_in_the_thermal_layer(settings, run, s
     assert kelvin.max() <= 1501.0
 
 
+def test_nothing_of_a_flame_is_colder_than_what_is_behind_it(settings, run, stage, scene, shoot):
+    """Neither its rims nor the gaps between its tongues dim the heat that comes through them."""
+    camera = settings.cameras[0]
+    near = replace(camera.rig.keys[0], latitude=38.8395, height=150.0)
+    settings = replace(settings, cameras=(replace(camera, rig=replace(camera.rig, keys=(near,))),))
+    build.build(Shot(settings, run), scene)
+    layers.build(settings, stage)
+    scene.frame_set(2)
+    bpy.data.objects["Firetwin Firebrands"].hide_render = True
+    kelvin = shoot(scene, "thermal")
+    bpy.data.objects["Firetwin Flames"].hide_render = True
+    assert np.min(kelvin - shoot(scene, "thermal")) > -0.01
+
+
 def test_flames_off_builds_nothing(settings, run, stage):
     assert fire.build(Shot(replace(settings, fire=Fire(flames=False)), run), stage) is None

@@ -150,6 +150,17 @@ def test_frames_far_apart_show_the_pieces_of_their_own_moment(settings, run, sta
     assert np.median(gap) < 120.0
 
 
+def test_a_camera_far_away_sees_none(close, run, stage, scene):
+    """Else hundreds of streaks, each as wide as the satellite's pixels, lie one over the other."""
+    shot = Shot(close, run)
+    fire.build(shot, stage)
+    look(scene)
+    scene.camera.location = shot.paths[0].position[0]
+    assert len(drawn(scene, 12)[0]) > 50
+    scene.camera.location.z += 60_000.0
+    assert len(drawn(scene, 12)[0]) == 0
+
+
 def test_twice_built_is_built_once_and_none_out_of_reach(close, run, stage):
     fire.build(Shot(close, run), stage)
     count = len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.node_groups), len(bpy.data.materials)

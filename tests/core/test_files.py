@@ -9,6 +9,7 @@ import signal
 import struct
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import firetwin
@@ -62,14 +63,76 @@ def test_a_full_disk_under_the_core(tiny):
     _fill(tiny)
     pixels = np.random.default_rng(1).uniform(size=(99, 99, 3)).astype(np.float32)
     for path in (tiny / "a.exr", tiny / "a.png"):
-        with pytest.raises(InputError, match="the disk is full"):
-            _write_and_look(path, pixels)
+        with pytest.raises(InputError, match="the disk is full"), writing(path):
+            sensor.write_image(path, pixels)
+    assert [each.name for each in tiny.iterdir()] == ["filler"]
 
 
-def _write_and_look(path, pixels):
-    with writing(path):
+@pytest.mark.parametrize("name", ["a.exr", "a.png", "a.vdb"])
+def test_a_file_that_ends_too_early_is_never_published(tmp_path, name):
+    """A limit on the length of files, at their very end and before, as a disk that is full there."""
+    code = f"""
+import resource, sys
+import numpy as np
+from pathlib import Path
+from firetwin_core import InputError, sensor, volume
+path = Path(sys.argv[1]) / {name!r}
+pixels = np.random.default_rng(1).uniform(size=(64, 64, 3)).astype(np.float32)
+def write():
+    if path.suffix == ".vdb":
+        volume.write(path, {{"density": np.ones((16, 16, 16), np.float32)}}, 1.0)
+    else:
         sensor.write_image(path, pixels)
-    whole.picture(path, (99, 99))
+write()
+size = path.stat().st_size
+path.unlink()
+for room in (0, 1, 100, size // 2, size - 9, size - 1):
+    resource.setrlimit(resource.RLIMIT_FSIZE, (room, resource.RLIM_INFINITY))
+    try:
+        write()
+    except InputError as error:
+        assert "cannot be written: File too large" in str(error), error
+    else:
+        sys.exit(f"written within {{room}} of {{size}} bytes")
+    assert not list(path.parent.iterdir()), room
+resource.setrlimit(resource.RLIMIT_FSIZE, (size, resource.RLIM_INFINITY))
+write()
+assert path.stat().st_size == size
+"""
+    result = subprocess.run([sys.executable, "-c", code, str(tmp_path)], capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr
+
+
+@pytest.mark.parametrize("how", ["image", "python"])
+def test_threads_that_write_one_path_do_not_meet(tmp_path, how):
+    """Each finds its own temporary file; the last one's stays, whole, and nothing else."""
+    rng = np.random.default_rng(1)
+    pictures = [rng.uniform(size=(40, 40, 3)).astype(np.float32) for _ in range(6)]
+    path = tmp_path / "a.exr"
+
+    def write(pixels):
+        for _ in range(25):
+            if how == "image":
+                sensor.write_image(path, pixels)
+            else:
+                files.write(path, lambda part: sensor.write_image(part, pixels))
+
+    with ThreadPoolExecutor(len(pictures)) as pool:
+        list(pool.map(write, pictures))
+    read = sensor.read_image(path)
+    assert any(np.array_equal(read, pixels) for pixels in pictures)
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_the_core_brings_a_file_to_the_disk_before_its_name(tmp_path):
+    if not shutil.which("strace"):
+        pytest.skip("needs strace")
+    code = "import sys, numpy; from firetwin_core import sensor; sensor.write_image(sys.argv[1], numpy.ones((9, 9)))"
+    log = tmp_path / "log"
+    command = ["strace", "-f", "-y", "-o", str(log), "-e", "trace=fsync,rename,renameat,renameat2"]
+    subprocess.run([*command, sys.executable, "-c", code, str(tmp_path / "a.exr")], check=True)
+    calls = [line.split(maxsplit=1)[1] for line in log.read_text().splitlines() if "a.exr" in line]
+    assert [call.partition("(")[0][:6] for call in calls] == ["fsync", "rename"]
 
 
 def test_a_full_disk_under_the_store(tiny):

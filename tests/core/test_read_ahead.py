@@ -1,6 +1,7 @@
 """Frames that worker threads read while the ones before are used."""
 
 import gc
+from concurrent.futures import ThreadPoolExecutor
 
 import firetwin_core as core
 import numpy as np
@@ -41,6 +42,20 @@ def test_ended_iterators_stay_ended_and_keep_their_run(make_run):
     assert list(frames) == []
 
 
+@pytest.mark.parametrize("ahead", [1, 2, 8])
+def test_threads_may_share_one_iterator(make_run, ahead):
+    """Each frame goes to one of them, and all of them come to the end."""
+    flux = np.arange(300 * 20, dtype=np.float32).reshape(300, 4, 5)
+    run = runs.open(make_run(heat_flux=flux, temperature=None, wind_east=None, wind_north=None))
+    for _ in range(10):
+        frames = run.frames(ahead=ahead)
+        with ThreadPoolExecutor(4) as pool:
+            parts = [future.result(30.0) for future in [pool.submit(list, frames) for _ in range(4)]]
+        taken = np.array([frame[0, 0] for part in parts for frame in part])
+        assert np.array_equal(np.sort(taken), flux[:, 0, 0])
+        assert all(np.all(np.diff([frame[0, 0] for frame in part]) > 0) for part in parts if len(part) > 1)
+
+
 def test_an_unused_iterator_goes_without_waiting(run):
     frames = run.frames(ahead=1)
     next(frames)
@@ -64,6 +79,11 @@ def test_wrong_arguments(run, make_run):
         run.frames("flux")
     with pytest.raises(ValueError, match="ahead"):
         run.frames(ahead=0)
+    with pytest.raises(ValueError, match="indices must hold integers, not float64"):
+        run.frames(indices=[0.0, 1.5])
+    with pytest.raises(ValueError, match="indices holds an integer too large or too small for int64"):
+        run.frames(indices=np.array([2**64 - 1], np.uint64))
+    assert list(run.frames(indices=[])) == []
     for index in (-1, 3):
         with pytest.raises(IndexError):
             run.frames(indices=[index])

@@ -81,7 +81,7 @@ def test_signs_of_zeros_stay(grid_of):
         ("1 2\n3 4 5\n", 2, 1, "3 values where the first has 2"),
         ("1,,2\n", 1, 3, "a value is missing"),
         (",1\n", 1, 1, "a value is missing"),
-        ("1,2,\n", 1, 4, "a value is missing"),
+        ("1,2,,\n", 1, 5, "a value is missing"),
         ("12 ****\n", 1, 4, "Fortran format"),
         ("1e400\n", 1, 1, "too large"),
         ("1 -1e39\n", 1, 3, "too large"),

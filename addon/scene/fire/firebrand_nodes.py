@@ -12,6 +12,9 @@ from . import firebrand_material, firebrands, flames
 
 _SHUTTER = 0.1  # s of the piece's way that a streak shows
 _PIXELS = 0.8  # a streak is no narrower than this, and dimmer instead
+_FAR = 2.0 * firebrands.REACH
+"""m from the camera; there a piece adds less than 0.1 K to a pixel. From a satellite hundreds of wide streaks
+would lie one over the other, more clear surfaces than Cycles lets a ray pass: black pixels."""
 
 
 def build(
@@ -71,12 +74,13 @@ def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: floa
     before, behind = (sampled(position, index + low + k, "FLOAT_VECTOR") for k in (0.0, 1.0))
     way = tree.vector("SUBTRACT", behind, before)
     place = tree.vector("ADD", before, _scaled(tree, way, (after - low).clamp()))
-    dead = tree.math("MAXIMUM", part < 0.0, part > 1.0)
-    dead = tree.math("MAXIMUM", dead, tree.math("MAXIMUM", after < 0.0, after > each - 1.0))
     pieces = tree.output("GeometryNodePoints", {"Count": count, "Position": place, "Radius": 0.0})
     camera = tree.output("GeometryNodeInputActiveCamera")
     eye = tree.output("GeometryNodeObjectInfo", {"Object": camera}, "Location", transform_space="ORIGINAL")
     distance = tree.vector("DISTANCE", eye, place, name="Value")
+    dead = distance > _FAR
+    for out in (part < 0.0, part > 1.0, after < 0.0, after > each - 1.0):
+        dead = tree.math("MAXIMUM", dead, out)
     size = named("size")
     width = tree.math("MAXIMUM", size, distance * (_PIXELS * pixel))
     length = width + tree.vector("LENGTH", way, name="Value") * (_SHUTTER / found.step)

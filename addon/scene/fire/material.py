@@ -43,7 +43,10 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     behind = 1.0 - shape * 0.5
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(behind, behind, behind)})
     shader = tree.add_shader(tree.emission(colour, strength * (1.0 - part)), clear)
-    shown = nodes.thermal_switch(tree, shader, tree.attribute("kelvin", "INSTANCER"))
-    tree.surface(tree.mix_shader(shape > 0.12, clear, shown))
+    flame = shape > 0.12
+    gap = tree.output("ShaderNodeBsdfTransparent")  # which hides nothing of the heat behind it
+    hot = tree.mix_shader(flame, gap, tree.emission(tree.attribute("kelvin", "INSTANCER"), 1.0))
+    light = tree.mix_shader(flame, clear, shader)
+    tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), light, hot))
     material.cycles.emission_sampling = "NONE"
     return material
