@@ -11,6 +11,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -24,6 +25,8 @@ using volume::Frame;
 using volume::Puffs;
 using volume::PuffSettings;
 using Path = std::filesystem::path;
+
+constexpr py::ssize_t longest_side = 1 << 30; // voxels, far from the largest 32-bit integer
 
 Puffs puffs(double time, const py::object& arrival_object, const py::object& fuel_object,
             const py::object& position_object, const py::object& wind_object, double cell_area,
@@ -155,6 +158,9 @@ Frame write(const Path& path, const std::map<std::string, py::object>& grids, do
     const auto array = to_array<float>(object, name, {-1, -1, -1});
     if (array.size() == 0) {
       wrong(name, "must hold a number or more");
+    }
+    if (*std::max_element(array.shape(), array.shape() + 3) > longest_side) {
+      wrong(name, "must be at most " + std::to_string(longest_side) + " voxels long");
     }
     const auto side = [&array](py::ssize_t axis) {
       return static_cast<std::int32_t>(array.shape(axis));

@@ -26,7 +26,7 @@ namespace {
 Frame write_dense(const std::filesystem::path& path,
                   const std::map<std::string, DenseField>& fields, const DenseSettings& settings,
                   const io::Metadata& metadata) {
-  check_above_zero(settings.voxel_size, "voxel_size");
+  check_voxel_size(settings.voxel_size);
   check_finite(settings.origin, "origin");
   check_zero_or_more(static_cast<double>(settings.tolerance), "tolerance");
   VdbArchive archive;

@@ -43,6 +43,9 @@ openvdb::FloatGrid::Ptr flame_grid(const Flames& flames, double voxel_size) {
   openvdb::FloatGrid::Ptr grid = fog_grid("flame", voxel_size, {0.0, 0.0, 0.0}, "1");
   auto accessor = grid->getAccessor();
   for (std::size_t i = 0; i < flames.power.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      leaf_number(flames.position[3 * i + axis], voxel_size); // can be counted
+    }
     const openvdb::Vec3d at(flames.position[3 * i] / voxel_size,
                             flames.position[3 * i + 1] / voxel_size,
                             flames.position[3 * i + 2] / voxel_size);

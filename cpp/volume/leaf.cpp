@@ -1,13 +1,17 @@
 #include "volume/leaf.hpp"
 
+#include "base/check.hpp"
 #include "base/error.hpp"
 
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 namespace firetwin::volume {
 namespace {
 
+constexpr double smallest_voxel = 1.0e-6; // m; OpenVDB takes sizes near 0 for 0
+constexpr double largest_voxel = 1.0e6;   // m; its volume is far from the largest float
 constexpr double most_leaves = 1.0e8;
 constexpr double farthest_leaf = 1 << 27; // its voxels, eight times as many, are 32-bit integers
 
@@ -35,6 +39,15 @@ double mass_of(const LeafMask& mask, const LeafValues& values, double voxel_size
     sum += static_cast<double>(values[voxel.pos()]);
   }
   return sum * voxel_size * voxel_size * voxel_size;
+}
+
+void check_voxel_size(double voxel_size) {
+  check_above_zero(voxel_size, "voxel_size");
+  if (voxel_size < smallest_voxel || voxel_size > largest_voxel) {
+    std::ostringstream text;
+    text << "voxel_size must be 1e-6 to 1e6 m, not " << voxel_size;
+    throw std::invalid_argument(text.str());
+  }
 }
 
 int leaf_number(double place, double voxel_size) {

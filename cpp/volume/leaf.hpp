@@ -26,6 +26,9 @@ std::array<float, 3> corner_of(const openvdb::Coord& origin, float voxel_size);
 /// Integral over active voxels.
 double mass_of(const LeafMask& mask, const LeafValues& values, double voxel_size);
 
+/// @throws std::invalid_argument unless it is a micrometre to a thousand kilometres
+void check_voxel_size(double voxel_size);
+
 /// The leaf, counted along an axis, that a place (m) lies in.
 /// @throws Error where voxels are so small that they cannot be counted
 int leaf_number(double place, double voxel_size);

@@ -1,6 +1,5 @@
 #include "volume/levels.hpp"
 
-#include "base/check.hpp"
 #include "base/error.hpp"
 #include "base/smoothstep.hpp"
 #include "volume/level_leaves.hpp"
@@ -157,7 +156,7 @@ float spacing(const geo::LocalFrame& frame, const Levels& levels) {
 
 Frame write_levels(const std::filesystem::path& path, const geo::LocalFrame& frame,
                    const Levels& levels, double voxel_size, const Wanted& wanted) {
-  check_above_zero(voxel_size, "voxel_size");
+  check_voxel_size(voxel_size);
   check_heights(levels);
   const std::vector<openvdb::Coord> origins = reached_leaves(frame, levels, voxel_size);
   std::vector<std::unique_ptr<SmokeLeaf>> all(origins.size());

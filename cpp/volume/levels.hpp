@@ -38,7 +38,7 @@ inline float known_smoke(float smoke) {
 /// `dilution` from thinnest_dilution to 0.1, thick in every voxel, `shade` follows from both as in
 /// write_smoke, and `size` is the spacing of the model's columns, below which only noise can show
 /// detail.
-/// @throws std::invalid_argument unless voxel_size > 0; Error where heights do not ascend
+/// @throws std::invalid_argument unless check_voxel_size passes; Error where heights do not ascend
 Frame write_levels(const std::filesystem::path& path, const geo::LocalFrame& frame,
                    const Levels& levels, double voxel_size, const Wanted& wanted);
 

@@ -1,6 +1,5 @@
 #include "volume/smoke.hpp"
 
-#include "base/check.hpp"
 #include "base/smoothstep.hpp"
 #include "volume/bins.hpp"
 #include "volume/grids.hpp"
@@ -155,7 +154,7 @@ private:
 
 Frame write_smoke(const std::filesystem::path& path, const Puffs& puffs, double voxel_size,
                   const Wanted& wanted) {
-  check_above_zero(voxel_size, "voxel_size");
+  check_voxel_size(voxel_size);
   const Leaves all = fill(puffs, voxel_size);
   LeafSource source;
   source.density_units = "(m + 300) / 600";

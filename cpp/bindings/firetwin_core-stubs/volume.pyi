@@ -127,7 +127,7 @@ class Frame:
     def mass(self) -> float:
         """kg of smoke: the integral of what is written, before it is rounded to half floats.
 
-        0 where the grid `dilution` is not written.
+        0 where its grid, `dilution` or that of `write`, `density`, is not written.
         """
     @property
     def hidden(self) -> float:
@@ -154,7 +154,7 @@ def write_smoke(
     Raises
     ------
     ValueError
-        An array has the wrong shape, voxel_size is not positive, or no grid has such a name.
+        An array has the wrong shape, voxel_size is not 1e-6 to 1e6 m, or no grid has such a name.
     Error
         The voxels are far too small for smoke this wide.
     InputError
@@ -198,7 +198,7 @@ def write_levels(
     Raises
     ------
     ValueError
-        Shapes that do not fit, voxel_size is not positive, or no grid has such a name.
+        Shapes that do not fit, voxel_size is not 1e-6 to 1e6 m, or no grid has such a name.
     Error
         Heights that do not ascend, or voxels far too small.
     InputError
@@ -213,16 +213,45 @@ def write(
     half: bool = True,
     tolerance: float = 0.0,
     metadata: Mapping[str, str] | None = None,
+    sight: Sight | None = None,
 ) -> Frame:
-    """Write dense arrays (nx, ny, nz) as sparse fog volumes of cubic voxels (m).
+    """Write dense arrays as sparse fog volumes of cubic voxels, to a temporary file that is then renamed.
 
-    `origin` is the centre of voxel (0, 0, 0). Voxels within `tolerance` of 0 are left out. `Frame.mass` is
-    the integral of `density`, read as kg/m3.
+    Parameters
+    ----------
+    grids
+        Arrays (nx, ny, nz) by name. Those of float32 in C order are read where they are, others are copied.
+    voxel_size
+        m, 1e-6 to 1e6.
+    origin
+        m, the centre of voxel (0, 0, 0) of every array.
+    half
+        Whether values are rounded to half precision (nearest, ties to even), which holds them up to 65504.
+    tolerance
+        Values this near 0, the background, are left out. Each grid has its own active voxels.
+    metadata
+        What the file says of itself.
+    sight
+        Blocks of 8^3 voxels that do not count (300 m round them) are left out; what is written stays the same.
+        They are not looked at, whatever they hold, but in `density`, for `Frame.hidden`.
+
+    Returns
+    -------
+    Frame
+        `mass` is the integral of what is written of `density`, read as kg/m3, before rounding, `hidden` of what
+        is left out because no camera sees it; both 0 without a grid of that name.
+
+    Notes
+    -----
+    Blocks of one value become tiles, as in OpenVDB's `copyFromArray`. Beside the arrays and the masks of active
+    voxels (a few bytes for 100 values) memory holds some megabytes of what is on its way to the file. The same
+    grids make the same bytes on any number of threads.
 
     Raises
     ------
     ValueError
-        An array has the wrong shape, or a value is not finite or too large for half precision.
+        An array has the wrong shape, a value is not finite or too large for half precision, or a number makes
+        no sense.
     InputError
         The folder is missing or cannot be written.
     """
