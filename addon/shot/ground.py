@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..run import areas
 from ..run.frame import local_frame
-from . import apron, noise
+from . import apron, burning, noise
 from .settings import Settings
 
 NEVER = 1.0e9  # arrival time of places that never burned, s
@@ -26,13 +26,18 @@ class Ground:
     Within `near_radius` of the given eyes the surface between grid points is smooth (Catmull-Rom) with added
     relief; farther away it is bilinear, as the tree heights of the core are. The two are blended.
 
+    Parameters
+    ----------
+    arrival
+        (fy, fx) s, when the front is in the middle of each fuel cell; NaN where never.
+
     Attributes
     ----------
     eyes
         (m, 3) camera places in the scene, m; without any the ground is bilinear everywhere.
     """
 
-    def __init__(self, settings: Settings, run: Run) -> None:
+    def __init__(self, settings: Settings, run: Run, arrival: Array) -> None:
         self.frame = local_frame(run)
         latitude, longitude = run.fuel_latitude, run.fuel_longitude
         width, height = areas.cell_size(
@@ -53,7 +58,7 @@ class Ground:
         )
         self.fields = apron.extend(known, self.cell, settings.ground.apron, settings.seed)
         self.seed, self.near_radius = settings.seed, settings.ground.near_radius
-        self._set_arrival(_oriented(run.fuel_arrival_time(), latitude, longitude))
+        self._set_arrival(_oriented(arrival, latitude, longitude), float(run.times[-1]))
         self.eyes = np.empty((0, 3))
         self.bare, self.water = _bare(self.fields), _water(self.fields)
         slope = np.hypot(*np.gradient(self.fields.elevation, *self._metres()))
@@ -75,23 +80,26 @@ class Ground:
         north, east = areas.metres_per_degree(self.frame.latitude)
         return self.fields.latitude * north, self.fields.longitude * east
 
-    def _set_arrival(self, arrival: Array) -> None:
-        """Continue arrival times a few cells past the last perimeter, so that it can be drawn smoothly."""
-        burned = np.isfinite(arrival)
-        filled, known = np.where(burned, arrival, 0.0), burned.astype(np.float64)
-        for _ in range(3):
-            total, weight = _neighbours(filled * known), _neighbours(known)
-            grow = (known == 0.0) & (weight > 0.0)
-            filled[grow] = total[grow] / weight[grow] + 300.0
-            known[grow] = 1.0
-        filled[known == 0.0] = NEVER
-        margin = self.fields.margin
-        self.arrival = np.pad(np.where(burned, arrival, NEVER), margin, constant_values=NEVER)
+    def _set_arrival(self, arrival: Array, end: float) -> None:
+        """Arrival times (s) within the last perimeter and a few cells beyond, and what of the ground burns.
+
+        Beyond the perimeter they go on at the pace of the front beside it. `burned` is above 0.5 where the
+        front has passed by the `end` of the run (s): where it still moves then, its place lies between the
+        centres of two cells as their times say; where it has stopped, half-way.
+        """
+        margin, reached = self.fields.margin, np.isfinite(arrival)
+        self.arrival = np.pad(np.where(reached, arrival, NEVER), margin, constant_values=NEVER)
+        crossing = np.zeros(arrival.shape)
+        crossing[reached] = burning.crossing(arrival, *np.nonzero(reached))
+        time, crossing, known = _beyond(np.where(reached, arrival, 0.0), crossing, reached, rings=3)
+        end = max(end, float(np.max(arrival, initial=end, where=reached)))
+        part = np.clip(0.5 + (end - time) / np.where(known, crossing, 1.0), 0.0, 1.0)
+        burned = np.where(known & (reached | (time > end)), part, 0.0)
         y, x = (np.arange(count) * size for count, size in zip(arrival.shape, self.cell, strict=True))
         patches = noise.fractal(x[None, :], y[:, None], 800.0, 3, self.seed + 70)
         spared = noise.smoothstep(0.50, 0.68, patches)  # islands that the fire left out (invented), about 6 %
         self.burned = np.pad(burned * (1.0 - spared), margin)
-        self.burn_time = np.pad(filled, margin, constant_values=NEVER)
+        self.burn_time = np.pad(np.where(known, time, NEVER), margin, constant_values=NEVER)
 
     def indices(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
         """Fractional row and column of places, held inside the grid."""
@@ -212,6 +220,21 @@ def _bare(fields: apron.Fields) -> Array:
     for _ in range(2):
         bare = (bare + _neighbours(bare)) / 9.0
     return bare
+
+
+def _beyond(
+    time: Array, crossing: Array, known: NDArray[np.bool_], rings: int
+) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Times and crossings (s) of cells, those of a few rings around them, and which cells these are."""
+    time, crossing, known = time.copy(), crossing.copy(), known.copy()
+    for _ in range(rings):
+        weight = _neighbours(known.astype(np.float64))
+        grow = ~known & (weight > 0.0)
+        pace = _neighbours(crossing * known)[grow] / weight[grow]
+        time[grow] = _neighbours(time * known)[grow] / weight[grow] + pace
+        crossing[grow] = pace
+        known |= grow
+    return time, crossing, known
 
 
 def _neighbours(field: Array) -> Array:

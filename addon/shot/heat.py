@@ -1,31 +1,17 @@
-"""The model's heat shared out exactly among what burns, as sources of light and embers; without Blender.
-
-A model cell with flux F gives F x area watts, shared among its fuel cells in proportion to the fuel that they
-consume at that moment. The front crosses a fuel cell in its size over the rate of spread; each spot of it
-loses its fuel as exp(-age / T) from when the front comes (Mandel et al. 2011, doi 10.5194/gmd-4-591-2011,
-eq. 3: the ground heat of WRF-SFIRE). So a cell consumes most while the front is in it and smoulders after.
-"""
+"""Sources of heat, light and smoke of one moment, and how they are merged; without Blender."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
-from firetwin_core import flux
-from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
-from ..run.frame import local_frame
 from . import burning
 
-BURN_OUT_CANOPY = 90.0  # s, foliage and twigs (assumed)
-# s and s for each kg/m2: brush of 0.3 kg/m2 takes 210 s and timber litter of 3 kg/m2 1020 s, as in WRF-SFIRE
-# (T = weight / 0.8514 with its weights 180 and 900).
-BURN_OUT_SURFACE = (120.0, 300.0)
 FLAMING = 120.0  # s that a spot flames after the front reached it (assumed); later it smoulders
 SMOULDER_LIGHT = 0.1  # light of a smouldering watt over that of a flaming one (assumed)
-_CROSSING = (60.0, 3600.0)  # s
-_OVER = 14.0  # burn-out times after which what is left, e^-14, is not worth a look
+SMOKE = 0.02  # kg of smoke for each kg of fuel burned (WRF-SFIRE's fire_tracer_smoke)
 
 Array = NDArray[np.float64]
 
@@ -45,7 +31,8 @@ class Sources:
     cell
         (n,) flat index on the model grid; -1 where sources of several cells were merged.
     fuel_cell
-        (n,) flat index on the fuel grid; -1 for the centre of a model cell and for merged sources.
+        (n,) flat index on the fuel grid, of the first where several cells are one source; -1 for the centre
+        of a model cell and for merged sources.
     """
 
     position: Array
@@ -57,6 +44,11 @@ class Sources:
     def take(self, chosen: NDArray) -> Sources:
         """Some of the sources."""
         return Sources(*(getattr(self, field.name)[chosen] for field in fields(self)))
+
+    @property
+    def smoke(self) -> Array:
+        """(n,) kg/s: of the fuel whose heat of combustion they give."""
+        return self.power * (SMOKE / burning.HEAT)
 
     def luminous(self) -> Sources:
         """The same with the power that counts as light: of flames all, of smouldering fuel little."""
@@ -77,69 +69,6 @@ def consumed(age: ArrayLike, crossing: ArrayLike, burn_out: ArrayLike) -> tuple[
     scale = np.where(age > 0.0, 1.0 / crossing, 0.0)
     total = (left - np.exp(-np.maximum(age, 0.0) / burn_out)) * scale
     return total, np.minimum((left - np.exp(-flame_end / burn_out)) * scale, total)
-
-
-class Heat:
-    """A run's heat between the model times `first` and `last` (s), shared out for any moment."""
-
-    def __init__(self, run: Run, first: float = -np.inf, last: float = np.inf) -> None:
-        self.run = run
-        frame = local_frame(run)
-        self.area = burning.model_cell_area(run)
-        surface, canopy = (
-            np.nan_to_num(field.astype(np.float64)).ravel() for field in (run.surface_fuel, run.canopy_fuel)
-        )
-        arrival = run.fuel_arrival_time().astype(np.float64)
-        crossing = _crossing(arrival)
-        begin = arrival - 0.5 * crossing  # the arrival time is that of the cell's centre
-        slow = BURN_OUT_SURFACE[0] + BURN_OUT_SURFACE[1] * surface
-        over = begin.ravel() + crossing.ravel() + _OVER * np.maximum(slow, BURN_OUT_CANOPY)
-        with np.errstate(invalid="ignore"):
-            burns = (begin.ravel() < last) & (over > first) & (surface + canopy > 0.0)
-        chosen = np.flatnonzero(burns)
-        self.fuel_cell = chosen[np.argsort(begin.ravel()[chosen], kind="stable")]
-        self.begin, self.crossing, self.over = (v.ravel()[self.fuel_cell] for v in (begin, crossing, over))
-        self.surface, self.canopy, self.slow = (v[self.fuel_cell] for v in (surface, canopy, slow))
-        self._rows = _nearest(run.latitude, run.fuel_latitude)
-        self._columns = _nearest(run.longitude, run.fuel_longitude)
-        row, column = np.divmod(self.fuel_cell, arrival.shape[1])
-        self.cell = self._rows[row] * len(run.longitude) + self._columns[column]
-        height = np.nan_to_num(run.fuel_elevation.astype(np.float64))
-        self.position = frame.forward_grid(run.fuel_latitude, run.fuel_longitude, height).reshape(-1, 3)[
-            self.fuel_cell
-        ]
-        height = np.nan_to_num(run.elevation.astype(np.float64))
-        self.centre = frame.forward_grid(run.latitude, run.longitude, height).reshape(-1, 3)
-
-    def cells(self, time: float) -> Array:
-        """Heat of each model cell (ny * nx,) at `time`, W: its flux times its area."""
-        times = self.run.times
-        near = int(np.argmin(np.abs(times - time)))
-        found = self.run.heat_flux(near) if times[near] == time else flux.at_time(self.run, time)
-        return np.maximum(np.nan_to_num(found.astype(np.float64)), 0.0).ravel() * self.area
-
-    def sources(self, time: float) -> Sources:
-        """Everything that gives heat at `time`; a cell without burning fuel gives it from its centre."""
-        heat = self.cells(time)
-        came = np.searchsorted(self.begin, time)
-        lit = np.flatnonzero((self.over[:came] > time) & (heat[self.cell[:came]] > 0.0))
-        age, crossing, cell = time - self.begin[lit], self.crossing[lit], self.cell[lit]
-        parts = [
-            (self.surface[lit], consumed(age, crossing, self.slow[lit])),
-            (self.canopy[lit], consumed(age, crossing, BURN_OUT_CANOPY)),
-        ]
-        rate = sum(fuel * all_of_it for fuel, (all_of_it, _) in parts)
-        flaming = sum(fuel * part for fuel, (_, part) in parts)
-        total = np.bincount(cell, rate, len(heat))
-        share = heat[cell] / np.where(total > 0.0, total, 1.0)[cell]
-        alone = np.flatnonzero((heat > 0.0) & (total <= 0.0))
-        return Sources(
-            np.concatenate([self.position[lit], self.centre[alone]]),
-            np.concatenate([rate * share, heat[alone]]),
-            np.concatenate([flaming * share, heat[alone]]),
-            np.concatenate([cell, alone]),
-            np.concatenate([self.fuel_cell[lit], np.full(len(alone), -1)]),
-        )
 
 
 def lights(sources: Sources, block: float = 300.0, count: int = 400) -> Sources:
@@ -199,24 +128,3 @@ def _gathered(
         nowhere,
         nowhere,
     )
-
-
-def _crossing(arrival: Array) -> Array:
-    """Seconds that the front takes to cross each fuel cell: the cell's size times the slope of arrival.
-
-    Of the two one-sided differences the smaller: a jump to another fire's arrival is no slow front.
-    """
-    padded = np.pad(arrival, 1, constant_values=np.nan)
-    steps = []
-    for axis in (0, 1):
-        gaps = [np.abs(padded - np.roll(padded, shift, axis))[1:-1, 1:-1] for shift in (1, -1)]
-        steps.append(np.nan_to_num(np.fmin(*gaps)))
-    return np.clip(np.hypot(*steps), *_CROSSING)
-
-
-def _nearest(axis: ArrayLike, values: ArrayLike) -> NDArray[np.int64]:
-    """Index of the axis value nearest to each value; the axis ascends or descends."""
-    axis = np.asarray(axis, np.float64)
-    order = np.argsort(axis, kind="stable")
-    edges = 0.5 * (axis[order][1:] + axis[order][:-1])
-    return order[np.searchsorted(edges, values)]

@@ -14,12 +14,13 @@ from ..errors import UsageError
 from ..run import times
 from ..run.frame import local_frame
 from . import burning, frame_list, frames, path, sun
+from .fire import Fire
 from .frames import Frames
 from .ground import Ground
-from .heat import Heat
 from .path import SENSOR, Path
 from .settings import Camera, Settings
 
+_BEFORE = 3600.0  # s before the first frame that ground which burned since counts as burning
 _NOWHERE = 20_000.0  # m, distance of a fire that no camera looks at
 
 
@@ -36,16 +37,20 @@ class Shot:
         The model run.
     frames
         Frames and the model times that they show.
+    fire
+        What burns from the first frame to the last; it is there for all cameras.
     """
 
     def __init__(self, settings: Settings, run: Run) -> None:
         self.settings, self.run = settings, run
         self.frames: Frames = frames.of(settings.time, run)
+        before = settings.smoke.max_age + burning.BURN_TIME
+        self.fire = Fire(run, self.frames.first, self.frames.last, max(before, _BEFORE))
 
     def of(self, name: str) -> Shot:
         """The same shot with this camera alone: what it films depends on no other."""
         shot = Shot(replace(self.settings, cameras=(self.camera(name),)), self.run)
-        shot.bare_ground = self.bare_ground
+        shot.fire, shot.bare_ground = self.fire, self.bare_ground
         return shot
 
     def camera(self, name: str) -> Camera:
@@ -82,7 +87,7 @@ class Shot:
     @cached_property
     def bare_ground(self) -> Ground:
         """The ground without the detail near cameras."""
-        return Ground(self.settings, self.run)
+        return Ground(self.settings, self.run, self.fire.arrival)
 
     @cached_property
     def ground(self) -> Ground:
@@ -126,20 +131,15 @@ class Shot:
         return [view for view in self.paths if view.perspective]
 
     @cached_property
-    def heat(self) -> Heat:
-        """What burns and how strongly, from the first frame to the last."""
-        return Heat(self.run, self.frames.first, self.frames.last)
-
-    @cached_property
     def wind(self) -> tuple[float, float]:
         """Mean wind (m/s, east and north) where it burns in the middle of the shot."""
-        east, north = burning.wind_at(self.run, np.array([self.frames.middle]))[0]
+        east, north = burning.wind_at(self.run, np.array([self.frames.middle]), self.fire.surroundings)[0]
         return float(east), float(north)
 
     @cached_property
     def fire_distance(self) -> float:
         """How near (m) cameras come to the fire: nearer than nine tenths of it in their nearest frame."""
-        cells = burning.cells(self.run, self.frames.first - 1800.0, self.frames.last + 1.0)
+        cells = self.fire.cells(self.frames.first - 1800.0, self.frames.last + 1.0)
         if not self.paths or len(cells.arrival) == 0:
             return _NOWHERE
         return min(

@@ -33,6 +33,14 @@ struct Ball {
   std::uint64_t identity;
 };
 
+/// Each interval costs time, and is known by a number.
+void check_intervals(double time, const PuffSettings& settings) {
+  constexpr double most = 1e4, last = 1e15;
+  if (settings.max_age / settings.interval > most || std::abs(time) / settings.interval > last) {
+    throw std::invalid_argument("interval is too short: max_age may last 10,000 intervals at most");
+  }
+}
+
 void check(double time, const Burn& burn, const PuffSettings& settings) {
   check_finite(time, "time");
   check_finite(burn.arrival, "arrival (leave out cells that never burn)");
@@ -42,6 +50,7 @@ void check(double time, const Burn& burn, const PuffSettings& settings) {
   check_above_zero(burn.cell_area, "cell_area");
   check_above_zero(settings.interval, "interval");
   check_above_zero(settings.max_age, "max_age");
+  check_intervals(time, settings);
   check_above_zero(settings.burn_time, "burn_time");
   check_above_zero(settings.stability, "stability");
   check_above_zero(settings.block, "block");

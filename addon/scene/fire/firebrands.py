@@ -105,7 +105,9 @@ def fly(shot: Shot, points: flames.Points) -> Flights | None:
     lapse = shot.frames.step > _LIFE[1] or len(times) == 1
     spans = [(t - _LIFE[1], t) for t in times] if lapse else [(times[0] - _LIFE[1], times[-1])]
     floor = _floor(shot.ground, points.position[rate > 0.0])
-    winds = burning.wind_at(shot.run, np.array([0.5 * (begin + end) for begin, end in spans]))
+    winds = burning.wind_at(
+        shot.run, np.array([0.5 * (begin + end) for begin, end in spans]), shot.fire.surroundings
+    )
     parts = []
     for number, span in enumerate(spans):
         launched = _launched(shot.settings.seed + 7919 * number, points, rate, distance, span)

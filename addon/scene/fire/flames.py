@@ -186,7 +186,7 @@ def cells(shot: Shot) -> Points:
     width = float(np.sqrt(burning.cell_area(run) * run.surface_fuel.size / run.elevation.size))
     parts = []
     for time in shot.frames.times:
-        found = flux.emitters(flux.at_time(run, float(time)), position, low, high)
+        found = flux.emitters(shot.fire.flux.at(float(time)), position, low, high)
         count = len(found.cell)
         length = found.scale / 100.0 * _CELL_FLAME
         intensity = found.flux.astype(np.float64) * width / 1000.0

@@ -67,7 +67,7 @@ def place(shot: Shot) -> Lamps:
     none = Lamps(times, np.empty((0, 3)), np.empty(0), np.empty((len(times), 0)))
     if not near:
         return none
-    parts = [_around(shot.heat.sources(float(t)).luminous(), near) for t in times]
+    parts = [_around(shot.fire.sources(float(t)).luminous(), near) for t in times]
     position = np.concatenate([part.position for part in parts])
     power = np.concatenate([part.power for part in parts])
     moment = np.repeat(np.arange(len(times)), [len(part.power) for part in parts])

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ... import files
 from ...errors import Error, writing
 from ...shot import burning, heat
+from ...shot.fire import Fire
 from ...shot.shot import Shot
 from . import cache, stability
 from .view import Sights, resolution
@@ -33,11 +34,10 @@ class Baker:
         whole = shot.settings.smoke.complete
         self.grids = None if whole else SHOWN
         self.sights = None if whole else Sights(shot)
-        self.heat = shot.heat
         self.times = shot.frames.times
         first = self.times[0] - shot.settings.smoke.max_age - burning.BURN_TIME
         # Cells of the interval that goes on at the last frame belong to its puffs.
-        self.cells = burning.cells(shot.run, first, self.times[-1] + 600.0)
+        self.cells = shot.fire.cells(first, self.times[-1] + 600.0)
 
     def puffs(self, frame: int) -> volume.Puffs:
         """Smoke of a frame."""
@@ -63,7 +63,7 @@ class Baker:
         The file is there when it is complete, also where several threads or processes write it at once.
         """
         time = float(self.times[frame - 1])
-        position, power = lights(self.heat, time)
+        position, power = lights(self.shot.fire, time)
         own = self.shot.run.has("smoke_3d")
         more: dict[str, Any] = {
             "grids": self.grids,
@@ -120,7 +120,7 @@ def _put(mine: Path, path: Path, size: int) -> None:
             raise
 
 
-def lights(model: heat.Heat, time: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def lights(model: Fire, time: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """What lights the smoke from within: positions (n, 3) m and powers (n,) W of luminous heat."""
     found = heat.lights(model.sources(time).luminous(), _GLOW_BLOCK, _GLOW_COUNT)
     return found.position + np.array([0.0, 0.0, _FLAME_HEIGHT]), found.power

@@ -13,7 +13,6 @@ import numpy as np
 
 from ...blender import nodes
 from ...blender.owned import Stage
-from ...shot import burning
 from ...shot.noise import smoothstep
 from ...shot.shot import Shot
 from .. import haze
@@ -45,7 +44,7 @@ class Flow:
 
 def flow(shot: Shot) -> Flow:
     """Wind of the middle of the shot and the mean height of the ground that burns."""
-    cells = burning.cells(shot.run, shot.frames.first - 3600.0, shot.frames.last)
+    cells = shot.fire.cells(shot.frames.first - 3600.0, shot.frames.last)
     height = float(np.mean(cells.position[:, 2])) if len(cells.arrival) else 1000.0
     return Flow(shot.wind, height)
 

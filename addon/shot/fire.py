@@ -1,0 +1,156 @@
+"""What burns in a shot, gathered once: flames, lamps, firebrands and smoke take it from here.
+
+The model's heat is shared out exactly. A model cell with flux F gives F x area watts, shared among its fuel
+in proportion to what that consumes at the moment. The front crosses a fuel cell in its size over the rate of
+spread; each spot of it loses its fuel as exp(-age / T) from when the front comes (Mandel et al. 2011,
+doi 10.5194/gmd-4-591-2011, eq. 3: the ground heat of WRF-SFIRE). So a cell consumes most while the front is
+in it and smoulders after.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from firetwin_core import flux
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from ..run import areas
+from ..run.frame import local_frame
+from . import burning, heat
+from .fuel import BURN_OUT_CANOPY, Fuel, gather
+from .heat import Array, Sources
+
+_AHEAD = 600.0  # s after the last moment: what catches fire in the interval that goes on then
+
+
+@dataclass(frozen=True)
+class Cells:
+    """Fuel that catches fire in some time window, n pieces.
+
+    Attributes
+    ----------
+    arrival
+        (n,) s.
+    fuel
+        (n,) kg/m2 burned, surface and canopy; of a piece of several fuel cells their sum.
+    position
+        (n, 3) scene metres, on the ground.
+    wind
+        (n, 2) m/s east and north near the ground, at arrival, averaged over the fire's surroundings.
+    area
+        m2 of one fuel cell.
+    """
+
+    arrival: Array
+    fuel: Array
+    position: Array
+    wind: Array
+    area: float
+
+
+class Fire:
+    """The fire of a run between two model times: when it comes, and what heat and smoke it gives.
+
+    Parameters
+    ----------
+    first, last
+        Model times of the shot, s.
+    before
+        s before `first` from which on what has burned is asked for, smoke for instance.
+    """
+
+    def __init__(self, run: Run, first: float, last: float, before: float = 0.0) -> None:
+        self.run, self.first, self.last, self.before = run, first, last, before
+        self.frame = local_frame(run)
+
+    @cached_property
+    def arrival(self) -> Array:
+        """(fy, fx) s, when the front passes the middle of each fuel cell; NaN where never."""
+        return self.run.fuel_arrival_time()
+
+    @cached_property
+    def flux(self) -> flux.Interpolator:
+        """The heat flux at any time."""
+        return flux.Interpolator(self.run)
+
+    @cached_property
+    def cell_area(self) -> Array:
+        """(ny * nx,) m2 of each cell of the model grid."""
+        run = self.run
+        if min(run.elevation.shape) == 1:
+            return np.full(run.elevation.size, burning.model_cell_area(run))
+        return areas.cell_areas(run.latitude, run.longitude).ravel()
+
+    @cached_property
+    def fuel(self) -> Fuel:
+        """What burns in the shot, or has burned not long before it."""
+        return gather(self.run, self.arrival, self.first, self.last + _AHEAD, self.before)
+
+    def sources(self, time: float) -> Sources:
+        """Everything that gives heat at `time` (s): together each model cell's flux times its area.
+
+        A model cell without burning fuel gives its heat from its centre. The cost is that of what burns.
+        """
+        fuel = self.fuel
+        hot, found = self.flux.burning(time)
+        found = np.maximum(np.nan_to_num(found.astype(np.float64)), 0.0)
+        hot, found = hot[found > 0.0], found[found > 0.0]
+        heat_of = found * self.cell_area[hot]
+        came = int(np.searchsorted(fuel.begin, time))
+        gone = int(np.searchsorted(fuel.begin, time - self._longest))
+        place = np.searchsorted(hot, fuel.cell[gone:came])
+        in_hot = place < len(hot)
+        in_hot[in_hot] = hot[place[in_hot]] == fuel.cell[gone:came][in_hot]
+        here = np.flatnonzero(in_hot & (fuel.over[gone:came] > time))
+        lit, place = gone + here, place[here]
+        age, crossing = time - fuel.begin[lit], fuel.crossing[lit]
+        parts = [
+            (fuel.surface[lit], heat.consumed(age, crossing, fuel.slow[lit])),
+            (fuel.canopy[lit], heat.consumed(age, crossing, BURN_OUT_CANOPY)),
+        ]
+        rate = sum(load * all_of_it for load, (all_of_it, _) in parts)
+        flaming = sum(load * part for load, (_, part) in parts)
+        total = np.bincount(place, rate, len(hot))
+        share = heat_of[place] / np.where(total > 0.0, total, 1.0)[place]
+        alone = np.flatnonzero(total <= 0.0)
+        return Sources(
+            np.concatenate([fuel.position[lit], self._centres(hot[alone])]),
+            np.concatenate([rate * share, heat_of[alone]]),
+            np.concatenate([flaming * share, heat_of[alone]]),
+            np.concatenate([fuel.cell[lit], hot[alone]]),
+            np.concatenate([fuel.fuel_cell[lit], np.full(len(alone), -1)]),
+        )
+
+    def cells(self, first: float, last: float) -> Cells:
+        """Fuel that catches fire between `first` and `last` (s), by its place on the grid."""
+        fuel = self.fuel
+        chosen = np.flatnonzero((fuel.arrival >= first) & (fuel.arrival <= last))
+        chosen = chosen[np.argsort(fuel.fuel_cell[chosen], kind="stable")]
+        arrival = fuel.arrival[chosen]
+        return Cells(
+            arrival,
+            fuel.surface[chosen] + fuel.canopy[chosen],
+            fuel.position[chosen],
+            burning.wind_at(self.run, arrival, self.surroundings),
+            burning.cell_area(self.run),
+        )
+
+    @cached_property
+    def surroundings(self) -> tuple[slice, slice]:
+        """Rows and columns of the model grid round everything that burns in the run."""
+        return burning.surroundings(self.run, self.arrival)
+
+    @cached_property
+    def _longest(self) -> float:
+        """Seconds that a piece burns at most."""
+        return float(np.max(self.fuel.over - self.fuel.begin, initial=0.0))
+
+    def _centres(self, cell: NDArray[np.int64]) -> Array:
+        """Scene points (n, 3) of the centres of model cells."""
+        run = self.run
+        row, column = np.divmod(cell, len(run.longitude))
+        height = np.nan_to_num(run.elevation[row, column].astype(np.float64))
+        return self.frame.forward(run.latitude[row], run.longitude[column], height)

@@ -1,0 +1,160 @@
+"""The fuel that burns in some time, gathered from the fuel grid; without Blender."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from ..run.frame import local_frame
+from . import burning
+
+BURN_OUT_CANOPY = 90.0  # s, foliage and twigs (assumed)
+# s and s for each kg/m2: brush of 0.3 kg/m2 takes 210 s and timber litter of 3 kg/m2 1020 s, as in WRF-SFIRE
+# (T = weight / 0.8514 with its weights 180 and 900).
+BURN_OUT_SURFACE = (120.0, 300.0)
+_OVER = 14.0  # burn-out times after which what is left, e^-14, is not worth a look
+_DETAIL = (
+    75.0  # m; fuel cells nearer than this burn as one: a finer run of the same fire makes no more of them
+)
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Fuel:
+    """Fuel that burns, n pieces by the time that they begin to: a fuel cell, or several of one model cell.
+
+    Attributes
+    ----------
+    fuel_cell, cell
+        (n,) flat index on the fuel grid (of the first cell of a piece), and on the model grid.
+    arrival
+        (n,) s, when the front is in its middle.
+    begin, crossing, over
+        (n,) s, when the front enters it, how long it takes to leave it, and when the piece has burned out.
+    surface, canopy
+        (n,) kg for each m2 of a fuel cell's area, summed over the cells of the piece.
+    slow
+        (n,) s, burn-out time of the surface fuel.
+    position
+        (n, 3) scene metres, on the ground.
+    """
+
+    fuel_cell: Index
+    cell: Index
+    arrival: Array
+    begin: Array
+    crossing: Array
+    over: Array
+    surface: Array
+    canopy: Array
+    slow: Array
+    position: Array
+
+    def take(self, chosen: NDArray) -> Fuel:
+        """Some of it."""
+        return Fuel(*(getattr(self, field.name)[chosen] for field in fields(self)))
+
+
+def gather(run: Run, arrival: Array, first: float, last: float, before: float) -> Fuel:
+    """Fuel that burns between the model times `first` and `last`, or that `before` s earlier caught fire.
+
+    Parameters
+    ----------
+    arrival
+        (fy, fx) s, NaN where never.
+    """
+    loads = run.surface_fuel, run.canopy_fuel
+    most = float(np.nanmax(loads[0], initial=0.0))
+    longest = burning.CROSSING[1] + _OVER * max(_slow(most), BURN_OUT_CANOPY)
+    with np.errstate(invalid="ignore"):
+        near = (arrival > first - max(longest, before)) & (arrival < last + burning.CROSSING[1])
+    row, column = np.nonzero(near)
+    surface, canopy = (np.nan_to_num(load[row, column].astype(np.float64)) for load in loads)
+    crossing = burning.crossing(arrival, row, column)
+    begin = arrival[row, column] - 0.5 * crossing  # the arrival time is that of the cell's centre
+    over = begin + crossing + _OVER * np.maximum(_slow(surface), BURN_OUT_CANOPY)
+    height = np.nan_to_num(run.fuel_elevation[row, column].astype(np.float64))
+    every = Fuel(
+        row * arrival.shape[1] + column,
+        _model_cell(run, row, column),
+        arrival[row, column],
+        begin,
+        crossing,
+        over,
+        surface,
+        canopy,
+        _slow(surface),
+        local_frame(run).forward(run.fuel_latitude[row], run.fuel_longitude[column], height),
+    )
+    recent = (over > first) | (every.arrival >= first - before)
+    burns = np.flatnonzero((surface + canopy > 0.0) & (begin < last) & recent)
+    found = _pieces(run, every.take(burns), row[burns], column[burns])
+    return found.take(np.argsort(found.begin, kind="stable"))
+
+
+def _slow(surface: Array | float) -> Array | float:
+    """Burn-out time (s) of so much surface fuel (kg/m2)."""
+    return BURN_OUT_SURFACE[0] + BURN_OUT_SURFACE[1] * surface
+
+
+def _model_cell(run: Run, row: Index, column: Index) -> Index:
+    """The cell of the model grid that fuel cells lie in."""
+    rows, columns = (
+        burning.nearest(coarse, fine)[index]
+        for coarse, fine, index in (
+            (run.latitude, run.fuel_latitude, row),
+            (run.longitude, run.fuel_longitude, column),
+        )
+    )
+    return rows * len(run.longitude) + columns
+
+
+def _pieces(run: Run, fuel: Fuel, row: Index, column: Index) -> Fuel:
+    """The same in pieces of `_DETAIL` or larger, none of them in two cells of the model grid."""
+    most = max(round(float(np.sqrt(burning.model_cell_area(run))) / _DETAIL), 1)
+    parts = (
+        _part(run.latitude, run.fuel_latitude, most)[row],
+        _part(run.longitude, run.fuel_longitude, most)[column],
+    )
+    _, first, group = np.unique(
+        (fuel.cell * most + parts[0]) * most + parts[1], return_index=True, return_inverse=True
+    )
+    if len(first) == len(row):
+        return fuel
+    weight = fuel.surface + fuel.canopy
+    surface = np.bincount(group, fuel.surface)
+
+    def mean(values: Array, weight: Array = weight) -> Array:
+        whole = np.bincount(group, weight)
+        return np.bincount(group, weight * values) / np.where(whole > 0.0, whole, 1.0)
+
+    begin, leave, over = np.full(len(first), np.inf), *np.full((2, len(first)), -np.inf)
+    np.minimum.at(begin, group, fuel.begin)
+    np.maximum.at(leave, group, fuel.begin + fuel.crossing)
+    np.maximum.at(over, group, fuel.over)
+    return Fuel(
+        fuel.fuel_cell[first],
+        fuel.cell[first],
+        mean(fuel.arrival),
+        begin,
+        leave - begin,
+        over,
+        surface,
+        np.bincount(group, fuel.canopy),
+        np.where(surface > 0.0, mean(fuel.slow, fuel.surface), _slow(0.0)),
+        np.stack([mean(fuel.position[:, axis]) for axis in range(3)], axis=-1),
+    )
+
+
+def _part(coarse: Array, fine: Array, most: int) -> Index:
+    """Which of at most `most` parts of its model cell, along one axis, each fuel cell lies in."""
+    inside = burning.nearest(coarse, fine)
+    count = np.bincount(inside, minlength=len(coarse))
+    first = np.full(len(coarse), len(fine))
+    np.minimum.at(first, inside, np.arange(len(fine)))
+    return (np.arange(len(fine)) - first[inside]) * most // np.maximum(count[inside], most)
