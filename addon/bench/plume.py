@@ -12,7 +12,7 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from firetwin_core import volume
+from firetwin_core import particles, volume
 from numpy.typing import NDArray
 
 from .harness import OURS, Bench
@@ -28,7 +28,7 @@ EULER_STEPS = (10.0, 1.0, 0.1)  # s
 
 def buoyancy(power: float) -> float:
     """Fb = g c Q / (pi cp rho T) in m4/s3 of a fire of `power` W."""
-    return 9.81 * CONVECTIVE * power / (np.pi * 1005 * 1.2 * 290)
+    return particles.GRAVITY * CONVECTIVE * power / (np.pi * 1005 * 1.2 * 290)
 
 
 def wind_aloft() -> float:
