@@ -146,6 +146,9 @@ def _parser() -> argparse.ArgumentParser:
     bench = command("bench", "measure run time against error, beside the alternatives", BENCH)
     bench.add_argument("--out", metavar="DIR", type=Path, help="folder for bench.json and the plots (none)")
     bench.add_argument("--full", action="store_true", help="more repetitions, rivals at every size (minutes)")
+    bench.add_argument(
+        "--runs", metavar="N", type=_count, default=1, help="measure all of it N times, for ranges (1)"
+    )
     form = bench.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="write JSON for programs")
     form.add_argument("--markdown", action="store_true", help="write Markdown tables")
@@ -222,5 +225,7 @@ Save it and name it in the first line of a scene file (`#:schema firetwin.json`)
 complete keys, show what they mean and underline mistakes."""
 
 BENCH = """\
-Every tool is measured in this run, on this machine, best of several times; rivals that are not installed are
-named and left out (pip install 'firetwin[bench]' brings them). Exit status 1 when a target is missed."""
+Every tool is measured in this run, on this machine, in turn with its rivals: the median of five or more
+repetitions, with their range. Takes about two minutes on two cores; --runs 3 says how much the figures differ
+from run to run. Rivals that are not installed are named and left out (pip install 'firetwin[bench]' brings
+them). Exit status 1 when a target is missed."""

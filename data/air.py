@@ -1,13 +1,13 @@
 """Air near the ground over the fire: warmed by it and drawn towards it. Scaling laws, not a flow model."""
 
 import numpy as np
+from firetwin_core.particles import GRAVITY
 from numpy.typing import NDArray
 
 from .grid import MODEL_CELL_SIZE, MODEL_CELLS
 
 HEATED_DEPTH = 50.0  # m; WRF-SFIRE spreads ground heat over height as exp(-z / 50 m)
 AIR_HEAT = 1100.0  # J/m3/K, density times specific heat of warm air at 1200 m
-GRAVITY = 9.81
 AIR_TEMPERATURE = 300.0  # K
 INFLOW_REACH = 3000.0  # m
 INFLOW_CORE = 500.0  # m

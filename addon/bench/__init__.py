@@ -1,11 +1,16 @@
-"""``firetwin bench``: run time against error of every step, with its rivals measured in the same run."""
+"""``firetwin bench``: run time against error of every step, with its rivals measured in the same run.
+
+A subject is a module: the first line of its docstring says what is compared, and ``run(bench)`` adds rows
+(`Bench.race` lets the tools take turns) and targets.
+"""
 
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from .harness import Bench, Report
+if TYPE_CHECKING:
+    from .harness import Report
 
 SUBJECTS = (
     "text",
@@ -17,19 +22,29 @@ SUBJECTS = (
     "step",
     "plume",
     "interpolation",
+    "frames",
     "particles",
+    "facts",
+    "planning",
 )
-"""One module each, with ``run(bench)``, in the order of the report."""
+"""In the order of the report."""
 
 
-def measure(full: bool = False, progress: Any = None) -> Report:
-    """Run every subject; `progress(done, total, what)` is called before each and at the end."""
-    bench = Bench(full)
-    for done, name in enumerate(SUBJECTS):
+def measure(full: bool = False, runs: int = 1, progress: Any = None) -> Report:
+    """Run every subject `runs` times; `progress(done, total, what)` is called before each and at the end.
+
+    Several runs tell what a single one cannot: how much the figures differ from minute to minute.
+    """
+    from .harness import Bench
+
+    bench = Bench(full, runs=runs)
+    wanted = SUBJECTS * runs
+    for done, name in enumerate(wanted):
         if progress:
-            progress(done, len(SUBJECTS), "measuring")
-        bench.subject = name
-        import_module(f".{name}", __package__).run(bench)
+            progress(done, len(wanted), "measuring")
+        subject = import_module(f".{name}", __package__)
+        bench.begin(name, subject.__doc__.partition("\n")[0])
+        subject.run(bench)
     if progress:
-        progress(len(SUBJECTS), len(SUBJECTS), "measuring")
+        progress(len(wanted), len(wanted), "measuring")
     return bench.report()

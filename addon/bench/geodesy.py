@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
 from firetwin_core.geo import LocalFrame
 from numpy.typing import NDArray
 
-from .harness import OURS, Bench, threads
+from .harness import OURS, Bench
+from .timing import Runner, Times
 
+GRID, SCATTERED = f"{OURS} (grid)", f"{OURS} (scattered)"
 ORIGIN = (38.93, -120.55, 0.0)
 SIDES = (36, 144, 720, 2880)
 CHECKED = 200
@@ -95,53 +98,40 @@ def run(bench: Bench) -> None:
         longitude = np.linspace(-121.1, -120.1, side)
         height = np.random.default_rng(2).uniform(200, 3000, (side, side))
         points = np.repeat(latitude, side), np.tile(longitude, side), height.ravel()
-        seconds = {}
-        for number in (1, 2):
-            with threads(number):
-                grid = bench.best(lambda: frame.forward_grid(latitude, longitude, height), 20)  # noqa: B023
-                scattered = bench.best(lambda: frame.forward(*points), 5)  # noqa: B023
-            _keep(bench, side, f"{OURS} (grid)", grid, points, number, frame, (latitude, longitude, height))
-            _keep(bench, side, f"{OURS} (scattered)", scattered, points, number, frame, None)
-            if number == 1:
-                seconds = {"grid": grid, "scattered": scattered}
-        for tool, call in others.items() if side <= 720 or bench.full else ():
-            seconds[tool] = bench.best(lambda: call(points), 3)  # noqa: B023
-            wrong = error(points, call(points))
-            bench.row(
-                f"{side} x {side}", tool, seconds[tool], side * side, "point", error=wrong, error_unit="m"
-            )
+        calls: dict[str, Callable[[], NDArray]] = {
+            GRID: partial(frame.forward_grid, latitude, longitude, height),
+            SCATTERED: partial(frame.forward, *points),
+        }
+        runners = [
+            Runner(tool, call, threads, _wrong(points, call))
+            for tool, call in calls.items()
+            for threads in (1, 2)
+        ]
+        if side <= 720 or bench.full:
+            calls |= {tool: partial(call, points) for tool, call in others.items()}
+            runners += [Runner(tool, calls[tool], error=_wrong(points, calls[tool])) for tool in others]
+        found = bench.race(f"{side} x {side}", runners, side * side, "point", "m")
         if side == 720:
-            _targets(bench, seconds, side * side)
+            _targets(bench, found, side * side, {runner.label: runner.error for runner in runners})
 
 
-def _keep(
-    bench: Bench,
-    side: int,
-    tool: str,
-    seconds: float,
-    points: Points,
-    number: int,
-    frame: LocalFrame,
-    grid: Points | None,
-) -> None:
-    enu = frame.forward_grid(*grid).reshape(-1, 3) if grid else frame.forward(*points)
-    wrong = error(points, enu) if number == 1 else None
-    bench.row(
-        f"{side} x {side}",
-        tool,
-        seconds,
-        side * side,
-        "point",
-        error=wrong,
-        error_unit="m",
-        threads=number,
-    )
-    if side == 720 and wrong is not None:
-        bench.target(f"error of {tool.split('(')[1][:-1]} points", wrong * 1e9, 5, "nm", most=True)
+def _wrong(points: Points, call: Callable[[], NDArray]) -> float | None:
+    return error(points, call().reshape(-1, 3))
 
 
-def _targets(bench: Bench, seconds: dict[str, float], points: int) -> None:
-    bench.target("grid point takes", seconds["grid"] / points * 1e9, 5, "ns", most=True)
+def _targets(bench: Bench, found: dict[str, Times], points: int, wrong: dict[str, float | None]) -> None:
+    for tool, what in ((GRID, "points of a grid"), (SCATTERED, "scattered points")):
+        if (metres := wrong[tool]) is not None:
+            bench.target(
+                f"largest error of {what}, against 50-digit arithmetic", metres * 1e9, 5, "nm", most=True
+            )
+    each = [seconds / points * 1e9 for seconds in found[GRID].seconds]
+    bench.target("a point of a grid takes", each, 5, "ns", most=True)
     for tool in ("pymap3d", "pyproj"):
-        if tool in seconds:
-            bench.target(f"grid faster than {tool}", seconds[tool] / seconds["grid"], 15, "x")
+        if tool in found:
+            bench.target(
+                f"speed of placing a grid's points, over {tool}'s",
+                found[GRID].faster_than(found[tool]),
+                15,
+                "x",
+            )

@@ -5,28 +5,30 @@ from __future__ import annotations
 import importlib
 import os
 import platform
-import time
-from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+import statistics
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field, replace
 from types import ModuleType
 from typing import Any
 
 import firetwin_core as core
+
+from .timing import Runner, Times, label, race
 
 OURS = "firetwin"
 
 
 @dataclass(frozen=True)
 class Row:
-    """One tool on one case: the best time (s) for `items` things, its error (`error_unit`) and what it wrote.
+    """One tool on one case: the time of each repetition (s) for `items` things, its error and what it wrote.
 
-    `error` and `bytes` are None where they are unknown or make no sense.
+    `times` is empty, and `error` and `bytes` are None, where they are unknown or make no sense.
     """
 
     subject: str
     case: str
     tool: str
-    seconds: float | None
+    times: tuple[float, ...]
     items: int
     unit: str
     error: float | None = None
@@ -34,17 +36,37 @@ class Row:
     threads: int = 1
     bytes: int | None = None
 
+    @property
+    def seconds(self) -> float | None:
+        """The median of all repetitions."""
+        return statistics.median(self.times) if self.times else None
+
+    @property
+    def label(self) -> str:
+        """``firetwin, 2 threads``."""
+        return label(self.tool, self.threads)
+
 
 @dataclass(frozen=True)
 class Target:
-    """A promise and what was measured; `most`: the value may be at most the bound, else at least."""
+    """A promise, and what was measured in each repetition, or once where there is no chance in it.
+
+    `most`: the median may be at most the bound, else at least. Where the bound is measured too, `rival` says
+    whose it is.
+    """
 
     subject: str
     promise: str
-    value: float
+    values: tuple[float, ...]
     bound: float
     unit: str
     most: bool = False
+    rival: str = ""
+
+    @property
+    def value(self) -> float:
+        """The median."""
+        return statistics.median(self.values)
 
     @property
     def met(self) -> bool:
@@ -54,50 +76,75 @@ class Target:
 
 @dataclass(frozen=True)
 class Report:
-    """Everything measured."""
+    """Everything measured, in so many runs of every subject."""
 
     machine: dict[str, Any]
+    runs: int
+    subjects: dict[str, str]
     rows: list[Row]
     targets: list[Target]
     skipped: list[str]
 
     def as_json(self) -> dict[str, Any]:
         """Plain data."""
-        targets = [asdict(target) | {"met": target.met} for target in self.targets]
-        rows = [asdict(row) for row in self.rows]
-        return {"machine": self.machine, "rows": rows, "targets": targets, "skipped": self.skipped}
+        return {
+            "machine": self.machine,
+            "runs": self.runs,
+            "subjects": self.subjects,
+            "rows": [asdict(row) | {"seconds": row.seconds} for row in self.rows],
+            "targets": [
+                asdict(target) | {"value": target.value, "met": target.met} for target in self.targets
+            ],
+            "skipped": self.skipped,
+        }
 
 
 @dataclass
 class Bench:
-    """Collects what the subjects measure."""
+    """Collects what the subjects measure; a subject that is run again adds repetitions to what is there."""
 
     full: bool = False
     subject: str = ""
-    rows: list[Row] = field(default_factory=list)
-    targets: list[Target] = field(default_factory=list)
+    runs: int = 1
+    machine: dict[str, Any] = field(default_factory=lambda: _machine())
+    subjects: dict[str, str] = field(default_factory=dict)
+    rows: dict[tuple, Row] = field(default_factory=dict)
+    targets: dict[tuple, Target] = field(default_factory=dict)
     skipped: list[str] = field(default_factory=list)
 
-    def best(self, call: Callable[[], Any], times: int = 5) -> float:
-        """Shortest run time of `call` (s) of `times` runs, or as many as begin within a second.
+    def begin(self, subject: str, what: str) -> None:
+        """Go to the next subject; `what` says in a sentence what is compared in it."""
+        self.subject = subject
+        self.subjects[subject] = what
 
-        The shortest is the one least disturbed by other programs.
-        """
-        budget, least, spent = (10.0 if self.full else 1.0), float("inf"), 0.0
-        for _ in range(times * (5 if self.full else 1)):
-            start = time.perf_counter()
-            call()
-            seconds = time.perf_counter() - start
-            least, spent = min(least, seconds), spent + seconds
-            if spent > budget:
-                break
-        return least
+    def time(self, runners: Sequence[Runner]) -> dict[str, Times]:
+        """Let tools take turns -> the times of each by its label."""
+        found = race(runners, 25 if self.full else 9, 10.0 if self.full else 0.5)
+        return {runner.label: times for runner, times in zip(runners, found, strict=True)}
+
+    def race(
+        self, case: str, runners: Sequence[Runner], items: int, unit: str, error_unit: str = ""
+    ) -> dict[str, Times]:
+        """The same, and a row for each."""
+        found = self.time(runners)
+        for runner in runners:
+            self.row(
+                case,
+                runner.tool,
+                found[runner.label],
+                items,
+                unit,
+                error=runner.error,
+                error_unit=error_unit,
+                threads=runner.threads,
+            )
+        return found
 
     def row(
         self,
         case: str,
         tool: str,
-        seconds: float | None,
+        times: Times | None,
         items: int,
         unit: str,
         *,
@@ -107,13 +154,31 @@ class Bench:
         bytes: int | None = None,
     ) -> None:
         """Keep a measurement; error is what `error_unit` says."""
+        key = self.subject, case, tool, threads
+        before = self.rows[key].times if key in self.rows else ()
+        seconds = before + (times.seconds if times else ())
         error = None if error is None else float(error)
-        row = Row(self.subject, case, tool, seconds, items, unit, error, error_unit, threads, bytes)
-        self.rows.append(row)
+        self.rows[key] = Row(
+            self.subject, case, tool, seconds, items, unit, error, error_unit, threads, bytes
+        )
 
-    def target(self, promise: str, value: float, bound: float, unit: str, most: bool = False) -> None:
-        """Keep a promise and its measured value."""
-        self.targets.append(Target(self.subject, promise, float(value), bound, unit, most))
+    def target(
+        self,
+        promise: str,
+        values: float | Sequence[float],
+        bound: float,
+        unit: str,
+        *,
+        most: bool = False,
+        rival: str = "",
+    ) -> None:
+        """Keep a promise and its measured value, or one of each repetition."""
+        several = tuple(map(float, values)) if isinstance(values, Sequence) else (float(values),)
+        target = Target(self.subject, promise, several, float(bound), unit, most, rival)
+        key = self.subject, promise
+        if key in self.targets:
+            target = replace(target, values=self.targets[key].values + several)
+        self.targets[key] = target
 
     def rival(self, name: str) -> ModuleType | None:
         """Import the package of a rival, or note that it is missing."""
@@ -133,20 +198,14 @@ class Bench:
 
     def report(self) -> Report:
         """Everything measured so far."""
-        return Report(_machine(), self.rows, self.targets, self.skipped)
-
-
-class threads:  # noqa: N801 - reads as a statement
-    """``with threads(2):`` limits the worker threads of the core."""
-
-    def __init__(self, number: int) -> None:
-        self.number = number
-
-    def __enter__(self) -> None:
-        core.set_threads(self.number)
-
-    def __exit__(self, *_: object) -> None:
-        core.set_threads(0)
+        return Report(
+            self.machine,
+            self.runs,
+            self.subjects,
+            list(self.rows.values()),
+            list(self.targets.values()),
+            self.skipped,
+        )
 
 
 def _machine() -> dict[str, Any]:
@@ -156,7 +215,7 @@ def _machine() -> dict[str, Any]:
     return {
         "processor": _processor(),
         "cores": os.cpu_count(),
-        "load": round(os.getloadavg()[0], 1),
+        "load": round(os.getloadavg()[0], 1) if hasattr(os, "getloadavg") else None,
         "system": platform.platform(),
         "python": platform.python_version(),
     } | {"versions": versions | dict(core.build_info())}

@@ -64,7 +64,7 @@ def _tools(rows: list[Row]) -> Iterable[tuple[str, Any, list[Row]]]:
     """Tool and its threads, colour, rows in order of size."""
     groups: dict[str, list[Row]] = defaultdict(list)
     for row in rows:
-        groups[row.tool + (f", {row.threads} threads" if row.threads > 1 else "")].append(row)
+        groups[row.label].append(row)
     rivals = iter(COLOURS["rival"] * 9)
     for name, found in groups.items():
         yield name, COLOURS[OURS] if name.startswith(OURS) else next(rivals), found

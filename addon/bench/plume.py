@@ -12,10 +12,11 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from firetwin_core import volume
+from firetwin_core import particles, volume
 from numpy.typing import NDArray
 
-from .harness import OURS, Bench, threads
+from .harness import OURS, Bench
+from .timing import Runner
 
 POWERS = (1e8, 1e9, 1e10)  # W
 WIND = np.array([6.0, 8.0])  # m/s east and north, 10 m up
@@ -27,7 +28,7 @@ EULER_STEPS = (10.0, 1.0, 0.1)  # s
 
 def buoyancy(power: float) -> float:
     """Fb = g c Q / (pi cp rho T) in m4/s3 of a fire of `power` W."""
-    return 9.81 * CONVECTIVE * power / (np.pi * 1005 * 1.2 * 290)
+    return particles.GRAVITY * CONVECTIVE * power / (np.pi * 1005 * 1.2 * 290)
 
 
 def wind_aloft() -> float:
@@ -101,16 +102,11 @@ def run(bench: Bench) -> None:
     for power in POWERS:
         way, top = errors(power)
         under_way, end = max(under_way, way), max(end, top)
-        with threads(1):
-            seconds = bench.best(partial(column, power), 5)
-        puffs = len(column(power)[0])
-        case = f"{power / 1e9:g} GW"
-        bench.row(case, OURS, seconds, puffs, "puff", error=way, error_unit="% of the rise")
+        tools = [Runner(OURS, partial(column, power), error=way)]
         for step in EULER_STEPS:
-            seconds = bench.best(partial(euler, power, step), 3)
             time, rise = euler(power, step)
             error = 100 * abs(rise / float(theory(power, np.array(time))) - 1)
-            tool = f"Euler, {step:g} s steps"
-            bench.row(case, tool, seconds, 1, "puff", error=error, error_unit="% of the rise")
-    bench.target("rise under way, off Briggs's equation", under_way, 10, "%", most=True)
-    bench.target("rise in the end, off 2.6 (Fb / U s)^(1/3)", end, 1, "%", most=True)
+            tools.append(Runner(f"Euler, {step:g} s steps", partial(euler, power, step), error=error))
+        bench.race(f"{power / 1e9:g} GW", tools, 1, "plume", "% of the rise")
+    bench.target("rise of a plume under way, off Briggs's equation by", under_way, 10, "%", most=True)
+    bench.target("rise in the end, off 2.6 (Fb / U s)^(1/3) by", end, 1, "%", most=True)

@@ -14,7 +14,8 @@ from types import ModuleType
 import numpy as np
 from firetwin_core import volume
 
-from .harness import OURS, Bench, threads
+from .harness import OURS, Bench
+from .timing import Runner, label
 from .volume import VOXEL, bundled_openvdb, plume, puffs
 
 CELLS = 100
@@ -46,14 +47,14 @@ def _voxel_sizes(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
     smoke = puffs(CELLS)
     exact = float(np.sum(smoke.mass))
     for voxel in (*VOXELS, FINEST) if bench.full else VOXELS:
-        with threads(2):
-            seconds = bench.best(partial(volume.write_smoke, path, smoke, voxel), 2)
-        frame = volume.write_smoke(path, smoke, voxel)
+        write = partial(volume.write_smoke, path, smoke, voxel)
+        times = bench.time([Runner(OURS, write, threads=2)])
+        frame = write()
         mass = mass_in(openvdb, path, "dilution", volume.FRESH_SMOKE) if openvdb else frame.mass
         bench.row(
             f"puffs of {CELLS} cells at {voxel:g} m",
             OURS,
-            seconds,
+            times[label(OURS, 2)],
             frame.active_voxels,
             "voxel",
             error=abs(mass / exact - 1),
@@ -66,16 +67,19 @@ def _voxel_sizes(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
 def _precisions(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
     density = plume(DENSE)
     exact = float(density.sum(dtype=float)) * VOXEL**3
-    for half in (True, False):
-        write = partial(volume.write, path, {"density": density}, VOXEL, half=half)
-        with threads(1):
-            seconds = bench.best(write, 5)
+    halves = {"half": True, "single": False}
+    writes = {
+        name: partial(volume.write, path, {"density": density}, VOXEL, half=half)
+        for name, half in halves.items()
+    }
+    times = bench.time([Runner(name, write) for name, write in writes.items()])
+    for name, write in writes.items():
         frame = write()
         mass = mass_in(openvdb, path, "density", 1.0) if openvdb else frame.mass
         bench.row(
-            f"dense array in {'half' if half else 'single'} precision",
+            f"dense array in {name} precision",
             OURS,
-            seconds,
+            times[name],
             frame.active_voxels,
             "voxel",
             error=abs(mass / exact - 1),

@@ -2,32 +2,62 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from .harness import OURS, Report, Row, Target
+from .timing import LEAST
 
 SHOWN = {
-    "text": "720 x 720",
-    "geodesy": "720 x 720",
-    "forest": "720 x 720",
-    "emitters": "144 x 144",
+    "text": ("720 x 720", "720 x 720, commas"),
+    "geodesy": ("720 x 720",),
+    "forest": ("720 x 720",),
+    "emitters": ("144 x 144",),
 }
-"""The one size of a subject that the Markdown table shows; all cases of the others."""
+"""The cases of a subject that the Markdown table shows; all cases of the others."""
+ALONE = ("particles", "smoke")
+"""Subjects whose tools do not all do the same: their times are not put in proportion."""
 
 
 def number(value: float) -> str:
     """Three digits, no exponent where it can be read without: ``0.00312``, ``36.5``, ``1.2e-09``."""
-    return f"{value:.3g}" if value == 0 or 1e-4 <= abs(value) < 1e6 else f"{value:.1e}"
+    return f"{value:.3g}" if value == 0 or 1e-4 <= abs(value) < 1000 else _large(value)
+
+
+def _large(value: float) -> str:
+    return f"{value:,.0f}" if 1000 <= abs(value) < 1e6 else f"{value:.1e}"
 
 
 def time(seconds: float | None) -> str:
     """``1.23 ms``."""
     if seconds is None:
         return ""
-    for factor, unit in ((1.0, "s"), (1e-3, "ms"), (1e-6, "us")):
-        if seconds >= factor:
-            return f"{seconds / factor:.3g} {unit}"
-    return f"{seconds * 1e9:.3g} ns"
+    factor, unit = _scale(seconds)
+    return f"{number(seconds / factor)} {unit}"
+
+
+def _scale(seconds: float) -> tuple[float, str]:
+    scales = ((1.0, "s"), (1e-3, "ms"), (1e-6, "us"))
+    return next((scale for scale in scales if seconds >= scale[0]), (1e-9, "ns"))
+
+
+def times(row: Row) -> str:
+    """Median and range of the repetitions: ``9.31 ms (9.02 to 11.4)``."""
+    if row.seconds is None:
+        return ""
+    factor, unit = _scale(row.seconds)
+    return _with_range(row.seconds / factor, [each / factor for each in row.times], unit)
+
+
+def found(target: Target) -> str:
+    """What was measured: ``4.6 x (4.2 to 5.1)``, or ``24 %, linear blending 47 %``."""
+    text = _with_range(target.value, target.values, target.unit)
+    return f"{text}, {target.rival} {number(target.bound)} {target.unit}" if target.rival else text
+
+
+def _with_range(value: float, values: Sequence[float], unit: str) -> str:
+    text = f"{number(value)} {unit}".rstrip()
+    low, high = number(min(values)), number(max(values))
+    return text if low == high else f"{text} ({low} to {high})"
 
 
 def size(count: int | None) -> str:
@@ -36,35 +66,48 @@ def size(count: int | None) -> str:
 
 
 def verdict(target: Target) -> str:
-    """``met`` or ``MISSED``."""
-    return "met" if target.met else "MISSED"
+    """``MET`` or ``MISSED``."""
+    return "MET" if target.met else "MISSED"
 
 
-def _bound(target: Target) -> str:
-    return f"{'<=' if target.most else '>='} {number(target.bound)} {target.unit}".rstrip()
+def bound(target: Target) -> str:
+    """What must be reached: ``at least 4 x``, ``at most linear blending's``."""
+    what = f"{target.rival}" if target.rival else f"{number(target.bound)} {target.unit}".rstrip()
+    return f"{'at most' if target.most else 'at least'} {what}"
+
+
+def _machine(report: Report) -> str:
+    machine = report.machine
+    load = "" if machine["load"] is None else f", load {machine['load']} before it began"
+    return f"{machine['processor']}, {machine['cores']} cores{load}"
+
+
+def _method(report: Report) -> str:
+    runs = f"in each of {report.runs} runs" if report.runs > 1 else "in one run"
+    return (
+        f"Medians of {LEAST} or more repetitions {runs}, in which the tools take turns; in brackets the "
+        "range of all repetitions. One thread unless said."
+    )
 
 
 def page(report: Report) -> str:
     """Everything, for a terminal."""
-    machine = report.machine
-    lines = [f"{machine['processor']}, {machine['cores']} cores, load {machine['load']}"]
+    lines = [_machine(report), _method(report)]
     subject = ""
     for row in report.rows:
         if row.subject != subject:
             subject = row.subject
-            lines += ["", subject]
-        each = time(row.seconds / row.items) if row.seconds and row.items else ""
+            lines += ["", f"{subject}: {report.subjects.get(subject, '')}".rstrip(": ")]
         error = f"{number(row.error)} {row.error_unit}" if row.error is not None else ""
-        per = f"{each:>9}/{row.unit}" if each else ""
         lines.append(
-            f"  {row.case:<36} {_tool(row):<34} {time(row.seconds):>9} {per:<26} "
+            f"  {row.case:<33} {row.label:<37} {times(row):<28} {_each(row):<24} "
             f"{size(row.bytes):>8}  {error}".rstrip()
         )
     lines += ["", "targets"]
     for target in report.targets:
-        found = f"{number(target.value)} {target.unit}".rstrip()
         lines.append(
-            f"  {target.subject:<14} {target.promise:<66} {found:>14}  {_bound(target):<16} {verdict(target)}"
+            f"  {verdict(target):<7} {target.subject}: {target.promise}: {found(target)} "
+            f"(must be {bound(target)})"
         )
     lines += [""] if report.skipped else []
     lines += [f"left out: {reason}" for reason in report.skipped]
@@ -72,43 +115,46 @@ def page(report: Report) -> str:
 
 
 def markdown(report: Report) -> str:
-    """Two tables: run time against error beside the rivals, and the targets."""
+    """Two tables: the targets, and run time against error beside the rivals."""
     lines = [
+        "| step | what is compared | measured | must be | |",
+        "|---|---|--:|--:|---|",
+    ]
+    for target in report.targets:
+        lines.append(
+            f"| {target.subject} | {target.promise} | {found(target)} | {bound(target)} | {verdict(target)} |"
+        )
+    lines += [
+        "",
         "| step | case | tool | time | per item | beside firetwin | size | error |",
         "|---|---|---|--:|--:|--:|--:|--:|",
         *_rows(report.rows),
         "",
-        "| step | target | measured | bound | |",
-        "|---|---|--:|--:|---|",
+        *(f"- {subject}: {what}" for subject, what in report.subjects.items()),
+        "",
+        f"{_method(report)} On {_machine(report)}.",
     ]
-    for target in report.targets:
-        found = f"{number(target.value)} {target.unit}".rstrip()
-        lines.append(
-            f"| {target.subject} | {target.promise} | {found} | {_bound(target)} | {verdict(target)} |"
-        )
-    machine = report.machine
-    lines += ["", f"Best times on {machine['processor']}, {machine['cores']} cores, one thread unless said."]
     lines += [f"Left out: {reason}." for reason in report.skipped]
     return "\n".join(lines)
 
 
-def _tool(row: Row) -> str:
-    return row.tool + (f", {row.threads} threads" if row.threads > 1 else "")
+def _each(row: Row) -> str:
+    return f"{time(row.seconds / row.items)}/{row.unit}" if row.seconds and row.items > 1 else ""
 
 
 def _rows(rows: list[Row]) -> Iterator[str]:
     ours: dict[tuple[str, str], float] = {}
     for row in rows:
-        if SHOWN.get(row.subject, row.case) != row.case or (row.threads > 1 and row.subject in SHOWN):
+        shown = SHOWN.get(row.subject)
+        if shown and (row.case not in shown or row.threads > 1):
             continue
         key = row.subject, row.case
         if row.tool.startswith(OURS) and row.seconds:
             ours.setdefault(key, row.seconds)
-        comparable = key in ours and row.seconds and row.subject not in ("particles", "plume")
+        comparable = key in ours and row.seconds and row.subject not in ALONE
         beside = f"{number(row.seconds / ours[key])}x" if comparable else ""
-        each = f"{time(row.seconds / row.items)}/{row.unit}" if row.seconds and row.items else ""
         error = f"{number(row.error)} {row.error_unit}" if row.error is not None else ""
         yield (
-            f"| {row.subject} | {row.case} | {_tool(row)} | {time(row.seconds)} | {each} | {beside} "
+            f"| {row.subject} | {row.case} | {row.label} | {times(row)} | {_each(row)} | {beside} "
             f"| {size(row.bytes)} | {error} |"
         )

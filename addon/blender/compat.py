@@ -88,15 +88,6 @@ def node_tree(owner: bpy.types.Material | bpy.types.World | bpy.types.Light) -> 
     return owner.node_tree
 
 
-def set_modifier_input(modifier: bpy.types.NodesModifier, identifier: str, value: Any) -> None:
-    """Set an input of a geometry-nodes modifier; 5.2 moved them from ID properties to RNA."""
-    inputs = getattr(getattr(modifier, "properties", None), "inputs", None)
-    if inputs is not None:
-        getattr(inputs, identifier).value = value
-    else:
-        modifier[identifier] = value
-
-
 def find_socket(sockets: bpy.types.bpy_prop_collection, name: str | int) -> bpy.types.NodeSocket:
     """The enabled socket called `name`, else the one with that identifier, else that place in the row.
 

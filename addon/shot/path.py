@@ -14,6 +14,7 @@ from .ground import Ground
 
 if TYPE_CHECKING:
     from .settings import Camera
+    from .shot import Shot
 
 SENSOR = 36.0  # mm, width of the film
 _HIGHEST = 1500.0  # m; a camera is not raised more than this to see over a ridge
@@ -149,9 +150,8 @@ def smooth(at: Array, values: Array, moments: Array) -> Array:
     i = np.clip(np.searchsorted(at, t, "right") - 1, 0, len(gap) - 1)
     s = (t - at[i]) / gap[i]
     a, b = values[i], values[i + 1]
-    ease = s * s * (3.0 - 2.0 * s)
     bend = gap[i] * s * (1.0 - s) * ((1.0 - s) * slope[i] - s * slope[i + 1])
-    return a + (b - a) * ease + bend
+    return a + (b - a) * noise.smoothstep(0.0, 1.0, s) + bend
 
 
 def below(ground: Ground, position: Array, clearance: Array) -> Array:
@@ -185,6 +185,13 @@ def blend(at: Array, aims: Array, moments: Array) -> Array:
     s = noise.smoothstep(0.0, 1.0, (moments - at[i]) / np.maximum(at[i + 1] - at[i], 1.0e-9))[:, None]
     frames = np.arange(len(moments))
     return aims[i, frames] * (1.0 - s) + aims[i + 1, frames] * s
+
+
+def half_view(shot: Shot, focal_length: float) -> tuple[float, float]:
+    """Tangents of half the angles of view, across and up, of a lens (mm) that fills the shot's pictures."""
+    width, height = shot.settings.render.resolution
+    half = 0.5 * SENSOR / focal_length
+    return half, half * height / width
 
 
 def look(position: Array, target: Array) -> Array:

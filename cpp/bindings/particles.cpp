@@ -1,4 +1,5 @@
 #include "arrays.hpp"
+#include "base/gravity.hpp"
 #include "bindings.hpp"
 #include "broadcast.hpp"
 #include "particles/advance.hpp"
@@ -78,7 +79,7 @@ template <std::vector<double> Cloud::* member> Array<double> vectors(const py::o
 
 void init_particles(py::module_ module) {
   module.doc() = "Embers and flame particles: drag, wind, gravity, buoyancy, the ground.";
-  module.attr("GRAVITY") = particles::gravity;
+  module.attr("GRAVITY") = gravity;
   py::class_<Kind>(module, "Kind", "What is thrown up; each pair is a range of uniform numbers.")
       .def(py::init<double, particles::Range, particles::Range, particles::Range,
                     particles::Range>(),
@@ -103,7 +104,7 @@ void init_particles(py::module_ module) {
   module.def("lift", &particles::lift, py::arg("density"), py::arg("air_density") = 1.2,
              "Weight less buoyancy, upwards, m/s2: g (air / density - 1).");
   module.def("advance", &advance, py::arg("position"), py::arg("velocity"), py::arg("wind"),
-             py::arg("step"), py::arg("relaxation"), py::arg("lift") = -particles::gravity,
+             py::arg("step"), py::arg("relaxation"), py::arg("lift") = -gravity,
              py::arg("wind_end") = py::none(), py::arg("wind_middle") = py::none(),
              py::arg("landed") = false, py::arg("ground") = py::none(),
              "One exact step -> position, velocity, landed.");

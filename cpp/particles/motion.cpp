@@ -1,5 +1,7 @@
 #include "particles/motion.hpp"
 
+#include "base/gravity.hpp"
+
 #include <cmath>
 
 namespace firetwin::particles {

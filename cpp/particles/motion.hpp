@@ -4,9 +4,6 @@
 
 namespace firetwin::particles {
 
-/// Standard gravity, m/s2.
-constexpr double gravity = 9.80665;
-
 /// Weight less buoyancy, m/s2 upwards: g (air / density - 1), after Archimedes. Embers sink, flame
 /// gas rises.
 double lift(double density, double air_density);

@@ -50,23 +50,7 @@ template <class T> Number<T> with_d_exponent(const char* first, const char* d, c
   return number;
 }
 
-} // namespace
-
-template <class T> Number<T> parse_number(const char* first, const char* last) {
-  if (first + 1 < last && *first == '+' && first[1] != '-') {
-    ++first;
-  }
-  Number<T> number = from_chars<T>(first, last);
-  if (number.error != NumberError::malformed && number.end < last &&
-      (*number.end == 'D' || *number.end == 'd')) {
-    number = with_d_exponent<T>(first, number.end, last);
-  }
-  return number;
-}
-
-template Number<float> parse_number(const char*, const char*);
-template Number<double> parse_number(const char*, const char*);
-
+/// The rest of a word from `first`, at most 24 characters, with unprintable bytes as \xNN.
 std::string quote_word(const char* first, const char* last) {
   std::string word;
   for (const char* c = first; c < last && word.size() < 24; ++c) {
@@ -83,6 +67,23 @@ std::string quote_word(const char* first, const char* last) {
   }
   return "'" + word + "'";
 }
+
+} // namespace
+
+template <class T> Number<T> parse_number(const char* first, const char* last) {
+  if (first + 1 < last && *first == '+' && first[1] != '-') {
+    ++first;
+  }
+  Number<T> number = from_chars<T>(first, last);
+  if (number.error != NumberError::malformed && number.end < last &&
+      (*number.end == 'D' || *number.end == 'd')) {
+    number = with_d_exponent<T>(first, number.end, last);
+  }
+  return number;
+}
+
+template Number<float> parse_number(const char*, const char*);
+template Number<double> parse_number(const char*, const char*);
 
 std::string explain_word(const char* first, const char* last, NumberError error) {
   const std::string word = quote_word(first, last);

@@ -19,9 +19,6 @@ template <class T> Number<T> parse_number(const char* first, const char* last);
 extern template Number<float> parse_number(const char*, const char*);
 extern template Number<double> parse_number(const char*, const char*);
 
-/// The rest of a word from `first`, at most 24 characters, with unprintable bytes as \xNN.
-std::string quote_word(const char* first, const char* last);
-
 /// Why the word at `first` is no number, and what to do about it.
 std::string explain_word(const char* first, const char* last, NumberError error);
 

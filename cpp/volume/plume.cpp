@@ -1,5 +1,7 @@
 #include "volume/plume.hpp"
 
+#include "base/gravity.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,7 +9,6 @@
 namespace firetwin::volume {
 namespace {
 
-constexpr double gravity = 9.81;          // m/s2
 constexpr double heat_of_air = 1005.0;    // J/(kg K)
 constexpr double air_density = 1.2;       // kg/m3
 constexpr double air_temperature = 290.0; // K

@@ -28,23 +28,6 @@ def test_the_sky_has_no_sun_disc():
     assert abs(node.sun_elevation - 0.5) < 1e-6
 
 
-def test_modifier_inputs_can_be_set(scene):
-    tree, given = nodes.geometry("group", {"Amount": "NodeSocketFloat"})
-    offset = tree.combine(0.0, 0.0, tree.pick(given, "Amount"))
-    moved = tree.output("GeometryNodeSetPosition", {"Geometry": tree.pick(given), "Offset": offset})
-    tree.node("NodeGroupOutput", {"Geometry": moved})
-    mesh = bpy.data.meshes.new("point")
-    mesh.vertices.add(1)
-    thing = bpy.data.objects.new("point", mesh)
-    scene.collection.objects.link(thing)
-    modifier = thing.modifiers.new("nodes", "NODES")
-    modifier.node_group = tree.node_tree
-    amount = next(item for item in tree.node_tree.interface.items_tree if item.name == "Amount")
-    compat.set_modifier_input(modifier, amount.identifier, 3.0)
-    evaluated = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    assert evaluated.data.vertices[0].co.z == 3.0
-
-
 def test_volumes_are_drawn_where_their_grids_are(scene, shoot, tmp_path):
     voxel, count = 10.0, 40
     place = (np.arange(count) - 0.5 * (count - 1)) * voxel

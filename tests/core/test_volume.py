@@ -31,7 +31,7 @@ def steady(power=2.0e10, until=7200.0):
 
 def briggs(power, wind10, stability):
     """Final rise, transcribed from Briggs (1984) with the constants of the documentation."""
-    flux = 9.81 * 0.7 * power / (np.pi * 1005.0 * 1.2 * 290.0)
+    flux = 9.80665 * 0.7 * power / (np.pi * 1005.0 * 1.2 * 290.0)
     wind = wind10 * (300.0 / 10.0) ** 0.1
     return 2.6 * (flux / (wind * stability)) ** (1.0 / 3.0)
 

@@ -85,7 +85,7 @@ def updraft(intensity: Array) -> Array:
     That does not depend on height (Yokoi 1960; Lee and Emmons 1961, J. Fluid Mech. 11, 353). On the axis of
     the plume it is about twice that (assumed).
     """
-    return np.cbrt(9.81 * np.asarray(intensity, np.float64) * 1000.0 / _AIR)
+    return np.cbrt(particles.GRAVITY * np.asarray(intensity, np.float64) * 1000.0 / _AIR)
 
 
 def fly(shot: Shot, points: flames.Points) -> Flights | None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 import numpy as np
-from firetwin_core import flux, lod
+from firetwin_core import flux, lod, particles
 from numpy.typing import NDArray
 
 from ...shot import burning, noise
@@ -86,7 +86,9 @@ def flame_length(intensity: Array, formula: str = "thomas") -> Array:
 
 def tilt(wind: float, length: Array) -> Array:
     """Angle of flames from the vertical (radians): tan A = 1.22 U / sqrt(g L) (Albini 1981), 60 at most."""
-    return np.minimum(np.arctan(1.22 * wind / np.sqrt(9.81 * np.maximum(length, 0.1))), np.pi / 3.0)
+    return np.minimum(
+        np.arctan(1.22 * wind / np.sqrt(particles.GRAVITY * np.maximum(length, 0.1))), np.pi / 3.0
+    )
 
 
 def kelvin(intensity: Array) -> Array:

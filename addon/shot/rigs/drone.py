@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import path, targets
-from ..path import SENSOR, Array, Path
+from ..path import Array, Path
 from ..schema import Where, key
 from . import Rig
 from ._key import CameraKey, rising
@@ -64,14 +64,12 @@ class Drone(Rig):
         if self.over_ridges:
             short = np.maximum(short, hidden)
         position[:, 2] += path.eased(short)
-        width, height = shot.settings.render.resolution
-        half = 0.5 * SENSOR / self.focal_length
         return Path(
             camera,
             position,
             path.look(position, target),
             target,
-            (half, half * height / width),
+            path.half_view(shot, self.focal_length),
             hidden=hidden,
         )
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import path
-from ..path import SENSOR, Path
+from ..path import Path
 from ..schema import key
 from . import Rig
 
@@ -64,9 +64,8 @@ class Orbit(Rig):
         position = point + self.radius * circle + np.array([0.0, 0.0, self.height])
         position[:, 2] += path.eased(path.below(ground, position, np.full(len(angle), self.clearance)))
         target = np.repeat(point[None] + np.array([0.0, 0.0, self.target_height]), len(angle), axis=0)
-        width, height = shot.settings.render.resolution
-        half = 0.5 * SENSOR / self.focal_length
-        return Path(camera, position, path.look(position, target), target, (half, half * height / width))
+        half = path.half_view(shot, self.focal_length)
+        return Path(camera, position, path.look(position, target), target, half)
 
 
 RIG = Orbit
