@@ -28,7 +28,7 @@ def publish(part: Path, path: Path) -> None:
 
 
 def part_of(path: Path) -> Path:
-    """Name for `path` while it is made: beside it, of the same kind, and of no other thread, process or machine."""
+    """Name for `path` while it is made: beside it, of the same kind, and of no other thread or process."""
     return path.with_name(f".{path.stem}.{uuid.uuid4().hex[:12]}.part{path.suffix}")
 
 

@@ -92,7 +92,8 @@ def run(
             stdout=subprocess.PIPE,
             stderr=log,
             env=_environment(eevee),
-            text=True,
+            encoding="utf-8",
+            errors="replace",  # of what Blender itself says
         )
     try:
         _end_on_sigterm()
@@ -130,7 +131,7 @@ def _converse(
     try:
         child.stdin.write(json.dumps(request) + "\n")
         child.stdin.flush()
-    except BrokenPipeError:
+    except OSError:  # a pipe without a reader: BrokenPipeError, on Windows an invalid argument
         return {}
     for line in child.stdout:
         if not line.startswith("{"):
@@ -150,7 +151,7 @@ def _converse(
 def _end(child: subprocess.Popen[str]) -> None:
     """Stop the child if it still runs: politely, then for certain."""
     child.stdout.close()
-    with contextlib.suppress(BrokenPipeError):
+    with contextlib.suppress(OSError):
         child.stdin.close()
     if child.poll() is None:
         child.terminate()

@@ -40,6 +40,15 @@ def metres_per_degree(latitude: float) -> tuple[float, float]:
     return A * (1.0 - E2) / w**3 * degree, A / w * np.cos(np.radians(latitude)) * degree
 
 
+def turned(longitude: ArrayLike, middle: float) -> NDArray[np.float64]:
+    """The same meridians (degrees east) within half a turn of `middle`; those that are keep their bits.
+
+    A run over the antimeridian counts on past 180, and who asks it about a place may not.
+    """
+    longitude = np.asarray(longitude, np.float64)
+    return longitude - 360.0 * np.round((longitude - middle) / 360.0)
+
+
 def spacing(latitude: ArrayLike, longitude: ArrayLike, at: float | None = None) -> tuple[float, float]:
     """Mean width and height (m) of a cell at the parallel `at`, else at the middle of the grid.
 

@@ -220,10 +220,10 @@ def _size(grid: dict[str, Any]) -> str:
 
 
 def _span(bounds: list[float], positive: str, negative: str) -> str:
-    letter = positive if bounds[0] >= 0 else negative
-    if bounds[0] < 0 < bounds[1]:
-        return f"{-bounds[0]:.4f} {negative} to {bounds[1]:.4f} {positive}"
-    return f"{abs(bounds[0]):.4f} to {abs(bounds[1]):.4f} {letter}"
+    places = [float(areas.turned(bound, 0.0)) for bound in bounds]
+    letters = [positive if place >= 0 else negative for place in places]
+    first = "" if letters[0] == letters[1] else f" {letters[0]}"
+    return f"{abs(places[0]):.4f}{first} to {abs(places[1]):.4f} {letters[1]}"
 
 
 def _load(fuel: dict[str, float]) -> str:

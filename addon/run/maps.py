@@ -149,7 +149,12 @@ def _degrees(ticks: NDArray[np.float64], negative: str, positive: str) -> FuncFo
     step = float(np.min(np.diff(ticks))) if len(ticks) > 1 else 0.1
     digits = max(1, int(np.ceil(-np.log10(step) - 1e-9)))
     digits += round(step * 10**digits, 6) % 1 > 0  # such as steps of 0.25
-    return FuncFormatter(lambda at, _: f"{abs(at):.{digits}f}°{negative if at < 0 else positive}")
+
+    def label(at: float, _: object) -> str:
+        place = float(areas.turned(at, 0.0))
+        return f"{abs(place):.{digits}f}°{negative if place < 0 else positive}"
+
+    return FuncFormatter(label)
 
 
 def _show(

@@ -44,14 +44,15 @@ def _near(
 ) -> None:
     """Raise where a point is beyond the ground that is drawn."""
     middle = [float(axis[0] + axis[-1]) / 2 for axis in (run.latitude, run.longitude)]
+    place = float(areas.turned(longitude, middle[1]))
     if -90 < latitude < 90:
         dx, dy = areas.spacing([middle[0] - 0.5, middle[0] + 0.5], [middle[1] - 0.5, middle[1] + 0.5])
-        east, north = (longitude - middle[1]) * dx, (latitude - middle[0]) * dy
+        east, north = (place - middle[1]) * dx, (latitude - middle[0]) * dy
         far = float(np.hypot(east, north))
     else:
         far = np.inf
     inside = min(run.latitude) <= latitude <= max(run.latitude)
-    inside = inside and min(run.longitude) <= longitude <= max(run.longitude)
+    inside = inside and min(run.longitude) <= place <= max(run.longitude)
     if not inside and far > settings.ground.apron:
         what = "looks at a point" if str(where[-1]).startswith("target") else "is"
         reason = (

@@ -105,6 +105,7 @@ class Ground:
         """Fractional row and column of places, held inside the grid."""
         fields = self.fields
         row = np.interp(latitude, fields.latitude, np.arange(len(fields.latitude)))
+        longitude = areas.turned(longitude, 0.5 * (fields.longitude[0] + fields.longitude[-1]))
         return row, np.interp(longitude, fields.longitude, np.arange(len(fields.longitude)))
 
     def places(self, row: ArrayLike, column: ArrayLike) -> tuple[Array, Array]:

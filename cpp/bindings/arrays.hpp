@@ -54,7 +54,7 @@ template <class T> Array<T> to_array(const pybind11::handle& object, const std::
     wrong(name, "must hold real numbers, not " + py::str(any.dtype()).cast<std::string>());
   }
   if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
-    if (any.size() > 0 && kind != 'i' && kind != 'u') { // an empty list is an array of floats
+    if (any.size() > 0 && kind == 'f') { // an empty list is an array of floats
       wrong(name, "must hold integers, not " + py::str(any.dtype()).cast<std::string>());
     }
     if (!fits<T>(any)) {

@@ -45,7 +45,7 @@ def platform_of(wheel: Path) -> str | None:
 
 def manifest(wheels: list[Path], platforms: list[str], version: str) -> str:
     """The manifest of addon/ with platforms and wheels filled in."""
-    text = (ROOT / "addon/blender_manifest.toml").read_text()
+    text = (ROOT / "addon/blender_manifest.toml").read_text(encoding="utf-8")
     if tomllib.loads(text)["version"] != version:
         sys.exit("extension: pyproject.toml and addon/blender_manifest.toml differ in version")
     names = json.dumps([f"./wheels/{wheel.name}" for wheel in wheels], indent=2)
@@ -63,12 +63,12 @@ def stage(folder: Path, wheels: list[Path], text: str) -> None:
     (folder / "wheels").mkdir()
     for wheel in wheels:
         shutil.copy(wheel, folder / "wheels")
-    (folder / "blender_manifest.toml").write_text(text)
+    (folder / "blender_manifest.toml").write_text(text, encoding="utf-8")
 
 
 def main(out: Path, folders: list[Path]) -> None:
     """Stage, build and validate; the last line says what was made."""
-    version = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
+    version = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
     wheels = sorted(wheel for folder in folders for wheel in folder.glob("*.whl"))
     platforms = sorted({name for name in map(platform_of, wheels) if name})
     if len(platforms) != 1:

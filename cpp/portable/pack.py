@@ -17,7 +17,7 @@ PLATFORM = "manylinux_2_28_x86_64"  # check.sh has auditwheel confirm it
 
 def metadata(version: str) -> str:
     """The METADATA file, from cpp/pyproject.toml."""
-    project = tomllib.loads((ROOT / "cpp/pyproject.toml").read_text())["project"]
+    project = tomllib.loads((ROOT / "cpp/pyproject.toml").read_text(encoding="utf-8"))["project"]
     fields = [
         ("Metadata-Version", "2.4"),
         ("Name", project["name"]),

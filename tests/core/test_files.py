@@ -127,7 +127,7 @@ def test_threads_that_write_one_path_do_not_meet(tmp_path, how):
 def test_the_core_brings_a_file_to_the_disk_before_its_name(tmp_path):
     if not shutil.which("strace"):
         pytest.skip("needs strace")
-    code = "import sys, numpy; from firetwin_core import sensor; sensor.write_image(sys.argv[1], numpy.ones((9, 9)))"
+    code = "import sys; from firetwin_core import sensor; sensor.write_image(sys.argv[1], [[1.0, 0.0]])"
     log = tmp_path / "log"
     command = ["strace", "-f", "-y", "-o", str(log), "-e", "trace=fsync,rename,renameat,renameat2"]
     subprocess.run([*command, sys.executable, "-c", code, str(tmp_path / "a.exr")], check=True)
@@ -212,6 +212,21 @@ def test_how_a_worker_ended_is_said_on_any_system(monkeypatch):
     assert "signal 77" in worker._ending(-77, eevee=False)
     monkeypatch.delattr(signal, "SIGKILL")
     assert "Blender stopped" in worker._ending(-6, eevee=False)
+
+
+def test_a_worker_that_is_gone_is_no_error_on_windows_either(monkeypatch):
+    class Gone:
+        def write(self, _):
+            raise OSError(errno.EINVAL, "Invalid argument")
+
+        close = flush = lambda self, *_: self.write("")
+
+    child = subprocess.Popen([sys.executable, "-c", ""], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    child.wait()
+    child.stdin.close()
+    monkeypatch.setattr(child, "stdin", Gone())
+    assert worker._converse(child, {}, progress=None, tell=None) == {}
+    worker._end(child)
 
 
 @pytest.fixture(params=["png", "exr"])

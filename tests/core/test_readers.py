@@ -1,4 +1,4 @@
-"""What readers forgive: NumPy's own files in any layout, other longitudes, quoted times, commas at the end."""
+"""What readers forgive: NumPy's files in any layout, other longitudes, quoted times, commas at the end."""
 
 from datetime import UTC, datetime
 
@@ -185,7 +185,9 @@ def test_a_start_in_quotes(make_run, text, quote):
 
 
 @settings(deadline=None, max_examples=100)
-@given(st.datetimes(datetime(2, 1, 1), datetime(9998, 12, 31), timezones=st.just(UTC)), st.integers(-1439, 1439))
+@given(
+    st.datetimes(datetime(2, 1, 1), datetime(9998, 12, 31), timezones=st.just(UTC)), st.integers(-1439, 1439)
+)
 def test_a_start_is_what_python_reads(tmp_path_factory, moment, offset):
     from datetime import timedelta, timezone
 
@@ -280,3 +282,25 @@ def test_longitudes_that_make_no_sense_are_refused(make_run, axis, reason):
 def test_latitudes_never_turn(make_run, axis):
     with pytest.raises(core.InputError, match=r"not beyond|beyond 90"):
         runs.open(make_run(latitude=np.array(axis)))
+
+
+@pytest.mark.parametrize("low", [-180, 0])
+def test_a_place_is_found_across_the_antimeridian(make_run, low):
+    """Cameras are given from -180 to 180, and the local frame gives no others back."""
+    from firetwin.run import info
+    from firetwin.shot.ground import Ground
+    from firetwin.shot.settings import Settings
+
+    shift = 180.0 - MODEL.mean()
+    folder = make_run()
+    plain = Ground(Settings(), runs.open(folder))
+    for name, axis in (("longitude", MODEL), ("fuel_longitude", FUEL)):
+        np.save(folder / f"{name}.npy", folded(axis + shift, low))
+    run = runs.open(folder)
+    there = Ground(Settings(), run)
+    for longitude in FUEL[1:-1:3]:
+        here = (longitude + shift + 180.0) % 360.0 - 180.0
+        point, expected = there.point(38.904, here), plain.point(38.904, longitude)
+        np.testing.assert_allclose(point, expected, atol=1e-5)
+        np.testing.assert_allclose(there.up(*point[0, :2]), plain.up(*expected[0, :2]), atol=1e-4)
+    assert "179.9920 E to 179.9920 W" in info.page(info.gather(run, "UTC"))

@@ -64,6 +64,10 @@ void open(const fs::path& folder) {
     fuzz::check(std::isfinite(times[i]) && (i == 0 || times[i] > times[i - 1]), "times ascend");
   }
   fuzz::check(run.elevation().size() == run.cells(), "elevation has every cell");
+  const std::vector<double>& east = run.longitude();
+  fuzz::check(std::abs(east.front() + east.back()) <= 360.0,
+              "longitudes have their middle in +-180");
+  fuzz::check(std::abs(east.back() - east.front()) <= 360.0, "longitudes go around once at most");
   const auto [low, high] = run.flux_range();
   fuzz::check(std::isfinite(low) && std::isfinite(high) && low <= high, "a range is a range");
   fuzz::check(run.arrival_time(0.0).size() == run.cells(), "arrival has every cell");

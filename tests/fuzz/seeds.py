@@ -12,6 +12,7 @@ TEXT = [
     "1e-400 -1e-400 1D-400 3.4028235e38 1.401298464324817e-45 16777217",
     "12 ****\n",
     "1,,2\n",
+    "1,2,\n3,4\n5 , 6 ,\t# end\r\n",
     "1 2\n3\n",
     "9" * 400 + "e-400 0." + "0" * 300 + "1",
 ]
@@ -21,6 +22,11 @@ HEADERS = [
     '{"shape":(6,),"fortran_order":False,"descr":"<f8"}',
     "{'descr': '<f4', 'fortran_order': True, 'shape': (), }",
     "{'descr': '|O', 'fortran_order': False, 'shape': (0, 3), }",
+    "{'descr': '>f8', 'fortran_order': True, 'shape': (3, 1)}",
+    "{'descr': '<i2', 'fortran_order': True, 'shape': (2, 3, 2)}",
+    "{'descr': '>u4', 'fortran_order': False, 'shape': (2, 3)}",
+    "{'descr': '|i1', 'fortran_order': True, 'shape': (4, 6)}",
+    "{'descr': '<i8', 'fortran_order': False, 'shape': (3,)}",
     "{'descr': [('a', '<f4')], 'fortran_order': False, 'shape': (18446744073709551615, 2)}",
 ]
 
@@ -31,6 +37,8 @@ TOML = [
     "start = 2014-09-16T21:45:00.25Z\ntimes_s = [0, 60, 1.5e3]\nvertical = 'ellipsoidal'\n",
     "start = 0000-01-01T00:00:00+23:59\ninterval_s = 1e308\n",
     "intervall_s = 60\n",
+    'start = "2014-09-16T21:45:00.25-07:00"\ninterval_s = 60\n',
+    "start = '20140917T0445Z'\ntimes_s = [0, 60]\n",
     'units = {elevation = "ft"}\n',
     "a.b.c = [[[{}]]]\n",
     "a" + ".a" * 300 + " = 1\n",
@@ -53,6 +61,7 @@ def seeds() -> dict[str, list[bytes]]:
     toml = [t.encode() for t in TOML]
     whole = [b"\x00" + t for t in toml[-2:]] + [bytes([i]) + t for i in range(1, 10) for t in text[:4]]
     whole += [bytes([i]) + npy_file(HEADERS[0], data) for i in (3, 6, 8)]
+    whole += [bytes([i]) + axis for i in (2, 5) for axis in (b"179.9 -180 -179.9\n", b"239.4,239.5,239.6,\n")]
     return {"text": text, "npy": npy, "toml": toml, "run": whole}
 
 

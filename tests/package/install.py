@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "core"))
 import small_run
 
 NAME = "bl_ext.user_default.firetwin"
-BUNDLED = ("firetwin_core", "astral", "tqdm")
+BUNDLED = ("firetwin_core", "astral", "tqdm", "tzdata")
 SCENE = """\
 run = "run"
 [ground]

@@ -5,10 +5,24 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 def read_grid(path: str | PathLike[str]) -> NDArray[np.float32]:
-    """Read a text or .npy grid -> (ny, nx); every value is the float32 nearest to its decimal text."""
+    """Read a text or .npy grid -> (ny, nx); every value is the float32 nearest to the one in the file.
+
+    Text: numbers between blanks, tabs or single commas, of which one may end a row; `#` comments; LF or CRLF;
+    exponents with E or D; nan and inf. .npy: float32, float64 and integers of 1 to 8 bytes, little- or
+    big-endian, in C or Fortran order. One dimension is one row.
+
+    Raises
+    ------
+    InputError
+        Anything else, with line and column; and numbers too large for a float32.
+    """
 
 def open(folder: str | PathLike[str]) -> Run:
-    """Open a run folder: checks run.toml, the axes and the shape of every field; frames stay on disk."""
+    """Open a run folder: checks run.toml, the axes and the shape of every field; frames stay on disk.
+
+    Files are read as by `read_grid`. `start` may be a date and time of TOML or ISO 8601 in quotes, with its
+    offset from UTC. Longitudes may count from -180, from 0, or over the antimeridian.
+    """
 
 class Run:
     @property
@@ -35,7 +49,7 @@ class Run:
         """(ny,) degrees north."""
     @property
     def longitude(self) -> NDArray[np.float64]:
-        """(nx,) degrees east."""
+        """(nx,) degrees east without a jump (179, 180, 181); the middle of the axis lies in -180..180."""
     @property
     def elevation(self) -> NDArray[np.float32]:
         """(ny, nx) metres."""
@@ -44,7 +58,7 @@ class Run:
         """(fy,) degrees north."""
     @property
     def fuel_longitude(self) -> NDArray[np.float64]:
-        """(fx,) degrees east."""
+        """(fx,) degrees east, counted as `longitude` is."""
     @property
     def surface_fuel(self) -> NDArray[np.float32]:
         """(fy, fx) kg/m2."""
@@ -87,6 +101,8 @@ class Run:
 
         At most `ahead` frames wait in memory, however long the run. `field` is "heat_flux", "temperature",
         "wind_east" or "wind_north". A frame that cannot be read raises InputError when its turn comes.
+        Threads may share the iterator: each frame goes to one of them. Raises ValueError for indices that are
+        not integers, IndexError for those outside of the run.
         """
     def flux_range(self) -> tuple[float, float]:
         """Smallest and largest finite heat flux of the whole run, W/m2."""

@@ -26,7 +26,12 @@ def read_image(path: str | PathLike[str]) -> NDArray[np.float32]:
     """PNG, EXR, TIFF or JPEG (by content) -> (h, w, channels)."""
 
 def write_image(path: str | PathLike[str], pixels: ArrayLike, metadata: dict[str, str] | None = None) -> None:
-    """Write (h, w) or (h, w, c) pixels to a temporary file that is then renamed.
+    """Write (h, w) or (h, w, c) pixels to a temporary file that is renamed once it is whole and on the disk.
 
     .png as 8-bit (values clamped to 0..1), .exr as 32-bit float with ZIP.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written, as on a full disk; nothing is left of it, and what was there stays.
     """
