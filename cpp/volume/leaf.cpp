@@ -10,7 +10,7 @@
 namespace firetwin::volume {
 namespace {
 
-constexpr double smallest_voxel = 1.0e-6; // m; OpenVDB takes sizes near 0 for 0
+constexpr double smallest_voxel = 1.0e-4; // m; OpenVDB takes far smaller ones for 0
 constexpr double largest_voxel = 1.0e6;   // m; its volume is far from the largest float
 constexpr double most_leaves = 1.0e8;
 constexpr double farthest_leaf = 1 << 27; // its voxels, eight times as many, are 32-bit integers
@@ -45,7 +45,7 @@ void check_voxel_size(double voxel_size) {
   check_above_zero(voxel_size, "voxel_size");
   if (voxel_size < smallest_voxel || voxel_size > largest_voxel) {
     std::ostringstream text;
-    text << "voxel_size must be 1e-6 to 1e6 m, not " << voxel_size;
+    text << "voxel_size must be 1e-4 to 1e6 m, not " << voxel_size;
     throw std::invalid_argument(text.str());
   }
 }

@@ -26,7 +26,7 @@ std::array<float, 3> corner_of(const openvdb::Coord& origin, float voxel_size);
 /// Integral over active voxels.
 double mass_of(const LeafMask& mask, const LeafValues& values, double voxel_size);
 
-/// @throws std::invalid_argument unless it is a micrometre to a thousand kilometres
+/// @throws std::invalid_argument unless it is 0.1 mm to 1000 km
 void check_voxel_size(double voxel_size);
 
 /// The leaf, counted along an axis, that a place (m) lies in.

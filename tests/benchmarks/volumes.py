@@ -1,8 +1,8 @@
-"""Measures how fast and in how much memory volumes are written: `python tests/benchmarks/volumes.py [CASE ...]`.
+"""Measures how fast and in how much memory volumes are written: `volumes.py [CASE ...]`.
 
-Every case runs in a process of its own: seconds on one and two threads and of processor time (the least of five),
-millions of voxels a second on two threads, those of all grids counted, and how far memory grew beyond the arrays
-that were handed over. Cases are named KIND-SIDE:
+Every case runs in a process of its own: seconds on one and two threads and of processor time (the least of
+five), millions of voxels a second on two threads, those of all grids counted, and how far memory grew beyond
+the arrays that were handed over. Cases are named KIND-SIDE:
 
     boxes    dense arrays of three fields, SIDE x SIDE x 64 voxels (32 from 2,880 on), a third of them smoke
     sight    the same, before a camera that sees a tenth of the smoke
@@ -48,9 +48,9 @@ def measure(case: str) -> str:
     kind, side = case.split("-")
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "volume.vdb")
-        write = {"boxes": boxes, "sight": sight, "levels": levels, "leaves": leaves, "nothing": nothing}[kind](
-            int(side)
-        )
+        write = {"boxes": boxes, "sight": sight, "levels": levels, "leaves": leaves, "nothing": nothing}[
+            kind
+        ](int(side))
         Path("/proc/self/clear_refs").write_text("5")  # forgets the peak
         before = memory("VmRSS")
         seconds, work = {}, {}
@@ -83,7 +83,9 @@ def fields(side: int) -> dict[str, Field]:
     """Three fields (side, side, 64) of smoke with an uneven edge, 0 outside of it."""
     x, y, z = (np.arange(n, dtype=np.float32) for n in (side, side, 64 if side < 2880 else 32))
     x, y = x[:, None, None], y[None, :, None]
-    rough = np.sin(0.37 * x + 0.11 * y) * np.sin(0.29 * y + 0.21 * z) + np.sin(0.91 * x - 0.53 * z) * np.sin(0.7 * y)
+    rough = np.sin(0.37 * x + 0.11 * y) * np.sin(0.29 * y + 0.21 * z) + np.sin(0.91 * x - 0.53 * z) * np.sin(
+        0.7 * y
+    )
     rough *= 0.2
     distance = np.abs(np.hypot(x / side - 0.5, y / side - 0.5) - 0.3)
     inside = (0.12 - distance) / 0.12 + rough
@@ -108,7 +110,7 @@ def sight(side: int) -> Write:
 
 
 def terrain(side: int, count: int) -> tuple[dict[str, Any], NDArray[np.float64]]:
-    """What `write_levels` wants but the smoke, 60 km wide, and sigma of the levels."""
+    """All that `write_levels` asks for but the smoke, 60 km wide, and sigma of the levels."""
     half = 0.5 * (side - 1)
     latitude = ORIGIN[0] + (np.arange(side) - half) * (60.0 / 111.0 / side)
     longitude = ORIGIN[1] + (np.arange(side) - half) * (60.0 / 86.6 / side)

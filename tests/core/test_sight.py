@@ -99,8 +99,5 @@ def test_any_number_of_threads_writes_the_same(tmp_path, all_threads):
     for number in (1, 2, 4):
         core.set_threads(number)
         frame = volume.write_smoke(tmp_path / "smoke.vdb", puffs, 120.0)
-        found.append((read(tmp_path / "smoke.vdb"), frame.mass, frame.bytes))
-    for grids, mass, size in found[1:]:
-        assert (mass, size) == found[0][1:]
-        for name, (values, _) in grids.items():
-            assert np.array_equal(values, found[0][0][name][0])
+        found.append(((tmp_path / "smoke.vdb").read_bytes(), frame.mass))
+    assert found[0] == found[1] == found[2]

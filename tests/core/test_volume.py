@@ -5,7 +5,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from firetwin_core import InputError, volume
+from firetwin_core import Error, InputError, volume
 
 CELL = 74.0
 HEAT = 17.433e6
@@ -236,10 +236,23 @@ def test_a_missing_folder_is_named(tmp_path):
     assert caught.value.path == str(tmp_path / "none")
 
 
-@pytest.mark.parametrize("change", [{"voxel_size": 0.0}, {"voxel_size": float("nan")}])
-def test_a_bad_voxel_size_is_refused(tmp_path, change):
+@pytest.mark.parametrize("voxel", [0.0, -1.0, float("nan"), 5e-324, 1e-300, 1e-9, 1e9, 1e300])
+def test_a_bad_voxel_size_is_refused(tmp_path, voxel):
     with pytest.raises(ValueError, match="voxel_size"):
-        volume.write_smoke(tmp_path / "smoke.vdb", smoke(100.0), **change)
+        volume.write_smoke(tmp_path / "smoke.vdb", smoke(100.0), voxel)
+
+
+@pytest.mark.parametrize("voxel", [1e-4, 1e-3, 0.05])
+def test_voxels_far_too_small_are_refused(tmp_path, voxel):
+    with pytest.raises(Error, match="too small for smoke this wide; use larger ones"):
+        volume.write_smoke(tmp_path / "smoke.vdb", smoke(100.0), voxel)
+    assert not list(tmp_path.iterdir())
+
+
+def test_flames_too_far_away_to_be_counted_are_refused(tmp_path):
+    lit = {"flame_position": [[1.0e6, 0.0, 0.0]], "flame_power": [1.0e9]}
+    with pytest.raises(Error, match="too small"):
+        volume.write_smoke(tmp_path / "smoke.vdb", smoke(-10.0), 1e-4, **lit)
 
 
 def test_bad_cells_are_refused():

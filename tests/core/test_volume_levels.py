@@ -1,5 +1,6 @@
 """A model's own smoke on terrain-following levels: read, put into voxels, and as much of it."""
 
+import firetwin_core as core
 import numpy as np
 import pytest
 from firetwin_core import Error, InputError, geo, run, volume
@@ -156,6 +157,44 @@ def test_heights_must_ascend(tmp_path, level):
     height[3, 2, 1] = level
     with pytest.raises(Error, match="ascend"):
         write(tmp_path / "bad.vdb", np.zeros_like(height), height=height)
+
+
+@pytest.mark.parametrize("voxel", [1e-4, 1e-2, 0.2])
+def test_voxels_far_too_small_are_refused(tmp_path, voxel):
+    with pytest.raises(Error, match="too small for smoke this wide; use larger ones"):
+        write(tmp_path / "small.vdb", np.full(heights().shape, 1e-5, np.float32), voxel)
+    with pytest.raises(ValueError, match="voxel_size must be"):
+        write(tmp_path / "small.vdb", np.zeros(heights().shape, np.float32), 1e-9 * voxel)
+
+
+def test_a_cloud_lies_where_its_cells_are(tmp_path):
+    """Smoke at single nodes on steep ground, also on the edges: nothing of the cells round them is lost."""
+    for level, row, column in [(0, 0, 0), (8, 30, 30), (4, 15, 15), (0, 30, 7), (8, 3, 0)]:
+        smoke = np.zeros(heights().shape, np.float32)
+        smoke[level, row, column] = 1e-3
+        path = tmp_path / "cloud.vdb"
+        frame = write(path, smoke, 60.0, grids=["dilution"])
+        # All of the frame again, by a veil under what is kept: no leaf is left out.
+        veil = np.where(smoke > 0, smoke, 0.9 * 2e-3 * 1e-5).astype(np.float32)
+        veil[:, ::30, ::30] = np.where(smoke[:, ::30, ::30] > 0, 1e-3, 3e-8)
+        everywhere = write(tmp_path / "veil.vdb", veil, 60.0, grids=["dilution"])
+        assert everywhere.active_voxels > frame.active_voxels > 0
+        cloud, low = read(path)["dilution"]
+        whole, corner = read(tmp_path / "veil.vdb")["dilution"]
+        wide = np.zeros_like(whole)
+        offset = low - corner
+        wide[tuple(slice(o, o + n) for o, n in zip(offset, cloud.shape, strict=True))] = cloud
+        assert wide[whole > 0.05] == pytest.approx(whole[whole > 0.05], abs=0.01, rel=2e-3)
+
+
+def test_files_are_the_same_on_any_number_of_threads(tmp_path, all_threads):
+    smoke = np.random.default_rng(8).uniform(-1e-5, 1e-5, heights().shape).astype(np.float32)
+    files = set()
+    for number in (1, 2, 5):
+        core.set_threads(number)
+        frame = write(tmp_path / "levels.vdb", smoke)
+        files.add((frame.mass, (tmp_path / "levels.vdb").read_bytes()))
+    assert len(files) == 1
 
 
 def test_shapes_must_fit(tmp_path):

@@ -154,7 +154,7 @@ def write_smoke(
     Raises
     ------
     ValueError
-        An array has the wrong shape, voxel_size is not 1e-6 to 1e6 m, or no grid has such a name.
+        An array has the wrong shape, voxel_size is not 1e-4 to 1e6 m, or no grid has such a name.
     Error
         The voxels are far too small for smoke this wide.
     InputError
@@ -198,7 +198,7 @@ def write_levels(
     Raises
     ------
     ValueError
-        Shapes that do not fit, voxel_size is not 1e-6 to 1e6 m, or no grid has such a name.
+        Shapes that do not fit, voxel_size is not 1e-4 to 1e6 m, or no grid has such a name.
     Error
         Heights that do not ascend, or voxels far too small.
     InputError
@@ -222,7 +222,7 @@ def write(
     grids
         Arrays (nx, ny, nz) by name. Those of float32 in C order are read where they are, others are copied.
     voxel_size
-        m, 1e-6 to 1e6.
+        m, 1e-4 to 1e6.
     origin
         m, the centre of voxel (0, 0, 0) of every array.
     half
