@@ -41,9 +41,10 @@ bool is_wanted(const Wanted& wanted, SmokeGrid grid) {
 bool counts(const openvdb::Coord& origin, double voxel_size, const lod::Sight& sight) {
   const double middle = 0.5 * static_cast<double>(leaf_side - 1);
   const double half = 0.5 * static_cast<double>(leaf_side) * voxel_size;
-  return sight.counts({(origin.x() + middle) * voxel_size, (origin.y() + middle) * voxel_size,
-                       (origin.z() + middle) * voxel_size},
-                      std::sqrt(3.0) * half + seen_margin);
+  const lod::Ball leaf{{(origin.x() + middle) * voxel_size, (origin.y() + middle) * voxel_size,
+                        (origin.z() + middle) * voxel_size},
+                       std::sqrt(3.0) * half + seen_margin};
+  return sight.counts(leaf, {.shadows = true});
 }
 
 /// Power of the flames within 1.5 voxels in GW, at most 1.
@@ -76,11 +77,11 @@ struct Chosen {
   double hidden = 0.0;             ///< kg in the others
 };
 
-Chosen choose(const LeafSource& source, double voxel_size, const lod::Sight& sight) {
+Chosen choose(const LeafSource& source, double voxel_size, const lod::Sight* sight) {
   const SharedLeaves& all = source.leaves;
   std::vector<char> seen(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-    seen[i] = counts(all.origins[i], voxel_size, sight) ? 1 : 0;
+    seen[i] = sight == nullptr || counts(all.origins[i], voxel_size, *sight) ? 1 : 0;
   });
   Chosen chosen;
   for (std::size_t i = 0; i < all.size(); ++i) {
