@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import functools
 
 import numpy as np
 from firetwin_core.run import Run
@@ -16,6 +17,10 @@ from .settings import Settings
 NEVER = 1.0e9  # arrival time of places that never burned, s
 _LEVEL = 0.05  # m
 RELIEF = 7.0  # standard deviation of the added relief where slopes are 45 degrees, m
+_OCTAVES = ((210.0, 1.0), (105.0, 0.55), (52.0, 0.27), (26.0, 0.12))  # of the relief: m, weight
+_SHARP = 2.4
+_RELIEF_LEVEL, _RELIEF_MEAN = 0.25, 0.55  # its strength on level ground, the mean of its shape
+_LEAST_SHAPE = (1.0 - _SHARP) * sum(weight for _, weight in _OCTAVES)  # gradient noise is within -1..1
 
 Array = NDArray[np.float64]
 
@@ -142,11 +147,47 @@ class Ground:
         """Ridges and gullies finer than the grid, stronger on slopes."""
         y, x = row * self.cell[0], column * self.cell[1]
         shape = np.zeros_like(row)
-        for octave, (size, weight) in enumerate(((210.0, 1.0), (105.0, 0.55), (52.0, 0.27), (26.0, 0.12))):
+        for octave, (size, weight) in enumerate(_OCTAVES):
             wave = noise.perlin(x / size, y / size, self.seed + 90 + octave)
-            shape += weight * (1.0 - 2.4 * np.abs(wave))  # sharp ridges, round hollows
+            shape += weight * (1.0 - _SHARP * np.abs(wave))  # sharp ridges, round hollows
         dry = 1.0 - bilinear(self.water, row, column)
-        return RELIEF * dry * (0.25 + bilinear(self._slope, row, column)) * (shape - 0.55)
+        return RELIEF * dry * (_RELIEF_LEVEL + bilinear(self._slope, row, column)) * (shape - _RELIEF_MEAN)
+
+    def floor(self) -> Array:
+        """Scene points (ny, nx, 3) of the grid, lowered where need be: no ground is drawn under them.
+
+        Over a quad of the grid ground is nowhere lower than the lowest of its corners. Far from eyes that is
+        so as quads are drawn as they are. Near them Catmull-Rom is at most 1/8 of the second differences off
+        the straight line along one axis and 1.25/8 along the other, as its weights' sizes add up to 1.25; and
+        `_relief` goes down to RELIEF times the slope's factor times the least of its octaves together.
+        """
+        elevation = self.fields.elevation
+        place = self.frame.forward_grid(self.fields.latitude, self.fields.longitude, elevation)
+        near = self._round_eyes(place)
+        if near is None or self.near_radius <= 0.0:
+            return place
+        height = elevation[near]
+        bend = sum(np.abs(_second_difference(height, axis)) for axis in (0, 1)) * (1.25 / 8.0)
+        relief = RELIEF * (_RELIEF_LEVEL + self._slope[near]) * (_RELIEF_MEAN - _LEAST_SHAPE)
+        place[near] = self.frame.forward_grid(
+            self.fields.latitude[near[0]],
+            self.fields.longitude[near[1]],
+            height - _widened(bend, 2) - relief,
+        )
+        return place
+
+    def _round_eyes(self, place: Array) -> tuple[slice, slice] | None:
+        """Rows and columns of the grid, whose points are `place`, that hold all that is near an eye."""
+        if len(self.eyes) == 0:
+            return None
+        low, high = (f(self.eyes[:, :2], axis=0) for f in (np.min, np.max))
+        more = self.near_radius + 4.0 * max(self.cell)
+        inside = np.all((place[..., :2] > low - more) & (place[..., :2] < high + more), axis=-1)
+        if not inside.any():
+            return None
+        ends = (np.flatnonzero(inside.any(axis=axis))[[0, -1]] for axis in (1, 0))
+        rows, columns = (slice(int(first), int(last) + 1) for first, last in ends)
+        return rows, columns
 
     def point(self, latitude: ArrayLike, longitude: ArrayLike, above: ArrayLike = 0.0) -> Array:
         """Scene points (n, 3) at a height above the ground (m) at places (degrees)."""
@@ -244,6 +285,21 @@ def _neighbours(field: Array) -> Array:
     rows, columns = field.shape
     windows = (padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3))
     return sum(windows) - field
+
+
+def _second_difference(field: Array, axis: int) -> Array:
+    """Of neighbours along an axis; beyond the ends the field goes on level."""
+    padded = np.pad(field, [(1, 1) if k == axis else (0, 0) for k in (0, 1)], "edge")
+    return np.diff(padded, 2, axis)
+
+
+def _widened(field: NDArray, reach: int) -> NDArray:
+    """The largest value within `reach` rows and columns."""
+    for axis in (0, 1):
+        padded = np.pad(field, [(reach, reach) if k == axis else (0, 0) for k in (0, 1)], "edge")
+        windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1, axis)
+        field = functools.reduce(np.maximum, np.moveaxis(windows, -1, 0))
+    return field
 
 
 def _split(index: ArrayLike, count: int) -> tuple[NDArray[np.int64], Array]:

@@ -1,13 +1,12 @@
-"""Where a camera is and what it sees in every frame, without Blender."""
+"""Where a camera is and where it looks in every frame, without Blender."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from . import noise
 from .ground import Ground
@@ -18,7 +17,6 @@ if TYPE_CHECKING:
 
 SENSOR = 36.0  # mm, width of the film
 _HIGHEST = 1500.0  # m; a camera is not raised more than this to see over a ridge
-_VIEWS = 64  # at most this many moments of a path are asked what they see
 
 Array = NDArray[np.float64]
 
@@ -53,77 +51,13 @@ class Path:
     perspective: bool = True
     hidden: Array | None = None
 
-    def sees(self, points: ArrayLike, margin: float = 150.0, reach: float = np.inf) -> NDArray[np.bool_]:
-        """Which of the points (n, 3) are in view in any frame, within `reach`; `margin` (m) widens the view.
 
-        The margin also keeps what only throws its shadow into the picture. Of a long path `_VIEWS` moments
-        are looked at, each with its view widened by as much as the camera moves and turns around it: nothing
-        that any frame shows is left out.
-        """
-        points = np.asarray(points, np.float32)
-        seen = np.zeros(len(points), bool)
-        for moment in self._moments:
-            left = np.flatnonzero(~seen)
-            local = (points[left] - self.position[moment.frame].astype(np.float32)) @ self.rotation[
-                moment.frame
-            ].astype(np.float32)
-            away = (local**2).sum(1)
-            # In any of its frames a point lies at most so much elsewhere, seen from the camera.
-            shift = moment.moved + moment.turned * np.sqrt(away) if moment.moved or moment.turned else 0.0
-            inside = (away < (reach + moment.moved) ** 2) & (local[:, 2] < margin + shift)
-            scale = np.maximum(-local[:, 2], 0.0) + shift if self.perspective else 1.0
-            inside &= np.abs(local[:, 0]) <= scale * self.half[0] + margin + shift
-            inside &= np.abs(local[:, 1]) <= scale * self.half[1] + margin + shift
-            seen[left[inside]] = True
-        return seen
-
-    def distance(self, points: ArrayLike) -> NDArray[np.float32]:
-        """Least distance (n,) in metres of points (n, 3) from the path; of a long path not more than that."""
-        points = np.asarray(points, np.float32)
-        nearest = np.full(len(points), np.inf, np.float32)
-        for moment in self._moments:
-            gap = points - self.position[moment.frame].astype(np.float32)
-            square = np.einsum("ij,ij->i", gap, gap)
-            if moment.moved > 0.0:
-                square = np.maximum(np.sqrt(square) - np.float32(moment.moved), 0.0) ** 2
-            np.minimum(nearest, square, out=nearest)
-        return np.sqrt(nearest)
-
-    @cached_property
-    def _moments(self) -> list[_Moment]:
-        """Frames that stand for those round them, one for each while there are few."""
-        every = np.arange(len(self.position))
-        whole = _moment(self, every)
-        if whole.moved == whole.turned == 0.0:
-            return [whole]
-        return [_moment(self, part) for part in np.array_split(every, min(len(every), _VIEWS))]
-
-
-@dataclass(frozen=True)
-class _Moment:
-    """A frame (from 0), and how far (m, radians) the camera is off it in the frames that it stands for."""
-
-    frame: int
-    moved: float
-    turned: float
-
-
-def _moment(path: Path, frames: NDArray[np.int64]) -> _Moment:
-    middle = int(frames[len(frames) // 2])
-    moved = np.linalg.norm(path.position[frames] - path.position[middle], axis=1).max()
-    trace = np.einsum("nij,ij->n", path.rotation[frames], path.rotation[middle])
-    turned = np.arccos(np.clip((trace.min() - 1.0) / 2.0, -1.0, 1.0))
-    return _Moment(middle, float(moved), float(turned) if turned > 1.0e-6 else 0.0)
-
-
-def eyes(views: list[Path], radius: float) -> Array:
-    """(m, 3) places along perspective paths, a quarter of `radius` apart: where the ground needs detail."""
+def eyes(ways: list[Array], radius: float) -> Array:
+    """(m, 3) places along ways (n, 3) each, a quarter of `radius` apart: where the ground needs detail."""
     kept: list[Array] = []
-    for path in views:
-        if not path.perspective:
-            continue
+    for way in ways:
         last = None
-        for place in path.position:
+        for place in way:
             if last is None or np.linalg.norm(place - last) > 0.25 * radius:
                 kept.append(place)
                 last = place

@@ -178,7 +178,7 @@ class Camera:
     passes: tuple[str, ...] = key(
         (), 'such as ["rgb"]; empty: those of [render]', choices=passes.helps, shows=()
     )
-    frames: str = key("", 'such as "24" or "1-48:4"; empty: all', shows=())
+    frames: str = key("", 'such as "24" or "1-48:4"; empty: all')
 
     @property
     def kind(self) -> str:

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from firetwin_core import geo
 from firetwin_core.run import Run
+from numpy.typing import NDArray
 
 from ..errors import UsageError
 from ..run import times
@@ -19,6 +20,7 @@ from .frames import Frames
 from .ground import Ground
 from .path import SENSOR, Path
 from .settings import Camera, Settings
+from .sight import Sights
 
 _BEFORE = 3600.0  # s before the first frame that ground which burned since counts as burning
 _NOWHERE = 20_000.0  # m, distance of a fire that no camera looks at
@@ -44,6 +46,7 @@ class Shot:
     def __init__(self, settings: Settings, run: Run) -> None:
         self.settings, self.run = settings, run
         self.frames: Frames = frames.of(settings.time, run)
+        self._filmed: dict[str, NDArray[np.int64]] = {}
         before = settings.smoke.max_age + burning.BURN_TIME
         self.fire = Fire(run, self.frames.first, self.frames.last, max(before, _BEFORE))
 
@@ -71,6 +74,13 @@ class Shot:
         """Frames that a camera films, ascending."""
         return frame_list.parse(camera.frames, self.frames.count)
 
+    def filmed(self, path: Path) -> NDArray[np.int64]:
+        """The frames that a path's camera films, from 0, as its arrays count them."""
+        listed = path.camera.frames
+        if listed not in self._filmed:
+            self._filmed[listed] = np.array(self.frames_of(path.camera)) - 1
+        return self._filmed[listed]
+
     def moment(self, frame: float) -> datetime:
         """UTC of a frame."""
         return times.moment(self.run, self.frames.time(frame))
@@ -93,7 +103,8 @@ class Shot:
     def ground(self) -> Ground:
         """The ground, with detail along the cameras' paths."""
         rough = self._paths(self.bare_ground)
-        return self.bare_ground.seen_from(path.eyes(rough, self.settings.ground.near_radius))
+        near = [view.position[self.filmed(view)] for view in rough if view.perspective]
+        return self.bare_ground.seen_from(path.eyes(near, self.settings.ground.near_radius))
 
     @cached_property
     def paths(self) -> list[Path]:
@@ -131,6 +142,12 @@ class Shot:
         return [view for view in self.paths if view.perspective]
 
     @cached_property
+    @cached_property
+    def sights(self) -> Sights:
+        """What the cameras see in the frames that they film, and how near they come."""
+        return Sights(self)
+
+    @cached_property
     def wind(self) -> tuple[float, float]:
         """Mean wind (m/s, east and north) where it burns in the middle of the shot."""
         east, north = burning.wind_at(self.run, np.array([self.frames.middle]), self.fire.surroundings)[0]
@@ -143,7 +160,7 @@ class Shot:
         if not self.paths or len(cells.arrival) == 0:
             return _NOWHERE
         return min(
-            float(np.percentile(view.distance(cells.position[::5]), 10.0))
+            float(np.percentile(self.sights.distance_from(view, cells.position[::5]), 10.0))
             if view.perspective
             else 2.0 * view.half[0] * 28.0 / SENSOR  # as a 28 mm lens with pixels as large on the ground
             for view in self.paths

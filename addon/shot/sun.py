@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 
 from ..run import times
 
+NIGHT = -1.0  # degrees of the sun under which the moon shines
+_MOON = (150.0, 40.0)  # degrees of bearing and height; assumed, the moon of the night is not looked up
+
 
 def angles(latitude: float, longitude: float, moment: datetime) -> tuple[float, float]:
     """Bearing clockwise from north and height over the horizon with refraction, degrees (NOAA)."""
@@ -23,6 +26,11 @@ def direction(bearing: float, height: float) -> NDArray[np.float64]:
     """Unit vector (east, north, up) towards a bearing and height in degrees."""
     bearing, height = np.radians(bearing), np.radians(height)
     return np.array([np.sin(bearing) * np.cos(height), np.cos(bearing) * np.cos(height), np.sin(height)])
+
+
+def light(bearing: float, height: float) -> NDArray[np.float64]:
+    """Unit vector towards what throws shadows: the sun at this bearing and height (degrees), or the moon."""
+    return direction(bearing, max(height, 0.5)) if height > NIGHT else direction(*_MOON)
 
 
 def at(run: Run, time: float) -> tuple[float, float]:

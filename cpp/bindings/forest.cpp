@@ -23,24 +23,30 @@ struct SiteArrays {
   Array<double> latitude;
   Array<double> longitude;
   Array<float> elevation;
+  Array<bool> mask;
 
   SiteArrays(const Array<float>& fuel, const py::object& lat, const py::object& lon,
-             const py::object& height)
+             const py::object& height, const py::object& cells)
       : latitude(to_array<double>(lat, "latitude", {fuel.shape(0)})),
         longitude(to_array<double>(lon, "longitude", {fuel.shape(1)})),
-        elevation(to_array<float>(height, "elevation", {fuel.shape(0), fuel.shape(1)})) {}
+        elevation(to_array<float>(height, "elevation", {fuel.shape(0), fuel.shape(1)})) {
+    if (!cells.is_none()) {
+      mask = to_array<bool>(cells, "mask", {fuel.shape(0), fuel.shape(1)});
+    }
+  }
 
   forest::Site site(const LocalFrame& frame, std::uint64_t seed, double jitter) const {
-    return {view(latitude), view(longitude), view(elevation), &frame, seed, jitter};
+    return {view(latitude), view(longitude), view(elevation), &frame, seed, jitter, view(mask)};
   }
 };
 
 std::shared_ptr<Trees> trees(const py::object& canopy_fuel, const py::object& latitude,
                              const py::object& longitude, const py::object& elevation,
                              const LocalFrame& frame, std::uint64_t seed,
-                             std::optional<double> max_fuel, double jitter) {
+                             std::optional<double> max_fuel, double jitter,
+                             const py::object& mask) {
   const auto fuel = to_array<float>(canopy_fuel, "canopy_fuel", {-1, -1});
-  const SiteArrays arrays(fuel, latitude, longitude, elevation);
+  const SiteArrays arrays(fuel, latitude, longitude, elevation, mask);
   const auto site = arrays.site(frame, seed, jitter);
   const py::gil_scoped_release release;
   // A grid without canopy has no largest fuel and no tree that would need it.
@@ -51,9 +57,10 @@ std::shared_ptr<Trees> trees(const py::object& canopy_fuel, const py::object& la
 
 std::shared_ptr<Grass> grass(const py::object& surface_fuel, const py::object& latitude,
                              const py::object& longitude, const py::object& elevation,
-                             const LocalFrame& frame, std::uint64_t seed, double jitter) {
+                             const LocalFrame& frame, std::uint64_t seed, double jitter,
+                             const py::object& mask) {
   const auto fuel = to_array<float>(surface_fuel, "surface_fuel", {-1, -1});
-  const SiteArrays arrays(fuel, latitude, longitude, elevation);
+  const SiteArrays arrays(fuel, latitude, longitude, elevation, mask);
   const auto site = arrays.site(frame, seed, jitter);
   const py::gil_scoped_release release;
   return std::make_shared<Grass>(Grass{forest::grass(view(fuel), site)});
@@ -95,9 +102,10 @@ void init_forest(py::module_ module) {
   module.def("trees", &trees, py::arg("canopy_fuel"), py::arg("latitude"), py::arg("longitude"),
              py::arg("elevation"), py::arg("frame"), py::arg("seed") = 0,
              py::arg("max_fuel") = py::none(), py::arg("jitter") = 1.0,
-             "Algorithm 2: canopy_fuel (fy, fx) kg/m2 -> trees.");
+             py::arg("mask") = py::none(), "Algorithm 2: canopy_fuel (fy, fx) kg/m2 -> trees.");
   module.def("grass", &grass, py::arg("surface_fuel"), py::arg("latitude"), py::arg("longitude"),
              py::arg("elevation"), py::arg("frame"), py::arg("seed") = 0, py::arg("jitter") = 1.0,
+             py::arg("mask") = py::none(),
              "Algorithm 2's grass: one clump, 0.70 m lower, in each cell with surface fuel.");
 }
 

@@ -2,15 +2,17 @@
 #include "bindings.hpp"
 #include "broadcast.hpp"
 #include "lod/pool.hpp"
+#include "lod/seen.hpp"
 #include "lod/select.hpp"
 #include "lod/table.hpp"
-#include "lod/visible.hpp"
-#include "views.hpp"
 
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace firetwin::bindings {
 namespace py = pybind11;
@@ -57,19 +59,58 @@ Array<std::int64_t> select(const py::object& position, const py::object& camera,
   return give(std::move(chosen), {n});
 }
 
-Array<std::int32_t> seen(const py::object& position, const py::object& radius,
-                         const py::object& camera, const py::object& rotation,
-                         const py::object& fov, double near, double far, double margin,
-                         const geo::HeightField* ground) {
+std::shared_ptr<lod::Occluder> occluder(const py::object& position) {
+  const auto nodes = to_array<double>(position, "position", {-1, -1, 3});
+  const auto rows = static_cast<std::size_t>(nodes.shape(0));
+  const auto columns = static_cast<std::size_t>(nodes.shape(1));
+  const py::gil_scoped_release release;
+  return std::make_shared<lod::Occluder>(view(nodes), rows, columns);
+}
+
+std::shared_ptr<lod::Sight> sight(const py::object& camera, const py::object& rotation,
+                                  const py::object& half, const py::object& sun,
+                                  const py::object& parallel, const py::object& clear,
+                                  std::shared_ptr<lod::Occluder> ground, double floor) {
+  const auto cameras = to_array<double>(camera, "camera", {-1, 3});
+  const py::ssize_t m = cameras.shape(0);
+  const auto rotations = spread<double>(rotation, "rotation", {m, 3, 3});
+  const auto halves = spread<double>(half, "half", {m, 2});
+  const auto suns = spread<double>(sun, "sun", {m, 3});
+  const auto parallels = spread<bool>(parallel, "parallel", {m});
+  const auto clears = spread<bool>(clear, "clear", {m});
+  std::vector<lod::View> views(static_cast<std::size_t>(m));
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    lod::View& made = views[i];
+    std::copy_n(cameras.data() + 3 * i, 3, made.position.begin());
+    std::copy_n(rotations.data() + 9 * i, 9, made.to_world.begin());
+    std::copy_n(suns.data() + 3 * i, 3, made.sun.begin());
+    made.across = halves.data()[2 * i];
+    made.along = halves.data()[2 * i + 1];
+    made.parallel = parallels.data()[i];
+    made.clear = clears.data()[i];
+  }
+  const py::gil_scoped_release release;
+  return std::make_shared<lod::Sight>(std::move(views), std::move(ground), floor);
+}
+
+Array<bool> seen(const py::object& position, const py::object& radius, const lod::Sight& sight,
+                 double reach, double margin, bool shadows) {
   const auto centres = to_array<double>(position, "position", {-1, 3});
   const auto radii = spread<double>(radius, "radius", {centres.shape(0)});
-  const std::vector<lod::View> path = views(camera, rotation, fov);
-  std::vector<std::int32_t> frames;
-  {
-    const py::gil_scoped_release release;
-    frames = lod::seen(view(centres), view(radii), path, {near, far, margin, ground});
-  }
-  return give(std::move(frames), {centres.shape(0), 2});
+  auto result = new_array<bool>({centres.shape(0)});
+  const auto out = writable(result);
+  const py::gil_scoped_release release;
+  lod::seen(view(centres), view(radii), sight, {reach, margin, shadows}, out);
+  return result;
+}
+
+Array<double> distance(const py::object& position, const lod::Sight& sight) {
+  const auto places = to_array<double>(position, "position", {-1, 3});
+  auto result = new_array<double>({places.shape(0)});
+  const auto out = writable(result);
+  const py::gil_scoped_release release;
+  lod::distance(view(places), sight, out);
+  return result;
 }
 
 Array<std::int32_t> assign(lod::Pool& pool, const py::object& cell) {
@@ -96,7 +137,8 @@ Array<std::int64_t> held(const lod::Pool& pool) {
 } // namespace
 
 void init_lod(py::module_ module) {
-  module.doc() = "What a shot can see: distance levels, budgets, views and stable slots.";
+  module.doc() = "What a shot can see: views and what the ground hides from them, distance levels, "
+                 "budgets and stable slots.";
   py::class_<Table>(module, "Table", "Levels of detail by distance.")
       .def(py::init<std::vector<double>, std::vector<double>>(),
            py::arg("thresholds") = std::vector<double>{1500.0, 3500.0},
@@ -111,11 +153,18 @@ void init_lod(py::module_ module) {
       py::arg("distance"), "Level of each distance (m): <= 1500 -> 0, <= 3500 -> 1, else 2.");
   module.def("select", &select, py::arg("position"), py::arg("camera"), py::arg("budget"),
              "Indices of the `budget` positions (n, 3) nearest to any camera (m, 3).");
-  module.def("seen", &seen, py::arg("position"), py::arg("radius"), py::arg("camera"),
-             py::arg("rotation"), py::arg("fov"), py::arg("near") = 0.1,
-             py::arg("far") = std::numeric_limits<double>::infinity(), py::arg("margin") = 1.0,
-             py::arg("ground") = py::none(),
-             "First and last view of a camera path that may see each ball; -1 where none does.");
+  py::class_<lod::Occluder, std::shared_ptr<lod::Occluder>>(module, "Occluder",
+                                                            "The ground as what hides things.")
+      .def(py::init(&occluder), py::arg("position"));
+  py::class_<lod::Sight, std::shared_ptr<lod::Sight>>(module, "Sight", "What some views see.")
+      .def(py::init(&sight), py::arg("camera"), py::arg("rotation"), py::arg("half"),
+           py::arg("sun") = Vector{}, py::arg("parallel") = false, py::arg("clear") = true,
+           py::arg("ground") = py::none(), py::arg("floor") = 0.0);
+  module.def("seen", &seen, py::arg("position"), py::arg("radius"), py::arg("sight"),
+             py::arg("reach") = std::numeric_limits<double>::infinity(), py::arg("margin") = 0.0,
+             py::arg("shadows") = false, "Which balls (n,) any view sees.");
+  module.def("distance", &distance, py::arg("position"), py::arg("sight"),
+             "Least distance (n,) of places from the cameras in perspective, m.");
   py::class_<lod::Pool>(module, "Pool", "Slots that cells keep for as long as they are shown.")
       .def(py::init<std::size_t, std::uint64_t>(), py::arg("capacity"), py::arg("seed") = 0)
       .def_property_readonly("capacity", &lod::Pool::capacity)

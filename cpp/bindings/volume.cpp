@@ -2,7 +2,6 @@
 #include "base/check.hpp"
 #include "bindings.hpp"
 #include "broadcast.hpp"
-#include "views.hpp"
 #include "volume/dense.hpp"
 #include "volume/levels.hpp"
 #include "volume/puffs.hpp"
@@ -41,27 +40,12 @@ Puffs puffs(double time, const py::object& arrival_object, const py::object& fue
   return volume::puffs(time, burn, settings);
 }
 
-Sight make_sight(const py::object& camera, const py::object& rotation, const py::object& fov,
-                 const Vector& sun, double floor) {
-  Sight sight;
-  for (const lod::View& view : views(camera, rotation, fov)) {
-    check_finite(view.position, "camera");
-    check_finite(view.to_world, "rotation");
-    check_finite(view.width, "fov");
-    check_finite(view.height, "fov");
-    sight.cameras.emplace_back(view, 0.0, std::numeric_limits<double>::infinity());
-  }
-  sight.sun = sun;
-  sight.floor = floor;
-  return sight;
-}
-
 /// What both kinds of smoke take besides the smoke; keeps the arrays of the flames.
 class WantedArrays {
 public:
   WantedArrays(const py::object& flame_position, const py::object& flame_power,
-               const std::optional<std::vector<std::string>>& grids,
-               const std::optional<Sight>& sight, const std::optional<io::Metadata>& metadata) {
+               const std::optional<std::vector<std::string>>& grids, const Sight* sight,
+               const std::optional<io::Metadata>& metadata) {
     if (flame_position.is_none() != flame_power.is_none()) {
       wrong("flame_position", "and flame_power must be given together");
     }
@@ -75,7 +59,7 @@ public:
     for (const std::string& name : grids.value_or(std::vector<std::string>{})) {
       wanted.grids.push_back(volume::smoke_grid(name));
     }
-    wanted.sight = sight.value_or(Sight{});
+    wanted.sight = sight;
     wanted.metadata = metadata.value_or(io::Metadata{});
   }
 
@@ -89,8 +73,7 @@ private:
 Frame write_smoke(const Path& path, const Puffs& smoke, double voxel_size,
                   const py::object& flame_position, const py::object& flame_power,
                   const std::optional<io::Metadata>& metadata,
-                  const std::optional<std::vector<std::string>>& grids,
-                  const std::optional<Sight>& sight) {
+                  const std::optional<std::vector<std::string>>& grids, const Sight* sight) {
   const WantedArrays arrays(flame_position, flame_power, grids, sight, metadata);
   const py::gil_scoped_release release;
   return volume::write_smoke(path, smoke, voxel_size, arrays.wanted);
@@ -140,8 +123,7 @@ Frame write_levels(const Path& path, const geo::LocalFrame& frame, const py::obj
                    const py::object& smoke, double voxel_size, const py::object& temperature,
                    const py::object& flame_position, const py::object& flame_power,
                    const std::optional<io::Metadata>& metadata,
-                   const std::optional<std::vector<std::string>>& grids,
-                   const std::optional<Sight>& sight) {
+                   const std::optional<std::vector<std::string>>& grids, const Sight* sight) {
   const LevelArrays model(latitude, longitude, ground, height, smoke, temperature);
   const WantedArrays arrays(flame_position, flame_power, grids, sight, metadata);
   const volume::Levels levels = model.levels();
@@ -151,7 +133,7 @@ Frame write_levels(const Path& path, const geo::LocalFrame& frame, const py::obj
 
 Frame write(const Path& path, const std::map<std::string, py::object>& grids, double voxel_size,
             const Vector& origin, bool half, float tolerance,
-            const std::optional<io::Metadata>& metadata, const std::optional<Sight>& sight) {
+            const std::optional<io::Metadata>& metadata, const Sight* sight) {
   std::map<std::string, Array<float>> arrays;
   std::map<std::string, volume::DenseField> fields;
   for (const auto& [name, object] : grids) {
@@ -169,8 +151,7 @@ Frame write(const Path& path, const std::map<std::string, py::object>& grids, do
     arrays[name] = array;
   }
   const py::gil_scoped_release release;
-  return volume::write_dense(path, fields,
-                             {voxel_size, origin, half, tolerance, sight.value_or(Sight{})},
+  return volume::write_dense(path, fields, {voxel_size, origin, half, tolerance, sight},
                              metadata.value_or(io::Metadata{}));
 }
 
@@ -193,11 +174,6 @@ void bind_types(py::module_& module) {
       .def_readonly("emitted", &Puffs::emitted)
       .def_readonly("left", &Puffs::left)
       .def("__len__", &Puffs::size);
-  py::class_<Sight>(module, "Sight", "What the cameras of a moment see, and what shadows it.")
-      .def(py::init(&make_sight), py::arg("camera"), py::arg("rotation"), py::arg("fov"),
-           py::arg("sun") = Vector{}, py::arg("floor") = 0.0)
-      .def("counts", &Sight::counts, py::arg("centre"), py::arg("radius"),
-           "Whether a ball is in view or throws its shadow on a place that is.");
   py::class_<Frame>(module, "Frame", "What one VDB file holds.")
       .def_readonly("active_voxels", &Frame::active_voxels)
       .def_readonly("voxels", &Frame::voxels)

@@ -10,7 +10,7 @@
 namespace firetwin::forest {
 namespace {
 
-/// The cells of one row, column by column.
+/// Cells of one row, column by column.
 struct Cells {
   const double *north, *east;
   const double *value, *first, *width;
@@ -18,7 +18,7 @@ struct Cells {
   const double *sine, *cosine;
   const double *below, *on, *above;
   double *x, *y, *z;
-  std::size_t columns;
+  std::size_t begin, end; ///< of the columns
 };
 
 /// What the row shares, in degrees.
@@ -39,7 +39,7 @@ FIRETWIN_CLONES("avx512f", "avx2")
 void place_row(const Cells& all, const RowOf& row, const geo::Origin& origin, double jitter) {
   const Cells c = all;
 #pragma GCC ivdep
-  for (std::size_t i = 0; i < c.columns; ++i) {
+  for (std::size_t i = c.begin; i < c.end; ++i) {
     const double spread_x = c.first[i] + c.east[i] * c.width[i];
     const double spread_y = row.first + c.north[i] * row.width;
     const double dx = c.value[i] + jitter * (spread_x - c.value[i]) - c.value[i];
@@ -105,25 +105,43 @@ Placement::Placement(const Site& site)
   }
 }
 
-void Placement::copy_row(std::size_t y, Buffer<double>& out) const {
+void Placement::copy_row(std::size_t y, std::size_t first, std::size_t last,
+                         Buffer<double>& out) const {
   const std::size_t columns = longitude_.value.size();
   const float* row = &site_.elevation[y * columns];
-  for (std::size_t i = 0; i < columns; ++i) {
+  for (std::size_t i = first > 0 ? first - 1 : 0; i < std::min(last + 1, columns); ++i) {
     out[i + 1] = std::isfinite(row[i]) ? double{row[i]} : std::numeric_limits<double>::quiet_NaN();
   }
-  out[0] = out[1];
-  out[columns + 1] = out[columns];
+  if (first == 0) {
+    out[0] = out[1];
+  }
+  if (last == columns) {
+    out[columns + 1] = out[columns];
+  }
 }
 
-void Placement::place(std::size_t y, Row& row) const {
+void Placement::place(std::size_t y, std::size_t first, std::size_t last, Row& row) const {
   const Axis &lat = latitude_, &lon = longitude_;
-  copy_row(y > 0 ? y - 1 : y, row.below);
-  copy_row(y, row.on);
-  copy_row(std::min(y + 1, lat.value.size() - 1), row.above);
-  const Cells cells{row.north.data(), row.east.data(),   lon.value.data(), lon.first.data(),
-                    lon.width.data(), lon.before.data(), lon.after.data(), sine_.data(),
-                    cosine_.data(),   row.below.data(),  row.on.data(),    row.above.data(),
-                    row.x.data(),     row.y.data(),      row.z.data(),     lon.value.size()};
+  copy_row(y > 0 ? y - 1 : y, first, last, row.below);
+  copy_row(y, first, last, row.on);
+  copy_row(std::min(y + 1, lat.value.size() - 1), first, last, row.above);
+  const Cells cells{row.north.data(),
+                    row.east.data(),
+                    lon.value.data(),
+                    lon.first.data(),
+                    lon.width.data(),
+                    lon.before.data(),
+                    lon.after.data(),
+                    sine_.data(),
+                    cosine_.data(),
+                    row.below.data(),
+                    row.on.data(),
+                    row.above.data(),
+                    row.x.data(),
+                    row.y.data(),
+                    row.z.data(),
+                    first,
+                    last};
   place_row(cells,
             {lat.value[y], lat.first[y], lat.width[y], lat.before[y], lat.after[y],
              geo::parallel(lat.value[y])},

@@ -11,7 +11,7 @@
 
 namespace firetwin::forest {
 
-/// Where the plants of a whole row of cells stand: jittered inside their cells, on the bilinear
+/// Where the plants of a row of cells stand: jittered inside their cells, on the bilinear
 /// elevation.
 class Placement {
 public:
@@ -28,8 +28,9 @@ public:
     Buffer<double> x, y, z;          ///< m
     Buffer<double> below, on, above; ///< the elevations of three rows, an edge on either side
   };
-  /// Corners of a cell's ground without elevation are left out (the others' weights grow).
-  void place(std::size_t y, Row& row) const;
+  /// Fills in the columns first to last - 1 of a row. Corners of a cell's ground without elevation
+  /// are left out (the others' weights grow).
+  void place(std::size_t y, std::size_t first, std::size_t last, Row& row) const;
 
 private:
   /// One axis, by its nodes.
@@ -41,7 +42,7 @@ private:
     std::vector<double> before;    ///< 1 / (previous value - value), 0 without one
     std::vector<double> after;     ///< 1 / (next value - value), 0 without one
   };
-  void copy_row(std::size_t y, Buffer<double>& out) const;
+  void copy_row(std::size_t y, std::size_t first, std::size_t last, Buffer<double>& out) const;
 
   const Site& site_;
   geo::Origin origin_;

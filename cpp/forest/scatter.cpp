@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
@@ -19,6 +21,7 @@ namespace {
 
 using Range = tbb::blocked_range<std::size_t>;
 constexpr std::size_t rows_per_task = 16;
+constexpr std::size_t widest_gap = 16; // cells that are placed for nothing rather than one by one
 
 constexpr double least_canopy_fuel = 0.01; // kg/m2
 constexpr double grass_depth = 0.70;       // m
@@ -64,38 +67,57 @@ void write_clump(Plants& plants, std::size_t i, const Site& site) {
   plants.rotation[i] = static_cast<float>(2.0 * std::numbers::pi * random[0]);
 }
 
-/// How many plants stand in the rows before each row, and in all of them.
+/// Lists the columns of a row whose cells grow something, and says how many they are.
+///
+/// All cells are asked without branches, which could not be predicted; so the place after the last
+/// is written to as well.
 template <class Grows>
-std::vector<std::size_t> offsets(std::size_t rows, std::size_t columns, Grows grows) {
-  std::vector<std::size_t> result(rows + 1, 0);
-  tbb::parallel_for(Range(0, rows, rows_per_task), [&](const Range& range) {
-    for (std::size_t y = range.begin(); y < range.end(); ++y) {
-      std::size_t count = 0;
-      for (std::size_t x = 0; x < columns; ++x) {
-        count += grows(y * columns + x);
-      }
-      result[y + 1] = count;
-    }
-  });
-  std::partial_sum(result.begin(), result.end(), result.begin());
-  return result;
-}
-
-/// The columns of a row whose cells grow something. Without branches, which could not be predicted;
-/// so the place after the last is written to as well.
-template <class Grows>
-void list(std::size_t y, std::size_t columns, Grows grows, Buffer<std::uint32_t>& out) {
+std::size_t list_all(std::size_t y, std::size_t columns, Grows grows, Buffer<std::uint32_t>& out) {
   std::size_t n = 0;
   for (std::size_t x = 0; x < columns; ++x) {
     out[n] = static_cast<std::uint32_t>(x);
     n += grows(y * columns + x);
   }
+  return n;
+}
+
+/// The same of the cells that a mask has, which is skimmed word by word: most of it may be empty.
+template <class Grows>
+std::size_t list_masked(std::span<const bool> mask, std::size_t y, std::size_t columns, Grows grows,
+                        Buffer<std::uint32_t>& out) {
+  const bool* row = &mask[y * columns];
+  std::size_t n = 0;
+  for (std::size_t first = 0; first < columns; first += sizeof(std::uint64_t)) {
+    const std::size_t last = std::min(first + sizeof(std::uint64_t), columns);
+    std::uint64_t word = 0;
+    std::memcpy(&word, row + first, last - first);
+    for (std::size_t x = first; word != 0 && x < last; ++x) {
+      if (row[x] && grows(y * columns + x)) {
+        out[n++] = static_cast<std::uint32_t>(x);
+      }
+    }
+  }
+  return n;
 }
 
 Plants make_plants(std::size_t n, bool trees) {
   const std::size_t classed = trees ? n : 0;
   return {Buffer<std::int64_t>(n),       Buffer<double>(3 * n), Buffer<std::uint8_t>(classed),
           Buffer<std::uint8_t>(classed), Buffer<float>(n),      Buffer<float>(n)};
+}
+
+/// Places the cells of a row that grow something, in runs: few cells far apart cost as little as
+/// they are, and many close together are placed by wide registers.
+void place(const Placement& placement, std::size_t y, std::span<const std::uint32_t> column,
+           Placement::Row& row) {
+  for (std::size_t k = 0; k < column.size();) {
+    const std::size_t first = column[k];
+    std::size_t last = first + 1;
+    for (++k; k < column.size() && column[k] < last + widest_gap; ++k) {
+      last = std::size_t{column[k]} + 1;
+    }
+    placement.place(y, first, last, row);
+  }
 }
 
 /// Places a plant in each cell that has `fuel`, and has `write(plants, i)` fill in the rest.
@@ -105,24 +127,37 @@ Plants scatter(const Site& site, bool trees, Fuel fuel, Write write) {
     throw std::invalid_argument("jitter must be between 0 and 1");
   }
   const Placement placement(site);
+  const std::size_t rows = site.latitude.size(), columns = site.longitude.size();
   const auto grows = [&](std::size_t cell) {
     return static_cast<bool>(fuel(cell) & placement.holds(cell));
   };
-  const std::size_t columns = site.longitude.size();
-  const std::vector<std::size_t> offset = offsets(site.latitude.size(), columns, grows);
+  const auto list = [&](std::size_t y, Buffer<std::uint32_t>& out) {
+    return site.mask.empty() ? list_all(y, columns, grows, out)
+                             : list_masked(site.mask, y, columns, grows, out);
+  };
+  std::vector<std::size_t> offset(rows + 1, 0); // of each row's plants; the last is their number
+  tbb::parallel_for(Range(0, rows, rows_per_task), [&](const Range& range) {
+    Buffer<std::uint32_t> column(columns + 1);
+    for (std::size_t y = range.begin(); y < range.end(); ++y) {
+      offset[y + 1] = list(y, column);
+    }
+  });
+  std::partial_sum(offset.begin(), offset.end(), offset.begin());
   Plants plants = make_plants(offset.back(), trees);
-  tbb::parallel_for(Range(0, site.latitude.size(), rows_per_task), [&](const Range& rows) {
+  tbb::parallel_for(Range(0, rows, rows_per_task), [&](const Range& range) {
     Placement::Row row(columns);
     Buffer<std::uint32_t> column(columns + 1);
-    for (std::size_t y = rows.begin(); y < rows.end(); ++y) {
-      const std::size_t n = offset[y + 1] - offset[y];
-      list(y, columns, grows, column);
+    for (std::size_t y = range.begin(); y < range.end(); ++y) {
+      if (offset[y] == offset[y + 1]) {
+        continue;
+      }
+      const std::size_t n = list(y, column);
       for (std::size_t k = 0; k < n; ++k) {
         const auto random = draw(site, y * columns + column[k], Use::place);
         row.north[column[k]] = random[0];
         row.east[column[k]] = random[1];
       }
-      placement.place(y, row);
+      place(placement, y, {column.data(), n}, row);
       for (std::size_t k = 0; k < n; ++k) {
         const std::size_t i = offset[y] + k, x = column[k];
         plants.cell[i] = static_cast<std::int64_t>(y * columns + x);
@@ -139,11 +174,22 @@ Plants scatter(const Site& site, bool trees, Fuel fuel, Write write) {
 } // namespace
 
 float largest_fuel(std::span<const float> fuel) {
-  float largest = 0.0F;
-  for (const float f : fuel) {
-    largest = std::isfinite(f) ? std::max(largest, f) : largest;
+  constexpr std::size_t lanes = 16; // as wide as registers may be
+  std::array<float, lanes> largest{};
+  const auto add = [&](std::size_t lane, float f) {
+    largest[lane] =
+        (f > largest[lane]) & (f <= std::numeric_limits<float>::max()) ? f : largest[lane];
+  };
+  std::size_t i = 0;
+  for (; i + lanes <= fuel.size(); i += lanes) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      add(lane, fuel[i + lane]);
+    }
   }
-  return largest;
+  for (; i < fuel.size(); ++i) {
+    add(0, fuel[i]);
+  }
+  return *std::max_element(largest.begin(), largest.end());
 }
 
 Plants trees(std::span<const float> canopy_fuel, const Site& site, double max_fuel) {

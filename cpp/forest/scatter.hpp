@@ -27,9 +27,9 @@ float largest_fuel(std::span<const float> fuel);
 ///   fuel >= 1.6: large, 2 models, m = U(1.1, 1.4); >= 0.8: medium, 4 models, m = U(0.9, 1.2);
 ///   else small, 4 models, m = U(0.7, 1.0)
 ///   scale = lerp(6, 18, clamp(fuel / max_fuel, 0, 1)) m U(0.8, 1.2)
-/// Cells whose fuel or elevation is not finite have no tree. The result does not depend on the
-/// number of threads, and a changed fuel changes the tree of its own cell only (while max_fuel is
-/// the same).
+/// Cells whose fuel or elevation is not finite have no tree, nor have those that the site's mask
+/// leaves out; the others' are the same with any mask. The result does not depend on the number of
+/// threads, and a changed fuel changes the tree of its own cell only (while max_fuel is the same).
 /// @throws std::invalid_argument unless max_fuel > 0 and 0 <= jitter <= 1.
 Plants trees(std::span<const float> canopy_fuel, const Site& site, double max_fuel);
 

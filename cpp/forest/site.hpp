@@ -16,7 +16,8 @@ struct Site {
   std::span<const float> elevation;  ///< [fy fx] m
   const geo::LocalFrame* frame;
   std::uint64_t seed;
-  double jitter; ///< 0 keeps the centre of the cell, 1 spreads over all of it
+  double jitter;              ///< 0 keeps the centre of the cell, 1 spreads over all of it
+  std::span<const bool> mask; ///< [fy fx] cells where plants are made; empty: all
 };
 
 /// What a cell's random numbers are for; part of their counter, so that they never depend on each

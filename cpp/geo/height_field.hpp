@@ -22,22 +22,9 @@ public:
   /// Height at a place, that of the nearest edge outside the grid; NaN where there is no ground.
   double at(double x, double y) const;
 
-  /// A height that the ground of the square (x +- half, y +- half) is nowhere below; -infinity when
-  /// the square reaches beyond the grid or to where there is no ground.
-  double lowest(double x, double y, double half) const;
-
 private:
-  /// The lowest node of each block of 2^k x 2^k cells (with its rim).
-  struct Blocks {
-    std::size_t rows;
-    std::size_t columns;
-    std::vector<float> lowest;
-  };
-  void build_blocks();
-
   std::vector<double> x_, y_;
   std::vector<float> height_; ///< ascending in both axes
-  std::vector<Blocks> blocks_;
   double highest_;
   double smallest_cell_;
 };

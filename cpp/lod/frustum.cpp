@@ -12,28 +12,18 @@ Vector rotated(const std::array<double, 9>& m, const Vector& v) {
 
 } // namespace
 
-Frustum::Frustum(const View& view, double near, double far)
-    : position_(view.position), forward_(rotated(view.to_world, {0.0, 0.0, -1.0})), near_(near),
-      far_(far) {
-  const double across = 0.5 * view.width;
-  const double along = 0.5 * view.height;
-  const std::array<Vector, 4> normals = {{{std::cos(across), 0.0, -std::sin(across)},
-                                          {-std::cos(across), 0.0, -std::sin(across)},
-                                          {0.0, std::cos(along), -std::sin(along)},
-                                          {0.0, -std::cos(along), -std::sin(along)}}};
-  for (std::size_t i = 0; i < 4; ++i) {
-    normals_[i] = rotated(view.to_world, normals[i]);
+Frustum::Frustum(const View& view) : position_(view.position), normal_{}, offset_{} {
+  normal_[4] = rotated(view.to_world, {0.0, 0.0, -1.0});
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const double half = axis == 0 ? view.across : view.along;
+    const double length = view.parallel ? 1.0 : std::hypot(1.0, half);
+    for (std::size_t side = 0; side < 2; ++side) {
+      Vector inwards{0.0, 0.0, view.parallel ? 0.0 : -half / length};
+      inwards[axis] = (side == 0 ? 1.0 : -1.0) / length;
+      normal_[2 * axis + side] = rotated(view.to_world, inwards);
+      offset_[2 * axis + side] = view.parallel ? half : 0.0;
+    }
   }
-}
-
-bool Frustum::touches(const Vector& centre, double radius) const {
-  const Vector to = minus(centre, position_);
-  const double depth = dot(to, forward_);
-  bool inside = depth + radius >= near_ && depth - radius <= far_;
-  for (const Vector& normal : normals_) {
-    inside = inside && dot(to, normal) >= -radius;
-  }
-  return inside;
 }
 
 } // namespace firetwin::lod

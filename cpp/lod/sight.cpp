@@ -1,34 +1,210 @@
 #include "lod/sight.hpp"
 
+#include "base/check.hpp"
+
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
 
 namespace firetwin::lod {
 namespace {
 
 constexpr double lowest_sun = 0.0175; // sine of one degree
+constexpr double thinnest_step = 1.0; // m
+/// Part of the way from the thing by which the steps along its shadow grow.
+constexpr double step_growth = 0.125;
+
+double length(const Vector& v) {
+  return std::sqrt(dot(v, v));
+}
+
+bool has_sun(const View& view) {
+  return view.sun[2] >= lowest_sun;
+}
+
+/// Largest change of a direction by the rotation between two (their difference's spectral norm).
+double turn(const View& a, const View& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 9; ++i) {
+    sum += (a.to_world[i] - b.to_world[i]) * (a.to_world[i] - b.to_world[i]);
+  }
+  return std::sqrt(0.5 * sum);
+}
+
+void check(const View& view) {
+  check_finite(view.position, "camera");
+  check_finite(view.to_world, "rotation");
+  check_finite(view.sun, "sun");
+  check_above_zero(view.across, "half");
+  check_above_zero(view.along, "half");
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      double product = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        product += view.to_world[3 * i + k] * view.to_world[3 * j + k];
+      }
+      if (std::abs(product - (i == j ? 1.0 : 0.0)) > 1.0e-6) {
+        throw std::invalid_argument(
+            "rotation must be a rotation: columns at right angles, of length 1");
+      }
+    }
+  }
+  if (const double s = dot(view.sun, view.sun); s > 1.0e-12 && std::abs(s - 1.0) > 1.0e-6) {
+    throw std::invalid_argument("sun must be a unit vector, or 0 without shadows");
+  }
+}
 
 } // namespace
 
-bool Sight::counts(const Vector& centre, double radius) const {
-  const auto seen = [&](const Vector& place, double reach) {
-    return std::any_of(cameras.begin(), cameras.end(),
-                       [&](const Frustum& camera) { return camera.touches(place, reach); });
-  };
-  if (cameras.empty() || seen(centre, radius)) {
+Sight::Sight(std::vector<View> views, std::shared_ptr<const Occluder> ground, double floor)
+    : views_(std::move(views)), ground_(std::move(ground)), floor_(floor) {
+  check_finite(floor, "floor");
+  std::for_each(views_.begin(), views_.end(), check);
+  if (!views_.empty()) {
+    branches_.reserve(2 * views_.size());
+    grow(0, views_.size());
+  }
+}
+
+std::size_t Sight::grow(std::size_t first, std::size_t last) {
+  const std::size_t here = branches_.size();
+  branches_.push_back(branch(first, last));
+  const bool one = branches_[here].moved == 0.0 && branches_[here].turned == 0.0 &&
+                   branches_[here].sun_moved == 0.0 &&
+                   branches_[here].perspective != branches_[here].parallel;
+  if (last - first > 1 && !one) {
+    const std::size_t half = first + (last - first) / 2;
+    const std::size_t left = grow(first, half);
+    const std::size_t right = grow(half, last);
+    branches_[here].left = left;
+    branches_[here].right = right;
+  }
+  return here;
+}
+
+Sight::Branch Sight::branch(std::size_t first, std::size_t last) const {
+  const std::size_t middle = first + (last - first) / 2;
+  View widest = views_[middle];
+  Branch b{first, last, 0, 0, middle, Frustum(widest), 0.0, 0.0, false, false, true, {}, 0.0, 0.0};
+  for (std::size_t i = first; i < last; ++i) {
+    const View& view = views_[i];
+    widest.across = std::max(widest.across, view.across);
+    widest.along = std::max(widest.along, view.along);
+    b.moved = std::max(b.moved, length(minus(view.position, widest.position)));
+    b.turned = std::max(b.turned, turn(view, widest));
+    b.perspective = b.perspective || !view.parallel;
+    b.parallel = b.parallel || view.parallel;
+    b.clear = b.clear && view.clear && !view.parallel;
+    if (has_sun(view)) {
+      b.sun = b.sun_height > 0.0 ? b.sun : view.sun;
+      b.sun_height = b.sun_height > 0.0 ? std::min(b.sun_height, view.sun[2]) : view.sun[2];
+      b.sun_moved = std::max(b.sun_moved, length(minus(view.sun, b.sun)));
+    }
+  }
+  b.frustum = Frustum(widest);
+  return b;
+}
+
+double Sight::shift(const Branch& b, const Vector& place) const {
+  return b.moved + b.turned * length(minus(place, views_[b.middle].position));
+}
+
+bool Sight::may_see(const Branch& b, const Ball& ball, const Demand& demand,
+                    const Occluder* ground) const {
+  if (b.perspective && b.parallel) {
     return true;
   }
-  if (sun[2] < lowest_sun) {
+  const Ball camera{views_[b.middle].position, b.moved};
+  const double nearest = length(minus(ball.centre, camera.centre)) - ball.radius - b.moved;
+  if (b.perspective && !(nearest <= demand.reach)) {
     return false;
   }
-  // Balls of 3/2 of the radius, one radius apart, hold the whole tube of the shadow.
-  const double length = std::max(centre[2] + radius - floor, 0.0) / sun[2];
-  for (double way = radius; way < length + radius; way += radius) {
-    if (seen({centre[0] - way * sun[0], centre[1] - way * sun[1], centre[2] - way * sun[2]},
-             1.5 * radius)) {
+  const double radius = ball.radius + demand.margin + shift(b, ball.centre);
+  return b.frustum.touches(ball.centre, radius) &&
+         !(ground && b.clear && ground->hides(camera, ball));
+}
+
+Ball Sight::piece(const Branch& b, const Ball& ball, double from, double to) {
+  const double at = 0.5 * (from + to);
+  return {{ball.centre[0] - at * b.sun[0], ball.centre[1] - at * b.sun[1],
+           ball.centre[2] - at * b.sun[2]},
+          std::hypot(ball.radius, to - at) + to * b.sun_moved};
+}
+
+/// Along the rays of light that go through the thing, until all of them are under the ground.
+bool Sight::may_shadow(const Branch& b, const Ball& ball, const Demand& demand,
+                       const Occluder* ground) const {
+  if (b.sun_height <= 0.0) {
+    return false;
+  }
+  const double most = std::max(ball.centre[2] + ball.radius - floor_, 0.0) / b.sun_height;
+  const auto step = [&](double way) {
+    return std::max({2.0 * ball.radius, step_growth * way, thinnest_step});
+  };
+  double end = 0.0;
+  while (end < most && !(ground && ground->buries(piece(b, ball, end, end + step(end))))) {
+    end += step(end);
+  }
+  if (!may_see(b, piece(b, ball, 0.0, end), demand, ground)) {
+    return false;
+  }
+  for (double way = 0.0; way < end; way += step(way)) {
+    if (may_see(b, piece(b, ball, way, way + step(way)), demand, ground)) {
       return true;
     }
   }
   return false;
+}
+
+bool Sight::may_count(const Branch& b, const Ball& ball, const Demand& demand,
+                      const Occluder* ground) const {
+  return may_see(b, ball, demand, ground) ||
+         (demand.shadows && may_shadow(b, ball, demand, ground));
+}
+
+bool Sight::counts(const Ball& ball, const Demand& demand) const {
+  std::size_t last = 0;
+  return !branches_.empty() && counts(0, ball, demand, last);
+}
+
+bool Sight::counts(std::size_t number, const Ball& ball, const Demand& demand,
+                   std::size_t& leaf) const {
+  const Branch& b = branches_[number];
+  if (!may_count(b, ball, demand, ground_.get())) {
+    return false;
+  }
+  if (b.left == 0) {
+    leaf = number;
+    return true;
+  }
+  return counts(b.left, ball, demand, leaf) || counts(b.right, ball, demand, leaf);
+}
+
+double Sight::distance(const Vector& place) const {
+  double least = std::numeric_limits<double>::infinity();
+  if (!branches_.empty()) {
+    distance(0, place, least);
+  }
+  return least;
+}
+
+void Sight::distance(std::size_t number, const Vector& place, double& least) const {
+  const Branch& b = branches_[number];
+  const double away = length(minus(place, views_[b.middle].position));
+  if (!b.perspective || away - b.moved >= least) {
+    return;
+  }
+  if (b.left == 0) {
+    least = away;
+    return;
+  }
+  const auto from = [&](std::size_t child) {
+    return length(minus(place, views_[branches_[child].middle].position));
+  };
+  const bool swap = from(b.right) < from(b.left);
+  distance(swap ? b.right : b.left, place, least);
+  distance(swap ? b.left : b.right, place, least);
 }
 
 } // namespace firetwin::lod

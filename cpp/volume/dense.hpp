@@ -21,11 +21,11 @@ struct DenseField {
 };
 
 struct DenseSettings {
-  double voxel_size = 1.0; ///< m
-  Vector origin{};         ///< centre of voxel (0, 0, 0), m
-  bool half = true;        ///< precision
-  float tolerance = 0.0F;  ///< values this near 0 are left out
-  lod::Sight sight;        ///< leaves that do not count are left out, see Seen
+  double voxel_size = 1.0;           ///< m
+  Vector origin{};                   ///< centre of voxel (0, 0, 0), m
+  bool half = true;                  ///< precision
+  float tolerance = 0.0F;            ///< values this near 0 are left out
+  const lod::Sight* sight = nullptr; ///< leaves that do not count are left out, see Seen
 };
 
 /// Writes dense arrays as sparse fog volumes, each with its own active voxels: those beyond the

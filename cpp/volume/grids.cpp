@@ -74,7 +74,7 @@ LeafGrid whole(const openvdb::FloatGrid::Ptr& grid) {
 /// Those leaves of a source that count, and what is known of them.
 class Chosen {
 public:
-  Chosen(const LeafSource& source, double voxel_size, const lod::Sight& sight)
+  Chosen(const LeafSource& source, double voxel_size, const lod::Sight* sight)
       : source_(source), voxel_size_(voxel_size), tree_(std::make_shared<openvdb::FloatTree>()),
         mass_(source.leaves.size()) {
     const SharedLeaves& all = source.leaves;

@@ -39,7 +39,7 @@ SmokeGrid smoke_grid(const std::string& name);
 struct Wanted {
   std::vector<SmokeGrid> grids; ///< none: all; glow and flame only with flames
   Flames flames;
-  lod::Sight sight;
+  const lod::Sight* sight = nullptr; ///< what counts; null: everything
   io::Metadata metadata;
 };
 

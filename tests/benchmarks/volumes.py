@@ -105,7 +105,7 @@ def boxes(side: int, **more: Any) -> Write:
 def sight(side: int) -> Write:
     rotation = np.column_stack([[1, 0, 0], [0, 0, 1], [0, -1, 0]]).astype(float)  # looks north
     edge = 20.0 * side
-    view = volume.Sight([(0.5 * edge, 0.5 * edge, 300.0)], [rotation], [(0.6, 0.4)], (0.0, 0.6, 0.8))
+    view = lod.Sight([(0.5 * edge, 0.5 * edge, 300.0)], rotation, np.tan((0.3, 0.2)), sun=(0.0, 0.6, 0.8))
     return boxes(side, sight=view)
 
 

@@ -7,7 +7,7 @@ import sys
 import firetwin_core as core
 import numpy as np
 import pytest
-from firetwin_core import InputError, volume
+from firetwin_core import InputError, lod, volume
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -120,14 +120,14 @@ def test_what_no_camera_sees_is_left_out(tmp_path):
         "density": random.random(shape, np.float32) + 0.1,
         "tint": random.random(shape, np.float32) + 0.1,
     }
-    view = volume.Sight([(0.0, -2500.0, 1000.0)], [NORTH], [(0.4, 0.3)], (0.6, 0.0, 0.8))
+    view = lod.Sight([(0.0, -2500.0, 1000.0)], NORTH, np.tan((0.2, 0.15)), sun=(0.6, 0.0, 0.8))
     path = tmp_path / "seen.vdb"
     frame = volume.write(path, fields, voxel, origin, half=False, sight=view)
     seen = np.zeros(shape, bool)
     for corner in np.ndindex(19, 18, 5):
         middle = (8 * np.array(corner) + 3.5) * voxel + origin
         block = tuple(slice(8 * i, 8 * i + 8) for i in corner)
-        seen[block] = view.counts(middle, 4 * voxel * 3**0.5 + 300.0)
+        seen[block] = lod.seen([middle], 4 * voxel * 3**0.5 + 300.0, view, shadows=True)[0]
     assert 0.1 < seen.mean() < 0.9
     for name, field in fields.items():
         grid, found = openvdb.read(str(path), name), np.zeros(shape, np.float32)
@@ -140,7 +140,7 @@ def test_what_no_camera_sees_is_left_out(tmp_path):
 
 
 def test_what_is_not_seen_is_not_looked_at_but_for_its_mass(tmp_path):
-    view = volume.Sight([(0.0, 0.0, 0.0)], [NORTH], [(0.4, 0.3)])
+    view = lod.Sight([(0.0, 0.0, 0.0)], NORTH, np.tan((0.2, 0.15)))
     behind = np.full((8, 8, 8), np.nan, np.float32)
     more = {"voxel_size": 10.0, "origin": (0.0, -5000.0, 0.0), "sight": view}
     frame = volume.write(tmp_path / "behind.vdb", {"tint": behind}, **more)

@@ -93,10 +93,10 @@ def fly(shot: Shot, points: flames.Points) -> Flights | None:
 
     At no frame are there more than `fire.firebrands`; the nearest stay.
     """
-    near, most_shown = shot.near, shot.settings.fire.firebrands
-    if not near or most_shown == 0 or len(points.seed) == 0:
+    most_shown = shot.settings.fire.firebrands
+    if not shot.near or most_shown == 0 or len(points.seed) == 0:
         return None
-    distance = np.min([view.distance(points.position) for view in near], axis=0).astype(np.float64)
+    distance = shot.sights.distance(points.position)
     fade = np.clip((REACH - distance) / (0.3 * REACH), 0.0, 1.0)
     rate = PER_MEGAJOULE * points.intensity * points.width / 1000.0 * fade
     times = shot.frames.times

@@ -28,6 +28,7 @@ _LENGTHS = (1.0, 75.0)  # m
 _KELVIN = (1000.0, 1500.0)  # flames (Frankman et al. 2008)
 _TORCH_SIGHT = 2500.0  # m
 _TORCHES = 0.8  # part of the crowns that flare up where the canopy is dense
+_AROUND = 250.0  # m round a cell to where its flames, and the firebrands that they throw up, reach
 _CELL_FLAME = 40.0  # m; flame of a cell's emitter at scale 100
 
 Array = NDArray[np.float64]
@@ -119,7 +120,7 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
     )
     random = random[:, lit]
     place = ground.point(*ground.places(row, column)) if len(row) else np.empty((0, 3))
-    distance = np.min([view.distance(place) for view in near], axis=0) if near else np.zeros(len(row))
+    distance = shot.sights.distance(place) if near else np.zeros(len(row))
     intensity = burning.HEAT / 1000.0 * fuel * speed
     uneven = np.exp(_SIZES * noise.normal(random[0], random[1]))
     length = np.clip(flame_length(intensity, settings.fire.flame_length) * uneven, *_LENGTHS)
@@ -222,8 +223,8 @@ def _candidates(shot: Shot) -> tuple[Array, Array, Array]:
     if len(cells_lit) == 0 or not near:
         return empty, empty, empty
     centre = ground.point(*ground.places(cells_lit[:, 0].astype(float), cells_lit[:, 1].astype(float)))
-    distance = np.min([view.distance(centre) for view in near], axis=0)
-    seen = np.any([view.sees(centre, margin=250.0) for view in near], axis=0)
+    distance = shot.sights.distance(centre)
+    seen = shot.sights.seen(centre, max(ground.cell) + _AROUND, reach=SIGHT)
     random = np.random.default_rng(shot.settings.seed + 1)
     parts = []
     before = 0.0

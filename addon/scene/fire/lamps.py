@@ -71,7 +71,7 @@ def place(shot: Shot) -> Lamps:
     position = np.concatenate([part.position for part in parts])
     power = np.concatenate([part.power for part in parts])
     moment = np.repeat(np.arange(len(times)), [len(part.power) for part in parts])
-    distance = np.min([view.distance(position) for view in near], axis=0).astype(np.float64)
+    distance = shot.sights.distance(position)
     power = power * np.clip((_REACH - distance) / (0.3 * _REACH), 0.0, 1.0)
     lit = np.flatnonzero(power > 0.0)
     if len(lit) == 0:

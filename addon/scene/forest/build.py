@@ -22,6 +22,9 @@ from .stand import Stand
 
 GRASS_DISTANCE = 400.0  # m
 BARE_AFTER = 900.0  # s after the fire came a burned tree is a snag
+_TALLEST, _GRASS = 31.0, 8.0  # m; as tall as any tree of Algorithm 2, and as one that would hold a clump
+_AROUND = 30.0  # m; a tree farther beside the view than it is tall takes little light of the sky from it
+_RELIEF = 30.0  # m; so far up and down the drawn ground's relief may move a tree
 _SNAG = 0.85  # part of the burned trees that become snags
 _PIXEL = 25.0  # m; a satellite whose pixels are larger sees no tree
 
@@ -45,26 +48,52 @@ def algorithm2(shot: Shot) -> dict[str, NDArray]:
 
     East and north are the core's; so is the height but near cameras, where the drawn ground has more relief.
     """
-    run, ground, settings = shot.run, shot.ground, shot.settings
+    run, seed, reach = shot.run, shot.settings.seed, shot.settings.forest.draw_distance
     axes = run.fuel_latitude, run.fuel_longitude
-    found = core.trees(run.canopy_fuel, *axes, run.fuel_elevation, ground.frame, seed=settings.seed)
-    kept = np.flatnonzero(visible(shot, found.position, settings.forest.draw_distance))
-    cell, position = found.cell[kept], _settled(ground, found.position[kept])
+    found = core.trees(
+        run.canopy_fuel,
+        *axes,
+        run.fuel_elevation,
+        shot.local_frame,
+        seed=seed,
+        mask=_cells(shot, _TALLEST, reach),
+    )
+    position = _settled(shot.ground, found.position)
+    kept = np.flatnonzero(visible(shot, position, found.scale, reach))
+    cell = found.cell[kept]
     first = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[found.size_class[kept]]
     model = first + found.model[kept]
-    return _points(shot, position, found.scale[kept], found.rotation[kept], model, cell, cell * 0)
+    return _points(shot, position[kept], found.scale[kept], found.rotation[kept], model, cell, cell * 0)
 
 
-def visible(shot: Shot, position: NDArray, distance: float) -> NDArray[np.bool_]:
-    """Which things at `position` (n, 3) are in some camera's view and not too far away or too small."""
-    seen = np.zeros(len(position), bool)
-    width = shot.settings.render.resolution[0]
-    for view in shot.paths:
-        if view.perspective:
-            seen |= view.sees(position, reach=distance)
-        elif 2.0 * view.half[0] / width < _PIXEL:
-            seen |= view.sees(position)
-    return seen
+def visible(shot: Shot, foot: NDArray, height: NDArray | float, reach: float) -> NDArray[np.bool_]:
+    """Which plants (n,) `height` m tall with their feet at (n, 3) count: seen, or throwing shadows on what is.
+
+    Those beside a view within `_AROUND` count too, as they take light of the sky from it; those farther away
+    than `reach` or too small for a satellite do not.
+    """
+    height = np.broadcast_to(height, len(foot))
+    middle = np.column_stack([foot[:, :2], foot[:, 2] + 0.5 * height])
+    return shot.sights.seen(
+        middle, models.REACH * height, reach=reach, margin=_AROUND, shadows=True, pixel=_PIXEL
+    )
+
+
+def _cells(shot: Shot, height: float, reach: float) -> NDArray[np.bool_]:
+    """Fuel cells (fy, fx) of the run where a plant of at most this height may count."""
+    run = shot.run
+    place = shot.local_frame.forward_grid(run.fuel_latitude, run.fuel_longitude, run.fuel_elevation)
+    slope = sum(_steps(place[..., 2], axis) for axis in (0, 1))
+    size = np.hypot(0.5 * np.hypot(*shot.ground.cell), slope) + _RELIEF
+    counts = visible(shot, place.reshape(-1, 3), height + size.ravel() / models.REACH, reach)
+    return counts.reshape(size.shape)
+
+
+def _steps(height: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
+    """Largest difference of each height from its neighbours' along an axis, where they are known."""
+    padded = np.pad(height, [(1, 1) if k == axis else (0, 0) for k in (0, 1)], "edge")
+    step = np.nan_to_num(np.abs(np.diff(padded, axis=axis)))
+    return np.lib.stride_tricks.sliding_window_view(step, 2, axis).max(-1)
 
 
 def _settled(ground: Ground, position: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -83,12 +112,13 @@ def _stand(shot: Shot, grown: Stand) -> dict[str, NDArray]:
 def _grass(shot: Shot) -> dict[str, NDArray]:
     run, ground, seed = shot.run, shot.ground, shot.settings.seed
     axes = run.fuel_latitude, run.fuel_longitude
-    found = core.grass(run.surface_fuel, *axes, run.fuel_elevation, ground.frame, seed=seed)
-    kept = np.flatnonzero(visible(shot, found.position, GRASS_DISTANCE))
-    cell, sunk = found.cell[kept], found.position[kept]
-    position = _settled(ground, sunk)
-    moved = np.abs(position[:, 2] - sunk[:, 2]) > 0.0
+    mask = _cells(shot, _GRASS, GRASS_DISTANCE)
+    found = core.grass(run.surface_fuel, *axes, run.fuel_elevation, ground.frame, seed=seed, mask=mask)
+    position = _settled(ground, found.position)
+    moved = np.abs(position[:, 2] - found.position[:, 2]) > 0.0
     position[moved, 2] -= 0.7
+    kept = np.flatnonzero(visible(shot, position, _GRASS, GRASS_DISTANCE))
+    cell, position = found.cell[kept], position[kept]
     model = (noise.uniform(cell, 7, seed) < 0.5).astype(np.int64)
     return _points(shot, position, found.scale[kept], found.rotation[kept], model, cell, cell * 0 + 1)
 

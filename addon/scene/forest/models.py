@@ -17,6 +17,7 @@ FIRST_MODEL = {2: 0, 1: 2, 0: 6}  # Algorithm 2's size class (LARGE 2, MEDIUM 1,
 OAKS = (10, 11)
 SNAGS = (12, 13, 14)
 GRASS = (0, 1)
+REACH = 0.6  # of a tree's height: no part of its model is farther from its middle
 _FOLIAGE, _BARK = 0, 1
 
 

@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 
 from ...shot import noise
 from ...shot.ground import Ground, bilinear
-from ...shot.path import Path
 from ...shot.settings import Settings
 from ...shot.shot import Shot
 from . import models
 
 LIMIT = 90_000  # trees; more than this and far ones are thinned
+_TALLEST = 30.0  # m
+_AROUND = 30.0  # m beside the view, from where trees still take light of the sky from what is in it
 _YOUNG = 0.7  # part of the near trees that have a young one beside them
 _YOUNG_DISTANCE = 900.0  # m
 CLEARING = 40.0  # m round the cameras where no tree stands: these models are made for 60 m and more
@@ -39,7 +40,7 @@ class Stand:
     key
         (n, 2) integers that random choices for a tree hang on.
     distance
-        (n,) metres from the nearest camera.
+        (n,) metres from the nearest camera in all that is filmed.
     full, radius
         Within `full` metres of a camera no tree is left out, beyond `radius` all are.
     """
@@ -49,7 +50,7 @@ class Stand:
     rotation: NDArray[np.float64]
     model: NDArray[np.int64]
     key: NDArray[np.int64]
-    distance: NDArray[np.float32]
+    distance: NDArray[np.float64]
     full: float
     radius: float
 
@@ -60,11 +61,11 @@ class Stand:
 
 def grow(shot: Shot) -> Stand:
     """Place the stand within `stand_radius` of the cameras, where they look."""
-    settings, ground, near = shot.settings, shot.ground, shot.near
+    settings, ground = shot.settings, shot.ground
     spacing, radius = settings.forest.stand_spacing, settings.forest.stand_radius
-    if not near or radius <= 0.0:
+    if not shot.near or radius <= 0.0:
         return _stand(ground, np.empty((0, 3)), np.empty((0, 2), np.int64), np.empty(0), 0.0, settings)
-    blocks = _blocks(ground, near, radius)
+    blocks = _blocks(shot, radius)
     key = _lattice(blocks, spacing)
     jitter = np.stack([noise.uniform(key[:, 0], key[:, 1], settings.seed + 200 + k) for k in (0, 1)], axis=-1)
     place = (key + 0.5 + 0.85 * (jitter - 0.5)) * spacing
@@ -75,8 +76,8 @@ def grow(shot: Shot) -> Stand:
     kept = luck < chance
     place, key, luck, chance = place[kept], key[kept], luck[kept], chance[kept]
     position = np.column_stack([place, ground.up(place[:, 0], place[:, 1])])
-    distance = np.min([view.distance(position) for view in near], axis=0)
-    seen = np.any([view.sees(position, margin=60.0, reach=radius) for view in near], axis=0)
+    distance = shot.sights.distance(position)
+    seen = shot.sights.seen(position, _TALLEST, reach=radius, margin=_AROUND, shadows=True)
     fade = noise.smoothstep(radius, 0.75 * radius, distance)
     seen &= (luck < chance * fade) & (distance > CLEARING)
     full = _full(distance[seen])
@@ -107,9 +108,10 @@ def _with_young(ground: Ground, old: Stand, seed: int) -> Stand:
     )
 
 
-def _blocks(ground: Ground, near: list[Path], radius: float) -> NDArray[np.int64]:
+def _blocks(shot: Shot, radius: float) -> NDArray[np.int64]:
     """Corners (m, 2), in units of 200 m, of the blocks of ground that a camera sees within `radius`."""
-    places = np.concatenate([view.position for view in near])[:, :2]
+    ground = shot.ground
+    places = np.concatenate([view.position[shot.filmed(view)] for view in shot.near])[:, :2]
     low = np.floor((places.min(0) - radius) / 200.0).astype(int)
     high = np.ceil((places.max(0) + radius) / 200.0).astype(int)
     grid = np.stack(np.meshgrid(np.arange(low[0], high[0]), np.arange(low[1], high[1])), axis=-1).reshape(
@@ -117,8 +119,7 @@ def _blocks(ground: Ground, near: list[Path], radius: float) -> NDArray[np.int64
     )
     centre = (grid + 0.5) * 200.0
     centre = np.column_stack([centre, ground.up(centre[:, 0], centre[:, 1])])
-    seen = np.any([view.sees(centre, margin=250.0, reach=radius + 150.0) for view in near], axis=0)
-    return grid[seen]
+    return grid[shot.sights.seen(centre, 250.0, reach=radius, margin=_AROUND, shadows=True)]
 
 
 def _lattice(blocks: NDArray[np.int64], spacing: float) -> NDArray[np.int64]:
@@ -178,7 +179,7 @@ def _stand(
     height = np.where(oak, 0.5 * height, height)
     return Stand(
         position,
-        np.clip(height, 4.0, 30.0),
+        np.clip(height, 4.0, _TALLEST),
         2.0 * np.pi * random(6),
         model,
         key,

@@ -10,11 +10,11 @@ from ...blender import owned
 from ...blender.owned import Stage
 from ...shot import noise
 from ...shot.ground import Ground, bilinear
-from ...shot.path import Path
 from ...shot.shot import Shot
 from ..forest.stand import Stand
 from . import grid_mesh, material
 
+_RELIEF = 30.0  # m; so far up and down a cell's relief may reach
 _LIMIT = 900_000  # quads of the finer part; more than this and its edge moves nearer
 
 
@@ -34,7 +34,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None) -> bpy.types.Object:
     data = bpy.data.meshes.new("Firetwin Ground")
     _fill(data, positions, mesh)
     attributes = _attributes(ground, mesh, detail)
-    attributes["stand"] = _stand_cover(positions, shot.near, grown)
+    attributes["stand"] = _stand_cover(shot, positions, grown)
     for name, values in attributes.items():
         data.attributes.new(name, "FLOAT", "POINT").data.foreach_set("value", values.astype(np.float32))
     data.materials.append(material.build(shot, stage))
@@ -43,19 +43,18 @@ def build(shot: Shot, stage: Stage, grown: Stand | None) -> bpy.types.Object:
 
 def levels(shot: Shot) -> NDArray[np.int64]:
     """How often each cell of the grid is halved: to `near_spacing` near cameras, less with distance."""
-    ground, settings, near = shot.ground, shot.settings.ground, shot.near
+    ground, settings = shot.ground, shot.settings.ground
     rows, columns = ground.shape
     level = np.zeros((rows - 1, columns - 1), np.int64)
     finest = max(int(np.ceil(np.log2(max(ground.cell) / settings.near_spacing))), 0)
-    if not near or finest == 0 or settings.near_radius <= 0.0:
+    if not shot.near or finest == 0 or settings.near_radius <= 0.0:
         return level
     row, column = np.meshgrid(np.arange(rows - 1) + 0.5, np.arange(columns - 1) + 0.5, indexing="ij")
     latitude, longitude = ground.places(row.ravel(), column.ravel())
     centre = ground.frame.forward(latitude, longitude, bilinear(ground.fields.elevation, row, column).ravel())
-    distance = np.min([view.distance(centre) for view in near], axis=0)
+    distance = shot.sights.distance(centre)
     close = np.flatnonzero(distance < settings.near_radius)
-    seen = np.any([view.sees(centre[close], margin=200.0) for view in near], axis=0)
-    close = close[seen]
+    close = close[shot.sights.seen(centre[close], _reach(ground).ravel()[close], shadows=True)]
     ratio = distance[close] / settings.near_radius
     while True:  # spacing grows with distance: halved at 0.5, again at 0.25 of the radius
         wanted = np.clip(finest - np.ceil(np.log2(np.maximum(ratio, 1.0e-3) / 0.3)), 1, finest).astype(
@@ -72,6 +71,12 @@ def levels(shot: Shot) -> NDArray[np.int64]:
         inner[margin:-margin, margin:-margin] = level[margin:-margin, margin:-margin]
         level = inner
     return level
+
+
+def _reach(ground: Ground) -> NDArray[np.float64]:
+    """How far (rows, columns) a cell reaches from the middle of its four points, however it is drawn, m."""
+    corners = np.lib.stride_tricks.sliding_window_view(ground.fields.elevation, (2, 2))
+    return np.hypot(0.5 * np.hypot(*ground.cell), np.ptp(corners, axis=(2, 3))) + _RELIEF
 
 
 def _positions(ground: Ground, mesh: grid_mesh.GridMesh, detail: NDArray[np.float64] | float) -> NDArray:
@@ -94,15 +99,14 @@ def _attributes(ground: Ground, mesh: grid_mesh.GridMesh, detail: NDArray) -> di
     }
 
 
-def _stand_cover(positions: NDArray, near: list[Path], grown: Stand | None) -> NDArray[np.float64]:
+def _stand_cover(shot: Shot, positions: NDArray, grown: Stand | None) -> NDArray[np.float64]:
     """Part of the forest's trees that stands there one by one, so that the ground need not draw it."""
     cover = np.zeros(len(positions))
-    if grown is None or not near:
+    if grown is None or not shot.near:
         return cover
-    way = np.concatenate([view.position for view in near])
-    inside = np.all((positions > way.min(0) - grown.radius) & (positions < way.max(0) + grown.radius), axis=1)
-    close = np.flatnonzero(inside)
-    cover[close] = grown.coverage(np.min([view.distance(positions[close]) for view in near], axis=0))
+    distance = shot.sights.distance(positions)
+    close = np.flatnonzero(distance < grown.radius)
+    cover[close] = grown.coverage(distance[close])
     return cover
 
 

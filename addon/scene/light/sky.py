@@ -14,7 +14,6 @@ _SUN = 11.1  # W/m2 over the air
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
 _MOON = 0.2  # W/m2, for the exposure of the night: shows ridges and the tops of smoke
 _MOON_COLOUR = (0.65, 0.78, 1.0)
-_MOON_PLACE = (150.0, 40.0)  # degrees; assumed, the moon of the night is not looked up
 _DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.02
 
 
@@ -34,9 +33,8 @@ class State:
     def __init__(self, light: Light, bearing: float, height: float) -> None:
         self.sky = (float(np.radians(height)), float(np.radians(bearing)))
         day = float(noise.smoothstep(-1.0, 4.0, height))
-        by_sun = height > -1.0
-        place = (bearing, max(height, 0.5)) if by_sun else _MOON_PLACE
-        self.direction = sun.direction(*place)
+        by_sun = height > sun.NIGHT
+        self.direction = sun.light(bearing, height)
         sunlight = _SUN * np.exp(-_SUN_DEPTH * air_mass(max(height, 0.0))) * day
         shining = sunlight if by_sun and day > 0.0 else _MOON * np.array(_MOON_COLOUR)
         self.power = float(shining.max())

@@ -17,7 +17,7 @@ from ...shot import burning, heat
 from ...shot.fire import Fire
 from ...shot.shot import Shot
 from . import cache, stability
-from .view import Sights, resolution
+from .view import resolution
 
 SHOWN = ("density", "dilution", "shade", "size", "glow")  # grids that the material asks for
 _GLOW_BLOCK = 300.0  # m; flames this near each other light the smoke as one
@@ -33,7 +33,7 @@ class Baker:
         self.resolution = resolution(shot)
         whole = shot.settings.smoke.complete
         self.grids = None if whole else SHOWN
-        self.sights = None if whole else Sights(shot)
+        self.sights = None if whole else shot.sights
         self.times = shot.frames.times
         first = self.times[0] - shot.settings.smoke.max_age - burning.BURN_TIME
         # Cells of the interval that goes on at the last frame belong to its puffs.
@@ -67,7 +67,7 @@ class Baker:
         own = self.shot.run.has("smoke_3d")
         more: dict[str, Any] = {
             "grids": self.grids,
-            "sight": self.sights.of(frame) if self.sights else None,
+            "sight": self.sights.at(frame) if self.sights else None,
             "metadata": {
                 "run": self.shot.run.name,
                 "smoke": "of the model, smoke_3d" if own else "puffs from burned fuel, heat and wind",

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from firetwin_core import volume
 
-from ...shot import passes, sun
+from ...shot import passes
 from ...shot.settings import Camera, Settings
 from ...shot.shot import Shot
 
@@ -63,30 +62,3 @@ def _shows_smoke(settings: Settings, camera: Camera) -> bool:
 
 def _sees_smoke(each: passes.Pass) -> bool:
     return "smoke" not in each.leaves_out or any(_sees_smoke(passes.known()[name]) for name in each.needs)
-
-
-class Sights:
-    """What the cameras see of the smoke, frame by frame, whatever they record of it."""
-
-    def __init__(self, shot: Shot) -> None:
-        self.shot = shot
-        self.frames = [set(shot.frames_of(path.camera)) for path in shot.paths]
-        run = shot.run
-        ground = shot.local_frame.forward_grid(
-            run.latitude, run.longitude, np.nan_to_num(run.elevation.astype(np.float64))
-        )
-        self.floor = float(ground[..., 2].min())
-
-    def of(self, frame: int) -> volume.Sight | None:
-        """What counts in a frame; None where all does: a satellite looks, or no camera at all."""
-        shot = self.shot
-        looking = [path for path, frames in zip(shot.paths, self.frames, strict=True) if frame in frames]
-        if not looking or not all(path.perspective for path in looking):
-            return None
-        return volume.Sight(
-            [path.position[frame - 1] for path in looking],
-            [path.rotation[frame - 1] for path in looking],
-            [2.0 * np.arctan(path.half) for path in looking],
-            list(sun.direction(*shot.sun(shot.frames.time(frame)))),
-            self.floor,
-        )

@@ -54,12 +54,14 @@ def trees(
     seed: int = 0,
     max_fuel: float | None = None,
     jitter: float = 1.0,
+    mask: ArrayLike | None = None,
 ) -> Trees:
     """Algorithm 2: canopy_fuel (fy, fx) kg/m2 on latitude (fy,), longitude (fx,) -> trees.
 
     `elevation` (fy, fx) m gives a tree its height, bilinear at its jittered place. `max_fuel` defaults to
     the largest finite fuel. `jitter` 1 spreads over the whole cell, 0 keeps the centre. Cells whose fuel or
-    elevation is not finite have no tree.
+    elevation is not finite have no tree. Of `mask` (fy, fx), bool, only cells that are true are looked at,
+    and their trees are the same as without it.
     """
 
 def grass(
@@ -70,8 +72,10 @@ def grass(
     frame: LocalFrame,
     seed: int = 0,
     jitter: float = 1.0,
+    mask: ArrayLike | None = None,
 ) -> Grass:
     """Algorithm 2's grass: one clump, 0.70 m lower, in each cell with surface fuel (fy, fx) kg/m2.
 
     It stands where the tree of its cell stands or would stand (for the same seed and jitter).
+    `mask` as for trees.
     """

@@ -3,8 +3,6 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .geo import HeightField
-
 def levels(distance: ArrayLike) -> NDArray[np.uint8]:
     """Level of each distance (m): <= 1500 -> 0, <= 3500 -> 1, else (and for NaN) 2."""
 
@@ -22,26 +20,94 @@ class Table:
 def select(position: ArrayLike, camera: ArrayLike, budget: int) -> NDArray[np.int64]:
     """Indices of the `budget` positions (n, 3) nearest to any camera (m, 3), nearest first, ties by index."""
 
+class Occluder:
+    """The ground as what hides things: of a continuous surface, the heights that it is nowhere below."""
+
+    def __init__(self, position: ArrayLike) -> None:
+        """The surface through position (rows, columns, 3) m: neighbours are joined by triangles.
+
+        Finer surfaces are hidden behind as well if they are nowhere below these triangles. What it does not
+        cover hides nothing.
+
+        Raises
+        ------
+        ValueError
+            There are fewer than 2 x 2 places, they cover no area, or one is not finite.
+        """
+
+class Sight:
+    """What some views see, usually all that a shot films."""
+
+    def __init__(
+        self,
+        camera: ArrayLike,
+        rotation: ArrayLike,
+        half: ArrayLike,
+        sun: ArrayLike = (0.0, 0.0, 0.0),
+        parallel: ArrayLike = False,
+        clear: ArrayLike = True,
+        ground: Occluder | None = None,
+        floor: float = 0.0,
+    ) -> None:
+        """Make m views; all but the cameras may be the same for all of them. Neighbours on a path come together.
+
+        Parameters
+        ----------
+        camera
+            (m, 3) m.
+        rotation
+            (m, 3, 3) to world axes; the camera looks along its -z, y is up.
+        half
+            (m, 2) tangents of half the angles of view, across and from bottom to top; with parallel lines of
+            sight half the width and height of the picture, m.
+        sun
+            (m, 3) unit vectors towards what throws shadows; under one degree, and for 0, there are none.
+        parallel
+            (m,) whether lines of sight are parallel.
+        clear
+            (m,) whether the camera is above the ground: only then does the ground hide anything from it.
+        ground
+            What hides; without it nothing does.
+        floor
+            m, where shadows end at the latest: no ground is lower.
+
+        Raises
+        ------
+        ValueError
+            A shape does not fit, a number is not finite, `half` is not above 0, or a rotation is none.
+        """
+
 def seen(
     position: ArrayLike,
     radius: ArrayLike,
-    camera: ArrayLike,
-    rotation: ArrayLike,
-    fov: ArrayLike,
-    near: float = 0.1,
-    far: float = float("inf"),
-    margin: float = 1.0,
-    ground: HeightField | None = None,
-) -> NDArray[np.int32]:
-    """(n, 2) first and last view of a camera path that may see each ball; -1, -1 where none does.
+    sight: Sight,
+    reach: float = float("inf"),
+    margin: float = 0.0,
+    shadows: bool = False,
+) -> NDArray[np.bool_]:
+    """(n,) which balls at position (n, 3) of radius (n,) m any view sees.
 
-    Balls at position (n, 3) of radius (n,) m, all made larger by `margin` m. The path has m views from camera
-    (m, 3) m, with rotation (m, 3, 3) or (3, 3) to world axes (the camera looks along its -z, y is up) and whole
-    angles of view fov (m, 2) or (2,) radians, across and from top to bottom. `ground` hides what lies behind it.
+    Nothing that is visible is left out; some that hide just behind an edge are kept. A ball with NaN is never
+    seen. All views count exactly, however many: they are asked as a tree, whose branches bound how far the
+    cameras move and turn between its views, after squares of ground with all that stands in them.
 
-    No ball that a view sees is left out; some that hide just behind an edge are kept. A view with NaN sees
-    nothing, a ball with NaN is never seen, and a camera in the ground sees through it.
+    Parameters
+    ----------
+    reach
+        m; what is farther from a camera in perspective does not count.
+    margin
+        m that every view is wider and higher.
+    shadows
+        Whether what throws its shadow on a place (air or ground) that is seen counts as well.
+
+    Raises
+    ------
+    ValueError
+        A shape does not fit, or radius, reach or margin is below 0.
     """
+
+def distance(position: ArrayLike, sight: Sight) -> NDArray[np.float64]:
+    """(n,) least distance of position (n, 3) from the cameras in perspective, m; infinite without any."""
 
 class Pool:
     """Slots for what is shown: a cell keeps its slot while it is among those asked for, so nothing pops."""

@@ -90,25 +90,6 @@ def puffs(
         An array has the wrong shape or holds NaN, or a number is not positive.
     """
 
-class Sight:
-    """What the cameras of a moment see, and what throws shadows into it."""
-
-    def __init__(
-        self,
-        camera: ArrayLike,
-        rotation: ArrayLike,
-        fov: ArrayLike,
-        sun: Sequence[float] = (0.0, 0.0, 0.0),
-        floor: float = 0.0,
-    ) -> None:
-        """Perspective cameras (m, 3) m, rotations (m, 3, 3) as for `lod.seen`, whole angles of view (m, 2) rad.
-
-        `sun` is the unit vector towards it, without shadows where it is under one degree; `floor` (m) is the
-        height where shadows end. Without any camera everything counts.
-        """
-    def counts(self, centre: Sequence[float], radius: float) -> bool:
-        """Whether a ball is in view, or throws its shadow on a place (air or ground) that is."""
-
 class Frame:
     """What one VDB file holds."""
 

@@ -1,0 +1,127 @@
+"""What the cameras of a shot see in the frames that they film, and how near they come, by `lod.seen`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from firetwin_core import lod
+from numpy.typing import ArrayLike, NDArray
+
+from . import sun
+from .ground import RELIEF, Ground
+from .path import Path
+
+if TYPE_CHECKING:
+    from .shot import Shot
+
+
+class Sights:
+    """Sights of a shot's cameras, each made when it is first asked for."""
+
+    def __init__(self, shot: Shot) -> None:
+        self.shot = shot
+        self._known: dict[tuple[int, ...], lod.Sight] = {}
+        self._ground: lod.Occluder | None = None
+        self._floor = 0.0
+
+    def seen(
+        self,
+        position: ArrayLike,
+        radius: ArrayLike,
+        *,
+        reach: float = np.inf,
+        margin: float = 0.0,
+        shadows: bool = False,
+        pixel: float = 0.0,
+    ) -> NDArray[np.bool_]:
+        """Which balls (n,) any camera sees; nothing that is visible is left out.
+
+        Parameters
+        ----------
+        position, radius
+            (n, 3) m in the scene; (n,), or what broadcasts to it, m.
+        reach
+            How far from cameras in perspective, m.
+        margin
+            How much wider each view is, m: for what is no part of the picture, but of its light.
+        shadows
+            Whether what throws its shadow on a place that is seen counts as seen.
+        pixel
+            Cameras with parallel lines of sight count if their pixels are smaller than this, m.
+        """
+        sight = self._of(self._showing(pixel))
+        return lod.seen(position, radius, sight, reach=reach, margin=margin, shadows=shadows)
+
+    def distance(self, position: ArrayLike) -> NDArray[np.float64]:
+        """Least distance (n,) of places (n, 3) from cameras in perspective, m; infinite without any."""
+        return lod.distance(position, self._of(self._showing(0.0)))
+
+    def distance_from(self, path: Path, position: ArrayLike) -> NDArray[np.float64]:
+        """Least distance (n,) of places (n, 3) from one camera in perspective, m."""
+        return lod.distance(position, self._made([path]))
+
+    def at(self, frame: int) -> lod.Sight | None:
+        """What all cameras that film this frame see in it; None where none does."""
+        paths = [path for path in self.shot.paths if frame - 1 in self.shot.filmed(path)]
+        return self._made(paths, frame - 1) if paths else None
+
+    def _showing(self, pixel: float) -> tuple[int, ...]:
+        """Numbers of the cameras in perspective, and of the others whose pixels are small enough."""
+        width = self.shot.settings.render.resolution[0]
+        return tuple(
+            number
+            for number, path in enumerate(self.shot.paths)
+            if path.perspective or 2.0 * path.half[0] / width < pixel
+        )
+
+    def _of(self, numbers: tuple[int, ...]) -> lod.Sight:
+        if numbers not in self._known:
+            self._known[numbers] = self._made([self.shot.paths[number] for number in numbers])
+        return self._known[numbers]
+
+    def _made(self, paths: list[Path], frame: int | None = None) -> lod.Sight:
+        """What these cameras see in all that they film, or in a frame (from 0)."""
+        shot = self.shot
+        filmed = [shot.filmed(path) if frame is None else np.array([frame]) for path in paths]
+        counts = [len(frames) for frames in filmed]
+        position = _joined([path.position[frames] for path, frames in zip(paths, filmed, strict=True)], (3,))
+        if self._ground is None:
+            self._ground, self._floor = _occluder(shot.ground)
+        return lod.Sight(
+            position,
+            _joined([path.rotation[frames] for path, frames in zip(paths, filmed, strict=True)], (3, 3)),
+            np.repeat(np.reshape([path.half for path in paths], (-1, 2)), counts, axis=0),
+            sun=self._sun(_joined(filmed, ()).astype(np.int64)),
+            parallel=np.repeat([not path.perspective for path in paths], counts),
+            clear=_clear(shot.ground, position),
+            ground=self._ground,
+            floor=self._floor,
+        )
+
+    def _sun(self, frames: NDArray[np.int64]) -> NDArray[np.float64]:
+        """Where light comes from in frames (m,) from 0: unit vectors (m, 3)."""
+        each, number = np.unique(frames, return_inverse=True)
+        times = self.shot.frames.times[each]
+        return np.array([sun.light(*self.shot.sun(float(t))) for t in times]).reshape(-1, 3)[number]
+
+
+def _joined(parts: list[NDArray], shape: tuple[int, ...]) -> NDArray:
+    return np.concatenate(parts) if parts else np.empty((0, *shape))
+
+
+def _occluder(ground: Ground) -> tuple[lod.Occluder, float]:
+    """The run's part of the ground, as what hides, and the lowest scene z of all of it.
+
+    Hills of the apron hide nothing: its cells are too large to make good walls.
+    """
+    floor, margin = ground.floor(), ground.fields.margin
+    inner = slice(margin, -margin or None)
+    return lod.Occluder(floor[inner, inner]), float(floor[..., 2].min())
+
+
+def _clear(ground: Ground, position: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which places are surely above the ground as it is drawn, whose relief is `RELIEF` strong."""
+    if len(position) == 0:
+        return np.empty(0, bool)
+    return position[:, 2] > ground.up(position[:, 0], position[:, 1]) + RELIEF
