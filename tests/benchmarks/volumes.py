@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from firetwin_core import geo, set_threads, volume
+from firetwin_core import geo, lod, set_threads, volume
 from numpy.typing import NDArray
 
 SIDES = (144, 720, 2880)
