@@ -21,12 +21,33 @@ constexpr double left_over = 0.05;
 /// Fewer burned out cells inside the fire than this say nothing of the others.
 constexpr std::size_t enough_cells = 10;
 constexpr double least_share = 0.02;
-/// Standard deviations as parts of what they belong to: crossing, delay and time since beginning.
-constexpr double ragged = 0.8, uneven_fuel = 0.5, uneven_pace = 0.25;
+constexpr double least_delay = 1.0; ///< s
+/// Standard deviations as parts of what they belong to: crossing, delay, and a cell's heat.
+constexpr double ragged = 0.8, uneven_fuel = 0.5, uneven_heat = 0.25;
 constexpr std::size_t heat_reach = 2; ///< cells around one that tell how much heat a cell gives
 
 double square(double value) {
   return value * value;
+}
+
+/// Part of its heat that a cell has released `age` s after the front came, which takes `crossing` s
+/// across it; each spot of it burns as exp(-age / delay) (Mandel et al. 2011, eq. 3).
+double released(double age, double crossing, double delay) {
+  const double lit = std::min(age, crossing);
+  return (lit - delay * (std::exp(-(age - lit) / delay) - std::exp(-age / delay))) / crossing;
+}
+
+/// The crossing with which a cell has released so much; 0 where no front is that fast.
+double crossing_by_heat(double age, double part, double delay) {
+  if (released(age, age, delay) >= part) { // the front is still in it, or has just left
+    return age * released(age, age, delay) / part;
+  }
+  double low = 0.0, high = age;
+  for (int step = 0; step < 30; ++step) {
+    const double middle = 0.5 * (low + high);
+    (released(age, middle, delay) > part ? low : high) = middle;
+  }
+  return low;
 }
 
 double median(std::vector<double> values) {
@@ -111,7 +132,7 @@ private:
     }
     if (heats.size() >= enough_cells) {
       heat_ = median(heats);
-      delay_ = std::max(median(delays), 0.0);
+      delay_ = std::max(median(delays), least_delay);
     }
   }
 
@@ -133,14 +154,12 @@ private:
     if (!delay_) {
       return from_slope;
     }
-    const double from_heat = begin_[i] + time_in(i);
+    const auto [time_in, deviation] = burned_out(i) ? by_mean_time(i) : by_heat_so_far(i);
     const double interval = times_[cells_[i].first] - times_[cells_[i].first - 1];
+    const double heat_variance = square(deviation) + square(interval) / 12.0;
     const double slope_variance = square(ragged * wide_crossing(i));
-    const double heat_variance = square(uneven_fuel * *delay_) +
-                                 square(uneven_pace * (from_heat - begin_[i])) +
-                                 square(interval) / 12.0;
     const double weight = slope_variance / (slope_variance + heat_variance);
-    return from_slope + weight * (from_heat - from_slope);
+    return from_slope + weight * (begin_[i] + time_in - from_slope);
   }
 
   /// What the slopes in and around a cell say of its crossing at most, s.
@@ -153,15 +172,21 @@ private:
     return std::max(crossing_[i], sum / count);
   }
 
-  /// From the beginning to the middle by a cell's heat, s.
-  double time_in(std::size_t i) const {
-    if (burned_out(i)) { // the mean over the share that burned, at the same pace over all of it
-      return std::max(heat_time(i) - *delay_ - begin_[i], 0.0) / share(i);
-    }
-    // Fuel that burns as exp(-age / delay): of what was reached this much heat has come.
-    const double age = times_.back() - begin_[i];
-    const double come = *delay_ > 0.0 ? age + *delay_ * std::expm1(-age / *delay_) : age;
-    return 0.5 * come / share(i);
+  /// From a cell's beginning to its middle, and the standard deviation of that, s.
+  using TimeIn = std::pair<double, double>;
+
+  /// The mean time of its heat is that of the share that burned, at the same pace over all of it.
+  TimeIn by_mean_time(std::size_t i) const {
+    const double found = std::max(heat_time(i) - *delay_ - begin_[i], 0.0) / share(i);
+    return {found, std::hypot(uneven_fuel * *delay_, uneven_heat * found)};
+  }
+
+  /// The front is as far as its heat tells, give or take what cells differ in heat.
+  TimeIn by_heat_so_far(std::size_t i) const {
+    const double age = times_.back() - begin_[i], part = share(i);
+    const double low = crossing_by_heat(age, std::min(part * (1.0 + uneven_heat), 1.0), *delay_);
+    const double high = crossing_by_heat(age, part * (1.0 - uneven_heat), *delay_);
+    return {0.5 * crossing_by_heat(age, part, *delay_), 0.25 * (high - low)};
   }
 
   double share_at_end(std::size_t i, double time) const {

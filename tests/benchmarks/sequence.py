@@ -19,7 +19,6 @@ import firetwin_core
 import numpy as np
 from firetwin.shot import burning, file
 from firetwin.shot.shot import Shot
-from firetwin_core import flux
 from numpy.typing import NDArray
 
 SCENE = """run = "{run}"
@@ -63,11 +62,12 @@ def measure(scene: Path, rendered: NDArray[np.float32]) -> dict[str, NDArray]:
     """Series over the frames."""
     settings = file.read(scene)
     run = firetwin_core.run.open(settings.run)
-    times = Shot(settings, run).frames.times
-    cells = burning.cells(run, times[0] - 3600.0, times[-1])
+    shot = Shot(settings, run)
+    times, fire = shot.frames.times, shot.fire
+    cells = fire.cells(times[0] - 3600.0, times[-1])
     model_cell = cells.area * run.surface_fuel.size / run.elevation.size
     ages = times[:, None] - cells.arrival
-    fields = [flux.at_time(run, float(time)) for time in times]
+    fields = [fire.flux.at(float(time)) for time in times]
     low, high = run.flux_range()
     return {
         "model time, s": times - times[0],

@@ -1,5 +1,6 @@
 """Flames in the scene: on the front, within the budget, moving with the time."""
 
+import shutil
 from dataclasses import replace
 
 import bpy
@@ -12,6 +13,7 @@ from firetwin.scene.fire import flames
 from firetwin.shot.settings import Fire
 from firetwin.shot.shot import Shot
 from firetwin_core import flux
+from firetwin_core import run as runs
 
 
 @pytest.fixture
@@ -135,3 +137,48 @@ def test_nothing_of_a_flame_is_colder_than_what_is_behind_it(settings, run, stag
 
 def test_flames_off_builds_nothing(settings, run, stage):
     assert fire.build(Shot(replace(settings, fire=Fire(flames=False)), run), stage) is None
+
+
+@pytest.fixture
+def quarters(run_folder, tmp_path):
+    """The round fire as a model tells of it that writes fluxes each quarter of an hour, and no arrival."""
+    folder = tmp_path / "quarters"
+    shutil.copytree(run_folder, folder, ignore=shutil.ignore_patterns("fuel_arrival_time.npy"))
+    y, x = np.meshgrid(*2 * [(np.arange(24 * 20) + 0.5) / 240 - 1], indexing="ij")
+    arrival = np.where(np.hypot(x, y) < 0.6, 7200.0 * np.hypot(x, y) - 600.0, np.inf)
+    times = np.arange(9) * 900.0
+    lit = [np.where(time >= arrival, np.exp(np.minimum(arrival - time, 0) / 600.0), 0.0) for time in times]
+    frames = np.array([each.reshape(24, 20, 24, 20).mean((1, 3)) * 5.0e4 for each in lit])
+    np.save(folder / "heat_flux.npy", frames.astype(np.float32))
+    toml = (folder / "run.toml").read_text().replace("interval_s = 360.0", "interval_s = 900.0\nmean_s = 0")
+    (folder / "run.toml").write_text(toml.replace('fuel_arrival_time = "s"\n', ""))
+    return runs.open(folder)
+
+
+def test_flames_smoke_and_flux_agree_on_the_front(settings, quarters):
+    """Within a cell of the model, 370 m, in the middle of intervals and in the last one."""
+    shot = Shot(settings, quarters)
+    points = flames.front(shot)
+
+    def radius(position):  # in cells of the model
+        latitude, longitude, _ = shot.local_frame.reverse(position)
+        fuel_lat, fuel_lon = quarters.fuel_latitude, quarters.fuel_longitude
+        y, x = (
+            np.interp(values, axis, (np.arange(len(axis)) + 0.5) / 5 - 12)
+            for values, axis in ((latitude, fuel_lat), (longitude, fuel_lon))
+        )
+        return np.hypot(x, y)
+
+    middle = np.hypot(*np.meshgrid(*2 * [np.arange(24) - 11.5]))
+    for time in (1800.0, 2000.0, 2300.0, 3400.0, 3590.0):
+        front = 12 * (time + 600.0) / 7200.0
+        lit = points.lit(time)
+        assert len(lit) > 20
+        off = radius(points.position[lit]) - front
+        assert np.abs(off).max() < 1.0
+        assert abs(off.mean()) < 0.3
+        roots = radius(shot.fire.cells(time - 200.0, time).position) - front
+        assert len(roots) > 5
+        assert np.abs(roots).max() < 1.0
+        burning = shot.fire.flux.at(time) > 0.0
+        assert (np.abs(middle - front)[burning != (middle < front)] < 1.0).all()

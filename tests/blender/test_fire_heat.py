@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from firetwin.data import sample
-from firetwin.shot import burning, heat
+from firetwin.shot import heat
+from firetwin.shot.fire import Fire
 from firetwin_core import flux
 from firetwin_core import run as runs
 from hypothesis import given, settings
@@ -25,11 +26,16 @@ def of_cells(sources, count):
 
 
 def wanted(run, time):
-    return np.asarray(flux.at_time(run, time), np.float64).ravel() * burning.model_cell_area(run)
+    return np.asarray(flux.at_time(run, time), np.float64).ravel() * whole(run).cell_area
+
+
+def whole(run):
+    """The fire of all of a run."""
+    return Fire(run, -np.inf, np.inf)
 
 
 def test_every_cell_keeps_its_heat_at_every_minute(run):
-    model = heat.Heat(run)
+    model = whole(run)
     for time in [*run.times, 100.0, 2001.5]:
         found, cells = model.sources(float(time)), wanted(run, float(time))
         assert of_cells(found, len(cells)) == pytest.approx(cells, rel=1e-9, abs=1e-3)
@@ -37,7 +43,7 @@ def test_every_cell_keeps_its_heat_at_every_minute(run):
 
 
 def test_the_sample_keeps_its_heat(sample_run):
-    model = heat.Heat(sample_run)
+    model = whole(sample_run)
     lit = 0
     for time in sample_run.times:
         found, cells = model.sources(float(time)), wanted(sample_run, float(time))
@@ -50,16 +56,18 @@ def test_the_sample_keeps_its_heat(sample_run):
 
 
 def test_a_cell_with_flux_and_no_burning_fuel_has_a_source_at_its_centre(run):
-    model = heat.Heat(run)
+    model = whole(run)
     found = model.sources(0.0)  # the test run has flux ahead of its fire
     alone = found.fuel_cell < 0
     assert alone.any()
-    assert found.position[alone] == pytest.approx(model.centre[found.cell[alone]])
+    row, column = np.divmod(found.cell[alone], len(run.longitude))
+    centre = model.frame.forward(run.latitude[row], run.longitude[column], run.elevation[row, column])
+    assert found.position[alone] == pytest.approx(centre)
     assert len(np.unique(found.cell[alone])) == alone.sum()
 
 
 def test_burning_fuel_lies_in_the_cell_whose_heat_it_gives(run):
-    found = heat.Heat(run).sources(1800.0)
+    found = whole(run).sources(1800.0)
     fuel = found.fuel_cell >= 0
     row, column = np.divmod(found.fuel_cell[fuel], len(run.fuel_longitude))
     assert np.array_equal(found.cell[fuel], row // 5 * 24 + column // 5)
@@ -117,7 +125,7 @@ def test_a_shot_keeps_the_heat_of_its_moments(shot, run):
     """What is shared out among what burns from its first frame to its last is all of the flux."""
     fuel = False
     for time in (*shot.frames.times, 720.0, 1080.0, 1200.0):
-        found, cells = shot.heat.sources(float(time)), wanted(run, float(time))
+        found, cells = shot.fire.sources(float(time)), wanted(run, float(time))
         fuel |= bool(np.any(found.fuel_cell >= 0))
         assert of_cells(found, len(cells)) == pytest.approx(cells, rel=1e-9, abs=1e-3)
         assert found.flaming.sum() + (found.power - found.flaming).sum() == pytest.approx(cells.sum())
@@ -125,7 +133,7 @@ def test_a_shot_keeps_the_heat_of_its_moments(shot, run):
 
 
 def test_no_lights_at_all(run):
-    found = heat.Heat(run).sources(float(run.times[-1]) + 1.0)
+    found = whole(run).sources(float(run.times[-1]) + 1.0)
     assert len(found.power) == 0
     assert len(heat.lights(found).power) == 0
     assert len(heat.lights(replace(found), count=0).power) == 0

@@ -11,7 +11,8 @@ from firetwin.scene import build
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import lamp_objects, lamps
 from firetwin.scene.smoke import build as smoke
-from firetwin.shot import heat, overview, sun
+from firetwin.shot import overview, sun
+from firetwin.shot.fire import Fire
 from firetwin.shot.settings import Light, Smoke
 from firetwin.shot.shot import Shot
 
@@ -72,7 +73,7 @@ def alone(scene, lamps):
 def test_lamps_stand_for_all_heat_near_the_cameras(near, run):
     shot = Shot(near, run)
     ground, found = shot.ground, lamps.place(shot)
-    model = heat.Heat(run)
+    model = Fire(run, -np.inf, np.inf)
     luminous = [model.sources(float(time)).luminous().power.sum() for time in found.time]
     assert 2 < len(found.radius) <= 48
     assert found.heat.sum(axis=1) == pytest.approx(luminous, rel=1e-9)
@@ -106,7 +107,7 @@ def test_energies_are_straight_lines_between_moments(near, run, stage, sun_at):
             assert curve.keyframe_points[-1].co.x == near.time.frames
     assert moving > 0
     times = shot.frames.times
-    model, total = heat.Heat(run), []
+    model, total = Fire(run, -np.inf, np.inf), []
     for frame in (1, 2, 3):
         curves = [(thing.data, compat.fcurves(thing.data)) for thing in things]
         total.append(sum(found[0].evaluate(frame) if found else data.energy for data, found in curves))

@@ -8,6 +8,7 @@ from firetwin.scene import build
 from firetwin.scene.ground import build as ground_build
 from firetwin.scene.ground import grid_mesh
 from firetwin.shot import burning
+from firetwin.shot.fire import Fire
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 
@@ -181,4 +182,4 @@ def test_a_cell_of_a_grid_one_cell_wide_has_an_area(narrow):
     run, size = narrow
     assert burning.cell_area(run) == pytest.approx(size**2, rel=0.05)
     assert burning.model_cell_area(run) > 0.0
-    assert burning.cells(run, -1e9, 1e9).power(0.0).sum() >= 0.0
+    assert Fire(run, -1e9, 1e9).sources(0.0).power.sum() >= 0.0

@@ -15,7 +15,7 @@ from firetwin.render import layers
 from firetwin.scene import build
 from firetwin.scene.smoke import bake, baker, cache, view
 from firetwin.scene.smoke import build as smoke
-from firetwin.shot import burning, file
+from firetwin.shot import file
 from firetwin.shot.rigs.satellite import Satellite
 from firetwin.shot.settings import Camera, Light, Smoke
 from firetwin.shot.shot import Shot
@@ -260,7 +260,7 @@ def test_smoke_changes_the_picture(shot, stage, scene, shoot):
 
 def test_eevee_slices_lie_where_the_smoke_is(shot, stage, scene):
     smoke.build(shot, stage)
-    cells = burning.cells(shot.run, shot.frames.first, shot.frames.last).position
+    cells = shot.fire.cells(shot.frames.first, shot.frames.last).position
     nearest = min(path.distance(cells).min() for path in shot.near)
     eevee = scene.eevee
     assert eevee.use_volume_custom_range

@@ -1,9 +1,13 @@
 """Fluxes between model times: the front moves, nothing ghosts and the sum of F^1.5 does not ripple."""
 
+import shutil
+from concurrent.futures import ThreadPoolExecutor
+
+import firetwin_core as core
 import numpy as np
 import pytest
 from firetwin_core import run as runs
-from firetwin_core.flux import at_time
+from firetwin_core.flux import Interpolator, at_time
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -133,7 +137,7 @@ def test_nearer_to_held_out_minutes_than_linear_blending(front_run):
 
 def fires(frames=3):
     """Heat fluxes (frames, NY, NX) W/m2, of which some burn."""
-    burning = st.one_of(st.just(0.0), st.floats(0.125, 1e5, width=32))
+    burning = st.one_of(st.just(0.0), st.floats(1, 1e5, width=32))
     return arrays(np.float32, (frames, NY, NX), elements=burning)
 
 
@@ -190,3 +194,41 @@ def test_cells_that_are_lit_stay_lit(opened, flux, fractions):
     run = opened(flux)
     early, late = (at_time(run, STEP * f) > 0 for f in sorted(fractions))
     assert not (early & ~late).any()
+
+
+def test_any_order_and_any_number_of_threads_give_the_same(front_run, all_threads):
+    times = np.linspace(0.0, 960.0, 97)
+    expected = [at_time(front_run, t) for t in times]
+    shared = Interpolator(front_run)
+    order = np.random.default_rng(4).permutation(len(times))
+    for i in order:
+        np.testing.assert_array_equal(shared.at(times[i]), expected[i])
+    for threads in (1, 2, 4):
+        core.set_threads(threads)
+        fresh = Interpolator(runs.open(front_run.path))
+        with ThreadPoolExecutor(8) as pool:
+            for i, found in zip(order, pool.map(fresh.at, times[order]), strict=True):
+                np.testing.assert_array_equal(found, expected[i])
+
+
+def test_what_burns_is_what_is_not_0(front_run):
+    shared = Interpolator(front_run)
+    for time in (0.0, 100.0, 240.0, 777.0, 1e9):
+        cell, flux = shared.burning(time)
+        assert (np.diff(cell) > 0).all()
+        whole = np.zeros((12, 30), np.float32)
+        whole.flat[cell] = flux
+        np.testing.assert_array_equal(whole, shared.at(time))
+        assert (flux != 0).all()
+
+
+def test_frames_asked_for_in_order_are_read_once(make_run):
+    """What is gone from the disk cannot be read again, and need not be."""
+    run = runs.open(make_run("text"))
+    shared = Interpolator(run)
+    first = [shared.at(t) for t in (0.0, 20.0, 60.0, 80.0)]
+    shutil.rmtree(f"{run.path}/heat_flux")
+    for time, found in zip((0.0, 20.0, 60.0, 80.0, 120.0), [*first, None], strict=True):
+        assert found is None or np.array_equal(shared.at(time), found)
+    with pytest.raises(core.InputError):
+        Interpolator(run).at(20.0)

@@ -9,7 +9,7 @@ import firetwin_core as core
 import numpy as np
 import pytest
 from firetwin_core import run as runs
-from firetwin_core.flux import arrival_time, at_time
+from firetwin_core.flux import at_time
 
 ODD = os.fsdecode(b"run\xff")
 
@@ -38,7 +38,7 @@ def test_everything_can_be_read(odd):
     assert run.heat_flux(1)[1, 2] == 1000.5
     assert sum(1 for _ in run.frames()) == 3
     assert at_time(run, 90.0).any()
-    assert np.isfinite(arrival_time(run)).any()
+    assert np.isfinite(run.arrival_time()).any()
     assert runs.open(os.fsencode(odd)).flux_range() == (0.0, 2000.25)
 
 

@@ -399,7 +399,7 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
     assert changed("scene/fire/flames.py") == {"rgb", "thermal"}
     assert changed("scene/ground/build.py") == set(passes.known())
     assert changed("scene/haze.py") == set(passes.known())
-    assert changed("shot/heat.py") == set(passes.known())
+    assert changed("shot/fire.py") == set(passes.known())
     assert changed("render/engine.py") == set(passes.known())
     assert changed("ui/render.py") == changed("bench/text.py") == changed("render/store.py") == set()
     before = keys()

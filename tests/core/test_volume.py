@@ -263,6 +263,9 @@ def test_bad_cells_are_refused():
         smoke(0.0, cells=(arrival, fuel[:-1], position))
     with pytest.raises(ValueError, match="stability must be finite and above 0"):
         smoke(0.0, stability=0.0)
+    for interval in (1e-300, 0.5):  # would make more puffs than there is time for
+        with pytest.raises(ValueError, match="interval is too short"):
+            smoke(100.0, interval=interval, max_age=6000.0)
 
 
 def test_what_cannot_be_put_in_place_leaves_nothing(tmp_path):
