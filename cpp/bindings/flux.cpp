@@ -44,10 +44,8 @@ template <auto member> auto column(const py::object& self) {
 
 } // namespace
 
-void init_flux(py::module_ module) {
-  module.doc() = "Heat flux at any time, and the fire emitters that show it.";
-  py::class_<Emitters, std::shared_ptr<Emitters>>(module, "Emitters",
-                                                  "Fire emitters of one moment (Algorithm 1).")
+void init_flux(Module module) {
+  Class<Emitters, std::shared_ptr<Emitters>>(module, "Emitters")
       .def_property_readonly("cell", &column<&Emitters::cell>)
       .def_property_readonly("position",
                              [](const py::object& self) {
@@ -61,11 +59,9 @@ void init_flux(py::module_ module) {
       .def_readonly("invalid", &Emitters::invalid)
       .def("__len__", [](const Emitters& e) { return e.cell.size(); });
   module.def("emitters", &emitters, py::arg("flux"), py::arg("position"), py::arg("flux_min"),
-             py::arg("flux_max"), "Algorithm 1: emitters where flux (ny, nx) W/m2 is above 0.");
-  module.def("at_time", &at_time, py::arg("run"), py::arg("time"),
-             "Heat flux (ny, nx) in W/m2 at any time (seconds since start); zero outside the run.");
-  module.def("arrival_time", &arrival_time, py::arg("run"), py::arg("averaged") = true,
-             "When each cell begins to burn (ny, nx), s since start, between the model times.");
+             py::arg("flux_max"));
+  module.def("at_time", &at_time, py::arg("run"), py::arg("time"));
+  module.def("arrival_time", &arrival_time, py::arg("run"), py::arg("averaged") = true);
 }
 
 } // namespace firetwin::bindings
