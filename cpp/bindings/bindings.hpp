@@ -1,5 +1,7 @@
 #pragma once
 
+#include "documentation.hpp"
+
 #include <pybind11/pybind11.h>
 
 #include <string>
@@ -9,14 +11,14 @@ namespace firetwin::bindings {
 /// For people to read: bytes that are not UTF-8, as in some file names, are shown as \xNN.
 pybind11::str readable(const std::string& bytes);
 
-void init_errors(pybind11::module_& module);
-void init_geo(pybind11::module_ module);
-void init_run(pybind11::module_ module);
-void init_flux(pybind11::module_ module);
-void init_lod(pybind11::module_ module);
-void init_forest(pybind11::module_ module);
-void init_particles(pybind11::module_ module);
-void init_volume(pybind11::module_ module);
-void init_sensor(pybind11::module_ module);
+void init_errors(Module& module);
+void init_geo(Module module);
+void init_run(Module module);
+void init_flux(Module module);
+void init_lod(Module module);
+void init_forest(Module module);
+void init_particles(Module module);
+void init_volume(Module module);
+void init_sensor(Module module);
 
 } // namespace firetwin::bindings

@@ -18,7 +18,7 @@ py::str readable(const std::string& bytes) {
   return py::reinterpret_steal<py::str>(decoded);
 }
 
-void init_errors(py::module_& module) {
+void init_errors(Module& module) {
   PYBIND11_CONSTINIT static py::gil_safe_call_once_and_store<py::object> error;
   PYBIND11_CONSTINIT static py::gil_safe_call_once_and_store<py::object> input_error;
   error.call_once_and_store_result(
@@ -26,6 +26,8 @@ void init_errors(py::module_& module) {
   input_error.call_once_and_store_result([&] {
     return py::object(py::exception<InputError>(module, "InputError", error.get_stored()));
   });
+  error.get_stored().attr("__doc__") = documentation("Error");
+  input_error.get_stored().attr("__doc__") = documentation("InputError");
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) {

@@ -60,10 +60,8 @@ template <auto member> auto column(const py::object& self) {
 
 } // namespace
 
-void init_flux(py::module_ module) {
-  module.doc() = "Heat flux at any time, and the fire emitters that show it.";
-  py::class_<Emitters, std::shared_ptr<Emitters>>(module, "Emitters",
-                                                  "Fire emitters of one moment (Algorithm 1).")
+void init_flux(Module module) {
+  Class<Emitters, std::shared_ptr<Emitters>>(module, "Emitters")
       .def_property_readonly("cell", &column<&Emitters::cell>)
       .def_property_readonly("position",
                              [](const py::object& self) {
@@ -77,15 +75,12 @@ void init_flux(py::module_ module) {
       .def_readonly("invalid", &Emitters::invalid)
       .def("__len__", [](const Emitters& e) { return e.cell.size(); });
   module.def("emitters", &emitters, py::arg("flux"), py::arg("position"), py::arg("flux_min"),
-             py::arg("flux_max"), "Algorithm 1: emitters where flux (ny, nx) W/m2 is above 0.");
-  py::class_<Interpolator>(module, "Interpolator", "The heat flux of a run at any time.")
+             py::arg("flux_max"));
+  Class<Interpolator>(module)
       .def(py::init(&interpolator), py::arg("run"))
-      .def("at", &at, py::arg("time"),
-           "Heat flux (ny, nx) in W/m2 at a time (seconds since start).")
-      .def("burning", &burning, py::arg("time"),
-           "The cells whose flux is not 0, and their flux: (n,) y nx + x and (n,) W/m2.");
-  module.def("at_time", &at_time, py::arg("run"), py::arg("time"),
-             "Interpolator(run).at(time); ask an Interpolator for more than one moment.");
+      .def("at", &at, py::arg("time"))
+      .def("burning", &burning, py::arg("time"));
+  module.def("at_time", &at_time, py::arg("run"), py::arg("time"));
 }
 
 } // namespace firetwin::bindings

@@ -79,8 +79,8 @@ template <class T> Array<double> position(const py::object& self) {
   return lend<double>(plants.position, {length(plants.cell.size()), 3}, self);
 }
 
-template <class T> auto bind_plants(py::module_& module, const char* name, const char* doc) {
-  return py::class_<T, std::shared_ptr<T>>(module, name, doc)
+template <class T> auto bind_plants(Module& module, const char* name) {
+  return Class<T, std::shared_ptr<T>>(module, name)
       .def_property_readonly("cell", &column<T, &T::cell>)
       .def_property_readonly("position", &position<T>)
       .def_property_readonly("scale", &column<T, &T::scale>)
@@ -90,23 +90,21 @@ template <class T> auto bind_plants(py::module_& module, const char* name, const
 
 } // namespace
 
-void init_forest(py::module_ module) {
-  module.doc() = "Trees and grass from fuel (Algorithm 2).";
+void init_forest(Module module) {
   module.attr("SMALL") = static_cast<int>(forest::small_tree);
   module.attr("MEDIUM") = static_cast<int>(forest::medium_tree);
   module.attr("LARGE") = static_cast<int>(forest::large_tree);
-  bind_plants<Trees>(module, "Trees", "n trees, in order of their cells.")
+  bind_plants<Trees>(module, "Trees")
       .def_property_readonly("size_class", &column<Trees, &Trees::size_class>)
       .def_property_readonly("model", &column<Trees, &Trees::model>);
-  bind_plants<Grass>(module, "Grass", "n clumps of grass, in order of their cells.");
+  bind_plants<Grass>(module, "Grass");
   module.def("trees", &trees, py::arg("canopy_fuel"), py::arg("latitude"), py::arg("longitude"),
              py::arg("elevation"), py::arg("frame"), py::arg("seed") = 0,
              py::arg("max_fuel") = py::none(), py::arg("jitter") = 1.0,
-             py::arg("mask") = py::none(), "Algorithm 2: canopy_fuel (fy, fx) kg/m2 -> trees.");
+             py::arg("mask") = py::none());
   module.def("grass", &grass, py::arg("surface_fuel"), py::arg("latitude"), py::arg("longitude"),
              py::arg("elevation"), py::arg("frame"), py::arg("seed") = 0, py::arg("jitter") = 1.0,
-             py::arg("mask") = py::none(),
-             "Algorithm 2's grass: one clump, 0.70 m lower, in each cell with surface fuel.");
+             py::arg("mask") = py::none());
 }
 
 } // namespace firetwin::bindings

@@ -74,25 +74,20 @@ Array<double> height_at(const HeightField& field, const py::object& place) {
 
 } // namespace
 
-void init_geo(py::module_ module) {
-  module.doc() = "WGS84 latitude, longitude and height <-> local east-north-up metres.";
-  py::class_<LocalFrame>(module, "LocalFrame",
-                         "WGS84 to local east-north-up metres about one origin.")
+void init_geo(Module module) {
+  Class<LocalFrame>(module, "LocalFrame")
       .def(py::init<double, double, double>(), py::arg("latitude"), py::arg("longitude"),
            py::arg("height") = 0.0)
       .def_property_readonly("latitude", &LocalFrame::latitude)
       .def_property_readonly("longitude", &LocalFrame::longitude)
       .def_property_readonly("height", &LocalFrame::height)
-      .def("forward", &forward, py::arg("latitude"), py::arg("longitude"), py::arg("height"),
-           "Geodetic (n,) degrees, degrees, metres -> (n, 3) east, north, up in metres.")
+      .def("forward", &forward, py::arg("latitude"), py::arg("longitude"), py::arg("height"))
       .def("forward_grid", &forward_grid, py::arg("latitude"), py::arg("longitude"),
-           py::arg("height"), "latitude (ny,), longitude (nx,), height (ny, nx) -> (ny, nx, 3).")
-      .def("reverse", &reverse, py::arg("enu"),
-           "(n, 3) metres -> latitude (n,), longitude (n,), height (n,).");
-  py::class_<HeightField, std::shared_ptr<HeightField>>(
-      module, "HeightField", "The ground as heights on a rectilinear grid in local metres.")
+           py::arg("height"))
+      .def("reverse", &reverse, py::arg("enu"));
+  Class<HeightField, std::shared_ptr<HeightField>>(module, "HeightField")
       .def(py::init(&height_field), py::arg("x"), py::arg("y"), py::arg("height"))
-      .def("at", &height_at, py::arg("place"), "(n, 2) metres -> (n,) bilinear height in metres.");
+      .def("at", &height_at, py::arg("place"));
 }
 
 } // namespace firetwin::bindings

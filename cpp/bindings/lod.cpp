@@ -136,41 +136,35 @@ Array<std::int64_t> held(const lod::Pool& pool) {
 
 } // namespace
 
-void init_lod(py::module_ module) {
-  module.doc() = "What a shot can see: views and what the ground hides from them, distance levels, "
-                 "budgets and stable slots.";
-  py::class_<Table>(module, "Table", "Levels of detail by distance.")
+void init_lod(Module module) {
+  Class<Table>(module)
       .def(py::init<std::vector<double>, std::vector<double>>(),
            py::arg("thresholds") = std::vector<double>{1500.0, 3500.0},
            py::arg("multipliers") = std::vector<double>{1.0, 0.7, 0.4})
       .def_property_readonly("thresholds", &Table::thresholds)
       .def_property_readonly("multipliers", &Table::multipliers)
-      .def("levels", &details, py::arg("distance"), "Level of each distance (m).")
-      .def("multiplier", &multiplier, py::arg("distance"),
-           "Particle multiplier of each distance (m).");
+      .def("levels", &details, py::arg("distance"))
+      .def("multiplier", &multiplier, py::arg("distance"));
   module.def(
       "levels", [](const py::object& distance) { return details(Table(), distance); },
-      py::arg("distance"), "Level of each distance (m): <= 1500 -> 0, <= 3500 -> 1, else 2.");
-  module.def("select", &select, py::arg("position"), py::arg("camera"), py::arg("budget"),
-             "Indices of the `budget` positions (n, 3) nearest to any camera (m, 3).");
-  py::class_<lod::Occluder, std::shared_ptr<lod::Occluder>>(module, "Occluder",
-                                                            "The ground as what hides things.")
-      .def(py::init(&occluder), py::arg("position"));
-  py::class_<lod::Sight, std::shared_ptr<lod::Sight>>(module, "Sight", "What some views see.")
-      .def(py::init(&sight), py::arg("camera"), py::arg("rotation"), py::arg("half"),
-           py::arg("sun") = Vector{}, py::arg("parallel") = false, py::arg("clear") = true,
-           py::arg("ground") = py::none(), py::arg("floor") = 0.0);
+      py::arg("distance"));
+  module.def("select", &select, py::arg("position"), py::arg("camera"), py::arg("budget"));
+  Class<lod::Occluder, std::shared_ptr<lod::Occluder>>(module).def(py::init(&occluder),
+                                                                   py::arg("position"));
+  Class<lod::Sight, std::shared_ptr<lod::Sight>>(module).def(
+      py::init(&sight), py::arg("camera"), py::arg("rotation"), py::arg("half"),
+      py::arg("sun") = Vector{}, py::arg("parallel") = false, py::arg("clear") = true,
+      py::arg("ground") = py::none(), py::arg("floor") = 0.0);
   module.def("seen", &seen, py::arg("position"), py::arg("radius"), py::arg("sight"),
              py::arg("reach") = std::numeric_limits<double>::infinity(), py::arg("margin") = 0.0,
-             py::arg("shadows") = false, "Which balls (n,) any view sees.");
-  module.def("distance", &distance, py::arg("position"), py::arg("sight"),
-             "Least distance (n,) of places from the cameras in perspective, m.");
-  py::class_<lod::Pool>(module, "Pool", "Slots that cells keep for as long as they are shown.")
+             py::arg("shadows") = false);
+  module.def("distance", &distance, py::arg("position"), py::arg("sight"));
+  Class<lod::Pool>(module)
       .def(py::init<std::size_t, std::uint64_t>(), py::arg("capacity"), py::arg("seed") = 0)
       .def_property_readonly("capacity", &lod::Pool::capacity)
       .def_property_readonly("cells", &held)
-      .def("assign", &assign, py::arg("cell"), "Cells in order of their rank -> their slots.")
-      .def("seeds", &seeds, py::arg("cell"), "A random seed of each cell, always the same.");
+      .def("assign", &assign, py::arg("cell"))
+      .def("seeds", &seeds, py::arg("cell"));
 }
 
 } // namespace firetwin::bindings

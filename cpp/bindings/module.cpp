@@ -37,13 +37,14 @@ std::map<std::string, std::string> build_info() {
 
 } // namespace
 
-PYBIND11_MODULE(firetwin_core, module) {
+PYBIND11_MODULE(firetwin_core, whole) {
   namespace bindings = firetwin::bindings;
-  module.doc() = "The numbers behind Firetwin: NumPy arrays in, NumPy arrays out.";
+  py::options options;
+  options.disable_function_signatures(); // the docstrings begin with them, as Python's own do
+  bindings::Module module(whole);
   module.attr("__version__") = FIRETWIN_VERSION;
-  module.def("set_threads", &set_threads, py::arg("threads"),
-             "Use at most this many worker threads; 0 uses all cores.");
-  module.def("build_info", &build_info, "Compiler and library versions of this build.");
+  module.def("set_threads", &set_threads, py::arg("threads"));
+  module.def("build_info", &build_info);
   bindings::init_errors(module);
   bindings::init_geo(module.def_submodule("geo"));
   bindings::init_run(module.def_submodule("run"));

@@ -77,10 +77,9 @@ template <std::vector<double> Cloud::* member> Array<double> vectors(const py::o
 
 } // namespace
 
-void init_particles(py::module_ module) {
-  module.doc() = "Embers and flame particles: drag, wind, gravity, buoyancy, the ground.";
+void init_particles(Module module) {
   module.attr("GRAVITY") = gravity;
-  py::class_<Kind>(module, "Kind", "What is thrown up; each pair is a range of uniform numbers.")
+  Class<Kind>(module, "Kind")
       .def(py::init<double, particles::Range, particles::Range, particles::Range,
                     particles::Range>(),
            py::arg("lift"), py::arg("relaxation"), py::arg("rise"), py::arg("spread"),
@@ -90,7 +89,7 @@ void init_particles(py::module_ module) {
       .def_readonly("rise", &Kind::rise)
       .def_readonly("spread", &Kind::spread)
       .def_readonly("life", &Kind::life);
-  py::class_<Cloud, std::shared_ptr<Cloud>>(module, "Cloud", "The particles of one moment.")
+  Class<Cloud, std::shared_ptr<Cloud>>(module, "Cloud")
       .def_property_readonly("source", &column<&Cloud::source>)
       .def_property_readonly("number", &column<&Cloud::number>)
       .def_property_readonly("position", &vectors<&Cloud::position>)
@@ -101,18 +100,15 @@ void init_particles(py::module_ module) {
           "landed",
           [](const py::object& self) { return column<&Cloud::landed>(self).attr("view")("bool"); })
       .def("__len__", [](const Cloud& cloud) { return cloud.source.size(); });
-  module.def("lift", &particles::lift, py::arg("density"), py::arg("air_density") = 1.2,
-             "Weight less buoyancy, upwards, m/s2: g (air / density - 1).");
+  module.def("lift", &particles::lift, py::arg("density"), py::arg("air_density") = 1.2);
   module.def("advance", &advance, py::arg("position"), py::arg("velocity"), py::arg("wind"),
              py::arg("step"), py::arg("relaxation"), py::arg("lift") = -gravity,
              py::arg("wind_end") = py::none(), py::arg("wind_middle") = py::none(),
-             py::arg("landed") = false, py::arg("ground") = py::none(),
-             "One exact step -> position, velocity, landed.");
+             py::arg("landed") = false, py::arg("ground") = py::none());
   module.def("state", &state, py::arg("time"), py::arg("position"), py::arg("start"),
              py::arg("end"), py::arg("rate"), py::arg("kind"), py::arg("wind"),
              py::arg("wind_time") = std::vector<double>{0.0}, py::arg("id") = py::none(),
-             py::arg("size") = 0.0, py::arg("ground") = py::none(), py::arg("seed") = 0,
-             "The particles of one moment; needs no moment before it.");
+             py::arg("size") = 0.0, py::arg("ground") = py::none(), py::arg("seed") = 0);
 }
 
 } // namespace firetwin::bindings

@@ -247,15 +247,13 @@ py::str describe(const Run& run) {
 
 } // namespace
 
-void init_run(py::module_ module) {
-  module.doc() = "Model runs on disk.";
-  module.def("read_grid", &read_grid, py::arg("path"), "Text or .npy grid -> (ny, nx) float32.");
-  module.def("open", &open, py::arg("folder"),
-             "Open a run folder: checks run.toml, the axes and every field's shape.");
-  py::class_<Frames>(module, "Frames", "Frames of a series, read ahead.")
+void init_run(Module module) {
+  module.def("read_grid", &read_grid, py::arg("path"));
+  module.def("open", &open, py::arg("folder"));
+  Class<Frames>(module, "Frames")
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", &Frames::next);
-  py::class_<Run, std::shared_ptr<Run>>(module, "Run", "A model run on disk.")
+  Class<Run, std::shared_ptr<Run>>(module, "Run")
       .def_property_readonly("path", &path_of)
       .def_property_readonly("name", [](const Run& r) { return readable(r.description().name); })
       .def_property_readonly("synthetic", [](const Run& r) { return r.description().synthetic; })
@@ -275,27 +273,24 @@ void init_run(py::module_ module) {
       .def_property_readonly("warnings", &warnings)
       .def(
           "heat_flux", [](const Run& r, py::ssize_t i) { return frame(r, r.heat_flux(), i); },
-          py::arg("index"), "(ny, nx) W/m2 at times[index].")
+          py::arg("index"))
       .def(
           "temperature", [](const Run& r, py::ssize_t i) { return frame(r, r.temperature(), i); },
-          py::arg("index"), "(ny, nx) K at times[index].")
-      .def("wind", &wind, py::arg("index"), "Eastward and northward (ny, nx) m/s at times[index].")
-      .def("has", &Run::has, py::arg("field"), "Whether the run folder holds a field.")
-      .def("smoke_3d", &levels<&Run::smoke_3d>, py::arg("index"), "(nz, ny, nx) kg/m3.")
-      .def("height_3d", &levels<&Run::height_3d>, py::arg("index"), "(nz, ny, nx) m.")
-      .def("temperature_3d", &levels<&Run::temperature_3d>, py::arg("index"), "(nz, ny, nx) K.")
-      .def("smoke_3d_at", &levels_at<&Run::smoke_3d>, py::arg("time"), "(nz, ny, nx) kg/m3.")
-      .def("height_3d_at", &levels_at<&Run::height_3d>, py::arg("time"), "(nz, ny, nx) m.")
-      .def("temperature_3d_at", &levels_at<&Run::temperature_3d>, py::arg("time"),
-           "(nz, ny, nx) K.")
+          py::arg("index"))
+      .def("wind", &wind, py::arg("index"))
+      .def("has", &Run::has, py::arg("field"))
+      .def("smoke_3d", &levels<&Run::smoke_3d>, py::arg("index"))
+      .def("height_3d", &levels<&Run::height_3d>, py::arg("index"))
+      .def("temperature_3d", &levels<&Run::temperature_3d>, py::arg("index"))
+      .def("smoke_3d_at", &levels_at<&Run::smoke_3d>, py::arg("time"))
+      .def("height_3d_at", &levels_at<&Run::height_3d>, py::arg("time"))
+      .def("temperature_3d_at", &levels_at<&Run::temperature_3d>, py::arg("time"))
       .def("frames", &frames, py::arg("field") = "heat_flux", py::arg("indices") = py::none(),
-           py::arg("ahead") = 8, "Iterate over frames that worker threads read ahead.")
-      .def("flux_range", &flux_range, "Smallest and largest finite heat flux of the run, W/m2.")
-      .def("heat_released", &heat_released, "(ny, nx) J/m2 over the whole run.")
-      .def("arrival_time", &arrival_time,
-           "(ny, nx) s since start when the front passes the centre of a cell, NaN where never.")
-      .def("fuel_arrival_time", &fuel_arrival_time,
-           "(fy, fx) s since start, the same for the fuel cells, NaN where never.")
+           py::arg("ahead") = 8)
+      .def("flux_range", &flux_range)
+      .def("heat_released", &heat_released)
+      .def("arrival_time", &arrival_time)
+      .def("fuel_arrival_time", &fuel_arrival_time)
       .def("__repr__", &describe);
 }
 

@@ -94,23 +94,18 @@ void write_image(const std::filesystem::path& path, const py::object& pixels,
 
 } // namespace
 
-void init_sensor(py::module_ module) {
-  module.doc() = "Radiometry, thermal views and image files.";
+void init_sensor(Module module) {
   const std::pair<double, double> long_wave{8.0, 14.0};
-  module.def("radiance", &radiance, py::arg("kelvin"), py::arg("band") = long_wave,
-             "Planck radiance of a black body (K) over a band (micrometres) -> W m-2 sr-1.");
+  module.def("radiance", &radiance, py::arg("kelvin"), py::arg("band") = long_wave);
   module.def("brightness_temperature", &brightness_temperature, py::arg("radiance"),
-             py::arg("band") = long_wave, "The inverse of `radiance` -> K.");
+             py::arg("band") = long_wave);
   module.def("thermal_gradient", &thermal_gradient, py::arg("kelvin"), py::arg("low"),
-             py::arg("high"), "(h, w) K -> (h, w, 3) colour of the thermal gradient, 0..1.");
+             py::arg("high"));
   module.def("thermal_composite", &thermal_composite, py::arg("rgb"), py::arg("kelvin"),
-             py::arg("low"), py::arg("high"), py::arg("strength") = 1.0,
-             "The paper's thermal view: normalised pixels + strength * gradient, clamped to 0..1.");
-  module.def("read_image", &read_image, py::arg("path"),
-             "PNG, EXR, TIFF or JPEG (by content) -> (h, w, channels).");
+             py::arg("low"), py::arg("high"), py::arg("strength") = 1.0);
+  module.def("read_image", &read_image, py::arg("path"));
   module.def("write_image", &write_image, py::arg("path"), py::arg("pixels"),
-             py::arg("metadata") = py::none(),
-             "Write (h, w) or (h, w, c) pixels: .png as 8-bit, .exr as 32-bit float.");
+             py::arg("metadata") = py::none());
 }
 
 } // namespace firetwin::bindings

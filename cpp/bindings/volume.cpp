@@ -159,8 +159,8 @@ template <auto member> auto column(const py::object& self) {
   return lend_column(self.cast<const Puffs&>().*member, self);
 }
 
-void bind_types(py::module_& module) {
-  py::class_<Puffs>(module, "Puffs", "Smoke of one moment as n balls.")
+void bind_types(Module& module) {
+  Class<Puffs>(module, "Puffs")
       .def_property_readonly("position",
                              [](const py::object& self) {
                                const auto& p = self.cast<const Puffs&>();
@@ -174,7 +174,7 @@ void bind_types(py::module_& module) {
       .def_readonly("emitted", &Puffs::emitted)
       .def_readonly("left", &Puffs::left)
       .def("__len__", &Puffs::size);
-  py::class_<Frame>(module, "Frame", "What one VDB file holds.")
+  Class<Frame>(module)
       .def_readonly("active_voxels", &Frame::active_voxels)
       .def_readonly("voxels", &Frame::voxels)
       .def_readonly("bytes", &Frame::bytes)
@@ -187,8 +187,7 @@ void bind_types(py::module_& module) {
 
 } // namespace
 
-void init_volume(py::module_ module) {
-  module.doc() = "Smoke and flames as OpenVDB volumes.";
+void init_volume(Module module) {
   bind_types(module);
   module.attr("FRESH_SMOKE") = volume::fresh_smoke;
   const PuffSettings defaults;
@@ -210,23 +209,20 @@ void init_volume(py::module_ module) {
       py::arg("smoke_fraction") = defaults.smoke_fraction,
       py::arg("heat_of_combustion") = defaults.heat_of_combustion,
       py::arg("block") = defaults.block, py::arg("merge_radius") = defaults.merge_radius,
-      py::arg("smallest") = defaults.smallest, py::arg("turbulence") = defaults.turbulence,
-      "Closed-form puffs at `time` from cells that burned.");
+      py::arg("smallest") = defaults.smallest, py::arg("turbulence") = defaults.turbulence);
   module.def("write_smoke", &write_smoke, py::arg("path"), py::arg("puffs"), py::arg("voxel_size"),
              py::arg("flame_position") = py::none(), py::arg("flame_power") = py::none(),
              py::arg("metadata") = py::none(), py::arg("grids") = py::none(),
-             py::arg("sight") = py::none(), "Write the puffs as a smoke volume.");
+             py::arg("sight") = py::none());
   module.def("write_levels", &write_levels, py::arg("path"), py::arg("frame"), py::arg("latitude"),
              py::arg("longitude"), py::arg("ground"), py::arg("height"), py::arg("smoke"),
              py::arg("voxel_size"), py::arg("temperature") = py::none(),
              py::arg("flame_position") = py::none(), py::arg("flame_power") = py::none(),
              py::arg("metadata") = py::none(), py::arg("grids") = py::none(),
-             py::arg("sight") = py::none(),
-             "Write smoke on terrain-following levels as a smoke volume.");
+             py::arg("sight") = py::none());
   module.def("write", &write, py::arg("path"), py::arg("grids"), py::arg("voxel_size"),
              py::arg("origin") = Vector{}, py::arg("half") = true, py::arg("tolerance") = 0.0F,
-             py::arg("metadata") = py::none(), py::arg("sight") = py::none(),
-             "Write dense arrays (nx, ny, nz) as sparse fog volumes.");
+             py::arg("metadata") = py::none(), py::arg("sight") = py::none());
 }
 
 } // namespace firetwin::bindings

@@ -1,3 +1,5 @@
+"""The numbers behind Firetwin: NumPy arrays in, NumPy arrays out."""
+
 from . import flux as flux
 from . import forest as forest
 from . import geo as geo

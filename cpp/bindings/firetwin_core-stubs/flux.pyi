@@ -1,3 +1,5 @@
+"""Heat flux at any time, and the fire emitters that show it."""
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 

@@ -1,3 +1,5 @@
+"""Trees and grass from fuel (Algorithm 2)."""
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -11,7 +13,8 @@ class Trees:
     """n trees, in order of their cells."""
 
     @property
-    def cell(self) -> NDArray[np.int64]: ...
+    def cell(self) -> NDArray[np.int64]:
+        """(n,) flat index y*fx + x of the fuel cell, ascending."""
     @property
     def position(self) -> NDArray[np.float64]:
         """(n, 3) east, north, up in metres."""
@@ -33,7 +36,8 @@ class Grass:
     """n clumps of grass, in order of their cells."""
 
     @property
-    def cell(self) -> NDArray[np.int64]: ...
+    def cell(self) -> NDArray[np.int64]:
+        """(n,) flat index y*fx + x of the fuel cell, ascending."""
     @property
     def position(self) -> NDArray[np.float64]:
         """(n, 3) east, north, up in metres."""

@@ -1,3 +1,5 @@
+"""WGS84 latitude, longitude and height <-> local east-north-up metres."""
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -6,11 +8,14 @@ class LocalFrame:
 
     def __init__(self, latitude: float, longitude: float, height: float = 0.0) -> None: ...
     @property
-    def latitude(self) -> float: ...
+    def latitude(self) -> float:
+        """Of the origin, degrees north."""
     @property
-    def longitude(self) -> float: ...
+    def longitude(self) -> float:
+        """Of the origin, degrees east."""
     @property
-    def height(self) -> float: ...
+    def height(self) -> float:
+        """Of the origin, m above the ellipsoid."""
     def forward(self, latitude: ArrayLike, longitude: ArrayLike, height: ArrayLike) -> NDArray[np.float64]:
         """Geodetic (n,) degrees, degrees, metres -> (n, 3) east, north, up in metres."""
     def forward_grid(

@@ -1,3 +1,5 @@
+"""What a shot can see: distance levels, budgets, views and stable slots."""
+
 from collections.abc import Sequence
 
 import numpy as np
@@ -7,15 +9,21 @@ def levels(distance: ArrayLike) -> NDArray[np.uint8]:
     """Level of each distance (m): <= 1500 -> 0, <= 3500 -> 1, else (and for NaN) 2."""
 
 class Table:
+    """Levels of detail by distance: up to each of the thresholds (m) one level, and beyond them one more."""
+
     def __init__(
         self, thresholds: Sequence[float] = (1500.0, 3500.0), multipliers: Sequence[float] = (1.0, 0.7, 0.4)
     ) -> None: ...
     @property
-    def thresholds(self) -> list[float]: ...
+    def thresholds(self) -> list[float]:
+        """m, ascending."""
     @property
-    def multipliers(self) -> list[float]: ...
-    def levels(self, distance: ArrayLike) -> NDArray[np.uint8]: ...
-    def multiplier(self, distance: ArrayLike) -> NDArray[np.float64]: ...
+    def multipliers(self) -> list[float]:
+        """Of particles, for each level: one more than thresholds."""
+    def levels(self, distance: ArrayLike) -> NDArray[np.uint8]:
+        """Level of each distance (m), of the same shape; NaN has the last."""
+    def multiplier(self, distance: ArrayLike) -> NDArray[np.float64]:
+        """Particle multiplier of each distance (m), of the same shape."""
 
 def select(position: ArrayLike, camera: ArrayLike, budget: int) -> NDArray[np.int64]:
     """Indices of the `budget` positions (n, 3) nearest to any camera (m, 3), nearest first, ties by index."""
@@ -114,7 +122,8 @@ class Pool:
 
     def __init__(self, capacity: int, seed: int = 0) -> None: ...
     @property
-    def capacity(self) -> int: ...
+    def capacity(self) -> int:
+        """How many slots there are."""
     @property
     def cells(self) -> NDArray[np.int64]:
         """(capacity,) the cell in each slot, -1 where it is free."""

@@ -1,3 +1,5 @@
+"""Embers and flame particles: drag, wind, gravity, buoyancy, the ground."""
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -24,15 +26,20 @@ class Kind:
         life: tuple[float, float],
     ) -> None: ...
     @property
-    def lift(self) -> float: ...
+    def lift(self) -> float:
+        """m/s2 upwards."""
     @property
-    def relaxation(self) -> list[float]: ...
+    def relaxation(self) -> list[float]:
+        """s, least and most."""
     @property
-    def rise(self) -> list[float]: ...
+    def rise(self) -> list[float]:
+        """m/s upwards at launch, least and most."""
     @property
-    def spread(self) -> list[float]: ...
+    def spread(self) -> list[float]:
+        """m/s sideways at launch, least and most."""
     @property
-    def life(self) -> list[float]: ...
+    def life(self) -> list[float]:
+        """s, least and most."""
 
 class Cloud:
     """The n particles of one moment, in order of source and number."""

@@ -1,3 +1,5 @@
+"""Model runs on disk."""
+
 from collections.abc import Iterator
 from os import PathLike
 
@@ -24,11 +26,21 @@ def open(folder: str | PathLike[str]) -> Run:
     offset from UTC. Longitudes may count from -180, from 0, or over the antimeridian.
     """
 
+class Frames(Iterator[NDArray[np.float32]]):
+    """Frames (ny, nx) of a series, which worker threads read ahead; `Run.frames` makes them."""
+
+    def __iter__(self) -> Frames: ...
+    def __next__(self) -> NDArray[np.float32]: ...
+
 class Run:
+    """A model run on disk: what is small is read and checked when it is opened, frames when they are asked for."""
+
     @property
-    def path(self) -> str: ...
+    def path(self) -> str:
+        """Its folder."""
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """What run.toml calls it."""
     @property
     def synthetic(self) -> bool:
         """True when run.toml says that the run is made up, not model output."""
@@ -96,7 +108,7 @@ class Run:
         """temperature_3d at a time (s) within the run."""
     def frames(
         self, field: str = "heat_flux", indices: ArrayLike | None = None, ahead: int = 8
-    ) -> Iterator[NDArray[np.float32]]:
+    ) -> Frames:
         """Frames (ny, nx) of a series, all or those at indices (n,), while worker threads read the next ones.
 
         At most `ahead` frames wait in memory, however long the run. `field` is "heat_flux", "temperature",

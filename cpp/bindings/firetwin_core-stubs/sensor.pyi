@@ -1,3 +1,5 @@
+"""Radiometry, thermal views and image files."""
+
 from os import PathLike
 
 import numpy as np

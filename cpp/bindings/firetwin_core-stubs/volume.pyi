@@ -1,3 +1,5 @@
+"""Smoke and flames as OpenVDB volumes."""
+
 from collections.abc import Mapping, Sequence
 from os import PathLike
 
@@ -100,7 +102,8 @@ class Frame:
     def voxels(self) -> int:
         """Active voxels of all grids together."""
     @property
-    def bytes(self) -> int: ...
+    def bytes(self) -> int:
+        """Of the file."""
     @property
     def bounds(self) -> NDArray[np.float64]:
         """(2, 3) metres, world space; zeros for an empty file."""

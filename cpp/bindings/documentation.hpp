@@ -1,0 +1,83 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <map>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+/// What `help` says of a name comes from the stubs, where it is written once (documentation.py).
+/// Module and Class bind as pybind11's do and look it up by the name that they bind.
+namespace firetwin::bindings {
+
+/// Docstrings by name within the module, such as "flux.Emitters.cell".
+const std::map<std::string, const char*>& documentation_table();
+
+/// The docstring of a name; special methods may have none.
+/// @throws std::logic_error when the stubs do not know it, so that the module cannot be imported.
+const char* documentation(const std::string& name);
+
+/// Arguments and policies of a binding, but no text.
+template <class... Extra>
+constexpr bool without_text = (!std::is_convertible_v<const Extra&, const char*> && ...);
+
+/// A module whose functions and classes take their docstrings from the stubs.
+class Module : public pybind11::module_ {
+public:
+  Module(const pybind11::module_& module); // NOLINT: whoever makes a module makes one of these
+
+  /// "flux.", or nothing for the module that holds all others.
+  const std::string& scope() const { return scope_; }
+
+  template <class Function, class... Extra>
+  Module& def(const char* name, Function&& function, const Extra&... extra) {
+    static_assert(without_text<Extra...>, "write the docstring into the stub");
+    module_::def(name, std::forward<Function>(function), extra..., documentation(scope_ + name));
+    return *this;
+  }
+
+private:
+  std::string scope_;
+};
+
+/// A class whose members take their docstrings from the stubs.
+template <class T, class... Options> class Class : public pybind11::class_<T, Options...> {
+  using Base = pybind11::class_<T, Options...>;
+
+public:
+  Class(const Module& module, const char* name)
+      : Base(module, name, documentation(module.scope() + name)),
+        scope_(module.scope() + name + ".") {}
+
+  template <class Function, class... Extra>
+  Class& def(const char* name, Function&& function, const Extra&... extra) {
+    static_assert(without_text<Extra...>, "write the docstring into the stub");
+    Base::def(name, std::forward<Function>(function), extra..., documentation(scope_ + name));
+    return *this;
+  }
+
+  /// A constructor.
+  template <class Init, class... Extra>
+    requires(!std::is_convertible_v<Init, const char*>)
+  Class& def(Init&& init, const Extra&... extra) {
+    static_assert(without_text<Extra...>, "write the docstring into the stub");
+    Base::def(std::forward<Init>(init), extra..., documentation(scope_ + "__init__"));
+    return *this;
+  }
+
+  template <class Getter> Class& def_property_readonly(const char* name, const Getter& getter) {
+    Base::def_property_readonly(name, getter, documentation(scope_ + name));
+    return *this;
+  }
+
+  template <class Member> Class& def_readonly(const char* name, Member T::* member) {
+    Base::def_readonly(name, member, documentation(scope_ + name));
+    return *this;
+  }
+
+private:
+  std::string scope_;
+};
+
+} // namespace firetwin::bindings
