@@ -61,7 +61,24 @@ def run(bench: Bench) -> None:
         if side == 720:
             for number, word in ((1, "one thread"), (2, "two threads")):
                 bench.target(f"{word} faster than NumPy", seconds["NumPy"] / seconds[number], 10, "x")
+            bench.target("mask of 1 % costs, of the whole", 100.0 * _masked(bench, grid), 3, "%", True)
             bench.target("same on 1, 2, 4, 16 threads: arrays that differ", _differences(grid), 0, "", True)
+
+
+def _masked(bench: Bench, grid: Grid) -> float:
+    """Time for the trees of a square of 1 % of the cells over that for all, on one thread, by turns."""
+    canopy, _, *place = grid
+    frame = LocalFrame(*ORIGIN)
+    mask = np.zeros(canopy.shape, bool)
+    tenth = len(canopy) // 10
+    mask[4 * tenth : 5 * tenth, 4 * tenth : 5 * tenth] = True
+    with threads(1):
+        times = [
+            [bench.best(lambda: forest.trees(canopy, *place, frame, seed=5, mask=m), 3) for m in (mask, None)]  # noqa: B023
+            for _ in range(5)
+        ]
+    part, whole = np.median(times, axis=0)
+    return float(part / whole)
 
 
 def _differences(grid: Grid) -> int:
