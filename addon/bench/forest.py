@@ -61,8 +61,27 @@ def run(bench: Bench) -> None:
             for tool, word in ((tools[0], "one thread"), (tools[1], "two threads")):
                 faster = found[tool.label].faster_than(found["NumPy"])
                 bench.target(f"speed of planting 720 x 720 cells on {word}, over NumPy's", faster, 10, "x")
+            bench.target(
+                "time for the trees of 1 % of the cells, of that for all",
+                _masked(bench, grid),
+                3,
+                "%",
+                most=True,
+            )
             differ = _differences(grid)
             bench.target("arrays that differ between 1, 2, 4 and 16 threads", differ, 0, "", most=True)
+
+
+def _masked(bench: Bench, grid: Grid) -> list[float]:
+    """Time for the trees of a square of 1 % of the cells over that for all, %, of each repetition."""
+    canopy, _, *place = grid
+    frame = LocalFrame(*ORIGIN)
+    mask = np.zeros(canopy.shape, bool)
+    tenth = len(canopy) // 10
+    mask[4 * tenth : 5 * tenth, 4 * tenth : 5 * tenth] = True
+    plant = partial(forest.trees, canopy, *place, frame, seed=5)
+    found = bench.time([Runner("all", plant), Runner("masked", partial(plant, mask=mask))])
+    return [100.0 / times for times in found["masked"].faster_than(found["all"])]
 
 
 def _differences(grid: Grid) -> int:

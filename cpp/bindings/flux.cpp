@@ -76,7 +76,7 @@ void init_flux(Module module) {
       .def("__len__", [](const Emitters& e) { return e.cell.size(); });
   module.def("emitters", &emitters, py::arg("flux"), py::arg("position"), py::arg("flux_min"),
              py::arg("flux_max"));
-  Class<Interpolator>(module)
+  Class<Interpolator>(module, "Interpolator")
       .def(py::init(&interpolator), py::arg("run"))
       .def("at", &at, py::arg("time"))
       .def("burning", &burning, py::arg("time"));

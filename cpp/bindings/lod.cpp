@@ -137,7 +137,7 @@ Array<std::int64_t> held(const lod::Pool& pool) {
 } // namespace
 
 void init_lod(Module module) {
-  Class<Table>(module)
+  Class<Table>(module, "Table")
       .def(py::init<std::vector<double>, std::vector<double>>(),
            py::arg("thresholds") = std::vector<double>{1500.0, 3500.0},
            py::arg("multipliers") = std::vector<double>{1.0, 0.7, 0.4})
@@ -149,17 +149,17 @@ void init_lod(Module module) {
       "levels", [](const py::object& distance) { return details(Table(), distance); },
       py::arg("distance"));
   module.def("select", &select, py::arg("position"), py::arg("camera"), py::arg("budget"));
-  Class<lod::Occluder, std::shared_ptr<lod::Occluder>>(module).def(py::init(&occluder),
-                                                                   py::arg("position"));
-  Class<lod::Sight, std::shared_ptr<lod::Sight>>(module).def(
-      py::init(&sight), py::arg("camera"), py::arg("rotation"), py::arg("half"),
-      py::arg("sun") = Vector{}, py::arg("parallel") = false, py::arg("clear") = true,
-      py::arg("ground") = py::none(), py::arg("floor") = 0.0);
+  Class<lod::Occluder, std::shared_ptr<lod::Occluder>>(module, "Occluder")
+      .def(py::init(&occluder), py::arg("position"));
+  Class<lod::Sight, std::shared_ptr<lod::Sight>>(module, "Sight")
+      .def(py::init(&sight), py::arg("camera"), py::arg("rotation"), py::arg("half"),
+           py::arg("sun") = Vector{}, py::arg("parallel") = false, py::arg("clear") = true,
+           py::arg("ground") = py::none(), py::arg("floor") = 0.0);
   module.def("seen", &seen, py::arg("position"), py::arg("radius"), py::arg("sight"),
              py::arg("reach") = std::numeric_limits<double>::infinity(), py::arg("margin") = 0.0,
              py::arg("shadows") = false);
   module.def("distance", &distance, py::arg("position"), py::arg("sight"));
-  Class<lod::Pool>(module)
+  Class<lod::Pool>(module, "Pool")
       .def(py::init<std::size_t, std::uint64_t>(), py::arg("capacity"), py::arg("seed") = 0)
       .def_property_readonly("capacity", &lod::Pool::capacity)
       .def_property_readonly("cells", &held)

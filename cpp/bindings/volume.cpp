@@ -174,7 +174,7 @@ void bind_types(Module& module) {
       .def_readonly("emitted", &Puffs::emitted)
       .def_readonly("left", &Puffs::left)
       .def("__len__", &Puffs::size);
-  Class<Frame>(module)
+  Class<Frame>(module, "Frame")
       .def_readonly("active_voxels", &Frame::active_voxels)
       .def_readonly("voxels", &Frame::voxels)
       .def_readonly("bytes", &Frame::bytes)

@@ -11,6 +11,7 @@ from firetwin.shot.rigs.drone import Drone
 from firetwin.shot.rigs.satellite import Satellite
 from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
+from firetwin_core import lod
 from mathutils import Vector
 
 
@@ -70,7 +71,8 @@ def test_what_is_in_the_picture_is_seen_and_what_is_far_beside_it_is_not(shot, r
     places = shot.ground.point(
         *(axis.ravel() for axis in np.meshgrid(run.fuel_latitude[::9], run.fuel_longitude[::9]))
     )
-    seen = view.sees(places, margin=0.0)
+    seen = lod.seen(places, 0.0, lod.Sight(view.position, view.rotation, view.half))
+    assert not (shot.sights.seen(places, 0.0) & ~seen).any()
     for place, verdict in zip(places, seen, strict=True):
         inside = False
         for frame in (1, 2, 3):
@@ -83,11 +85,13 @@ def test_what_is_in_the_picture_is_seen_and_what_is_far_beside_it_is_not(shot, r
 
 def test_a_satellite_looks_straight_down_on_its_swath(settings, run, stage):
     shot = Shot(replace(settings, cameras=(Camera("goes", Satellite(swath=8000.0)),)), run)
-    (camera,), (view,) = _built(shot, stage), shot.paths
+    (camera,) = _built(shot, stage)
     assert camera.data.type == "ORTHO"
     assert camera.data.ortho_scale == 8000.0
     assert camera.matrix_world.col[2][:3] == pytest.approx((0.0, 0.0, 1.0), abs=1e-6)
-    assert view.sees([[3900.0, 0.0, 1000.0], [4100.0, 0.0, 1000.0]], margin=0.0).tolist() == [True, False]
+    edge = [[3900.0, 0.0, 1000.0], [4100.0, 0.0, 1000.0]]
+    assert shot.sights.seen(edge, 0.0, pixel=np.inf).tolist() == [True, False]
+    assert not shot.sights.seen(edge, 0.0, pixel=100.0).any()  # 8 km over 64 pixels are 125 m each
 
 
 def test_the_head_is_on_the_front_and_moves_smoothly(shot):

@@ -38,7 +38,7 @@ def test_instances_are_the_cores_trees_that_the_cameras_see(shot, stage):
     _planted(shot, stage)
     place, scale, _model = _instances("Firetwin Trees")
     wanted = _all_trees(shot)
-    seen = shot.paths[0].sees(wanted.position, reach=shot.settings.forest.draw_distance)
+    seen = forest.visible(shot, wanted.position, wanted.scale, shot.settings.forest.draw_distance)
     assert 0 < seen.sum() < len(wanted.cell)
     assert place == pytest.approx(wanted.position[seen], abs=2e-3)
     assert scale == pytest.approx(wanted.scale[seen], rel=1e-5)
@@ -81,6 +81,14 @@ def test_models_are_one_metre_tall_and_light(shot, stage):
         assert 20 <= sum(len(face.vertices) - 2 for face in thing.data.polygons) <= 4000
 
 
+def test_no_part_of_a_model_is_farther_from_its_middle_than_is_said():
+    for shape in models.trees():
+        assert np.linalg.norm(np.concatenate(shape.points) - [0.0, 0.0, 0.5], axis=1).max() <= models.REACH
+    for shape in models.clumps():
+        points = np.concatenate(shape.points) - [0.0, 0.0, 0.5 * forest._GRASS]
+        assert np.linalg.norm(points, axis=1).max() <= models.REACH * forest._GRASS
+
+
 def test_burned_trees_become_snags_a_quarter_of_an_hour_later(shot, stage, scene):
     made = _planted(shot, stage)[0]
     arrival = np.empty(len(made.data.vertices), np.float32)
@@ -110,7 +118,7 @@ def test_the_stand_grows_where_there_is_canopy_and_leaves_cameras_free(near_shot
     ground, grown = near_shot.ground, stand.grow(near_shot)
     canopy = ground.sample(ground.fields.canopy_fuel, *grown.position[:, :2].T)
     assert np.mean(canopy > 0.0) > 0.99
-    assert near_shot.paths[0].distance(grown.position).min() >= stand.CLEARING - 8.0
+    assert near_shot.sights.distance(grown.position).min() >= stand.CLEARING - 8.0
     again = stand.grow(near_shot)
     assert np.array_equal(grown.position, again.position)
 
@@ -119,7 +127,7 @@ def test_skipping_what_no_camera_sees_does_not_change_the_picture(shot, stage, s
     build.build(shot, scene)
     skipped = shoot(scene, "rgb")
     count = len(bpy.data.objects["Firetwin Trees"].data.vertices)
-    monkeypatch.setattr(forest, "visible", lambda _shot, places, _far: np.ones(len(places), bool))
+    monkeypatch.setattr(forest, "visible", lambda _shot, places, *_: np.ones(len(places), bool))
     build.build(shot, scene)
     full = shoot(scene, "rgb")
     assert len(bpy.data.objects["Firetwin Trees"].data.vertices) > 1.5 * count

@@ -92,7 +92,11 @@ def test_graded_mesh_is_closed_and_covers_the_grid_once():
     assert len(mesh.starts) > np.sum(4**level) - 1
 
 
-def test_near_ground_is_finer_and_is_where_the_ground_says(near_shot, stage):
+def test_near_ground_is_finer_and_is_where_the_ground_says(near_settings, run, stage):
+    (camera,) = near_settings.cameras
+    keys = tuple(replace(key, height=60.0) for key in camera.rig.keys)
+    camera = replace(camera, rig=replace(camera.rig, keys=keys))
+    near_shot = Shot(replace(near_settings, cameras=(camera,)), run)
     ground, mesh = near_shot.ground, ground_build.build(near_shot, stage, None).data
     places, detail = _vertices(mesh).astype(np.float64), _values(mesh, "detail")
     near = np.flatnonzero(detail > 0.99)

@@ -13,13 +13,13 @@ import pytest
 from firetwin.blender import compat, owned
 from firetwin.render import layers
 from firetwin.scene import build
-from firetwin.scene.smoke import bake, baker, cache, view
+from firetwin.scene.smoke import bake, baker, cache
 from firetwin.scene.smoke import build as smoke
-from firetwin.shot import file
+from firetwin.shot import file, sight
 from firetwin.shot.rigs.satellite import Satellite
 from firetwin.shot.settings import Camera, Light, Smoke
 from firetwin.shot.shot import Shot
-from firetwin_core import InputError
+from firetwin_core import InputError, lod
 from firetwin_core import run as runs
 
 
@@ -198,15 +198,16 @@ def test_a_thermal_picture_alone_is_made_from_a_visible_one_with_all_its_smoke(s
     still = replace(smoky.cameras[0], name="b", frames="2")
     shot = Shot(replace(smoky, cameras=(thermal, still)), run)
     assert bake.shot_frames(shot) == [1, 2, 3]
-    monkeypatch.setattr(view.volume, "Sight", lambda cameras, *_: len(cameras))
-    sights = view.Sights(shot)
-    assert [sights.of(frame) for frame in (1, 2, 3)] == [1, 2, 1]
+    monkeypatch.setattr(sight.lod, "Sight", lambda cameras, *_, **_more: len(cameras))
+    assert [shot.sights.at(frame) for frame in (1, 2, 3)] == [1, 2, 1]
 
 
 def test_a_camera_that_records_no_smoke_culls_none_of_anothers(smoky, run):
     above = Camera("above", Satellite(), passes=("depth",), frames="2")
-    sights = view.Sights(Shot(replace(smoky, cameras=(*smoky.cameras, above)), run))
-    assert [sights.of(frame) is None for frame in (1, 2, 3)] == [False, True, False]
+    shot = Shot(replace(smoky, cameras=(*smoky.cameras, above)), run)
+    eye, aim = shot.paths[0].position[1], shot.paths[0].target[1]
+    seen = [lod.seen([eye - (aim - eye)], 0.0, shot.sights.at(frame))[0] for frame in (1, 2, 3)]
+    assert seen == [False, True, False]
 
 
 def test_a_cache_that_cannot_be_made_is_named(smoky, run, tmp_path):

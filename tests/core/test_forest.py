@@ -222,6 +222,29 @@ def test_wrong_shapes():
         forest.grass([[1.0]], [1.0], [1.0], [[1.0, 2.0]], FRAME)
 
 
+@settings(deadline=None, max_examples=60)
+@given(st.integers(0, 2**32 - 1), st.sampled_from([0.0, 0.003, 0.05, 0.5, 1.0]), st.booleans())
+def test_a_mask_leaves_out_cells_and_changes_no_other_plant(seed, share, blocks):
+    rng = np.random.default_rng(seed)
+    shape = tuple(rng.integers(1, 70, 2))
+    grid = fuel_grid(*shape)
+    grid["elevation"][rng.random(shape) < 0.1] = np.nan
+    mask = rng.random(shape) < share
+    if blocks:
+        mask[:] = False
+        mask[: shape[0] // 2, shape[1] // 3 : shape[1] // 3 + 5] = True
+    for grow, names in ((trees, ("size_class", "model")), (grass, ())):
+        whole, part = grow(grid, seed=seed), grow(grid, seed=seed, mask=mask)
+        kept = mask.ravel()[whole.cell]
+        for name in ("cell", "position", "scale", "rotation", *names):
+            np.testing.assert_array_equal(getattr(part, name), getattr(whole, name)[kept])
+
+
+def test_a_mask_has_the_shape_of_the_fuel():
+    with pytest.raises(ValueError, match=r"mask must have shape \(3, 3\)"):
+        trees(fuel_grid(3, 3), mask=np.ones((3, 2), bool))
+
+
 @settings(deadline=None, max_examples=30)
 @given(st.integers(0, 2**64 - 1))
 def test_grass_stands_where_its_tree_stands(seed):

@@ -22,7 +22,7 @@ from .stand import Stand
 
 GRASS_DISTANCE = 400.0  # m
 BARE_AFTER = 900.0  # s after the fire came a burned tree is a snag
-_TALLEST, _GRASS = 31.0, 8.0  # m; as tall as any tree of Algorithm 2, and as one that would hold a clump
+_TALLEST, _GRASS = 31.0, 10.0  # m; as tall as any tree of Algorithm 2, and as one that would hold a clump
 _AROUND = 30.0  # m; a tree farther beside the view than it is tall takes little light of the sky from it
 _RELIEF = 30.0  # m; so far up and down the drawn ground's relief may move a tree
 _SNAG = 0.85  # part of the burned trees that become snags
@@ -67,7 +67,7 @@ def algorithm2(shot: Shot) -> dict[str, NDArray]:
 
 
 def visible(shot: Shot, foot: NDArray, height: NDArray | float, reach: float) -> NDArray[np.bool_]:
-    """Which plants (n,) `height` m tall with their feet at (n, 3) count: seen, or throwing shadows on what is.
+    """Which plants (n,) `height` m tall with feet at (n, 3) count: seen, or throwing shadows on what is.
 
     Those beside a view within `_AROUND` count too, as they take light of the sky from it; those farther away
     than `reach` or too small for a satellite do not.

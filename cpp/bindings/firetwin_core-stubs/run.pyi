@@ -106,9 +106,7 @@ class Run:
         """height_3d at a time (s) within the run."""
     def temperature_3d_at(self, time: float) -> NDArray[np.float32]:
         """temperature_3d at a time (s) within the run."""
-    def frames(
-        self, field: str = "heat_flux", indices: ArrayLike | None = None, ahead: int = 8
-    ) -> Frames:
+    def frames(self, field: str = "heat_flux", indices: ArrayLike | None = None, ahead: int = 8) -> Frames:
         """Frames (ny, nx) of a series, all or those at indices (n,), while worker threads read the next ones.
 
         At most `ahead` frames wait in memory, however long the run. `field` is "heat_flux", "temperature",
