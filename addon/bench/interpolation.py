@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 from firetwin_core import run as runs
-from firetwin_core.flux import at_time
+from firetwin_core.flux import Interpolator
 from numpy.typing import NDArray
 
 from ..data import sample, stored
@@ -86,7 +86,7 @@ def run(bench: Bench) -> None:
             write_run(Path(folder), flux[kept], seconds[kept])
             model = runs.open(folder)
             tools: dict[str, Interpolate] = {
-                OURS: lambda t: at_time(model, t),  # noqa: B023
+                OURS: Interpolator(model).at,
                 LINEAR: lambda t: linear(model, t),  # noqa: B023
             }
             _removed(bench, case, flux, kept)

@@ -34,18 +34,25 @@ class Emitters:
 def emitters(flux: ArrayLike, position: ArrayLike, flux_min: float, flux_max: float) -> Emitters:
     """Algorithm 1: flux (ny, nx) W/m2 and position (ny, nx, 3) metres -> emitters where flux > 0."""
 
-def at_time(run: Run, time: float) -> NDArray[np.float32]:
-    """Heat flux (ny, nx) in W/m2 at any time (seconds since start); zero outside the run.
+class Interpolator:
+    """The heat flux of a run's fire at any time; keeps what it has read.
 
     Exact at the model times. Between them F^1.5, on which the size of flames depends, is even in every cell
     that burned before and in the sum of all; cells that first burn in between stay cold until the moving
-    front reaches them. The C++ header says how. The first call scans the run for its arrival times.
+    front reaches them (cpp/flux/step.hpp says how, cpp/flux/arrival.hpp when). Cells that the fire has not
+    reached and that have less than 1 W/m2, such as models leave where nothing burns, are 0. Before the first
+    and after the last model time all are.
+
+    A moment costs what burns in it, and frames asked for in order are read once each. Any thread may ask, in
+    any order, for the same results.
     """
 
-def arrival_time(run: Run, averaged: bool = True) -> NDArray[np.float32]:
-    """When each cell begins to burn (ny, nx), s since start and between the model times; NaN where never.
+    def __init__(self, run: Run) -> None:
+        """Finds when cells begin to burn: without the run's own fuel_arrival_time that reads all of it once."""
+    def at(self, time: float) -> NDArray[np.float32]:
+        """Heat flux (ny, nx) in W/m2 at `time` (seconds since start). ValueError when that is NaN."""
+    def burning(self, time: float) -> tuple[NDArray[np.int64], NDArray[np.float32]]:
+        """The cells whose flux is not 0, and their flux: (n,) ascending flat indices y*nx + x, (n,) W/m2."""
 
-    From how the flux of a cell grows and how the front runs through its neighbours; within the interval before
-    the first model time with flux. `averaged` says whether the run's fluxes are means over the `mean_s` of
-    run.toml, or else the interval, that ends at their time, or values at that time. The C++ header has the formulas.
-    """
+def at_time(run: Run, time: float) -> NDArray[np.float32]:
+    """Interpolator(run).at(time); who asks for more than one moment keeps an Interpolator."""

@@ -1,0 +1,213 @@
+"""What a shot costs in runs of different sizes, and how well arrival is known from coarse output.
+
+    python tests/benchmarks/scale.py SAMPLE [--work DIR] [--minutes 240]
+
+SAMPLE is the run of `firetwin sample`. Made of it, in DIR: `sample`, its minutes from `FIRST` on; `split`,
+the same fire with each cell in 4 x 4; and `large`, a round fire on 2000 x 2000 cells of 30 m. Each step runs
+in a process of its own; its memory is the most that it held, less what importing takes. The shot lasts
+`SHOT` s.
+
+Then the front, from fluxes alone, of the sample each minute and each quarter of an hour: how far it is off
+the sample's own arrival times, in the mean and outwards, and how much too large the burned area is.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import json
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from firetwin_core import run as runs
+from numpy.typing import NDArray
+
+FIRST, SPLIT = 1000, 4  # minute of the sample's long run up the canyon; cells for each, along both axes
+SHOT, EVERY = 3600.0, 30.0  # s
+CELLS, FRAMES = 2000, 12
+CELL = 74.0  # m, of the sample's fuel
+SERIES = ("heat_flux", "temperature", "wind_east", "wind_north")
+
+
+def info(folder: Path) -> None:
+    """All that `firetwin info` shows."""
+    from firetwin.run import info
+
+    info.gather(runs.open(folder), "UTC")
+
+
+def emission(folder: Path) -> float:
+    """Sources of each moment of the shot; seconds for one, once all is gathered."""
+    fire, times = _fire(folder)
+    fire.sources(times[0])
+    begun = time.perf_counter()
+    for moment in times:
+        fire.sources(float(moment))
+    return (time.perf_counter() - begun) / len(times)
+
+
+def interpolation(folder: Path) -> float:
+    """The flux at each moment of the shot; seconds for one, once the first is there."""
+    fire, times = _fire(folder)
+    fire.flux.burning(times[0])
+    begun = time.perf_counter()
+    for moment in times:
+        fire.flux.at(float(moment))
+    return (time.perf_counter() - begun) / len(times)
+
+
+STEPS: dict[str, Callable[[Path], float | None]] = {
+    "info": info,
+    "emission": emission,
+    "interpolation": interpolation,
+}
+
+
+def _fire(folder: Path) -> tuple:
+    from firetwin.shot.fire import Fire
+
+    run = runs.open(folder)
+    middle = 0.5 * (run.times[0] + run.times[-1])
+    times = np.arange(middle, min(middle + SHOT, run.times[-1]), EVERY)
+    return Fire(run, float(times[0]), float(times[-1])), times
+
+
+def measure(step: str, folder: Path) -> dict[str, float]:
+    """Seconds and MB of a step in a process of its own, and ms for a moment."""
+    command = [sys.executable, __file__, str(folder), "--step", step]
+    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+
+
+def _step(name: str, folder: Path) -> None:
+    importlib.import_module("firetwin.run.info")
+    importlib.import_module("firetwin.shot.fire")
+    before = _most_held()
+    begun = time.perf_counter()
+    one = STEPS[name](folder)
+    took = time.perf_counter() - begun
+    print(json.dumps({"seconds": took, "MB": _most_held() - before, "ms a moment": (one or 0.0) * 1000}))
+
+
+def _most_held() -> float:
+    """The most memory that this process has held, MB."""
+    lines = Path("/proc/self/status").read_text().splitlines()
+    return next(int(line.split()[1]) for line in lines if line.startswith("VmHWM")) / 1024
+
+
+def cut(sample: Path, out: Path, minutes: slice, split: int = 1, own: bool = True) -> Path:
+    """Some of the sample's minutes, each cell in `split` x `split`; with its own arrival times or without."""
+    out.mkdir()
+    toml = (sample / "run.toml").read_text().replace("interval_s = 60.0", _interval(minutes))
+    if not own:
+        toml = toml.replace('fuel_arrival_time = "s"\n', "")
+    (out / "run.toml").write_text(toml)
+    for path in sample.glob("*.npy"):
+        values = np.load(path, mmap_mode="r")
+        if path.stem == "fuel_arrival_time" and not own:
+            continue
+        if "itude" in path.stem:
+            values = _finer(values, split)
+        elif path.stem in SERIES:
+            if split > 1 and path.stem != "heat_flux":
+                continue
+            values = values[minutes]
+        if "itude" not in path.stem and split > 1:
+            values = np.repeat(np.repeat(values, split, -2), split, -1)
+        np.save(out / path.name, values)
+    return out
+
+
+def _interval(minutes: slice) -> str:
+    count = len(range(*minutes.indices(1858)))
+    begin, step = minutes.start or 0, minutes.step or 1
+    return f"times_s = {[60.0 * (begin + step * i) for i in range(count)]}"
+
+
+def _finer(axis: NDArray, split: int) -> NDArray:
+    part = (np.arange(split) + 0.5) / split - 0.5
+    return (axis[:, None] + part * (axis[-1] - axis[0]) / (len(axis) - 1)).ravel()
+
+
+def large(out: Path) -> Path:
+    """A round fire on 2000 x 2000 cells, an output each ten minutes, without arrival times of its own."""
+    out.mkdir()
+    (out / "run.toml").write_text(
+        'start = 2014-09-17T04:45:00Z\ninterval_s = 600.0\nvertical = "orthometric"\n'
+        '[units]\nelevation = "m"\nheat_flux = "W/m2"\nsurface_fuel = "kg/m2"\ncanopy_fuel = "kg/m2"\n'
+    )
+    place = np.arange(CELLS) - CELLS / 2
+    arrival = np.hypot(place[:, None], place[None]) * 30.0  # s: 1 m/s
+    for prefix in ("", "fuel_"):
+        np.save(out / f"{prefix}latitude.npy", 38.9 + place * 30.0 / 111_000.0)
+        np.save(out / f"{prefix}longitude.npy", -120.6 + place * 30.0 / 86_600.0)
+    for name, value in (("elevation", 1000.0), ("surface_fuel", 1.0), ("canopy_fuel", 1.0)):
+        np.save(out / f"{name}.npy", np.full((CELLS, CELLS), value, np.float32))
+    flux = np.lib.format.open_memmap(out / "heat_flux.npy", "w+", np.float32, (FRAMES, CELLS, CELLS))
+    for index in range(FRAMES):
+        age = index * 600.0 - arrival
+        flux[index] = np.where(
+            (age >= 0.0) & (age < 4200.0), 5.0e4 * np.exp(-np.maximum(age, 0) / 420.0), 0.0
+        )
+    return out
+
+
+def front(sample: Path, found: NDArray, moments: NDArray) -> tuple[float, float, float]:
+    """Metres that a front is off, in the mean and outwards, and % that the last area is too large."""
+    own = np.load(sample / "fuel_arrival_time.npy").astype(np.float64)
+    before = own < 0.0  # released its heat before the run began
+    for _ in range(8):  # and what lies within the cells of the model beside it
+        padded = np.pad(before, 1)
+        before = padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:] | before
+    off, out, more = [], [], 0.0
+    for moment in moments:
+        true, here = (own <= moment) & ~before, (found <= moment) & ~before
+        edges = np.count_nonzero(np.diff(true, axis=0)) + np.count_nonzero(np.diff(true, axis=1))
+        length = edges * np.pi / 4.0  # of a line in all directions, in cells
+        off.append(CELL * np.count_nonzero(true != here) / length)
+        out.append(CELL * (int(here.sum()) - int(true.sum())) / length)
+        more = 100.0 * (here.sum() / true.sum() - 1.0)
+    return float(np.mean(off)), float(np.mean(out)), float(more)
+
+
+def main() -> None:
+    """Print both tables."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("sample", type=Path)
+    parser.add_argument("--work", type=Path)
+    parser.add_argument("--minutes", type=int, default=240)
+    parser.add_argument("--step", choices=STEPS, help=argparse.SUPPRESS)
+    given = parser.parse_args()
+    if given.step:
+        _step(given.step, given.sample)
+        return
+    with tempfile.TemporaryDirectory(dir=given.work) as name:
+        work, minutes = Path(name), slice(FIRST, FIRST + given.minutes)
+        folders = [
+            cut(given.sample, work / "sample", minutes),
+            cut(given.sample, work / "split", minutes, SPLIT),
+            large(work / "large"),
+        ]
+        for folder in folders:
+            for step in STEPS:
+                found = min((measure(step, folder) for _ in range(3)), key=lambda each: each["seconds"])
+                print(f"{folder.name:8}{step:16}" + "".join(f"{v:10.3f} {k}" for k, v in found.items()))
+            shutil.rmtree(folder)
+        for minutes_apart in (1, 15):
+            thinned = slice(None, None, minutes_apart)
+            folder = cut(given.sample, work / f"each{minutes_apart}", thinned, own=False)
+            run = runs.open(folder)
+            moments = np.append(np.arange(7620.0, run.times[-1] - 900.0, 1800.0), run.times[-1])
+            mean, outwards, area = front(given.sample, np.asarray(run.fuel_arrival_time(), float), moments)
+            print(
+                f"each {minutes_apart:2} min: front {mean:.0f} m off, {outwards:+.0f} m out, area {area:+.1f} %"
+            )
+
+
+if __name__ == "__main__":
+    main()
