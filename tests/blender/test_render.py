@@ -12,23 +12,22 @@ from firetwin.errors import Error
 from firetwin.jobs import worker
 from firetwin.render.store import Store
 from firetwin.shot import passes
+from scene_text import BARE, TINY
 
 FRAMES = 3
-SCENE = """\
+SCENE = (
+    """\
 run = "{run}"
 [time]
 frames = {frames}
-[ground]
-near_radius = 0.0
-apron = 20000.0
-[forest]
-stand_radius = 0.0
+"""
+    + BARE
+    + """\
 [smoke]
 enabled = false
-[render]
-resolution = [64, 36]
-samples = 1
-denoise = false
+"""
+    + TINY
+    + """\
 {render}
 [[cameras]]
 name = "drone"
@@ -40,6 +39,7 @@ swath = 8000.0
 frames = "2"
 passes = ["depth"]
 """
+)
 
 
 @pytest.fixture(scope="module")

@@ -15,26 +15,25 @@ import numpy as np
 import pytest
 from firetwin.render.store import Store
 from firetwin_core import sensor
+from scene_text import BARE, TINY
 
 KILLS = int(os.environ.get("FIRETWIN_KILLS", "3"))
 SEED = int(os.environ.get("FIRETWIN_SEED", "1"))
-SCENE = """\
+SCENE = (
+    """\
 run = "{run}"
 cache = "{cache}"
 [time]
 frames = {frames}
-[ground]
-near_radius = 0.0
-apron = 20000.0
-[forest]
-stand_radius = 0.0
+"""
+    + BARE
+    + """\
 [smoke]
 enabled = {smoke}
 voxel_size = 120.0
-[render]
-resolution = [64, 36]
-samples = 1
-denoise = false
+"""
+    + TINY
+    + """\
 passes = ["rgb", "depth", "normal", "thermal"]
 [[cameras]]
 name = "drone"
@@ -44,6 +43,7 @@ name = "other"
 frames = "1-2"
 keys = [{{latitude = 38.83, longitude = -120.55, height = 500, target = "fire"}}]
 """
+)
 
 
 @pytest.fixture

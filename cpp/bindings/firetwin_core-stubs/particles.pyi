@@ -94,7 +94,7 @@ def state(
     rate: ArrayLike,
     kind: Kind,
     wind: ArrayLike,
-    wind_time: ArrayLike = (0.0,),
+    wind_time: ArrayLike = [0.0],
     id: ArrayLike | None = None,
     size: float = 0.0,
     ground: HeightField | None = None,

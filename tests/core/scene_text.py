@@ -1,0 +1,16 @@
+"""Parts of scene files that tests share: what makes a scene quick to build and to render."""
+
+BARE = """\
+[ground]
+near_radius = 0.0
+apron = 20000.0
+[forest]
+stand_radius = 0.0
+"""
+
+TINY = """\
+[render]
+resolution = [64, 36]
+samples = 1
+denoise = false
+"""
