@@ -262,7 +262,7 @@ def test_smoke_changes_the_picture(shot, stage, scene, shoot):
 def test_eevee_slices_lie_where_the_smoke_is(shot, stage, scene):
     smoke.build(shot, stage)
     cells = shot.fire.cells(shot.frames.first, shot.frames.last).position
-    nearest = min(path.distance(cells).min() for path in shot.near)
+    nearest = shot.sights.distance(cells).min()
     eevee = scene.eevee
     assert eevee.use_volume_custom_range
     assert eevee.use_volumetric_shadows

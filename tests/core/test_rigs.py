@@ -72,7 +72,8 @@ def test_a_kind_is_added_by_one_file(tower, tmp_path):
     settings = dataclasses.replace(file.read(path), path=Path("scene.toml"))
     assert "mast = 30.0       # length of the mast, m (default 20.0)" in file.text(settings)
     assert "kind of camera: on the ground, turning round" in file.text(settings)
-    assert schema.chosen(settings, {"camera"}) == {"cameras": [{"kind": "tower", "mast": 30.0, "turns": 1}]}
+    tables = [{"kind": "tower", "mast": 30.0, "turns": 1, "frames": ""}]
+    assert schema.chosen(settings, {"camera"}) == {"cameras": tables}
     validator = jsonschema.Draft202012Validator(json_schema(Settings))
     assert validator.is_valid({"cameras": [{"kind": "tower", "mast": 30}]})
     assert not validator.is_valid({"cameras": [{"kind": "tower", "mast": 0}]})

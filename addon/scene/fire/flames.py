@@ -106,13 +106,13 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
     """
     settings, ground, near = shot.settings, shot.ground, shot.near
     first, last = shot.frames.first, shot.frames.last
-    row, column, spacing = _candidates(shot)
+    row, column, spacing, key = _candidates(shot)
     arrival = ground.arrival_at(row, column)
     keep = (arrival <= last) & (arrival > first - _RESIDENCE[1])
-    row, column, spacing, arrival = row[keep], column[keep], spacing[keep], arrival[keep]
+    row, column, spacing, arrival, key = row[keep], column[keep], spacing[keep], arrival[keep], key[keep]
     speed = _spread(ground, row, column)
     residence = np.clip(_LINE * spacing / speed, *_RESIDENCE)
-    random = np.random.default_rng(settings.seed).random((3, len(row)))
+    random = np.array([noise.uniform(*key.T, settings.seed + 500 + use) for use in range(3)])
     fuel = bilinear(ground.fields.canopy_fuel + ground.fields.surface_fuel, row, column)
     lit = (arrival + residence > first) & (fuel > 0.05)
     row, column, arrival, speed, residence, fuel, spacing = (
@@ -214,37 +214,48 @@ def _joined(parts: list[Points]) -> Points:
     return Points(*(np.concatenate([getattr(p, field.name) for p in parts]) for field in fields(Points)))
 
 
-def _candidates(shot: Shot) -> tuple[Array, Array, Array]:
-    """Rows, columns and spacing (m) of jittered points in the cells that the front crosses in the shot."""
+def _candidates(shot: Shot) -> tuple[Array, Array, Array, NDArray[np.int64]]:
+    """Rows, columns and spacing (m) of jittered points in the cells that the front crosses in the shot.
+
+    With them come integers (n, 2) that random choices for a point hang on: cell and number in it. So a point
+    is the same whatever else is seen.
+    """
     ground, near, first, last = shot.ground, shot.near, shot.frames.first, shot.frames.last
     arrival = ground.arrival
     cells_lit = np.argwhere((arrival >= first - _RESIDENCE[1] - 300.0) & (arrival <= last + 300.0))
     empty = np.empty(0)
     if len(cells_lit) == 0 or not near:
-        return empty, empty, empty
+        return empty, empty, empty, np.empty((0, 2), np.int64)
     centre = ground.point(*ground.places(cells_lit[:, 0].astype(float), cells_lit[:, 1].astype(float)))
     distance = shot.sights.distance(centre)
     seen = shot.sights.seen(centre, max(ground.cell) + _AROUND, reach=SIGHT)
-    random = np.random.default_rng(shot.settings.seed + 1)
     parts = []
     before = 0.0
     for limit, spacing in _SPACING:
         chosen = cells_lit[seen & (distance >= before) & (distance < limit)]
         before = limit
         count = max(round(max(ground.cell) / spacing), 1)
-        inside = (np.indices((count, count)).reshape(2, 1, -1) + random.random((2, len(chosen), 1))) / count
+        number = np.arange(count * count)
+        cell = (chosen @ (ground.shape[1], 1))[:, None]
+
+        def random(part: NDArray, use: int, cell: NDArray = cell) -> Array:
+            seed = shot.settings.seed + 510 + use
+            return np.stack([noise.uniform(cell, part, seed + axis) for axis in (0, 1)])
+
         # One shift per cell and one per point: no rows of flames.
-        inside = inside + (random.random((2, len(chosen), count * count)) - 0.5) / count - 0.5
+        inside = (np.indices((count, count)).reshape(2, 1, -1) + random(number[:1], 0)) / count
+        inside = inside + (random(number, 2) - 0.5) / count - 0.5
         parts.append(
             (
                 (chosen[:, :1] + inside[0]).ravel(),
                 (chosen[:, 1:] + inside[1]).ravel(),
                 np.full(len(chosen) * count * count, max(ground.cell) / count),
+                np.stack(np.broadcast_arrays(cell, number), axis=-1).reshape(-1, 2),
             )
         )
-    row, column, spacing = (np.concatenate([part[i] for part in parts]) for i in range(3))
+    row, column, spacing, key = (np.concatenate([part[i] for part in parts]) for i in range(4))
     rows, columns = ground.shape
-    return np.clip(row, 0.0, rows - 1.0), np.clip(column, 0.0, columns - 1.0), spacing
+    return np.clip(row, 0.0, rows - 1.0), np.clip(column, 0.0, columns - 1.0), spacing, key
 
 
 def _spread(ground: Ground, row: Array, column: Array) -> Array:

@@ -200,6 +200,8 @@ def _key(shot: Shot, progress: Progress) -> str:
         del found["smoke"][name]
     if not complete:  # what is left out depends on what the cameras see, and when
         width, height = settings.render.resolution
+        for camera in found.get("cameras", ()):
+            del camera["frames"]  # however they are written
         found["sight"] = [height / width, [shot.frames_of(camera) for camera in settings.cameras]]
     return content.fingerprint(
         {

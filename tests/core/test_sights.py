@@ -1,0 +1,80 @@
+"""What the cameras of a shot see in the frames that they film, and what may hide it."""
+
+from dataclasses import replace
+from datetime import UTC, datetime
+
+import numpy as np
+import pytest
+from firetwin.shot.rigs.orbit import Orbit
+from firetwin.shot.rigs.satellite import Satellite
+from firetwin.shot.settings import Camera, Forest, Ground, Settings, Time
+from firetwin.shot.shot import Shot
+from firetwin_core import lod
+from firetwin_core import run as runs
+from small_run import FX, FY, NX, NY
+
+ORBIT = Orbit(latitude=38.905, longitude=-120.592, radius=900.0, height=300.0, speed=20.0)
+
+
+@pytest.fixture
+def film(make_run):
+    """A shot of nine frames over half an hour with these cameras; rough ground, fine near them."""
+    rng = np.random.default_rng(4)
+    high = {"elevation": np.full((NY, NX), 1200.0, np.float32)}
+    high["fuel_elevation"] = rng.uniform(1100.0, 1300.0, (FY, FX)).astype(np.float32)
+    run = runs.open(make_run(**high))
+
+    def shot(*cameras, **changes):
+        settings = Settings(
+            time=Time(
+                start=datetime(2014, 9, 17, 4, 45, tzinfo=UTC),
+                end=datetime(2014, 9, 17, 4, 50, tzinfo=UTC),
+                frames=9,
+            ),
+            ground=Ground(near_radius=1500.0, apron=0.0),
+            forest=Forest(trees=False),
+            cameras=cameras,
+        )
+        return Shot(replace(settings, **changes), run)
+
+    return shot
+
+
+def test_frames_that_are_not_filmed_do_not_count(film):
+    whole, some = film(Camera("a", ORBIT)), film(Camera("a", ORBIT, frames="1,3"))
+    (path,) = whole.paths
+    assert np.ptp(path.position, axis=0).max() > 100.0
+    away = [np.linalg.norm(path.position - path.position[8], axis=1)[[0, 2]].min(), 0.0]
+    for shot, least in zip((some, whole), away, strict=True):
+        assert shot.sights.distance(path.position[8:]) == pytest.approx([least], abs=1e-6)
+        assert shot.sights.distance_from(shot.paths[0], path.position[8:]) == pytest.approx([least], abs=1e-6)
+    aim = path.position + 50.0 * -path.rotation[:, :, 2]
+    alone = lod.seen(aim, 0.0, lod.Sight(path.position[[0, 2]], path.rotation[[0, 2]], path.half))
+    assert some.sights.seen(aim, 0.0).tolist() == alone.tolist()
+    assert whole.sights.seen(aim, 0.0).all()
+    assert [some.sights.at(frame) is None for frame in (1, 2, 3)] == [False, True, False]
+
+
+def test_satellites_count_by_their_pixels_and_are_near_to_nothing(film):
+    shot = film(Camera("above", Satellite(swath=640.0)))
+    width = shot.settings.render.resolution[0]
+    edge = np.array([[310.0, 0.0, 1200.0], [330.0, 0.0, 1200.0]]) + shot.paths[0].target[0] * [1, 1, 0]
+    assert shot.sights.seen(edge, 0.0, pixel=1.01 * 640.0 / width).tolist() == [True, False]
+    assert not shot.sights.seen(edge, 0.0, pixel=640.0 / width).any()
+    assert np.isinf(shot.sights.distance(edge)).all()
+
+
+def test_no_drawn_ground_is_under_its_floor(film):
+    """However finely cells are drawn: any place of a cell is over the lowest corner of its floor."""
+    ground = film(Camera("a", ORBIT)).ground
+    assert len(ground.eyes) > 0
+    rng = np.random.default_rng(8)
+    rows, columns = ground.shape
+    row, column = rng.uniform(0, rows - 1, 40_000), rng.uniform(0, columns - 1, 40_000)
+    corners = np.lib.stride_tricks.sliding_window_view(ground.floor()[..., 2], (2, 2)).min(axis=(2, 3))
+    drawn = ground.point(*ground.places(row, column))[:, 2]
+    gap = drawn - corners[row.astype(int), column.astype(int)]
+    assert gap.min() > -1e-6
+    flat = film(Camera("a", ORBIT), ground=Ground(near_radius=0.0, apron=0.0)).ground
+    coarse = flat.frame.forward_grid(flat.fields.latitude, flat.fields.longitude, flat.fields.elevation)
+    np.testing.assert_array_equal(flat.floor(), coarse)
