@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .geo import LocalFrame
+from .lod import Sight
 
 FRESH_SMOKE: float
 """Smoke that counts as dilution 1, kg/m3."""
