@@ -54,6 +54,7 @@ std::vector<double> at(const Middle& middle, const run::Run& run, std::span<cons
 std::vector<double> earliest(const run::Run& run) {
   const std::vector<double> arrival = own(run);
   const std::size_t fx = run.fuel_longitude().size(), nx = run.longitude().size();
+  const std::vector<double> crossing = crossing_time(arrival, fx);
   std::vector<std::size_t> column(fx);
   std::transform(run.fuel_longitude().begin(), run.fuel_longitude().end(), column.begin(),
                  [&](double place) { return nearest(run.longitude(), place); });
@@ -61,11 +62,8 @@ std::vector<double> earliest(const run::Run& run) {
   for (std::size_t y = 0; y < run.fuel_latitude().size(); ++y) {
     const std::size_t row = nearest(run.latitude(), run.fuel_latitude()[y]);
     for (std::size_t x = 0; x < fx; ++x) {
-      const std::size_t i = y * fx + x;
-      if (!std::isnan(arrival[i])) {
-        double& time = result[row * nx + column[x]];
-        time = std::fmin(time, arrival[i] - 0.5 * crossing_time(arrival, fx, i));
-      }
+      double& time = result[row * nx + column[x]];
+      time = std::fmin(time, arrival[y * fx + x] - 0.5 * crossing[y * fx + x]);
     }
   }
   return result;

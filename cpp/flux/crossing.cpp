@@ -21,18 +21,18 @@ double along(double before, double here, double after) {
 
 } // namespace
 
-double crossing_time(const std::vector<double>& time, std::size_t columns, std::size_t i) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::size_t x = i % columns;
-  return along(x > 0 ? time[i - 1] : nan, time[i], x + 1 < columns ? time[i + 1] : nan) +
-         along(i >= columns ? time[i - columns] : nan, time[i],
-               i + columns < time.size() ? time[i + columns] : nan);
-}
-
 std::vector<double> crossing_time(const std::vector<double>& time, std::size_t columns) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t rows = time.size() / columns;
   std::vector<double> result(time.size());
-  tbb::parallel_for(std::size_t{0}, time.size(),
-                    [&](std::size_t i) { result[i] = crossing_time(time, columns, i); });
+  tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t y) {
+    for (std::size_t x = 0; x < columns; ++x) {
+      const std::size_t i = y * columns + x;
+      result[i] =
+          along(x > 0 ? time[i - 1] : nan, time[i], x + 1 < columns ? time[i + 1] : nan) +
+          along(y > 0 ? time[i - columns] : nan, time[i], y + 1 < rows ? time[i + columns] : nan);
+    }
+  });
   return result;
 }
 

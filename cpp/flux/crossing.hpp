@@ -12,10 +12,4 @@ namespace firetwin::flux {
 /// smaller: a jump to another fire's time is no slow front.
 std::vector<double> crossing_time(const std::vector<double>& time, std::size_t columns);
 
-/// The same of the cell `i` alone.
-double crossing_time(const std::vector<double>& time, std::size_t columns, std::size_t i);
-
-/// The same of the cell `i` alone.
-double crossing_time(const std::vector<double>& time, std::size_t columns, std::size_t i);
-
 } // namespace firetwin::flux

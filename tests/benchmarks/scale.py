@@ -204,9 +204,8 @@ def main() -> None:
             run = runs.open(folder)
             moments = np.append(np.arange(7620.0, run.times[-1] - 900.0, 1800.0), run.times[-1])
             mean, outwards, area = front(given.sample, np.asarray(run.fuel_arrival_time(), float), moments)
-            print(
-                f"each {minutes_apart:2} min: front {mean:.0f} m off, {outwards:+.0f} m out, area {area:+.1f} %"
-            )
+            off = f"front {mean:.0f} m off, {outwards:+.0f} m out, area {area:+.1f} %"
+            print(f"each {minutes_apart:2} min: {off}")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 // file.
 
 #include "check.hpp"
+#include "flux/arrival.hpp"
 #include "run/run.hpp"
 
 #include <array>
@@ -70,8 +71,8 @@ void open(const fs::path& folder) {
   fuzz::check(std::abs(east.back() - east.front()) <= 360.0, "longitudes go around once at most");
   const auto [low, high] = run.flux_range();
   fuzz::check(std::isfinite(low) && std::isfinite(high) && low <= high, "a range is a range");
-  fuzz::check(run.arrival_time(0.0).size() == run.cells(), "arrival has every cell");
-  fuzz::check(run.fuel_arrival_time().size() == run.surface_fuel().size(), "fuel arrival too");
+  fuzz::check(flux::arrival_time(run).size() == run.cells(), "arrival has every cell");
+  fuzz::check(flux::fuel_arrival_time(run).size() == run.surface_fuel().size(), "fuel arrival too");
 }
 
 } // namespace

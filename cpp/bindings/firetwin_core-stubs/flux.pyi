@@ -48,7 +48,7 @@ class Interpolator:
     """
 
     def __init__(self, run: Run) -> None:
-        """Finds when cells begin to burn: without the run's own fuel_arrival_time that reads all of it once."""
+        """Find when cells begin to burn; that reads all of a run without fuel_arrival_time once."""
     def at(self, time: float) -> NDArray[np.float32]:
         """Heat flux (ny, nx) in W/m2 at `time` (seconds since start). ValueError when that is NaN."""
     def burning(self, time: float) -> tuple[NDArray[np.int64], NDArray[np.float32]]:

@@ -117,7 +117,7 @@ class Run:
     def flux_range(self) -> tuple[float, float]:
         """Smallest and largest finite heat flux of the whole run, W/m2."""
     def heat_released(self) -> NDArray[np.float64]:
-        """(ny, nx) J/m2 over the whole run, the flux integrated by the trapezoidal rule; no flux is below 0."""
+        """(ny, nx) J/m2 over the whole run, fluxes above 0 integrated by the trapezoidal rule."""
     def arrival_time(self) -> NDArray[np.float64]:
         """(ny, nx) seconds since start when the front passes the centre of a cell, NaN where not in the run.
 
@@ -128,6 +128,6 @@ class Run:
     def fuel_arrival_time(self) -> NDArray[np.float64]:
         """(fy, fx) seconds since start, NaN where never, negative where burned before the start.
 
-        The run's own fuel_arrival_time field where it has one, else arrival_time() between the cells' centres,
-        inside the line where half of the ground around has burned.
+        The run's own fuel_arrival_time field where it has one, else arrival_time() between the centres of
+        cells, inside the line where half of the ground around has burned.
         """
