@@ -1,8 +1,8 @@
 """Measures how fast and in how much memory volumes are written: `volumes.py [CASE ...]`.
 
 Every case runs in a process of its own: seconds on one and two threads and of processor time (the least of
-five, from 2,880 on of two), millions of voxels a second on two threads, those of all grids counted, and how far
-memory grew beyond the arrays that were handed over. Cases are named KIND-SIDE:
+five, from 2,880 on of two), millions of voxels a second on two threads, those of all grids counted, and how
+far memory grew beyond the arrays that were handed over. Cases are named KIND-SIDE:
 
     boxes    dense arrays of three fields, SIDE x SIDE x 64 voxels (32 from 2,880 on), a third of them smoke
     sight    the same, before a camera that sees a tenth of the smoke
