@@ -98,7 +98,8 @@ def _boxes(bench: Bench, path: str) -> None:
     case = f"{len(fields)} fields of {side} x {side} x {side // 3}"
     found = bench.race(case, tools, frame.voxels, "voxel", "of the mass")
     speed = found[tools[1].label].speed(frame.voxels / 1e6)
-    bench.target("several fields of one box are built and written, on two threads, at", speed, MEGAVOXELS, "Mvoxel/s")
+    promise = "several fields of one box are built and written, on two threads, at"
+    bench.target(promise, speed, MEGAVOXELS, "Mvoxel/s")
 
 
 def _smoke(bench: Bench, path: str) -> None:

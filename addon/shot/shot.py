@@ -142,7 +142,6 @@ class Shot:
         return [view for view in self.paths if view.perspective]
 
     @cached_property
-    @cached_property
     def sights(self) -> Sights:
         """What the cameras see in the frames that they film, and how near they come."""
         return Sights(self)
