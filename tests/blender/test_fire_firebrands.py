@@ -60,7 +60,7 @@ def look(scene):
 
 
 def test_pieces_fly_over_the_ground_and_move_with_the_wind(close, run, monkeypatch):
-    monkeypatch.setattr(burning, "wind_at", lambda run, times: np.tile((8.0, 0.0), (len(times), 1)))
+    monkeypatch.setattr(burning, "wind_at", lambda run, times, within: np.tile((8.0, 0.0), (len(times), 1)))
     shot = Shot(close, run)
     found, ground = flown(shot), shot.ground
     assert len(found.life) > 100
