@@ -18,5 +18,6 @@ void init_forest(pybind11::module_ module);
 void init_particles(pybind11::module_ module);
 void init_volume(pybind11::module_ module);
 void init_sensor(pybind11::module_ module);
+void init_flow(pybind11::module_ module);
 
 } // namespace firetwin::bindings

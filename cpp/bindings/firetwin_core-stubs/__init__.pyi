@@ -1,3 +1,4 @@
+from . import flow as flow
 from . import flux as flux
 from . import forest as forest
 from . import geo as geo
