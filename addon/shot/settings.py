@@ -139,6 +139,21 @@ class Smoke:
     """The smoke volume."""
 
     enabled: bool = key(True, "draw the smoke")
+    method: str = key(
+        "puffs",
+        "how smoke is made that the run does not have itself",
+        choices={
+            "puffs": "plumes of balls, a second a frame",
+            "flow": "a solved flow of the air, minutes once per shot",
+        },
+    )
+    spin_up: float = key(
+        1800.0,
+        "fire before the first frame that the flow is solved from",
+        unit="s",
+        at_least=0,
+        at_most=172_800,
+    )
     voxel_size: float = key(
         0.0, "edge of a voxel; 0 chooses it from the distance of the nearest camera", unit="m", at_least=0
     )

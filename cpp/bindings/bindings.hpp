@@ -19,5 +19,6 @@ void init_particles(pybind11::module_ module);
 void init_volume(pybind11::module_ module);
 void init_sensor(pybind11::module_ module);
 void init_flow(pybind11::module_ module);
+void init_flow_detail(pybind11::module_ module);
 
 } // namespace firetwin::bindings

@@ -149,3 +149,75 @@ class Solver:
 
         The state of a nest is restored after its outer flow's, both taken at the same time.
         """
+
+class Drift:
+    """How far the air in each of a solver's cells has come since its phase began.
+
+    Noise at (place - drift) travels with the flow. Flow shears it into streaks in the end, so a phase begins anew
+    every `period` s, and two of them, half a period apart, take turns (Neyret 2003, "Advected textures").
+    Semi-Lagrangian, linear between cells. Any number of threads gives the same digits.
+    """
+
+    def __init__(self, solver: Solver, period: float = 120.0) -> None: ...
+    def advance(self) -> None:
+        """Go on to the solver's time with the wind that it has now: call it after each of its steps."""
+    def values(self) -> NDArray[np.float32]:
+        """(nz, ny, nx, 2, 3) drift of both phases east, north and up along the levels, m."""
+    def restore(self, time: float, values: ArrayLike) -> None:
+        """Go on from values of this `time`, s."""
+    @property
+    def time(self) -> float: ...
+    @property
+    def weights(self) -> list[float]:
+        """How much each phase shows: none where it begins and ends; their squares add up to 1."""
+    @property
+    def turns(self) -> list[int]:
+        """How often each phase has begun."""
+
+class Detail:
+    """Smoke of a moment with detail below the cells of its flow.
+
+    The logarithm of the smoke is raised and lowered by noise that travels with the air, and what falls below a
+    threshold is cut away: crisp lumps where smoke is vigorous (rises, is warm, fresh or dense), veils elsewhere.
+    The formulas and what was chosen by eye are in cpp/flow/detail.hpp and detail.cpp.
+
+    Arrays are (nz, ny, nx) on square cells of `spacing` m from `corner` (x, y) m: a solver's, or a block of its
+    cells that reaches down to the ground. `levels` (nz,) m are the cells' middles above ground, `heights` the same
+    in the ground's datum, `ground` (ny, nx) m; `smoke` kg/m3, `age` s, `rise` m/s, `warmth` K, `drift`
+    (nz, ny, nx, 2, 3) m with its `weights` and `turns`; `glow`, the light of flames in any unit, or None.
+
+    `size` m of the largest lumps; `blur` of the drift along levels, rows and columns, cells; `opacity` times the
+    extinction; `thickest` 1/m, where that levels off; `ages` s between which smoke turns from dark to white.
+    """
+
+    def __init__(
+        self,
+        *,
+        spacing: float,
+        corner: tuple[float, float],
+        levels: ArrayLike,
+        heights: ArrayLike,
+        ground: ArrayLike,
+        smoke: ArrayLike,
+        age: ArrayLike,
+        rise: ArrayLike,
+        warmth: ArrayLike,
+        drift: ArrayLike,
+        weights: tuple[float, float],
+        turns: tuple[int, int],
+        glow: ArrayLike | None = None,
+        size: float = 340.0,
+        blur: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        opacity: float = 1.0,
+        thickest: float = 0.03,
+        ages: tuple[float, float] = (25.0, 800.0),
+        seed: int = 0,
+    ) -> None: ...
+    def paint(
+        self, origin: tuple[float, float, float], voxel: float, surface: ArrayLike, share: ArrayLike, layers: int
+    ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32] | None]:
+        """Extinction (1/m), freshness (1 young, 0 old or none) and glow of voxels (nx, ny, layers).
+
+        `origin` is the centre of the first, `surface` (nx, ny) the height of the true ground, m, and `share`
+        (nx, ny) a factor of the extinction.
+        """
