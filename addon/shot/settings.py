@@ -141,15 +141,12 @@ class Smoke:
     enabled: bool = key(True, "draw the smoke")
     method: str = key(
         "puffs",
-        "how smoke is made that the run does not have itself",
-        choices={
-            "puffs": "plumes of balls, a second a frame",
-            "flow": "a solved flow of the air, minutes once per shot",
-        },
+        "where the run has none",
+        choices={"puffs": "balls, a second a frame", "flow": "air solved once per shot, in minutes"},
     )
     spin_up: float = key(
         1800.0,
-        "fire before the first frame that the flow is solved from",
+        "how long before the first frame a flow begins",
         unit="s",
         at_least=0,
         at_most=172_800,

@@ -16,16 +16,16 @@ using flow::Drift;
 using flow::Index;
 
 Array<float> drift_values(const Drift& drift) {
-  const flow::Lattice& l = drift.lattice();
-  auto result = new_array<float>({l.nz, l.ny, l.nx, Drift::phases, 3});
+  const flow::Shape s = drift.shape();
+  auto result = new_array<float>({s.nz, s.ny, s.nx, Drift::phases, 3});
   const auto values = drift.values();
   std::copy(values.begin(), values.end(), result.mutable_data());
   return result;
 }
 
 void drift_restore(Drift& drift, double time, const py::object& values) {
-  const flow::Lattice& l = drift.lattice();
-  const auto array = to_array<float>(values, "values", {l.nz, l.ny, l.nx, Drift::phases, 3});
+  const flow::Shape s = drift.shape();
+  const auto array = to_array<float>(values, "values", {s.nz, s.ny, s.nx, Drift::phases, 3});
   drift.restore(time, view(array));
 }
 
@@ -112,7 +112,7 @@ void init_flow_detail(py::module_ module) {
       .def(py::init(&make_detail), py::kw_only(), "spacing"_a, "corner"_a, "levels"_a, "heights"_a,
            "ground"_a, "smoke"_a, "age"_a, "rise"_a, "warmth"_a, "drift"_a, "weights"_a, "turns"_a,
            "glow"_a = py::none(), "size"_a = 340.0, "blur"_a = std::array<double, 3>{},
-           "opacity"_a = 1.0, "thickest"_a = 0.03F, "ages"_a = std::array<float, 2>{25.0F, 800.0F},
+           "opacity"_a = 1.0, "thickest"_a = 0.03F, "ages"_a = std::array<float, 2>{20.0F, 600.0F},
            "seed"_a = 0)
       .def("paint", &paint, "origin"_a, "voxel"_a, "surface"_a, "share"_a, "layers"_a,
            "Extinction, freshness and glow of a brick of voxels.");

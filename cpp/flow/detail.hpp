@@ -35,7 +35,7 @@ struct Look {
   std::array<double, 3> blur{};             ///< of the drift along levels, rows and columns, cells
   double opacity = 1.0;                     ///< times the extinction of smoke
   float thickest = 0.03F;                   ///< extinction at which thick smoke levels off, 1/m
-  std::array<float, 2> ages{25.0F, 800.0F}; ///< s, of dark and of white smoke
+  std::array<float, 2> ages{20.0F, 600.0F}; ///< s, of dark and of white smoke
   std::uint32_t seed = 0;
 };
 

@@ -114,7 +114,7 @@ class Baker:
             place = painter.layer.file(path.parent, frame)
             mine = _part(place)
             with writing(place):
-                written = painter.write(mine, frame, lights, metadata)
+                written = painter.write(mine, frame, lights, self._seen(frame), metadata)
             _put(mine, place, written.bytes)
         if not self.painters:
             mine = _part(path)
@@ -123,6 +123,12 @@ class Baker:
                 written = volume.write(mine, nothing, 100.0, metadata=metadata)
             _put(mine, path, written.bytes)
         return written
+
+    def _seen(self, frame: int) -> flow_frames.Seen | None:
+        sight = self.sights.of(frame) if self.sights else None
+        if sight is None:
+            return None
+        return lambda places, radius: np.array([sight.counts(place, radius) for place in places], bool)
 
     def _write_levels(self, path: Path, time: float, more: dict[str, Any]) -> volume.Frame:
         """Write the model's own smoke; outside of its times there is none."""

@@ -41,6 +41,7 @@ SMOKE = 0.02 / burning.HEAT  # kg/J: a fiftieth of the burned fuel
 _BURN = 30.0  # s between two looks at what burns
 _RAMP = 300.0  # s in which the fire grows to its strength: a sudden one would bang
 _GUSTS = 0.6  # standard deviation of the logarithm of what single flames give off
+_FINE_GUSTS = 0.9, 180.0, 45.0  # the same in the nest, alike within m and s: single runs of flames
 _DRIFT = 240.0  # s before the first frame from which detail is carried along; twice what it lasts
 _SAVE = 60.0  # s of work that an interruption may cost
 _LONGEST_STEP = 1.2  # times `boxes.STEP`, where frames are that far apart
@@ -288,7 +289,9 @@ class _Live:
             box.spacing,
             box.corner,
             ground=part.ground,
-            gust_strength=_GUSTS,
+            gust_strength=_FINE_GUSTS[0],
+            gust_size=_FINE_GUSTS[1],
+            gust_time=_FINE_GUSTS[2],
             seed=self.whole.shot.settings.seed,
         )
 

@@ -8,6 +8,7 @@ the other. Grids: `density`, the extinction in 1/m; `fresh`, 1 where smoke is yo
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -30,10 +31,13 @@ _FAR = 80.0  # m, of the rest
 _LUMPS = {True: (340.0, (3.5, 2.5, 2.5)), False: (600.0, (2.5, 1.0, 1.0))}  # m; blur of the drift, cells
 _INSIDE, _FADE = 600.0, (700.0, 2500.0)  # m from a box's side where smoke ends, and in which it fades
 _SEEN = 1e-9  # kg/m3; thinner smoke is not looked at
+_BLOCK, _ROUND = 8, 300.0  # voxels that are seen or not as one; m round what is seen
 _THIN = 2.0e-5  # 1/m; thinner smoke is left out
 _GLOW_REACH, _GLOW_CORE, _GLOW_EVERY = 1100.0, 250.0, 3  # m, m, cells
 
 Array = NDArray[np.float64]
+Seen = Callable[[Array, float], NDArray[np.bool_]]
+"""Which balls of a radius (m) around places (n, 3) m are in view, or throw their shadow on what is."""
 
 
 @dataclass(frozen=True)
@@ -69,11 +73,24 @@ class Painter:
         self.shot, self.layer, self.inner = shot, layer, inner
 
     def write(
-        self, path: Path, frame: int, lights: tuple[Array, Array] | None, metadata: dict[str, str]
+        self,
+        path: Path,
+        frame: int,
+        lights: tuple[Array, Array] | None,
+        seen: Seen | None,
+        metadata: dict[str, str],
     ) -> volume.Frame:
-        """Write a frame's volume; `lights` are positions (n, 3) m and powers (n,) W of flames."""
+        """Write a frame's volume, or of it what is seen.
+
+        Parameters
+        ----------
+        lights
+            Positions (n, 3) m and powers (n,) W of flames; without them there is no glow.
+        """
         moment = moments.load(self.layer.part.moment(frame))
         origin, surface, share, count = self._brick(moment)
+        if seen is not None:
+            share = share * _seen_columns(seen, origin, self.layer.voxel, (*surface.shape, count))
         density, fresh, glow = self._detail(moment, lights).paint(
             origin, self.layer.voxel, surface, share, count
         )
@@ -151,6 +168,18 @@ class Painter:
             thickest=shot.settings.smoke.extinction or THICKEST,
             seed=shot.settings.seed,
         )
+
+
+def _seen_columns(
+    seen: Seen, origin: tuple[float, float, float], voxel: float, shape: tuple[int, int, int]
+) -> NDArray[np.bool_]:
+    """Columns of voxels (nx, ny) any part of which counts, or of those within `_ROUND` m of it."""
+    blocks = [-(-count // _BLOCK) for count in shape]
+    size = _BLOCK * voxel
+    middles = [low + (np.arange(n) + 0.5) * size - 0.5 * voxel for low, n in zip(origin, blocks, strict=True)]
+    places = np.stack(np.meshgrid(*middles, indexing="ij"), axis=-1).reshape(-1, 3)
+    found = seen(places, 0.5 * np.sqrt(3.0) * size + _ROUND).reshape(blocks).any(axis=2)
+    return found.repeat(_BLOCK, 0).repeat(_BLOCK, 1)[: shape[0], : shape[1]]
 
 
 def _inside(box: Box, x: Array, y: Array, fade: float) -> Array:

@@ -50,7 +50,7 @@ def keep(path: Path, solver: flow.Solver, drift: flow.Drift) -> None:
     smoke = solver.smoke()
     there = smoke > _NONE
     block = tuple(_range(there.any(axis=axes)) for axes in ((1, 2), (0, 2), (0, 1)))
-    block = (slice(0, max(block[0].stop, 2)), *block[1:])
+    block = (slice(0, max(block[0].stop, 2)), *(slice(part.start // 2 * 2, part.stop) for part in block[1:]))
     unseen = smoke[block] < _UNSEEN
     kept: Fields = {"smoke": smoke[block]}
     for name, found in (
@@ -59,7 +59,7 @@ def keep(path: Path, solver: flow.Solver, drift: flow.Drift) -> None:
         ("warmth", solver.warmth()),
     ):
         kept[name] = np.where(unseen, 0.0, np.clip(found[block], -6e4, 6e4)).astype(np.float16)
-    moved = drift.values()[block][::2, ::2, ::2]
+    moved = drift.values()[tuple(slice(part.start // 2, part.stop // 2 + 1) for part in block)]
     kept["drift"] = (np.round(moved / _DRIFT_STEP) * _DRIFT_STEP).astype(np.float16)
     mass = solver.mass()
     kept |= {
@@ -78,7 +78,7 @@ def load(path: Path) -> Moment:
     shape = kept["smoke"].shape
     drift = kept["drift"].astype(np.float32)
     for axis, count in enumerate(shape):
-        drift = np.repeat(drift, 2, axis)[(slice(None),) * axis + (slice(0, count),)]
+        drift = _doubled(drift, axis, count)
     fields = {name: kept[name].astype(np.float32) for name in ("smoke", "age", "rise", "warmth")}
     names = sorted(("initial", "emitted", "entered", "left", "airborne", "rounding"))
     return Moment(
@@ -98,6 +98,14 @@ def write(path: Path, arrays: Fields, packing: int = 0) -> None:
             part = io.BytesIO()
             np.lib.format.write_array(part, np.ascontiguousarray(array), allow_pickle=False)
             file.writestr(zipfile.ZipInfo(f"{name}.npy"), part.getbuffer(), way, packing or None)
+
+
+def _doubled(values: NDArray[np.float32], axis: int, count: int) -> NDArray[np.float32]:
+    """Values of every other one of `count` places, at all of them; linear between."""
+    values = np.moveaxis(values, axis, 0)
+    found = np.repeat(values, 2, 0)
+    found[1:-1:2] = 0.5 * (values[:-1] + values[1:])
+    return np.moveaxis(found[:count], 0, axis)
 
 
 def _range(there: NDArray[np.bool_]) -> slice:

@@ -151,18 +151,21 @@ class Solver:
         """
 
 class Drift:
-    """How far the air in each of a solver's cells has come since its phase began.
+    """How far the air in every other cell of a solver has come since its phase began.
 
     Noise at (place - drift) travels with the flow. Flow shears it into streaks in the end, so a phase begins anew
     every `period` s, and two of them, half a period apart, take turns (Neyret 2003, "Advected textures").
-    Semi-Lagrangian, linear between cells. Any number of threads gives the same digits.
+    Semi-Lagrangian, linear between. Any number of threads gives the same digits.
     """
 
     def __init__(self, solver: Solver, period: float = 120.0) -> None: ...
     def advance(self) -> None:
         """Go on to the solver's time with the wind that it has now: call it after each of its steps."""
     def values(self) -> NDArray[np.float32]:
-        """(nz, ny, nx, 2, 3) drift of both phases east, north and up along the levels, m."""
+        """(nz', ny', nx', 2, 3) drift of both phases east, north and up along the levels, m.
+
+        In the middles of cells 0, 2, 4 ... along each axis.
+        """
     def restore(self, time: float, values: ArrayLike) -> None:
         """Go on from values of this `time`, s."""
     @property
@@ -210,7 +213,7 @@ class Detail:
         blur: tuple[float, float, float] = (0.0, 0.0, 0.0),
         opacity: float = 1.0,
         thickest: float = 0.03,
-        ages: tuple[float, float] = (25.0, 800.0),
+        ages: tuple[float, float] = (20.0, 600.0),
         seed: int = 0,
     ) -> None: ...
     def paint(
