@@ -18,9 +18,9 @@ constexpr float soft_cut[] = {2.4F, 6.2F}, crisp_cut[] = {5.5F, 6.2F};
 constexpr float soft_gain = 1.5F, crisp_gain = 3.5F;
 constexpr float soft_reach = 2.0F; // of noise in the amount
 constexpr float crisp_reach[] = {0.8F, 7.0F};
-constexpr float lump_slope = 1.25F;
+constexpr float lump_slope = 1.4F;
 constexpr float core = 7.0F; // amount of a vigorous core at least
-constexpr float roughness = 0.65F;
+constexpr float roughness = 0.7F;
 constexpr double finer = 0.47;
 constexpr int lump_octaves = 3, most_octaves = 7;
 constexpr float root = 0.12F; // share of the extinction at the ground
@@ -320,7 +320,7 @@ void Detail::paint(const Brick& b, const Painted& out) const {
   }
   each(b.shape[0], [&](Index i) {
     Column c;
-    c.finest = 2.2 * b.voxel;
+    c.finest = 1.7 * b.voxel;
     c.x = b.origin[0] + static_cast<double>(i) * b.voxel;
     for (Index j = 0; j < b.shape[1]; ++j) {
       const auto column = static_cast<std::size_t>(i * b.shape[1] + j);

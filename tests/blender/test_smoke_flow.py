@@ -50,6 +50,7 @@ def test_what_frames_say_is_what_was_solved(shot):
     solved = flow.Flow(shot)
     assert len(solved.parts) == 2
     solved.ready(2)
+    assert solved._live is not None
     for part, solver in zip(solved.parts, solved._live.solvers, strict=True):
         moment = moments.load(part.moment(2))
         volume = solver.spacing**2 * np.diff(solver.levels)[: len(moment.fields["smoke"]), None, None]

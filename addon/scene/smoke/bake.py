@@ -120,8 +120,9 @@ def ahead(
 
 def estimate(shot: Shot, frames: Iterable[int]) -> int | None:
     """Bytes that the volumes of `frames` need, from the mean of those that are there; None without any."""
-    sizes = [path.stat().st_size for path in folder(shot).glob("smoke_*.vdb")]
-    return round(sum(sizes) / len(sizes) * len(_of_shot(shot, frames))) if sizes else None
+    sizes = {path.name: path.stat().st_size for path in folder(shot).glob("*.vdb")}
+    there = sum(name.startswith("smoke") for name in sizes)
+    return round(sum(sizes.values()) / there * len(_of_shot(shot, frames))) if there else None
 
 
 class _Line:

@@ -35,6 +35,7 @@ from . import air, boxes, cache, moments
 from .boxes import Box
 
 STATE = "state.npz"
+_MADE_BY = [f"scene/smoke/{name}.py" for name in ("air", "boxes", "flow", "moments", "stability")]
 WORK = "the smoke's flow"
 CONVECTED = 0.7  # of the heat rises with the air; the rest is radiated (Freeborn et al. 2008)
 SMOKE = 0.02 / burning.HEAT  # kg/J: a fiftieth of the burned fuel
@@ -137,12 +138,14 @@ class Flow:
         """See to it that the moments of all these frames are kept."""
         for frame in sorted(frames):
             self.ready(frame, progress)
+        with self._lock:
+            self._live = None  # half a gigabyte
 
     def _folder(self, of: list[Box]) -> Path:
         """Where the moments of the last of these boxes are kept."""
         shot = self.shot
         found = {
-            "sources": sources.of({"smoke"}, ()),
+            "sources": sources.of((), (), *_MADE_BY),
             "run": content.inputs(shot.run, shot.settings.cache, ("temperature", "smoke_3d")),
             "time": schema.chosen(shot.settings, {"time"}),
             "spin_up": shot.settings.smoke.spin_up,
