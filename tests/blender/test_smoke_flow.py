@@ -119,8 +119,10 @@ def test_baked_once_nothing_is_solved_again(shot, monkeypatch):
     assert {path.name for path in place.glob("*.vdb")} == {
         f"{name}_{frame:06d}.vdb" for name in ("smoke", "far") for frame in (1, 2)
     }
+    written = {path: path.stat().st_mtime_ns for path in place.iterdir()}
     monkeypatch.setattr(flow, "_Live", lambda whole: pytest.fail("solved again"))
     assert bake.bake(Shot(shot.settings, shot.run)) == place
+    assert {path: path.stat().st_mtime_ns for path in place.iterdir()} == written
 
 
 def test_a_moved_camera_keeps_the_flow(flowing, run, monkeypatch):
