@@ -10,7 +10,7 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from firetwin.scene.smoke import bake, boxes, flow, moments  # noqa: E402
+from firetwin.scene.smoke import bake, boxes, flow, moments, solving  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
 from firetwin_core import run as runs  # noqa: E402
 
@@ -85,7 +85,7 @@ def test_the_smoke_is_that_of_the_heat(shot):
 def test_going_on_after_an_interruption_gives_the_same_bytes(flowing, run, tmp_path, monkeypatch):
     whole = flow.Flow(Shot(replace(flowing, cache=tmp_path / "whole"), run))
     whole.ready(2)
-    monkeypatch.setattr(flow, "_SAVE", 0.0)
+    monkeypatch.setattr(solving, "_SAVE", 0.0)
     broken = replace(flowing, cache=tmp_path / "broken")
 
     def stop(done, total, what):
@@ -120,7 +120,7 @@ def test_baked_once_nothing_is_solved_again(shot, monkeypatch):
         f"{name}_{frame:06d}.vdb" for name in ("smoke", "far") for frame in (1, 2)
     }
     written = {path: path.stat().st_mtime_ns for path in place.iterdir()}
-    monkeypatch.setattr(flow, "_Live", lambda whole: pytest.fail("solved again"))
+    monkeypatch.setattr(flow, "Live", lambda whole: pytest.fail("solved again"))
     assert bake.bake(Shot(shot.settings, shot.run)) == place
     assert {path: path.stat().st_mtime_ns for path in place.iterdir()} == written
 
@@ -129,7 +129,7 @@ def test_a_moved_camera_keeps_the_flow(flowing, run, monkeypatch):
     """A little: both boxes. To where no nest helps: the box, whose moments are there already."""
     first = flow.Flow(Shot(flowing, run))
     first.ready(1)
-    monkeypatch.setattr(flow, "_Live", lambda whole: pytest.fail("solved again"))
+    monkeypatch.setattr(flow, "Live", lambda whole: pytest.fail("solved again"))
 
     def seen_from(latitude):
         camera = flowing.cameras[0]
