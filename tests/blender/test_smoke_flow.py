@@ -144,6 +144,13 @@ def test_a_moved_camera_keeps_the_flow(flowing, run, monkeypatch):
     far.ready(1)
 
 
+def test_no_box_is_wider_than_can_be_solved(shot, monkeypatch):
+    monkeypatch.setattr(boxes, "_WIDEST", 11_000.0)
+    monkeypatch.setattr(boxes, "_MARGIN", 30_000.0)
+    box = flow.Flow(shot).parts[0].box
+    assert max(box.shape) * box.spacing <= 12_000.0
+
+
 def test_a_stopped_flow_ends(shot):
     solved = flow.Flow(shot)
     solved.stop.set()

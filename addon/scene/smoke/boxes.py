@@ -19,6 +19,7 @@ LEAD = 600.0  # s that the nest is solved before the first frame: its own eddies
 _LEVELS, _NEST_LEVELS = (60.0, 270.0, 48), (36.0, 186.0, 56)  # lowest m, growth to the highest, count
 _MARGIN = 5000.0  # m round what burns: air that the fire draws in
 _DOWNWIND = (6000.0, 15_000.0)  # m that smoke is followed
+_WIDEST = 96_000.0  # m along a side; smoke of what burns farther out is left out
 _SHARE = 0.01  # of the heat that may lie outside of the middle on each side
 _NEST = 180  # cells along a side: 12 km
 _NEST_ROUND = 6000.0  # m; the nest's middle is that of the heat so near to what a camera looks at
@@ -72,6 +73,8 @@ def whole(shot: Shot, heat: Heat) -> Box | None:
         time = shot.settings.smoke.spin_up + shot.frames.last - shot.frames.first
         way = np.clip(1.5 * air.WIND * speed * time, *_DOWNWIND) * middle / speed
         low, high = low + np.minimum(way, 0.0), high + np.maximum(way, 0.0)
+    middle, half = 0.5 * (low + high), np.minimum(0.5 * (high - low), 0.5 * _WIDEST)
+    low, high = middle - half, middle + half
     corner = np.floor(low / SPACING) * SPACING
     columns, rows = (_even(int(np.ceil(side / SPACING))) for side in high - corner)
     return Box(_levels(_LEVELS), (rows, columns), SPACING, (float(corner[0]), float(corner[1])))
