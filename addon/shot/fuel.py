@@ -16,9 +16,8 @@ BURN_OUT_CANOPY = 90.0  # s, foliage and twigs (assumed)
 # (T = weight / 0.8514 with its weights 180 and 900).
 BURN_OUT_SURFACE = (120.0, 300.0)
 _OVER = 14.0  # burn-out times after which what is left, e^-14, is not worth a look
-_DETAIL = (
-    75.0  # m; fuel cells nearer than this burn as one: a finer run of the same fire makes no more of them
-)
+# m; fuel cells nearer than this burn as one: a finer run of the same fire makes no more of them.
+_DETAIL = 75.0
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

@@ -7,11 +7,8 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import burning
-
 FLAMING = 120.0  # s that a spot flames after the front reached it (assumed); later it smoulders
 SMOULDER_LIGHT = 0.1  # light of a smouldering watt over that of a flaming one (assumed)
-SMOKE = 0.02  # kg of smoke for each kg of fuel burned (WRF-SFIRE's fire_tracer_smoke)
 
 Array = NDArray[np.float64]
 
@@ -44,11 +41,6 @@ class Sources:
     def take(self, chosen: NDArray) -> Sources:
         """Some of the sources."""
         return Sources(*(getattr(self, field.name)[chosen] for field in fields(self)))
-
-    @property
-    def smoke(self) -> Array:
-        """(n,) kg/s: of the fuel whose heat of combustion they give."""
-        return self.power * (SMOKE / burning.HEAT)
 
     def luminous(self) -> Sources:
         """The same with the power that counts as light: of flames all, of smouldering fuel little."""

@@ -120,24 +120,27 @@ Occluder::Cells Occluder::cells(double left, double right, double low, double hi
           index((high - y_) / cell_)};
 }
 
-double Occluder::lowest(const Ball& ball) const {
-  const auto& [at, r] = ball;
-  Cells c = cells(at[0] - r, at[0] + r, at[1] - r, at[1] + r);
-  if (c.left < 0 || c.low < 0 || c.right >= blocks_[0].columns || c.high >= blocks_[0].rows) {
-    return double{none};
-  }
+template <class Visit> void Occluder::visit(Cells c, const Visit& visit) const {
   std::size_t k = 0;
   for (; c.right - c.left > 2 || c.high - c.low > 2; ++k) {
     c = {c.left / 2, c.right / 2, c.low / 2, c.high / 2};
   }
   const Blocks& blocks = blocks_[k];
-  float least = unset;
   for (long row = c.low; row <= c.high; ++row) {
     for (long column = c.left; column <= c.right; ++column) {
-      least =
-          std::min(least, blocks.lowest[static_cast<std::size_t>(row * blocks.columns + column)]);
+      visit(blocks, static_cast<std::size_t>(row * blocks.columns + column));
     }
   }
+}
+
+double Occluder::lowest(const Ball& ball) const {
+  const auto& [at, r] = ball;
+  const Cells c = cells(at[0] - r, at[0] + r, at[1] - r, at[1] + r);
+  if (c.left < 0 || c.low < 0 || c.right >= blocks_[0].columns || c.high >= blocks_[0].rows) {
+    return double{none};
+  }
+  float least = unset;
+  visit(c, [&](const Blocks& blocks, std::size_t i) { least = std::min(least, blocks.lowest[i]); });
   return double{least};
 }
 
@@ -147,18 +150,8 @@ double Occluder::highest(Cells c) const {
   if (c.left > c.right || c.low > c.high) {
     return double{none};
   }
-  std::size_t k = 0;
-  for (; c.right - c.left > 2 || c.high - c.low > 2; ++k) {
-    c = {c.left / 2, c.right / 2, c.low / 2, c.high / 2};
-  }
-  const Blocks& blocks = blocks_[k];
   float most = none;
-  for (long row = c.low; row <= c.high; ++row) {
-    for (long column = c.left; column <= c.right; ++column) {
-      most =
-          std::max(most, blocks.highest[static_cast<std::size_t>(row * blocks.columns + column)]);
-    }
-  }
+  visit(c, [&](const Blocks& blocks, std::size_t i) { most = std::max(most, blocks.highest[i]); });
   return double{most};
 }
 
