@@ -7,7 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 packages=(
   g++ cmake ninja-build pkg-config python3 python3-dev python3-venv
   libopenvdb-dev libboost-dev libimath-dev libblosc-dev libtbb-dev libopenimageio-dev libopenexr-dev
-  libgeographiclib-dev libtomlplusplus-dev libfast-float-dev
+  libgeographiclib-dev libtomlplusplus-dev libfast-float-dev libfftw3-dev
   # Libraries that Blender loads.
   libegl1 libgl1 libgl1-mesa-dri libxi6 libxrender1 libxkbcommon0 libxxf86vm1 libxfixes3 libsm6 libice6 libgomp1
 )

@@ -139,6 +139,18 @@ class Smoke:
     """The smoke volume."""
 
     enabled: bool = key(True, "draw the smoke")
+    method: str = key(
+        "puffs",
+        "where the run has none",
+        choices={"puffs": "balls, a second a frame", "flow": "air solved once per shot, in minutes"},
+    )
+    spin_up: float = key(
+        1800.0,
+        "how long before the first frame a flow begins",
+        unit="s",
+        at_least=0,
+        at_most=172_800,
+    )
     voxel_size: float = key(
         0.0, "edge of a voxel; 0 chooses it from the distance of the nearest camera", unit="m", at_least=0
     )

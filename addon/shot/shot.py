@@ -47,8 +47,10 @@ class Shot:
         self.settings, self.run = settings, run
         self.frames: Frames = frames.of(settings.time, run)
         self._filmed: dict[str, NDArray[np.int64]] = {}
-        before = settings.smoke.max_age + burning.BURN_TIME
-        self.fire = Fire(run, self.frames.first, self.frames.last, max(before, _BEFORE))
+        smoke = settings.smoke
+        since = smoke.spin_up if smoke.method == "flow" else smoke.max_age
+        before = max(since + burning.BURN_TIME, _BEFORE)
+        self.fire = Fire(run, self.frames.first, self.frames.last, before)
 
     def of(self, name: str) -> Shot:
         """The same shot with this camera alone: what it films depends on no other."""

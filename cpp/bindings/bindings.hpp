@@ -20,5 +20,7 @@ void init_forest(Module module);
 void init_particles(Module module);
 void init_volume(Module module);
 void init_sensor(Module module);
+void init_flow(Module module);
+void init_flow_detail(Module module);
 
 } // namespace firetwin::bindings

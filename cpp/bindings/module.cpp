@@ -54,4 +54,7 @@ PYBIND11_MODULE(firetwin_core, whole) {
   bindings::init_particles(module.def_submodule("particles"));
   bindings::init_volume(module.def_submodule("volume"));
   bindings::init_sensor(module.def_submodule("sensor"));
+  auto flow = module.def_submodule("flow");
+  bindings::init_flow(flow);
+  bindings::init_flow_detail(flow);
 }

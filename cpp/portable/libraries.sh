@@ -109,6 +109,11 @@ build_openimageio() {
     -DINTERNALIZE_FMT=OFF -DSTOP_ON_WARNING=OFF -DBoost_INCLUDE_DIR="$prefix/include" -DCMAKE_CXX_STANDARD=17
 }
 
+# Only the transforms of float32. The instructions of newer processors are chosen at run time.
+build_fftw3() {
+  with_cmake . -DENABLE_FLOAT=ON -DENABLE_SSE2=ON -DENABLE_AVX=ON -DENABLE_AVX2=ON -DBUILD_TESTS=OFF
+}
+
 build_fast-float() { with_cmake . -DFASTFLOAT_TEST=OFF; }
 
 build_tomlplusplus() { cp -r usr/include/toml++ "$prefix/include/"; }

@@ -12,7 +12,7 @@ packages=(
   xvfb xdotool imagemagick libgl1-mesa-dri libegl1
   g++ cmake ninja-build pkgconf python3-dev python3-venv
   libopenvdb-dev libboost-dev libimath-dev libblosc-dev libtbb-dev libopenimageio-dev libopenexr-dev
-  libgeographiclib-dev libtomlplusplus-dev libfast-float-dev
+  libgeographiclib-dev libtomlplusplus-dev libfast-float-dev libfftw3-dev
 )
 
 say() { echo "window: $*" >&2; }

@@ -20,8 +20,9 @@ from ...progress import Progress, Tell, count, silent, size, untold
 from ...run import content
 from ...shot import schema, sources
 from ...shot.shot import Shot
-from . import baker, cache
+from . import baker, cache, flow_frames
 from .baker import Baker
+from .flow import Flow
 from .view import resolution, shot_frames
 
 __all__ = ["Baker", "ahead", "bake", "estimate", "file", "folder", "resolution", "shot_frames"]
@@ -66,6 +67,8 @@ def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None =
     if not missing:
         return place
     maker = Baker(shot)
+    if maker.flow:
+        maker.flow.solve(missing, progress)
     with cache.in_use(place), ThreadPoolExecutor(_at_once(len(missing))) as pool:
         tasks = [pool.submit(maker.write, _in(place, frame), frame) for frame in missing]
         try:
@@ -112,13 +115,14 @@ def ahead(
         try:
             yield line.ready
         finally:
-            line.pool.shutdown(cancel_futures=True)
+            line.close()
 
 
 def estimate(shot: Shot, frames: Iterable[int]) -> int | None:
     """Bytes that the volumes of `frames` need, from the mean of those that are there; None without any."""
-    sizes = [path.stat().st_size for path in folder(shot).glob("smoke_*.vdb")]
-    return round(sum(sizes) / len(sizes) * len(_of_shot(shot, frames))) if sizes else None
+    sizes = {path.name: path.stat().st_size for path in folder(shot).glob("*.vdb")}
+    there = sum(name.startswith("smoke") for name in sizes)
+    return round(sum(sizes.values()) / there * len(_of_shot(shot, frames))) if there else None
 
 
 class _Line:
@@ -133,7 +137,16 @@ class _Line:
 
     @functools.cached_property
     def maker(self) -> Baker:
-        return Baker(self.shot)
+        maker = Baker(self.shot)
+        if maker.flow:
+            maker.flow.progress = lambda *done: self.progress(*done)
+        return maker
+
+    def close(self) -> None:
+        """Let go of frames that nobody waits for any more."""
+        if "maker" in self.__dict__ and self.maker.flow:
+            self.maker.flow.stop.set()
+        self.pool.shutdown(cancel_futures=True)
 
     def ready(self, frame: int, ahead: Iterable[int] | None = None) -> None:
         """Wait for a frame and have the next one begun."""
@@ -196,8 +209,16 @@ def _key(shot: Shot, progress: Progress) -> str:
     """Hash of everything that the volumes depend on."""
     settings, complete = shot.settings, shot.settings.smoke.complete
     found = schema.chosen(settings, {"time", "smoke"} if complete else {"time", "smoke", "camera", "ground"})
+    solved = baker.solved(shot)
+    drawn = [round(resolution(shot).voxel, 3)]
     for name in _NOT_IN_FILES:
         del found["smoke"][name]
+    if solved:
+        flow = Flow(shot)
+        drawn = [[each.name, each.voxel, flow_frames.THICKEST] for each in flow_frames.layers(shot, flow)]
+        found["flow"] = [flow.key(), settings.smoke.extinction]
+    else:
+        del found["smoke"]["method"], found["smoke"]["spin_up"]
     if not complete:  # what is left out depends on what the cameras see, and when
         width, height = settings.render.resolution
         for camera in found.get("cameras", ()):
@@ -208,7 +229,7 @@ def _key(shot: Shot, progress: Progress) -> str:
             "sources": sources.of({"smoke"}, settings.cameras),
             "run": content.inputs(shot.run, settings.cache, ("temperature",), progress),
             "settings": found,
-            "voxel": round(resolution(shot).voxel, 3),
+            "voxel": drawn,
             "grids": None if complete else baker.SHOWN,
         }
     )

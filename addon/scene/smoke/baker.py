@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+import functools
 import uuid
 from pathlib import Path
 from typing import Any
 
 import firetwin_core
 import numpy as np
-from firetwin_core import volume
+from firetwin_core import lod, volume
 from numpy.typing import NDArray
 
 from ... import files
 from ...errors import Error, writing
 from ...shot import burning, heat
-from ...shot.fire import Fire
+from ...shot.fire import Cells, Fire
 from ...shot.shot import Shot
-from . import cache, stability
+from . import cache, flow_frames, stability
+from .flow import Flow
 from .view import resolution
 
 SHOWN = ("density", "dilution", "shade", "size", "glow")  # grids that the material asks for
@@ -34,10 +36,21 @@ class Baker:
         whole = shot.settings.smoke.complete
         self.grids = None if whole else SHOWN
         self.sights = None if whole else shot.sights
+        self.flow = Flow(shot) if solved(shot) else None
         self.times = shot.frames.times
-        first = self.times[0] - shot.settings.smoke.max_age - burning.BURN_TIME
-        # Cells of the interval that goes on at the last frame belong to its puffs.
-        self.cells = shot.fire.cells(first, self.times[-1] + 600.0)
+
+    @functools.cached_property
+    def cells(self) -> Cells:
+        """What burns and makes puffs; cells of the interval that goes on at the last frame belong to its."""
+        first = self.times[0] - self.shot.settings.smoke.max_age - burning.BURN_TIME
+        return self.shot.fire.cells(first, self.times[-1] + 600.0)
+
+    @functools.cached_property
+    def painters(self) -> list[flow_frames.Painter]:
+        """One for each layer of a solved flow."""
+        found = flow_frames.layers(self.shot, self.flow)
+        inner = found[-1].part.box if len(found) > 1 else None
+        return [flow_frames.Painter(self.shot, layer, None if layer.fine else inner) for layer in found]
 
     def puffs(self, frame: int) -> volume.Puffs:
         """Smoke of a frame."""
@@ -58,27 +71,25 @@ class Baker:
         )
 
     def write(self, path: Path, frame: int) -> volume.Frame:
-        """Write the volume of a frame: from the model's own smoke where the run has it, else from puffs.
+        """Write the volume of a frame: from the model's own smoke where the run has it, else as settings say.
 
         The file is there when it is complete, also where several threads or processes write it at once.
         """
         time = float(self.times[frame - 1])
         position, power = lights(self.shot.fire, time)
+        if self.flow:
+            return self._write_flow(path, frame, (position, power))
         own = self.shot.run.has("smoke_3d")
         more: dict[str, Any] = {
             "grids": self.grids,
-            "sight": self.sights.at(frame) if self.sights else None,
-            "metadata": {
-                "run": self.shot.run.name,
-                "smoke": "of the model, smoke_3d" if own else "puffs from burned fuel, heat and wind",
-                "model_time_s": f"{time:.3f}",
-                "origin": "centre of the model grid, height 0; x east, y north, z up, metres",
-                "firetwin_core": firetwin_core.__version__,
-            },
+            "sight": self._sight(frame),
+            "metadata": self._metadata(
+                time, "of the model, smoke_3d" if own else "puffs from burned fuel, heat and wind"
+            ),
         }
         if len(power):
             more |= {"flame_position": position, "flame_power": power}
-        mine = path.with_name(f"{path.name}.{uuid.uuid4().hex[:8]}.tmp")
+        mine = _part(path)
         with writing(path):
             if own:
                 written = self._write_levels(mine, time, more)
@@ -86,6 +97,39 @@ class Baker:
                 written = volume.write_smoke(mine, self.puffs(frame), self.resolution.voxel, **more)
         _put(mine, path, written.bytes)
         return written
+
+    def _metadata(self, time: float, smoke: str) -> dict[str, str]:
+        return {
+            "run": self.shot.run.name,
+            "smoke": smoke,
+            "model_time_s": f"{time:.3f}",
+            "origin": "centre of the model grid, height 0; x east, y north, z up, metres",
+            "firetwin_core": firetwin_core.__version__,
+        }
+
+    def _write_flow(self, path: Path, frame: int, lit: tuple[NDArray, NDArray]) -> volume.Frame:
+        """Write the volumes of a frame of the flow, which is solved up to there; that of this path last."""
+        self.flow.ready(frame)
+        time = float(self.times[frame - 1])
+        metadata = self._metadata(time, "a flow of the air, solved from the model's heat")
+        lights = lit if flow_frames.dark(self.shot.sun(time)[1]) else None
+        for painter in self.painters:
+            place = painter.layer.file(path.parent, frame)
+            mine = _part(place)
+            with writing(place):
+                written = painter.write(mine, frame, lights, self._sight(frame), metadata)
+            _put(mine, place, written.bytes)
+        if not self.painters:
+            mine = _part(path)
+            with writing(path):
+                nothing = {name: np.zeros((1, 1, 1)) for name in flow_frames.GRIDS}
+                written = volume.write(mine, nothing, 100.0, metadata=metadata)
+            _put(mine, path, written.bytes)
+        return written
+
+    def _sight(self, frame: int) -> lod.Sight | None:
+        """What the cameras see in a frame, if only that is wanted."""
+        return self.sights.at(frame) if self.sights else None
 
     def _write_levels(self, path: Path, time: float, more: dict[str, Any]) -> volume.Frame:
         """Write the model's own smoke; outside of its times there is none."""
@@ -107,6 +151,15 @@ class Baker:
             self.resolution.voxel,
             **more,
         )
+
+
+def solved(shot: Shot) -> bool:
+    """Whether smoke is a solved flow: chosen, and the run has none of its own."""
+    return shot.settings.smoke.method == "flow" and not shot.run.has("smoke_3d")
+
+
+def _part(path: Path) -> Path:
+    return path.with_name(f"{path.name}.{uuid.uuid4().hex[:8]}.tmp")
 
 
 def _put(mine: Path, path: Path, size: int) -> None:

@@ -1,8 +1,9 @@
-"""The smoke of the shot as one volume object that shows the baked file of each frame."""
+"""The smoke of the shot as volume objects that show the baked files of each frame."""
 
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
@@ -10,7 +11,8 @@ import bpy
 from ...blender import compat, owned
 from ...blender.owned import Stage
 from ...shot.shot import Shot
-from . import bake, layers, material, view
+from . import bake, baker, flow_frames, flow_material, layers, material, view
+from .flow import Flow
 
 _MAX_STEPS = 8192  # Cycles lengthens steps of rays that would need more; 1024 of them are 12 km
 
@@ -24,23 +26,59 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
     collection = stage.part("Smoke")
     if not shot.settings.smoke.enabled:
         return None
-    drawn = view.resolution(shot)
-    volume = bpy.data.volumes.new("Firetwin Smoke")
-    volume.filepath = str(bake.file(shot, 1))
+    parts = _parts(shot)
+    if stage.own:
+        _march(stage.scene.cycles)
+        _slices(stage.scene.eevee, *view.span(shot))
+    layers.build(collection, len(parts))
+    look = (flow_material if baker.solved(shot) else material).build(shot, stage)
+    return [_hang(shot, stage, collection, part, look) for part in parts][-1]
+
+
+@dataclass(frozen=True)
+class _Part:
+    """Files of one name: what their object is called, the first, voxel and step in m, extinction in 1/m."""
+
+    name: str
+    first: Path
+    voxel: float
+    step: float
+    extinction: float
+
+
+def _parts(shot: Shot) -> list[_Part]:
+    first, drawn = bake.file(shot, 1), view.resolution(shot)
+    if not baker.solved(shot):
+        return [_Part("Smoke", first, drawn.voxel, drawn.step, drawn.extinction)]
+    thickest = shot.settings.smoke.extinction or flow_frames.THICKEST
+    found = [
+        _Part(
+            "Smoke" if layer.name == "smoke" else "Far Smoke",
+            layer.file(first.parent, 1),
+            layer.voxel,
+            view.STEP_DEPTH / thickest * (1.0 if layer.fine else 2.0),
+            thickest,
+        )
+        for layer in flow_frames.layers(shot, Flow(shot))
+    ]
+    return found or [_Part("Smoke", first, 100.0, 100.0, thickest)]
+
+
+def _hang(
+    shot: Shot, stage: Stage, collection: bpy.types.Collection, part: _Part, look: bpy.types.Material
+) -> bpy.types.Object:
+    volume = bpy.data.volumes.new(f"Firetwin {part.name}")
+    volume.filepath = str(part.first)
     volume.is_sequence = True
     volume.frame_start, volume.frame_duration, volume.frame_offset = 1, shot.frames.count, 0
     volume.sequence_mode = "CLIP"
     volume.render.space = "WORLD"
-    volume.render.step_size = drawn.step
-    volume.display.density = drawn.extinction  # in the solid view, like the render's
+    volume.render.step_size = part.step
+    volume.display.density = part.extinction  # in the solid view, like the render's
     volume.display.wireframe_type = "NONE"
-    volume.materials.append(material.build(shot, stage))
-    if stage.own:
-        _march(stage.scene.cycles)
-        _slices(stage.scene.eevee, *view.span(shot))
-    layers.build(collection)
-    thing = owned.add(collection, "Smoke", volume)
-    shift = compat.volume_shift(stage.scene.cycles, drawn.voxel)
+    volume.materials.append(look)
+    thing = owned.add(collection, part.name, volume)
+    shift = compat.volume_shift(stage.scene.cycles, part.voxel)
     thing.location = (shift, shift, shift)
     return thing
 

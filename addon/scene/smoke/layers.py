@@ -16,12 +16,15 @@ import bpy
 
 from ...blender import nodes, owned
 
-_COUNT = 29  # with the smoke, the end mark and the world's volume, the 32 that Cycles holds
+_COUNT = 29  # with one volume of smoke, the end mark and the world's volume, the 32 that Cycles holds
 _DEPTH = -5000.0  # m
 
 
-def build(collection: bpy.types.Collection) -> None:
-    """Build "Firetwin Smoke Layers": `_COUNT` instances of one empty volume, all in one place."""
+def build(collection: bpy.types.Collection, smokes: int = 1) -> None:
+    """Build "Firetwin Smoke Layers", instances of one empty volume, all in one place.
+
+    With the volumes of smoke that there are, as many as Cycles holds.
+    """
     material, tree = nodes.material("Firetwin Smoke Layers")
     tree.volume(tree.output("ShaderNodeVolumeAbsorption", {"Density": 0.0}))
     mesh = bpy.data.meshes.new("Firetwin Smoke Layer")
@@ -30,7 +33,7 @@ def build(collection: bpy.types.Collection) -> None:
     )
     mesh.materials.append(material)
     points = bpy.data.meshes.new("Firetwin Smoke Layers")
-    points.from_pydata([(0.0, 0.0, _DEPTH)] * _COUNT, [], [])
+    points.from_pydata([(0.0, 0.0, _DEPTH)] * (_COUNT + 1 - smokes), [], [])
     all_of_them = owned.add(collection, "Smoke Layers", points)
     all_of_them.instance_type = "VERTS"
     all_of_them.show_instancer_for_render = all_of_them.show_instancer_for_viewport = False

@@ -30,7 +30,7 @@ _CLIMB = 1.0  # m/s
 _VEIL = (0.002, 0.005)  # dilution between which thin smoke fades; volumes end at the lower one
 _LOW, _HIGH = (0.62, 0.53, 0.44), (0.95, 0.945, 0.94)  # albedo near the ground and far up
 _MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
-_GLOW = (1.0, 0.25, 0.04)
+GLOW = (1.0, 0.25, 0.04)
 _GLOW_LIGHT = 0.018, 0.28  # radiance of thick smoke amid 1 GW of luminous heat, by day and by night
 
 
@@ -64,10 +64,10 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     density = (depth + reach * (noise - _MEAN_BILLOW)).smoothstep(*_EDGE) * full
     part, air = haze.fraction(tree, stage)
     scattered = tree.mix_colour(part, albedo, (0.0, 0.0, 0.0))
-    glow = tree.attribute("glow") * (1.0 - part) * _glow_light(shot)
+    glow = tree.attribute("glow") * (1.0 - part) * glow_light(shot)
 
     def seen(density: nodes.Value) -> nodes.Value:
-        light = tree.add_shader(tree.emission(air, part * density), tree.emission(_GLOW, glow * density))
+        light = tree.add_shader(tree.emission(air, part * density), tree.emission(GLOW, glow * density))
         return tree.add_shader(_smoke(tree, density, scattered), light)
 
     # A mix by 0 or 1 evaluates one side only: deep inside, the noise changes nothing and is left out.
@@ -82,7 +82,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     return material
 
 
-def _glow_light(shot: Shot) -> float:
+def glow_light(shot: Shot) -> float:
     """Light of the flames on smoke in the middle of the shot: by day the sky's drowns it."""
     height = shot.sun(shot.frames.middle)[1]
     return float(_GLOW_LIGHT[1] + (_GLOW_LIGHT[0] - _GLOW_LIGHT[1]) * smoothstep(-8.0, 8.0, height))

@@ -11,7 +11,7 @@ from ...shot.settings import Camera, Settings
 from ...shot.shot import Shot
 
 _NEAR, _BEHIND = 0.1, 25_000.0  # part of the fire's distance, and m beyond it, between which smoke shows
-_STEP_DEPTH = 0.8  # optical depth of a step through thick smoke; much longer steps lose smoke
+STEP_DEPTH = 0.8  # optical depth of a step through thick smoke; much longer steps lose smoke
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Resolution:
     step
         Step along rays through the smoke, m.
     extinction
-        Of thick smoke, 1/m; see _STEP_DEPTH.
+        Of thick smoke, 1/m; see STEP_DEPTH.
     """
 
     voxel: float
@@ -37,8 +37,8 @@ def resolution(shot: Shot) -> Resolution:
     """The scene file's voxel size and extinction, where it gives them, else those for the cameras."""
     smoke = shot.settings.smoke
     voxel = smoke.voxel_size or float(np.clip(70.0 * (shot.fire_distance / 4000.0) ** 0.4, 50.0, 160.0))
-    extinction = smoke.extinction or float(np.clip(_STEP_DEPTH / (1.2 * voxel), 0.009, 0.03))
-    return Resolution(voxel, _STEP_DEPTH / extinction, extinction)
+    extinction = smoke.extinction or float(np.clip(STEP_DEPTH / (1.2 * voxel), 0.009, 0.03))
+    return Resolution(voxel, STEP_DEPTH / extinction, extinction)
 
 
 def span(shot: Shot) -> tuple[float, float]:

@@ -1,0 +1,139 @@
+"""Where a flow of smoke is solved: a box round what burns, and a finer one where cameras look. No Blender."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...shot.fire import Fire
+from ...shot.shot import Shot
+from . import air
+
+SPACING = 200.0  # m; coarser than this a column has no turrets, and its far end needs no more
+FINER = 3  # cells of the nest along one of the box's: 67 m
+STEP = 10.0  # s, of the box; what is carried takes substeps
+LEAD = 600.0  # s that the nest is solved before the first frame: its own eddies need them
+_LEVELS, _NEST_LEVELS = (60.0, 270.0, 48), (36.0, 186.0, 56)  # lowest m, growth to the highest, count
+_MARGIN = 5000.0  # m round what burns: air that the fire draws in
+_DOWNWIND = (6000.0, 15_000.0)  # m that smoke is followed
+_WIDEST = 96_000.0  # m along a side; smoke of what burns farther out is left out
+_SHARE = 0.01  # of the heat that may lie outside of the middle on each side
+_NEST = 180  # cells along a side: 12 km
+_NEST_ROUND = 6000.0  # m; the nest's middle is that of the heat so near to what a camera looks at
+_NEST_SEEN = 60_000.0  # m; cameras farther away see nothing that the nest adds
+_SNAP = 1000.0  # m; a nest stays where it is when a camera moves a little
+_EVEN = (1, 2, 3, 5)  # sides have no other factors, for the transforms
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Box:
+    """Square cells of `spacing` m on levels (nz + 1,) m above ground, from the corner of least x and y."""
+
+    levels: tuple[float, ...]
+    shape: tuple[int, int]
+    spacing: float
+    corner: tuple[float, float]
+
+    def plain(self) -> list[object]:
+        """As JSON can carry it."""
+        return [list(self.levels), list(self.shape), self.spacing, list(self.corner)]
+
+    def middles(self) -> tuple[Array, Array]:
+        """Columns' x (nx,) and rows' y (ny,) in the cells' middles, m."""
+        return tuple(
+            low + (np.arange(n) + 0.5) * self.spacing
+            for low, n in zip(self.corner, self.shape[::-1], strict=True)
+        )
+
+    @property
+    def high(self) -> tuple[float, float]:
+        """The corner of greatest x and y."""
+        return tuple(low + n * self.spacing for low, n in zip(self.corner, self.shape[::-1], strict=True))
+
+
+def whole(shot: Shot) -> Box | None:
+    """The box round what burns from the flow's beginning to the last frame; None where nothing does.
+
+    It does not depend on the cameras.
+    """
+    begin = shot.frames.first - shot.settings.smoke.spin_up
+    bounds = [_bounds(shot.fire, time) for time in np.linspace(begin, shot.frames.last, 5)]
+    found = np.array([each for each in bounds if each is not None])
+    if len(found) == 0:
+        return None
+    low, high = found[:, 0].min(axis=0) - _MARGIN, found[:, 1].max(axis=0) + _MARGIN
+    middle = np.array(shot.wind)
+    speed = float(np.hypot(*middle))
+    if speed > 0.0:
+        time = shot.settings.smoke.spin_up + shot.frames.last - shot.frames.first
+        way = np.clip(1.5 * air.WIND * speed * time, *_DOWNWIND) * middle / speed
+        low, high = low + np.minimum(way, 0.0), high + np.maximum(way, 0.0)
+    middle, half = 0.5 * (low + high), np.minimum(0.5 * (high - low), 0.5 * _WIDEST)
+    low, high = middle - half, middle + half
+    corner = np.floor(low / SPACING) * SPACING
+    columns, rows = (_even(int(np.ceil(side / SPACING))) for side in high - corner)
+    return Box(_levels(_LEVELS), (rows, columns), SPACING, (float(corner[0]), float(corner[1])))
+
+
+def nest(shot: Shot, around: Box) -> Box | None:
+    """The finer box round the heat that the cameras look at; None where no camera in perspective is near."""
+    near = [
+        view.target.mean(axis=0)
+        for view in shot.near
+        if np.hypot(*(view.position - view.target).mean(axis=0)[:2]) < _NEST_SEEN
+    ]
+    if not near:
+        return None
+    sources = shot.fire.sources(shot.frames.middle)
+    if len(sources.power) == 0:
+        return None
+    place, power = sources.position[:, :2], sources.power
+    target = np.mean(near, axis=0)[:2]
+    nearest = place[np.argmin(np.hypot(*(place - target).T))]
+    close = np.hypot(*(place - nearest).T) < _NEST_ROUND
+    middle = np.average(place[close], axis=0, weights=power[close])
+    side = _NEST * SPACING / FINER
+    room = 4.0 * SPACING
+    corner = np.round((middle - 0.5 * side) / _SNAP) * _SNAP
+    corner = np.clip(corner, np.array(around.corner) + room, np.array(around.high) - side - room)
+    corner = np.round(corner / SPACING) * SPACING
+    if np.any(corner < np.array(around.corner) + room):  # the box is hardly wider than the nest
+        return None
+    return Box(_levels(_NEST_LEVELS), (_NEST, _NEST), SPACING / FINER, (float(corner[0]), float(corner[1])))
+
+
+def _levels(depths: tuple[float, float, int]) -> tuple[float, ...]:
+    """Levels whose depth grows evenly, m above ground."""
+    lowest, growth, count = depths
+    k = np.arange(count + 1)
+    return tuple(float(each) for each in lowest * k + 0.5 * growth / count * k * k)
+
+
+def _bounds(fire: Fire, time: float) -> Array | None:
+    """Lowest and highest x and y (2, 2) of all heat but a little, m."""
+    sources = fire.sources(time)
+    if sources.power.sum() <= 0.0:
+        return None
+    sides = []
+    for axis in (0, 1):
+        order = np.argsort(sources.position[:, axis], kind="stable")
+        share = np.cumsum(sources.power[order])
+        ends = np.searchsorted(share, share[-1] * np.array([_SHARE, 1.0 - _SHARE]))
+        sides.append(sources.position[order[np.minimum(ends, len(order) - 1)], axis])
+    return np.array(sides).T
+
+
+def _even(cells: int) -> int:
+    """The next number of cells, at least 48, that transforms like: 2, 3 and 5 are its only factors."""
+    for count in range(max(cells, 48), 10 * max(cells, 48)):
+        left = count
+        for factor in _EVEN[1:]:
+            while left % factor == 0:
+                left //= factor
+        if left == 1 and count % 2 == 0:
+            return count
+    raise AssertionError("there is always a power of two")

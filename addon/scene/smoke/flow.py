@@ -1,0 +1,146 @@
+"""Smoke as a flow of the air, solved once per shot and kept at the moments of its frames. Needs no Blender.
+
+It is solved from `smoke.spin_up` seconds before the first frame on a box round the fire, and from
+`boxes.LEAD` before it also on a finer one where cameras look. What it is made of are the model's own heat and
+the smoke that goes with it; wind, temperature and water around are those of `air`. Nothing that it depends on
+but the finer box comes from the cameras.
+
+Moments lie in ``<cache>/<key>/moment_000001.npz``, one folder for each box, and beside them `solving.STATE`,
+from which solving goes on where it was interrupted. Both are the same to the last byte however often it was.
+"""
+
+from __future__ import annotations
+
+import functools
+import threading
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...progress import Progress, silent
+from ...run import content
+from ...shot import schema, sources
+from ...shot.shot import Shot
+from . import boxes
+from .boxes import Box
+from .solving import Live, StoppedError
+
+_MADE_BY = [f"scene/smoke/{name}.py" for name in ("air", "boxes", "flow", "moments", "solving", "stability")]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Part:
+    """One box, the ground in it (rows, columns), m, and the folder of its moments.
+
+    Levels follow the ground about its mean in the outermost box, less and less up to that box's top, m.
+    """
+
+    box: Box
+    ground: Array
+    mean: float
+    top: float
+    folder: Path
+
+    def heights(self) -> Array:
+        """Of cells' middles (nz, rows, columns), m."""
+        levels = np.array(self.box.levels)
+        middles = 0.5 * (levels[1:] + levels[:-1])[:, None, None]
+        return self.mean + middles + (self.ground - self.mean) * np.maximum(1.0 - middles / self.top, 0.0)
+
+    def moment(self, frame: int) -> Path:
+        """The file of a frame's moment."""
+        return self.folder / f"moment_{frame:06d}.npz"
+
+
+class Flow:
+    """The flow of a shot. Several threads may ask for its moments."""
+
+    def __init__(self, shot: Shot, progress: Progress = silent) -> None:
+        self.shot = shot
+        self.progress = progress
+        self.stop = threading.Event()
+        self._lock = threading.Lock()
+        self._live: Live | None = None
+
+    @property
+    def begin(self) -> float:
+        """Model time (s) at which it begins."""
+        return self.shot.frames.first - self.shot.settings.smoke.spin_up
+
+    @functools.cached_property
+    def parts(self) -> list[Part]:
+        """The box, and the finer one in it if there is one; none where nothing burns."""
+        box = boxes.whole(self.shot)
+        if box is None:
+            return []
+        fine = boxes.nest(self.shot, box)
+        ground = _ground(self.shot, box, 2)
+        mean, top = float(ground.mean()), box.levels[-1]
+        found = [Part(box, ground, mean, top, self._folder([box]))]
+        if fine is not None:
+            ground = _ground(self.shot, fine, 8)
+            found.append(Part(fine, ground, mean, top, self._folder([box, fine])))
+        return found
+
+    def key(self) -> list[str]:
+        """What its moments are known by."""
+        return [part.folder.name for part in self.parts]
+
+    def ready(self, frame: int, progress: Progress | None = None) -> None:
+        """See to it that the moments of a frame are kept; solves up to there if they are not.
+
+        Raises
+        ------
+        StoppedError
+            `stop` was set meanwhile.
+        InputError
+            The cache cannot be written.
+        """
+        with self._lock:
+            if all(part.moment(frame).exists() for part in self.parts):
+                return
+            if self._live is None or self._live.frame >= frame:
+                self._live = Live(self)
+            self._live.solve(frame, progress or self.progress)
+
+    def solve(self, frames: Iterable[int], progress: Progress = silent) -> None:
+        """See to it that the moments of all these frames are kept."""
+        for frame in sorted(frames):
+            self.ready(frame, progress)
+        with self._lock:
+            self._live = None  # half a gigabyte
+
+    def _folder(self, of: list[Box]) -> Path:
+        """Where the moments of the last of these boxes are kept."""
+        shot = self.shot
+        found = {
+            "sources": sources.of((), (), *_MADE_BY),
+            "run": content.inputs(shot.run, shot.settings.cache, ("temperature", "smoke_3d")),
+            "time": schema.chosen(shot.settings, {"time"}),
+            "spin_up": shot.settings.smoke.spin_up,
+            "fuel_since": shot.fire.before,
+            "seed": shot.settings.seed,
+            "boxes": [box.plain() for box in of],
+        }
+        return shot.settings.cache.absolute() / content.fingerprint(found)
+
+
+def _ground(shot: Shot, box: Box, smoothings: int) -> Array:
+    """Height of the ground in a box's cells (rows, columns), m, without what is finer than cells."""
+    x, y = box.middles()
+    height = shot.bare_ground.up(np.tile(x, len(y)), np.repeat(y, len(x))).reshape(len(y), len(x))
+    for _ in range(smoothings):
+        for axis in (0, 1):
+            edged = np.pad(height, [(1, 1) if a == axis else (0, 0) for a in (0, 1)], "edge")
+            count = height.shape[axis]
+            low, here, high = (edged.take(range(k, k + count), axis) for k in range(3))
+            height = 0.25 * (low + high) + 0.5 * here
+    return height
+
+
+__all__ = ["Flow", "Part", "StoppedError"]

@@ -1,0 +1,222 @@
+"""Writes the frames of a solved flow as OpenVDB files, with detail below its cells. Needs no Blender.
+
+A frame is one file, or two: the nest's part, and the rest with larger voxels; where they meet, one fades into
+the other. Grids: `density`, the extinction in 1/m; `fresh`, 1 where smoke is young and 0 where it is old; and
+`glow`, the light of flames as `firetwin_core.volume.write_smoke` has it, in the dark.
+"""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from firetwin_core import flow, lod, volume
+from numpy.typing import NDArray
+
+from ...shot import noise
+from ...shot.shot import Shot
+from . import moments
+from .boxes import Box
+from .flow import Flow, Part
+
+GRIDS = ("density", "fresh", "glow")
+THICKEST = 0.03  # 1/m, at which extinction levels off: more is as opaque and takes shorter steps
+_NEAR = (26.0, 36.0)  # m, voxels of the nest from 8 km and from 40 km away
+_DISTANCE = (8000.0, 40_000.0)
+_FAR = 80.0  # m, of the rest
+_LUMPS = {True: (340.0, (3.5, 2.5, 2.5)), False: (600.0, (2.5, 1.0, 1.0))}  # m; blur of the drift, cells
+_INSIDE, _FADE = 600.0, (700.0, 2500.0)  # m from a box's side where smoke ends, and in which it fades
+_SEEN = 1e-9  # kg/m3; thinner smoke is not looked at
+_THIN = 2.0e-5  # 1/m; thinner smoke is left out
+_GLOW_REACH, _GLOW_CORE, _GLOW_EVERY = 1100.0, 250.0, 3  # m, m, cells
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A part of the smoke as it is drawn: voxels of one size (m) in files of one name."""
+
+    name: str
+    part: Part
+    voxel: float
+    fine: bool
+
+    def file(self, folder: Path, frame: int) -> Path:
+        """Its volume of a frame."""
+        return folder / f"{self.name}_{frame:06d}.vdb"
+
+
+def layers(shot: Shot, solved: Flow) -> list[Layer]:
+    """The layers of a shot's smoke; the last, which is written last, is named "smoke" as all smoke is."""
+    parts = solved.parts
+    if not parts:
+        return []
+    wanted = shot.settings.smoke.voxel_size
+    if len(parts) == 1:
+        return [Layer("smoke", parts[0], wanted or _FAR, False)]
+    near = float(np.interp(np.log(shot.fire_distance), np.log(_DISTANCE), _NEAR))
+    return [Layer("far", parts[0], max(wanted, _FAR), False), Layer("smoke", parts[1], wanted or near, True)]
+
+
+class Painter:
+    """Writes the volumes of one layer."""
+
+    def __init__(self, shot: Shot, layer: Layer, inner: Box | None) -> None:
+        self.shot, self.layer, self.inner = shot, layer, inner
+
+    def write(
+        self,
+        path: Path,
+        frame: int,
+        lights: tuple[Array, Array] | None,
+        sight: lod.Sight | None,
+        metadata: dict[str, str],
+    ) -> volume.Frame:
+        """Write a frame's volume, or of it what is seen.
+
+        Parameters
+        ----------
+        lights
+            Positions (n, 3) m and powers (n,) W of flames; without them there is no glow.
+        """
+        moment = moments.load(self.layer.part.moment(frame))
+        origin, surface, share, count = self._brick(moment)
+        density, fresh, glow = self._detail(moment, lights).paint(
+            origin, self.layer.voxel, surface, share, count
+        )
+        density[density < _THIN] = 0.0
+        grids: dict[str, Any] = {"density": density, "fresh": fresh}
+        if glow is not None:
+            grids["glow"] = glow
+        metadata = metadata | {f"smoke_{name}_kg": f"{value:.9g}" for name, value in moment.mass.items()}
+        return volume.write(
+            path, grids, self.layer.voxel, origin, tolerance=1e-6, metadata=metadata, sight=sight
+        )
+
+    @functools.cached_property
+    def _heights(self) -> Array:
+        """Of the ground and of cells' middles (1 + nz, rows, columns), m, as the solver has them."""
+        return np.concatenate([self.layer.part.ground[None], self.layer.part.heights()])
+
+    def _brick(self, moment: moments.Moment) -> tuple[tuple[float, float, float], Array, Array, int]:
+        """Centre of the first voxel, the ground and the weight of each column, and the voxels on it."""
+        box, voxel = self.layer.part.box, self.layer.voxel
+        _nz, rows, columns = moment.fields["smoke"].shape
+        low = np.array(box.corner) + np.array(moment.low) * box.spacing
+        first = np.floor(low / voxel) * voxel
+        last = low + np.array([columns, rows]) * box.spacing
+        nx, ny = (max(2, int(np.ceil(side / voxel))) for side in last - first)
+        x, y = first[0] + np.arange(nx) * voxel, first[1] + np.arange(ny) * voxel
+        surface = _sampled(self._surface, self._surface_step, box.corner, x, y)
+        heights = self._heights[1:, moment.low[1] : moment.low[1] + rows, moment.low[0] :][:, :, :columns]
+        seen = moment.fields["smoke"] > _SEEN
+        lowest = float(surface.min())
+        base = np.floor(lowest / voxel) * voxel
+        top = float(heights[: len(seen)][seen].max(initial=lowest)) + 2.0 * box.spacing
+        origin = (float(first[0]), float(first[1]), float(base))
+        return origin, surface, self._share(x[:, None], y[None, :]), max(2, int((top - base) / voxel))
+
+    _surface_step = 40.0  # m
+
+    @functools.cached_property
+    def _surface(self) -> Array:
+        """The true ground over the box (nx, ny) every `_surface_step` m."""
+        box = self.layer.part.box
+        x, y = (
+            np.arange(low, high + self._surface_step, self._surface_step)
+            for low, high in zip(box.corner, box.high, strict=True)
+        )
+        up = self.shot.bare_ground.up(np.repeat(x, len(y)), np.tile(y, len(x)))
+        return up.reshape(len(x), len(y))
+
+    def _share(self, x: Array, y: Array) -> Array:
+        """How much of the smoke at places this layer draws, 0 to 1."""
+        box = self.layer.part.box
+        share = _inside(box, x, y, _FADE[0] if self.layer.fine else _FADE[1])
+        if self.inner is not None:
+            share = share * (1.0 - _inside(self.inner, x, y, _FADE[0]))
+        return share
+
+    def _detail(self, moment: moments.Moment, lights: tuple[Array, Array] | None) -> flow.Detail:
+        box, shot = self.layer.part.box, self.shot
+        nz, rows, columns = moment.fields["smoke"].shape
+        west, south = moment.low
+        heights = self._heights[: nz + 1, south : south + rows, west : west + columns]
+        corner = tuple(low + at * box.spacing for low, at in zip(box.corner, moment.low, strict=True))
+        size, blur = _LUMPS[self.layer.fine]
+        levels = np.array(box.levels)
+        return flow.Detail(
+            **moment.fields,
+            spacing=box.spacing,
+            corner=corner,
+            levels=0.5 * (levels[1:] + levels[:-1])[:nz],
+            heights=heights[1:],
+            ground=heights[0],
+            weights=moment.weights,
+            turns=moment.turns,
+            glow=None if lights is None else _glow(lights, heights[1:], box.spacing, corner),
+            size=size,
+            blur=blur,
+            thickest=shot.settings.smoke.extinction or THICKEST,
+            seed=shot.settings.seed,
+        )
+
+
+def _inside(box: Box, x: Array, y: Array, fade: float) -> Array:
+    """0 outside of a box and near its sides, 1 farther in."""
+    low, high = box.corner, box.high
+    depth = np.minimum(np.minimum(x - low[0], high[0] - x), np.minimum(y - low[1], high[1] - y))
+    return np.clip((depth - _INSIDE) / fade, 0.0, 1.0)
+
+
+def _sampled(values: Array, step: float, corner: tuple[float, float], x: Array, y: Array) -> Array:
+    """Values (nx, ny) every `step` m from a corner, at places x and y; linear between."""
+    i, j = ((at - low) / step for at, low in zip((x, y), corner, strict=True))
+    i, j = (np.clip(at, 0.0, count - 1.001) for at, count in zip((i, j), values.shape, strict=True))
+    a, b = i.astype(np.int64), j.astype(np.int64)
+    u, v = (i - a)[:, None], (j - b)[None, :]
+    corners = [values[np.ix_(a + e, b + n)] for e in (0, 1) for n in (0, 1)]
+    return (corners[0] * (1 - v) + corners[1] * v) * (1 - u) + (corners[2] * (1 - v) + corners[3] * v) * u
+
+
+def _glow(
+    lights: tuple[Array, Array], heights: Array, spacing: float, corner: tuple[float, float]
+) -> NDArray[np.float32]:
+    """Sum of P / 1 GW exp(-r / 1100 m) / (1 + (r / 250 m)^2) in cells; every third one, linear between."""
+    places, power = lights
+    every = [np.unique(np.append(np.arange(0, count, _GLOW_EVERY), count - 1)) for count in heights.shape]
+    z = heights[np.ix_(*every)].astype(np.float32)
+    y, x = (
+        (low + (at + 0.5) * spacing).astype(np.float32)
+        for low, at in zip(corner[::-1], every[1:], strict=True)
+    )
+    found = np.zeros(z.shape, np.float32)
+    for place, watts in zip(places.astype(np.float32), power, strict=True):
+        flat = (x - place[0])[None, None, :] ** 2 + (y - place[1])[None, :, None] ** 2
+        square = flat + (z - place[2]) ** 2
+        found += (
+            np.float32(watts / 1e9)
+            * np.exp(-np.sqrt(square) / np.float32(_GLOW_REACH))
+            / (1.0 + square / np.float32(_GLOW_CORE**2))
+        )
+    for axis, (at, count) in enumerate(zip(every, heights.shape, strict=True)):
+        found = _stretched(found, at, count, axis)
+    return found
+
+
+def _stretched(values: NDArray, at: NDArray[np.int64], count: int, axis: int) -> NDArray[np.float32]:
+    """Values at whole places `at` of an axis, at all of its `count` places; linear between."""
+    place = np.interp(np.arange(count), at, np.arange(len(at)))
+    low = np.minimum(place.astype(np.int64), max(len(at) - 2, 0))
+    part = (place - low).reshape([-1 if a == axis else 1 for a in range(values.ndim)])
+    high = np.minimum(low + 1, len(at) - 1)
+    return (values.take(low, axis) * (1 - part) + values.take(high, axis) * part).astype(np.float32)
+
+
+def dark(sun: float) -> bool:
+    """Whether flames light the smoke so that it shows, under a sun at `sun` degrees."""
+    return bool(noise.smoothstep(-8.0, 8.0, sun) < 1.0)

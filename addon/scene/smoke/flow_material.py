@@ -1,0 +1,42 @@
+"""Material of smoke that was solved: its files hold the extinction itself; here it gets colour and light."""
+
+from __future__ import annotations
+
+import bpy
+
+from ...blender import nodes
+from ...blender.owned import Stage
+from ...shot.shot import Shot
+from .. import haze
+from . import flow_frames, material
+
+_FRESH, _OLD = (0.46, 0.38, 0.31), (0.95, 0.945, 0.94)  # albedo: of soot and char, and of aged haze and cloud
+_MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
+_ANISOTROPY = 0.15  # as for `material.ANISOTROPY`
+
+
+def build(shot: Shot, stage: Stage) -> bpy.types.Material:
+    """Build "Firetwin Smoke"."""
+    made, tree = nodes.material("Firetwin Smoke")
+    density = tree.attribute("density")
+    albedo = tree.mix_colour(tree.attribute("fresh"), _OLD, _FRESH)
+    part, air = haze.fraction(tree, stage)
+    light = tree.emission(air, part * density)
+    if flow_frames.dark(shot.sun(shot.frames.middle)[1]):
+        glow = tree.attribute("glow") * (1.0 - part) * material.glow_light(shot)
+        light = tree.add_shader(light, tree.emission(material.GLOW, glow * density))
+    scattered = tree.mix_colour(part, albedo, (0.0, 0.0, 0.0))
+    detailed = tree.add_shader(_smoke(tree, density, scattered), light)
+    # Most steps belong to rays of light through the smoke; one grid is enough for them.
+    camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
+    tree.volume(tree.mix_shader(camera, _smoke(tree, density, _MIDDLE), detailed))
+    made.cycles.volume_sampling = "DISTANCE"
+    made.cycles.emission_sampling = "NONE"
+    return made
+
+
+def _smoke(tree: nodes.Tree, density: nodes.Value, albedo: nodes.Value) -> nodes.Value:
+    """Scattering and absorption that make `density` (1/m) the extinction and `albedo` its scattered part."""
+    inputs = {"Color": albedo, "Density": density}
+    scatter = tree.output("ShaderNodeVolumeScatter", inputs | {"Anisotropy": _ANISOTROPY})
+    return tree.add_shader(scatter, tree.output("ShaderNodeVolumeAbsorption", inputs))

@@ -1,0 +1,201 @@
+"""Solving a flow of smoke step by step, and going on where that was interrupted. Needs no Blender."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from firetwin_core import flow
+from numpy.typing import NDArray
+
+from ... import files
+from ...errors import writing
+from ...progress import Progress
+from ...shot import burning
+from ...shot.shot import Shot
+from . import air, boxes, cache, moments
+
+if TYPE_CHECKING:
+    from .flow import Flow, Part
+
+STATE = "state.npz"
+WORK = "the smoke's flow"
+CONVECTED = 0.7  # of the heat rises with the air; the rest is radiated (Freeborn et al. 2008)
+SMOKE = 0.02 / burning.HEAT  # kg/J: a fiftieth of the burned fuel
+_BURN = 30.0  # s between two looks at what burns
+_RAMP = 300.0  # s in which the fire grows to its strength: a sudden one would bang
+_GUSTS = 0.6  # standard deviation of the logarithm of what single flames give off
+_FINE_GUSTS = 0.9, 180.0, 45.0  # the same in the nest, alike within m and s: single runs of flames
+_DRIFT = 240.0  # s before the first frame from which detail is carried along; twice what it lasts
+_SAVE = 60.0  # s of work that an interruption may cost
+_LONGEST_STEP = 1.2  # times `boxes.STEP`, where frames are that far apart
+
+
+class StoppedError(Exception):
+    """Somebody asked for the end of solving."""
+
+
+class Live:
+    """A flow being solved: solvers, their drift, and how far they are."""
+
+    def __init__(self, whole: Flow) -> None:
+        self.whole = whole
+        shot = whole.shot
+        self.step, self.frame = 0, 0
+        self.steps, self.frame_of = _schedule(whole)
+        self.saved = time.monotonic()
+        self.slot: int | None = None
+        self.winds = _winds(shot, whole.begin)
+        self.solvers = [self._outer(whole.parts[0])]
+        self.drifts: list[flow.Drift] = []
+        with writing(whole.parts[-1].folder):
+            for part in whole.parts:
+                part.folder.mkdir(parents=True, exist_ok=True)
+        self._resume()
+        self._widen()
+
+    @property
+    def now(self) -> float:
+        """Model time, s."""
+        return self.whole.begin + self.solvers[0].time
+
+    def solve(self, frame: int, progress: Progress) -> None:
+        """Go on to a frame and keep what is passed."""
+        total = next(step for step, each in self.frame_of.items() if each == frame)
+        with cache.in_use(self.whole.parts[-1].folder):
+            self._keep()
+            while self.step < total:
+                progress(self.step, total, WORK)
+                if self.whole.stop.is_set():
+                    raise StoppedError
+                self._advance(self.steps[self.step])
+                self.step += 1
+                self._widen()
+                self._keep()
+                if time.monotonic() - self.saved > _SAVE:
+                    self._save()
+            progress(total, total, WORK)
+            if self.step == len(self.steps):
+                (self.whole.parts[-1].folder / STATE).unlink(missing_ok=True)
+
+    def _advance(self, dt: float) -> None:
+        self._burn()
+        for number, solver in enumerate(self.solvers):
+            count = 1 if number == 0 else max(1, round(dt * boxes.FINER / boxes.STEP))
+            solver.step(dt / count, count)
+        for drift in self.drifts:
+            drift.advance()
+
+    def _widen(self) -> None:
+        """Begin the nest, and the detail's drift, once it is time."""
+        left = self.whole.shot.frames.first - self.now
+        if len(self.whole.parts) > len(self.solvers) and left <= boxes.LEAD + 1e-6:
+            self.solvers.append(self._inner(self.whole.parts[1]))
+            self.slot = None
+        if left <= _DRIFT + 1e-6:
+            self.drifts += [flow.Drift(solver) for solver in self.solvers[len(self.drifts) :]]
+
+    def _burn(self) -> None:
+        """Have what burns now give off heat and smoke, and the wind blow."""
+        slot = math.floor(self.solvers[0].time / _BURN + 1e-6)
+        if slot == self.slot:
+            return
+        self.slot = slot
+        time = self.whole.begin + slot * _BURN
+        self.solvers[0].set_wind(air.wind(self.winds[min(slot, len(self.winds) - 1)]))
+        found = self.whole.shot.fire.sources(time)
+        power = found.power * min(1.0, (slot + 1) * _BURN / _RAMP)
+        for solver in self.solvers:
+            solver.set_sources(found.position[:, :2], CONVECTED * power, SMOKE * power)
+
+    def _keep(self) -> None:
+        frame = self.frame_of.get(self.step)
+        if frame is None:
+            return
+        self.frame = frame
+        for part, solver, drift in zip(self.whole.parts, self.solvers, self.drifts, strict=True):
+            if not part.moment(frame).exists():
+                moments.keep(part.moment(frame), solver, drift)
+
+    def _save(self) -> None:
+        kept: dict[str, NDArray[Any]] = {"step": np.array([self.step])}
+        for number, solver in enumerate(self.solvers):
+            kept |= {f"{number}_{name}": values for name, values in solver.state().items()}
+        for number, drift in enumerate(self.drifts):
+            kept |= {f"{number}_drift": drift.values(), f"{number}_drift_time": np.array([drift.time])}
+        path = self.whole.parts[-1].folder / STATE
+        files.write(path, lambda part: moments.write(part, kept), path.with_suffix(".npz.tmp"))
+        self.saved = time.monotonic()
+
+    def _resume(self) -> None:
+        """Go on from what was saved, if that is a moment before what is asked for."""
+        path = self.whole.parts[-1].folder / STATE
+        try:
+            with np.load(path) as file:
+                kept = {name: file[name] for name in file.files}
+        except (OSError, ValueError, KeyError):
+            return
+        self.step = int(kept["step"][0])
+        if "1_u" in kept:
+            self.solvers.append(self._inner(self.whole.parts[1]))
+        for number, solver in enumerate(self.solvers):
+            mine = {name[2:]: values for name, values in kept.items() if name[:2] == f"{number}_"}
+            solver.restore(mine)
+            if "drift" in mine:
+                self.drifts.append(flow.Drift(solver))
+                self.drifts[-1].restore(float(mine["drift_time"][0]), mine["drift"])
+        self.frame = max((f for step, f in self.frame_of.items() if step <= self.step), default=0)
+
+    def _outer(self, part: Part) -> flow.Solver:
+        shot, box = self.whole.shot, part.box
+        around = air.air(shot.sun(shot.frames.middle)[1], part.mean)
+        return flow.Solver(
+            box.levels,
+            box.shape,
+            box.spacing,
+            around.height,
+            around.potential_temperature,
+            air.wind(self.winds[0]),
+            water=around.water,
+            pressure=around.pressure,
+            corner=box.corner,
+            ground=part.ground,
+            gust_strength=_GUSTS,
+            seed=shot.settings.seed,
+        )
+
+    def _inner(self, part: Part) -> flow.Solver:
+        box = part.box
+        return self.solvers[0].nest(
+            box.levels,
+            box.shape,
+            box.spacing,
+            box.corner,
+            ground=part.ground,
+            gust_strength=_FINE_GUSTS[0],
+            gust_size=_FINE_GUSTS[1],
+            gust_time=_FINE_GUSTS[2],
+            seed=self.whole.shot.settings.seed,
+        )
+
+
+def _schedule(whole: Flow) -> tuple[list[float], dict[int, int]]:
+    """Every step's length, s, and which frame is reached after so many steps."""
+    frames = whole.shot.frames
+    lead = math.ceil(whole.shot.settings.smoke.spin_up / boxes.STEP)
+    steps = [whole.shot.settings.smoke.spin_up / lead] * lead if lead else []
+    frame_of = {lead: 1}
+    between = max(1, math.ceil(frames.step / (_LONGEST_STEP * boxes.STEP) - 1e-9))
+    for frame in range(2, frames.count + 1):
+        steps += [frames.step / between] * between
+        frame_of[len(steps)] = frame
+    return steps, frame_of
+
+
+def _winds(shot: Shot, begin: float) -> list[tuple[float, float]]:
+    """The run's wind near the ground at every look at what burns."""
+    count = max(1, math.ceil((shot.frames.last - begin) / _BURN) + 1)
+    found = burning.wind_at(shot.run, begin + _BURN * np.arange(count), shot.fire.surroundings)
+    return [(float(east), float(north)) for east, north in np.nan_to_num(found)]

@@ -1,0 +1,117 @@
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "flow/detail.hpp"
+#include "flow/drift.hpp"
+
+#include <pybind11/stl.h>
+
+#include <memory>
+
+namespace firetwin::bindings {
+namespace py = pybind11;
+namespace {
+
+using flow::Detail;
+using flow::Drift;
+using flow::Index;
+
+Array<float> drift_values(const Drift& drift) {
+  const flow::Shape s = drift.shape();
+  auto result = new_array<float>({s.nz, s.ny, s.nx, Drift::phases, 3});
+  const auto values = drift.values();
+  std::copy(values.begin(), values.end(), result.mutable_data());
+  return result;
+}
+
+void drift_restore(Drift& drift, double time, const py::object& values) {
+  const flow::Shape s = drift.shape();
+  const auto array = to_array<float>(values, "values", {s.nz, s.ny, s.nx, Drift::phases, 3});
+  drift.restore(time, view(array));
+}
+
+std::shared_ptr<Detail>
+make_detail(double spacing, const std::array<double, 2>& corner, const py::object& levels,
+            const py::object& heights, const py::object& ground, const py::object& smoke,
+            const py::object& age, const py::object& rise, const py::object& warmth,
+            const py::object& drift, const std::array<float, Drift::phases>& weights,
+            const std::array<std::int64_t, Drift::phases>& turns, const py::object& glow,
+            double size, const std::array<double, 3>& blur, double opacity, float thickest,
+            const std::array<float, 2>& ages, std::uint32_t seed) {
+  const auto amount = to_array<float>(smoke, "smoke", {-1, -1, -1});
+  const std::vector<py::ssize_t> shape{amount.shape(0), amount.shape(1), amount.shape(2)};
+  const auto field = [&](const py::object& object, const char* name) {
+    return to_array<float>(object, name, shape);
+  };
+  const auto middles = to_array<double>(levels, "levels", {shape[0]});
+  const auto high = field(heights, "heights"), old = field(age, "age"), up = field(rise, "rise"),
+             warm = field(warmth, "warmth");
+  const auto light = glow.is_none() ? Array<float>(py::ssize_t{0}) : field(glow, "glow");
+  const auto low = to_array<float>(ground, "ground", {shape[1], shape[2]});
+  const auto moved =
+      to_array<float>(drift, "drift", {shape[0], shape[1], shape[2], Drift::phases, 3});
+  const flow::Moment moment{{shape[0], shape[1], shape[2]},
+                            spacing,
+                            corner,
+                            view(middles),
+                            view(high),
+                            view(low),
+                            view(amount),
+                            view(old),
+                            view(up),
+                            view(warm),
+                            view(light),
+                            view(moved),
+                            weights,
+                            turns};
+  const flow::Look look{size, blur, opacity, thickest, ages, seed};
+  const py::gil_scoped_release release;
+  return std::make_shared<Detail>(moment, look);
+}
+
+py::tuple paint(const Detail& detail, const std::array<double, 3>& origin, double voxel,
+                const py::object& surface, const py::object& share, Index layers) {
+  const auto ground = to_array<float>(surface, "surface", {-1, -1});
+  const auto part = to_array<float>(share, "share", {ground.shape(0), ground.shape(1)});
+  const std::vector<py::ssize_t> shape{ground.shape(0), ground.shape(1), layers};
+  const auto empty = [&] {
+    auto array = new_array<float>(shape);
+    std::fill_n(array.mutable_data(), array.size(), 0.0F);
+    return array;
+  };
+  auto density = empty(), fresh = empty();
+  auto glow = detail.glows() ? empty() : new_array<float>({0, 0, 0});
+  const flow::Brick brick{origin, voxel, {shape[0], shape[1], shape[2]}, view(ground), view(part)};
+  const flow::Painted out{writable(density), writable(fresh), writable(glow)};
+  {
+    const py::gil_scoped_release release;
+    detail.paint(brick, out);
+  }
+  return py::make_tuple(density, fresh,
+                        detail.glows() ? py::object(std::move(glow)) : py::object(py::none()));
+}
+
+} // namespace
+
+void init_flow_detail(Module module) {
+  using namespace py::literals;
+  Class<Drift, std::shared_ptr<Drift>>(module, "Drift")
+      .def(py::init([](const std::shared_ptr<flow::Solver>& solver, double period) {
+             return std::make_shared<Drift>(solver, period);
+           }),
+           "solver"_a, "period"_a = 120.0)
+      .def("advance", &Drift::advance, py::call_guard<py::gil_scoped_release>())
+      .def("values", &drift_values)
+      .def("restore", &drift_restore, "time"_a, "values"_a)
+      .def_property_readonly("time", &Drift::time)
+      .def_property_readonly("weights", &Drift::weights)
+      .def_property_readonly("turns", &Drift::turns);
+  Class<Detail, std::shared_ptr<Detail>>(module, "Detail")
+      .def(py::init(&make_detail), py::kw_only(), "spacing"_a, "corner"_a, "levels"_a, "heights"_a,
+           "ground"_a, "smoke"_a, "age"_a, "rise"_a, "warmth"_a, "drift"_a, "weights"_a, "turns"_a,
+           "glow"_a = py::none(), "size"_a = 340.0, "blur"_a = std::array<double, 3>{},
+           "opacity"_a = 1.0, "thickest"_a = 0.03F, "ages"_a = std::array<float, 2>{20.0F, 600.0F},
+           "seed"_a = 0)
+      .def("paint", &paint, "origin"_a, "voxel"_a, "surface"_a, "share"_a, "layers"_a);
+}
+
+} // namespace firetwin::bindings

@@ -1,0 +1,196 @@
+#include "flow/ambient.hpp"
+
+#include "base/check.hpp"
+#include "flow/parallel.hpp"
+#include "flow/water.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace firetwin::flow {
+namespace {
+
+constexpr int coldest = 150; // K, of the table of saturation
+constexpr int kelvins = 250;
+
+std::vector<double> part(const std::vector<std::array<double, 2>>& wind, std::size_t axis) {
+  std::vector<double> result;
+  for (const auto& w : wind) {
+    result.push_back(w[axis]);
+  }
+  return result;
+}
+
+void check_profile(const Profile& p) {
+  const std::size_t n = p.height.size();
+  if (n == 0 || p.potential_temperature.size() != n || p.wind.size() != n ||
+      (!p.water.empty() && p.water.size() != n)) {
+    throw std::invalid_argument("the profile's arrays must have one length of 1 or more");
+  }
+  check_finite(p.height, "height");
+  check_finite(p.potential_temperature, "potential_temperature");
+  check_above_zero(p.pressure, "pressure");
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i > 0 && !(p.height[i] > p.height[i - 1])) {
+      throw std::invalid_argument("height must rise");
+    }
+    if (!(p.potential_temperature[i] > 100.0 && p.potential_temperature[i] < 1000.0)) {
+      throw std::invalid_argument("potential_temperature must be in kelvin");
+    }
+    check_finite(p.wind[i], "wind");
+    if (!p.water.empty() && !(p.water[i] >= 0.0 && p.water[i] < 0.1)) {
+      throw std::invalid_argument("water must be 0 to 0.1 kg/kg");
+    }
+  }
+}
+
+} // namespace
+
+double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  const auto above = std::upper_bound(x.begin(), x.end(), at);
+  if (above == x.begin()) {
+    return y.front();
+  }
+  if (above == x.end()) {
+    return y.back();
+  }
+  const auto i = static_cast<std::size_t>(above - x.begin());
+  const double share = (at - x[i - 1]) / (x[i] - x[i - 1]);
+  return y[i - 1] + share * (y[i] - y[i - 1]);
+}
+
+Ground::Ground(const Lattice& lattice, std::vector<double> height)
+    : nx_(lattice.nx), top_(lattice.top()) {
+  mean_ = height.empty() ? 0.0
+                         : std::accumulate(height.begin(), height.end(), 0.0) /
+                               static_cast<double>(height.size());
+  take(lattice, height);
+}
+
+Ground::Ground(const Lattice& lattice, std::vector<double> height, const Ground& around)
+    : nx_(lattice.nx), mean_(around.mean_), top_(around.top_) {
+  take(lattice, height);
+}
+
+void Ground::take(const Lattice& lattice, const std::vector<double>& height) {
+  above_.resize(static_cast<std::size_t>(lattice.nx * lattice.ny));
+  if (height.empty()) {
+    return;
+  }
+  check_finite(height, "ground");
+  std::transform(height.begin(), height.end(), above_.begin(), [&](double h) { return h - mean_; });
+  flat_ = std::all_of(above_.begin(), above_.end(), [](double h) { return h == 0.0; });
+  if (std::any_of(above_.begin(), above_.end(),
+                  [&](double h) { return std::abs(h) > 0.5 * top_; })) {
+    throw std::invalid_argument("ground must stay within half the box's height from its mean");
+  }
+}
+
+Ambient::Ambient(const Lattice& lattice, const Ground& ground, const Profile& profile)
+    : moist_(!profile.water.empty()), reference_(0.0), theta_(lattice, lattice.nz),
+      water_(lattice, moist_ ? lattice.nz : 0), virtual_(lattice, lattice.nz) {
+  check_profile(profile);
+  reference_ = std::round(interpolated(profile.height, profile.potential_temperature, 0.0));
+  weigh(lattice, profile);
+  set_wind(lattice, profile);
+  rest(lattice, ground, profile);
+}
+
+/// Hydrostatic balance: d(Exner function) / dz = -g / (cp theta).
+void Ambient::weigh(const Lattice& lattice, const Profile& p) {
+  const auto theta = [&](double z) { return interpolated(p.height, p.potential_temperature, z); };
+  double exner = std::pow(p.pressure / reference_pressure, gas_constant / heat_capacity);
+  double height = 0.0;
+  const auto rise_to = [&](double z) {
+    const double mean = 0.5 * (theta(height) + theta(z));
+    exner -= gravity * (z - height) / (heat_capacity * mean);
+    height = z;
+    if (!(exner > 0.05)) {
+      throw std::invalid_argument("levels reach above the air");
+    }
+    return reference_pressure * std::pow(exner, heat_capacity / gas_constant);
+  };
+  const auto dense = [&](double pressure, double z) {
+    return pressure / (gas_constant * exner * theta(z));
+  };
+  for (std::size_t k = 0; k < lattice.face.size(); ++k) {
+    air_.face.push_back(static_cast<float>(dense(rise_to(lattice.face[k]), lattice.face[k])));
+    if (k < lattice.middle.size()) {
+      pressure_.push_back(rise_to(lattice.middle[k]));
+      exner_.push_back(exner);
+      density_.push_back(dense(pressure_.back(), lattice.middle[k]));
+      air_.cell.push_back(static_cast<float>(density_.back() * lattice.depth[k]));
+      for (int t = coldest; moist_ && t < coldest + kelvins; ++t) {
+        held_.push_back(static_cast<float>(0.9999 * saturation(t, pressure_.back())));
+      }
+    }
+  }
+}
+
+std::vector<std::array<float, 2>> Ambient::set_wind(const Lattice& lattice, const Profile& p) {
+  const std::vector<double> east = part(p.wind, 0), north = part(p.wind, 1);
+  std::vector<std::array<float, 2>> change(lattice.middle.size());
+  wind_.resize(change.size());
+  for (std::size_t k = 0; k < change.size(); ++k) {
+    const double z = lattice.middle[k];
+    const std::array<float, 2> now{static_cast<float>(interpolated(p.height, east, z)),
+                                   static_cast<float>(interpolated(p.height, north, z))};
+    change[k] = {now[0] - wind_[k][0], now[1] - wind_[k][1]};
+    wind_[k] = now;
+  }
+  return change;
+}
+
+void Ambient::rest(const Lattice& lattice, const Ground& ground, const Profile& p) {
+  each(lattice.nz, [&](Index k) {
+    const double height = lattice.middle[static_cast<std::size_t>(k)];
+    for (Index j = -halo; j < lattice.ny + halo; ++j) {
+      for (Index i = -halo; i < lattice.nx + halo; ++i) {
+        const Index row = std::clamp(j, Index{0}, lattice.ny - 1);
+        const Index column = std::clamp(i, Index{0}, lattice.nx - 1);
+        const double z = height + ground.above(row, column) * ground.share(height);
+        const double theta = interpolated(p.height, p.potential_temperature, z) - reference_;
+        const double water = moist_ ? interpolated(p.height, p.water, z) : 0.0;
+        float& kept = theta_.row(k, j)[i];
+        kept = static_cast<float>(theta);
+        if (moist_) {
+          water_.row(k, j)[i] = static_cast<float>(water);
+        }
+        virtual_.row(k, j)[i] = static_cast<float>(virtual_theta(
+            k, static_cast<double>(kept), moist_ ? static_cast<double>(water_.row(k, j)[i]) : 0.0));
+      }
+    }
+  });
+}
+
+/// Whether the air would hold its water even were it a little colder: saves most of the
+/// exponentials.
+bool Ambient::surely_clear(Index k, double temperature, double water) const {
+  const double above = temperature - coldest;
+  if (!(above >= 0.0 && above < kelvins)) {
+    return false;
+  }
+  return water <= static_cast<double>(
+                      held_[static_cast<std::size_t>(k * kelvins + static_cast<Index>(above))]);
+}
+
+double Ambient::virtual_theta(Index k, double theta, double water, double* cloud) const {
+  const double whole = theta + reference_;
+  if (!moist_) {
+    return whole;
+  }
+  const double temperature = whole * exner(k);
+  if (surely_clear(k, temperature, water)) {
+    return whole * (1.0 + vapour_lightness * water);
+  }
+  const double condensed = cloud_water(temperature, water, pressure(k));
+  if (cloud) {
+    *cloud = condensed;
+  }
+  const double warm = whole + latent_heat / (heat_capacity * exner(k)) * condensed;
+  return warm * (1.0 + vapour_lightness * (water - condensed) - condensed);
+}
+
+} // namespace firetwin::flow

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "flow/lattice.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace firetwin::flow {
+
+/// Values [nz][ny][nx][parts] between the middles of cells: linear, and constant outside.
+template <std::size_t parts> class Between {
+public:
+  Between(Index nx, Index ny, Index nz, const float* values)
+      : nx_(nx), ny_(ny), nz_(nz), values_(values) {}
+
+  /// At fractional columns, rows and levels, 0 in the middles of the first.
+  std::array<float, parts> at(float x, float y, float z) const {
+    const Axis a(x, nx_), b(y, ny_), c(z, nz_);
+    const auto stride = static_cast<Index>(parts);
+    const float* corner = values_ + ((c.low * ny_ + b.low) * nx_ + a.low) * stride;
+    const Index east = a.step * stride, north = b.step * nx_ * stride,
+                up = c.step * ny_ * nx_ * stride;
+    std::array<float, parts> result;
+    for (std::size_t p = 0; p < parts; ++p) {
+      const float* v = corner + p;
+      const float front = mix(v[0], v[east], a.part), back = mix(v[north], v[north + east], a.part);
+      v += up;
+      const float over = mix(v[0], v[east], a.part),
+                  beyond = mix(v[north], v[north + east], a.part);
+      result[p] = mix(mix(front, back, b.part), mix(over, beyond, b.part), c.part);
+    }
+    return result;
+  }
+
+private:
+  struct Axis {
+    Axis(float at, Index count) {
+      const float held = std::clamp(at, 0.0F, static_cast<float>(count - 1));
+      low = std::min(static_cast<Index>(held), std::max(count - 2, Index{0}));
+      part = held - static_cast<float>(low);
+      step = count > 1 ? 1 : 0;
+    }
+    Index low, step;
+    float part;
+  };
+
+  static float mix(float a, float b, float part) { return a + (b - a) * part; }
+
+  Index nx_, ny_, nz_;
+  const float* values_;
+};
+
+} // namespace firetwin::flow

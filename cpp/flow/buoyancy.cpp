@@ -1,0 +1,88 @@
+#include "flow/buoyancy.hpp"
+
+#include "base/clones.hpp"
+#include "flow/parallel.hpp"
+#include "flow/water.hpp"
+
+namespace firetwin::flow {
+namespace {
+
+/// g (theta - rest) / (rest + reference)
+FIRETWIN_CLONES("avx512f", "avx2")
+void weigh_row(Index n, const float* __restrict theta, const float* __restrict rest,
+               float reference, float* __restrict force) {
+  constexpr auto g = static_cast<float>(gravity);
+  for (Index i = 0; i < n; ++i) {
+    force[i] = g * (theta[i] - rest[i]) / (rest[i] + reference);
+  }
+}
+
+/// q += (a + b) x half
+FIRETWIN_CLONES("avx512f", "avx2")
+void push_row(Index n, const float* __restrict a, const float* __restrict b, float half,
+              float* __restrict q) {
+  for (Index i = 0; i < n; ++i) {
+    q[i] += (a[i] + b[i]) * half;
+  }
+}
+
+} // namespace
+
+Buoyancy::Buoyancy(const Lattice& lattice, const Ground& ground, const Ambient& ambient)
+    : lattice_(lattice), ground_(ground), ambient_(ambient), force_(lattice, lattice.nz) {}
+
+void Buoyancy::weigh(const State& state, Index k) {
+  for (Index j = 0; j < lattice_.ny; ++j) {
+    const float* theta = state.theta.row(k, j);
+    float* force = force_.row(k, j);
+    if (!ambient_.moist()) {
+      weigh_row(lattice_.nx, theta, ambient_.theta().row(k, j),
+                static_cast<float>(ambient_.reference()), force);
+      continue;
+    }
+    const float* rest = ambient_.heaviness().row(k, j);
+    for (Index i = 0; i < lattice_.nx; ++i) {
+      const auto here = static_cast<float>(ambient_.virtual_theta(
+          k, static_cast<double>(theta[i]), static_cast<double>(state.water.row(k, j)[i])));
+      force[i] = static_cast<float>(gravity) * ((here - rest[i]) / rest[i]);
+    }
+  }
+}
+
+void Buoyancy::lift(State& state, float dt, Index k) const {
+  for (Index j = 0; j < lattice_.ny; ++j) {
+    push_row(lattice_.nx, force_.row(k - 1, j), force_.row(k, j), 0.5F * dt,
+             state.wind.w.row(k, j));
+  }
+}
+
+void Buoyancy::along_slope(State& state, float dt, Index k) const {
+  const double share = ground_.share(lattice_.middle[static_cast<std::size_t>(k)]);
+  const auto factor = static_cast<float>(0.5 * share / lattice_.spacing) * dt;
+  for (Index j = 0; j < lattice_.ny; ++j) {
+    const float* force = force_.row(k, j);
+    float* u = state.wind.u.row(k, j);
+    for (Index i = 1; i < lattice_.nx; ++i) {
+      const auto rise = static_cast<float>(ground_.above(j, i) - ground_.above(j, i - 1));
+      u[i] += (force[i - 1] + force[i]) * (factor * rise);
+    }
+    for (Index i = 0; j > 0 && i < lattice_.nx; ++i) {
+      const auto rise = static_cast<float>(ground_.above(j, i) - ground_.above(j - 1, i));
+      state.wind.v.row(k, j)[i] += (force_.row(k, j - 1)[i] + force[i]) * (factor * rise);
+    }
+  }
+}
+
+void Buoyancy::push(State& state, double dt) {
+  each(lattice_.nz, [&](Index k) { weigh(state, k); });
+  each(lattice_.nz, [&](Index k) {
+    if (k > 0) {
+      lift(state, static_cast<float>(dt), k);
+    }
+    if (!ground_.flat()) {
+      along_slope(state, static_cast<float>(dt), k);
+    }
+  });
+}
+
+} // namespace firetwin::flow

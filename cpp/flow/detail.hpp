@@ -1,0 +1,97 @@
+#pragma once
+
+#include "base/vector.hpp"
+#include "flow/drift.hpp"
+#include "flow/filters.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace firetwin::flow {
+
+/// Smoke of a moment on a flow's cells, or on a block of them that reaches down to the ground.
+struct Moment {
+  Shape shape;
+  double spacing;                 ///< m
+  std::array<double, 2> corner;   ///< of the lowest x and y, m
+  std::span<const double> levels; ///< [nz] of cells' middles above ground, m
+  std::span<const float> heights; ///< [nz][ny][nx] the same in the ground's datum, m
+  std::span<const float> ground;  ///< [ny][nx] m
+  std::span<const float> smoke;   ///< [nz][ny][nx] kg/m3
+  std::span<const float> age;     ///< s
+  std::span<const float> rise;    ///< m/s
+  std::span<const float> warmth;  ///< K above the air around
+  std::span<const float> glow;    ///< light of flames, anything, or empty
+  std::span<const float> drift;   ///< [nz][ny][nx][Drift::parts] m
+  std::array<float, Drift::phases> weights{};
+  std::array<std::int64_t, Drift::phases> turns{};
+};
+
+/// How smoke looks below the flow's cells.
+struct Look {
+  double size = 340.0;                      ///< of the largest lumps, m
+  std::array<double, 3> blur{};             ///< of the drift along levels, rows and columns, cells
+  double opacity = 1.0;                     ///< times the extinction of smoke
+  float thickest = 0.03F;                   ///< extinction at which thick smoke levels off, 1/m
+  std::array<float, 2> ages{20.0F, 600.0F}; ///< s, of dark and of white smoke
+  std::uint32_t seed = 0;
+};
+
+/// Voxels to be painted, x slowest and z fastest.
+struct Brick {
+  Vector origin;                  ///< centre of the first, m
+  double voxel;                   ///< m
+  std::array<Index, 3> shape;     ///< along x, y, z
+  std::span<const float> surface; ///< [nx][ny] height of the true ground, m
+  std::span<const float> share;   ///< [nx][ny] factor of the extinction, 0 to 1
+};
+
+struct Painted {
+  std::span<float> density; ///< extinction, 1/m
+  std::span<float> fresh;   ///< 1 where smoke is young, 0 where it is old or none
+  std::span<float> glow;    ///< as in the moment; may be empty
+};
+
+/// Detail below the cells of a flow: the logarithm of its smoke is raised and lowered by noise that
+/// travels with the air, and what falls below a threshold is cut away. Vigorous smoke, which rises,
+/// is warm, fresh or dense, gets lumps with crisp edges (Worley's noise); the rest gets soft veils
+/// (Perlin's). Lumps have a size in metres: the noise's amplitude follows the slope of the
+/// logarithm. The flow's own extinction is 4 m2/g (fresh biomass smoke, Reid et al. 2005,
+/// doi 10.5194/acp-5-799-2005) times a gain chosen by eye; near the ground it is less, so that
+/// flames show. Thresholds and gains are chosen by eye.
+class Detail {
+public:
+  Detail(const Moment& moment, const Look& look);
+
+  void paint(const Brick& brick, const Painted& out) const;
+  bool glows() const { return !glow_.empty(); }
+
+private:
+  struct Column;
+  void find_vigour(const Moment& moment);
+  void find_steepness();
+  void find_columns();
+  bool begin(Column& column) const;
+  void paint_column(Column& column, const Brick& brick, std::size_t first,
+                    const Painted& out) const;
+  float extinction(const Column& column, float level, float above) const;
+  float lumps(const Vector& place, std::uint32_t seed, float vigour, double finest) const;
+  float noise(const Column& column, float level, float above, float vigour) const;
+
+  Shape shape_;
+  double spacing_;
+  std::array<double, 2> corner_;
+  std::vector<float> levels_, heights_, ground_;
+  std::vector<float> amount_; ///< ln(smoke / 1 ug/m3), at least 0
+  std::vector<float> vigour_; ///< 0 to 1
+  std::vector<float> steep_;  ///< slope of `amount_`, 1/m
+  std::vector<float> age_, glow_, drift_;
+  std::vector<float> highest_; ///< [ny][nx] largest amount in each column
+  std::array<float, Drift::phases> weights_;
+  std::array<std::uint32_t, Drift::phases> seeds_{};
+  Look look_;
+};
+
+} // namespace firetwin::flow

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "flow/lattice.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace firetwin::flow {
+
+/// Numbers on a lattice's levels, with ghost rows and columns all around.
+class Field {
+public:
+  Field(const Lattice& lattice, Index levels)
+      : stride_(lattice.stride), plane_(lattice.plane), levels_(levels),
+        values_(static_cast<std::size_t>(levels * lattice.plane)) {}
+
+  Index levels() const { return levels_; }
+  /// Points at column 0 of row j of level k.
+  float* row(Index k, Index j) { return values_.data() + place(k, j); }
+  const float* row(Index k, Index j) const { return values_.data() + place(k, j); }
+  void fill_level(Index k, float value) {
+    std::fill_n(values_.begin() + k * plane_, plane_, value);
+  }
+
+private:
+  Index place(Index k, Index j) const { return k * plane_ + (j + halo) * stride_ + halo; }
+
+  Index stride_;
+  Index plane_;
+  Index levels_;
+  std::vector<float> values_;
+};
+
+} // namespace firetwin::flow

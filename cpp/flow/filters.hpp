@@ -1,0 +1,23 @@
+#pragma once
+
+#include "flow/lattice.hpp"
+
+#include <array>
+#include <vector>
+
+/// Filters on dense arrays [nz][ny][nx]; what lies outside is as the nearest inside.
+namespace firetwin::flow {
+
+struct Shape {
+  Index nz, ny, nx;
+  std::size_t size() const { return static_cast<std::size_t>(nz * ny * nx); }
+};
+
+/// Gaussian blur by `cells`, the standard deviation along levels, rows and columns, cut at three of
+/// them.
+void blur(std::vector<float>& values, const Shape& shape, const std::array<double, 3>& cells);
+
+/// The largest value within `reach` cells along each axis.
+void spread(std::vector<float>& values, const Shape& shape, Index reach);
+
+} // namespace firetwin::flow

@@ -1,0 +1,50 @@
+#include "flow/lattice.hpp"
+
+#include "base/check.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+namespace firetwin::flow {
+namespace {
+
+constexpr Index least = 8;
+constexpr Index most = 4096;
+constexpr Index lanes = 16;
+
+void check_levels(const std::vector<double>& levels) {
+  check_finite(levels, "levels");
+  if (levels.size() < 5 || levels.front() != 0.0) {
+    throw std::invalid_argument("levels must be 5 heights or more, the first of them 0");
+  }
+  for (std::size_t k = 1; k < levels.size(); ++k) {
+    if (!(levels[k] > levels[k - 1])) {
+      throw std::invalid_argument("levels must rise");
+    }
+  }
+}
+
+} // namespace
+
+Lattice::Lattice(Index columns, Index rows, double cell, std::vector<double> levels)
+    : nx(columns), ny(rows), nz(static_cast<Index>(levels.size()) - 1), spacing(cell),
+      face(std::move(levels)) {
+  check_above_zero(cell, "spacing");
+  check_levels(face);
+  if (nx < least || ny < least || nx > most || ny > most || nz > most) {
+    throw std::invalid_argument("shape must be 4 to 4096 levels of 8 to 4096 rows and columns");
+  }
+  for (std::size_t k = 0; k + 1 < face.size(); ++k) {
+    middle.push_back(0.5 * (face[k] + face[k + 1]));
+    depth.push_back(face[k + 1] - face[k]);
+  }
+  stride = (nx + 2 * halo + lanes - 1) / lanes * lanes;
+  plane = stride * (ny + 2 * halo);
+}
+
+double Lattice::gap(Index k) const {
+  const auto above = static_cast<std::size_t>(k);
+  return middle[above] - middle[above - 1];
+}
+
+} // namespace firetwin::flow

@@ -1,0 +1,84 @@
+#include "flow/noise.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace firetwin::flow {
+namespace {
+
+/// A point's cell and its place in it.
+struct Place {
+  explicit Place(float at)
+      : cell(static_cast<std::int32_t>(std::floor(at))), part(at - std::floor(at)) {}
+  std::int32_t cell;
+  float part;
+};
+
+/// Mixes a cell's three numbers into 32 even bits (the finisher is MurmurHash3's).
+std::uint32_t bits(std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t seed) {
+  std::uint32_t h = static_cast<std::uint32_t>(i) * 0x9E3779B1U ^
+                    static_cast<std::uint32_t>(j) * 0x85EBCA77U ^
+                    static_cast<std::uint32_t>(k) * 0xC2B2AE3DU ^ seed * 0x27D4EB2FU;
+  h = (h ^ h >> 16) * 0x85EBCA6BU;
+  h = (h ^ h >> 13) * 0xC2B2AE35U;
+  return h ^ h >> 16;
+}
+
+/// Slope times place, of one of twelve slopes along the diagonals of a cube's faces.
+float slope(std::uint32_t h, float x, float y, float z) {
+  const std::uint32_t which = h & 15U;
+  const float u = which < 8 ? x : y;
+  const float v = which < 4 ? y : which == 12 || which == 14 ? x : z;
+  return ((which & 1U) != 0 ? -u : u) + ((which & 2U) != 0 ? -v : v);
+}
+
+float fade(float t) {
+  return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F);
+}
+
+float mix(float a, float b, float part) {
+  return a + (b - a) * part;
+}
+
+float share(std::uint32_t h, int shift) {
+  return static_cast<float>(h >> shift & 1023U) / 1023.0F;
+}
+
+} // namespace
+
+float perlin(float x, float y, float z, std::uint32_t seed) {
+  const Place a(x), b(y), c(z);
+  std::array<float, 2> level{};
+  for (int k = 0; k < 2; ++k) {
+    std::array<float, 2> row{};
+    for (int j = 0; j < 2; ++j) {
+      const auto corner = [&](int i) {
+        return slope(bits(a.cell + i, b.cell + j, c.cell + k, seed), a.part - static_cast<float>(i),
+                     b.part - static_cast<float>(j), c.part - static_cast<float>(k));
+      };
+      row[static_cast<std::size_t>(j)] = mix(corner(0), corner(1), fade(a.part));
+    }
+    level[static_cast<std::size_t>(k)] = mix(row[0], row[1], fade(b.part));
+  }
+  return mix(level[0], level[1], fade(c.part));
+}
+
+float worley(float x, float y, float z, std::uint32_t seed) {
+  const Place a(x), b(y), c(z);
+  float nearest = 9.0F;
+  for (int k = -1; k < 2; ++k) {
+    for (int j = -1; j < 2; ++j) {
+      for (int i = -1; i < 2; ++i) {
+        const std::uint32_t h = bits(a.cell + i, b.cell + j, c.cell + k, seed);
+        const float dx = static_cast<float>(i) + share(h, 0) - a.part;
+        const float dy = static_cast<float>(j) + share(h, 10) - b.part;
+        const float dz = static_cast<float>(k) + share(h, 20) - c.part;
+        nearest = std::min(nearest, dx * dx + dy * dy + dz * dz);
+      }
+    }
+  }
+  return std::sqrt(nearest);
+}
+
+} // namespace firetwin::flow

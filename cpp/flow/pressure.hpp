@@ -1,0 +1,47 @@
+#pragma once
+
+#include "flow/transport.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace firetwin::flow {
+
+/// Makes wind carry as much air into every cell as out of it, div(rho u) = 0, by the gradient of a
+/// pressure; the wind through the box's own faces stays as it is. Cosine transforms along x and y
+/// (the pressure is level across the sides) and, for each of their modes, one tridiagonal system
+/// along z solve it at once (Schumann and Sweet 1988, "Fast Fourier transforms for direct solution
+/// of Poisson's equation with staggered boundary conditions", J. Comput. Phys. 75).
+class Pressure {
+public:
+  Pressure(const Lattice& lattice, const Air& air);
+  ~Pressure();
+  Pressure(const Pressure&) = delete;
+  Pressure& operator=(const Pressure&) = delete;
+
+  void project(Wind& wind);
+
+  /// Largest |div(rho u)| / rho of a wind, 1/s.
+  double divergence(const Wind& wind) const;
+
+private:
+  struct Plans;
+
+  void diverge(const Wind& wind, Index k, float* out) const;
+  void transform(bool back);
+  void solve();
+  void solve_modes(Index begin, Index end);
+  void descend(Wind& wind) const;
+  float* level(Index k) { return modes_.data() + k * size_; }
+  const float* level(Index k) const { return modes_.data() + k * size_; }
+
+  const Lattice& lattice_;
+  const Air& air_;
+  Index size_; ///< floats from a level of modes to the next
+  std::vector<float> modes_;
+  std::vector<float> pivot_;         ///< [nz][modes] 1 / pivot of the elimination
+  std::vector<float> below_, above_; ///< [nz] coefficients of the levels below and above
+  std::unique_ptr<Plans> plans_;
+};
+
+} // namespace firetwin::flow

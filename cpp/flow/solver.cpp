@@ -1,0 +1,309 @@
+#include "flow/solver.hpp"
+
+#include "base/check.hpp"
+#include "base/error.hpp"
+#include "flow/parallel.hpp"
+#include "flow/rows.hpp"
+#include "flow/water.hpp"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace firetwin::flow {
+namespace {
+
+Ground ground_of(const Lattice& lattice, const std::vector<double>& height, const Solver* outer) {
+  return outer ? Ground(lattice, height, outer->ground()) : Ground(lattice, height);
+}
+
+void check_sources(const Sources& s) {
+  const std::size_t n = s.position.size();
+  if (s.heat.size() != n || s.smoke.size() != n || (!s.water.empty() && s.water.size() != n)) {
+    throw std::invalid_argument("heat, smoke and water must be one for each position");
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    check_finite(s.position[i], "position");
+    check_zero_or_more(s.heat[i], "heat");
+    check_zero_or_more(s.smoke[i], "smoke");
+    if (!s.water.empty()) {
+      check_zero_or_more(s.water[i], "water");
+    }
+  }
+}
+
+/// a += (b - a) share, whole rows.
+void blend(const Lattice& l, const Field& b, float share, Field& a) {
+  each(a.levels(), [&](Index k) {
+    const float* from = b.row(k, -halo) - halo;
+    relax_row(l.plane, from, share, a.row(k, -halo) - halo);
+  });
+}
+
+/// Adds a wind to each level.
+void shift(const Lattice& l, const std::vector<std::array<float, 2>>& change, Wind& wind) {
+  each(l.nz, [&](Index k) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const float more = change[static_cast<std::size_t>(k)][axis];
+      float* values = (axis == 0 ? wind.u : wind.v).row(k, -halo) - halo;
+      for (Index i = 0; i < l.plane; ++i) {
+        values[i] += more;
+      }
+    }
+  });
+}
+
+} // namespace
+
+Solver::Solver(Box box, Profile profile, const Settings& settings)
+    : Solver(std::move(box), std::move(profile), settings, nullptr) {}
+
+Solver::Solver(Box box, std::shared_ptr<const Solver> outer, const Settings& settings)
+    : Solver(std::move(box), outer->profile(), settings, outer) {}
+
+Solver::Solver(Box box, Profile profile, const Settings& settings,
+               std::shared_ptr<const Solver> outer)
+    : lattice_(box.nx, box.ny, box.spacing, std::move(box.levels)), corner_(box.corner),
+      profile_(std::move(profile)), settings_(settings), outer_(std::move(outer)),
+      ground_(ground_of(lattice_, box.ground, outer_.get())), ambient_(lattice_, ground_, profile_),
+      state_(lattice_, ambient_.moist()), transport_(lattice_, ambient_.air()),
+      pressure_(lattice_, ambient_.air()), mixing_(lattice_, ambient_, settings.mixing),
+      buoyancy_(lattice_, ground_, ambient_), sides_(lattice_, ambient_, settings.edges),
+      shares_(shares(lattice_, settings.source_depth)) {
+  check_finite(corner_, "corner");
+  check_above_zero(settings.source_depth, "source_depth");
+  check_zero_or_more(settings.gusts.strength, "gust_strength");
+  check_above_zero(settings.gusts.size, "gust_size");
+  check_above_zero(settings.gusts.time, "gust_time");
+  start();
+}
+
+/// Rest and the ambient wind; or the flow around.
+void Solver::start() {
+  if (outer_) {
+    window_.emplace(outer_->lattice_, outer_->corner_, outer_->ambient_, lattice_, corner_,
+                    ambient_);
+    window_->look(outer_->state_, state_, lattice_.nx);
+    outside_ = std::make_unique<State>(lattice_, ambient_.moist());
+    coming_ = std::make_unique<State>(lattice_, ambient_.moist());
+    window_->look(outer_->state_, *outside_, sides_.reach());
+    time_ = outer_->time_;
+    seen_ = outer_->steps_;
+  } else {
+    state_.theta = ambient_.theta();
+    state_.water = ambient_.water();
+    for (Index k = 0; k < lattice_.nz; ++k) {
+      state_.wind.u.fill_level(k, ambient_.wind()[static_cast<std::size_t>(k)][0]);
+      state_.wind.v.fill_level(k, ambient_.wind()[static_cast<std::size_t>(k)][1]);
+    }
+  }
+  settle();
+  mass_.initial = airborne();
+}
+
+void Solver::set_sources(Sources sources) {
+  check_sources(sources);
+  if (!ambient_.moist()) {
+    sources.water.clear();
+  }
+  sources_ = std::move(sources);
+}
+
+void Solver::set_wind(const std::vector<std::array<double, 2>>& wind) {
+  if (wind.size() != profile_.height.size()) {
+    throw std::invalid_argument("wind must be one for each height of the profile");
+  }
+  for (const auto& w : wind) {
+    check_finite(w, "wind");
+  }
+  profile_.wind = wind;
+  const auto change = ambient_.set_wind(lattice_, profile_);
+  shift(lattice_, change, state_.wind);
+  if (outside_) {
+    shift(lattice_, change, outside_->wind);
+  }
+}
+
+/// What is around a nest at the end of its step, between two steps of the flow around.
+void Solver::follow(double dt) {
+  if (!outer_) {
+    return;
+  }
+  if (outer_->profile_.wind != profile_.wind) {
+    set_wind(outer_->profile_.wind);
+  }
+  if (seen_ != outer_->steps_) {
+    window_->look(outer_->state_, *coming_, sides_.reach());
+    seen_ = outer_->steps_;
+  }
+  const double ahead = outer_->time_ - time_;
+  if (dt > ahead * (1.0 + 1e-6) + 1e-6) {
+    throw std::invalid_argument("step the flow around first: the nest would overtake it");
+  }
+  State& now = *outside_;
+  if (ahead - dt < 1e-6) {
+    now = *coming_;
+    return;
+  }
+  const auto share = static_cast<float>(dt / ahead);
+  blend(lattice_, coming_->wind.u, share, now.wind.u);
+  blend(lattice_, coming_->wind.v, share, now.wind.v);
+  blend(lattice_, coming_->wind.w, share, now.wind.w);
+  blend(lattice_, coming_->theta, share, now.theta);
+  blend(lattice_, coming_->smoke, share, now.smoke);
+  blend(lattice_, coming_->age, share, now.age);
+  blend(lattice_, coming_->water, share, now.water);
+}
+
+void Solver::carry(double dt) {
+  const std::array<Field*, 4> dry{&state_.smoke, &state_.age, &state_.theta, &state_.water};
+  const std::array<Field*, 4> moist{&state_.smoke, &state_.age, &state_.water, &state_.theta};
+  std::array<Crossed, 4> crossed{};
+  const std::size_t count = ambient_.moist() ? 4 : 3;
+  Field* mixing = nullptr;
+  if (mixing_.on()) {
+    mixing = &buoyancy_.scratch();
+    mixing_.strengths(state_, *mixing);
+  }
+  const auto fields = std::span(ambient_.moist() ? moist : dry).first(count);
+  substeps_ = transport_.advance(state_.wind, fields, 1, dt, steps_ % 2 == 1, crossed, mixing);
+  mass_.entered += crossed[0].in;
+  mass_.left += crossed[0].out;
+}
+
+void Solver::add_to_level(const Deposit& deposit, double dt, Index k) {
+  const auto at = static_cast<std::size_t>(k);
+  const double air = ambient_.density(k) * lattice_.depth[at] * lattice_.spacing * lattice_.spacing;
+  const double part = dt * shares_[at] / air;
+  const double warming = part / (heat_capacity * ambient_.exner(k));
+  for (Index j = 0; j < lattice_.ny; ++j) {
+    for (Index i = 0; i < lattice_.nx; ++i) {
+      const auto column = static_cast<std::size_t>(j * lattice_.nx + i);
+      const auto add = [&](Field& field, double amount) {
+        float& value = field.row(k, j)[i];
+        value = static_cast<float>(static_cast<double>(value) + amount);
+      };
+      if (deposit.heat[column] > 0.0) {
+        add(state_.theta, warming * deposit.heat[column]);
+      }
+      if (deposit.smoke[column] > 0.0) {
+        add(state_.smoke, part * deposit.smoke[column]);
+      }
+      if (!deposit.water.empty() && deposit.water[column] > 0.0) {
+        add(state_.water, part * deposit.water[column]);
+      }
+    }
+  }
+}
+
+/// Smoke grows older, and what burns adds to it.
+void Solver::burn(double dt) {
+  each(lattice_.nz, [&](Index k) {
+    for (Index j = 0; j < lattice_.ny; ++j) {
+      grow_old_row(lattice_.nx, state_.smoke.row(k, j), static_cast<float>(dt),
+                   static_cast<float>(time_ + dt), state_.age.row(k, j));
+    }
+  });
+  if (sources_.position.empty()) {
+    return;
+  }
+  const Deposit now = deposit(sources_, lattice_, corner_, settings_.gusts, time_ + 0.5 * dt);
+  each(lattice_.nz, [&](Index k) {
+    if (shares_[static_cast<std::size_t>(k)] > 0.0) {
+      add_to_level(now, dt, k);
+    }
+  });
+  double heat = 0.0, smoke = 0.0, warmed = 0.0;
+  for (std::size_t i = 0; i < now.heat.size(); ++i) {
+    heat += now.heat[i];
+    smoke += now.smoke[i];
+  }
+  for (std::size_t k = 0; k < shares_.size(); ++k) {
+    warmed += shares_[k] / ambient_.exner(static_cast<Index>(k));
+  }
+  mass_.emitted += smoke * dt;
+  heat_.given += heat * dt;
+  heat_.warmed += heat * dt * warmed;
+}
+
+/// Sides, ghost cells, and wind that keeps the air's mass.
+void Solver::settle() {
+  sides_.close(state_, outside_.get());
+  pressure_.project(state_.wind);
+}
+
+void Solver::step(double dt) {
+  check_above_zero(dt, "dt");
+  follow(dt);
+  carry(dt);
+  burn(dt);
+  buoyancy_.push(state_, dt);
+  sides_.relax(state_, outside_.get(), dt);
+  settle();
+  time_ += dt;
+  ++steps_;
+  const double should = mass_.initial + mass_.emitted + mass_.entered + mass_.rounding - mass_.left;
+  const double is = airborne();
+  if (!std::isfinite(is) || !std::isfinite(courant())) {
+    throw Error("the flow has become infinite: take shorter steps");
+  }
+  mass_.rounding += is - should;
+}
+
+double Solver::airborne() const {
+  const double area = lattice_.spacing * lattice_.spacing;
+  return sum_each(lattice_.nz, [&](Index k) {
+    double sum = 0.0;
+    for (Index j = 0; j < lattice_.ny; ++j) {
+      sum += sum_row(lattice_.nx, state_.smoke.row(k, j));
+    }
+    return sum * static_cast<double>(ambient_.air().cell[static_cast<std::size_t>(k)]) * area;
+  });
+}
+
+Mass Solver::mass() const {
+  Mass result = mass_;
+  result.airborne = airborne();
+  return result;
+}
+
+Heat Solver::heat() const {
+  Heat result = heat_;
+  const double area = lattice_.spacing * lattice_.spacing;
+  result.held = sum_each(lattice_.nz, [&](Index k) {
+    double sum = 0.0;
+    for (Index j = 0; j < lattice_.ny; ++j) {
+      sum += sum_row(lattice_.nx, state_.theta.row(k, j)) -
+             sum_row(lattice_.nx, ambient_.theta().row(k, j));
+    }
+    return sum * static_cast<double>(ambient_.air().cell[static_cast<std::size_t>(k)]) * area *
+           heat_capacity;
+  });
+  return result;
+}
+
+Solver::Account Solver::account() const {
+  return {time_, steps_, mass_, heat_};
+}
+
+void Solver::resume(const Account& account, const std::vector<std::array<double, 2>>& wind) {
+  if (wind.size() != profile_.height.size()) {
+    throw std::invalid_argument("wind must be one for each height of the profile");
+  }
+  if (outer_ && std::abs(account.time - outer_->time_) > 1e-6) {
+    throw std::invalid_argument("restore the flow around first, to the same time");
+  }
+  profile_.wind = wind;
+  ambient_.set_wind(lattice_, profile_);
+  if (outer_) {
+    window_->look(outer_->state_, *outside_, sides_.reach());
+    seen_ = outer_->steps_;
+  }
+  time_ = account.time;
+  steps_ = account.steps;
+  mass_ = account.mass;
+  heat_ = account.heat;
+}
+
+} // namespace firetwin::flow

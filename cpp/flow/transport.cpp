@@ -1,0 +1,202 @@
+#include "flow/transport.hpp"
+
+#include "base/error.hpp"
+#include "flow/parallel.hpp"
+#include "flow/rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace firetwin::flow {
+namespace {
+
+constexpr double most_courant = 0.8;
+constexpr double most_lost = 0.9; // of a cell's air after one or two directions
+constexpr int most_substeps = 1000;
+constexpr float most_mixing = 0.15F; // of a cell's air with a neighbour; scalars three times that
+
+} // namespace
+
+Transport::Transport(const Lattice& lattice, const Air& air)
+    : lattice_(lattice), air_(air), x_(lattice, lattice.nz), y_(lattice, lattice.nz),
+      z_(lattice, lattice.nz + 1), rest_(lattice, lattice.nz), first_(lattice, lattice.nz),
+      second_(lattice, lattice.nz), mix_x_(lattice, lattice.nz), mix_y_(lattice, lattice.nz),
+      mix_z_(lattice, lattice.nz + 1) {
+  for (Index k = 0; k < lattice.nz; ++k) {
+    const float mass = air.cell[static_cast<std::size_t>(k)];
+    rest_.fill_level(k, mass);
+    first_.fill_level(k, mass);
+    second_.fill_level(k, mass);
+  }
+}
+
+const Field& Transport::flux(Axis axis) const {
+  return axis == Axis::x ? x_ : axis == Axis::y ? y_ : z_;
+}
+
+const Field* Transport::exchange(Axis axis) const {
+  return !mixes_ ? nullptr : axis == Axis::x ? &mix_x_ : axis == Axis::y ? &mix_y_ : &mix_z_;
+}
+
+/// Nothing is mixed through the box's own faces.
+void Transport::exchanges(const Field& mixing, double dt) {
+  const double across = dt / (lattice_.spacing * lattice_.spacing);
+  each(lattice_.nz, [&](Index k) {
+    const auto at = static_cast<std::size_t>(k);
+    const float most = most_mixing * air_.cell[at];
+    const float level = air_.cell[at] * static_cast<float>(across);
+    const float up = k > 0 ? air_.face[at] * static_cast<float>(dt / lattice_.gap(k)) : 0.0F;
+    const float most_up = k > 0 ? most_mixing * std::min(air_.cell[at - 1], air_.cell[at]) : 0.0F;
+    for (Index j = 0; j < lattice_.ny; ++j) {
+      const float* here = mixing.row(k, j);
+      exchange_row(lattice_.nx - 1, here, here + 1, level, most, mix_x_.row(k, j) + 1);
+      if (j > 0) {
+        exchange_row(lattice_.nx, mixing.row(k, j - 1), here, level, most, mix_y_.row(k, j));
+      }
+      if (k > 0) {
+        exchange_row(lattice_.nx, mixing.row(k - 1, j), here, up, most_up, mix_z_.row(k, j));
+      }
+    }
+  });
+}
+
+/// @return the largest Courant number
+double Transport::fluxes(const Wind& wind, double dt) {
+  const double along = dt / lattice_.spacing;
+  const auto mass = [&](Index k) {
+    return static_cast<double>(air_.cell[static_cast<std::size_t>(k)]);
+  };
+  return most_each(lattice_.nz, [&](Index k) {
+    const auto factor = static_cast<float>(mass(k) * along);
+    const auto up =
+        static_cast<float>(static_cast<double>(air_.face[static_cast<std::size_t>(k)]) * dt);
+    const double thin = k > 0 ? std::min(mass(k - 1), mass(k)) : mass(k);
+    float most = 0.0F, most_up = 0.0F;
+    for (Index j = 0; j <= lattice_.ny; ++j) {
+      scale_row(lattice_.nx, wind.v.row(k, j), factor, y_.row(k, j));
+      most = std::max(most, most_row(lattice_.nx, y_.row(k, j)));
+      if (j < lattice_.ny) {
+        scale_row(lattice_.nx + 1, wind.u.row(k, j), factor, x_.row(k, j));
+        scale_row(lattice_.nx, wind.w.row(k, j), up, z_.row(k, j));
+        most = std::max(most, most_row(lattice_.nx + 1, x_.row(k, j)));
+        most_up = std::max(most_up, most_row(lattice_.nx, z_.row(k, j)));
+      }
+    }
+    return std::max(static_cast<double>(most) / mass(k), static_cast<double>(most_up) / thin);
+  });
+}
+
+/// The air of cells after one direction more. @return the largest share of it that any cell lost
+double Transport::drain(Axis axis, const Field& before, Field& after) {
+  const Field& through = flux(axis);
+  return most_each(lattice_.nz, [&](Index k) {
+    const float rest = air_.cell[static_cast<std::size_t>(k)];
+    float least = rest;
+    for (Index j = 0; j < lattice_.ny; ++j) {
+      const float* in = through.row(k, j);
+      const float* out = axis == Axis::x   ? in + 1
+                         : axis == Axis::y ? through.row(k, j + 1)
+                                           : through.row(k + 1, j);
+      left_row(lattice_.nx, before.row(k, j), in, out, after.row(k, j));
+      least = std::min(least, least_row(lattice_.nx, after.row(k, j)));
+    }
+    return 1.0 - static_cast<double>(least / rest);
+  });
+}
+
+int Transport::prepare(const Wind& wind, double dt, bool backwards) {
+  courant_ = fluxes(wind, dt);
+  for (int substeps = std::max(1, static_cast<int>(std::ceil(courant_ / most_courant)));;
+       substeps *= 2) {
+    if (substeps > 1) {
+      fluxes(wind, dt / substeps);
+    }
+    const double one = drain(backwards ? Axis::z : Axis::x, rest_, first_);
+    const double two = drain(Axis::y, first_, second_);
+    if (std::max(one, two) < most_lost || substeps >= most_substeps) {
+      return substeps;
+    }
+  }
+}
+
+void Transport::levels(Wind& wind, std::span<Field* const> scalars, std::size_t kept,
+                       bool backwards, std::span<Crossed> crossed) {
+  const std::array<Axis, 2> order =
+      backwards ? std::array{Axis::y, Axis::x} : std::array{Axis::x, Axis::y};
+  const std::array<const Field*, 2> mass = backwards
+                                               ? std::array<const Field*, 2>{&first_, &second_}
+                                               : std::array<const Field*, 2>{&rest_, &first_};
+  const std::size_t count = scalars.size();
+  each(lattice_.nz, [&](Index k) {
+    for (std::size_t n = 0; n < 2; ++n) {
+      const bool last = backwards && n == 1;
+      const auto go = [&](Place place, std::span<Field* const> fields, std::size_t rescaled) {
+        const auto rest = last ? std::span<const float>(air_.cell) : std::span<const float>();
+        const bool counts = place == Place::middle;
+        sweep_level({lattice_, order[n], place, flux(order[n]), *mass[n], rest, fields, rescaled,
+                     exchange(order[n]), counts ? scalar_mixing : 1.0F},
+                    k,
+                    counts ? crossed.subspan(static_cast<std::size_t>(k) * count, count)
+                           : std::span<Crossed>());
+      };
+      const std::array<Field*, 3> parts{&wind.u, &wind.v, &wind.w};
+      go(Place::middle, scalars, kept);
+      go(Place::x, std::span(parts).subspan(0, 1), 0);
+      go(Place::y, std::span(parts).subspan(1, 1), 0);
+      if (k > 0) {
+        go(Place::z, std::span(parts).subspan(2, 1), 0);
+      }
+    }
+  });
+}
+
+void Transport::columns(Wind& wind, std::span<Field* const> scalars, std::size_t kept,
+                        bool backwards) {
+  const Field& mass = backwards ? rest_ : second_;
+  const auto rest = backwards ? std::span<const float>() : std::span<const float>(air_.cell);
+  each(lattice_.ny, [&](Index j) {
+    const std::array<Field*, 3> parts{&wind.u, &wind.v, &wind.w};
+    const auto go = [&](Place place, std::span<Field* const> fields, std::size_t rescaled) {
+      sweep_columns({lattice_, Axis::z, place, z_, mass, rest, fields, rescaled, exchange(Axis::z),
+                     place == Place::middle ? scalar_mixing : 1.0F},
+                    j);
+    };
+    go(Place::middle, scalars, kept);
+    go(Place::x, std::span(parts).subspan(0, 1), 0);
+    if (j > 0) {
+      go(Place::y, std::span(parts).subspan(1, 1), 0);
+    }
+    go(Place::z, std::span(parts).subspan(2, 1), 0);
+  });
+}
+
+int Transport::advance(Wind& wind, std::span<Field* const> scalars, std::size_t loose, double dt,
+                       bool backwards, std::span<Crossed> crossed, const Field* mixing) {
+  const int substeps = prepare(wind, dt, backwards);
+  mixes_ = mixing != nullptr;
+  if (mixing) {
+    exchanges(*mixing, dt / substeps);
+  }
+  if (substeps >= most_substeps) {
+    throw Error("the wind is too strong for the grid: take shorter steps");
+  }
+  const std::size_t kept = scalars.size() - loose;
+  crossed_.assign(scalars.size() * static_cast<std::size_t>(lattice_.nz), {});
+  for (int step = 0; step < substeps; ++step) {
+    if (backwards) {
+      columns(wind, scalars, kept, backwards);
+      levels(wind, scalars, kept, backwards, crossed_);
+    } else {
+      levels(wind, scalars, kept, backwards, crossed_);
+      columns(wind, scalars, kept, backwards);
+    }
+  }
+  const double area = lattice_.spacing * lattice_.spacing;
+  for (std::size_t i = 0; i < crossed_.size(); ++i) {
+    crossed[i % scalars.size()].in += crossed_[i].in * area;
+    crossed[i % scalars.size()].out += crossed_[i].out * area;
+  }
+  return substeps;
+}
+
+} // namespace firetwin::flow

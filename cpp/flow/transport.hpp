@@ -1,0 +1,68 @@
+#pragma once
+
+#include "flow/field.hpp"
+#include "flow/sweep.hpp"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace firetwin::flow {
+
+/// Velocity on the faces, m/s.
+struct Wind {
+  explicit Wind(const Lattice& lattice)
+      : u(lattice, lattice.nz), v(lattice, lattice.nz), w(lattice, lattice.nz + 1) {}
+  Field u;
+  Field v;
+  Field w;
+};
+
+/// What air weighs.
+struct Air {
+  std::vector<float> cell; ///< [nz] kg per m2 of ground, in a cell
+  std::vector<float> face; ///< [nz + 1] kg/m3 at the faces
+};
+
+/// How much better eddies mix scalars than momentum: 1 / the turbulent Prandtl number.
+inline constexpr float scalar_mixing = 3.0F;
+
+/// Carries scalars and momentum with the wind: direction by direction, forwards one step and
+/// backwards the next (after Strang 1968), in as many substeps as keep each direction's Courant
+/// number below 0.8.
+class Transport {
+public:
+  Transport(const Lattice& lattice, const Air& air);
+
+  /// @param scalars at most `most_fields`; of all but the last `loose` ones sums are kept to
+  /// rounding, of the loose ones constants
+  /// @param crossed [scalars] what came and went through the sides, value x kg
+  /// @param mixing K of eddies in cells, m2/s, or null
+  /// @return number of substeps
+  int advance(Wind& wind, std::span<Field* const> scalars, std::size_t loose, double dt,
+              bool backwards, std::span<Crossed> crossed, const Field* mixing);
+
+  double courant() const { return courant_; } ///< of the last step as a whole
+
+private:
+  int prepare(const Wind& wind, double dt, bool backwards);
+  double fluxes(const Wind& wind, double dt);
+  double drain(Axis axis, const Field& before, Field& after);
+  void exchanges(const Field& mixing, double dt);
+  void levels(Wind& wind, std::span<Field* const> scalars, std::size_t kept, bool backwards,
+              std::span<Crossed> crossed);
+  void columns(Wind& wind, std::span<Field* const> scalars, std::size_t kept, bool backwards);
+  const Field& flux(Axis axis) const;
+  const Field* exchange(Axis axis) const;
+
+  const Lattice& lattice_;
+  const Air& air_;
+  Field x_, y_, z_;             ///< through faces in a substep, kg per m2 of ground
+  Field rest_, first_, second_; ///< air of cells at rest, after one direction, after two
+  Field mix_x_, mix_y_, mix_z_; ///< air that eddies exchange through faces in a substep, kg/m2
+  bool mixes_ = false;
+  std::vector<Crossed> crossed_;
+  double courant_ = 0.0;
+};
+
+} // namespace firetwin::flow

@@ -1,0 +1,92 @@
+"""What the smoke of a scene costs when it is solved as a flow: time, memory and room on the disk.
+
+    .venv/bin/python tests/benchmarks/solved_smoke.py examples/king_fire.toml [--frames 3] [--json]
+
+Solves from the flow's beginning to the last of so many first frames (all of them unless said), in a cache of
+its own that is removed, and paints the last one. Prints wall time, the processors' seconds, which say what an
+idle machine would take, how high the smoke stands, and how well its mass adds up.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import resource
+import tempfile
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import bpy  # noqa: F401 (Blender's own libraries come first)
+import firetwin_core
+import numpy as np
+from firetwin.scene.smoke.baker import Baker
+from firetwin.scene.smoke.flow import Flow
+from firetwin.shot import file
+from firetwin.shot.shot import Shot
+from firetwin_core import run
+
+
+def timed(work, *arguments) -> tuple[float, float]:
+    """Wall and processors' seconds of a call."""
+    wall, processors = time.perf_counter(), time.process_time()
+    work(*arguments)
+    return time.perf_counter() - wall, time.process_time() - processors
+
+
+def measured(scene: Path, frames: int, cache: Path) -> dict[str, float]:
+    """All numbers."""
+    settings = file.read(scene)
+    settings = replace(settings, cache=cache, smoke=replace(settings.smoke, method="flow"))
+    shot = Shot(settings, run.open(settings.run))
+    baker = Baker(shot)
+    solved: Flow = baker.flow
+    last = min(frames or shot.frames.count, shot.frames.count)
+    result = {"boxes": float(len(solved.parts))}
+    result["solve_s"], result["solve_processor_s"] = timed(solved.ready, last)
+    live = solved._live
+    for name, solver in zip(("box", "nest"), live.solvers, strict=False):
+        mass = solver.mass()
+        given = mass["initial"] + mass["emitted"] + mass["entered"]
+        share = np.cumsum(solver.smoke().sum((1, 2), dtype=float) * np.diff(solver.levels))
+        tops = np.interp([0.5, 0.99], share / max(share[-1], 1e-30), solver.levels[1:])
+        result |= {
+            f"{name}_steps": float(solver.steps),
+            f"{name}_half_of_the_smoke_below_m": tops[0],
+            f"{name}_99_percent_below_m": tops[1],
+            f"{name}_mass_amiss": abs((mass["airborne"] + mass["left"]) / given - 1.0),
+        }
+    result["solve_mb"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    place = cache / f"smoke_{last:06d}.vdb"
+    result["frame_s"], result["frame_processor_s"] = timed(baker.write, place, last)
+    result["frame_mb"] = sum(path.stat().st_size for path in cache.glob("*.vdb")) / 1e6
+    kept = [path.stat().st_size for path in cache.glob("*/moment_*.npz")]
+    result["moments_mb_per_frame"] = sum(kept) / 1e6 / last
+    result["memory_mb"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    return result
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("scene", type=Path)
+    parser.add_argument("--frames", type=int, default=0)
+    parser.add_argument("--threads", type=int, default=0)
+    parser.add_argument("--json", action="store_true")
+    options = parser.parse_args()
+    firetwin_core.set_threads(options.threads)
+    with tempfile.TemporaryDirectory() as cache:
+        result = {
+            key: float(value) for key, value in measured(options.scene, options.frames, Path(cache)).items()
+        }
+    if options.json:
+        print(json.dumps(result))
+        return
+    for key, value in result.items():
+        print(f"{key:34} {value:14.6g}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,199 @@
+"""Smoke solved as a flow: what frames say is what was solved, once, however often it was interrupted."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from datetime import UTC, datetime
+
+import numpy as np
+import pytest
+
+bpy = pytest.importorskip("bpy")
+
+from firetwin.scene.smoke import bake, boxes, flow, moments, solving  # noqa: E402
+from firetwin.shot.shot import Shot  # noqa: E402
+from firetwin_core import run as runs  # noqa: E402
+
+
+@pytest.fixture
+def flowing(settings, monkeypatch):
+    """Settings of two frames whose smoke is a flow on few, large cells."""
+    monkeypatch.setattr(boxes, "_LEVELS", (150.0, 600.0, 10))
+    monkeypatch.setattr(boxes, "_NEST_LEVELS", (120.0, 400.0, 11))
+    monkeypatch.setattr(boxes, "_NEST", 72)
+    monkeypatch.setattr(boxes, "_MARGIN", 2000.0)
+    monkeypatch.setattr(boxes, "_DOWNWIND", (0.0, 0.0))
+    monkeypatch.setattr(boxes, "LEAD", 40.0)
+    camera = replace(settings.cameras[0], frames="1-2")
+    time = replace(settings.time, start=datetime(2014, 9, 17, 21, 30, tzinfo=UTC), end=None, frames=40)
+    smoke = replace(settings.smoke, enabled=True, method="flow", spin_up=120.0, voxel_size=200.0)
+    return replace(settings, smoke=smoke, time=time, cameras=(camera,))
+
+
+@pytest.fixture
+def shot(flowing, run):
+    return Shot(flowing, run)
+
+
+def contents(folder):
+    return {path.name: path.read_bytes() for path in folder.iterdir() if path.suffix == ".npz"}
+
+
+def grids(path):
+    bpy.utils.expose_bundled_modules()
+    import openvdb
+
+    found, metadata = openvdb.readAll(str(path))
+    return {grid.name: grid for grid in found}, metadata
+
+
+def test_what_frames_say_is_what_was_solved(shot):
+    solved = flow.Flow(shot)
+    assert len(solved.parts) == 2
+    solved.ready(2)
+    assert solved._live is not None
+    for part, solver in zip(solved.parts, solved._live.solvers, strict=True):
+        moment = moments.load(part.moment(2))
+        volume = solver.spacing**2 * np.diff(solver.levels)[: len(moment.fields["smoke"]), None, None]
+        _nz, rows, columns = moment.fields["smoke"].shape
+        west, south = moment.low
+        inside = part.ground[south : south + rows, west : west + columns]
+        thickness = 1.0 - (inside - part.mean) / part.top
+        held = float((moment.fields["smoke"].astype(float) * volume * thickness).sum())
+        mass = moment.mass
+        assert mass["airborne"] > 0.0
+        assert held == pytest.approx(mass["airborne"], rel=1e-6)
+        balance = mass["initial"] + mass["emitted"] + mass["entered"] + mass["rounding"]
+        assert mass["airborne"] + mass["left"] == pytest.approx(balance, rel=1e-6)
+        assert np.allclose(part.heights(), solver.heights(), atol=0.01)
+
+
+def test_the_smoke_is_that_of_the_heat(shot):
+    solved = flow.Flow(shot)
+    solved.ready(1)
+    slots = np.arange(0.0, shot.settings.smoke.spin_up, 30.0)
+    box = solved.parts[0].box
+    given = 0.0
+    for number, slot in enumerate(slots):
+        sources = shot.fire.sources(solved.begin + slot)
+        inside = np.all((sources.position[:, :2] > box.corner) & (sources.position[:, :2] < box.high), axis=1)
+        given += 30.0 * min(1.0, (number + 1) * 30.0 / 300.0) * sources.power[inside].sum()
+    emitted = moments.load(solved.parts[0].moment(1)).mass["emitted"]
+    assert emitted == pytest.approx(given * 0.02 / 17.433e6, rel=1e-3)
+
+
+def test_going_on_after_an_interruption_gives_the_same_bytes(flowing, run, tmp_path, monkeypatch):
+    whole = flow.Flow(Shot(replace(flowing, cache=tmp_path / "whole"), run))
+    whole.ready(2)
+    monkeypatch.setattr(solving, "_SAVE", 0.0)
+    broken = replace(flowing, cache=tmp_path / "broken")
+
+    def stop(done, total, what):
+        if done == 11:  # after the nest has begun
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        flow.Flow(Shot(broken, run)).ready(2, stop)
+    last = flow.Flow(Shot(broken, run))
+    seen = []
+    last.ready(2, lambda done, total, what: seen.append(done))
+    assert seen[0] == 11
+    for one, other in zip(whole.parts, last.parts, strict=True):
+        assert one.folder.name == other.folder.name
+        assert one.moment(2).read_bytes() == other.moment(2).read_bytes()
+
+
+def test_frames_in_any_order_are_the_same(flowing, run, tmp_path):
+    forwards = flow.Flow(Shot(replace(flowing, cache=tmp_path / "a"), run))
+    forwards.solve([1, 2])
+    backwards = flow.Flow(Shot(replace(flowing, cache=tmp_path / "b"), run))
+    backwards.ready(2)
+    backwards.ready(1)
+    for one, other in zip(forwards.parts, backwards.parts, strict=True):
+        for frame in (1, 2):
+            assert one.moment(frame).read_bytes() == other.moment(frame).read_bytes()
+
+
+def test_baked_once_nothing_is_solved_again(shot, monkeypatch):
+    place = bake.bake(shot)
+    assert {path.name for path in place.glob("*.vdb")} == {
+        f"{name}_{frame:06d}.vdb" for name in ("smoke", "far") for frame in (1, 2)
+    }
+    written = {path: path.stat().st_mtime_ns for path in place.iterdir()}
+    monkeypatch.setattr(flow, "Live", lambda whole: pytest.fail("solved again"))
+    assert bake.bake(Shot(shot.settings, shot.run)) == place
+    assert {path: path.stat().st_mtime_ns for path in place.iterdir()} == written
+
+
+def test_a_moved_camera_keeps_the_flow(flowing, run, monkeypatch):
+    """A little: both boxes. To where no nest helps: the box, whose moments are there already."""
+    first = flow.Flow(Shot(flowing, run))
+    first.ready(1)
+    monkeypatch.setattr(flow, "Live", lambda whole: pytest.fail("solved again"))
+
+    def seen_from(latitude):
+        camera = flowing.cameras[0]
+        keys = tuple(replace(key, latitude=key.latitude + latitude) for key in camera.rig.keys)
+        moved = replace(camera, rig=replace(camera.rig, keys=keys))
+        return flow.Flow(Shot(replace(flowing, cameras=(moved,)), run))
+
+    near, far = seen_from(0.001), seen_from(1.0)
+    assert near.key() == first.key()
+    assert far.key() == first.key()[:1]
+    near.ready(1)
+    far.ready(1)
+
+
+def test_no_box_is_wider_than_can_be_solved(shot, monkeypatch):
+    monkeypatch.setattr(boxes, "_WIDEST", 11_000.0)
+    monkeypatch.setattr(boxes, "_MARGIN", 30_000.0)
+    box = flow.Flow(shot).parts[0].box
+    assert max(box.shape) * box.spacing <= 12_000.0
+
+
+def test_a_stopped_flow_ends(shot):
+    solved = flow.Flow(shot)
+    solved.stop.set()
+    with pytest.raises(flow.StoppedError):
+        solved.ready(1)
+
+
+def test_without_fire_there_is_an_empty_volume(flowing, run_folder, tmp_path):
+    import shutil
+
+    folder = tmp_path / "cold"
+    shutil.copytree(run_folder, folder)
+    np.save(folder / "heat_flux.npy", np.zeros_like(np.load(folder / "heat_flux.npy")))
+    cold = Shot(replace(flowing, run=folder), runs.open(folder))
+    place = bake.bake(cold, frames=[1])
+    found, _ = grids(place / "smoke_000001.vdb")
+    assert all(grid.activeVoxelCount() == 0 for grid in found.values())
+
+
+def test_a_run_without_arrival_times_or_wind_flows(flowing, run_folder, tmp_path):
+    import shutil
+
+    folder = tmp_path / "foreign"
+    shutil.copytree(run_folder, folder)
+    (folder / "fuel_arrival_time.npy").unlink()
+    toml = (folder / "run.toml").read_text()
+    (folder / "run.toml").write_text(toml.replace('fuel_arrival_time = "s"\n', ""))
+    foreign = Shot(replace(flowing, run=folder), runs.open(folder))
+    assert foreign.wind == (0.0, 0.0)
+    place = bake.bake(foreign, frames=[2])
+    found, metadata = grids(place / "smoke_000002.vdb")
+    assert found["density"].activeVoxelCount() > 0
+    assert float(metadata["smoke_airborne_kg"]) > 0.0
+
+
+def test_the_scene_shows_both_layers(shot, stage, scene):
+    from firetwin.scene.smoke import build
+
+    bake.bake(shot)
+    build.build(shot, stage)
+    scene.frame_set(2)
+    volumes = {volume.name: volume for volume in bpy.data.volumes}
+    assert set(volumes) == {"Firetwin Smoke", "Firetwin Far Smoke"}
+    for volume in volumes.values():
+        volume.grids.load()
+        assert {grid.name for grid in volume.grids} >= {"density", "fresh"}

@@ -1,0 +1,154 @@
+"""Detail below a flow's cells: it travels with the air, stays where smoke is, and is alike on any threads."""
+
+import firetwin_core as core
+import numpy as np
+import pytest
+from firetwin_core import flow
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+N, SPACING, DEPTH, VOXEL = 12, 100.0, 80.0, 25.0
+
+
+def in_wind(wind=(6.0, -3.0), period=120.0):
+    """A solver in a steady uniform wind, and its drift."""
+    levels = np.arange(11) * DEPTH
+    solver = flow.Solver(levels, (N, N), SPACING, [0.0, 2000.0], [300.0, 306.0], [wind] * 2, side_width=3)
+    solver.set_sources(np.empty((0, 2)), [], [])
+    return solver, flow.Drift(solver, period)
+
+
+def moment(**changed):
+    """Smoke in the middle of a box, that is old, calm and cool."""
+    z, y, x = np.meshgrid(*(np.arange(N) - (N - 1) / 2,) * 3, indexing="ij")
+    levels = (np.arange(N) + 0.5) * DEPTH
+    fields = {
+        "spacing": SPACING,
+        "corner": (0.0, 0.0),
+        "levels": levels,
+        "heights": np.broadcast_to(levels[:, None, None], (N, N, N)),
+        "ground": np.zeros((N, N)),
+        "smoke": 3e-6 * np.exp(-(x**2 + y**2 + z**2) / 3.0),
+        "age": np.full((N, N, N), 2000.0),
+        "rise": np.zeros((N, N, N)),
+        "warmth": np.zeros((N, N, N)),
+        "drift": np.zeros((N, N, N, 2, 3)),
+        "weights": (0.6, 0.8),
+        "turns": (0, 0),
+    }
+    return fields | changed
+
+
+def painted(origin=(0.0, 0.0, 0.0), share=1.0, surface=0.0, count=48, **changed):
+    plane = np.ones((count, count))
+    detail = flow.Detail(**moment(**changed))
+    return detail.paint(origin, VOXEL, surface * plane, share * plane, 40)
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.floats(-9, 9), st.floats(-9, 9), st.sampled_from([3.0, 7.0, 11.0]))
+def test_in_a_steady_wind_air_drifts_with_it(east, north, dt):
+    solver, drift = in_wind((east, north), period=100.0)
+    for _ in range(6):
+        solver.step(dt)
+        drift.advance()
+        since = (solver.time + np.array([0.0, 50.0])) % 100.0
+        since = np.minimum(since, solver.time)
+        middle = drift.values()[1:4, 2:4, 2:4]
+        late = since < dt  # a phase that began within the step begins at its end
+        expected = np.where(late, 0.0, since)
+        began = np.where(late, 0.0, since) % dt  # what of a step went by before it began
+        wind = np.array([east, north, 0.0])
+        error = np.abs(middle - expected[:, None] * wind)
+        assert error.max() <= (began.max() + 1e-3) * max(abs(east), abs(north)) + 0.2
+    assert np.sum(np.square(drift.weights)) == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_phase_is_unseen_when_it_begins_anew():
+    solver, drift = in_wind(period=40.0)
+    for _ in range(12):
+        before = drift.turns
+        solver.step(10.0)
+        drift.advance()
+        for weight, old, new in zip(drift.weights, before, drift.turns, strict=True):
+            assert old == new or weight < 1e-3
+
+
+def test_going_on_from_kept_drift_is_going_on():
+    solver, drift = in_wind()
+    solver.step(10.0, 2)
+    drift.advance()
+    again = flow.Drift(solver)
+    again.restore(drift.time, drift.values())
+    solver.step(10.0)
+    drift.advance()
+    again.advance()
+    assert np.array_equal(again.values(), drift.values())
+    assert again.turns == drift.turns
+
+
+def test_detail_goes_where_the_air_has_gone():
+    """The same noise, in smoke that is the same everywhere: moved by the drift, and by nothing else."""
+    even = {"smoke": np.full((N, N, N), 2e-7)}
+    still = painted(**even)[0]
+    moved = painted(**even, drift=np.broadcast_to([8 * VOXEL, -4 * VOXEL, 0.0], (N, N, N, 2, 3)))[0]
+    inside = slice(14, 34)
+    assert still[inside, inside, 8:30].std() > 0.0
+    there = moved[22:42, 10:30, 8:30]
+    assert np.allclose(there, still[inside, inside, 8:30], rtol=2e-3, atol=1e-7)
+
+
+def test_another_turn_of_a_phase_has_other_noise():
+    assert not np.array_equal(painted()[0], painted(turns=(1, 0))[0])
+
+
+def test_any_number_of_threads_paints_the_same(all_threads):
+    found = []
+    for threads in (1, 3):
+        core.set_threads(threads)
+        found.append(painted(warmth=np.full((N, N, N), 2.0), glow=np.ones((N, N, N))))
+    for one, three in zip(*found, strict=True):
+        assert np.array_equal(one, three)
+
+
+def test_where_no_smoke_is_none_is_painted():
+    density, fresh, glow = painted(smoke=np.zeros((N, N, N)))
+    assert not density.any()
+    assert not fresh.any()
+    assert glow is None
+    density = painted()[0]
+    assert density[24, 24, 19] > 0.0
+    assert not density[:3].any()
+
+
+def test_share_scales_and_nothing_is_thicker_than_the_limit():
+    whole, half = painted()[0], painted(share=0.5)[0]
+    assert np.allclose(half, 0.5 * whole)
+    assert painted(smoke=np.full((N, N, N), 1e-3))[0].max() <= 0.03 * (1 + 1e-6)
+
+
+def test_smoke_stands_on_the_true_ground_and_is_thin_at_its_roots():
+    dense = np.full((N, N, N), 1e-6)
+    density = painted(smoke=dense, surface=200.0, weights=(0.0, 1e-3))[0][24, 24]
+    assert not density[: int(200 / VOXEL) - 1].any()
+    low, high = density[int(200 / VOXEL) + 1], density[int(200 / VOXEL) + 10]
+    assert 0.0 < low < 0.5 * high
+
+
+def test_young_smoke_is_fresh():
+    assert painted(age=np.full((N, N, N), 10.0))[1].max() == pytest.approx(1.0)
+    assert painted()[1].max() == 0.0
+
+
+@pytest.mark.parametrize("name", ["age", "rise", "warmth", "heights", "drift", "ground", "levels"])
+def test_arrays_of_other_shapes_are_refused(name):
+    with pytest.raises(ValueError, match=name):
+        flow.Detail(**moment(**{name: np.zeros((3, 3, 3))}))
+
+
+def test_bad_calls():
+    detail = flow.Detail(**moment())
+    with pytest.raises(ValueError, match="share"):
+        detail.paint((0, 0, 0), 25.0, np.zeros((4, 4)), np.zeros((4, 5)), 8)
+    with pytest.raises(ValueError, match="period"):
+        in_wind(period=0.0)
