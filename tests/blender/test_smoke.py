@@ -131,7 +131,7 @@ def test_frames_in_parallel_are_the_frames_one_by_one(smoky, run, tmp_path, monk
 def test_what_a_killed_process_left_is_cleared(shot):
     place = bake.folder(shot)
     place.mkdir(parents=True)
-    left, alive = place / "smoke_000001.vdb.1234abcd.tmp", place / "smoke_000009.vdb.1234abcd.tmp.7.tmp"
+    left, alive = place / ".smoke_000001.0123456789ab.part.vdb", place / ".smoke_000009.ba9876543210.part.vdb"
     left.touch()
     alive.touch()
     os.utime(left, (0, time.time() - 2 * cache.IN_USE))

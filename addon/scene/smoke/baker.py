@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import uuid
 from pathlib import Path
 from typing import Any
 
@@ -89,7 +88,7 @@ class Baker:
         }
         if len(power):
             more |= {"flame_position": position, "flame_power": power}
-        mine = _part(path)
+        mine = files.part_of(path)
         with writing(path):
             if own:
                 written = self._write_levels(mine, time, more)
@@ -115,12 +114,12 @@ class Baker:
         lights = lit if flow_frames.dark(self.shot.sun(time)[1]) else None
         for painter in self.painters:
             place = painter.layer.file(path.parent, frame)
-            mine = _part(place)
+            mine = files.part_of(place)
             with writing(place):
                 written = painter.write(mine, frame, lights, self._sight(frame), metadata)
             _put(mine, place, written.bytes)
         if not self.painters:
-            mine = _part(path)
+            mine = files.part_of(path)
             with writing(path):
                 nothing = {name: np.zeros((1, 1, 1)) for name in flow_frames.GRIDS}
                 written = volume.write(mine, nothing, 100.0, metadata=metadata)
@@ -156,10 +155,6 @@ class Baker:
 def solved(shot: Shot) -> bool:
     """Whether smoke is a solved flow: chosen, and the run has none of its own."""
     return shot.settings.smoke.method == "flow" and not shot.run.has("smoke_3d")
-
-
-def _part(path: Path) -> Path:
-    return path.with_name(f"{path.name}.{uuid.uuid4().hex[:8]}.tmp")
 
 
 def _put(mine: Path, path: Path, size: int) -> None:

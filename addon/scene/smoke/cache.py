@@ -16,7 +16,7 @@ from ...errors import input_error, writing
 IN_USE = 600.0  # s after the last sign of use; also how long a file in the making may stand still
 _SIGN = 60.0  # s between two signs
 _MAGIC = b" BDV\0\0\0\0"
-_OURS = re.compile(r"((smoke|far)_\d{6,}\.vdb|moment_\d{6,}\.npz|state\.npz)(\..*tmp)?")
+_OURS = re.compile(r"\.?((smoke|far|moment)_\d{6,}|state)(\.[0-9a-f]{12}\.part)?\.(vdb|npz)")
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,7 @@ def in_use(folder: Path) -> Iterator[None]:
 
 def sweep(folder: Path) -> None:
     """Remove unfinished files that nobody has written to for long."""
-    for path in folder.glob("*.tmp"):
+    for path in folder.glob(".*.part.*"):
         with contextlib.suppress(OSError):
             if time.time() - path.stat().st_mtime > IN_USE:
                 path.unlink()

@@ -68,7 +68,7 @@ def keep(path: Path, solver: flow.Solver, drift: flow.Drift) -> None:
         "turns": np.array(drift.turns),
         "mass": np.array([mass[name] for name in sorted(mass)]),
     }
-    files.write(path, lambda part: write(part, kept, _PACKING), path.with_suffix(".npz.tmp"))
+    files.write(path, lambda part: write(part, kept, _PACKING))
 
 
 def load(path: Path) -> Moment:

@@ -126,7 +126,7 @@ class Live:
         for number, drift in enumerate(self.drifts):
             kept |= {f"{number}_drift": drift.values(), f"{number}_drift_time": np.array([drift.time])}
         path = self.whole.parts[-1].folder / STATE
-        files.write(path, lambda part: moments.write(part, kept), path.with_suffix(".npz.tmp"))
+        files.write(path, lambda part: moments.write(part, kept))
         self.saved = time.monotonic()
 
     def _resume(self) -> None:
