@@ -87,7 +87,8 @@ class Fire:
     @cached_property
     def fuel(self) -> Fuel:
         """What burns in the shot, or has burned not long before it."""
-        return gather(self.run, self.arrival, self.first, self.last + _AHEAD, self.before)
+        known = None if self.run.has("fuel_arrival_time") else self.arrival
+        return gather(self.run, known, self.first, self.last + _AHEAD, self.before)
 
     def sources(self, time: float) -> Sources:
         """Everything that gives heat at `time` (s): together each model cell's flux times its area.
