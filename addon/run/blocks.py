@@ -20,7 +20,7 @@ def rows(run: Run) -> Iterator[tuple[int, int]]:
 
 
 def arrival(run: Run, known: NDArray | None = None) -> Callable[[int, int], NDArray]:
-    """What reads some rows of arrival times (s, NaN where never): of `known`, or the run's own or estimated."""
+    """What reads some rows of arrival times (s, NaN where never): of `known`, else of the run's."""
     if known is None and run.has("fuel_arrival_time"):
         return lambda first, last: run.fuel_rows("fuel_arrival_time", first, last)
     whole = run.fuel_arrival_time() if known is None else np.asarray(known)

@@ -10,13 +10,20 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ..data import history
-from . import areas, blocks, times
+from . import areas, blocks, remembered, times
 
 ACRE = history.SQUARE_METRES_PER_ACRE
 
 
 def gather(run: Run, zone: str) -> dict[str, Any]:
-    """Everything `firetwin info` shows; lengths in m, areas in m2, power and energy in W and J."""
+    """Everything `firetwin info` shows; lengths in m, areas in m2, power and energy in W and J.
+
+    What was found once is remembered in the run's folder.
+    """
+    return remembered.facts(run, zone, lambda: _find(run, zone)) | {"path": run.path}
+
+
+def _find(run: Run, zone: str) -> dict[str, Any]:
     reports = _reports(run)
     at = [float(run.times[0]), float(run.times[-1]), *(times.seconds(run, each.time) for each in reports)]
     first, last, *then = burned(run, at)

@@ -60,9 +60,9 @@ void Part::add(std::span<Scan::Cell> cells, const Frame& frame) {
 /// Cells `begin` to `end`; whether some of them are 0, as most are, which need no look.
 bool Part::add(std::span<Scan::Cell> cells, std::size_t begin, std::size_t end,
                const Frame& frame) {
-  std::size_t others = 0;
+  std::uint32_t others = 0;
   for (std::size_t i = begin; i < end; ++i) {
-    others += frame.flux[i] != 0.0F ? 1 : 0;
+    others += frame.flux[i] != 0.0F ? 1U : 0U;
   }
   for (std::size_t i = begin; others > 0 && i < end; ++i) {
     if (std::isfinite(frame.flux[i])) {
