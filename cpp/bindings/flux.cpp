@@ -1,12 +1,9 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "flux/crossing.hpp"
 #include "flux/emitters.hpp"
 #include "flux/interpolator.hpp"
 
 #include <memory>
-#include <stdexcept>
-#include <string>
 
 namespace firetwin::bindings {
 namespace py = pybind11;
@@ -20,25 +17,6 @@ std::shared_ptr<Emitters> emitters(const py::object& flux_object, const py::obje
   const auto points = to_array<double>(position, "position", {flux.shape(0), flux.shape(1), 3});
   const py::gil_scoped_release release;
   return std::make_shared<Emitters>(flux::emitters(view(flux), view(points), flux_min, flux_max));
-}
-
-/// Of the cells asked for, in a grid of times.
-Array<double> crossing_time(const py::object& arrival, const py::object& cell) {
-  const auto time = to_array<double>(arrival, "arrival", {-1, -1});
-  const auto cells = to_array<std::int64_t>(cell, "cell", {-1});
-  const auto values = view(time);
-  const auto columns = static_cast<std::size_t>(time.shape(1));
-  auto result = new_array<double>({cells.shape(0)});
-  const auto out = writable(result);
-  std::size_t done = 0;
-  for (const std::int64_t i : view(cells)) {
-    if (i < 0 || static_cast<std::size_t>(i) >= values.size()) {
-      throw std::out_of_range("cell " + std::to_string(i) + " of a grid with " +
-                              std::to_string(values.size()) + " cells");
-    }
-    out[done++] = flux::crossing_time(values, columns, static_cast<std::size_t>(i));
-  }
-  return result;
 }
 
 using flux::Interpolator;
@@ -98,7 +76,6 @@ void init_flux(Module module) {
       .def("__len__", [](const Emitters& e) { return e.cell.size(); });
   module.def("emitters", &emitters, py::arg("flux"), py::arg("position"), py::arg("flux_min"),
              py::arg("flux_max"));
-  module.def("crossing_time", &crossing_time, py::arg("arrival"), py::arg("cell"));
   Class<Interpolator>(module, "Interpolator")
       .def(py::init(&interpolator), py::arg("run"))
       .def("at", &at, py::arg("time"))

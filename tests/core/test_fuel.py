@@ -5,12 +5,10 @@ from dataclasses import fields
 import numpy as np
 import pytest
 from firetwin.run import blocks
+from firetwin.shot import burning
 from firetwin.shot import fuel as fuels
-from firetwin_core import InputError, flux
+from firetwin_core import InputError
 from firetwin_core import run as runs
-from hypothesis import given
-from hypothesis import strategies as st
-from hypothesis.extra.numpy import arrays
 from small_run import FX, FY, small_fields
 
 GRID = ("surface_fuel", "canopy_fuel", "fuel_elevation")
@@ -86,22 +84,13 @@ def test_a_file_cut_off_after_it_was_opened_is_an_error(make_run):
             ask()
 
 
-def test_a_plane_front_crosses_a_cell_from_corner_to_corner():
+def test_a_front_crosses_a_cell_in_its_size_over_its_speed():
     y, x = np.mgrid[:6, :7]
-    found = flux.crossing_time(30.0 * y - 12.0 * x, np.arange(42))
-    assert found == pytest.approx(np.full(42, 42.0))
+    found = burning.crossing(300.0 * y - 400.0 * x, y.ravel(), x.ravel())
+    assert found == pytest.approx(np.full(42, 500.0))
 
 
 def test_a_jump_to_another_fire_is_no_slow_front():
-    time = np.array([[0.0, 10.0, 20.0, 9000.0, 9010.0]])
-    assert flux.crossing_time(time, np.arange(5)).tolist() == [10.0, 10.0, 20.0, 20.0, 10.0]
-    with pytest.raises(IndexError, match="cell 5"):
-        flux.crossing_time(time, [5])
-
-
-@given(arrays(np.float64, (4, 5), elements=st.floats(0.0, 1e6) | st.just(np.nan)))
-def test_crossing_is_finite_and_turns_with_the_grid(time):
-    found = flux.crossing_time(time, np.arange(20)).reshape(4, 5)
-    assert np.all((found >= 0.0) & np.isfinite(found))
-    turned = flux.crossing_time(time[::-1].T, np.arange(20)).reshape(5, 4)
-    assert np.allclose(found, turned.T[::-1])
+    time = np.array([[0.0, 70.0, 150.0, 9000.0, 9100.0]])
+    row, column = np.divmod(np.arange(5), 5)
+    assert burning.crossing(time, row, column).tolist() == [70.0, 70.0, 80.0, 100.0, 100.0]

@@ -34,25 +34,6 @@ class Emitters:
 def emitters(flux: ArrayLike, position: ArrayLike, flux_min: float, flux_max: float) -> Emitters:
     """Algorithm 1: flux (ny, nx) W/m2 and position (ny, nx, 3) metres -> emitters where flux > 0."""
 
-def crossing_time(arrival: ArrayLike, cell: ArrayLike) -> NDArray[np.float64]:
-    """Seconds (n,) that a front takes from the first corner of each cell asked for to its last.
-
-    Along both axes the mean of how much later the next cell comes and how much earlier the one before, at
-    most twice the smaller (a jump to another fire's arrival is no slow front), added; 0 without neighbours.
-
-    Parameters
-    ----------
-    arrival
-        (ny, nx) s, when the front is in the middle of each cell; NaN where never.
-    cell
-        (n,) flat indices y*nx + x.
-
-    Raises
-    ------
-    IndexError
-        A cell outside of the grid.
-    """
-
 class Interpolator:
     """The heat flux of a run's fire at any time; keeps what it has read.
 
