@@ -39,8 +39,8 @@ def crossing(arrival: NDArray, row: NDArray[np.int64], column: NDArray[np.int64]
     """Seconds that the front takes to cross cells (n,) of the fuel grid: size times the slope of arrival.
 
     Of the two one-sided differences the smaller: a jump to another fire's arrival is no slow front. It is the
-    time over which a cell's heat begins to be released, size over rate of spread, whatever the front's
-    direction; from a cell's first corner to its last (cpp/flux/crossing.hpp) it takes up to 1.4 times as long.
+    time over which a cell begins to release its heat, whatever way the front goes; from a cell's first corner
+    to its last (cpp/flux/crossing.hpp) it takes up to 1.4 times as long.
 
     Parameters
     ----------
