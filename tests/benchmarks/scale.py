@@ -167,7 +167,9 @@ def front(sample: Path, found: NDArray, moments: NDArray) -> tuple[float, float,
     off, out, more = [], [], 0.0
     for moment in moments:
         true, here = (own <= moment) & ~before, (found <= moment) & ~before
-        edges = np.count_nonzero(np.diff(true, axis=0)) + np.count_nonzero(np.diff(true, axis=1))
+        front = np.diff(own <= moment, axis=0), np.diff(own <= moment, axis=1)
+        known = ~(before[1:] | before[:-1]), ~(before[:, 1:] | before[:, :-1])
+        edges = sum(np.count_nonzero(part & there) for part, there in zip(front, known, strict=True))
         length = edges * np.pi / 4.0  # of a line in all directions, in cells
         off.append(CELL * np.count_nonzero(true != here) / length)
         out.append(CELL * (int(here.sum()) - int(true.sum())) / length)

@@ -134,7 +134,7 @@ class Run:
 
         From the run's own fuel_arrival_time where it has one. Else from the fluxes, between model times: when
         a cell first has the flux of a fire, 1 W/m2, how that grows and how the heat is released tell when the
-        front is in its middle, 63 m off in the mean on the sample's cells of 370 m (cpp/flux/arrival.hpp).
+        front is in its middle, 64 m off in the mean on the sample's cells of 370 m (cpp/flux/arrival.hpp).
         """
     def fuel_arrival_time(self) -> NDArray[np.float64]:
         """(fy, fx) seconds since start, NaN where never, negative where burned before the start.
