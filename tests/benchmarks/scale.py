@@ -36,7 +36,15 @@ SERIES = ("heat_flux", "temperature", "wind_east", "wind_north")
 
 
 def info(folder: Path) -> None:
-    """All that `firetwin info` shows."""
+    """All that `firetwin info` shows, of a run that nobody has asked."""
+    from firetwin.run import remembered
+
+    (folder / remembered.NAME).unlink(missing_ok=True)
+    info_again(folder)
+
+
+def info_again(folder: Path) -> None:
+    """The same of one that was asked before, if its files are some seconds old."""
     from firetwin.run import info
 
     info.gather(runs.open(folder), "UTC")
@@ -64,6 +72,7 @@ def interpolation(folder: Path) -> float:
 
 STEPS: dict[str, Callable[[Path], float | None]] = {
     "info": info,
+    "info again": info_again,
     "emission": emission,
     "interpolation": interpolation,
 }
