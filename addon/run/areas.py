@@ -20,7 +20,15 @@ def edges(axis: ArrayLike) -> NDArray[np.float64]:
 
 
 def cell_areas(latitude: ArrayLike, longitude: ArrayLike) -> NDArray[np.float64]:
-    """Area (ny, nx) in m2 of each cell of a latitude-longitude grid (centres, degrees).
+    """Area (ny, nx) in m2 of each cell of a latitude-longitude grid (centres, degrees)."""
+    strip, width = area_factors(latitude, longitude)
+    return strip[:, None] * width[None, :]
+
+
+def area_factors(
+    latitude: ArrayLike, longitude: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Factors of the area (m2) of each cell: one of its row (ny,), one of its column (nx,).
 
     Exact for the ellipsoid: between two parallels lie a^2/2 (q_high - q_low) per radian of longitude, where q
     is that of the authalic latitude (Snyder, Map Projections, USGS Professional Paper 1395, 1987, eq. 3-12).
@@ -29,7 +37,7 @@ def cell_areas(latitude: ArrayLike, longitude: ArrayLike) -> NDArray[np.float64]
     e = np.sqrt(E2)
     q = (1 - E2) * (sine / (1 - E2 * sine**2) + np.arctanh(e * sine) / e)
     width = np.radians(np.diff(edges(longitude)))
-    return np.abs(A * A / 2 * np.diff(q)[:, None] * width[None, :])
+    return np.abs(A * A / 2 * np.diff(q)), np.abs(width)
 
 
 def metres_per_degree(latitude: float) -> tuple[float, float]:

@@ -76,6 +76,18 @@ def stamp(path: Path) -> Stamp:
     return state.st_size, state.st_mtime_ns, state.st_ctime_ns, state.st_ino
 
 
+def stamps(run: Run) -> dict[str, Stamp]:
+    """The stamps of all files of a run, by their names in its folder."""
+    folder = Path(run.path)
+    found = (path for field in _fields(run, ()) for path in _files(field))
+    return {path.relative_to(folder).as_posix(): stamp(path) for path in found}
+
+
+def settled(found: Iterable[Stamp]) -> bool:
+    """Whether files have not changed so lately that they could change again without another stamp."""
+    return max(max(each[1:3]) for each in found) < time.time_ns() - int(_YOUNG * 1e9)
+
+
 def _fields(run: Run, leave_out: Collection[str]) -> list[Path]:
     """The description of a run, and the file or folder of each field."""
     folder = Path(run.path)
@@ -127,11 +139,10 @@ def _remember(folder: Path, places: Iterable[Path]) -> None:
 
 def _keep(folder: Path, places: Iterable[Path]) -> None:
     """Write down what is known of a run's files, in the first of these places that can be written."""
-    old = time.time_ns() - int(_YOUNG * 1e9)
     known = {
         path.relative_to(folder).as_posix(): [digest, *found]
         for (path, found), digest in _read.items()
-        if path.is_relative_to(folder) and max(found[1:3]) < old and _still(path, found)
+        if path.is_relative_to(folder) and settled([found]) and _still(path, found)
     }
     for place in places:
         part = place.with_name(f"{place.name}.{uuid.uuid4().hex}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+from collections.abc import Sequence
 from datetime import datetime
 from typing import Any
 
@@ -10,15 +10,23 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ..data import history
-from . import areas, times
+from . import areas, blocks, remembered, times
 
 ACRE = history.SQUARE_METRES_PER_ACRE
 
 
 def gather(run: Run, zone: str) -> dict[str, Any]:
-    """Everything `firetwin info` shows; lengths in m, areas in m2, power and energy in W and J."""
-    arrival = run.fuel_arrival_time()
-    fuel_area = areas.cell_areas(run.fuel_latitude, run.fuel_longitude)
+    """Everything `firetwin info` shows; lengths in m, areas in m2, power and energy in W and J.
+
+    What was found once is remembered in the run's folder.
+    """
+    return remembered.facts(run, zone, lambda: _find(run, zone)) | {"path": run.path}
+
+
+def _find(run: Run, zone: str) -> dict[str, Any]:
+    reports = _reports(run)
+    at = [float(run.times[0]), float(run.times[-1]), *(times.seconds(run, each.time) for each in reports)]
+    first, last, *then = burned(run, at)
     low, high = run.flux_range()
     seconds = run.times
     return {
@@ -30,8 +38,8 @@ def gather(run: Run, zone: str) -> dict[str, Any]:
         "grid": _grid(run.latitude, run.longitude)
         | {"elevation": _range(run.elevation), "vertical": run.vertical},
         "fuel_grid": _grid(run.fuel_latitude, run.fuel_longitude),
-        "surface_fuel": _fuel(run.surface_fuel, 0.0),
-        "canopy_fuel": _fuel(run.canopy_fuel, 0.01),
+        "surface_fuel": _fuel(run, "surface_fuel", 0.0),
+        "canopy_fuel": _fuel(run, "canopy_fuel", 0.01),
         "times": {
             "count": len(seconds),
             "first": _iso(times.moment(run, float(seconds[0]))),
@@ -43,23 +51,34 @@ def gather(run: Run, zone: str) -> dict[str, Any]:
         "energy": energy(run),
         "burned": {
             "from": "fuel_arrival_time" if run.has("fuel_arrival_time") else "heat_flux",
-            "first": burned(arrival, fuel_area, float(seconds[0])),
-            "last": burned(arrival, fuel_area, float(seconds[-1])),
+            "first": first,
+            "last": last,
         },
-        "reported": _reported(run, arrival, fuel_area),
+        "reported": _reported(run, reports, then),
         "warnings": list(run.warnings),
     }
 
 
-def burned(arrival: np.ndarray, area: np.ndarray, time: float) -> float:
-    """Area (m2) of the cells whose middle the fire has reached by `time` (s).
+def burned(run: Run, moments: Sequence[float]) -> list[float]:
+    """Area (m2) of the fuel cells whose middle the fire has reached by each of these model times (s).
 
-    arrival (fy, fx) s, NaN where never. Without the run's own arrival times the front is estimated from heat
-    fluxes, within cells of the model grid: of the sample's, 370 m wide, the area burned in the end comes out
-    10 % too large (no flux tells of unburned islands in a cell); 27 % if every cell with flux counted whole.
+    Without the run's own arrival times the front is estimated from heat fluxes, within cells of the model
+    grid: of the sample's, 370 m wide, the area burned in the end comes out 10 % too large (no flux tells of
+    unburned islands in a cell); 27 % if every cell with flux counted whole.
     """
-    with np.errstate(invalid="ignore"):
-        return math.fsum(area[arrival <= time])
+    strip, width = areas.area_factors(run.fuel_latitude, run.fuel_longitude)
+    arrival = blocks.arrival(run)
+    order = np.argsort(moments)
+    ordered = np.asarray(moments, np.float64)[order]
+    since = np.zeros(len(ordered) + 1)  # by the first moment that is not earlier
+    for first, end in blocks.rows(run):
+        time = arrival(first, end)
+        row, column = np.nonzero(time <= ordered[-1])
+        index = np.searchsorted(ordered, time[row, column].astype(np.float64))
+        since += np.bincount(index, strip[first + row] * width[column], len(since))
+    found = np.empty(len(ordered))
+    found[order] = np.cumsum(since[:-1])
+    return found.tolist()
 
 
 def energy(run: Run) -> float:
@@ -82,25 +101,34 @@ def _range(values: np.ndarray) -> dict[str, float]:
     return {"min": float(np.nanmin(values)), "max": float(np.nanmax(values))}
 
 
-def _fuel(fuel: np.ndarray, above: float) -> dict[str, float]:
-    finite = fuel[np.isfinite(fuel)].astype(np.float64)
-    mean = float(finite.mean()) if finite.size else 0.0
-    return {"above": above, "share": float((finite > above).mean()) if finite.size else 0.0, "mean": mean} | (
-        _range(finite) if finite.size else {"min": 0.0, "max": 0.0}
-    )
+def _fuel(run: Run, field: str, above: float) -> dict[str, float]:
+    """Share of the finite values that are above `above`, their mean and their range."""
+    count, more, total, low, high = 0, 0, 0.0, np.inf, -np.inf
+    for first, end in blocks.rows(run):
+        values = run.fuel_rows(field, first, end)
+        finite = values[np.isfinite(values)]
+        if finite.size:
+            count, more = count + finite.size, more + int(np.count_nonzero(finite > above))
+            total += float(finite.sum(dtype=np.float64))
+            low, high = min(low, float(finite.min())), max(high, float(finite.max()))
+    if count == 0:
+        return {"above": above, "share": 0.0, "mean": 0.0, "min": 0.0, "max": 0.0}
+    return {"above": above, "share": more / count, "mean": total / count, "min": low, "max": high}
 
 
-def _reported(run: Run, arrival: np.ndarray, area: np.ndarray) -> list[dict[str, Any]]:
-    """The dated acreages of the fire that the run depicts, beside the run's own where the run covers them."""
-    if not run.event or run.event not in history.events():
-        return []
+def _reports(run: Run) -> list[history.Acreage]:
+    """The dated acreages of the fire that the run depicts."""
+    return list(history.load(run.event).acreages) if run.event and run.event in history.events() else []
+
+
+def _reported(run: Run, reports: list[history.Acreage], areas_then: list[float]) -> list[dict[str, Any]]:
+    """The reports beside the run's own areas (m2) at their times, where the run covers them."""
     rows = []
-    for report in history.load(run.event).acreages:
-        at = times.seconds(run, report.time)
+    for report, area in zip(reports, areas_then, strict=True):
         row = {"time": _iso(report.time), "reported": report.acres * ACRE, "source": report.source}
-        covered = run.times[0] <= at <= run.times[-1]
-        row["run"] = burned(arrival, area, at) if covered else None
-        row["difference"] = row["run"] / row["reported"] - 1 if covered else None
+        covered = run.times[0] <= times.seconds(run, report.time) <= run.times[-1]
+        row["run"] = area if covered else None
+        row["difference"] = area / row["reported"] - 1 if covered else None
         rows.append(row)
     return rows
 

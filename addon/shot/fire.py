@@ -38,17 +38,22 @@ class Cells:
         (n,) kg/m2 burned, surface and canopy; of a piece of several fuel cells their sum.
     position
         (n, 3) scene metres, on the ground.
-    wind
-        (n, 2) m/s east and north near the ground, at arrival, averaged over the fire's surroundings.
     area
         m2 of one fuel cell.
+    fire
+        What they are part of.
     """
 
     arrival: Array
     fuel: Array
     position: Array
-    wind: Array
     area: float
+    fire: Fire
+
+    @cached_property
+    def wind(self) -> Array:
+        """(n, 2) m/s east and north near the ground, at arrival, averaged over the fire's surroundings."""
+        return burning.wind_at(self.fire.run, self.arrival, self.fire.surroundings)
 
 
 class Fire:
@@ -87,7 +92,8 @@ class Fire:
     @cached_property
     def fuel(self) -> Fuel:
         """What burns in the shot, or has burned not long before it."""
-        return gather(self.run, self.arrival, self.first, self.last + _AHEAD, self.before)
+        known = None if self.run.has("fuel_arrival_time") else self.arrival
+        return gather(self.run, known, self.first, self.last + _AHEAD, self.before)
 
     def sources(self, time: float) -> Sources:
         """Everything that gives heat at `time` (s): together each model cell's flux times its area.
@@ -134,8 +140,8 @@ class Fire:
             arrival,
             fuel.surface[chosen] + fuel.canopy[chosen],
             fuel.position[chosen],
-            burning.wind_at(self.run, arrival, self.surroundings),
             burning.cell_area(self.run),
+            self,
         )
 
     @cached_property

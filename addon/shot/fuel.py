@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 
 import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
+from ..run import blocks
 from ..run.frame import local_frame
 from . import burning
 
@@ -59,41 +61,71 @@ class Fuel:
         return Fuel(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
 
-def gather(run: Run, arrival: Array, first: float, last: float, before: float) -> Fuel:
+def gather(run: Run, known: Array | None, first: float, last: float, before: float) -> Fuel:
     """Fuel that burns between the model times `first` and `last`, or that `before` s earlier caught fire.
+
+    Of the run's fields only the rows are read in which something burns, some at a time.
 
     Parameters
     ----------
-    arrival
-        (fy, fx) s, NaN where never.
+    known
+        (fy, fx) s, arrival times, NaN where never; none asks the run for its own.
     """
-    loads = run.surface_fuel, run.canopy_fuel
-    most = float(np.nanmax(loads[0], initial=0.0))
-    longest = burning.CROSSING[1] + _OVER * max(_slow(most), BURN_OUT_CANOPY)
-    with np.errstate(invalid="ignore"):
-        near = (arrival > first - max(longest, before)) & (arrival < last + burning.CROSSING[1])
-    row, column = np.nonzero(near)
-    surface, canopy = (np.nan_to_num(load[row, column].astype(np.float64)) for load in loads)
-    crossing = burning.crossing(arrival, row, column)
-    begin = arrival[row, column] - 0.5 * crossing  # the arrival time is that of the cell's centre
-    over = begin + crossing + _OVER * np.maximum(_slow(surface), BURN_OUT_CANOPY)
-    height = np.nan_to_num(run.fuel_elevation[row, column].astype(np.float64))
-    every = Fuel(
-        row * arrival.shape[1] + column,
-        _model_cell(run, row, column),
-        arrival[row, column],
-        begin,
-        crossing,
-        over,
-        surface,
-        canopy,
-        _slow(surface),
-        local_frame(run).forward(run.fuel_latitude[row], run.fuel_longitude[column], height),
-    )
-    recent = (over > first) | (every.arrival >= first - before)
-    burns = np.flatnonzero((surface + canopy > 0.0) & (begin < last) & recent)
-    found = _pieces(run, every.take(burns), row[burns], column[burns])
+    arrival = blocks.arrival(run, known)
+    parts = [_of_rows(run, arrival, rows, (first, last, before)) for rows in blocks.rows(run)]
+    every = Fuel(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(Fuel)))
+    row, column = np.divmod(every.fuel_cell, len(run.fuel_longitude))
+    found = _pieces(run, every, row, column)
     return found.take(np.argsort(found.begin, kind="stable"))
+
+
+def _of_rows(
+    run: Run,
+    arrival: Callable[[int, int], NDArray],
+    rows: tuple[int, int],
+    window: tuple[float, float, float],
+) -> Fuel:
+    """The fuel of some rows, each cell a piece."""
+    (top, end), (first, last, before) = rows, window
+    edge = max(top - 1, 0)
+    time = arrival(edge, min(end + 1, len(run.fuel_latitude)))  # with a row on each side for its slope
+    inner = time[top - edge : end - edge]
+    row, column = np.nonzero(inner < last + burning.CROSSING[1])
+    surface = np.nan_to_num(_at(run, "surface_fuel", top, row, column))
+    burning_out = np.maximum(_slow(surface), BURN_OUT_CANOPY)
+    near = inner[row, column] > first - np.maximum(burning.CROSSING[1] + _OVER * burning_out, before)
+    row, column, surface, burning_out = row[near], column[near], surface[near], burning_out[near]
+    canopy = np.nan_to_num(_at(run, "canopy_fuel", top, row, column))
+    came = inner[row, column].astype(np.float64)
+    crossing = burning.crossing(time, row + top - edge, column)
+    begin = came - 0.5 * crossing  # the arrival time is that of the cell's centre
+    over = begin + crossing + _OVER * burning_out
+    recent = (over > first) | (came >= first - before)
+    burns = np.flatnonzero((surface + canopy > 0.0) & (begin < last) & recent)
+    row, column, surface = row[burns], column[burns], surface[burns]
+    height = np.nan_to_num(_at(run, "fuel_elevation", top, row, column))
+    place = run.fuel_latitude[row + top], run.fuel_longitude[column]
+    return Fuel(
+        (row + top) * len(run.fuel_longitude) + column,
+        _model_cell(run, row + top, column),
+        came[burns],
+        begin[burns],
+        crossing[burns],
+        over[burns],
+        surface,
+        canopy[burns],
+        _slow(surface),
+        local_frame(run).forward(*place, height),
+    )
+
+
+def _at(run: Run, field: str, top: int, row: Index, column: Index) -> Array:
+    """Values of a field of the fuel grid at rows, counted from `top` on, and columns."""
+    if len(row) == 0:
+        return np.empty(0)
+    first = int(row.min())
+    values = run.fuel_rows(field, top + first, top + int(row.max()) + 1)
+    return values[row - first, column].astype(np.float64)
 
 
 def _slow(surface: Array | float) -> Array | float:

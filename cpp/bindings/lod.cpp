@@ -1,7 +1,6 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "broadcast.hpp"
-#include "lod/pool.hpp"
 #include "lod/seen.hpp"
 #include "lod/select.hpp"
 #include "lod/table.hpp"
@@ -113,27 +112,6 @@ Array<double> distance(const py::object& position, const lod::Sight& sight) {
   return result;
 }
 
-Array<std::int32_t> assign(lod::Pool& pool, const py::object& cell) {
-  const auto cells = to_array<std::int64_t>(cell, "cell", {-1});
-  auto slots = pool.assign(view(cells));
-  return give(std::move(slots), {cells.size()});
-}
-
-Array<std::uint32_t> seeds(const lod::Pool& pool, const py::object& cell) {
-  const auto cells = to_array<std::int64_t>(cell, "cell");
-  Array<std::uint32_t> result =
-      new_array<std::uint32_t>({cells.shape(), cells.shape() + cells.ndim()});
-  const auto in = view(cells);
-  std::transform(in.begin(), in.end(), writable(result).begin(),
-                 [&pool](std::int64_t c) { return pool.seed(c); });
-  return result;
-}
-
-Array<std::int64_t> held(const lod::Pool& pool) {
-  return give(std::vector<std::int64_t>(pool.cells().begin(), pool.cells().end()),
-              {length(pool.capacity())});
-}
-
 } // namespace
 
 void init_lod(Module module) {
@@ -159,12 +137,6 @@ void init_lod(Module module) {
              py::arg("reach") = std::numeric_limits<double>::infinity(), py::arg("margin") = 0.0,
              py::arg("shadows") = false);
   module.def("distance", &distance, py::arg("position"), py::arg("sight"));
-  Class<lod::Pool>(module, "Pool")
-      .def(py::init<std::size_t, std::uint64_t>(), py::arg("capacity"), py::arg("seed") = 0)
-      .def_property_readonly("capacity", &lod::Pool::capacity)
-      .def_property_readonly("cells", &held)
-      .def("assign", &assign, py::arg("cell"))
-      .def("seeds", &seeds, py::arg("cell"));
 }
 
 } // namespace firetwin::bindings

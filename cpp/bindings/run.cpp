@@ -134,15 +134,16 @@ public:
                 ahead_threads) {}
 
   Array<float> next() {
-    std::optional<std::vector<float>> frame;
+    std::vector<float> frame;
+    bool found = false;
     {
       const py::gil_scoped_release release;
-      frame = frames_.next();
+      found = frames_.next(frame);
     }
-    if (!frame) {
+    if (!found) {
       throw py::stop_iteration();
     }
-    return give(std::move(*frame), grid_shape(*run_));
+    return give(std::move(frame), grid_shape(*run_));
   }
 
 private:
@@ -203,20 +204,55 @@ Array<double> heat_released(const Run& run) {
 }
 
 using Axis = const std::vector<double>& (Run::*)() const;
-using Field = const std::vector<float>& (Run::*)() const;
+using Field = const run::Plane& (Run::*)() const;
 
 /// Read-only views of the run's own memory.
 template <Axis axis> Array<double> axis_view(const py::object& self) {
   const auto& values = (self.cast<const Run&>().*axis)();
   return lend<double>(values, {length(values.size())}, self);
 }
-template <Field field> Array<float> grid_view(const py::object& self) {
+Array<float> elevation_view(const py::object& self) {
   const Run& run = self.cast<const Run&>();
-  return lend<float>((run.*field)(), grid_shape(run), self);
+  return lend<float>(run.elevation(), grid_shape(run), self);
 }
 template <Field field> Array<float> fuel_view(const py::object& self) {
   const Run& run = self.cast<const Run&>();
-  return lend<float>((run.*field)(), fuel_shape(run), self);
+  const std::vector<float>& values = [&]() -> const std::vector<float>& {
+    const py::gil_scoped_release release;
+    return (run.*field)().values();
+  }();
+  return lend<float>(values, fuel_shape(run), self);
+}
+
+const run::Plane& plane_of(const Run& run, const std::string& field) {
+  if (field == "surface_fuel") {
+    return run.surface_fuel();
+  }
+  if (field == "canopy_fuel") {
+    return run.canopy_fuel();
+  }
+  if (field == "fuel_elevation") {
+    return run.fuel_elevation();
+  }
+  if (field == "fuel_arrival_time") {
+    return run.own_arrival_time();
+  }
+  throw py::value_error("no field of the fuel grid is called '" + field +
+                        "'; choose surface_fuel, canopy_fuel, fuel_elevation or fuel_arrival_time");
+}
+
+Array<float> fuel_rows(const Run& run, const std::string& field, py::ssize_t first,
+                       py::ssize_t last) {
+  const py::ssize_t rows = length(run.fuel_latitude().size());
+  if (first < 0 || last < first || last > rows) {
+    throw std::out_of_range("rows " + std::to_string(first) + " to " + std::to_string(last) +
+                            " of a fuel grid with " + std::to_string(rows) + " rows");
+  }
+  auto array = new_array<float>({last - first, length(run.fuel_longitude().size())});
+  const auto out = writable(array);
+  const py::gil_scoped_release release;
+  plane_of(run, field).read(static_cast<std::size_t>(first), out);
+  return array;
 }
 
 /// The path as Python has it, which opens the folder whatever bytes its name is made of.
@@ -263,7 +299,7 @@ void init_run(Module module) {
       .def_property_readonly("times", &axis_view<&Run::times>)
       .def_property_readonly("latitude", &axis_view<&Run::latitude>)
       .def_property_readonly("longitude", &axis_view<&Run::longitude>)
-      .def_property_readonly("elevation", &grid_view<&Run::elevation>)
+      .def_property_readonly("elevation", &elevation_view)
       .def_property_readonly("fuel_latitude", &axis_view<&Run::fuel_latitude>)
       .def_property_readonly("fuel_longitude", &axis_view<&Run::fuel_longitude>)
       .def_property_readonly("surface_fuel", &fuel_view<&Run::surface_fuel>)
@@ -287,6 +323,7 @@ void init_run(Module module) {
       .def("temperature_3d_at", &levels_at<&Run::temperature_3d>, py::arg("time"))
       .def("frames", &frames, py::arg("field") = "heat_flux", py::arg("indices") = py::none(),
            py::arg("ahead") = 8)
+      .def("fuel_rows", &fuel_rows, py::arg("field"), py::arg("first"), py::arg("last"))
       .def("flux_range", &flux_range)
       .def("heat_released", &heat_released)
       .def("arrival_time", &arrival_time)

@@ -46,15 +46,6 @@ Array<double> brightness_temperature(const py::object& radiance, std::pair<doubl
   return each(radiance, "radiance", band, &sensor::brightness_temperature);
 }
 
-Array<float> thermal_gradient(const py::object& kelvin, double low, double high) {
-  const auto k = to_array<float>(kelvin, "kelvin", {-1, -1});
-  auto colour = new_array<float>({k.shape(0), k.shape(1), 3});
-  const auto out = writable(colour);
-  const py::gil_scoped_release release;
-  sensor::thermal_gradient(view(k), low, high, out);
-  return colour;
-}
-
 Array<float> thermal_composite(const py::object& rgb, const py::object& kelvin, double low,
                                double high, double strength) {
   const auto k = to_array<float>(kelvin, "kelvin", {-1, -1});
@@ -99,8 +90,6 @@ void init_sensor(Module module) {
   module.def("radiance", &radiance, py::arg("kelvin"), py::arg("band") = long_wave);
   module.def("brightness_temperature", &brightness_temperature, py::arg("radiance"),
              py::arg("band") = long_wave);
-  module.def("thermal_gradient", &thermal_gradient, py::arg("kelvin"), py::arg("low"),
-             py::arg("high"));
   module.def("thermal_composite", &thermal_composite, py::arg("rgb"), py::arg("kelvin"),
              py::arg("low"), py::arg("high"), py::arg("strength") = 1.0);
   module.def("read_image", &read_image, py::arg("path"));

@@ -5,12 +5,14 @@
 #include "flux/middle.hpp"
 #include "geo/axis.hpp"
 
+#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace firetwin::flux {
 namespace {
@@ -22,8 +24,12 @@ bool has_own(const run::Run& run) {
 }
 
 std::vector<double> own(const run::Run& run) {
-  const std::vector<float> time = run.own_arrival_time();
-  return {time.begin(), time.end()};
+  const run::Plane& plane = run.own_arrival_time();
+  std::vector<double> result;
+  result.reserve(plane.rows() * plane.columns());
+  plane.each(
+      [&](std::span<const float> time) { result.insert(result.end(), time.begin(), time.end()); });
+  return result;
 }
 
 std::size_t nearest(std::span<const double> axis, double value) {
@@ -50,24 +56,63 @@ std::vector<double> at(const Middle& middle, const run::Run& run, std::span<cons
   return result;
 }
 
-/// The earliest beginning among the fuel cells of each model cell.
-std::vector<double> earliest(const run::Run& run) {
-  const std::vector<double> arrival = own(run);
-  const std::size_t fx = run.fuel_longitude().size(), nx = run.longitude().size();
-  const std::vector<double> crossing = crossing_time(arrival, fx);
-  std::vector<std::size_t> column(fx);
-  std::transform(run.fuel_longitude().begin(), run.fuel_longitude().end(), column.begin(),
-                 [&](double place) { return nearest(run.longitude(), place); });
-  std::vector<double> result(run.cells(), nan);
-  for (std::size_t y = 0; y < run.fuel_latitude().size(); ++y) {
-    const std::size_t row = nearest(run.latitude(), run.fuel_latitude()[y]);
-    for (std::size_t x = 0; x < fx; ++x) {
-      double& time = result[row * nx + column[x]];
-      time = std::fmin(time, arrival[y * fx + x] - 0.5 * crossing[y * fx + x]);
-    }
-  }
+std::vector<std::size_t> nearest(std::span<const double> axis, std::span<const double> places) {
+  std::vector<std::size_t> result(places.size());
+  std::transform(places.begin(), places.end(), result.begin(),
+                 [axis](double place) { return nearest(axis, place); });
   return result;
 }
+
+/// The earliest beginning among the fuel cells of each model cell.
+class Earliest {
+public:
+  explicit Earliest(const run::Run& run)
+      : arrival_(run.own_arrival_time()), nx_(run.longitude().size()),
+        row_(nearest(run.latitude(), run.fuel_latitude())),
+        column_(nearest(run.longitude(), run.fuel_longitude())), result_(run.cells(), nan) {
+    for (std::size_t y = 0; y < row_.size(); ++y) {
+      if (y == 0 || row_[y] != row_[y - 1]) {
+        starts_.push_back(y);
+      }
+    }
+  }
+
+  std::vector<double> find() {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, starts_.size(), rows_at_once),
+                      [this](const auto& range) {
+                        const std::size_t end = range.end();
+                        add(starts_[range.begin()],
+                            end < starts_.size() ? starts_[end] : row_.size());
+                      });
+    return std::move(result_);
+  }
+
+private:
+  static constexpr std::size_t rows_at_once = 16; ///< of the model grid
+
+  /// Fuel rows `begin` to `end`, with one on each side for their slopes.
+  void add(std::size_t begin, std::size_t end) {
+    const std::size_t first = begin - std::min<std::size_t>(begin, 1), fx = column_.size();
+    const std::size_t last = std::min(end + 1, row_.size());
+    std::vector<float> time((last - first) * fx);
+    arrival_.read(first, time);
+    for (std::size_t y = begin; y < end; ++y) {
+      for (std::size_t x = 0; x < fx; ++x) {
+        const std::size_t i = (y - first) * fx + x;
+        if (!std::isnan(time[i])) {
+          double& earliest = result_[row_[y] * nx_ + column_[x]];
+          earliest = std::fmin(earliest, double{time[i]} - 0.5 * crossing_time(time, fx, i));
+        }
+      }
+    }
+  }
+
+  const run::Plane& arrival_;
+  std::size_t nx_;
+  std::vector<std::size_t> row_, column_; ///< of the model grid, of each fuel row and column
+  std::vector<std::size_t> starts_;       ///< first fuel row of each row of the model grid
+  std::vector<double> result_;
+};
 
 } // namespace
 
@@ -76,7 +121,7 @@ std::vector<double> arrival_time(const run::Run& run) {
     return at(middle_from_flux(run), run, run.latitude(), run.longitude());
   }
   const std::vector<float> time =
-      geo::resample(run.own_arrival_time(), run.fuel_latitude(), run.fuel_longitude(),
+      geo::resample(run.own_arrival_time().values(), run.fuel_latitude(), run.fuel_longitude(),
                     run.latitude(), run.longitude());
   return {time.begin(), time.end()};
 }
@@ -87,7 +132,7 @@ std::vector<double> fuel_arrival_time(const run::Run& run) {
 }
 
 std::vector<double> begin_time(const run::Run& run) {
-  return has_own(run) ? earliest(run) : begin_from_flux(run);
+  return has_own(run) ? Earliest(run).find() : begin_from_flux(run);
 }
 
 } // namespace firetwin::flux

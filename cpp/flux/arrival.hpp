@@ -23,8 +23,9 @@ namespace firetwin::flux {
 /// it.
 ///
 /// Both are averaged by their variances. On the sample run without its own arrival times, fluxes of
-/// 370 m cells each minute or each quarter of an hour, the front is off by 63 m in the mean and
-/// lies 5 m too far out (130 m and 129 m when cells burn from the first model time with flux).
+/// 370 m cells each minute or each quarter of an hour, the front is off by 64 m in the mean (area
+/// between the lines over the front's length, as tests/benchmarks/scale.py counts it) and lies 5 m
+/// too far out (130 m and 129 m when cells burn from the first model time with flux).
 
 /// [ny nx] at the centres of the model grid's cells.
 std::vector<double> arrival_time(const run::Run& run);

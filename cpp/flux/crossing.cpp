@@ -19,18 +19,36 @@ double along(double before, double here, double after) {
   return std::isnan(mean) ? least : std::min(mean, 2.0 * least);
 }
 
+template <class T> double crossing(std::span<const T> time, std::size_t columns, std::size_t cell) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const double here = double{time[cell]};
+  if (std::isnan(here)) {
+    return 0.0;
+  }
+  const std::size_t x = cell % columns;
+  const auto at = [&](bool inside, std::size_t index) {
+    return inside ? double{time[index]} : nan;
+  };
+  return along(at(x > 0, cell - 1), here, at(x + 1 < columns, cell + 1)) +
+         along(at(cell >= columns, cell - columns), here,
+               at(cell + columns < time.size(), cell + columns));
+}
+
 } // namespace
 
-std::vector<double> crossing_time(const std::vector<double>& time, std::size_t columns) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::size_t rows = time.size() / columns;
+double crossing_time(std::span<const float> time, std::size_t columns, std::size_t cell) {
+  return crossing(time, columns, cell);
+}
+
+double crossing_time(std::span<const double> time, std::size_t columns, std::size_t cell) {
+  return crossing(time, columns, cell);
+}
+
+std::vector<double> crossing_time(std::span<const double> time, std::size_t columns) {
   std::vector<double> result(time.size());
-  tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t y) {
-    for (std::size_t x = 0; x < columns; ++x) {
-      const std::size_t i = y * columns + x;
-      result[i] =
-          along(x > 0 ? time[i - 1] : nan, time[i], x + 1 < columns ? time[i + 1] : nan) +
-          along(y > 0 ? time[i - columns] : nan, time[i], y + 1 < rows ? time[i + columns] : nan);
+  tbb::parallel_for(std::size_t{0}, time.size() / columns, [&](std::size_t y) {
+    for (std::size_t i = y * columns; i < (y + 1) * columns; ++i) {
+      result[i] = crossing(time, columns, i);
     }
   });
   return result;

@@ -3,10 +3,12 @@
 #include "io/name.hpp"
 #include "io/system.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace firetwin::io {
 
@@ -56,15 +58,53 @@ void File::read(std::uint64_t offset, std::span<char> out) const {
   }
 }
 
+namespace {
+
+constexpr std::size_t piece = 1U << 18; // bytes; longer lines get more
+
+void check_size(const File& file, std::uint64_t limit) {
+  if (file.size() > limit) {
+    fail(file.path(), "is " + std::to_string(file.size()) + " bytes long, more than the limit of " +
+                          std::to_string(limit) + "; convert it to .npy");
+  }
+}
+
+/// Bytes up to the end of the last whole line, 0 where there is none.
+std::size_t whole_lines(std::span<const char> text) {
+  const auto end = std::find(text.rbegin(), text.rend(), '\n');
+  return static_cast<std::size_t>(text.rend() - end);
+}
+
+} // namespace
+
 Buffer<char> read_all(const std::filesystem::path& path, std::uint64_t limit) {
   const File file(path);
-  if (file.size() > limit) {
-    fail(path, "is " + std::to_string(file.size()) + " bytes long, more than the limit of " +
-                   std::to_string(limit) + "; convert it to .npy");
-  }
+  check_size(file, limit);
   Buffer<char> bytes(file.size());
   file.read(0, bytes);
   return bytes;
+}
+
+void read_lines(const std::filesystem::path& path, std::uint64_t limit,
+                const std::function<void(std::span<const char>, std::uint64_t)>& take) {
+  const File file(path);
+  check_size(file, limit);
+  std::vector<char> buffer(std::min<std::uint64_t>(file.size(), piece));
+  std::size_t kept = 0; // of a line whose end is still to come
+  for (std::uint64_t offset = 0; offset < file.size();) {
+    if (kept == buffer.size()) {
+      buffer.resize(2 * buffer.size());
+    }
+    const auto count = std::min<std::uint64_t>(buffer.size() - kept, file.size() - offset);
+    file.read(offset, std::span(buffer).subspan(kept, count));
+    offset += count;
+    const std::span<const char> text = std::span(buffer).first(kept + count);
+    const bool last = offset == file.size();
+    const std::size_t used = last ? text.size() : whole_lines(text);
+    take(text.first(used), file.size() - offset + (text.size() - used));
+    kept = text.size() - used;
+    std::memmove(buffer.data(), buffer.data() + used, kept);
+  }
 }
 
 } // namespace firetwin::io

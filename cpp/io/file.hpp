@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 
 namespace firetwin::io {
@@ -35,5 +36,10 @@ private:
 
 /// The whole file; files beyond `limit` bytes are refused before anything is allocated.
 Buffer<char> read_all(const std::filesystem::path& path, std::uint64_t limit);
+
+/// The same piece by piece in memory that stays in the processor's cache, each of whole lines (but
+/// for the last line of a file, which may lack its end), with the number of bytes after it.
+void read_lines(const std::filesystem::path& path, std::uint64_t limit,
+                const std::function<void(std::span<const char> lines, std::uint64_t left)>& take);
 
 } // namespace firetwin::io

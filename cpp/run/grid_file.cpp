@@ -13,9 +13,6 @@
 namespace firetwin::run {
 namespace {
 
-/// A text grid of 2000 x 2000 needs about 60 MB.
-constexpr std::uint64_t largest_text = 1U << 30;
-
 bool is_npy(const std::filesystem::path& path) {
   const io::File file(path);
   std::array<char, 6> magic{};
@@ -47,7 +44,7 @@ template <class T> Grid<T> read_any(const std::filesystem::path& path) {
   if (path.extension() == ".npy" || is_npy(path)) {
     return read_npy<T>(path);
   }
-  return parse_text<T>(io::read_all(path, largest_text), io::utf8(path));
+  return read_text<T>(path);
 }
 
 [[noreturn]] void wrong_size(const std::filesystem::path& path, std::size_t rows,

@@ -23,8 +23,9 @@ void ReadAhead::work(const std::stop_token& stop) {
   };
   while (free_.wait(lock, stop, may_start) && started_ < indices_.size()) {
     const std::size_t k = started_++;
-    lock.unlock();
     Slot read;
+    read.frame.swap(slots_[k % slots_.size()].frame);
+    lock.unlock();
     try {
       read.frame.resize(series_.cells());
       series_.read(indices_[k], read.frame);
@@ -38,24 +39,27 @@ void ReadAhead::work(const std::stop_token& stop) {
   }
 }
 
-std::optional<std::vector<float>> ReadAhead::next() {
+bool ReadAhead::next(std::vector<float>& frame) {
   std::unique_lock lock(mutex_);
   const auto slot = [this]() -> Slot& { return slots_[taken_ % slots_.size()]; };
   // Another thread may take frames, the last one too, while this one waits.
   ready_.wait(lock, [&] { return taken_ == indices_.size() || slot().ready; });
   if (taken_ == indices_.size()) {
-    return std::nullopt;
+    return false;
   }
-  Slot found = std::exchange(slot(), Slot{});
+  Slot& found = slot();
+  found.ready = false;
+  found.frame.swap(frame);
+  const std::exception_ptr error = std::exchange(found.error, nullptr);
   ++taken_;
   free_.notify_all();
   if (taken_ == indices_.size()) {
     ready_.notify_all();
   }
-  if (found.error) {
-    std::rethrow_exception(found.error);
+  if (error) {
+    std::rethrow_exception(error);
   }
-  return std::move(found.frame);
+  return true;
 }
 
 } // namespace firetwin::run

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
-#include <optional>
 #include <stop_token>
 #include <thread>
 #include <vector>
@@ -25,10 +24,10 @@ public:
   ReadAhead& operator=(const ReadAhead&) = delete;
   ~ReadAhead();
 
-  /// The next frame, in the order chosen; nothing after the last. Several threads may share one
-  /// object: each frame goes to one of them. @throws what reading it threw; the frames after it can
-  /// still be had.
-  std::optional<std::vector<float>> next();
+  /// Puts the next frame, in the order chosen, into `frame`, whose memory serves for one to come;
+  /// false after the last. Several threads may share one object: each frame goes to one of them.
+  /// @throws what reading it threw; the frames after it can still be had.
+  bool next(std::vector<float>& frame);
 
 private:
   struct Slot {

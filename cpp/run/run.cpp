@@ -13,8 +13,27 @@
 namespace firetwin::run {
 namespace {
 
-template <class Test> std::size_t count(const std::vector<float>& values, Test test) {
+template <class Test> std::size_t count(std::span<const float> values, Test test) {
   return static_cast<std::size_t>(std::count_if(values.begin(), values.end(), test));
+}
+
+bool not_finite(float value) {
+  return !std::isfinite(value);
+}
+
+/// What is odd in the values of a fuel.
+void add_odd(const std::string& name, const Plane& fuel, std::vector<std::string>& warnings) {
+  std::size_t without = 0, negative = 0;
+  fuel.each([&](std::span<const float> values) {
+    without += count(values, not_finite);
+    negative += count(values, [](float v) { return v < 0.0F; });
+  });
+  if (without > 0) {
+    warnings.push_back(name + " has no value in " + std::to_string(without) + " cells");
+  }
+  if (negative > 0) {
+    warnings.push_back(name + " is negative in " + std::to_string(negative) + " cells");
+  }
 }
 
 bool reaches_beyond(const std::vector<double>& fine, const std::vector<double>& coarse) {
@@ -52,7 +71,7 @@ Run::Run(const std::filesystem::path& folder)
   open_levels();
   set_times();
   check_order();
-  check_values();
+  check_places();
 }
 
 void Run::read_axes() {
@@ -63,22 +82,24 @@ void Run::read_axes() {
   fuel_longitude_ = read_longitude(folder_.field_file("fuel_longitude"), middle);
 }
 
-std::vector<float> Run::read_grid_of(const std::string& field, std::size_t rows,
-                                     std::size_t columns) const {
-  std::vector<float> values(rows * columns);
-  read_grid(folder_.field_file(field), rows, columns, no_data_, values);
-  return values;
+void Run::emplace(std::optional<Plane>& plane, const std::string& field) const {
+  plane.emplace(folder_.field_file(field), fuel_latitude_.size(), fuel_longitude_.size(), no_data_);
 }
 
 void Run::read_grids() {
-  const std::size_t fy = fuel_latitude_.size();
-  const std::size_t fx = fuel_longitude_.size();
-  elevation_ = read_grid_of("elevation", latitude_.size(), longitude_.size());
-  surface_fuel_ = read_grid_of("surface_fuel", fy, fx);
-  canopy_fuel_ = read_grid_of("canopy_fuel", fy, fx);
-  fuel_elevation_ = folder_.has("fuel_elevation") ? read_grid_of("fuel_elevation", fy, fx)
-                                                  : geo::resample(elevation_, latitude_, longitude_,
-                                                                  fuel_latitude_, fuel_longitude_);
+  elevation_.resize(cells());
+  read_grid(folder_.field_file("elevation"), latitude_.size(), longitude_.size(), no_data_,
+            elevation_);
+  emplace(surface_fuel_, "surface_fuel");
+  emplace(canopy_fuel_, "canopy_fuel");
+  if (folder_.has("fuel_elevation")) {
+    emplace(fuel_elevation_, "fuel_elevation");
+    return;
+  }
+  const auto resampled = [this] {
+    return geo::resample(elevation_, latitude_, longitude_, fuel_latitude_, fuel_longitude_);
+  };
+  fuel_elevation_.emplace(resampled, fuel_latitude_.size(), fuel_longitude_.size());
 }
 
 std::optional<Series> Run::optional_series(const std::string& field) const {
@@ -167,20 +188,9 @@ void Run::check_order() {
   check("temperature_3d", temperature_3d_);
 }
 
-void Run::check_values() {
-  const auto not_finite = [](float v) { return !std::isfinite(v); };
-  const auto negative = [](float v) { return v < 0.0F; };
+void Run::check_places() {
   if (const std::size_t n = count(elevation_, not_finite)) {
     warnings_.push_back("elevation has no value in " + std::to_string(n) + " cells");
-  }
-  for (const auto& [name, fuel] :
-       {std::pair{"surface_fuel", &surface_fuel_}, std::pair{"canopy_fuel", &canopy_fuel_}}) {
-    if (const std::size_t n = count(*fuel, not_finite)) {
-      warnings_.push_back(std::string(name) + " has no value in " + std::to_string(n) + " cells");
-    }
-    if (const std::size_t n = count(*fuel, negative)) {
-      warnings_.push_back(std::string(name) + " is negative in " + std::to_string(n) + " cells");
-    }
   }
   if (reaches_beyond(fuel_latitude_, latitude_) || reaches_beyond(fuel_longitude_, longitude_)) {
     warnings_.push_back("the fuel grid reaches beyond the model grid");
@@ -189,6 +199,8 @@ void Run::check_values() {
 
 std::vector<std::string> Run::warnings() const {
   std::vector<std::string> result = warnings_;
+  add_odd("surface_fuel", *surface_fuel_, result);
+  add_odd("canopy_fuel", *canopy_fuel_, result);
   if (!scanned_) {
     return result;
   }
@@ -237,8 +249,9 @@ std::pair<float, float> Run::flux_range() const {
   return {all.smallest, all.largest};
 }
 
-std::vector<float> Run::own_arrival_time() const {
-  return read_grid_of("fuel_arrival_time", fuel_latitude_.size(), fuel_longitude_.size());
+const Plane& Run::own_arrival_time() const {
+  std::call_once(arrival_once_, [this] { emplace(own_arrival_, "fuel_arrival_time"); });
+  return *own_arrival_;
 }
 
 } // namespace firetwin::run

@@ -3,6 +3,7 @@
 #include "run/description.hpp"
 #include "run/folder.hpp"
 #include "run/level_series.hpp"
+#include "run/plane.hpp"
 #include "run/scan.hpp"
 #include "run/series.hpp"
 
@@ -10,6 +11,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,7 +19,8 @@
 
 namespace firetwin::run {
 
-/// A model run on disk. Grids that do not change are in memory; frames are read when asked for.
+/// A model run on disk. Axes and elevation are in memory; what else does not change is read when
+/// asked for, as a whole or some rows of it, and so are frames.
 /// All of it may be used from several threads.
 class Run {
 public:
@@ -29,7 +32,8 @@ public:
   const std::filesystem::path& path() const { return folder_.path(); }
   const Description& description() const { return description_; }
   const std::vector<std::string>& fields() const { return folder_.fields(); }
-  /// What is odd but usable, one sentence each; scans of the heat flux add to it.
+  /// What is odd but usable, one sentence each; reads the fuel, and a scan of the heat flux adds to
+  /// it.
   std::vector<std::string> warnings() const;
 
   const std::vector<double>& times() const { return times_; }       ///< s since start
@@ -40,10 +44,10 @@ public:
   const std::vector<double>& fuel_latitude() const { return fuel_latitude_; } ///< [fy]
   /// [fx] degrees east, counted as `longitude` is
   const std::vector<double>& fuel_longitude() const { return fuel_longitude_; }
-  const std::vector<float>& surface_fuel() const { return surface_fuel_; } ///< [fy fx] kg/m2
-  const std::vector<float>& canopy_fuel() const { return canopy_fuel_; }   ///< [fy fx] kg/m2
+  const Plane& surface_fuel() const { return *surface_fuel_; } ///< [fy fx] kg/m2
+  const Plane& canopy_fuel() const { return *canopy_fuel_; }   ///< [fy fx] kg/m2
   /// [fy fx] m: the field of that name, or the elevation resampled bilinearly.
-  const std::vector<float>& fuel_elevation() const { return fuel_elevation_; }
+  const Plane& fuel_elevation() const { return *fuel_elevation_; }
 
   std::size_t cells() const { return latitude_.size() * longitude_.size(); }
   const Series& heat_flux() const { return *heat_flux_; } ///< W/m2
@@ -64,7 +68,7 @@ public:
   /// What one pass over every heat flux tells; made when it is first asked for, and once.
   const Scan& scan() const;
   /// [fy fx] s, NaN where never: the field of that name. @throws Error when the run has none.
-  std::vector<float> own_arrival_time() const;
+  const Plane& own_arrival_time() const;
 
 private:
   void read_axes();
@@ -72,18 +76,18 @@ private:
   void open_series();
   void set_times();
   void check_order();
-  void check_values();
+  void check_places();
+  void emplace(std::optional<Plane>& plane, const std::string& field) const;
   void open_levels();
   std::optional<Series> optional_series(const std::string& field) const;
   std::optional<LevelSeries> optional_levels(const std::string& field, bool steady) const;
-  std::vector<float> read_grid_of(const std::string& field, std::size_t rows,
-                                  std::size_t columns) const;
 
   Folder folder_;
   Description description_;
   std::optional<float> no_data_;
   std::vector<double> times_, latitude_, longitude_, fuel_latitude_, fuel_longitude_;
-  std::vector<float> elevation_, surface_fuel_, canopy_fuel_, fuel_elevation_;
+  std::vector<float> elevation_;
+  std::optional<Plane> surface_fuel_, canopy_fuel_, fuel_elevation_;
   std::optional<Series> heat_flux_, temperature_, wind_east_, wind_north_;
   std::optional<LevelSeries> smoke_3d_, height_3d_, temperature_3d_;
   std::vector<std::string> warnings_;
@@ -92,6 +96,8 @@ private:
   mutable tbb::collaborative_once_flag once_;
   mutable std::optional<Scan> scan_;
   mutable std::atomic<bool> scanned_ = false;
+  mutable std::once_flag arrival_once_;
+  mutable std::optional<Plane> own_arrival_;
 };
 
 } // namespace firetwin::run

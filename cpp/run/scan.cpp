@@ -15,6 +15,7 @@ namespace firetwin::run {
 namespace {
 
 constexpr std::size_t chunk = 1U << 15U;
+constexpr std::size_t together = 64; ///< cells looked at at once whether any is not 0
 
 /// A frame and what its place in the run says.
 struct Frame {
@@ -36,6 +37,7 @@ struct Part {
   void add(std::span<Scan::Cell> cells, const Frame& frame);
 
 private:
+  bool add(std::span<Scan::Cell> cells, std::size_t begin, std::size_t end, const Frame& frame);
   void add(std::span<Scan::Cell> cells, std::size_t i, const Frame& frame);
 };
 
@@ -45,14 +47,9 @@ void Part::add(std::span<Scan::Cell> cells, const Frame& frame) {
   }
   begun.clear();
   bool zeros = false;
-  for (std::size_t i = 0; i < frame.flux.size(); ++i) {
-    if (frame.flux[i] == 0.0F) { // most are: their cells need no look
-      zeros = true;
-    } else if (std::isfinite(frame.flux[i])) {
-      add(cells, i, frame);
-    } else {
-      ++not_finite;
-    }
+  for (std::size_t i = 0; i < frame.flux.size(); i += together) {
+    const std::size_t end = std::min(i + together, frame.flux.size());
+    zeros = add(cells, i, end, frame) || zeros;
   }
   if (zeros) {
     smallest = std::min(smallest, 0.0F);
@@ -60,8 +57,28 @@ void Part::add(std::span<Scan::Cell> cells, const Frame& frame) {
   }
 }
 
+/// Cells `begin` to `end`; whether some of them are 0, as most are, which need no look.
+bool Part::add(std::span<Scan::Cell> cells, std::size_t begin, std::size_t end,
+               const Frame& frame) {
+  std::uint32_t others = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    others += frame.flux[i] != 0.0F ? 1U : 0U;
+  }
+  for (std::size_t i = begin; others > 0 && i < end; ++i) {
+    if (std::isfinite(frame.flux[i])) {
+      add(cells, i, frame);
+    } else {
+      ++not_finite;
+    }
+  }
+  return others < end - begin;
+}
+
 void Part::add(std::span<Scan::Cell> cells, std::size_t i, const Frame& frame) {
   const float flux = frame.flux[i];
+  if (flux == 0.0F) {
+    return;
+  }
   smallest = std::min(smallest, flux);
   largest = std::max(largest, flux);
   if (flux < 0.0F) {
@@ -99,8 +116,8 @@ Scan scan(const Series& flux, const std::vector<double>& times) {
   result.cells.resize(flux.cells());
   const std::span<Scan::Cell> cells = result.cells;
   std::vector<Part> parts((cells.size() + chunk - 1) / chunk);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::vector<float> values = *frames.next();
+  std::vector<float> values;
+  for (std::size_t i = 0; frames.next(values); ++i) {
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
       const std::size_t begin = k * chunk, size = std::min(chunk, cells.size() - begin);
       parts[k].add(cells.subspan(begin, size),

@@ -1,6 +1,8 @@
 #include "run/text.hpp"
 
 #include "base/error.hpp"
+#include "io/file.hpp"
+#include "io/name.hpp"
 #include "run/decimal.hpp"
 #include "run/number.hpp"
 
@@ -10,25 +12,33 @@
 namespace firetwin::run {
 namespace {
 
+/// A text grid of 2000 x 2000 needs about 60 MB.
+constexpr std::uint64_t largest_text = 1U << 30;
+
 bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
 template <class T> class Parser {
 public:
-  Parser(std::span<const char> text, const std::string& path)
-      : position_(text.data()), end_(text.data() + text.size()), path_(path) {
+  explicit Parser(const std::string& path) : path_(path) {}
+
+  /// Whole lines, and how many bytes of text follow them.
+  void take(std::span<const char> lines, std::uint64_t left) {
+    position_ = lines.data();
+    end_ = lines.data() + lines.size();
+    left_ = left;
     constexpr const char* mark = "\xEF\xBB\xBF";
-    if (text.size() >= 3 && std::memcmp(text.data(), mark, 3) == 0) {
+    if (line_ == 1 && lines.size() >= 3 && std::memcmp(lines.data(), mark, 3) == 0) {
       position_ += 3;
     }
     line_start_ = position_;
-  }
-
-  Grid<T> parse() {
     for (; position_ < end_; next_line()) {
       parse_line();
     }
+  }
+
+  Grid<T> finish() {
     if (grid_.rows == 0) {
       throw InputError(path_, 0, 0, "holds no numbers; write one row of the grid per line");
     }
@@ -97,7 +107,7 @@ private:
     if (grid_.rows == 0) {
       grid_.columns = found;
       const auto line_bytes = static_cast<std::size_t>(position_ - line_start_) + 1;
-      const auto rest = static_cast<std::size_t>(end_ - position_);
+      const auto rest = static_cast<std::size_t>(end_ - position_) + left_;
       grid_.values.reserve(found * (rest / line_bytes + 2));
     } else if (found != grid_.columns) {
       fail(line_start_, "this row has " + std::to_string(found) + " values where the first has " +
@@ -136,9 +146,10 @@ private:
     throw InputError(path_, line_, place - line_start_ + 1, reason);
   }
 
-  const char* position_;
-  const char* end_;
+  const char* position_ = nullptr;
+  const char* end_ = nullptr;
   const char* line_start_ = nullptr;
+  std::size_t left_ = 0; ///< bytes after end_
   std::int64_t line_ = 1;
   const std::string& path_;
   Grid<T> grid_;
@@ -147,10 +158,24 @@ private:
 } // namespace
 
 template <class T> Grid<T> parse_text(std::span<const char> text, const std::string& path) {
-  return Parser<T>(text, path).parse();
+  Parser<T> parser(path);
+  parser.take(text, 0);
+  return parser.finish();
+}
+
+template <class T> Grid<T> read_text(const std::filesystem::path& path) {
+  const std::string name = io::utf8(path);
+  Parser<T> parser(name);
+  io::read_lines(path, largest_text, [&parser](std::span<const char> lines, std::uint64_t left) {
+    parser.take(lines, left);
+  });
+  return parser.finish();
 }
 
 template Grid<float> parse_text(std::span<const char>, const std::string&);
 template Grid<double> parse_text(std::span<const char>, const std::string&);
+
+template Grid<float> read_text(const std::filesystem::path&);
+template Grid<double> read_text(const std::filesystem::path&);
 
 } // namespace firetwin::run

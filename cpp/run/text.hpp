@@ -2,6 +2,7 @@
 
 #include "base/grid.hpp"
 
+#include <filesystem>
 #include <span>
 #include <string>
 
@@ -23,5 +24,11 @@ template <class T> Grid<T> parse_text(std::span<const char> text, const std::str
 
 extern template Grid<float> parse_text(std::span<const char>, const std::string&);
 extern template Grid<double> parse_text(std::span<const char>, const std::string&);
+
+/// The same from a file of at most 1 GiB.
+template <class T> Grid<T> read_text(const std::filesystem::path& path);
+
+extern template Grid<float> read_text(const std::filesystem::path&);
+extern template Grid<double> read_text(const std::filesystem::path&);
 
 } // namespace firetwin::run

@@ -31,28 +31,19 @@ Colour gradient(double fraction) {
 
 } // namespace
 
-void thermal_gradient(std::span<const float> kelvin, double low, double high,
-                      std::span<float> colour) {
+void thermal_composite(std::span<const float> rgb, std::span<const float> kelvin, double low,
+                       double high, double strength, std::span<float> colour) {
   if (!std::isfinite(low) || !std::isfinite(high) || !(low < high)) {
     throw std::invalid_argument("low and high must be finite temperatures in K, low below high");
   }
-  for (std::size_t i = 0; i < kelvin.size(); ++i) {
-    const double k = double{kelvin[i]};
-    const Colour c = std::isnan(k) ? stops.front() : gradient((k - low) / (high - low));
-    std::transform(c.begin(), c.end(), &colour[3 * i],
-                   [](double v) { return static_cast<float>(v); });
-  }
-}
-
-void thermal_composite(std::span<const float> rgb, std::span<const float> kelvin, double low,
-                       double high, double strength, std::span<float> colour) {
   if (!std::isfinite(strength)) {
     throw std::invalid_argument("strength must be finite");
   }
-  thermal_gradient(kelvin, low, high, colour);
   for (std::size_t i = 0; i < colour.size(); ++i) {
+    const double k = double{kelvin[i / 3]};
+    const Colour heat = std::isnan(k) ? stops.front() : gradient((k - low) / (high - low));
     const double pixel = std::isnan(rgb[i]) ? 0.0 : std::clamp(double{rgb[i]}, 0.0, 1.0);
-    colour[i] = static_cast<float>(std::clamp(pixel + strength * colour[i], 0.0, 1.0));
+    colour[i] = static_cast<float>(std::clamp(pixel + strength * heat[i % 3], 0.0, 1.0));
   }
 }
 

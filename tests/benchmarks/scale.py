@@ -36,7 +36,15 @@ SERIES = ("heat_flux", "temperature", "wind_east", "wind_north")
 
 
 def info(folder: Path) -> None:
-    """All that `firetwin info` shows."""
+    """All that `firetwin info` shows, of a run that nobody has asked."""
+    from firetwin.run import remembered
+
+    (folder / remembered.NAME).unlink(missing_ok=True)
+    info_again(folder)
+
+
+def info_again(folder: Path) -> None:
+    """The same of one that was asked before, if its files are some seconds old."""
     from firetwin.run import info
 
     info.gather(runs.open(folder), "UTC")
@@ -64,6 +72,7 @@ def interpolation(folder: Path) -> float:
 
 STEPS: dict[str, Callable[[Path], float | None]] = {
     "info": info,
+    "info again": info_again,
     "emission": emission,
     "interpolation": interpolation,
 }
@@ -167,7 +176,9 @@ def front(sample: Path, found: NDArray, moments: NDArray) -> tuple[float, float,
     off, out, more = [], [], 0.0
     for moment in moments:
         true, here = (own <= moment) & ~before, (found <= moment) & ~before
-        edges = np.count_nonzero(np.diff(true, axis=0)) + np.count_nonzero(np.diff(true, axis=1))
+        front = np.diff(own <= moment, axis=0), np.diff(own <= moment, axis=1)
+        known = ~(before[1:] | before[:-1]), ~(before[:, 1:] | before[:, :-1])
+        edges = sum(np.count_nonzero(part & there) for part, there in zip(front, known, strict=True))
         length = edges * np.pi / 4.0  # of a line in all directions, in cells
         off.append(CELL * np.count_nonzero(true != here) / length)
         out.append(CELL * (int(here.sum()) - int(true.sum())) / length)

@@ -132,7 +132,7 @@ def test_the_thermal_picture_is_the_blend_of_the_picture_and_the_gradient(render
     rgb = images["drone/rgb/drone_rgb_000002.png"]
     kelvin = images["drone/thermal/drone_thermal_000002.exr"][..., 0]
     low, high = settings.render.thermal_low, settings.render.thermal_high
-    expected = np.clip(rgb[..., :3] + sensor.thermal_gradient(kelvin, low, high), 0.0, 1.0)
+    expected = sensor.thermal_composite(rgb[..., :3], kelvin, low, high)
     shown = images["drone/thermal/drone_thermal_000002.png"][..., :3]
     assert np.abs(shown - expected).max() <= 0.5 / 255 + 1e-6
     assert np.abs(shown - rgb[..., :3]).max() > 0.3

@@ -1,10 +1,11 @@
 """`firetwin info` and `firetwin maps` on the small run."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
-from firetwin.run import areas, info, maps
+from firetwin.run import areas, blocks, content, info, maps, remembered
 from firetwin_core import run as runs
 from PIL import Image
 from small_run import FX, FY, small_fields
@@ -53,6 +54,16 @@ def test_burned_area_energy_and_flux(run):
     power = (flux * area).sum((1, 2))
     assert facts["energy"] == pytest.approx(60 * (power[0] / 2 + power[1] + power[2] / 2), rel=1e-12)
     assert facts["heat_flux"] == {"min": 0.0, "max": 2000.25}
+
+
+def test_facts_do_not_depend_on_how_many_rows_are_read_at_once(run, monkeypatch):
+    facts = info.gather(run, ZONE)
+    monkeypatch.setattr(blocks, "CELLS", 1)
+    again = info.gather(run, ZONE)
+    for fuel in ("surface_fuel", "canopy_fuel"):
+        assert again.pop(fuel) == pytest.approx(facts.pop(fuel), rel=1e-12)
+    assert again.pop("burned") == facts.pop("burned")
+    assert again == facts
 
 
 def test_reported_acreages_stand_beside_those_of_the_run(run):
@@ -134,3 +145,57 @@ def test_labels_tell_ticks_apart(make_run, scale):
         assert len(set(labels)) == len(labels) >= 2
         for tick, label in zip(ticks, labels, strict=True):
             assert float(label[:-2]) == pytest.approx(abs(tick), abs=1e-9)
+
+
+def nobody(*_):
+    raise AssertionError("asked again")
+
+
+@pytest.fixture
+def settled(run, monkeypatch):
+    """A run whose files count as old."""
+    monkeypatch.setattr(content, "_YOUNG", -1.0)
+    return run
+
+
+def test_facts_are_found_once(settled, monkeypatch):
+    facts = info.gather(settled, ZONE)
+    monkeypatch.setattr(info, "_find", nobody)
+    assert info.gather(runs.open(settled.path), ZONE) == facts
+    with pytest.raises(AssertionError, match="asked again"):
+        info.gather(settled, "Asia/Tokyo")
+
+
+def test_facts_of_other_files_are_found_anew(settled):
+    before = info.gather(settled, ZONE)
+    fuel = Path(settled.path) / "surface_fuel.npy"
+    np.save(fuel, np.load(fuel) + np.float32(1.0))
+    after = info.gather(runs.open(settled.path), ZONE)
+    assert after["surface_fuel"]["mean"] == pytest.approx(before["surface_fuel"]["mean"] + 1.0)
+
+
+def test_facts_of_another_program_are_found_anew(settled, monkeypatch):
+    info.gather(settled, ZONE)
+    monkeypatch.setattr(remembered, "_program", dict)
+    monkeypatch.setattr(info, "_find", nobody)
+    with pytest.raises(AssertionError, match="asked again"):
+        info.gather(settled, ZONE)
+
+
+def test_files_that_may_still_change_are_not_remembered(run, monkeypatch):
+    monkeypatch.setattr(content, "_YOUNG", 3600.0)
+    info.gather(run, ZONE)
+    assert not (Path(run.path) / remembered.NAME).exists()
+
+
+@pytest.mark.parametrize("damage", ["", "[]", '{"key"', '{"key": 1}', "\x00\xff"])
+def test_damaged_facts_count_for_nothing(settled, damage):
+    facts = info.gather(settled, ZONE)
+    (Path(settled.path) / remembered.NAME).write_bytes(damage.encode("latin1"))
+    assert info.gather(settled, ZONE) == facts
+
+
+def test_where_nothing_can_be_remembered_facts_are_found(settled):
+    (Path(settled.path) / remembered.NAME).mkdir()
+    assert info.gather(settled, ZONE)["name"] == "Small"
+    assert list((Path(settled.path)).glob(".*.part*")) == []

@@ -210,6 +210,19 @@ def test_beyond_the_ground_nothing_is_hidden():
     assert seen(behind, radius=1, camera=[(0, 0, 10)], views={"ground": outside}) == [True]
 
 
+@pytest.mark.parametrize("radius", [0.0, 4.0, 15.0, 40.0])
+@pytest.mark.parametrize("column", range(18, 23))
+def test_what_lies_along_a_gorge_is_seen(column, radius):
+    """The ground is as high as its lowest place below a ball, however far the rock around is above that."""
+    x = 20.0 * (np.arange(41) - column)
+    gorge = surface(x, np.arange(-100, 2101, 20.0), np.where(x == 0.0, 0.0, 200.0))
+    place = (0.0, 1500.0, 10.0)
+    eye = {"camera": [(0.0, 0.0, 10.0)], "radius": radius}
+    assert seen(place, views={"ground": lod.Occluder(gorge)}, **eye) == [True]
+    beside = (120.0, 1500.0, 10.0)
+    assert seen(beside, views={"ground": lod.Occluder(gorge)}, **eye) == [False]
+
+
 def hills(rng, columns=26, size=1000.0):
     """Rough ground over a grid that is neither straight nor regular."""
     axis = np.linspace(0, size, columns)

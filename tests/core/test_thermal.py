@@ -2,7 +2,12 @@
 
 import numpy as np
 import pytest
-from firetwin_core.sensor import thermal_composite, thermal_gradient
+from firetwin_core.sensor import thermal_composite
+
+
+def gradient(kelvin, low, high):
+    """The colours alone, on a black picture."""
+    return thermal_composite(np.zeros((*np.shape(kelvin), 3)), kelvin, low, high)
 
 
 def test_gradient_at_and_between_its_stops():
@@ -20,7 +25,7 @@ def test_gradient_at_and_between_its_stops():
         [1, 1, 1],
         [0, 0, 0],
     ]
-    np.testing.assert_allclose(thermal_gradient(kelvin, 300, 800), [expected], atol=1e-7)
+    np.testing.assert_allclose(gradient(kelvin, 300, 800), [expected], atol=1e-7)
 
 
 def test_blend_equals_an_image_computed_by_hand():
@@ -44,13 +49,13 @@ def test_8_bit_pixels_are_refused():
 @pytest.mark.parametrize("limits", [(800, 300), (300, 300), (np.nan, 800), (300, np.inf)])
 def test_impossible_limits(limits):
     with pytest.raises(ValueError, match="low and high"):
-        thermal_gradient([[300.0]], *limits)
+        gradient([[300.0]], *limits)
 
 
 def test_wrong_shapes():
     with pytest.raises(ValueError, match=r"rgb must have shape \(1, 2, 3\)"):
         thermal_composite(np.zeros((2, 1, 3)), np.zeros((1, 2)), 300, 800)
     with pytest.raises(ValueError, match="kelvin must have shape"):
-        thermal_gradient([300.0], 300, 800)
+        gradient([300.0], 300, 800)
     with pytest.raises(ValueError, match="strength"):
         thermal_composite(np.zeros((1, 1, 3)), [[300.0]], 300, 800, np.nan)

@@ -116,21 +116,3 @@ def seen(
 
 def distance(position: ArrayLike, sight: Sight) -> NDArray[np.float64]:
     """(n,) least distance of position (n, 3) from the cameras in perspective, m; infinite without any."""
-
-class Pool:
-    """Slots for what is shown: a cell keeps its slot while it is among those asked for, so nothing pops."""
-
-    def __init__(self, capacity: int, seed: int = 0) -> None: ...
-    @property
-    def capacity(self) -> int:
-        """How many slots there are."""
-    @property
-    def cells(self) -> NDArray[np.int64]:
-        """(capacity,) the cell in each slot, -1 where it is free."""
-    def assign(self, cell: ArrayLike) -> NDArray[np.int32]:
-        """Cells (n,), the most important first -> slots (n,), -1 for those beyond the capacity.
-
-        Cells that have a slot keep it; new ones take the lowest free slots in their order.
-        """
-    def seeds(self, cell: ArrayLike) -> NDArray[np.uint32]:
-        """A number for each cell that depends on the pool's seed and the cell alone."""

@@ -114,6 +114,17 @@ class Run:
         Threads may share the iterator: each frame goes to one of them. Raises ValueError for indices that are
         not integers, IndexError for those outside of the run.
         """
+    def fuel_rows(self, field: str, first: int, last: int) -> NDArray[np.float32]:
+        """Rows `first` to `last`, which is left out, of a field of the fuel grid: (last - first, fx).
+
+        Of a .npy in C order only these are read. `field` is surface_fuel, canopy_fuel (kg/m2),
+        fuel_elevation (m) or the run's own fuel_arrival_time (s, NaN where never).
+
+        Raises
+        ------
+        ValueError
+            No such field. IndexError: no such rows. InputError: the run has none, or it cannot be read.
+        """
     def flux_range(self) -> tuple[float, float]:
         """Smallest and largest finite heat flux of the whole run, W/m2."""
     def heat_released(self) -> NDArray[np.float64]:
@@ -123,7 +134,7 @@ class Run:
 
         From the run's own fuel_arrival_time where it has one. Else from the fluxes, between model times: when
         a cell first has the flux of a fire, 1 W/m2, how that grows and how the heat is released tell when the
-        front is in its middle, 63 m off in the mean on the sample's cells of 370 m (cpp/flux/arrival.hpp).
+        front is in its middle, 64 m off in the mean on the sample's cells of 370 m (cpp/flux/arrival.hpp).
         """
     def fuel_arrival_time(self) -> NDArray[np.float64]:
         """(fy, fx) seconds since start, NaN where never, negative where burned before the start.

@@ -13,13 +13,13 @@ def brightness_temperature(
 ) -> NDArray[np.float64]:
     """The inverse of `radiance` -> K."""
 
-def thermal_gradient(kelvin: ArrayLike, low: float, high: float) -> NDArray[np.float32]:
-    """(h, w) K -> (h, w, 3) colour 0..1 (black, purple, red, orange, yellow, white)."""
-
 def thermal_composite(
     rgb: ArrayLike, kelvin: ArrayLike, low: float, high: float, strength: float = 1.0
 ) -> NDArray[np.float32]:
     """The paper's thermal view: clamp(pixels (h, w, 3) in 0..1 + strength * gradient, 0, 1).
+
+    The gradient of the temperatures (h, w) K is black, purple, red, orange, yellow and white at equal steps
+    from `low` to `high`, linear between; beyond them and NaN as at the nearer end and at `low`.
 
     8-bit pixels are refused: divide them by 255.
     """

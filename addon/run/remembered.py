@@ -1,0 +1,46 @@
+"""Facts of a run that stay in its folder, so that nobody finds them twice."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import firetwin_core
+from firetwin_core.run import Run
+
+from .. import files
+from ..data import history
+from ..errors import InputError
+from . import content
+
+NAME = ".firetwin-info.json"
+
+
+def facts(run: Run, about: str, find: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+    """What `find` says, which JSON can hold; not asked again while the run's files and the program stay.
+
+    Where the folder cannot be written nothing is remembered, nor of files that may still change.
+    """
+    place = Path(run.path) / NAME
+    stamps = content.stamps(run)
+    key = content.fingerprint({"about": about, "run": stamps, "program": _program()})
+    with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
+        known = json.loads(place.read_text(encoding="utf-8"))
+        if known["key"] == key:
+            return dict(known["facts"])
+    found = find()
+    if content.settled(stamps.values()) and content.stamps(run) == stamps:
+        text = json.dumps({"key": key, "facts": found})
+        with contextlib.suppress(OSError, InputError):
+            files.write(place, lambda part: part.write_text(text, encoding="utf-8"))
+    return found
+
+
+def _program() -> dict[str, content.Stamp]:
+    """What the facts are found by."""
+    events, code = Path(history.__file__), Path(__file__).parent.glob("*.py")
+    parts = [Path(firetwin_core.__file__), events, *events.parent.glob("*.toml"), *code]
+    return {path.name: content.stamp(path) for path in sorted(parts)}

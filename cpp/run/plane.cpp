@@ -1,0 +1,69 @@
+#include "run/plane.hpp"
+
+#include "run/grid_file.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace firetwin::run {
+namespace {
+
+constexpr std::size_t part = 1U << 16U; ///< values that stay in a processor's cache
+
+} // namespace
+
+Plane::Plane(const std::filesystem::path& path, std::size_t rows, std::size_t columns,
+             std::optional<float> no_data)
+    : rows_(rows), columns_(columns), no_data_(no_data) {
+  if (path.extension() == ".npy") {
+    file_.emplace(path);
+    if (!file_->scattered() && file_->shape() == std::vector<std::size_t>{rows, columns}) {
+      return;
+    }
+    file_.reset();
+  }
+  values_.resize(rows * columns);
+  read_grid(path, rows, columns, no_data, values_);
+}
+
+Plane::Plane(Make make, std::size_t rows, std::size_t columns)
+    : rows_(rows), columns_(columns), make_(std::move(make)) {}
+
+std::size_t Plane::rows_at_once() const {
+  return std::max<std::size_t>(part / columns_, 1);
+}
+
+std::vector<float> Plane::read_all() const {
+  if (make_) {
+    return make_();
+  }
+  std::vector<float> values(rows_ * columns_);
+  file_->read(0, values);
+  blank(values, no_data_);
+  return values;
+}
+
+const std::vector<float>& Plane::values() const {
+  if (file_ || make_) {
+    std::call_once(once_, [this] { values_ = read_all(); });
+  }
+  return values_;
+}
+
+void Plane::read(std::size_t first, std::span<float> out) const {
+  if (first > rows_ || out.size() > (rows_ - first) * columns_) {
+    throw std::out_of_range("rows from " + std::to_string(first) + " on of a grid with " +
+                            std::to_string(rows_) + " rows");
+  }
+  if (file_) {
+    file_->read(first, out);
+    blank(out, no_data_);
+    return;
+  }
+  const auto begin = values().begin() + static_cast<std::ptrdiff_t>(first * columns_);
+  std::copy_n(begin, out.size(), out.begin());
+}
+
+} // namespace firetwin::run
