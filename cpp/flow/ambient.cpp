@@ -153,8 +153,8 @@ void Ambient::rest(const Lattice& lattice, const Ground& ground, const Profile& 
         }
       }
       if (moist_) {
-        virtual_row(lattice.nx, theta_.row(k, j), water_.row(k, j), weather(k),
-                    virtual_.row(k, j), cloud.data());
+        virtual_row(lattice.nx, theta_.row(k, j), water_.row(k, j), weather(k), virtual_.row(k, j),
+                    cloud.data());
       }
     }
   });

@@ -23,9 +23,8 @@ inline float exponential(float x) {
   const float f = (y - n) * 0.69314718F;
   const float series =
       1.0F +
-      f * (1.0F +
-           f * (0.5F +
-                f * (1.0F / 6.0F + f * (1.0F / 24.0F + f * (1.0F / 120.0F + f * (1.0F / 720.0F))))));
+      f * (1.0F + f * (0.5F + f * (1.0F / 6.0F + f * (1.0F / 24.0F +
+                                                      f * (1.0F / 120.0F + f * (1.0F / 720.0F))))));
   const auto power = static_cast<std::int32_t>(n);
   return series * std::bit_cast<float>((power + 127) << 23);
 }
