@@ -2,7 +2,6 @@
 
 #include "base/check.hpp"
 #include "flow/parallel.hpp"
-#include "flow/water.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +10,6 @@
 
 namespace firetwin::flow {
 namespace {
-
-constexpr int coldest = 150; // K, of the table of saturation
-constexpr int kelvins = 250;
 
 std::vector<double> part(const std::vector<std::array<double, 2>>& wind, std::size_t axis) {
   std::vector<double> result;
@@ -90,7 +86,7 @@ void Ground::take(const Lattice& lattice, const std::vector<double>& height) {
 
 Ambient::Ambient(const Lattice& lattice, const Ground& ground, const Profile& profile)
     : moist_(!profile.water.empty()), reference_(0.0), theta_(lattice, lattice.nz),
-      water_(lattice, moist_ ? lattice.nz : 0), virtual_(lattice, lattice.nz) {
+      water_(lattice, moist_ ? lattice.nz : 0), virtual_(lattice, moist_ ? lattice.nz : 0) {
   check_profile(profile);
   reference_ = std::round(interpolated(profile.height, profile.potential_temperature, 0.0));
   weigh(lattice, profile);
@@ -122,9 +118,6 @@ void Ambient::weigh(const Lattice& lattice, const Profile& p) {
       exner_.push_back(exner);
       density_.push_back(dense(pressure_.back(), lattice.middle[k]));
       air_.cell.push_back(static_cast<float>(density_.back() * lattice.depth[k]));
-      for (int t = coldest; moist_ && t < coldest + kelvins; ++t) {
-        held_.push_back(static_cast<float>(0.9999 * saturation(t, pressure_.back())));
-      }
     }
   }
 }
@@ -146,6 +139,7 @@ std::vector<std::array<float, 2>> Ambient::set_wind(const Lattice& lattice, cons
 void Ambient::rest(const Lattice& lattice, const Ground& ground, const Profile& p) {
   each(lattice.nz, [&](Index k) {
     const double height = lattice.middle[static_cast<std::size_t>(k)];
+    std::vector<float> cloud(static_cast<std::size_t>(lattice.nx));
     for (Index j = -halo; j < lattice.ny + halo; ++j) {
       for (Index i = -halo; i < lattice.nx + halo; ++i) {
         const Index row = std::clamp(j, Index{0}, lattice.ny - 1);
@@ -153,44 +147,17 @@ void Ambient::rest(const Lattice& lattice, const Ground& ground, const Profile& 
         const double z = height + ground.above(row, column) * ground.share(height);
         const double theta = interpolated(p.height, p.potential_temperature, z) - reference_;
         const double water = moist_ ? interpolated(p.height, p.water, z) : 0.0;
-        float& kept = theta_.row(k, j)[i];
-        kept = static_cast<float>(theta);
+        theta_.row(k, j)[i] = static_cast<float>(theta);
         if (moist_) {
           water_.row(k, j)[i] = static_cast<float>(water);
         }
-        virtual_.row(k, j)[i] = static_cast<float>(virtual_theta(
-            k, static_cast<double>(kept), moist_ ? static_cast<double>(water_.row(k, j)[i]) : 0.0));
+      }
+      if (moist_) {
+        virtual_row(lattice.nx, theta_.row(k, j), water_.row(k, j), weather(k), virtual_.row(k, j),
+                    cloud.data());
       }
     }
   });
-}
-
-/// Whether the air would hold its water even were it a little colder: saves most of the
-/// exponentials.
-bool Ambient::surely_clear(Index k, double temperature, double water) const {
-  const double above = temperature - coldest;
-  if (!(above >= 0.0 && above < kelvins)) {
-    return false;
-  }
-  return water <= static_cast<double>(
-                      held_[static_cast<std::size_t>(k * kelvins + static_cast<Index>(above))]);
-}
-
-double Ambient::virtual_theta(Index k, double theta, double water, double* cloud) const {
-  const double whole = theta + reference_;
-  if (!moist_) {
-    return whole;
-  }
-  const double temperature = whole * exner(k);
-  if (surely_clear(k, temperature, water)) {
-    return whole * (1.0 + vapour_lightness * water);
-  }
-  const double condensed = cloud_water(temperature, water, pressure(k));
-  if (cloud) {
-    *cloud = condensed;
-  }
-  const double warm = whole + latent_heat / (heat_capacity * exner(k)) * condensed;
-  return warm * (1.0 + vapour_lightness * (water - condensed) - condensed);
 }
 
 } // namespace firetwin::flow

@@ -2,6 +2,7 @@
 
 #include "flow/field.hpp"
 #include "flow/transport.hpp"
+#include "flow/water.hpp"
 
 #include <array>
 #include <vector>
@@ -68,20 +69,20 @@ public:
   /// @return what was added to the wind of each level
   std::vector<std::array<float, 2>> set_wind(const Lattice& lattice, const Profile& profile);
 
-  /// Virtual potential temperature, K, of air with `theta` K above the reference (were all its
-  /// water vapour) and `water` kg/kg in level k; *cloud is its cloud water.
-  double virtual_theta(Index k, double theta, double water, double* cloud = nullptr) const;
+  /// What `virtual_row` asks for in level k.
+  Weather weather(Index k) const {
+    return {static_cast<float>(reference_), static_cast<float>(exner(k)),
+            static_cast<float>(pressure(k))};
+  }
 
 private:
   void weigh(const Lattice& lattice, const Profile& profile);
-  bool surely_clear(Index k, double temperature, double water) const;
   void rest(const Lattice& lattice, const Ground& ground, const Profile& profile);
 
   bool moist_;
   Air air_;
   double reference_;
   std::vector<double> density_, exner_, pressure_;
-  std::vector<float> held_; ///< [nz][kelvins] water that air holds as vapour, of whole kelvins
   std::vector<std::array<float, 2>> wind_;
   Field theta_, water_, virtual_;
 };

@@ -2,7 +2,8 @@
 
 #include "base/clones.hpp"
 #include "flow/parallel.hpp"
-#include "flow/water.hpp"
+
+#include <vector>
 
 namespace firetwin::flow {
 namespace {
@@ -14,6 +15,16 @@ void weigh_row(Index n, const float* __restrict theta, const float* __restrict r
   constexpr auto g = static_cast<float>(gravity);
   for (Index i = 0; i < n; ++i) {
     force[i] = g * (theta[i] - rest[i]) / (rest[i] + reference);
+  }
+}
+
+/// g (virtual theta - rest) / rest
+FIRETWIN_CLONES("avx512f", "avx2")
+void outweigh_row(Index n, const float* __restrict here, const float* __restrict rest,
+                  float* __restrict force) {
+  constexpr auto g = static_cast<float>(gravity);
+  for (Index i = 0; i < n; ++i) {
+    force[i] = g * ((here[i] - rest[i]) / rest[i]);
   }
 }
 
@@ -32,6 +43,7 @@ Buoyancy::Buoyancy(const Lattice& lattice, const Ground& ground, const Ambient& 
     : lattice_(lattice), ground_(ground), ambient_(ambient), force_(lattice, lattice.nz) {}
 
 void Buoyancy::weigh(const State& state, Index k) {
+  std::vector<float> here(static_cast<std::size_t>(lattice_.nx)), cloud(here.size());
   for (Index j = 0; j < lattice_.ny; ++j) {
     const float* theta = state.theta.row(k, j);
     float* force = force_.row(k, j);
@@ -40,12 +52,9 @@ void Buoyancy::weigh(const State& state, Index k) {
                 static_cast<float>(ambient_.reference()), force);
       continue;
     }
-    const float* rest = ambient_.heaviness().row(k, j);
-    for (Index i = 0; i < lattice_.nx; ++i) {
-      const auto here = static_cast<float>(ambient_.virtual_theta(
-          k, static_cast<double>(theta[i]), static_cast<double>(state.water.row(k, j)[i])));
-      force[i] = static_cast<float>(gravity) * ((here - rest[i]) / rest[i]);
-    }
+    virtual_row(lattice_.nx, theta, state.water.row(k, j), ambient_.weather(k), here.data(),
+                cloud.data());
+    outweigh_row(lattice_.nx, here.data(), ambient_.heaviness().row(k, j), force);
   }
 }
 

@@ -7,12 +7,13 @@
 
 namespace firetwin::flow {
 
-/// Numbers on a lattice's levels, with ghost rows and columns all around.
+/// Numbers on a lattice's levels, with ghost rows and columns all around. Whole lanes that begin in
+/// a row may be read: behind the last one lies some room.
 class Field {
 public:
   Field(const Lattice& lattice, Index levels)
       : stride_(lattice.stride), plane_(lattice.plane), levels_(levels),
-        values_(static_cast<std::size_t>(levels * lattice.plane)) {}
+        values_(static_cast<std::size_t>(levels * lattice.plane + 2 * lanes)) {}
 
   Index levels() const { return levels_; }
   /// Points at column 0 of row j of level k.

@@ -10,7 +10,6 @@ namespace {
 
 constexpr Index least = 8;
 constexpr Index most = 4096;
-constexpr Index lanes = 16;
 
 void check_levels(const std::vector<double>& levels) {
   check_finite(levels, "levels");
@@ -38,7 +37,7 @@ Lattice::Lattice(Index columns, Index rows, double cell, std::vector<double> lev
     middle.push_back(0.5 * (face[k] + face[k + 1]));
     depth.push_back(face[k + 1] - face[k]);
   }
-  stride = (nx + 2 * halo + lanes - 1) / lanes * lanes;
+  stride = whole_lanes(nx + 2 * halo);
   plane = stride * (ny + 2 * halo);
 }
 

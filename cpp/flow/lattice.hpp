@@ -10,6 +10,12 @@ using Index = std::ptrdiff_t;
 /// Ghost cells on each side, in x and in y: as many as a stencil reaches.
 inline constexpr Index halo = 2;
 
+/// Floats that processors take at once; rows are read and made in wholes of them.
+inline constexpr Index lanes = 16;
+constexpr Index whole_lanes(Index n) {
+  return (n + lanes - 1) / lanes * lanes;
+}
+
 /// nx by ny by nz cells on a staggered (Arakawa C) grid. Scalars sit in cells' middles, u on faces
 /// i = 0 to nx across x, v on faces j = 0 to ny across y, w on faces k = 0 to nz. Squares in x and
 /// y; levels of any thickness in z', the height above ground.

@@ -4,40 +4,14 @@
 #include "flow/parallel.hpp"
 #include "flow/rows.hpp"
 
-#include <fftw3.h>
-
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <numbers>
 
 namespace firetwin::flow {
 namespace {
 
 constexpr Index chunk = 512; // modes solved together: their columns stay in the cache
-
-/// FFTW makes plans one at a time.
-std::mutex& planner() {
-  static std::mutex mutex;
-  return mutex;
-}
-
-struct Destroy {
-  void operator()(fftwf_plan_s* plan) const {
-    const std::lock_guard lock(planner());
-    fftwf_destroy_plan(plan);
-  }
-};
-using Plan = std::unique_ptr<fftwf_plan_s, Destroy>;
-
-/// `count` transforms of n numbers that are `step` apart, `next` from one to the next. Estimated
-/// and not measured, so that a plan, and every digit, is the same each time.
-Plan plan(Index n, Index count, Index step, Index next, fftwf_r2r_kind kind, float* data) {
-  const int length = static_cast<int>(n), s = static_cast<int>(step), d = static_cast<int>(next);
-  const std::lock_guard lock(planner());
-  return Plan(fftwf_plan_many_r2r(1, &length, static_cast<int>(count), data, nullptr, s, d, data,
-                                  nullptr, s, d, &kind, FFTW_ESTIMATE | FFTW_UNALIGNED));
-}
 
 /// Of the second difference of cosine mode m of n, 1/m2.
 double eigenvalue(Index m, Index n, double spacing) {
@@ -62,28 +36,38 @@ void substitute(Index n, const float* __restrict upper, float above, const float
   }
 }
 
-} // namespace
+/// Turns a matrix of `rows` rows of n numbers over, block by block: place(i) is where row i of the
+/// result begins.
+template <class Place>
+void turn(Index rows, Index n, const float* from, Index stride, float* to, const Place& place) {
+  constexpr Index block = 16;
+  for (Index low = 0; low < rows; low += block) {
+    const Index high = std::min(low + block, rows);
+    for (Index i = 0; i < n; ++i) {
+      float* out = to + place(i);
+      for (Index j = low; j < high; ++j) {
+        out[j] = from[j * stride + i];
+      }
+    }
+  }
+}
 
-struct Pressure::Plans {
-  Plan x, y, x_back, y_back;
-};
+} // namespace
 
 Pressure::Pressure(const Lattice& lattice, const Air& air)
     : lattice_(lattice), air_(air), size_((lattice.nx * lattice.ny + 15) / 16 * 16),
       modes_(static_cast<std::size_t>(size_ * lattice.nz)), pivot_(modes_.size()),
-      below_(lattice.depth.size()), above_(lattice.depth.size()) {
+      below_(lattice.depth.size()), above_(lattice.depth.size()), along_x_(lattice.nx, lattice.ny),
+      along_y_(lattice.ny, lattice.nx), x_room_([this] { return along_x_.room(); }),
+      y_room_([this] { return along_y_.room(); }) {
   const Index nx = lattice.nx, ny = lattice.ny, nz = lattice.nz;
-  float* data = modes_.data();
-  plans_ = std::make_unique<Plans>(
-      Plans{plan(nx, ny, 1, nx, FFTW_REDFT10, data), plan(ny, nx, nx, 1, FFTW_REDFT10, data),
-            plan(nx, ny, 1, nx, FFTW_REDFT01, data), plan(ny, nx, nx, 1, FFTW_REDFT01, data)});
   for (Index k = 0; k < nz; ++k) {
     const auto at = static_cast<std::size_t>(k);
     below_[at] = k > 0 ? air.face[at] / static_cast<float>(lattice.gap(k)) : 0.0F;
     above_[at] = k + 1 < nz ? air.face[at + 1] / static_cast<float>(lattice.gap(k + 1)) : 0.0F;
   }
-  each(ny, [&](Index j) {
-    for (Index i = 0; i < nx; ++i) {
+  each(nx, [&](Index i) {
+    for (Index j = 0; j < ny; ++j) {
       const double wave = eigenvalue(i, nx, lattice.spacing) + eigenvalue(j, ny, lattice.spacing);
       double before = 0.0;
       for (Index k = 0; k < nz; ++k) {
@@ -93,13 +77,11 @@ Pressure::Pressure(const Lattice& lattice, const Air& air)
         const bool free = i == 0 && j == 0 && k == nz - 1; // a constant: 0 at the top
         const double under = k > 0 ? static_cast<double>(above_[at - 1]) : 0.0;
         before = free ? 0.0 : 1.0 / (-(low + up + across) - low * under * before);
-        pivot_[static_cast<std::size_t>(k * size_ + j * nx + i)] = static_cast<float>(before);
+        pivot_[static_cast<std::size_t>(k * size_ + i * ny + j)] = static_cast<float>(before);
       }
     }
   });
 }
-
-Pressure::~Pressure() = default;
 
 /// Air that leaves the cells of level k, kg/m2/s.
 void Pressure::diverge(const Wind& wind, Index k, float* out) const {
@@ -123,17 +105,42 @@ double Pressure::divergence(const Wind& wind) const {
   });
 }
 
-void Pressure::transform(bool back) {
-  each(lattice_.nz, [&](Index k) {
-    float* data = level(k);
-    if (back) {
-      fftwf_execute_r2r(plans_->y_back.get(), data, data);
-      fftwf_execute_r2r(plans_->x_back.get(), data, data);
-    } else {
-      fftwf_execute_r2r(plans_->x.get(), data, data);
-      fftwf_execute_r2r(plans_->y.get(), data, data);
-    }
-  });
+/// To modes [nx][ny] of level k, and back.
+void Pressure::transform(Index k) {
+  const Index nx = lattice_.nx, ny = lattice_.ny;
+  auto &y = y_room_.local(), &x = x_room_.local();
+  for (Index j = 0; j < ny; ++j) {
+    along_y_.put(level(k) + j * nx, y.data() + along_y_.place(j));
+  }
+  along_y_.forward(y);
+  turn(ny, nx, y.data(), along_y_.stride(), x.data(), [&](Index i) { return along_x_.place(i); });
+  for (Index i = 0; i < nx; ++i) {
+    along_x_.clear_rest(x.data() + i * along_x_.stride());
+  }
+  along_x_.forward(x);
+  for (Index i = 0; i < nx; ++i) {
+    std::copy_n(x.data() + i * along_x_.stride(), ny, level(k) + i * ny);
+  }
+}
+
+void Pressure::transform_back(Index k) {
+  const Index nx = lattice_.nx, ny = lattice_.ny;
+  auto &y = y_room_.local(), &x = x_room_.local();
+  for (Index i = 0; i < nx; ++i) {
+    along_x_.put(level(k) + i * ny, x.data() + i * along_x_.stride());
+  }
+  along_x_.backward(x);
+  for (Index i = 0; i < nx; ++i) {
+    std::copy_n(x.data() + along_x_.place(i), ny, level(k) + i * ny);
+  }
+  turn(nx, ny, level(k), ny, y.data(), [&](Index j) { return j * along_y_.stride(); });
+  for (Index j = 0; j < ny; ++j) {
+    along_y_.clear_rest(y.data() + j * along_y_.stride());
+  }
+  along_y_.backward(y);
+  for (Index j = 0; j < ny; ++j) {
+    std::copy_n(y.data() + along_y_.place(j), nx, level(k) + j * nx);
+  }
 }
 
 void Pressure::solve_modes(Index begin, Index end) {
@@ -183,10 +190,12 @@ void Pressure::descend(Wind& wind) const {
 }
 
 void Pressure::project(Wind& wind) {
-  each(lattice_.nz, [&](Index k) { diverge(wind, k, level(k)); });
-  transform(false);
+  each(lattice_.nz, [&](Index k) {
+    diverge(wind, k, level(k));
+    transform(k);
+  });
   solve();
-  transform(true);
+  each(lattice_.nz, [&](Index k) { transform_back(k); });
   descend(wind);
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "flow/cosine.hpp"
 #include "flow/transport.hpp"
 
-#include <memory>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+
 #include <vector>
 
 namespace firetwin::flow {
@@ -15,9 +17,6 @@ namespace firetwin::flow {
 class Pressure {
 public:
   Pressure(const Lattice& lattice, const Air& air);
-  ~Pressure();
-  Pressure(const Pressure&) = delete;
-  Pressure& operator=(const Pressure&) = delete;
 
   void project(Wind& wind);
 
@@ -25,10 +24,9 @@ public:
   double divergence(const Wind& wind) const;
 
 private:
-  struct Plans;
-
   void diverge(const Wind& wind, Index k, float* out) const;
-  void transform(bool back);
+  void transform(Index k);
+  void transform_back(Index k);
   void solve();
   void solve_modes(Index begin, Index end);
   void descend(Wind& wind) const;
@@ -41,7 +39,8 @@ private:
   std::vector<float> modes_;
   std::vector<float> pivot_;         ///< [nz][modes] 1 / pivot of the elimination
   std::vector<float> below_, above_; ///< [nz] coefficients of the levels below and above
-  std::unique_ptr<Plans> plans_;
+  Cosines along_x_, along_y_;
+  tbb::enumerable_thread_specific<Cosines::Rows> x_room_, y_room_;
 };
 
 } // namespace firetwin::flow

@@ -3,7 +3,9 @@
 #include "base/clones.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #define FIRETWIN_LANES FIRETWIN_CLONES("avx512f", "avx2")
 
@@ -95,11 +97,16 @@ void carry_row(Index n, const float* __restrict in, const float* __restrict out,
 }
 
 FIRETWIN_LANES
-void exchange_row(Index n, const float* __restrict a, const float* __restrict b, float factor,
-                  float most, float* __restrict out) {
+void exchange_row(Index n, const std::array<const float*, 2>& strength,
+                  const std::array<const float*, 4>& air, float factor, float most,
+                  float* __restrict out) {
+  const float* __restrict a = strength[0], * __restrict b = strength[1];
+  const float* __restrict c = air[0], * __restrict d = air[1];
+  const float* __restrict e = air[2], * __restrict f = air[3];
   for (Index i = 0; i < n; ++i) {
-    const float air = 0.5F * (a[i] + b[i]) * factor;
-    out[i] = air < most ? air : most;
+    const float cd = c[i] < d[i] ? c[i] : d[i], ef = e[i] < f[i] ? e[i] : f[i];
+    const float bound = most * (cd < ef ? cd : ef), mixed = 0.5F * (a[i] + b[i]) * factor;
+    out[i] = mixed < bound ? mixed : bound;
   }
 }
 
@@ -184,38 +191,54 @@ void relax_row(Index n, const float* __restrict target, float share, float* __re
 }
 
 FIRETWIN_LANES
-float most_row(Index n, const float* q) {
-  constexpr Index lanes = 16;
-  float most[lanes] = {};
-  Index i = 0;
-  for (; i + lanes <= n; i += lanes) {
-    for (Index lane = 0; lane < lanes; ++lane) {
-      const float size = std::fabs(q[i + lane]);
-      most[lane] = size > most[lane] ? size : most[lane];
-    }
+float most_row(Index n, const float* q) { // sizes are in the order of their bits
+  std::int32_t most = 0;
+  for (Index i = 0; i < n; ++i) {
+    const std::int32_t size = std::bit_cast<std::int32_t>(q[i]) & 0x7fffffff;
+    most = size > most ? size : most;
   }
-  for (; i < n; ++i) {
-    const float size = std::fabs(q[i]);
-    most[0] = size > most[0] ? size : most[0];
-  }
-  return *std::max_element(most, most + lanes);
+  return std::bit_cast<float>(most);
 }
 
 FIRETWIN_LANES
-float least_row(Index n, const float* q) {
-  float least = q[0];
-  for (Index i = 1; i < n; ++i) {
-    least = q[i] < least ? q[i] : least;
+bool something_row(Index n, const float* q) {
+  std::int32_t bits = 0;
+  for (Index i = 0; i < n; ++i) {
+    bits |= std::bit_cast<std::int32_t>(q[i]);
   }
-  return least;
+  return (bits & 0x7fffffff) != 0;
+}
+
+FIRETWIN_LANES
+float least_share_row(Index n, const float* part, const float* whole) {
+  float least[lanes];
+  std::fill_n(least, lanes, part[0] / whole[0]);
+  Index i = 0;
+  for (; i + lanes <= n; i += lanes) {
+    for (Index lane = 0; lane < lanes; ++lane) {
+      const float share = part[i + lane] / whole[i + lane];
+      least[lane] = share < least[lane] ? share : least[lane];
+    }
+  }
+  for (; i < n; ++i) {
+    const float share = part[i] / whole[i];
+    least[0] = share < least[0] ? share : least[0];
+  }
+  return *std::min_element(least, least + lanes);
 }
 
 double sum_row(Index n, const float* q) {
-  double sum = 0.0;
-  for (Index i = 0; i < n; ++i) {
-    sum += static_cast<double>(q[i]);
+  double sum[8] = {};
+  Index i = 0;
+  for (; i + 8 <= n; i += 8) {
+    for (Index lane = 0; lane < 8; ++lane) {
+      sum[lane] += static_cast<double>(q[i + lane]);
+    }
   }
-  return sum;
+  for (; i < n; ++i) {
+    sum[0] += static_cast<double>(q[i]);
+  }
+  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
 }
 
 } // namespace firetwin::flow

@@ -2,7 +2,10 @@
 
 #include "flow/lattice.hpp"
 
-/// What is done to one row of numbers at a time, in lanes. Rows do not overlap unless said.
+#include <array>
+
+/// What is done to one row of numbers at a time, in lanes. Rows do not overlap unless said. Those
+/// that only make a row may be asked for whole lanes of it.
 namespace firetwin::flow {
 
 /// The four rows beside n faces: two below, two above. They may overlap each other.
@@ -35,9 +38,10 @@ void face_row(Index n, const float* flux, const float* courant, const Stencil& q
 /// 1 / (mass + in - out)
 void inverse_row(Index n, const float* mass, const float* in, const float* out, float* inverse);
 
-/// Air that eddies exchange between two rows of cells whose K are `a` and `b`: their mean x factor,
-/// at most `most`.
-void exchange_row(Index n, const float* a, const float* b, float factor, float most, float* out);
+/// Air that eddies exchange between two rows of cells of strengths K: their mean x factor, at most
+/// the share `most` of the least of `air`.
+void exchange_row(Index n, const std::array<const float*, 2>& strength,
+                  const std::array<const float*, 4>& air, float factor, float most, float* out);
 
 /// What eddies bring through each face: exchange x (q above - q below) x factor.
 void mixed_row(Index n, const float* exchange, float factor, const float* low, const float* high,
@@ -79,9 +83,14 @@ void relax_row(Index n, float target, const float* weight, float share, float* q
 void relax_row(Index n, const float* target, const float* weight, float share, float* q);
 void relax_row(Index n, const float* target, float share, float* q);
 
-/// Largest |q|, and smallest q.
+/// Whether there is anything but 0.
+bool something_row(Index n, const float* q);
+
+/// Largest |q| (not a number if one is not).
 float most_row(Index n, const float* q);
-float least_row(Index n, const float* q);
+
+/// Smallest part / whole.
+float least_share_row(Index n, const float* part, const float* whole);
 
 /// Sum in float64.
 double sum_row(Index n, const float* q);

@@ -4,16 +4,19 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 namespace firetwin::flow {
 namespace {
 
-/// Rows that a sweep works with; its size does not depend on the number of levels.
+/// Rows that a sweep works with, whole lanes of them; their number does not depend on that of the
+/// levels.
 class Desk {
 public:
   explicit Desk(Index length)
-      : length_(length),
-        memory_(static_cast<std::size_t>(length * (11 + 8 * static_cast<Index>(most_fields)))) {}
+      : length_(whole_lanes(length + 2)),
+        memory_(std::make_unique_for_overwrite<float[]>(
+            static_cast<std::size_t>(length_ * (11 + 8 * static_cast<Index>(most_fields)) + 2))) {}
   float* flux(Index f) { return slot(f & 3); }
   float* mass(Index p) { return slot(4 + (p & 3)); }
   float* value(std::size_t field, Index f) {
@@ -27,52 +30,54 @@ public:
   float* inverse() { return slot(9); }
 
 private:
-  float* slot(Index i) { return memory_.data() + i * length_ + halo; }
+  /// One number lies before a row: the mass of the cell before the first.
+  float* slot(Index i) { return memory_.get() + i * length_ + 1; }
 
   Index length_;
-  std::vector<float> memory_;
+  std::unique_ptr<float[]> memory_;
 };
 
 void add(Crossed& crossed, double inwards) {
   (inwards > 0.0 ? crossed.in : crossed.out) += inwards > 0.0 ? inwards : -inwards;
 }
 
-/// A row of what cells or their faces have, meant to the sweep's places.
-void placed(const Sweep& s, const Field& field, Index k, Index j, Index first, Index n,
-            float* out) {
+/// A row of what cells or their faces have, at the sweep's places: as it is, or meant into `room`,
+/// whole lanes of it.
+const float* placed(const Sweep& s, const Field& field, Index k, Index j, Index first, Index n,
+                    float* room) {
   const float* here = field.row(k, j) + first;
   if (s.place == Place::middle) {
-    std::copy_n(here, n, out);
-    return;
+    return here;
   }
   const float* before = s.place == Place::x   ? here - 1
                         : s.place == Place::y ? field.row(k, j - 1) + first
                                               : field.row(k - 1, j) + first;
-  mean_row(n, before, here, out);
+  mean_row(whole_lanes(n), before, here, room);
+  return room;
 }
 
 void along_x(const Sweep& s, Index k, Index j, Desk& desk, std::span<Crossed> crossed) {
   const Index first = s.place == Place::x ? 1 : 0;
-  const Index n = s.lattice.nx - first;
-  float* flux = desk.flux(0);
-  float* mass = desk.mass(0);
-  placed(s, s.flux, k, j, first, n + 1, flux);
-  placed(s, s.mass, k, j, first - 1, n + 2, mass - 1);
-  courant_row(n + 1, flux, mass - 1, mass, desk.courant());
-  inverse_row(n, mass, flux, flux + 1, desk.inverse());
-  if (s.exchange) {
-    placed(s, *s.exchange, k, j, first, n + 1, desk.exchange());
-  }
+  const Index n = s.lattice.nx - first, faces = whole_lanes(n + 1);
+  const float* flux = placed(s, s.flux, k, j, first, n + 1, desk.flux(0));
+  const float* mass = placed(s, s.mass, k, j, first - 1, n + 2, desk.mass(0) - 1) + 1;
+  courant_row(faces, flux, mass - 1, mass, desk.courant());
+  inverse_row(faces, mass, flux, flux + 1, desk.inverse());
+  const float* exchange =
+      s.exchange ? placed(s, *s.exchange, k, j, first, n + 1, desk.exchange()) : nullptr;
   for (std::size_t m = 0; m < s.fields.size(); ++m) {
     float* q = s.fields[m]->row(k, j) + first;
     float* value = desk.value(m, 0);
     float* mixed = desk.mixed(m, 0);
-    face_row(n + 1, flux, desk.courant(), {q - 2, q - 1, q, q + 1}, value);
-    if (s.exchange) {
-      mixed_row(n + 1, desk.exchange(), s.mixing, q - 1, q, mixed);
+    if (m < s.sparse && !something_row(n + 2 * halo, q - halo)) {
+      continue;
+    }
+    face_row(faces, flux, desk.courant(), {q - 2, q - 1, q, q + 1}, value);
+    if (exchange) {
+      mixed_row(faces, exchange, s.mixing, q - 1, q, mixed);
     }
     carry_row(n, flux, flux + 1, value, value + 1, desk.inverse(), q);
-    if (s.exchange) {
+    if (exchange) {
       stir_row(n, mixed, mixed + 1, desk.inverse(), q);
     }
     if (m < s.rescaled && !s.rest.empty()) {
@@ -91,7 +96,7 @@ class Rolling {
 public:
   Rolling(const Sweep& sweep, Index across, Desk& desk)
       : s_(sweep), across_(across), desk_(desk), first_(sweep.place == Place::x ? 1 : 0),
-        n_(sweep.lattice.nx - first_),
+        n_(sweep.lattice.nx - first_), lanes_(whole_lanes(n_)),
         end_(sweep.axis == Axis::y ? sweep.lattice.ny : sweep.lattice.nz),
         begin_((sweep.axis == Axis::y && sweep.place == Place::y) ||
                        (sweep.axis == Axis::z && sweep.place == Place::z)
@@ -100,6 +105,9 @@ public:
 
   void run(std::span<Crossed> crossed) {
     take_mass(begin_ - 1);
+    for (Index p = begin_ - 2; p <= begin_; ++p) {
+      look(p);
+    }
     for (Index f = begin_; f <= end_; ++f) {
       open_face(f);
       if (!crossed.empty() && (f == begin_ || f == end_)) {
@@ -119,34 +127,61 @@ private:
   }
   Index line(Index p) const { return s_.axis == Axis::y ? p : across_; }
 
+  static std::size_t at(Index p) { return static_cast<std::size_t>(p & 3); }
+
   void take_mass(Index p) {
     const Index lowest = s_.place == Place::z ? 1 : 0;
     const Index k = std::max(level(p, s_.lattice.nz), lowest);
-    placed(s_, s_.mass, k, line(p), first_, n_, desk_.mass(p));
+    mass_[at(p)] = placed(s_, s_.mass, k, line(p), first_, n_, desk_.mass(p));
+  }
+
+  /// Whether there is something in a row, before it changes.
+  void look(Index p) {
+    for (std::size_t m = 0; m < s_.sparse; ++m) {
+      something_[m][at(p)] = something_row(n_, row(m, p));
+    }
+  }
+
+  bool nothing_beside(std::size_t m) const {
+    const auto& rows = something_[m];
+    return m < s_.sparse && !(rows[0] || rows[1] || rows[2] || rows[3]);
   }
 
   void open_face(Index f) {
     take_mass(f);
-    float* flux = desk_.flux(f);
-    placed(s_, s_.flux, level(f, s_.flux.levels()), line(f), first_, n_, flux);
-    courant_row(n_, flux, desk_.mass(f - 1), desk_.mass(f), desk_.courant());
+    look(f + 1);
+    const float* flux =
+        placed(s_, s_.flux, level(f, s_.flux.levels()), line(f), first_, n_, desk_.flux(f));
+    flux_[at(f)] = flux;
+    courant_row(lanes_, flux, mass_[at(f - 1)], mass_[at(f)], desk_.courant());
+    const float* exchange = nullptr;
     if (s_.exchange) {
-      placed(s_, *s_.exchange, level(f, s_.flux.levels()), line(f), first_, n_, desk_.exchange());
+      exchange = placed(s_, *s_.exchange, level(f, s_.flux.levels()), line(f), first_, n_,
+                        desk_.exchange());
     }
     for (std::size_t m = 0; m < s_.fields.size(); ++m) {
       const float *low = row(m, f - 1), *high = row(m, f);
-      face_row(n_, flux, desk_.courant(), {row(m, f - 2), low, high, row(m, f + 1)},
+      carries_[m][at(f)] = !nothing_beside(m);
+      if (!carries_[m][at(f)]) {
+        std::fill_n(desk_.value(m, f), lanes_, 0.0F);
+        std::fill_n(desk_.mixed(m, f), lanes_, 0.0F);
+        continue;
+      }
+      face_row(lanes_, flux, desk_.courant(), {row(m, f - 2), low, high, row(m, f + 1)},
                desk_.value(m, f));
-      if (s_.exchange) {
-        mixed_row(n_, desk_.exchange(), s_.mixing, low, high, desk_.mixed(m, f));
+      if (exchange) {
+        mixed_row(lanes_, exchange, s_.mixing, low, high, desk_.mixed(m, f));
       }
     }
   }
 
   void close_row(Index p) {
-    const float *in = desk_.flux(p), *out = desk_.flux(p + 1), *mass = desk_.mass(p);
-    inverse_row(n_, mass, in, out, desk_.inverse());
+    const float *in = flux_[at(p)], *out = flux_[at(p + 1)], *mass = mass_[at(p)];
+    inverse_row(lanes_, mass, in, out, desk_.inverse());
     for (std::size_t m = 0; m < s_.fields.size(); ++m) {
+      if (!carries_[m][at(p)] && !carries_[m][at(p + 1)]) {
+        continue;
+      }
       float* q = row(m, p);
       carry_row(n_, in, out, desk_.value(m, p), desk_.value(m, p + 1), desk_.inverse(), q);
       if (s_.exchange) {
@@ -161,7 +196,7 @@ private:
 
   void count(Index f, std::span<Crossed> crossed) {
     for (std::size_t m = 0; m < s_.fields.size(); ++m) {
-      const float *flux = desk_.flux(f), *value = desk_.value(m, f);
+      const float *flux = flux_[at(f)], *value = desk_.value(m, f);
       for (Index i = 0; i < n_; ++i) {
         const double out = static_cast<double>(flux[i]) * static_cast<double>(value[i]);
         add(crossed[m], f == begin_ ? out : -out);
@@ -179,8 +214,12 @@ private:
   Desk& desk_;
   Index first_; ///< column
   Index n_;     ///< columns
+  Index lanes_; ///< and those that fill the last lanes, where nothing is kept
   Index end_;   ///< after the last row that changes
   Index begin_; ///< the first row that changes
+  std::array<const float*, 4> flux_{}, mass_{};              ///< of the last four faces and rows
+  std::array<std::array<bool, 4>, most_fields> something_{}; ///< in the last four rows
+  std::array<std::array<bool, 4>, most_fields> carries_{};   ///< the last four faces, anything
 };
 
 } // namespace

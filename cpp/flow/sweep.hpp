@@ -33,6 +33,8 @@ struct Sweep {
   /// Fields that are carried, at most `most_fields`, and how many of them are rescaled to `rest`.
   std::span<Field* const> fields;
   std::size_t rescaled = 0;
+  /// The first so many fields are nothing in most of the box: rows of nothing are left alone.
+  std::size_t sparse = 0;
   /// Air that eddies exchange through the same faces, kg/m2, or null; and how much more of it.
   const Field* exchange = nullptr;
   float mixing = 1.0F;

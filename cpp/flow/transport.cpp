@@ -11,9 +11,15 @@ namespace firetwin::flow {
 namespace {
 
 constexpr double most_courant = 0.8;
-constexpr double most_lost = 0.9; // of a cell's air after one or two directions
+constexpr double most_lost = 0.75; // of a cell's air to both sides; faces let pass a quarter more
 constexpr int most_substeps = 1000;
-constexpr float most_mixing = 0.15F; // of a cell's air with a neighbour; scalars three times that
+constexpr float most_mixing =
+    0.15F; // of the air of a cell or of its neighbour; scalars thrice that
+
+/// Smoke and its age come first.
+std::size_t sparse(Place place) {
+  return place == Place::middle ? 2 : 0;
+}
 
 } // namespace
 
@@ -38,82 +44,109 @@ const Field* Transport::exchange(Axis axis) const {
   return !mixes_ ? nullptr : axis == Axis::x ? &mix_x_ : axis == Axis::y ? &mix_y_ : &mix_z_;
 }
 
-/// Nothing is mixed through the box's own faces.
+/// Nothing is mixed through the box's own faces, and never more air than is left where one
+/// direction has drained a cell.
 void Transport::exchanges(const Field& mixing, double dt) {
   const double across = dt / (lattice_.spacing * lattice_.spacing);
+  const auto one = [&](Index k, Index j, Index first, Index down, Index front, Index left,
+                       float factor, Field& out) {
+    const auto at = [&](const Field& field, Index back) {
+      return field.row(k - back * down, j - back * front) + first - back * left;
+    };
+    exchange_row(lattice_.nx - first, {at(mixing, 1), at(mixing, 0)},
+                 {at(first_, 1), at(first_, 0), at(second_, 1), at(second_, 0)}, factor,
+                 most_mixing, out.row(k, j) + first);
+  };
   each(lattice_.nz, [&](Index k) {
     const auto at = static_cast<std::size_t>(k);
-    const float most = most_mixing * air_.cell[at];
     const float level = air_.cell[at] * static_cast<float>(across);
     const float up = k > 0 ? air_.face[at] * static_cast<float>(dt / lattice_.gap(k)) : 0.0F;
-    const float most_up = k > 0 ? most_mixing * std::min(air_.cell[at - 1], air_.cell[at]) : 0.0F;
     for (Index j = 0; j < lattice_.ny; ++j) {
-      const float* here = mixing.row(k, j);
-      exchange_row(lattice_.nx - 1, here, here + 1, level, most, mix_x_.row(k, j) + 1);
+      one(k, j, 1, 0, 0, 1, level, mix_x_);
       if (j > 0) {
-        exchange_row(lattice_.nx, mixing.row(k, j - 1), here, level, most, mix_y_.row(k, j));
+        one(k, j, 0, 0, 1, 0, level, mix_y_);
       }
       if (k > 0) {
-        exchange_row(lattice_.nx, mixing.row(k - 1, j), here, up, most_up, mix_z_.row(k, j));
+        one(k, j, 0, 1, 0, 0, up, mix_z_);
       }
     }
   });
 }
 
-/// @return the largest Courant number
-double Transport::fluxes(const Wind& wind, double dt) {
-  const double along = dt / lattice_.spacing;
+/// The largest Courant number of a step.
+double Transport::most(const Wind& wind, double dt) const {
   const auto mass = [&](Index k) {
     return static_cast<double>(air_.cell[static_cast<std::size_t>(k)]);
   };
   return most_each(lattice_.nz, [&](Index k) {
-    const auto factor = static_cast<float>(mass(k) * along);
-    const auto up =
-        static_cast<float>(static_cast<double>(air_.face[static_cast<std::size_t>(k)]) * dt);
-    const double thin = k > 0 ? std::min(mass(k - 1), mass(k)) : mass(k);
-    float most = 0.0F, most_up = 0.0F;
+    const double up = static_cast<double>(air_.face[static_cast<std::size_t>(k)]) /
+                      (k > 0 ? std::min(mass(k - 1), mass(k)) : mass(k));
+    float across = 0.0F, along = 0.0F;
     for (Index j = 0; j <= lattice_.ny; ++j) {
-      scale_row(lattice_.nx, wind.v.row(k, j), factor, y_.row(k, j));
-      most = std::max(most, most_row(lattice_.nx, y_.row(k, j)));
+      across = std::max(across, most_row(lattice_.nx, wind.v.row(k, j)));
       if (j < lattice_.ny) {
-        scale_row(lattice_.nx + 1, wind.u.row(k, j), factor, x_.row(k, j));
-        scale_row(lattice_.nx, wind.w.row(k, j), up, z_.row(k, j));
-        most = std::max(most, most_row(lattice_.nx + 1, x_.row(k, j)));
-        most_up = std::max(most_up, most_row(lattice_.nx, z_.row(k, j)));
+        across = std::max(across, most_row(lattice_.nx + 1, wind.u.row(k, j)));
+        along = std::max(along, most_row(lattice_.nx, wind.w.row(k, j)));
       }
     }
-    return std::max(static_cast<double>(most) / mass(k), static_cast<double>(most_up) / thin);
+    return dt * std::max(static_cast<double>(across) / lattice_.spacing,
+                         static_cast<double>(along) * up);
   });
 }
 
-/// The air of cells after one direction more. @return the largest share of it that any cell lost
+void Transport::fluxes(const Wind& wind, double dt) {
+  const double along = dt / lattice_.spacing;
+  each(lattice_.nz, [&](Index k) {
+    const auto at = static_cast<std::size_t>(k);
+    const auto factor = static_cast<float>(static_cast<double>(air_.cell[at]) * along);
+    const auto up = static_cast<float>(static_cast<double>(air_.face[at]) * dt);
+    for (Index j = 0; j <= lattice_.ny; ++j) {
+      scale_row(lattice_.nx, wind.v.row(k, j), factor, y_.row(k, j));
+      if (j < lattice_.ny) {
+        scale_row(lattice_.nx + 1, wind.u.row(k, j), factor, x_.row(k, j));
+        scale_row(lattice_.nx, wind.w.row(k, j), up, z_.row(k, j));
+      }
+    }
+  });
+}
+
+/// The air of cells after one direction more. @return the largest share that a cell lost of it
 double Transport::drain(Axis axis, const Field& before, Field& after) {
   const Field& through = flux(axis);
   return most_each(lattice_.nz, [&](Index k) {
-    const float rest = air_.cell[static_cast<std::size_t>(k)];
-    float least = rest;
+    float least = 1.0F;
     for (Index j = 0; j < lattice_.ny; ++j) {
       const float* in = through.row(k, j);
       const float* out = axis == Axis::x   ? in + 1
                          : axis == Axis::y ? through.row(k, j + 1)
                                            : through.row(k + 1, j);
       left_row(lattice_.nx, before.row(k, j), in, out, after.row(k, j));
-      least = std::min(least, least_row(lattice_.nx, after.row(k, j)));
+      least = std::min(least, least_share_row(lattice_.nx, after.row(k, j), before.row(k, j)));
     }
-    return 1.0 - static_cast<double>(least / rest);
+    return 1.0 - static_cast<double>(least);
+  });
+}
+
+/// And what the last direction takes of it, which leaves what there is at rest.
+double Transport::drain_last(const Field& before) const {
+  return most_each(lattice_.nz, [&](Index k) {
+    const float rest = air_.cell[static_cast<std::size_t>(k)];
+    float most = rest;
+    for (Index j = 0; j < lattice_.ny; ++j) {
+      most = std::max(most, most_row(lattice_.nx, before.row(k, j)));
+    }
+    return 1.0 - static_cast<double>(rest / most);
   });
 }
 
 int Transport::prepare(const Wind& wind, double dt, bool backwards) {
-  courant_ = fluxes(wind, dt);
+  courant_ = most(wind, dt);
   for (int substeps = std::max(1, static_cast<int>(std::ceil(courant_ / most_courant)));;
        substeps *= 2) {
-    if (substeps > 1) {
-      fluxes(wind, dt / substeps);
-    }
+    fluxes(wind, dt / substeps);
     const double one = drain(backwards ? Axis::z : Axis::x, rest_, first_);
     const double two = drain(Axis::y, first_, second_);
-    if (std::max(one, two) < most_lost || substeps >= most_substeps) {
+    if (std::max({one, two, drain_last(second_)}) < most_lost || substeps >= most_substeps) {
       return substeps;
     }
   }
@@ -134,7 +167,7 @@ void Transport::levels(Wind& wind, std::span<Field* const> scalars, std::size_t 
         const auto rest = last ? std::span<const float>(air_.cell) : std::span<const float>();
         const bool counts = place == Place::middle;
         sweep_level({lattice_, order[n], place, flux(order[n]), *mass[n], rest, fields, rescaled,
-                     exchange(order[n]), counts ? scalar_mixing : 1.0F},
+                     sparse(place), exchange(order[n]), counts ? scalar_mixing : 1.0F},
                     k,
                     counts ? crossed.subspan(static_cast<std::size_t>(k) * count, count)
                            : std::span<Crossed>());
@@ -157,8 +190,8 @@ void Transport::columns(Wind& wind, std::span<Field* const> scalars, std::size_t
   each(lattice_.ny, [&](Index j) {
     const std::array<Field*, 3> parts{&wind.u, &wind.v, &wind.w};
     const auto go = [&](Place place, std::span<Field* const> fields, std::size_t rescaled) {
-      sweep_columns({lattice_, Axis::z, place, z_, mass, rest, fields, rescaled, exchange(Axis::z),
-                     place == Place::middle ? scalar_mixing : 1.0F},
+      sweep_columns({lattice_, Axis::z, place, z_, mass, rest, fields, rescaled, sparse(place),
+                     exchange(Axis::z), place == Place::middle ? scalar_mixing : 1.0F},
                     j);
     };
     go(Place::middle, scalars, kept);

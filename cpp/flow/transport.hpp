@@ -34,8 +34,8 @@ class Transport {
 public:
   Transport(const Lattice& lattice, const Air& air);
 
-  /// @param scalars at most `most_fields`; of all but the last `loose` ones sums are kept to
-  /// rounding, of the loose ones constants
+  /// @param scalars 2 to `most_fields`, the first two of them nothing in most of the box; of all
+  /// but the last `loose` ones sums are kept to rounding, of the loose ones constants
   /// @param crossed [scalars] what came and went through the sides, value x kg
   /// @param mixing K of eddies in cells, m2/s, or null
   /// @return number of substeps
@@ -46,8 +46,10 @@ public:
 
 private:
   int prepare(const Wind& wind, double dt, bool backwards);
-  double fluxes(const Wind& wind, double dt);
+  double most(const Wind& wind, double dt) const;
+  void fluxes(const Wind& wind, double dt);
   double drain(Axis axis, const Field& before, Field& after);
+  double drain_last(const Field& before) const;
   void exchanges(const Field& mixing, double dt);
   void levels(Wind& wind, std::span<Field* const> scalars, std::size_t kept, bool backwards,
               std::span<Crossed> crossed);

@@ -1,7 +1,9 @@
 #include "flow/views.hpp"
 
 #include "flow/parallel.hpp"
-#include "flow/water.hpp"
+
+#include <algorithm>
+#include <vector>
 
 namespace firetwin::flow {
 namespace {
@@ -19,14 +21,27 @@ template <class Function> void fill(const Solver& solver, std::span<float> out, 
   });
 }
 
-double water_of(const Solver& solver, const Field& water, Index k, Index j, Index i) {
-  return solver.ambient().moist() ? static_cast<double>(water.row(k, j)[i]) : 0.0;
+/// Cloud water of row j of level k of such air, kg/kg.
+std::vector<float> cloud_row(const Solver& solver, const Field& theta, const Field& water, Index k,
+                             Index j) {
+  const Index n = solver.lattice().nx;
+  std::vector<float> virtual_theta(static_cast<std::size_t>(n)), found(virtual_theta.size());
+  if (solver.ambient().moist()) {
+    virtual_row(n, theta.row(k, j), water.row(k, j), solver.ambient().weather(k),
+                virtual_theta.data(), found.data());
+  }
+  return found;
 }
 
-double cloud_of(const Solver& solver, Index k, double theta, double water) {
-  double result = 0.0;
-  solver.ambient().virtual_theta(k, theta, water, &result);
-  return result;
+/// f(k, j, out) for all rows.
+template <class Function>
+void fill_rows(const Solver& solver, std::span<float> out, const Function& f) {
+  const Lattice& l = solver.lattice();
+  each(l.nz, [&](Index k) {
+    for (Index j = 0; j < l.ny; ++j) {
+      f(k, j, out.data() + (k * l.ny + j) * l.nx);
+    }
+  });
 }
 
 } // namespace
@@ -74,22 +89,22 @@ void velocity(const Solver& solver, std::span<float> out) {
 
 void warmth(const Solver& solver, std::span<float> out) {
   const Ambient& ambient = solver.ambient();
-  fill(solver, out, [&](Index k, Index j, Index i) {
-    const auto excess = [&](const Field& theta, const Field& water) {
-      const auto t = static_cast<double>(theta.row(k, j)[i]);
-      const double condensed = cloud_of(solver, k, t, water_of(solver, water, k, j, i));
-      return t * ambient.exner(k) + latent_heat / heat_capacity * condensed;
-    };
-    return static_cast<float>(excess(solver.state().theta, solver.state().water) -
-                              excess(ambient.theta(), ambient.water()));
+  constexpr double warming = latent_heat / heat_capacity;
+  fill_rows(solver, out, [&](Index k, Index j, float* to) {
+    const auto cloud = cloud_row(solver, solver.state().theta, solver.state().water, k, j);
+    const auto rest = cloud_row(solver, ambient.theta(), ambient.water(), k, j);
+    const float *here = solver.state().theta.row(k, j), *there = ambient.theta().row(k, j);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      to[i] = static_cast<float>(static_cast<double>(here[i] - there[i]) * ambient.exner(k) +
+                                 warming * static_cast<double>(cloud[i] - rest[i]));
+    }
   });
 }
 
 void cloud(const Solver& solver, std::span<float> out) {
-  fill(solver, out, [&](Index k, Index j, Index i) {
-    return static_cast<float>(cloud_of(solver, k,
-                                       static_cast<double>(solver.state().theta.row(k, j)[i]),
-                                       water_of(solver, solver.state().water, k, j, i)));
+  fill_rows(solver, out, [&](Index k, Index j, float* to) {
+    const auto found = cloud_row(solver, solver.state().theta, solver.state().water, k, j);
+    std::copy(found.begin(), found.end(), to);
   });
 }
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+import time
 from dataclasses import replace
 from datetime import UTC, datetime
 
@@ -88,8 +90,11 @@ def test_going_on_after_an_interruption_gives_the_same_bytes(flowing, run, tmp_p
     monkeypatch.setattr(solving, "_SAVE", 0.0)
     broken = replace(flowing, cache=tmp_path / "broken")
 
+    before = []
+
     def stop(done, total, what):
-        if done == 11:  # after the nest has begun
+        before.append(done)
+        if len(before) == 12:  # after the nest has begun
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
@@ -97,10 +102,110 @@ def test_going_on_after_an_interruption_gives_the_same_bytes(flowing, run, tmp_p
     last = flow.Flow(Shot(broken, run))
     seen = []
     last.ready(2, lambda done, total, what: seen.append(done))
-    assert seen[0] == 11
+    assert seen[0] == before[-1]
     for one, other in zip(whole.parts, last.parts, strict=True):
         assert one.folder.name == other.folder.name
         assert one.moment(2).read_bytes() == other.moment(2).read_bytes()
+
+
+def test_a_broken_checkpoint_is_left_and_made_anew(flowing, run, tmp_path, monkeypatch):
+    """Cut off, of other shapes, or no such file at all: solved from the beginning, to the same bytes."""
+    whole = flow.Flow(Shot(replace(flowing, cache=tmp_path / "whole"), run))
+    whole.ready(2)
+    monkeypatch.setattr(solving, "_SAVE", 0.0)
+    other = flow.Flow(Shot(replace(flowing, cache=tmp_path / "other"), run))
+    other.ready(1)
+    state = other.parts[-1].folder / solving.STATE
+    kept = moments.read(state)
+    breaks = [
+        lambda: state.write_bytes(state.read_bytes()[:50_000]),
+        lambda: state.write_bytes(b""),
+        lambda: moments.write(state, kept | {"0_u": kept["0_u"][:, 1:]}),
+        lambda: moments.write(state, kept | {"1_smoke": kept["1_smoke"][:3]}),
+        lambda: moments.write(state, {name: kept[name] for name in kept if name != "1_account"}),
+        lambda: moments.write(state, kept | {"step": np.array([10**6])}),
+        lambda: moments.write(state, kept | {"step": np.array(["x"])}),
+    ]
+    for spoil in breaks:
+        spoil()
+        for part in other.parts:
+            part.moment(2).unlink(missing_ok=True)
+        again = flow.Flow(other.shot)
+        seen = []
+        again.ready(2, lambda done, total, what, seen=seen: seen.append(done))
+        assert seen[0] == 0
+        for one, two in zip(whole.parts, again.parts, strict=True):
+            assert one.moment(2).read_bytes() == two.moment(2).read_bytes()
+
+
+@pytest.mark.parametrize("spoil", ["cut", "nothing", "shapes", "place", "middle", "missing"])
+def test_a_broken_moment_is_solved_again(flowing, run, tmp_path, spoil):
+    shot = Shot(replace(flowing, cache=tmp_path / "broken"), run)
+    solved = flow.Flow(shot)
+    solved.ready(1)
+    path = solved.parts[0].moment(1)
+    whole = path.read_bytes()
+    kept = moments.read(path)
+    if spoil == "cut":
+        path.write_bytes(whole[: len(whole) // 2])
+    elif spoil == "nothing":
+        path.write_bytes(b"")
+    elif spoil == "shapes":
+        moments.write(path, kept | {"smoke": kept["smoke"][1:]})
+    elif spoil == "place":  # of another box
+        moments.write(path, kept | {"low": np.array([9999, 0])})
+    elif spoil == "middle":  # its list of contents is whole
+        middle = len(whole) // 3
+        path.write_bytes(whole[:middle] + bytes(2000) + whole[middle + 2000 :])
+    else:
+        moments.write(path, {name: kept[name] for name in kept if name != "drift"})
+    place = bake.bake(shot, frames=[1])
+    assert path.read_bytes() == whole
+    assert (place / "far_000001.vdb").exists()
+
+
+def test_an_earlier_frame_than_the_checkpoint_is_solved(flowing, run, tmp_path, monkeypatch):
+    monkeypatch.setattr(solving, "_SAVE", 0.0)
+    first = flow.Flow(Shot(replace(flowing, cache=tmp_path / "a"), run))
+    first.ready(3)
+    path = first.parts[0].moment(1)
+    whole, state = path.read_bytes(), (first.parts[-1].folder / solving.STATE).read_bytes()
+    path.unlink()
+    flow.Flow(first.shot).ready(1)
+    assert path.read_bytes() == whole
+    assert (first.parts[-1].folder / solving.STATE).read_bytes() == state
+
+
+def test_only_what_is_asked_for_is_solved(shot):
+    solved = flow.Flow(shot)
+    seen = []
+    solved.solve([1, 2], lambda done, total, what: seen.append((done, total)))
+    assert {path.name for path in solved.parts[0].folder.glob("moment*")} == {
+        "moment_000001.npz",
+        "moment_000002.npz",
+    }
+    assert len({total for _, total in seen}) == 1
+    assert [done for done, _ in seen] == sorted(done for done, _ in seen)
+    assert seen[-1][0] == seen[-1][1]
+
+
+def test_who_comes_second_waits_for_the_first(shot):
+    """One solves; the other finds the moments there."""
+    first, second = flow.Flow(shot), flow.Flow(shot)
+    begun = threading.Event()
+    waited = []
+
+    def slowly(done, total, what):
+        begun.set()
+        time.sleep(0.05)
+
+    thread = threading.Thread(target=first.ready, args=(1, slowly))
+    thread.start()
+    assert begun.wait(20)
+    second.ready(1, lambda done, total, what: waited.append(what))
+    thread.join()
+    assert second._live is None
+    assert waited == ["waiting for another process to solve the smoke's flow"]
 
 
 def test_frames_in_any_order_are_the_same(flowing, run, tmp_path):
@@ -120,7 +225,7 @@ def test_baked_once_nothing_is_solved_again(shot, monkeypatch):
         f"{name}_{frame:06d}.vdb" for name in ("smoke", "far") for frame in (1, 2)
     }
     written = {path: path.stat().st_mtime_ns for path in place.iterdir()}
-    monkeypatch.setattr(flow, "Live", lambda whole: pytest.fail("solved again"))
+    monkeypatch.setattr(flow, "Live", lambda whole, frame: pytest.fail("solved again"))
     assert bake.bake(Shot(shot.settings, shot.run)) == place
     assert {path: path.stat().st_mtime_ns for path in place.iterdir()} == written
 
@@ -129,7 +234,7 @@ def test_a_moved_camera_keeps_the_flow(flowing, run, monkeypatch):
     """A little: both boxes. To where no nest helps: the box, whose moments are there already."""
     first = flow.Flow(Shot(flowing, run))
     first.ready(1)
-    monkeypatch.setattr(flow, "Live", lambda whole: pytest.fail("solved again"))
+    monkeypatch.setattr(flow, "Live", lambda whole, frame: pytest.fail("solved again"))
 
     def seen_from(latitude):
         camera = flowing.cameras[0]

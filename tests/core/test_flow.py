@@ -251,6 +251,29 @@ def test_cloud_water_leaves_the_air_just_saturated():
     assert 0.03 - cloud[0, 0, 0] == pytest.approx(saturation(kelvin, pressure), rel=2e-3)
 
 
+def test_cloud_water_is_that_of_float64():
+    """Any air, by bisection: within 2e-7 kg/kg, and none where the air could hold more."""
+    solver = box(water=[0.01, 0.01], lapse=0.006, pressure=9e4)
+    rng = np.random.default_rng(5)
+    state = solver.state()
+    state["theta"] = rng.uniform(-60.0, 60.0, state["theta"].shape)
+    state["water"] = rng.choice([0.0, 0.002, 0.02], state["theta"].shape) * rng.random(state["theta"].shape)
+    solver.restore(state)
+    z = 0.5 * (solver.levels[1:] + solver.levels[:-1])
+    theta = 300.0 + 0.006 * z
+    exner = (solver.density * 287.05 * theta / 1e5) ** (1 / (1 / KAPPA - 1))
+    pressure, exner = (1e5 * exner ** (1 / KAPPA))[:, None, None], exner[:, None, None]
+    kelvin = (300.0 + state["theta"].astype(float)) * exner
+    water = state["water"].astype(float)
+    low, high = np.zeros(water.shape), water.copy()
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        more = water - middle > saturation(kelvin + 2.5e6 / CP * middle, pressure)
+        low, high = np.where(more, middle, low), np.where(more, high, middle)
+    assert (low > 1e-3).mean() > 0.05
+    np.testing.assert_allclose(solver.cloud(), low, atol=2e-7)
+
+
 def top_of(solver):
     column = solver.smoke().sum((1, 2)) * np.diff(solver.levels)
     return np.interp(0.9, np.cumsum(column) / column.sum(), solver.levels[1:])

@@ -11,7 +11,7 @@ import functools
 import os
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -67,18 +67,19 @@ def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None =
     if not missing:
         return place
     maker = Baker(shot)
-    if maker.flow:
-        maker.flow.solve(missing, progress)
-    with cache.in_use(place), ThreadPoolExecutor(_at_once(len(missing))) as pool:
-        tasks = [pool.submit(maker.write, _in(place, frame), frame) for frame in missing]
-        try:
-            for task in as_completed(tasks):
-                task.result()
-                done += 1
-                progress(done, len(wanted), "smoke")
-        except BaseException:
-            pool.shutdown(cancel_futures=True)
-            raise
+    with cache.in_use(place), maker.flow.in_use() if maker.flow else nullcontext():
+        if maker.flow:
+            maker.flow.solve(missing, progress)
+        with ThreadPoolExecutor(_at_once(len(missing))) as pool:
+            tasks = [pool.submit(maker.write, _in(place, frame), frame) for frame in missing]
+            try:
+                for task in as_completed(tasks):
+                    task.result()
+                    done += 1
+                    progress(done, len(wanted), "smoke")
+            except BaseException:
+                pool.shutdown(cancel_futures=True)
+                raise
     return place
 
 
@@ -134,11 +135,13 @@ class _Line:
         self.place = _prepared(shot, progress)
         self.pool = ThreadPoolExecutor(1)
         self.tasks: dict[int, Future[Any]] = {}
+        self.held = ExitStack()
 
     @functools.cached_property
     def maker(self) -> Baker:
         maker = Baker(self.shot)
         if maker.flow:
+            self.held.enter_context(maker.flow.in_use())
             maker.flow.progress = lambda *done: self.progress(*done)
         return maker
 
@@ -147,6 +150,7 @@ class _Line:
         if "maker" in self.__dict__ and self.maker.flow:
             self.maker.flow.stop.set()
         self.pool.shutdown(cancel_futures=True)
+        self.held.close()
 
     def ready(self, frame: int, ahead: Iterable[int] | None = None) -> None:
         """Wait for a frame and have the next one begun."""

@@ -16,7 +16,7 @@ from ...errors import Error, writing
 from ...shot import burning, heat
 from ...shot.fire import Cells, Fire
 from ...shot.shot import Shot
-from . import cache, flow_frames, stability
+from . import cache, flow_frames, moments, stability
 from .flow import Flow
 from .view import resolution
 
@@ -115,8 +115,16 @@ class Baker:
         for painter in self.painters:
             place = painter.layer.file(path.parent, frame)
             mine = files.part_of(place)
+
+            def paint(painter: flow_frames.Painter = painter, mine: Path = mine) -> volume.Frame:
+                return painter.write(mine, frame, lights, self._sight(frame), metadata)
+
             with writing(place):
-                written = painter.write(mine, frame, lights, self._sight(frame), metadata)
+                try:
+                    written = paint()
+                except moments.BrokenError:
+                    self.flow.renew(frame)
+                    written = paint()
             _put(mine, place, written.bytes)
         if not self.painters:
             mine = files.part_of(path)

@@ -16,7 +16,7 @@ from ...errors import input_error, writing
 IN_USE = 600.0  # s after the last sign of use; also how long a file in the making may stand still
 _SIGN = 60.0  # s between two signs
 _MAGIC = b" BDV\0\0\0\0"
-_OURS = re.compile(r"\.?((smoke|far|moment)_\d{6,}|state)(\.[0-9a-f]{12}\.part)?\.(vdb|npz)")
+_OURS = re.compile(r"\.?((smoke|far|moment)_\d{6,}|state)(\.[0-9a-f]{12}\.part)?\.(vdb|npz)|state\.lock")
 
 
 @dataclass(frozen=True)
@@ -66,17 +66,19 @@ def remove(volumes: Kept) -> bool:
 
 
 @contextlib.contextmanager
-def in_use(folder: Path) -> Iterator[None]:
+def in_use(*folders: Path) -> Iterator[None]:
     """Give signs of use: the time of change of a folder is that of its last use."""
     over = threading.Event()
 
     def signs() -> None:
         while not over.wait(_SIGN):
-            with contextlib.suppress(OSError):
-                os.utime(folder)
+            for folder in folders:
+                with contextlib.suppress(OSError):
+                    os.utime(folder)
 
-    with writing(folder):
-        os.utime(folder)
+    for folder in folders:
+        with writing(folder):
+            os.utime(folder)
     thread = threading.Thread(target=signs, daemon=True)
     thread.start()
     try:

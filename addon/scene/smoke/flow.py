@@ -11,20 +11,22 @@ from which solving goes on where it was interrupted. Both are the same to the la
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import threading
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...errors import writing
 from ...progress import Progress, silent
 from ...run import content
 from ...shot import schema, sources
 from ...shot.shot import Shot
-from . import boxes
+from . import boxes, cache, claim, moments
 from .boxes import Box
 from .solving import Live, StoppedError
 
@@ -55,6 +57,10 @@ class Part:
     def moment(self, frame: int) -> Path:
         """The file of a frame's moment."""
         return self.folder / f"moment_{frame:06d}.npz"
+
+    def has(self, frame: int) -> bool:
+        """Whether a frame's moment is kept."""
+        return moments.whole(self.moment(frame), (len(self.box.levels) - 1, *self.box.shape))
 
 
 class Flow:
@@ -91,8 +97,13 @@ class Flow:
         """What its moments are known by."""
         return [part.folder.name for part in self.parts]
 
-    def ready(self, frame: int, progress: Progress | None = None) -> None:
+    def ready(self, frame: int, progress: Progress | None = None, last: int = 0) -> None:
         """See to it that the moments of a frame are kept; solves up to there if they are not.
+
+        Parameters
+        ----------
+        last
+            The frame at which work will end, for `progress`; left out, this one.
 
         Raises
         ------
@@ -102,18 +113,57 @@ class Flow:
             The cache cannot be written.
         """
         with self._lock:
-            if all(part.moment(frame).exists() for part in self.parts):
+            if self._has(frame):
                 return
-            if self._live is None or self._live.frame >= frame:
-                self._live = Live(self)
-            self._live.solve(frame, progress or self.progress)
+            progress = progress or self.progress
+            folder = self.parts[-1].folder
+            with writing(folder):
+                folder.mkdir(parents=True, exist_ok=True)
+
+            waiting = functools.cache(
+                lambda: progress(0, 1, "waiting for another process to solve the smoke's flow")
+            )
+
+            def wait() -> None:
+                waiting()
+                if self.stop.is_set():
+                    raise StoppedError
+
+            with claim.held(folder / "state.lock", lambda: self._has(frame), wait) as mine:
+                if mine and not self._has(frame):
+                    if self._live is None or self._live.frame >= frame:
+                        self._live = Live(self, frame)
+                    self._live.solve(frame, progress, max(frame, last))
+
+    def _has(self, frame: int) -> bool:
+        return all(part.has(frame) for part in self.parts)
 
     def solve(self, frames: Iterable[int], progress: Progress = silent) -> None:
         """See to it that the moments of all these frames are kept."""
-        for frame in sorted(frames):
-            self.ready(frame, progress)
+        wanted = sorted(frames)
+        for frame in wanted:
+            self.ready(frame, progress, wanted[-1])
         with self._lock:
             self._live = None  # half a gigabyte
+
+    def renew(self, frame: int) -> None:
+        """Solve a frame's moments anew: what is kept of them turned out broken."""
+        with self._lock:
+            for part in self.parts:
+                with writing(part.folder):
+                    part.moment(frame).unlink(missing_ok=True)
+        self.ready(frame)
+
+    @contextlib.contextmanager
+    def in_use(self) -> Iterator[None]:
+        """Keep others from clearing the moments away meanwhile."""
+        folders = [part.folder for part in self.parts]
+        for folder in folders:
+            with writing(folder):
+                folder.mkdir(parents=True, exist_ok=True)
+            cache.sweep(folder)
+        with cache.in_use(*folders):
+            yield
 
     def _folder(self, of: list[Box]) -> Path:
         """Where the moments of the last of these boxes are kept."""

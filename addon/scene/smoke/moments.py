@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import zipfile
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,13 @@ _UNSEEN = 3e-10  # kg/m3; what else is known of thinner smoke is not kept
 _DRIFT_STEP = 4.0  # m, to which drift is rounded
 _PACKING = 1  # of zlib: three times as fast as the usual, files a tenth larger
 
+_NAMES = ("smoke", "age", "rise", "warmth", "drift", "low", "weights", "turns", "mass")
+
 Fields = dict[str, NDArray[Any]]
+
+
+class BrokenError(Exception):
+    """A file is cut off, or is no moment of this flow."""
 
 
 @dataclass(frozen=True)
@@ -72,22 +79,73 @@ def keep(path: Path, solver: flow.Solver, drift: flow.Drift) -> None:
 
 
 def load(path: Path) -> Moment:
-    """Read what `keep` wrote."""
-    with np.load(path) as file:
-        kept = {name: file[name] for name in file.files}
-    shape = kept["smoke"].shape
-    drift = kept["drift"].astype(np.float32)
-    for axis, count in enumerate(shape):
-        drift = _doubled(drift, axis, count)
-    fields = {name: kept[name].astype(np.float32) for name in ("smoke", "age", "rise", "warmth")}
-    names = sorted(("initial", "emitted", "entered", "left", "airborne", "rounding"))
-    return Moment(
-        (int(kept["low"][0]), int(kept["low"][1])),
-        fields | {"drift": drift},
-        (float(kept["weights"][0]), float(kept["weights"][1])),
-        (int(kept["turns"][0]), int(kept["turns"][1])),
-        dict(zip(names, map(float, kept["mass"]), strict=True)),
+    """Read what `keep` wrote.
+
+    Raises
+    ------
+    BrokenError
+        It is not whole.
+    """
+    kept = read(path)
+    try:
+        smoke, drift = kept["smoke"], kept["drift"].astype(np.float32)
+        for axis, count in enumerate(smoke.shape):
+            drift = _doubled(drift, axis, count)
+        fields = {name: kept[name].astype(np.float32) for name in ("smoke", "age", "rise", "warmth")}
+        names = sorted(("initial", "emitted", "entered", "left", "airborne", "rounding"))
+        if drift.shape != (*smoke.shape, 2, 3) or any(each.shape != smoke.shape for each in fields.values()):
+            raise BrokenError(path)
+        return Moment(
+            (int(kept["low"][0]), int(kept["low"][1])),
+            fields | {"drift": drift},
+            (float(kept["weights"][0]), float(kept["weights"][1])),
+            (int(kept["turns"][0]), int(kept["turns"][1])),
+            dict(zip(names, map(float, kept["mass"]), strict=True)),
+        )
+    except (LookupError, TypeError, ValueError) as error:
+        raise BrokenError(path) from error
+
+
+def whole(path: Path, shape: tuple[int, int, int]) -> bool:
+    """Whether a file is there that looks like a moment of a flow of so many cells; quick."""
+    try:
+        with zipfile.ZipFile(path) as file:
+            if set(file.namelist()) != {f"{name}.npy" for name in _NAMES}:
+                return False
+            low, smoke = (_header(file, "low"), _header(file, "smoke"))
+            west, south = np.lib.format.read_array(io.BytesIO(file.read("low.npy")))
+    except (OSError, LookupError, TypeError, ValueError, zipfile.BadZipFile):
+        return False
+    ends = (0, int(south), int(west))
+    return (
+        low == (2,)
+        and len(smoke) == 3
+        and all(at >= 0 and at + count <= most for at, count, most in zip(ends, smoke, shape, strict=True))
     )
+
+
+def read(path: Path) -> Fields:
+    """All arrays of a file that `write` wrote.
+
+    Raises
+    ------
+    BrokenError
+        It is not whole.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            return {name: file[name] for name in file.files}
+    except FileNotFoundError:
+        raise
+    except (OSError, EOFError, LookupError, TypeError, ValueError, zipfile.BadZipFile, zlib.error) as error:
+        raise BrokenError(path) from error
+
+
+def _header(file: zipfile.ZipFile, name: str) -> tuple[int, ...]:
+    """The shape of one of a file's arrays."""
+    with file.open(f"{name}.npy") as part:
+        np.lib.format.read_magic(part)
+        return np.lib.format.read_array_header_1_0(part)[0]
 
 
 def write(path: Path, arrays: Fields, packing: int = 0) -> None:

@@ -29,7 +29,7 @@ _RAMP = 300.0  # s in which the fire grows to its strength: a sudden one would b
 _GUSTS = 0.6  # standard deviation of the logarithm of what single flames give off
 _FINE_GUSTS = 0.9, 180.0, 45.0  # the same in the nest, alike within m and s: single runs of flames
 _DRIFT = 240.0  # s before the first frame from which detail is carried along; twice what it lasts
-_SAVE = 60.0  # s of work that an interruption may cost
+_SAVE = 30.0  # s of work that an interruption may cost
 _LONGEST_STEP = 1.2  # times `boxes.STEP`, where frames are that far apart
 
 
@@ -38,14 +38,15 @@ class StoppedError(Exception):
 
 
 class Live:
-    """A flow being solved: solvers, their drift, and how far they are."""
+    """A flow being solved: solvers, their drift, and how far they are, which is not beyond `frame`."""
 
-    def __init__(self, whole: Flow) -> None:
+    def __init__(self, whole: Flow, frame: int) -> None:
         self.whole = whole
         shot = whole.shot
         self.step, self.frame = 0, 0
         self.steps, self.frame_of = _schedule(whole)
-        self.saved = time.monotonic()
+        self.work = self._work()
+        self.saved, self.saved_step = time.monotonic(), 0
         self.slot: int | None = None
         self.winds = _winds(shot, whole.begin)
         self.solvers = [self._outer(whole.parts[0])]
@@ -53,7 +54,7 @@ class Live:
         with writing(whole.parts[-1].folder):
             for part in whole.parts:
                 part.folder.mkdir(parents=True, exist_ok=True)
-        self._resume()
+        self._resume(self._step_of(frame))
         self._widen()
 
     @property
@@ -61,13 +62,13 @@ class Live:
         """Model time, s."""
         return self.whole.begin + self.solvers[0].time
 
-    def solve(self, frame: int, progress: Progress) -> None:
-        """Go on to a frame and keep what is passed."""
-        total = next(step for step, each in self.frame_of.items() if each == frame)
+    def solve(self, frame: int, progress: Progress, last: int) -> None:
+        """Go on to a frame and keep what is passed; `progress` counts the work up to the frame `last`."""
+        end, total = self._step_of(frame), int(self.work[self._step_of(last)])
         with cache.in_use(self.whole.parts[-1].folder):
             self._keep()
-            while self.step < total:
-                progress(self.step, total, WORK)
+            while self.step < end:
+                progress(int(self.work[self.step]), total, WORK)
                 if self.whole.stop.is_set():
                     raise StoppedError
                 self._advance(self.steps[self.step])
@@ -76,14 +77,27 @@ class Live:
                 self._keep()
                 if time.monotonic() - self.saved > _SAVE:
                     self._save()
-            progress(total, total, WORK)
+            progress(int(self.work[end]), total, WORK)
             if self.step == len(self.steps):
                 (self.whole.parts[-1].folder / STATE).unlink(missing_ok=True)
+
+    def _step_of(self, frame: int) -> int:
+        return next(step for step, each in self.frame_of.items() if each == frame)
+
+    def _work(self) -> NDArray[np.int64]:
+        """What the steps up to each cost, in steps of the box alone."""
+        left = self.whole.shot.settings.smoke.spin_up - np.concatenate([[0.0], np.cumsum(self.steps)[:-1]])
+        cost = np.ones(len(self.steps))
+        if len(self.whole.parts) > 1:
+            cells = [np.prod(part.box.shape) * len(part.box.levels) for part in self.whole.parts]
+            each = [_count(dt) * cells[1] / cells[0] for dt in self.steps]
+            cost += np.where(left <= boxes.LEAD + 1e-6, each, 0.0)
+        return np.round(np.concatenate([[0.0], np.cumsum(cost)])).astype(np.int64)
 
     def _advance(self, dt: float) -> None:
         self._burn()
         for number, solver in enumerate(self.solvers):
-            count = 1 if number == 0 else max(1, round(dt * boxes.FINER / boxes.STEP))
+            count = 1 if number == 0 else _count(dt)
             solver.step(dt / count, count)
         for drift in self.drifts:
             drift.advance()
@@ -102,13 +116,13 @@ class Live:
         slot = math.floor(self.solvers[0].time / _BURN + 1e-6)
         if slot == self.slot:
             return
-        self.slot = slot
         time = self.whole.begin + slot * _BURN
         self.solvers[0].set_wind(air.wind(self.winds[min(slot, len(self.winds) - 1)]))
         found = self.whole.shot.fire.sources(time)
         power = found.power * min(1.0, (slot + 1) * _BURN / _RAMP)
         for solver in self.solvers:
             solver.set_sources(found.position[:, :2], CONVECTED * power, SMOKE * power)
+        self.slot = slot
 
     def _keep(self) -> None:
         frame = self.frame_of.get(self.step)
@@ -116,10 +130,13 @@ class Live:
             return
         self.frame = frame
         for part, solver, drift in zip(self.whole.parts, self.solvers, self.drifts, strict=True):
-            if not part.moment(frame).exists():
+            if not part.has(frame):
                 moments.keep(part.moment(frame), solver, drift)
 
     def _save(self) -> None:
+        self.saved = time.monotonic()
+        if self.step <= self.saved_step:  # what is kept is farther on
+            return
         kept: dict[str, NDArray[Any]] = {"step": np.array([self.step])}
         for number, solver in enumerate(self.solvers):
             kept |= {f"{number}_{name}": values for name, values in solver.state().items()}
@@ -127,17 +144,31 @@ class Live:
             kept |= {f"{number}_drift": drift.values(), f"{number}_drift_time": np.array([drift.time])}
         path = self.whole.parts[-1].folder / STATE
         files.write(path, lambda part: moments.write(part, kept))
-        self.saved = time.monotonic()
+        self.saved, self.saved_step = time.monotonic(), self.step
 
-    def _resume(self) -> None:
-        """Go on from what was saved, if that is a moment before what is asked for."""
+    def _resume(self, end: int) -> None:
+        """Go on from what was saved, if that is a moment before what is asked for and whole."""
         path = self.whole.parts[-1].folder / STATE
         try:
-            with np.load(path) as file:
-                kept = {name: file[name] for name in file.files}
-        except (OSError, ValueError, KeyError):
+            kept = moments.read(path)
+            step = int(kept["step"][0])
+            if not 0 <= step <= len(self.steps):
+                raise ValueError
+            if step > end:
+                self.saved_step = step
+                return
+            self._restore(kept)
+        except FileNotFoundError:
             return
-        self.step = int(kept["step"][0])
+        except (moments.BrokenError, LookupError, TypeError, ValueError):
+            with writing(path):
+                path.unlink(missing_ok=True)
+            self.solvers, self.drifts = [self._outer(self.whole.parts[0])], []
+            return
+        self.step = self.saved_step = step
+        self.frame = max((f for step, f in self.frame_of.items() if step <= self.step), default=0)
+
+    def _restore(self, kept: dict[str, NDArray[Any]]) -> None:
         if "1_u" in kept:
             self.solvers.append(self._inner(self.whole.parts[1]))
         for number, solver in enumerate(self.solvers):
@@ -146,7 +177,6 @@ class Live:
             if "drift" in mine:
                 self.drifts.append(flow.Drift(solver))
                 self.drifts[-1].restore(float(mine["drift_time"][0]), mine["drift"])
-        self.frame = max((f for step, f in self.frame_of.items() if step <= self.step), default=0)
 
     def _outer(self, part: Part) -> flow.Solver:
         shot, box = self.whole.shot, part.box
@@ -179,6 +209,11 @@ class Live:
             gust_time=_FINE_GUSTS[2],
             seed=self.whole.shot.settings.seed,
         )
+
+
+def _count(dt: float) -> int:
+    """Steps of the nest in one of the box's."""
+    return max(1, round(dt * boxes.FINER / boxes.STEP))
 
 
 def _schedule(whole: Flow) -> tuple[list[float], dict[int, int]]:
