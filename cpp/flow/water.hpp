@@ -1,11 +1,11 @@
 #pragma once
 
+#include "base/gravity.hpp"
 #include "flow/lattice.hpp"
 
 /// Thermodynamics of moist air.
 namespace firetwin::flow {
 
-inline constexpr double gravity = 9.80665;        // m/s2
 inline constexpr double heat_capacity = 1004.7;   // of air at constant pressure, J/kg/K
 inline constexpr double gas_constant = 287.05;    // of dry air, J/kg/K
 inline constexpr double latent_heat = 2.5e6;      // of vapour, J/kg

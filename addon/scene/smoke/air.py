@@ -14,12 +14,14 @@ WIND = 0.75  # of the run's: its wind near the ground holds what the fire itself
 _SHEAR = 0.1  # power of height with which wind grows, over rough ground by day
 _VEER = 10.0, 4000.0  # degrees that it turns to the right up to this height, m
 _HIGH = 1.2  # times that height, where wind no longer turns
-_GROUND = 302.0  # K, potential temperature; the flow depends on its gradient alone
+_WARM = 312.0  # K, potential temperature of the mixed layer: 27 degrees C over ground at 1200 m (assumed)
 _MIXED = 3300.0  # m, depth of the layer that a dry September day mixes (assumed)
 _DAY, _ALOFT, _NIGHT = 0.3e-3, 4.5e-3, 12e-3  # K/m: in it, above it, and in a valley's inversion by night
 _INVERSION = 600.0  # m, its depth (assumed)
 _HEIGHTS = np.array([0.0, 10, 30, 100, 300, 600, 1000, 1800, 2600, 3300, 4000, 4800, 6000, 9000])
-_WATER = [0.0, 3300.0, 4500.0, 9000.0], [6.5e-3, 5.5e-3, 3.0e-3, 0.3e-3]  # kg/kg: a fifth of what air holds
+# m, kg/kg: a fifth of what air holds at the ground, as much through the mixed layer, less above (assumed);
+_WATER = [0.0, 3300.0, 4500.0, 9000.0], [5.2e-3, 5.2e-3, 1.5e-3, 0.1e-3]
+_MOIST = 0.8  # of what air holds, at most: the sky is clear (assumed)
 
 Array = NDArray[np.float64]
 
@@ -42,8 +44,21 @@ def air(sun: float, ground: float) -> Air:
         _HEIGHTS[1:] <= _INVERSION, low, np.where(_HEIGHTS[1:] <= _MIXED, _DAY + (1 - day) * 2.7e-3, _ALOFT)
     )
     warmer = np.concatenate([[0.0], np.cumsum(gradient * np.diff(_HEIGHTS))])
-    pressure = 101325.0 * (1.0 - 2.25577e-5 * ground) ** 5.25588  # International Standard Atmosphere
-    return Air(_HEIGHTS, _GROUND + warmer, np.interp(_HEIGHTS, *_WATER), pressure)
+    theta = _WARM + warmer - np.interp(_MIXED, _HEIGHTS, warmer)  # nights are cold below, not warm aloft
+    water = np.minimum(np.interp(_HEIGHTS, *_WATER), _MOIST * _held(theta, _pressure(ground + _HEIGHTS)))
+    return Air(_HEIGHTS, theta, water, float(_pressure(ground)))
+
+
+def _pressure(height: Array | float) -> Array | float:
+    """Pa at heights above the sea, m: International Standard Atmosphere."""
+    return 101325.0 * np.maximum(1.0 - 2.25577e-5 * np.asarray(height), 0.0) ** 5.25588
+
+
+def _held(potential_temperature: Array, pressure: Array) -> Array:
+    """Water vapour that air holds, kg/kg, by the formula of Magnus (cpp/flow/water.hpp)."""
+    celsius = potential_temperature * (pressure / 1e5) ** 0.2857 - 273.15
+    vapour = 610.94 * np.exp(17.625 * celsius / (celsius + 243.04))
+    return 0.622 * vapour / (pressure - 0.378 * vapour)
 
 
 def wind(near_ground: tuple[float, float]) -> Array:
