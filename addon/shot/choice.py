@@ -20,8 +20,8 @@ class Choice:
     Attributes
     ----------
     scene
-        Scene file. Without one every setting has its default, and two cameras show the whole fire; but smoke is
-        puffs, for solving the air of a whole run can take a night.
+        Scene file. Without one every setting has its default, and two cameras show the whole fire; but
+        smoke is puffs, for solving the air of a whole run can take a night.
     run, cache
         Folders in place of the scene file's.
     engine, device
