@@ -51,8 +51,7 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup):
         Smoke,
         "method",
         (*preferences.AS_FILE[:2], "As the scene file says; a quick preview where there is none"),
-        name="Smoke",
-        description="Where the run has no smoke of its own: what it is made of",
+        description="How smoke is made where the run has none of its own",
     )
     first_time: bpy.props.StringProperty(options={"HIDDEN"})
     seconds_per_frame: bpy.props.FloatProperty(options={"HIDDEN"})
