@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 
@@ -11,7 +12,7 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 from firetwin.run import readers  # noqa: E402
-from firetwin.scene.smoke import bake, boxes, flow_frames, moments  # noqa: E402
+from firetwin.scene.smoke import bake, boxes, flow_frames, moments, outlook  # noqa: E402
 from firetwin.scene.smoke.flow import Flow  # noqa: E402
 from firetwin.shot import fit  # noqa: E402
 from firetwin.shot.rigs.drone import CameraKey, Drone  # noqa: E402
@@ -192,3 +193,17 @@ def test_a_run_of_any_kind_has_smoke(make, shoot_flow, run):
 )
 def test_where_nothing_burns_there_is_no_smoke(make, shoot_flow, run):
     assert thick(baked(shoot_flow(make(**run)))) == 0
+
+
+def test_what_solving_takes_is_said_before_it_and_not_after(make, shoot_flow):
+    shot = shoot_flow(make())
+    said = outlook.words(shot)
+    assert said.startswith("the air over 2 min 30 s of the fire is solved once")
+    room = float(re.search(r"at most (\d+) MB", said)[1])
+    bake.bake(shot)
+    parts = Flow(shot).parts
+    kept = sum(part.moment(frame).stat().st_size for part in parts for frame in (1, 2))
+    assert 0.1 * room < kept / 1e6 < room + 0.5
+    assert outlook.words(shot) == ""
+    puffs = replace(shot.settings, smoke=replace(shot.settings.smoke, method="puffs"))
+    assert outlook.words(Shot(puffs, shot.run)) == ""
