@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 
-from ...progress import count, duration, size
+from ...progress import duration, size
 from ...shot.shot import Shot
 from . import baker, boxes
-from .flow import Flow
+from .flow import Flow, Part
 
 _SPEED = 4e6  # cells a second on 2 cores (tests/benchmarks/solved_smoke.py); half or twice that elsewhere
-_KEPT = 2.2  # bytes of a moment for each cell of its box: at most, with smoke in all of it
+_KEPT = 2.2  # bytes of a moment for each cell of its box, measured with smoke in most of it
 
 
 def words(shot: Shot) -> str:
@@ -21,18 +21,19 @@ def words(shot: Shot) -> str:
     parts = [part for part in solved.parts if not part.moment(frames.count).exists()]
     if not parts:
         return ""
-    cells = {part: math.prod(part.box.shape) * (len(part.box.levels) - 1) for part in solved.parts}
     work = 0.0
     for part in solved.parts:
-        lead, step = (
-            (solved.begin, boxes.STEP)
-            if part is solved.parts[0]
-            else (max(solved.begin, frames.first - boxes.LEAD), boxes.STEP / boxes.FINER)
-        )
-        work += cells[part] * math.ceil((frames.last - lead) / step)
-    room = _KEPT * frames.count * sum(cells[part] for part in parts)
+        begin, step = solved.begin, boxes.STEP
+        if part is not solved.parts[0]:
+            begin, step = max(begin, frames.first - boxes.LEAD), step / boxes.FINER
+        work += _cells(part) * math.ceil((frames.last - begin) / step)
+    room = _KEPT * frames.count * sum(map(_cells, parts))
     return (
         f"the air over {duration(frames.last - solved.begin)} of the fire is solved once, which takes about "
-        f"{duration(work / _SPEED)} on 2 cores and at most {size(room)} in {solved.parts[-1].folder.parent}; "
-        f'smoke.method = "puffs" shows {count(frames.count, "frame")} at once'
+        f"{duration(work / _SPEED)} on 2 cores and {size(room)} in {solved.parts[-1].folder.parent}; "
+        'smoke.method = "puffs" needs none of it'
     )
+
+
+def _cells(part: Part) -> int:
+    return math.prod(part.box.shape) * (len(part.box.levels) - 1)
