@@ -13,7 +13,13 @@ from pathlib import Path
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "king_fire.toml"
 FRAME = 24
-SETTINGS = {"resolution": "[320, 180]", "samples": "12", "video": "false", "cache": '"cache"'}
+SETTINGS = {
+    "method": '"puffs"',
+    "resolution": "[320, 180]",
+    "samples": "12",
+    "video": "false",
+    "cache": '"cache"',
+}
 PICTURE = f"drone/rgb/drone_rgb_{FRAME:06d}.png"
 LIMIT = 0.05  # mean FLIP: 0 the same, 1 as different as black and white
 

@@ -92,6 +92,7 @@ def scene_file(folder: Path) -> settings.Settings:
         run=folder / "sample",
         cache=folder / "cache",
         time=settings.Time(start=MOMENT, frames=1),
+        smoke=settings.Smoke(method="puffs"),
         cameras=(settings.Camera(rig=Drone(keys=(VIEW,))),),
         render=settings.Render(resolution=RESOLUTION, samples=SAMPLES, denoise=False, passes=("rgb",)),
     )

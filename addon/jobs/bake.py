@@ -39,11 +39,14 @@ def run(
 
 def in_blender(choice: dict[str, str], together: bool, progress: Progress, tell: Tell) -> list[str]:
     """Bake and return the folders of the volumes."""
-    from ..scene.smoke import bake
+    from ..scene.smoke import bake, outlook
 
     shot = Choice(**choice).shot()
     for text in shot.warnings():
         tell(text)
     shots = [shot] if together else [shot.of(camera.name) for camera in shot.settings.cameras]
     places = {bake.folder(each, progress): each for each in shots}
+    for each in places.values():
+        if text := outlook.words(each):
+            tell(text)
     return [str(bake.bake(each, progress)) for each in places.values()]

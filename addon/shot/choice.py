@@ -20,11 +20,14 @@ class Choice:
     Attributes
     ----------
     scene
-        Scene file. Without one every setting has its default, and two cameras show the whole fire.
+        Scene file. Without one every setting has its default, and two cameras show the whole fire; but
+        smoke is puffs, for solving the air of a whole run can take a night.
     run, cache
         Folders in place of the scene file's.
     engine, device
         Render engine and what Cycles renders on, in place of the scene file's.
+    smoke
+        `smoke.method`, in place of the scene file's.
     """
 
     scene: str = ""
@@ -32,6 +35,7 @@ class Choice:
     cache: str = ""
     engine: str = ""
     device: str = ""
+    smoke: str = ""
 
     def plain(self) -> dict[str, str]:
         """The choice as `Choice(**plain)` takes it."""
@@ -42,7 +46,9 @@ class Choice:
         found = file.read(self.scene) if self.scene else Settings(path=Path(self.run))
         folders = {name: Path(text) for name in ("run", "cache") if (text := getattr(self, name))}
         render = {name: text for name in ("engine", "device") if (text := getattr(self, name))}
-        return replace(found, render=replace(found.render, **render), **folders)
+        method = self.smoke or (found.smoke.method if self.scene else "puffs")
+        smoke = replace(found.smoke, method=method)
+        return replace(found, render=replace(found.render, **render), smoke=smoke, **folders)
 
     def shot(self) -> Shot:
         """The settings and their run, which fit each other.

@@ -140,9 +140,9 @@ class Smoke:
 
     enabled: bool = key(True, "draw the smoke")
     method: str = key(
-        "puffs",
+        "flow",
         "where the run has none",
-        choices={"puffs": "balls, a second a frame", "flow": "air solved once per shot, in minutes"},
+        choices={"flow": "air solved once per shot", "puffs": "a quick preview"},
     )
     spin_up: float = key(
         1800.0,
@@ -154,7 +154,7 @@ class Smoke:
     voxel_size: float = key(
         0.0, "edge of a voxel; 0 chooses it from the distance of the nearest camera", unit="m", at_least=0
     )
-    max_age: float = key(5400.0, "older smoke has left the picture", unit="s", above=0)
+    max_age: float = key(5400.0, "older puffs have left the picture", unit="s", above=0)
     extinction: float = key(
         0.0, "in thick smoke; less is faster, 0 chooses it like the voxels", unit="1/m", at_least=0
     )

@@ -12,6 +12,7 @@ from ..scene.build import PARTS
 from ..shot.shot import Shot
 from . import job, keys, run, stage, time, view, working
 from .job import Away, Steps, Told
+from .text import labelled
 from .working import Working
 
 ALL = "all"
@@ -158,6 +159,7 @@ class FIRETWIN_PT_build(bpy.types.Panel):
             row.menu(FIRETWIN_MT_parts.bl_idname, text="", icon="DOWNARROW_HLT")
         column = layout.column()
         column.enabled = job.Job.current is None
+        labelled(column, "Smoke").prop(settings, "method", text="")
         column.prop(settings, "smoke")
         row = layout.row(align=True)
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Through camera", icon="CAMERA_DATA").whole = False

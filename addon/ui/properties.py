@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..shot.settings import Render
+from ..shot.settings import Render, Smoke
 from . import keys, preferences, render, run, time
 
 _BLEND_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
@@ -46,6 +46,12 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup):
         description="Write the smoke of all frames first, which can take minutes. "
         "Without it the scene is there sooner, and Render writes the smoke that it needs",
         default=True,
+    )
+    method: keys.prop(
+        Smoke,
+        "method",
+        (*preferences.AS_FILE[:2], "As the scene file says; a quick preview where there is none"),
+        description="How smoke is made where the run has none of its own",
     )
     first_time: bpy.props.StringProperty(options={"HIDDEN"})
     seconds_per_frame: bpy.props.FloatProperty(options={"HIDDEN"})

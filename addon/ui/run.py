@@ -61,11 +61,14 @@ def output(settings: bpy.types.PropertyGroup) -> str:
 def choice(settings: bpy.types.PropertyGroup) -> Choice:
     """What the panel and the preferences choose; a scene file's run and cache are its own."""
     scene_file, folder = absolute(settings.scene_file), output(settings)
-    engine = "" if settings.engine == preferences.AS_FILE[0] else settings.engine
+    own = {
+        name: "" if chosen == preferences.AS_FILE[0] else chosen
+        for name, chosen in (("engine", settings.engine), ("smoke", settings.method))
+    }
     if scene_file:
-        return Choice(scene_file, engine=engine, device=preferences.device())
+        return Choice(scene_file, device=preferences.device(), **own)
     cache = str(Path(folder) / "cache") if folder else ""
-    return Choice(run=absolute(settings.run), cache=cache, engine=engine, device=preferences.device())
+    return Choice(run=absolute(settings.run), cache=cache, device=preferences.device(), **own)
 
 
 def ready(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:

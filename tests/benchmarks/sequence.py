@@ -31,6 +31,7 @@ resolution = [192, 108]
 samples = 4
 passes = ["rgb"]
 [smoke]
+method = "puffs"
 voxel_size = 110.0
 extinction = 0.01
 [[cameras]]

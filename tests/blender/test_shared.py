@@ -30,6 +30,7 @@ frames = {frames}
     + """\
 [smoke]
 enabled = {smoke}
+method = "puffs"
 voxel_size = 120.0
 """
     + TINY

@@ -25,8 +25,8 @@ from firetwin_core import run as runs
 
 @pytest.fixture
 def smoky(settings):
-    """The small scene with smoke."""
-    return replace(settings, smoke=Smoke(voxel_size=120.0, max_age=1800.0))
+    """The small scene with puffs of smoke."""
+    return replace(settings, smoke=Smoke(method="puffs", voxel_size=120.0, max_age=1800.0))
 
 
 @pytest.fixture

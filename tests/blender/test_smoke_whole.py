@@ -65,7 +65,9 @@ def puffy():
 @pytest.fixture
 def look(settings, run, stage, scene, shoot, tmp_path):
     """Brightness of a view from within clear smoke: (blocks up, blocks across)."""
-    smoky = replace(settings, smoke=Smoke(voxel_size=VOXEL), time=replace(settings.time, frames=1))
+    smoky = replace(
+        settings, smoke=Smoke(method="puffs", voxel_size=VOXEL), time=replace(settings.time, frames=1)
+    )
 
     count = itertools.count()
 

@@ -62,6 +62,8 @@ def test_a_run_alone_has_cameras_that_fit_it(make_run):
     shot = Choice(run=str(make_run())).shot()
     fit.check(shot.settings, shot.run)
     assert [camera.name for camera in shot.settings.cameras] == ["overview", "satellite"]
+    assert shot.settings.smoke.method == "puffs"  # solving the air of a whole run is not done unasked
+    assert Choice(run=str(shot.settings.run), smoke="flow").shot().settings.smoke.method == "flow"
     assert Choice(**Choice(run="here", engine="eevee").plain()) == Choice(run="here", engine="eevee")
 
 

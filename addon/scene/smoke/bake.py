@@ -20,7 +20,7 @@ from ...progress import Progress, Tell, count, silent, size, untold
 from ...run import content
 from ...shot import schema, sources
 from ...shot.shot import Shot
-from . import baker, cache, flow_frames
+from . import baker, cache, flow_frames, outlook
 from .baker import Baker
 from .flow import Flow
 from .view import resolution, shot_frames
@@ -140,6 +140,8 @@ class _Line:
     @functools.cached_property
     def maker(self) -> Baker:
         maker = Baker(self.shot)
+        if text := outlook.words(self.shot):
+            self.tell(text)
         if maker.flow:
             self.held.enter_context(maker.flow.in_use())
             maker.flow.progress = lambda *done: self.progress(*done)
