@@ -90,13 +90,15 @@ void check(const Moment& m) {
 
 } // namespace
 
-/// A column of voxels on the flow's grid.
+/// A column of voxels on the flow's grid, and what its neighbours leave behind.
 struct Detail::Column {
   double x, y;               ///< m
   double finest;             ///< least size of lumps, m
   float share, surface;      ///< of the brick
   float column, row;         ///< fractional, on the flow's grid
+  std::size_t nearest;       ///< cell of the lowest level
   std::vector<float> height; ///< [nz] of cells' middles here, m
+  std::array<std::array<Worley, lump_octaves>, Drift::phases> lumps;
 };
 
 Detail::Detail(const Moment& m, const Look& look)
@@ -118,7 +120,7 @@ Detail::Detail(const Moment& m, const Look& look)
   });
   find_vigour(m);
   find_steepness();
-  find_columns();
+  find_smoky();
   drift_.resize(m.drift.size());
   std::vector<float> part(shape_.size());
   for (std::size_t p = 0; p < Drift::parts; ++p) {
@@ -182,16 +184,20 @@ void Detail::find_steepness() {
   }
 }
 
-void Detail::find_columns() {
-  const auto plane = static_cast<std::size_t>(shape_.ny * shape_.nx);
-  highest_.assign(plane, 0.0F);
-  for (std::size_t n = 0; n < amount_.size(); ++n) {
-    highest_[n % plane] = std::max(highest_[n % plane], amount_[n]);
-  }
-  spread(highest_, {1, shape_.ny, shape_.nx}, 1);
+void Detail::find_smoky() {
+  std::vector<float> near = amount_;
+  spread(near, shape_, 1);
+  smoky_.resize(near.size());
+  std::transform(near.begin(), near.end(), smoky_.begin(),
+                 [](float amount) { return static_cast<std::uint8_t>(amount >= least); });
 }
 
-/// False where there is no smoke.
+bool Detail::smoky(const Column& c, float level) const {
+  const auto plane = static_cast<std::size_t>(shape_.ny * shape_.nx);
+  return smoky_[static_cast<std::size_t>(std::lround(level)) * plane + c.nearest] != 0;
+}
+
+/// False outside of the flow.
 bool Detail::begin(Column& c) const {
   const double column = (c.x - corner_[0]) / spacing_ - 0.5;
   const double row = (c.y - corner_[1]) / spacing_ - 0.5;
@@ -199,10 +205,7 @@ bool Detail::begin(Column& c) const {
       row > static_cast<double>(shape_.ny - 1)) {
     return false;
   }
-  const auto nearest = static_cast<std::size_t>(std::lround(row) * shape_.nx + std::lround(column));
-  if (highest_[nearest] < least) {
-    return false;
-  }
+  c.nearest = static_cast<std::size_t>(std::lround(row) * shape_.nx + std::lround(column));
   c.column = static_cast<float>(column);
   c.row = static_cast<float>(row);
   const Between<1> ground(shape_.nx, shape_.ny, 1, ground_.data());
@@ -216,19 +219,21 @@ bool Detail::begin(Column& c) const {
   return true;
 }
 
-float Detail::lumps(const Vector& place, std::uint32_t seed, float vigour, double finest) const {
+float Detail::lumps(Column& column, const Vector& place, std::size_t phase, float vigour) const {
   float crisp = 0.0F, soft = 0.0F, share = 1.0F;
   double size = look_.size;
-  for (int octave = 0; octave < most_octaves && size > finest; ++octave) {
-    const std::uint32_t own = seed * 8U + static_cast<std::uint32_t>(octave);
+  for (int octave = 0; octave < most_octaves && size > column.finest; ++octave) {
+    const std::uint32_t own = seeds_[phase] * 8U + static_cast<std::uint32_t>(octave);
     const auto a = static_cast<float>(place[0] / size), b = static_cast<float>(place[1] / size),
                c = static_cast<float>(place[2] / size);
     const bool round = octave < lump_octaves;
     const float smooth = vigour < 0.98F || !round ? perlin(a, b, c, own) : 0.0F;
     soft += share * 0.9F * smooth;
     if (vigour > 0.02F) {
-      crisp += share * (round ? 1.25F * (0.49F - worley(a, b, c, own))
-                              : 0.6F * (0.5F - 2.0F * std::abs(smooth)));
+      crisp += share *
+               (round ? 1.25F * (0.49F - column.lumps[phase][static_cast<std::size_t>(octave)].at(
+                                             a, b, c, own))
+                      : 0.6F * (0.5F - 2.0F * std::abs(smooth)));
     }
     share *= roughness;
     size *= finer;
@@ -236,7 +241,7 @@ float Detail::lumps(const Vector& place, std::uint32_t seed, float vigour, doubl
   return mix(soft, crisp, vigour);
 }
 
-float Detail::noise(const Column& c, float level, float above, float vigour) const {
+float Detail::noise(Column& c, float level, float above, float vigour) const {
   const Between<Drift::parts> drift(shape_.nx, shape_.ny, shape_.nz, drift_.data());
   const auto d = drift.at(c.column, c.row, level);
   float sum = 0.0F;
@@ -245,14 +250,14 @@ float Detail::noise(const Column& c, float level, float above, float vigour) con
       const Vector place{c.x - static_cast<double>(d[3 * p]),
                          c.y - static_cast<double>(d[3 * p + 1]),
                          static_cast<double>(above - d[3 * p + 2])};
-      sum += weights_[p] * lumps(place, seeds_[p], vigour, c.finest);
+      sum += weights_[p] * lumps(c, place, p, vigour);
     }
   }
   return sum;
 }
 
 /// At a fractional level, `above` m over the ground; 0 where the smoke ends.
-float Detail::extinction(const Column& c, float level, float above) const {
+float Detail::extinction(Column& c, float level, float above) const {
   const float amount = std::max(cubic(amount_, shape_, c.column, c.row, level), 0.0F);
   const Between<1> vigours(shape_.nx, shape_.ny, shape_.nz, vigour_.data());
   const Between<1> slopes(shape_.nx, shape_.ny, shape_.nz, steep_.data());
@@ -278,13 +283,23 @@ float Detail::extinction(const Column& c, float level, float above) const {
   return look_.thickest * (1.0F - std::exp(-full / look_.thickest));
 }
 
-/// One column of the brick, whose first voxel is the `first`.
-void Detail::paint_column(Column& c, const Brick& b, std::size_t first, const Painted& out) const {
+/// One column of the brick.
+void Detail::paint_column(Column& c, const Brick& b, Index i, Index j, const Painted& out) const {
   const Between<1> amounts(shape_.nx, shape_.ny, shape_.nz, amount_.data());
   const Between<1> ages(shape_.nx, shape_.ny, shape_.nz, age_.data());
   const Between<1> glows(shape_.nx, shape_.ny, shape_.nz, glow_.data());
+  const auto blocks = b.blocks();
+  const std::uint8_t* wanted =
+      b.wanted.empty()
+          ? nullptr
+          : b.wanted.data() + (i / Brick::block * blocks[1] + j / Brick::block) * blocks[2];
+  const auto first = static_cast<std::size_t>((i * b.shape[1] + j) * b.shape[2]);
   std::size_t k = 0;
   for (Index m = 0; m < b.shape[2]; ++m) {
+    if (wanted != nullptr && wanted[m / Brick::block] == 0) {
+      m += Brick::block - 1 - m % Brick::block;
+      continue;
+    }
     const auto height = static_cast<float>(b.origin[2] + static_cast<double>(m) * b.voxel);
     if (height < c.surface - static_cast<float>(b.voxel)) {
       continue;
@@ -297,7 +312,7 @@ void Detail::paint_column(Column& c, const Brick& b, std::size_t first, const Pa
       break;
     }
     const float held = std::max(part, 0.0F), level = static_cast<float>(k) + held;
-    if (amounts.at(c.column, c.row, level)[0] < least) {
+    if (!smoky(c, level) || amounts.at(c.column, c.row, level)[0] < least) {
       continue;
     }
     const float above =
@@ -314,9 +329,13 @@ void Detail::paint_column(Column& c, const Brick& b, std::size_t first, const Pa
 void Detail::paint(const Brick& b, const Painted& out) const {
   const auto columns = static_cast<std::size_t>(b.shape[0] * b.shape[1]);
   const std::size_t count = columns * static_cast<std::size_t>(b.shape[2]);
+  const auto [nx, ny, nz] = b.blocks();
+  const auto blocks = static_cast<std::size_t>(nx * ny * nz);
   if (out.density.size() != count || out.fresh.size() != count || b.surface.size() != columns ||
-      b.share.size() != columns || out.glow.size() != (glow_.empty() ? 0 : count)) {
-    throw std::invalid_argument("surface, share and what is painted must have the brick's shape");
+      b.share.size() != columns || (!b.wanted.empty() && b.wanted.size() != blocks) ||
+      out.glow.size() != (glow_.empty() ? 0 : count)) {
+    throw std::invalid_argument(
+        "surface, share, what is wanted and what is painted must have the brick's shape");
   }
   each(b.shape[0], [&](Index i) {
     Column c;
@@ -328,7 +347,7 @@ void Detail::paint(const Brick& b, const Painted& out) const {
       c.share = b.share[column];
       c.surface = b.surface[column];
       if (c.share > 0.0F && begin(c)) {
-        paint_column(c, b, column * static_cast<std::size_t>(b.shape[2]), out);
+        paint_column(c, b, i, j, out);
       }
     }
   });

@@ -3,6 +3,7 @@
 #include "base/vector.hpp"
 #include "flow/drift.hpp"
 #include "flow/filters.hpp"
+#include "flow/noise.hpp"
 
 #include <array>
 #include <cstdint>
@@ -46,6 +47,14 @@ struct Brick {
   std::array<Index, 3> shape;     ///< along x, y, z
   std::span<const float> surface; ///< [nx][ny] height of the true ground, m
   std::span<const float> share;   ///< [nx][ny] factor of the extinction, 0 to 1
+  /// Which blocks of `block` voxels along each side are wanted, in the voxels' order; empty: all.
+  std::span<const std::uint8_t> wanted;
+
+  static constexpr Index block = 16;
+  std::array<Index, 3> blocks() const {
+    return {(shape[0] + block - 1) / block, (shape[1] + block - 1) / block,
+            (shape[2] + block - 1) / block};
+  }
 };
 
 struct Painted {
@@ -72,13 +81,13 @@ private:
   struct Column;
   void find_vigour(const Moment& moment);
   void find_steepness();
-  void find_columns();
+  void find_smoky();
   bool begin(Column& column) const;
-  void paint_column(Column& column, const Brick& brick, std::size_t first,
-                    const Painted& out) const;
-  float extinction(const Column& column, float level, float above) const;
-  float lumps(const Vector& place, std::uint32_t seed, float vigour, double finest) const;
-  float noise(const Column& column, float level, float above, float vigour) const;
+  bool smoky(const Column& column, float level) const;
+  void paint_column(Column& column, const Brick& brick, Index i, Index j, const Painted& out) const;
+  float extinction(Column& column, float level, float above) const;
+  float lumps(Column& column, const Vector& place, std::size_t phase, float vigour) const;
+  float noise(Column& column, float level, float above, float vigour) const;
 
   Shape shape_;
   double spacing_;
@@ -88,7 +97,7 @@ private:
   std::vector<float> vigour_; ///< 0 to 1
   std::vector<float> steep_;  ///< slope of `amount_`, 1/m
   std::vector<float> age_, glow_, drift_;
-  std::vector<float> highest_; ///< [ny][nx] largest amount in each column
+  std::vector<std::uint8_t> smoky_; ///< whether there is smoke to see within a cell
   std::array<float, Drift::phases> weights_;
   std::array<std::uint32_t, Drift::phases> seeds_{};
   Look look_;

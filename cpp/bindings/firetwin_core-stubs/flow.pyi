@@ -229,9 +229,11 @@ class Detail:
         surface: ArrayLike,
         share: ArrayLike,
         layers: int,
+        wanted: ArrayLike | None = None,
     ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32] | None]:
         """Extinction (1/m), freshness (1 young, 0 old or none) and glow of voxels (nx, ny, layers).
 
         `origin` is the centre of the first, `surface` (nx, ny) the height of the true ground, m, and `share`
-        (nx, ny) a factor of the extinction.
+        (nx, ny) a factor of the extinction. `wanted` says which blocks of 16 voxels along each side, the last
+        ones less, are painted; left out, all are.
         """
