@@ -11,15 +11,22 @@
 namespace firetwin::flow {
 namespace {
 
-constexpr float per_kg = 4000.0F; // m2/kg
-constexpr float unit = 1.0e-9F;   // kg/m3
-constexpr float least = 1.2F;     // amount without any smoke to see
-constexpr float soft_cut[] = {2.4F, 6.2F}, crisp_cut[] = {5.5F, 6.2F};
+constexpr float per_kg = 4000.0F;                // m2/kg
+constexpr float unit = 1.0e-9F;                  // kg/m3
+constexpr float least = 1.2F;                    // amount without any smoke to see
+constexpr float lively_rise[] = {0.4F, 2.5F};    // m/s
+constexpr float lively_warmth[] = {0.12F, 0.9F}; // K
+constexpr float lively_age = 420.0F;             // s
+constexpr float soft_cut[] = {2.4F, 6.2F}, crisp_cut[] = {5.2F, 6.2F};
 constexpr float soft_gain = 1.5F, crisp_gain = 3.5F;
 constexpr float soft_reach = 2.0F; // of noise in the amount
 constexpr float crisp_reach[] = {0.8F, 7.0F};
+constexpr float whole[] = {5.5F,
+                           8.5F}; // amount near by that noise of least and of full reach tears
 constexpr float lump_slope = 1.4F;
-constexpr float core = 7.0F; // amount of a vigorous core at least
+constexpr float core = 8.0F;          // amount of a vigorous core at least
+constexpr float cloud_depth = 500.0F; // m above condensation over which smoke turns to cloud
+constexpr float cloud_gain = 1.0F;    // of cloud in the amount
 constexpr float roughness = 0.7F;
 constexpr double finer = 0.47;
 constexpr int lump_octaves = 3, most_octaves = 7;
@@ -119,7 +126,7 @@ Detail::Detail(const Moment& m, const Look& look)
     }
   });
   find_vigour(m);
-  find_steepness();
+  find_reach();
   find_smoky();
   drift_.resize(m.drift.size());
   std::vector<float> part(shape_.size());
@@ -141,17 +148,21 @@ void Detail::find_vigour(const Moment& m) {
   spread(dense, shape_, 2);
   vigour_.resize(shape_.size());
   for (std::size_t n = 0; n < vigour_.size(); ++n) {
-    const float lively = ramp(1.0F, 5.0F, m.rise[n]) + ramp(0.3F, 2.3F, m.warmth[n]) +
-                         0.8F * ramp(420.0F, 0.0F, m.age[n]);
+    const float lively = ramp(lively_rise[0], lively_rise[1], m.rise[n]) +
+                         ramp(lively_warmth[0], lively_warmth[1], m.warmth[n]) +
+                         0.8F * ramp(lively_age, 0.0F, m.age[n]);
     vigour_[n] =
         std::max(std::min(lively, 1.0F) * ramp(4.5F, 6.0F, near[n]), ramp(6.0F, 7.6F, dense[n]));
   }
-  blur(vigour_, shape_, {1.2, 1.2, 1.2});
+  blur(vigour_, shape_, {1.0, 1.0, 1.0});
+  for (float& vigour : vigour_) {
+    vigour = smoothstep(0.1F, 0.7F, vigour); // few places are neither: half a lump is a blur
+  }
 }
 
-void Detail::find_steepness() {
+void Detail::find_reach() {
   const Shape& s = shape_;
-  steep_.resize(s.size());
+  reach_.resize(s.size());
   std::vector<float> square(s.size());
   each(s.nz, [&](Index k) {
     const Index below = std::max(k - 1, Index{0}), above = std::min(k + 1, s.nz - 1);
@@ -172,15 +183,21 @@ void Detail::find_steepness() {
         const float dz = (value(above, j, i) - value(below, j, i)) / gap;
         const auto n = static_cast<std::size_t>((k * s.ny + j) * s.nx + i);
         const float slope = amount_[n] > 0.5F ? std::sqrt(dx * dx + dy * dy + dz * dz) : 0.0F;
-        steep_[n] = slope;
+        reach_[n] = slope;
         square[n] = slope * slope;
       }
     }
   });
   blur(square, shape_, {2.0, 2.0, 2.0});
-  blur(steep_, shape_, {2.0, 2.0, 2.0});
-  for (std::size_t n = 0; n < steep_.size(); ++n) {
-    steep_[n] = square[n] / std::max(steep_[n], 1.0e-6F);
+  blur(reach_, shape_, {2.0, 2.0, 2.0});
+  std::vector<float> densest = amount_;
+  spread(densest, shape_, 2);
+  blur(densest, shape_, {1.0, 1.0, 1.0});
+  for (std::size_t n = 0; n < reach_.size(); ++n) {
+    const float steep = square[n] / std::max(reach_[n], 1.0e-6F);
+    const float most = mix(crisp_reach[0], crisp_reach[1], ramp(whole[0], whole[1], densest[n]));
+    reach_[n] =
+        std::clamp(lump_slope * static_cast<float>(look_.size) * steep, crisp_reach[0], most);
   }
 }
 
@@ -256,17 +273,15 @@ float Detail::noise(Column& c, float level, float above, float vigour) const {
   return sum;
 }
 
+float Detail::vigour(const Column& c, float level) const {
+  return Between<1>(shape_.nx, shape_.ny, shape_.nz, vigour_.data()).at(c.column, c.row, level)[0];
+}
+
 /// At a fractional level, `above` m over the ground; 0 where the smoke ends.
-float Detail::extinction(Column& c, float level, float above) const {
+float Detail::extinction(Column& c, float level, float above, float v, float cloud) const {
   const float amount = std::max(cubic(amount_, shape_, c.column, c.row, level), 0.0F);
-  const Between<1> vigours(shape_.nx, shape_.ny, shape_.nz, vigour_.data());
-  const Between<1> slopes(shape_.nx, shape_.ny, shape_.nz, steep_.data());
-  const float v = vigours.at(c.column, c.row, level)[0];
-  const float steep = slopes.at(c.column, c.row, level)[0];
-  const float reach = mix(soft_reach,
-                          std::clamp(lump_slope * static_cast<float>(look_.size) * steep,
-                                     crisp_reach[0], crisp_reach[1]),
-                          v);
+  const Between<1> reaches(shape_.nx, shape_.ny, shape_.nz, reach_.data());
+  const float reach = mix(soft_reach, reaches.at(c.column, c.row, level)[0], v);
   const float low = mix(soft_cut[0], crisp_cut[0], v), high = mix(soft_cut[1], crisp_cut[1], v);
   if (amount + 1.2F * reach < low) {
     return 0.0F;
@@ -276,7 +291,7 @@ float Detail::extinction(Column& c, float level, float above) const {
   if (edge <= 0.0F) {
     return 0.0F;
   }
-  const float held = mix(raised, std::max(amount, core), v);
+  const float held = mix(raised, std::max(amount, core), v) + cloud_gain * cloud;
   const float gain = per_kg * static_cast<float>(look_.opacity) * mix(soft_gain, crisp_gain, v);
   const float rooted = mix(root, 1.0F, smoothstep(root_heights[0], root_heights[1], above));
   const float full = std::exp(held) * unit * gain * edge * rooted;
@@ -318,8 +333,12 @@ void Detail::paint_column(Column& c, const Brick& b, Index i, Index j, const Pai
     const float above =
         part < 0.0F ? std::max(height - c.surface, 0.0F) : mix(levels_[k], levels_[k + 1], held);
     const std::size_t n = first + static_cast<std::size_t>(m);
-    out.density[n] = c.share * extinction(c, level, above);
-    out.fresh[n] = smoothstep(look_.ages[1], look_.ages[0], ages.at(c.column, c.row, level)[0]);
+    const float lively = vigour(c, level);
+    const float cloud =
+        lively * smoothstep(look_.condensation, look_.condensation + cloud_depth, height);
+    out.density[n] = c.share * extinction(c, level, above, lively, cloud);
+    out.fresh[n] = (1.0F - cloud) *
+                   smoothstep(look_.ages[1], look_.ages[0], ages.at(c.column, c.row, level)[0]);
     if (!out.glow.empty()) {
       out.glow[n] = glows.at(c.column, c.row, level)[0];
     }

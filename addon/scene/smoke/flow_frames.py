@@ -24,8 +24,8 @@ from .flow import Flow, Part
 
 GRIDS = ("density", "fresh", "glow")
 THICKEST = 0.03  # 1/m, at which extinction levels off: more is as opaque and takes shorter steps
-_NEAR = (26.0, 36.0)  # m, voxels of the nest from 8 km and from 40 km away
-_DISTANCE = (8000.0, 40_000.0)
+_NEAR = (20.0, 36.0)  # m, voxels of the nest from 3 km and from 40 km away
+_DISTANCE = (3000.0, 40_000.0)
 _FAR = 80.0  # m, of the rest
 _LUMPS = {True: (340.0, (3.5, 2.5, 2.5)), False: (600.0, (2.5, 1.0, 1.0))}  # m; blur of the drift, cells
 _INSIDE, _FADE = 600.0, (700.0, 2500.0)  # m from a box's side where smoke ends, and in which it fades
@@ -163,6 +163,7 @@ class Painter:
             glow=None if lights is None else _glow(lights, heights[1:], box.spacing, corner),
             size=size,
             blur=blur,
+            condensation=shot.settings.smoke.condensation,
             thickest=shot.settings.smoke.extinction or THICKEST,
             seed=shot.settings.seed,
         )
