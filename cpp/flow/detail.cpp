@@ -152,7 +152,7 @@ void Detail::find_vigour(const Moment& m) {
                          ramp(lively_warmth[0], lively_warmth[1], m.warmth[n]) +
                          0.8F * ramp(lively_age, 0.0F, m.age[n]);
     vigour_[n] =
-        std::max(std::min(lively, 1.0F) * ramp(4.5F, 6.0F, near[n]), ramp(6.0F, 7.6F, dense[n]));
+        std::max(std::min(lively, 1.0F) * ramp(5.0F, 6.8F, near[n]), ramp(6.0F, 7.6F, dense[n]));
   }
   blur(vigour_, shape_, {1.0, 1.0, 1.0});
   for (float& vigour : vigour_) {
