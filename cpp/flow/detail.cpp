@@ -19,7 +19,7 @@ constexpr float lively_warmth[] = {0.12F, 0.9F}; // K
 constexpr float lively_age = 420.0F;             // s
 constexpr float soft_cut[] = {2.4F, 6.2F}, crisp_cut[] = {5.2F, 6.2F};
 constexpr float soft_gain = 1.5F, crisp_gain = 3.5F;
-constexpr float soft_reach = 2.0F; // of noise in the amount
+constexpr float soft_reach = 1.5F; // of noise in the amount
 constexpr float crisp_reach[] = {0.8F, 7.0F};
 constexpr float whole[] = {5.5F,
                            8.5F}; // amount near by that noise of least and of full reach tears

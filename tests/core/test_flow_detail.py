@@ -139,7 +139,9 @@ def test_vapour_makes_rising_smoke_white_and_thicker_from_its_height_on():
     middle = painted(condensation=600.0, **young)
     there = without[0] > 1e-3
     assert there[:, :, above].any()
-    assert np.all(cloudy[0][:, :, above][there[:, :, above]] > 2.0 * without[0][:, :, above][there[:, :, above]])
+    assert np.all(
+        cloudy[0][:, :, above][there[:, :, above]] > 2.0 * without[0][:, :, above][there[:, :, above]]
+    )
     assert without[1][:, :, above][there[:, :, above]].min() > 0.5
     assert cloudy[1][:, :, above][there[:, :, above]].max() < 1e-6
     for with_none, with_it in zip(without[:2], middle[:2], strict=True):
