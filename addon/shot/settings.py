@@ -151,9 +151,9 @@ class Smoke:
         at_least=0,
         at_most=172_800,
     )
-    condensation: float = key(
+    cloud_base: float = key(
         4200.0,
-        "height above the sea from which vapour turns rising smoke white, in a flow",
+        "from this height above the sea vapour turns rising smoke white, in a flow",
         unit="m",
         at_least=0,
     )

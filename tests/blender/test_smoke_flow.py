@@ -146,7 +146,6 @@ def test_a_moved_camera_keeps_the_flow(flowing, run, monkeypatch):
 
 
 def test_what_nobody_sees_is_not_painted_and_nothing_else_changes(shot, flowing, run, tmp_path, monkeypatch):
-    monkeypatch.setattr(flow_frames, "_ROUND", 2000.0)
     solved = flow.Flow(shot)
     solved.ready(1)
     painter = flow_frames.Painter(shot, flow_frames.layers(shot, solved)[-1], None)

@@ -218,7 +218,7 @@ def _key(shot: Shot, progress: Progress) -> str:
         drawn = [[each.name, each.voxel, flow_frames.THICKEST] for each in flow_frames.layers(shot, flow)]
         found["flow"] = [flow.key(), settings.smoke.extinction]
     else:
-        for name in ("method", "spin_up", "condensation"):
+        for name in ("method", "spin_up", "cloud_base"):
             del found["smoke"][name]
     if not complete:  # what is left out depends on what the cameras see, and when
         width, height = settings.render.resolution

@@ -163,7 +163,7 @@ class Painter:
             glow=None if lights is None else _glow(lights, heights[1:], box.spacing, corner),
             size=size,
             blur=blur,
-            condensation=shot.settings.smoke.condensation,
+            condensation=shot.settings.smoke.cloud_base,
             thickest=shot.settings.smoke.extinction or THICKEST,
             seed=shot.settings.seed,
         )
