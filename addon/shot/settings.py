@@ -151,6 +151,12 @@ class Smoke:
         at_least=0,
         at_most=172_800,
     )
+    cloud_base: float = key(
+        4200.0,
+        "from this height above the sea vapour turns rising smoke white, in a flow",
+        unit="m",
+        at_least=0,
+    )
     voxel_size: float = key(
         0.0, "edge of a voxel; 0 chooses it from the distance of the nearest camera", unit="m", at_least=0
     )

@@ -36,7 +36,7 @@ make_detail(double spacing, const std::array<double, 2>& corner, const py::objec
             const py::object& drift, const std::array<float, Drift::phases>& weights,
             const std::array<std::int64_t, Drift::phases>& turns, const py::object& glow,
             double size, const std::array<double, 3>& blur, double opacity, float thickest,
-            const std::array<float, 2>& ages, std::uint32_t seed) {
+            const std::array<float, 2>& ages, float condensation, std::uint32_t seed) {
   const auto amount = to_array<float>(smoke, "smoke", {-1, -1, -1});
   const std::vector<py::ssize_t> shape{amount.shape(0), amount.shape(1), amount.shape(2)};
   const auto field = [&](const py::object& object, const char* name) {
@@ -63,24 +63,29 @@ make_detail(double spacing, const std::array<double, 2>& corner, const py::objec
                             view(moved),
                             weights,
                             turns};
-  const flow::Look look{size, blur, opacity, thickest, ages, seed};
+  const flow::Look look{size, blur, opacity, thickest, ages, condensation, seed};
   const py::gil_scoped_release release;
   return std::make_shared<Detail>(moment, look);
 }
 
 py::tuple paint(const Detail& detail, const std::array<double, 3>& origin, double voxel,
-                const py::object& surface, const py::object& share, Index layers) {
+                const py::object& surface, const py::object& share, Index layers,
+                const py::object& wanted) {
   const auto ground = to_array<float>(surface, "surface", {-1, -1});
   const auto part = to_array<float>(share, "share", {ground.shape(0), ground.shape(1)});
   const std::vector<py::ssize_t> shape{ground.shape(0), ground.shape(1), layers};
+  // NumPy's zeros take no memory where nothing is painted.
   const auto empty = [&] {
-    auto array = new_array<float>(shape);
-    std::fill_n(array.mutable_data(), array.size(), 0.0F);
-    return array;
+    return py::module_::import("numpy").attr("zeros")(shape, "float32").cast<Array<float>>();
   };
   auto density = empty(), fresh = empty();
   auto glow = detail.glows() ? empty() : new_array<float>({0, 0, 0});
-  const flow::Brick brick{origin, voxel, {shape[0], shape[1], shape[2]}, view(ground), view(part)};
+  flow::Brick brick{origin, voxel, {shape[0], shape[1], shape[2]}, view(ground), view(part), {}};
+  const auto blocks = brick.blocks();
+  const auto asked = wanted.is_none() ? Array<std::uint8_t>(py::ssize_t{0})
+                                      : to_array<std::uint8_t>(wanted, "wanted",
+                                                               {blocks[0], blocks[1], blocks[2]});
+  brick.wanted = view(asked);
   const flow::Painted out{writable(density), writable(fresh), writable(glow)};
   {
     const py::gil_scoped_release release;
@@ -110,8 +115,9 @@ void init_flow_detail(Module module) {
            "ground"_a, "smoke"_a, "age"_a, "rise"_a, "warmth"_a, "drift"_a, "weights"_a, "turns"_a,
            "glow"_a = py::none(), "size"_a = 340.0, "blur"_a = std::array<double, 3>{},
            "opacity"_a = 1.0, "thickest"_a = 0.03F, "ages"_a = std::array<float, 2>{20.0F, 600.0F},
-           "seed"_a = 0)
-      .def("paint", &paint, "origin"_a, "voxel"_a, "surface"_a, "share"_a, "layers"_a);
+           "condensation"_a = 1.0e6F, "seed"_a = 0)
+      .def("paint", &paint, "origin"_a, "voxel"_a, "surface"_a, "share"_a, "layers"_a,
+           "wanted"_a = py::none());
 }
 
 } // namespace firetwin::bindings

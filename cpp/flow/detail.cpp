@@ -11,15 +11,22 @@
 namespace firetwin::flow {
 namespace {
 
-constexpr float per_kg = 4000.0F; // m2/kg
-constexpr float unit = 1.0e-9F;   // kg/m3
-constexpr float least = 1.2F;     // amount without any smoke to see
-constexpr float soft_cut[] = {2.4F, 6.2F}, crisp_cut[] = {5.5F, 6.2F};
+constexpr float per_kg = 4000.0F;                // m2/kg
+constexpr float unit = 1.0e-9F;                  // kg/m3
+constexpr float least = 1.2F;                    // amount without any smoke to see
+constexpr float lively_rise[] = {0.4F, 2.5F};    // m/s
+constexpr float lively_warmth[] = {0.12F, 0.9F}; // K
+constexpr float lively_age = 420.0F;             // s
+constexpr float soft_cut[] = {2.4F, 6.2F}, crisp_cut[] = {5.2F, 6.2F};
 constexpr float soft_gain = 1.5F, crisp_gain = 3.5F;
-constexpr float soft_reach = 2.0F; // of noise in the amount
+constexpr float soft_reach = 1.5F; // of noise in the amount
 constexpr float crisp_reach[] = {0.8F, 7.0F};
+constexpr float whole[] = {5.5F,
+                           8.5F}; // amount near by that noise of least and of full reach tears
 constexpr float lump_slope = 1.4F;
-constexpr float core = 7.0F; // amount of a vigorous core at least
+constexpr float core = 8.0F;          // amount of a vigorous core at least
+constexpr float cloud_depth = 500.0F; // m above condensation over which smoke turns to cloud
+constexpr float cloud_gain = 1.0F;    // of cloud in the amount
 constexpr float roughness = 0.7F;
 constexpr double finer = 0.47;
 constexpr int lump_octaves = 3, most_octaves = 7;
@@ -90,13 +97,15 @@ void check(const Moment& m) {
 
 } // namespace
 
-/// A column of voxels on the flow's grid.
+/// A column of voxels on the flow's grid, and what its neighbours leave behind.
 struct Detail::Column {
   double x, y;               ///< m
   double finest;             ///< least size of lumps, m
   float share, surface;      ///< of the brick
   float column, row;         ///< fractional, on the flow's grid
+  std::size_t nearest;       ///< cell of the lowest level
   std::vector<float> height; ///< [nz] of cells' middles here, m
+  std::array<std::array<Worley, lump_octaves>, Drift::phases> lumps;
 };
 
 Detail::Detail(const Moment& m, const Look& look)
@@ -117,8 +126,8 @@ Detail::Detail(const Moment& m, const Look& look)
     }
   });
   find_vigour(m);
-  find_steepness();
-  find_columns();
+  find_reach();
+  find_smoky();
   drift_.resize(m.drift.size());
   std::vector<float> part(shape_.size());
   for (std::size_t p = 0; p < Drift::parts; ++p) {
@@ -139,17 +148,21 @@ void Detail::find_vigour(const Moment& m) {
   spread(dense, shape_, 2);
   vigour_.resize(shape_.size());
   for (std::size_t n = 0; n < vigour_.size(); ++n) {
-    const float lively = ramp(1.0F, 5.0F, m.rise[n]) + ramp(0.3F, 2.3F, m.warmth[n]) +
-                         0.8F * ramp(420.0F, 0.0F, m.age[n]);
+    const float lively = ramp(lively_rise[0], lively_rise[1], m.rise[n]) +
+                         ramp(lively_warmth[0], lively_warmth[1], m.warmth[n]) +
+                         0.8F * ramp(lively_age, 0.0F, m.age[n]);
     vigour_[n] =
-        std::max(std::min(lively, 1.0F) * ramp(4.5F, 6.0F, near[n]), ramp(6.0F, 7.6F, dense[n]));
+        std::max(std::min(lively, 1.0F) * ramp(5.0F, 6.8F, near[n]), ramp(6.0F, 7.6F, dense[n]));
   }
-  blur(vigour_, shape_, {1.2, 1.2, 1.2});
+  blur(vigour_, shape_, {1.0, 1.0, 1.0});
+  for (float& vigour : vigour_) {
+    vigour = smoothstep(0.1F, 0.7F, vigour); // few places are neither: half a lump is a blur
+  }
 }
 
-void Detail::find_steepness() {
+void Detail::find_reach() {
   const Shape& s = shape_;
-  steep_.resize(s.size());
+  reach_.resize(s.size());
   std::vector<float> square(s.size());
   each(s.nz, [&](Index k) {
     const Index below = std::max(k - 1, Index{0}), above = std::min(k + 1, s.nz - 1);
@@ -170,28 +183,38 @@ void Detail::find_steepness() {
         const float dz = (value(above, j, i) - value(below, j, i)) / gap;
         const auto n = static_cast<std::size_t>((k * s.ny + j) * s.nx + i);
         const float slope = amount_[n] > 0.5F ? std::sqrt(dx * dx + dy * dy + dz * dz) : 0.0F;
-        steep_[n] = slope;
+        reach_[n] = slope;
         square[n] = slope * slope;
       }
     }
   });
   blur(square, shape_, {2.0, 2.0, 2.0});
-  blur(steep_, shape_, {2.0, 2.0, 2.0});
-  for (std::size_t n = 0; n < steep_.size(); ++n) {
-    steep_[n] = square[n] / std::max(steep_[n], 1.0e-6F);
+  blur(reach_, shape_, {2.0, 2.0, 2.0});
+  std::vector<float> densest = amount_;
+  spread(densest, shape_, 2);
+  blur(densest, shape_, {1.0, 1.0, 1.0});
+  for (std::size_t n = 0; n < reach_.size(); ++n) {
+    const float steep = square[n] / std::max(reach_[n], 1.0e-6F);
+    const float most = mix(crisp_reach[0], crisp_reach[1], ramp(whole[0], whole[1], densest[n]));
+    reach_[n] =
+        std::clamp(lump_slope * static_cast<float>(look_.size) * steep, crisp_reach[0], most);
   }
 }
 
-void Detail::find_columns() {
+void Detail::find_smoky() {
+  std::vector<float> near = amount_;
+  spread(near, shape_, 1);
+  smoky_.resize(near.size());
+  std::transform(near.begin(), near.end(), smoky_.begin(),
+                 [](float amount) { return static_cast<std::uint8_t>(amount >= least); });
+}
+
+bool Detail::smoky(const Column& c, float level) const {
   const auto plane = static_cast<std::size_t>(shape_.ny * shape_.nx);
-  highest_.assign(plane, 0.0F);
-  for (std::size_t n = 0; n < amount_.size(); ++n) {
-    highest_[n % plane] = std::max(highest_[n % plane], amount_[n]);
-  }
-  spread(highest_, {1, shape_.ny, shape_.nx}, 1);
+  return smoky_[static_cast<std::size_t>(std::lround(level)) * plane + c.nearest] != 0;
 }
 
-/// False where there is no smoke.
+/// False outside of the flow.
 bool Detail::begin(Column& c) const {
   const double column = (c.x - corner_[0]) / spacing_ - 0.5;
   const double row = (c.y - corner_[1]) / spacing_ - 0.5;
@@ -199,10 +222,7 @@ bool Detail::begin(Column& c) const {
       row > static_cast<double>(shape_.ny - 1)) {
     return false;
   }
-  const auto nearest = static_cast<std::size_t>(std::lround(row) * shape_.nx + std::lround(column));
-  if (highest_[nearest] < least) {
-    return false;
-  }
+  c.nearest = static_cast<std::size_t>(std::lround(row) * shape_.nx + std::lround(column));
   c.column = static_cast<float>(column);
   c.row = static_cast<float>(row);
   const Between<1> ground(shape_.nx, shape_.ny, 1, ground_.data());
@@ -216,19 +236,21 @@ bool Detail::begin(Column& c) const {
   return true;
 }
 
-float Detail::lumps(const Vector& place, std::uint32_t seed, float vigour, double finest) const {
+float Detail::lumps(Column& column, const Vector& place, std::size_t phase, float vigour) const {
   float crisp = 0.0F, soft = 0.0F, share = 1.0F;
   double size = look_.size;
-  for (int octave = 0; octave < most_octaves && size > finest; ++octave) {
-    const std::uint32_t own = seed * 8U + static_cast<std::uint32_t>(octave);
+  for (int octave = 0; octave < most_octaves && size > column.finest; ++octave) {
+    const std::uint32_t own = seeds_[phase] * 8U + static_cast<std::uint32_t>(octave);
     const auto a = static_cast<float>(place[0] / size), b = static_cast<float>(place[1] / size),
                c = static_cast<float>(place[2] / size);
     const bool round = octave < lump_octaves;
     const float smooth = vigour < 0.98F || !round ? perlin(a, b, c, own) : 0.0F;
     soft += share * 0.9F * smooth;
     if (vigour > 0.02F) {
-      crisp += share * (round ? 1.25F * (0.49F - worley(a, b, c, own))
-                              : 0.6F * (0.5F - 2.0F * std::abs(smooth)));
+      crisp += share *
+               (round ? 1.25F * (0.49F - column.lumps[phase][static_cast<std::size_t>(octave)].at(
+                                             a, b, c, own))
+                      : 0.6F * (0.5F - 2.0F * std::abs(smooth)));
     }
     share *= roughness;
     size *= finer;
@@ -236,7 +258,7 @@ float Detail::lumps(const Vector& place, std::uint32_t seed, float vigour, doubl
   return mix(soft, crisp, vigour);
 }
 
-float Detail::noise(const Column& c, float level, float above, float vigour) const {
+float Detail::noise(Column& c, float level, float above, float vigour) const {
   const Between<Drift::parts> drift(shape_.nx, shape_.ny, shape_.nz, drift_.data());
   const auto d = drift.at(c.column, c.row, level);
   float sum = 0.0F;
@@ -245,23 +267,21 @@ float Detail::noise(const Column& c, float level, float above, float vigour) con
       const Vector place{c.x - static_cast<double>(d[3 * p]),
                          c.y - static_cast<double>(d[3 * p + 1]),
                          static_cast<double>(above - d[3 * p + 2])};
-      sum += weights_[p] * lumps(place, seeds_[p], vigour, c.finest);
+      sum += weights_[p] * lumps(c, place, p, vigour);
     }
   }
   return sum;
 }
 
+float Detail::vigour(const Column& c, float level) const {
+  return Between<1>(shape_.nx, shape_.ny, shape_.nz, vigour_.data()).at(c.column, c.row, level)[0];
+}
+
 /// At a fractional level, `above` m over the ground; 0 where the smoke ends.
-float Detail::extinction(const Column& c, float level, float above) const {
+float Detail::extinction(Column& c, float level, float above, float v, float cloud) const {
   const float amount = std::max(cubic(amount_, shape_, c.column, c.row, level), 0.0F);
-  const Between<1> vigours(shape_.nx, shape_.ny, shape_.nz, vigour_.data());
-  const Between<1> slopes(shape_.nx, shape_.ny, shape_.nz, steep_.data());
-  const float v = vigours.at(c.column, c.row, level)[0];
-  const float steep = slopes.at(c.column, c.row, level)[0];
-  const float reach = mix(soft_reach,
-                          std::clamp(lump_slope * static_cast<float>(look_.size) * steep,
-                                     crisp_reach[0], crisp_reach[1]),
-                          v);
+  const Between<1> reaches(shape_.nx, shape_.ny, shape_.nz, reach_.data());
+  const float reach = mix(soft_reach, reaches.at(c.column, c.row, level)[0], v);
   const float low = mix(soft_cut[0], crisp_cut[0], v), high = mix(soft_cut[1], crisp_cut[1], v);
   if (amount + 1.2F * reach < low) {
     return 0.0F;
@@ -271,20 +291,30 @@ float Detail::extinction(const Column& c, float level, float above) const {
   if (edge <= 0.0F) {
     return 0.0F;
   }
-  const float held = mix(raised, std::max(amount, core), v);
+  const float held = mix(raised, std::max(amount, core), v) + cloud_gain * cloud;
   const float gain = per_kg * static_cast<float>(look_.opacity) * mix(soft_gain, crisp_gain, v);
   const float rooted = mix(root, 1.0F, smoothstep(root_heights[0], root_heights[1], above));
   const float full = std::exp(held) * unit * gain * edge * rooted;
   return look_.thickest * (1.0F - std::exp(-full / look_.thickest));
 }
 
-/// One column of the brick, whose first voxel is the `first`.
-void Detail::paint_column(Column& c, const Brick& b, std::size_t first, const Painted& out) const {
+/// One column of the brick.
+void Detail::paint_column(Column& c, const Brick& b, Index i, Index j, const Painted& out) const {
   const Between<1> amounts(shape_.nx, shape_.ny, shape_.nz, amount_.data());
   const Between<1> ages(shape_.nx, shape_.ny, shape_.nz, age_.data());
   const Between<1> glows(shape_.nx, shape_.ny, shape_.nz, glow_.data());
+  const auto blocks = b.blocks();
+  const std::uint8_t* wanted =
+      b.wanted.empty()
+          ? nullptr
+          : b.wanted.data() + (i / Brick::block * blocks[1] + j / Brick::block) * blocks[2];
+  const auto first = static_cast<std::size_t>((i * b.shape[1] + j) * b.shape[2]);
   std::size_t k = 0;
   for (Index m = 0; m < b.shape[2]; ++m) {
+    if (wanted != nullptr && wanted[m / Brick::block] == 0) {
+      m += Brick::block - 1 - m % Brick::block;
+      continue;
+    }
     const auto height = static_cast<float>(b.origin[2] + static_cast<double>(m) * b.voxel);
     if (height < c.surface - static_cast<float>(b.voxel)) {
       continue;
@@ -297,14 +327,18 @@ void Detail::paint_column(Column& c, const Brick& b, std::size_t first, const Pa
       break;
     }
     const float held = std::max(part, 0.0F), level = static_cast<float>(k) + held;
-    if (amounts.at(c.column, c.row, level)[0] < least) {
+    if (!smoky(c, level) || amounts.at(c.column, c.row, level)[0] < least) {
       continue;
     }
     const float above =
         part < 0.0F ? std::max(height - c.surface, 0.0F) : mix(levels_[k], levels_[k + 1], held);
     const std::size_t n = first + static_cast<std::size_t>(m);
-    out.density[n] = c.share * extinction(c, level, above);
-    out.fresh[n] = smoothstep(look_.ages[1], look_.ages[0], ages.at(c.column, c.row, level)[0]);
+    const float lively = vigour(c, level);
+    const float cloud =
+        lively * smoothstep(look_.condensation, look_.condensation + cloud_depth, height);
+    out.density[n] = c.share * extinction(c, level, above, lively, cloud);
+    out.fresh[n] = (1.0F - cloud) *
+                   smoothstep(look_.ages[1], look_.ages[0], ages.at(c.column, c.row, level)[0]);
     if (!out.glow.empty()) {
       out.glow[n] = glows.at(c.column, c.row, level)[0];
     }
@@ -314,9 +348,13 @@ void Detail::paint_column(Column& c, const Brick& b, std::size_t first, const Pa
 void Detail::paint(const Brick& b, const Painted& out) const {
   const auto columns = static_cast<std::size_t>(b.shape[0] * b.shape[1]);
   const std::size_t count = columns * static_cast<std::size_t>(b.shape[2]);
+  const auto [nx, ny, nz] = b.blocks();
+  const auto blocks = static_cast<std::size_t>(nx * ny * nz);
   if (out.density.size() != count || out.fresh.size() != count || b.surface.size() != columns ||
-      b.share.size() != columns || out.glow.size() != (glow_.empty() ? 0 : count)) {
-    throw std::invalid_argument("surface, share and what is painted must have the brick's shape");
+      b.share.size() != columns || (!b.wanted.empty() && b.wanted.size() != blocks) ||
+      out.glow.size() != (glow_.empty() ? 0 : count)) {
+    throw std::invalid_argument(
+        "surface, share, what is wanted and what is painted must have the brick's shape");
   }
   each(b.shape[0], [&](Index i) {
     Column c;
@@ -328,7 +366,7 @@ void Detail::paint(const Brick& b, const Painted& out) const {
       c.share = b.share[column];
       c.surface = b.surface[column];
       if (c.share > 0.0F && begin(c)) {
-        paint_column(c, b, column * static_cast<std::size_t>(b.shape[2]), out);
+        paint_column(c, b, i, j, out);
       }
     }
   });

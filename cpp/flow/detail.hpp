@@ -3,6 +3,7 @@
 #include "base/vector.hpp"
 #include "flow/drift.hpp"
 #include "flow/filters.hpp"
+#include "flow/noise.hpp"
 
 #include <array>
 #include <cstdint>
@@ -36,6 +37,7 @@ struct Look {
   double opacity = 1.0;                     ///< times the extinction of smoke
   float thickest = 0.03F;                   ///< extinction at which thick smoke levels off, 1/m
   std::array<float, 2> ages{20.0F, 600.0F}; ///< s, of dark and of white smoke
+  float condensation = 1.0e6F;              ///< height from which vapour condenses, m
   std::uint32_t seed = 0;
 };
 
@@ -46,6 +48,14 @@ struct Brick {
   std::array<Index, 3> shape;     ///< along x, y, z
   std::span<const float> surface; ///< [nx][ny] height of the true ground, m
   std::span<const float> share;   ///< [nx][ny] factor of the extinction, 0 to 1
+  /// Which blocks of `block` voxels along each side are wanted, in the voxels' order; empty: all.
+  std::span<const std::uint8_t> wanted;
+
+  static constexpr Index block = 16;
+  std::array<Index, 3> blocks() const {
+    return {(shape[0] + block - 1) / block, (shape[1] + block - 1) / block,
+            (shape[2] + block - 1) / block};
+  }
 };
 
 struct Painted {
@@ -58,9 +68,11 @@ struct Painted {
 /// travels with the air, and what falls below a threshold is cut away. Vigorous smoke, which rises,
 /// is warm, fresh or dense, gets lumps with crisp edges (Worley's noise); the rest gets soft veils
 /// (Perlin's). Lumps have a size in metres: the noise's amplitude follows the slope of the
-/// logarithm. The flow's own extinction is 4 m2/g (fresh biomass smoke, Reid et al. 2005,
-/// doi 10.5194/acp-5-799-2005) times a gain chosen by eye; near the ground it is less, so that
-/// flames show. Thresholds and gains are chosen by eye.
+/// logarithm, up to what would tear thin smoke to pieces. The flow's own extinction is 4 m2/g
+/// (fresh biomass smoke, Reid et al. 2005, doi 10.5194/acp-5-799-2005) times a gain chosen by eye;
+/// near the ground it is less, so that flames show. Above the height where vapour condenses
+/// vigorous smoke is white and a few times as thick, for water droplets. Thresholds and gains are
+/// chosen by eye.
 class Detail {
 public:
   Detail(const Moment& moment, const Look& look);
@@ -71,14 +83,15 @@ public:
 private:
   struct Column;
   void find_vigour(const Moment& moment);
-  void find_steepness();
-  void find_columns();
+  void find_reach();
+  void find_smoky();
   bool begin(Column& column) const;
-  void paint_column(Column& column, const Brick& brick, std::size_t first,
-                    const Painted& out) const;
-  float extinction(const Column& column, float level, float above) const;
-  float lumps(const Vector& place, std::uint32_t seed, float vigour, double finest) const;
-  float noise(const Column& column, float level, float above, float vigour) const;
+  bool smoky(const Column& column, float level) const;
+  void paint_column(Column& column, const Brick& brick, Index i, Index j, const Painted& out) const;
+  float vigour(const Column& column, float level) const;
+  float extinction(Column& column, float level, float above, float vigour, float cloud) const;
+  float lumps(Column& column, const Vector& place, std::size_t phase, float vigour) const;
+  float noise(Column& column, float level, float above, float vigour) const;
 
   Shape shape_;
   double spacing_;
@@ -86,9 +99,9 @@ private:
   std::vector<float> levels_, heights_, ground_;
   std::vector<float> amount_; ///< ln(smoke / 1 ug/m3), at least 0
   std::vector<float> vigour_; ///< 0 to 1
-  std::vector<float> steep_;  ///< slope of `amount_`, 1/m
+  std::vector<float> reach_;  ///< of crisp noise in the amount
   std::vector<float> age_, glow_, drift_;
-  std::vector<float> highest_; ///< [ny][nx] largest amount in each column
+  std::vector<std::uint8_t> smoky_; ///< whether there is smoke to see within a cell
   std::array<float, Drift::phases> weights_;
   std::array<std::uint32_t, Drift::phases> seeds_{};
   Look look_;

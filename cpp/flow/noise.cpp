@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 namespace firetwin::flow {
 namespace {
@@ -64,21 +65,48 @@ float perlin(float x, float y, float z, std::uint32_t seed) {
   return mix(level[0], level[1], fade(c.part));
 }
 
-float worley(float x, float y, float z, std::uint32_t seed) {
-  const Place a(x), b(y), c(z);
-  float nearest = 9.0F;
-  for (int k = -1; k < 2; ++k) {
-    for (int j = -1; j < 2; ++j) {
-      for (int i = -1; i < 2; ++i) {
-        const std::uint32_t h = bits(a.cell + i, b.cell + j, c.cell + k, seed);
-        const float dx = static_cast<float>(i) + share(h, 0) - a.part;
-        const float dy = static_cast<float>(j) + share(h, 10) - b.part;
-        const float dz = static_cast<float>(k) + share(h, 20) - c.part;
-        nearest = std::min(nearest, dx * dx + dy * dy + dz * dz);
+void Worley::strew(const std::array<std::int32_t, 3>& cell, std::uint32_t seed) {
+  constexpr float far_away = 99.0F;
+  std::array<float, points> x, y, z;
+  x.fill(far_away);
+  y.fill(far_away);
+  z.fill(far_away);
+  std::size_t n = 0;
+  for (std::int32_t k = -1; k < 2; ++k) {
+    for (std::int32_t j = -1; j < 2; ++j) {
+      for (std::int32_t i = -1; i < 2; ++i, ++n) {
+        const std::uint32_t h = bits(cell[0] + i, cell[1] + j, cell[2] + k, seed);
+        x[n] = static_cast<float>(i) + share(h, 0);
+        y[n] = static_cast<float>(j) + share(h, 10);
+        z[n] = static_cast<float>(k) + share(h, 20);
       }
     }
   }
-  return std::sqrt(nearest);
+  std::memcpy(x_.data(), x.data(), sizeof x);
+  std::memcpy(y_.data(), y.data(), sizeof y);
+  std::memcpy(z_.data(), z.data(), sizeof z);
+  cell_ = cell;
+  seed_ = seed;
+  strewn_ = true;
+}
+
+float Worley::at(float x, float y, float z, std::uint32_t seed) {
+  const Place a(x), b(y), c(z);
+  const std::array<std::int32_t, 3> cell{a.cell, b.cell, c.cell};
+  if (!strewn_ || cell != cell_ || seed != seed_) {
+    strew(cell, seed);
+  }
+  Lanes nearest = Lanes{} + 9.0F;
+  for (std::size_t n = 0; n < x_.size(); ++n) {
+    const Lanes dx = x_[n] - a.part, dy = y_[n] - b.part, dz = z_[n] - c.part;
+    const Lanes square = dx * dx + dy * dy + dz * dz;
+    nearest = square < nearest ? square : nearest;
+  }
+  float least = nearest[0];
+  for (int lane = 1; lane < 8; ++lane) {
+    least = std::min(least, nearest[lane]);
+  }
+  return std::sqrt(least);
 }
 
 } // namespace firetwin::flow

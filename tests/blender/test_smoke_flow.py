@@ -12,7 +12,8 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from firetwin.scene.smoke import bake, boxes, flow, moments, solving  # noqa: E402
+from firetwin.scene.smoke import bake, boxes, flow, flow_frames, moments, solving  # noqa: E402
+from firetwin.shot import rigs  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
 from firetwin_core import run as runs  # noqa: E402
 
@@ -247,6 +248,38 @@ def test_a_moved_camera_keeps_the_flow(flowing, run, monkeypatch):
     assert far.key() == first.key()[:1]
     near.ready(1)
     far.ready(1)
+
+
+def test_what_nobody_sees_is_not_painted_and_nothing_else_changes(shot, flowing, run, tmp_path, monkeypatch):
+    solved = flow.Flow(shot)
+    solved.ready(1)
+    painter = flow_frames.Painter(shot, flow_frames.layers(shot, solved)[-1], None)
+    sight = shot.sights.at(1)
+    asked = []
+    real = flow_frames._wanted
+
+    def wanted(*given):
+        asked.append(real(*given))
+        return asked[-1]
+
+    monkeypatch.setattr(flow_frames, "_wanted", wanted)
+    painter.write(tmp_path / "some.vdb", 1, None, sight, {})
+    monkeypatch.setattr(flow_frames, "_wanted", lambda *given: None)
+    painter.write(tmp_path / "all.vdb", 1, None, sight, {})
+    assert asked[0].any()
+    some, whole = grids(tmp_path / "some.vdb")[0], grids(tmp_path / "all.vdb")[0]
+    for name in ("density", "fresh"):
+        assert some[name].activeVoxelCount() == whole[name].activeVoxelCount() > 0
+        assert some[name].evalActiveVoxelBoundingBox() == whole[name].evalActiveVoxelBoundingBox()
+
+
+def test_a_close_picture_from_above_has_a_nest(flowing, run):
+    def boxes_of(swath):
+        camera = replace(flowing.cameras[0], rig=rigs.kinds()["satellite"](swath=swath))
+        return len(flow.Flow(Shot(replace(flowing, cameras=(camera,)), run)).parts)
+
+    assert boxes_of(10_000.0) == 2
+    assert boxes_of(56_000.0) == 1
 
 
 def test_no_box_is_wider_than_can_be_solved(shot, monkeypatch):

@@ -39,10 +39,10 @@ def moment(**changed):
     return fields | changed
 
 
-def painted(origin=(0.0, 0.0, 0.0), share=1.0, surface=0.0, count=48, **changed):
+def painted(origin=(0.0, 0.0, 0.0), share=1.0, surface=0.0, count=48, wanted=None, **changed):
     plane = np.ones((count, count))
     detail = flow.Detail(**moment(**changed))
-    return detail.paint(origin, VOXEL, surface * plane, share * plane, 40)
+    return detail.paint(origin, VOXEL, surface * plane, share * plane, 40, wanted)
 
 
 @settings(max_examples=8, deadline=None)
@@ -111,6 +111,59 @@ def test_any_number_of_threads_paints_the_same(all_threads):
         assert np.array_equal(one, three)
 
 
+def test_a_part_of_a_brick_is_painted_as_in_the_whole():
+    lively = {"warmth": np.full((N, N, N), 2.0), "age": np.full((N, N, N), 100.0)}
+    whole = painted(**lively)
+    part = painted(origin=(12 * VOXEL, 20 * VOXEL, 0.0), count=16, **lively)
+    for one, other in zip(whole[:2], part[:2], strict=True):
+        assert other.max() > 0.0
+        assert np.array_equal(one[12:28, 20:36], other)
+
+
+def test_blocks_that_nobody_wants_stay_empty():
+    young = {"age": np.full((N, N, N), 100.0)}
+    whole = painted(**young)
+    wanted = np.zeros((3, 3, 3), bool)
+    wanted[1, 1, 1] = wanted[2, 0, 2] = True
+    some = painted(wanted=wanted, **young)
+    there = np.kron(wanted, np.ones((16, 16, 16), bool))[:, :, :40]
+    for one, other in zip(whole[:2], some[:2], strict=True):
+        assert other[there].max() > 0.0
+        assert np.array_equal(np.where(there, one, 0.0), other)
+
+
+def test_vapour_makes_rising_smoke_white_and_thicker_from_its_height_on():
+    young = {"age": np.full((N, N, N), 60.0), "rise": np.full((N, N, N), 5.0), "thickest": 1.0}
+    below, above = slice(4, 16), slice(28, 32)  # condensation at 600 m, cloud from 1100 m on
+    without, cloudy = painted(**young), painted(condensation=100.0, **young)
+    middle = painted(condensation=600.0, **young)
+    there = without[0] > 1e-3
+    assert there[:, :, above].any()
+    assert np.all(
+        cloudy[0][:, :, above][there[:, :, above]] > 2.0 * without[0][:, :, above][there[:, :, above]]
+    )
+    assert without[1][:, :, above][there[:, :, above]].min() > 0.5
+    assert cloudy[1][:, :, above][there[:, :, above]].max() < 1e-6
+    for with_none, with_it in zip(without[:2], middle[:2], strict=True):
+        assert np.array_equal(with_none[:, :, below], with_it[:, :, below])
+
+
+def test_calm_old_smoke_makes_no_cloud():
+    thin = {"smoke": np.full((N, N, N), 1e-7)}
+    without = painted(**thin)[0]
+    assert without.max() > 0.0
+    assert np.array_equal(painted(condensation=0.0, **thin)[0], without)
+
+
+def test_thin_rising_smoke_is_not_torn_to_pieces():
+    """A layer that is as dense everywhere stays whole."""
+    z = np.arange(N)[:, None, None] - 5.0
+    layer = 1e-9 * np.exp(np.broadcast_to(6.6 - z**2, (N, N, N)))
+    density = painted(smoke=layer, rise=np.full((N, N, N), 5.0))[0]
+    column = density[8:40, 8:40].max(axis=2)
+    assert np.mean(column > 1e-3) > 0.85
+
+
 def test_where_no_smoke_is_none_is_painted():
     density, fresh, glow = painted(smoke=np.zeros((N, N, N)))
     assert not density.any()
@@ -150,5 +203,7 @@ def test_bad_calls():
     detail = flow.Detail(**moment())
     with pytest.raises(ValueError, match="share"):
         detail.paint((0, 0, 0), 25.0, np.zeros((4, 4)), np.zeros((4, 5)), 8)
+    with pytest.raises(ValueError, match="wanted"):
+        detail.paint((0, 0, 0), 25.0, np.zeros((4, 4)), np.zeros((4, 4)), 8, np.ones((2, 1, 1), bool))
     with pytest.raises(ValueError, match="period"):
         in_wind(period=0.0)

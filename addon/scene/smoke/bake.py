@@ -224,7 +224,8 @@ def _key(shot: Shot, progress: Progress) -> str:
         drawn = [[each.name, each.voxel, flow_frames.THICKEST] for each in flow_frames.layers(shot, flow)]
         found["flow"] = [flow.key(), settings.smoke.extinction]
     else:
-        del found["smoke"]["method"], found["smoke"]["spin_up"]
+        for name in ("method", "spin_up", "cloud_base"):
+            del found["smoke"][name]
     if not complete:  # what is left out depends on what the cameras see, and when
         width, height = settings.render.resolution
         for camera in found.get("cameras", ()):

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...shot.fire import Fire
+from ...shot.path import Path
 from ...shot.shot import Shot
 from . import air
 
@@ -23,6 +24,7 @@ _SHARE = 0.01  # of the heat that may lie outside of the middle on each side
 _NEST = 180  # cells along a side: 12 km
 _NEST_ROUND = 6000.0  # m; the nest's middle is that of the heat so near to what a camera looks at
 _NEST_SEEN = 60_000.0  # m; cameras farther away see nothing that the nest adds
+_NEST_SWATH = 20_000.0  # m; pictures from straight above that are wider show more rest than nest
 _SNAP = 1000.0  # m; a nest stays where it is when a camera moves a little
 _EVEN = (1, 2, 3, 5)  # sides have no other factors, for the transforms
 
@@ -80,12 +82,8 @@ def whole(shot: Shot) -> Box | None:
 
 
 def nest(shot: Shot, around: Box) -> Box | None:
-    """The finer box round the heat that the cameras look at; None where no camera in perspective is near."""
-    near = [
-        view.target.mean(axis=0)
-        for view in shot.near
-        if np.hypot(*(view.position - view.target).mean(axis=0)[:2]) < _NEST_SEEN
-    ]
+    """The finer box round the heat that the cameras look at; None where no camera is near."""
+    near = [view.target.mean(axis=0) for view in shot.paths if _sees_nest(view)]
     if not near:
         return None
     sources = shot.fire.sources(shot.frames.middle)
@@ -104,6 +102,13 @@ def nest(shot: Shot, around: Box) -> Box | None:
     if np.any(corner < np.array(around.corner) + room):  # the box is hardly wider than the nest
         return None
     return Box(_levels(_NEST_LEVELS), (_NEST, _NEST), SPACING / FINER, (float(corner[0]), float(corner[1])))
+
+
+def _sees_nest(view: Path) -> bool:
+    """Whether a camera shows what the nest adds."""
+    if not view.perspective:
+        return 2.0 * view.half[0] < _NEST_SWATH
+    return np.hypot(*(view.position - view.target).mean(axis=0)[:2]) < _NEST_SEEN
 
 
 def _levels(depths: tuple[float, float, int]) -> tuple[float, ...]:

@@ -24,13 +24,14 @@ from .flow import Flow, Part
 
 GRIDS = ("density", "fresh", "glow")
 THICKEST = 0.03  # 1/m, at which extinction levels off: more is as opaque and takes shorter steps
-_NEAR = (26.0, 36.0)  # m, voxels of the nest from 8 km and from 40 km away
-_DISTANCE = (8000.0, 40_000.0)
+_NEAR = (20.0, 36.0)  # m, voxels of the nest from 3 km and from 40 km away
+_DISTANCE = (3000.0, 40_000.0)
 _FAR = 80.0  # m, of the rest
-_LUMPS = {True: (340.0, (3.5, 2.5, 2.5)), False: (600.0, (2.5, 1.0, 1.0))}  # m; blur of the drift, cells
+_LUMPS = {True: (340.0, (3.5, 2.5, 2.5)), False: (1100.0, (2.5, 1.5, 1.5))}  # m; blur of the drift, cells
 _INSIDE, _FADE = 600.0, (700.0, 2500.0)  # m from a box's side where smoke ends, and in which it fades
 _SEEN = 1e-9  # kg/m3; thinner smoke is not looked at
 _THIN = 2.0e-5  # 1/m; thinner smoke is left out
+_BLOCK, _ROUND = 16, 300.0  # voxels; m round a block that count as it: of light that smoke passes on
 _GLOW_REACH, _GLOW_CORE, _GLOW_EVERY = 1100.0, 250.0, 3  # m, m, cells
 
 Array = NDArray[np.float64]
@@ -85,8 +86,9 @@ class Painter:
         """
         moment = moments.load(self.layer.part.moment(frame))
         origin, surface, share, count = self._brick(moment)
+        wanted = _wanted(sight, origin, (*surface.shape, count), self.layer.voxel)
         density, fresh, glow = self._detail(moment, lights).paint(
-            origin, self.layer.voxel, surface, share, count
+            origin, self.layer.voxel, surface, share, count, wanted
         )
         density[density < _THIN] = 0.0
         grids: dict[str, Any] = {"density": density, "fresh": fresh}
@@ -161,9 +163,23 @@ class Painter:
             glow=None if lights is None else _glow(lights, heights[1:], box.spacing, corner),
             size=size,
             blur=blur,
+            condensation=shot.settings.smoke.cloud_base,
             thickest=shot.settings.smoke.extinction or THICKEST,
             seed=shot.settings.seed,
         )
+
+
+def _wanted(
+    sight: lod.Sight | None, origin: tuple[float, float, float], shape: tuple[int, int, int], voxel: float
+) -> NDArray[np.bool_] | None:
+    """Which blocks of a brick anything that is seen lies in; `volume.write` leaves out the others' voxels."""
+    if sight is None:
+        return None
+    side = _BLOCK * voxel
+    blocks = tuple(-(-count // _BLOCK) for count in shape)
+    place = np.stack(np.indices(blocks), axis=-1).reshape(-1, 3) * side + origin + 0.5 * (side - voxel)
+    radius = 0.5 * np.sqrt(3.0) * side + _ROUND
+    return lod.seen(place, np.full(len(place), radius), sight, shadows=True).reshape(blocks)
 
 
 def _inside(box: Box, x: Array, y: Array, fade: float) -> Array:

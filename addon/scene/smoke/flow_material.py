@@ -10,7 +10,7 @@ from ...shot.shot import Shot
 from .. import haze
 from . import flow_frames, material
 
-_FRESH, _OLD = (0.46, 0.38, 0.31), (0.95, 0.945, 0.94)  # albedo: of soot and char, and of aged haze and cloud
+_FRESH, _OLD = (0.58, 0.50, 0.43), (0.95, 0.945, 0.94)  # albedo: of soot and char, and of aged haze and cloud
 _MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
 _ANISOTROPY = 0.15  # as for `material.ANISOTROPY`
 

@@ -196,7 +196,8 @@ class Detail:
     (nz, ny, nx, 2, 3) m with its `weights` and `turns`; `glow`, the light of flames in any unit, or None.
 
     `size` m of the largest lumps; `blur` of the drift along levels, rows and columns, cells; `opacity` times the
-    extinction; `thickest` 1/m, where that levels off; `ages` s between which smoke turns from dark to white.
+    extinction; `thickest` 1/m, where that levels off; `ages` s between which smoke turns from dark to white;
+    `condensation` m, the height (in the ground's datum) from which vapour turns rising smoke white and thicker.
     """
 
     def __init__(
@@ -220,6 +221,7 @@ class Detail:
         opacity: float = 1.0,
         thickest: float = 0.03,
         ages: tuple[float, float] = (20.0, 600.0),
+        condensation: float = 1e6,
         seed: int = 0,
     ) -> None: ...
     def paint(
@@ -229,9 +231,11 @@ class Detail:
         surface: ArrayLike,
         share: ArrayLike,
         layers: int,
+        wanted: ArrayLike | None = None,
     ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32] | None]:
         """Extinction (1/m), freshness (1 young, 0 old or none) and glow of voxels (nx, ny, layers).
 
         `origin` is the centre of the first, `surface` (nx, ny) the height of the true ground, m, and `share`
-        (nx, ny) a factor of the extinction.
+        (nx, ny) a factor of the extinction. `wanted` says which blocks of 16 voxels along each side, the last
+        ones less, are painted; left out, all are.
         """
