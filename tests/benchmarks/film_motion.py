@@ -1,0 +1,274 @@
+"""Does smoke move in a film as the air moves in its flow? Optical flow in the pictures beside the solver's wind.
+
+    python tests/benchmarks/film_motion.py RUN --out DIR [--frames 24] [--apart 2] [--measure]
+
+Films the head of the sample's fire and a flank in the wind with two cameras that stand still, a frame a second,
+with smoke as a flow. In every fourth frame the wind of the flow is kept as it is solved, and seen through the
+camera: along each line of sight the way that smoke goes in the picture until `--apart` frames later, weighted
+by how much of it is seen there. Beside it stands the way that the picture itself has gone (Lucas and Kanade
+1981, "An iterative image registration technique", IJCAI), in patches of `PATCH` pixels that smoke fills and
+that have enough in them to be followed. Prints their median difference in pixels and in per cent of the median
+way, what standing still would score, and pops: the largest change from frame to frame over the median one.
+
+DIR may be used again: what is there is not made anew; `--measure` makes nothing at all.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import bpy  # noqa: F401 (Blender's own libraries come first)
+import numpy as np
+from firetwin.bench.harness import Bench
+from firetwin.bench.volume import bundled_openvdb
+from firetwin.scene.smoke import flow_frames
+from firetwin.scene.smoke.baker import Baker
+from firetwin.shot import file
+from firetwin.shot.path import Path as Way
+from firetwin.shot.shot import Shot
+from firetwin_core import run
+from numpy.typing import NDArray
+from optical import displacement, luminance
+
+PATCH, EVERY = 24, 8  # px: side of a patch, and from one to the next
+KEPT = 4  # frames from one kept wind to the next
+OPAQUE = 0.7  # of the light that smoke in a patch has to stop, in the mean
+STEP, FARTHEST = 20.0, 12_000.0  # m along a line of sight
+
+SCENE = """run = "{run}"
+cache = "cache"
+[time]
+start = 2014-09-17T16:12:00-07:00
+end = 2014-09-17T16:12:{end:02d}-07:00
+frames = {frames}
+[forest]
+trees = false
+grass = false
+[smoke]
+method = "flow"
+[render]
+resolution = [320, 180]
+samples = 6
+passes = ["rgb"]
+video = false
+[[cameras]]
+name = "head"
+[[cameras.keys]]
+latitude = 38.990
+longitude = -120.5505
+height = 600.0
+target = "head"
+[[cameras]]
+name = "flank"
+[[cameras.keys]]
+latitude = {flank[0]}
+longitude = {flank[1]}
+height = 700.0
+target = "point"
+target_latitude = {flank[2]}
+target_longitude = {flank[3]}
+target_height = 300.0
+"""
+FLANK = (38.94090, -120.58700, 38.92470, -120.56620)  # from 2.6 km upwind of the western flank
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Values (nx, ny, nz, ...) in cells of `step` m from the middle of the first; 0 outside."""
+
+    values: NDArray[np.float32]
+    low: Array
+    step: float
+
+    def at(self, place: Array) -> NDArray[np.float32]:
+        """Of the cells that places (..., 3) are in."""
+        index = np.round((place - self.low) / self.step).astype(np.int64)
+        shape = np.array(self.values.shape[:3])
+        inside = np.all((index >= 0) & (index < shape), axis=-1)
+        found = self.values[tuple(np.moveaxis(np.clip(index, 0, shape - 1), -1, 0))]
+        return np.where(inside.reshape(inside.shape + (1,) * (found.ndim - inside.ndim)), found, 0)
+
+
+def solve(shot: Shot, out: Path) -> None:
+    """Solve the flow and keep its finest wind of every `KEPT`-th frame, in cells' middles."""
+    solved = Baker(shot).flow
+    for frame in range(1, shot.frames.count + 1):
+        place = out / f"wind_{frame:06d}.npz"
+        if (frame - 1) % KEPT or place.exists():
+            continue
+        if solved.parts[-1].moment(frame).exists():
+            sys.exit(f"{out}/cache holds frame {frame} but not its wind: remove the cache")
+        solved.ready(frame)
+        solver = solved._live.solvers[-1]
+        np.savez(place, wind=solver.velocity().astype(np.float16))
+        print(f"solved to frame {frame}", flush=True)
+    solved.solve([shot.frames.count])
+
+
+def density(openvdb, path: Path) -> Grid:
+    """A file's extinction, 1/m."""
+    found = openvdb.read(str(path), "density")
+    low, high = found.evalActiveVoxelBoundingBox()
+    values = np.zeros([b - a + 1 for a, b in zip(low, high, strict=True)], np.float32)
+    found.copyToArray(values, ijk=low)
+    return Grid(values, np.array(found.transform.indexToWorld(low)), found.transform.voxelSize()[0])
+
+
+class Winds:
+    """The wind of a flow's finest part at places."""
+
+    def __init__(self, shot: Shot, part, path: Path) -> None:
+        with np.load(path) as kept:
+            self.wind = kept["wind"].astype(np.float32)
+        self.part = part
+        self.middle = 0.5 * (np.array(part.box.levels)[1:] + np.array(part.box.levels)[:-1])
+
+    def at(self, place: Array) -> NDArray[np.float32]:
+        """(..., 3) m/s of the cells that places (..., 3) are in; not a number outside."""
+        box, shape = self.part.box, self.wind.shape[:3]
+        i, j = (np.floor((place[..., a] - box.corner[a]) / box.spacing).astype(np.int64) for a in (0, 1))
+        inside = (i >= 0) & (j >= 0) & (i < shape[2]) & (j < shape[1])
+        i, j = np.clip(i, 0, shape[2] - 1), np.clip(j, 0, shape[1] - 1)
+        ground = self.part.ground[j, i] - self.part.mean
+        # height = mean + m + ground (1 - m / top), turned round
+        above = (place[..., 2] - self.part.mean - ground) / (1.0 - ground / self.part.top)
+        k = np.clip(np.searchsorted(self.part.box.levels, above) - 1, 0, shape[0] - 1)
+        return np.where(inside[..., None], self.wind[k, j, i], np.nan)
+
+
+def rays(view: Way, pixels: Array, resolution: tuple[int, int]) -> Array:
+    """Unit directions (n, 3) of pixels (n, 2), column and row from the upper left."""
+    share = (pixels + 0.5) / np.array(resolution) * 2.0 - 1.0
+    local = np.stack([share[:, 0] * view.half[0], -share[:, 1] * view.half[1], -np.ones(len(pixels))], 1)
+    found = local @ view.rotation[0].T
+    return found / np.linalg.norm(found, axis=1, keepdims=True)
+
+
+def projected(view: Way, place: Array, resolution: tuple[int, int]) -> Array:
+    """Pixels (..., 2) of places (..., 3)."""
+    local = (place - view.position[0]) @ view.rotation[0]
+    share = local[..., :2] / -local[..., 2:] / np.array(view.half) * np.array([1.0, -1.0])
+    return (share + 1.0) * 0.5 * np.array(resolution) - 0.5
+
+
+def expected(
+    view: Way, grids: list[Grid], winds: Winds, pixels: Array, resolution: tuple[int, int], time: float
+) -> tuple[Array, Array]:
+    """Way (n, 2) px that smoke in pixels (n, 2) goes in `time` s, and the light (n,) that it stops there."""
+    direction = rays(view, pixels, resolution)
+    through, way, weight = np.ones(len(pixels)), np.zeros((len(pixels), 2)), np.zeros(len(pixels))
+    for distance in np.arange(100.0, FARTHEST, STEP):
+        place = view.position[0] + distance * direction
+        extinction = sum(grid.at(place).astype(float) for grid in grids)
+        stopped = through * -np.expm1(-extinction * STEP)
+        through = through - stopped
+        seen = stopped > 1e-4
+        if np.any(seen):
+            wind = winds.at(place[seen]).astype(float)
+            moved = projected(view, place[seen] + time * wind, resolution) - pixels[seen]
+            known = np.isfinite(moved[:, 0])
+            at = np.flatnonzero(seen)[known]
+            way[at] += stopped[at, None] * moved[known]
+            weight[at] += stopped[at]
+    return way / np.maximum(weight, 1e-9)[:, None], weight
+
+
+def compared(shot: Shot, name: str, out: Path, apart: int) -> tuple[Array, Array]:
+    """Ways (n, 2) of all patches of a camera, as the picture has them and as the flow has."""
+    view = next(view for view in shot.paths if view.camera.name == name)
+    resolution = shot.settings.render.resolution
+    openvdb, baker = bundled_openvdb(Bench()), Baker(shot)
+    layers = flow_frames.layers(shot, baker.flow)
+    half = PATCH // 2
+    columns, rows = (np.arange(half, side - half, EVERY) for side in resolution)
+    centre = np.stack(np.meshgrid(columns, rows), -1).reshape(-1, 2).astype(float)
+    inner = np.stack(np.meshgrid(*[np.linspace(-half + 4, half - 4, 3)] * 2), -1).reshape(-1, 2)
+    found = [], []
+    for frame in range(1, shot.frames.count + 1 - apart, KEPT):
+        winds = Winds(shot, layers[-1].part, out / f"wind_{frame:06d}.npz")
+        later = out / f"wind_{frame + apart:06d}.npz"
+        folder = _volumes(out, layers[-1], frame)
+        grids = [density(openvdb, layer.file(folder, frame)) for layer in layers]
+        pixels = (centre[:, None] + inner).reshape(-1, 2)
+        seconds = apart * shot.frames.step
+        way, light = expected(view, grids, winds, pixels, resolution, seconds)
+        del later
+        light = light.reshape(len(centre), -1)
+        way = (way.reshape(len(centre), -1, 2) * light[..., None]).sum(1) / light.sum(1)[:, None].clip(1e-9)
+        smoky = light.mean(1) > OPAQUE
+        first, second = (luminance(picture(out, name, at)) for at in (frame, frame + apart))
+        seen, trusted = displacement(first, second, centre[smoky].astype(int), PATCH)
+        found[0].append(seen[trusted])
+        found[1].append(way[smoky][trusted])
+    return np.concatenate(found[0]), np.concatenate(found[1])
+
+
+def picture(out: Path, name: str, frame: int) -> Path:
+    """A rendered frame."""
+    return out / "film" / name / "rgb" / f"{name}_rgb_{frame:06d}.png"
+
+
+def _volumes(out: Path, layer, frame: int) -> Path:
+    """The folder in which a frame's volumes are."""
+    return max(out.glob(f"cache/**/{layer.file(Path(), frame).name}"), key=lambda p: p.stat().st_mtime).parent
+
+
+def pops(out: Path, name: str, count: int) -> dict[str, float]:
+    """Mean change of brightness from frame to frame: the median, and the largest over it."""
+    pictures = [luminance(picture(out, name, frame)) for frame in range(1, count + 1)]
+    change = [float(np.abs(b - a).mean()) for a, b in zip(pictures[:-1], pictures[1:], strict=True)]
+    return {"median_change": float(np.median(change)), "largest_over_median": max(change) / np.median(change)}
+
+
+def summary(seen: Array, way: Array) -> dict[str, float]:
+    """How well ways (n, 2) agree."""
+    off, long = np.linalg.norm(seen - way, axis=1), np.linalg.norm(way, axis=1)
+    return {
+        "patches": len(off),
+        "median_way_px": float(np.median(long)),
+        "median_error_px": float(np.median(off)),
+        "median_error_percent": float(100.0 * np.median(off) / np.median(long)),
+        "mean_seen_px": [float(v) for v in np.median(seen, axis=0)],
+        "mean_flow_px": [float(v) for v in np.median(way, axis=0)],
+        "seen_over_flow": float(np.sum(seen * way) / np.sum(way * way)),
+    }
+
+
+def main() -> None:
+    """Solve, render, measure."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("run", type=Path)
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--frames", type=int, default=24)
+    parser.add_argument("--apart", type=int, default=2)
+    parser.add_argument("--measure", action="store_true")
+    wanted = parser.parse_args()
+    wanted.out.mkdir(parents=True, exist_ok=True)
+    scene = wanted.out / "motion.toml"
+    scene.write_text(
+        SCENE.format(run=wanted.run.resolve(), frames=wanted.frames, end=wanted.frames - 1, flank=FLANK),
+        encoding="utf-8",
+    )
+    settings = file.read(scene)
+    shot = Shot(settings, run.open(settings.run))
+    if not wanted.measure:
+        solve(shot, wanted.out)
+        command = "import sys; from firetwin.cli import main; sys.exit(main(sys.argv[1:]))"
+        film = [sys.executable, "-c", command, "render", scene, "--out", wanted.out / "film", "--resume"]
+        subprocess.run(film, check=True)
+    report = {}
+    for camera in ("head", "flank"):
+        report[camera] = summary(*compared(shot, camera, wanted.out, wanted.apart))
+        report[camera] |= pops(wanted.out, camera, wanted.frames)
+    print(json.dumps(report, indent=1))
+
+
+if __name__ == "__main__":
+    main()
