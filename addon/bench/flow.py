@@ -22,7 +22,7 @@ from .timing import Runner, threads
 
 SPACINGS, FINEST = (200.0, 100.0), 50.0  # m
 DISC = 150.0  # m, radius of the source of which the grid is varied
-CALM_CELLS = 75.0  # m
+CALM_CELLS, CALM_FINER = 75.0, 50.0  # m
 THREADS = 2
 BOX, CELLS, DT = (44, 96, 96), 200.0, 10.0  # levels, rows, columns; m; s
 WIND, LAPSE = (8.0, 3.0), 0.004  # m/s, K/m
@@ -44,10 +44,12 @@ def _theory(bench: Bench) -> None:
         off = _off(bent(100.0, wind, rise).rise)
         promise = f"a steady plume rises in stable air and {wind:g} m/s of wind, off Briggs's height by"
         bench.target(promise, off, 15, "%", most=True)
-    found = calm(CALM_CELLS)
-    promise = "its top in calm air, off that of Morton, Taylor and Turner by"
-    bench.target(promise, _off(found.rise), 15, "%", most=True)
-    bench.target("the layer that it spreads into there, by", _off(found.layer), 25, "%", most=True)
+    for spacing in (CALM_CELLS, CALM_FINER) if bench.full else (CALM_CELLS,):
+        found = calm(spacing)
+        promise = f"its top in calm air, cells of {spacing:g} m, off that of Morton, Taylor and Turner by"
+        bench.target(promise, _off(found.rise), 15, "%", most=True)
+        promise = f"the layer that it spreads into there, cells of {spacing:g} m, off theirs by"
+        bench.target(promise, _off(found.layer), 25, "%", most=True)
 
 
 def _grids(bench: Bench) -> None:

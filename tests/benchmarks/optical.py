@@ -17,6 +17,7 @@ REACH = 8  # px: the farthest whole-pixel shift that is tried
 STEPS = 8
 PLAIN = 1e-5  # least curvature, squared change of brightness per pixel, of a patch that can be followed
 APART = 0.25  # px that there and back may differ
+ALIKE = 0.7  # least correlation of a patch with where it has gone
 
 Picture = NDArray[np.float64]
 Array = NDArray[np.float64]
@@ -52,17 +53,18 @@ def displacement(
 ) -> tuple[Array, NDArray[np.bool_]]:
     """Shifts (n, 2) px right and down of patches round centres (n, 2), and which (n,) can be trusted.
 
-    Trusted are patches with edges in both directions, whose shift back is the same within `APART`.
+    Trusted are patches with edges in both directions, whose shift back is the same within `APART`, and that
+    look alike (`ALIKE`) where they have gone.
     """
     first, second = smoothed(first), smoothed(second)
-    there, curved = _shift(first, second, centre.astype(float), side)
-    back, _ = _shift(second, first, centre + there, side)
+    there, curved, alike = _shift(first, second, centre.astype(float), side)
+    back, _, _ = _shift(second, first, centre + there, side)
     steady = np.linalg.norm(there + back, axis=1) < APART
-    return there, steady & (curved > PLAIN) & (np.abs(there).max(axis=1) < REACH)
+    return there, steady & (curved > PLAIN) & (alike > ALIKE) & (np.abs(there).max(axis=1) < REACH)
 
 
-def _shift(first: Picture, second: Picture, centre: Array, side: int) -> tuple[Array, Array]:
-    """Shifts (n, 2) and the least curvature (n,) of patches."""
+def _shift(first: Picture, second: Picture, centre: Array, side: int) -> tuple[Array, Array, Array]:
+    """Shifts (n, 2), least curvature (n,), and correlation (n,) with what is there, of patches."""
     offset = np.arange(side) - side // 2
     x = centre[:, 0, None, None] + offset[None, None, :] + np.zeros((side, 1))
     y = centre[:, 1, None, None] + offset[None, :, None] + np.zeros((1, side))
@@ -80,7 +82,7 @@ def _shift(first: Picture, second: Picture, centre: Array, side: int) -> tuple[A
         a, b = (gx * off).mean((1, 2)), (gy * off).mean((1, 2))
         step = np.stack([yy * a - xy * b, xx * b - xy * a], 1) / determinant[:, None]
         shift = shift + np.clip(step, -1.0, 1.0)
-    return shift, least
+    return shift, least, 1.0 - 0.5 * (off**2).mean((1, 2))
 
 
 def _whole(patch: Array, second: Picture, x: Array, y: Array) -> Array:
