@@ -1,7 +1,7 @@
 """Smoke solved as a flow: plumes beside theory, what is kept, finer cells, and a step beside NumPy's.
 
-Plumes and their theory are described in `flow_plumes`, NumPy's step in `numpy_flow`; both steps begin with the
-same moment of dry air over even ground, with a fire in it.
+Plumes and their theory are described in `flow_plumes`, NumPy's step in `numpy_flow`; both steps begin with
+the same moment of dry air over even ground, with a fire in it.
 """
 
 from __future__ import annotations

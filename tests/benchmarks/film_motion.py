@@ -1,14 +1,14 @@
-"""Does smoke move in a film as the air moves in its flow? Optical flow in the pictures beside the solver's wind.
+"""Does smoke move in a film as the air does in its flow? Optical flow beside the solver's wind.
 
     python tests/benchmarks/film_motion.py RUN --out DIR [--frames 24] [--apart 2] [--measure]
 
-Films the head of the sample's fire and a flank in the wind with two cameras that stand still, a frame a second,
-with smoke as a flow. In every fourth frame the wind of the flow is kept as it is solved, and seen through the
+Films the head of the sample's fire and a flank in the wind with two cameras that stand still, a frame a
+second, with smoke as a flow. In every fourth frame the wind of the flow is kept as it is solved, and seen through the
 camera: along each line of sight the way that smoke goes in the picture until `--apart` frames later, weighted
 by how much of it is seen there. Beside it stands the way that the picture itself has gone (Lucas and Kanade
 1981, "An iterative image registration technique", IJCAI), in patches of `PATCH` pixels that smoke fills and
-that have enough in them to be followed. Prints their median difference in pixels and in per cent of the median
-way, what standing still would score, and pops: the largest change from frame to frame over the median one.
+that have enough in them to be followed. Prints their median difference in pixels and in per cent of the
+median way, how much of the flow's way the pictures go, and pops: the largest change from frame to frame over the median one.
 
 DIR may be used again: what is there is not made anew; `--measure` makes nothing at all.
 """
@@ -16,6 +16,7 @@ DIR may be used again: what is there is not made anew; `--measure` makes nothing
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import subprocess
 import sys
@@ -193,13 +194,11 @@ def compared(shot: Shot, name: str, out: Path, apart: int) -> tuple[Array, Array
     found = [], []
     for frame in range(1, shot.frames.count + 1 - apart, KEPT):
         winds = Winds(shot, layers[-1].part, out / f"wind_{frame:06d}.npz")
-        later = out / f"wind_{frame + apart:06d}.npz"
         folder = _volumes(out, layers[-1], frame)
         grids = [density(openvdb, layer.file(folder, frame)) for layer in layers]
         pixels = (centre[:, None] + inner).reshape(-1, 2)
         seconds = apart * shot.frames.step
         way, light = expected(view, grids, winds, pixels, resolution, seconds)
-        del later
         light = light.reshape(len(centre), -1)
         way = (way.reshape(len(centre), -1, 2) * light[..., None]).sum(1) / light.sum(1)[:, None].clip(1e-9)
         smoky = light.mean(1) > OPAQUE
@@ -223,7 +222,7 @@ def _volumes(out: Path, layer, frame: int) -> Path:
 def pops(out: Path, name: str, count: int) -> dict[str, float]:
     """Mean change of brightness from frame to frame: the median, and the largest over it."""
     pictures = [luminance(picture(out, name, frame)) for frame in range(1, count + 1)]
-    change = [float(np.abs(b - a).mean()) for a, b in zip(pictures[:-1], pictures[1:], strict=True)]
+    change = [float(np.abs(b - a).mean()) for a, b in itertools.pairwise(pictures)]
     return {"median_change": float(np.median(change)), "largest_over_median": max(change) / np.median(change)}
 
 

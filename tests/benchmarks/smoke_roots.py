@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import json
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
 import bpy  # noqa: F401 (Blender's own libraries come first)
@@ -93,6 +94,7 @@ def main() -> None:
     parser.add_argument("--json", action="store_true")
     given = parser.parse_args()
     settings = file.read(given.scene)
+    settings = replace(settings, smoke=replace(settings.smoke, complete=True))  # also what no camera sees
     shot = Shot(settings, run.open(settings.run))
     with tempfile.TemporaryDirectory() as scratch:
         found = shares(shot, given.frame, given.volumes or Path(scratch))
