@@ -3,12 +3,13 @@
     python tests/benchmarks/film_motion.py RUN --out DIR [--frames 24] [--apart 2] [--measure]
 
 Films the head of the sample's fire and a flank in the wind with two cameras that stand still, a frame a
-second, with smoke as a flow. In every fourth frame the wind of the flow is kept as it is solved, and seen through the
-camera: along each line of sight the way that smoke goes in the picture until `--apart` frames later, weighted
-by how much of it is seen there. Beside it stands the way that the picture itself has gone (Lucas and Kanade
-1981, "An iterative image registration technique", IJCAI), in patches of `PATCH` pixels that smoke fills and
-that have enough in them to be followed. Prints their median difference in pixels and in per cent of the
-median way, how much of the flow's way the pictures go, and pops: the largest change from frame to frame over the median one.
+second, with smoke as a flow. In every fourth frame the wind of the flow is kept as it is solved, and seen
+through the camera: along each line of sight the way that smoke goes in the picture until `--apart` frames
+later, weighted by how much of it is seen there. Beside it stands the way that the picture itself has gone
+(Lucas and Kanade 1981, "An iterative image registration technique", IJCAI), in patches of `PATCH` pixels that
+smoke fills and that have enough in them to be followed. Prints their median difference in pixels and in per
+cent of the median way, how much of the flow's way the pictures go, and pops: the largest change from frame to
+frame over the median one.
 
 DIR may be used again: what is there is not made anew; `--measure` makes nothing at all.
 """

@@ -3,8 +3,8 @@
     .venv/bin/python tests/benchmarks/flow.py [--threads 2] [--steps 6] [--json]
 
 A box as the example's (192 x 192 x 44 cells of 200 m) and a nest in it (180 x 180 x 56 of 67 m), both under
-a fire of 40 GW, with water vapour. Prints cells x steps per second of wall time, the processors' seconds of a step, which say what an idle machine would take, and the memory that the
-process has held at most.
+a fire of 40 GW, with water vapour. Prints cells x steps per second of wall time, the processors' seconds of a
+step, which say what an idle machine would take, and the memory that the process has held at most.
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 
 For each patch the whole-pixel shift with the least sum of squared differences, then Lucas and Kanade's steps
 from there to parts of a pixel (Lucas and Kanade 1981, "An iterative image registration technique with an
-application to stereo vision", IJCAI). Patches are compared less their means and over their deviations, so that
-a change of light does not count as motion.
+application to stereo vision", IJCAI). Patches are compared less their means and over their deviations, so
+that a change of light does not count as motion.
 """
 
 from __future__ import annotations

@@ -5,11 +5,11 @@
 WITHOUT is the same picture of the same scene with `smoke.enabled = false`. Smoke is where they differ by more
 than a threshold; everything is done for two of them. Needs SciPy.
 
-Outline: the perimeter of blobs goes as their area to the power D / 2. D is 1 for balls, 1.35 for clouds on all
-scales from 1 to 1000 km (Lovejoy 1982, "Area-perimeter relation for rain and cloud areas", Science 216).
-Spectrum: power of brightness over wavenumber, of squares that smoke fills: its slope in a power law's fit, and
-the largest bump over that fit with the wavelength where it is. Lumps of one size stand out; without a preferred
-size nothing does.
+Outline: the perimeter of blobs goes as their area to the power D / 2. D is 1 for balls, 1.35 for clouds on
+all scales from 1 to 1000 km (Lovejoy 1982, "Area-perimeter relation for rain and cloud areas", Science 216).
+Spectrum: power of brightness over wavenumber, of squares that smoke fills: its slope in a power law's fit,
+and the largest bump over that fit with the wavelength where it is. Lumps of one size stand out; without a
+preferred size nothing does.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ Mask = NDArray[np.bool_]
 def outline(smoke: Mask) -> tuple[float, int]:
     """Perimeter-area dimension of the blobs of a mask, and how many they are.
 
-    Perimeters are edges of pixels, holes' counted; blobs that touch the picture's sides are left out, as their
-    outline there is not theirs.
+    Perimeters are edges of pixels, holes' counted; blobs that touch the picture's sides are left out, as
+    their outline there is not theirs. Digital discs of 5 to 60 px have 0.97.
     """
     labels, _ = ndimage.label(smoke)
     perimeters, areas = [], []
@@ -57,7 +57,7 @@ def outline(smoke: Mask) -> tuple[float, int]:
 
 
 def spectrum(picture: Picture, smoke: Mask) -> tuple[float, float, float, int]:
-    """Slope of the power of brightness within smoke, largest bump over the fit and its wavelength (px), squares.
+    """Slope of the power of brightness within smoke, largest bump, its wavelength (px), and squares.
 
     A bump is a band's power over what the power law through all bands has there.
     """
