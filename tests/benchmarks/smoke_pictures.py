@@ -1,9 +1,10 @@
 """Numbers on smoke in pictures, where taste argues: its outline, and whether its lumps have one size.
 
-    python tests/benchmarks/smoke_pictures.py WITH.png WITHOUT.png [--json]
+    python tests/benchmarks/smoke_pictures.py WITH.png WITHOUT.png [--brighter] [--json]
 
 WITHOUT is the same picture of the same scene with `smoke.enabled = false`. Smoke is where they differ by more
-than a threshold; everything is done for two of them. Needs SciPy.
+than a threshold, or where the first is that much brighter: from above its shadow on the ground is no smoke.
+Everything is done for two thresholds. Needs SciPy.
 
 Outline: the perimeter of blobs goes as their area to the power D / 2. D is 1 for balls, 1.35 for clouds on
 all scales from 1 to 1000 km (Lovejoy 1982, "Area-perimeter relation for rain and cloud areas", Science 216).
@@ -98,6 +99,7 @@ def main() -> None:
     )
     parser.add_argument("smoky", type=Path)
     parser.add_argument("clear", type=Path)
+    parser.add_argument("--brighter", action="store_true")
     parser.add_argument("--json", action="store_true")
     given = parser.parse_args()
     picture, clear = luminance(given.smoky), luminance(given.clear)
@@ -105,7 +107,8 @@ def main() -> None:
         parser.error(f"{given.smoky} and {given.clear} differ in size")
     found = {}
     for threshold in THRESHOLDS:
-        smoke = np.abs(picture - clear) > threshold
+        change = picture - clear if given.brighter else np.abs(picture - clear)
+        smoke = change > threshold
         dimension, blobs = outline(smoke)
         slope, bump, wave, squares = spectrum(picture, smoke)
         found[f"{threshold:g}"] = {
