@@ -21,7 +21,6 @@ import itertools
 import json
 import subprocess
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 
 import bpy  # noqa: F401 (Blender's own libraries come first)
@@ -31,16 +30,15 @@ from firetwin.bench.volume import bundled_openvdb
 from firetwin.scene.smoke import flow_frames
 from firetwin.scene.smoke.baker import Baker
 from firetwin.shot import file
-from firetwin.shot.path import Path as Way
 from firetwin.shot.shot import Shot
 from firetwin_core import run
+from lines_of_sight import Grid, expected
 from numpy.typing import NDArray
 from optical import displacement, luminance
 
 PATCH, EVERY = 24, 8  # px: side of a patch, and from one to the next
 KEPT = 4  # frames from one kept wind to the next
 OPAQUE = 0.7  # of the light that smoke in a patch has to stop, in the mean
-STEP, FARTHEST = 20.0, 12_000.0  # m along a line of sight
 
 SCENE = """run = "{run}"
 cache = "cache"
@@ -79,23 +77,6 @@ target_height = 300.0
 FLANK = (38.94090, -120.58700, 38.92470, -120.56620)  # from 2.6 km upwind of the western flank
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Grid:
-    """Values (nx, ny, nz, ...) in cells of `step` m from the middle of the first; 0 outside."""
-
-    values: NDArray[np.float32]
-    low: Array
-    step: float
-
-    def at(self, place: Array) -> NDArray[np.float32]:
-        """Of the cells that places (..., 3) are in."""
-        index = np.round((place - self.low) / self.step).astype(np.int64)
-        shape = np.array(self.values.shape[:3])
-        inside = np.all((index >= 0) & (index < shape), axis=-1)
-        found = self.values[tuple(np.moveaxis(np.clip(index, 0, shape - 1), -1, 0))]
-        return np.where(inside.reshape(inside.shape + (1,) * (found.ndim - inside.ndim)), found, 0)
 
 
 def solve(shot: Shot, out: Path) -> None:
@@ -143,43 +124,6 @@ class Winds:
         above = (place[..., 2] - self.part.mean - ground) / (1.0 - ground / self.part.top)
         k = np.clip(np.searchsorted(self.part.box.levels, above) - 1, 0, shape[0] - 1)
         return np.where(inside[..., None], self.wind[k, j, i], np.nan)
-
-
-def rays(view: Way, pixels: Array, resolution: tuple[int, int]) -> Array:
-    """Unit directions (n, 3) of pixels (n, 2), column and row from the upper left."""
-    share = (pixels + 0.5) / np.array(resolution) * 2.0 - 1.0
-    local = np.stack([share[:, 0] * view.half[0], -share[:, 1] * view.half[1], -np.ones(len(pixels))], 1)
-    found = local @ view.rotation[0].T
-    return found / np.linalg.norm(found, axis=1, keepdims=True)
-
-
-def projected(view: Way, place: Array, resolution: tuple[int, int]) -> Array:
-    """Pixels (..., 2) of places (..., 3)."""
-    local = (place - view.position[0]) @ view.rotation[0]
-    share = local[..., :2] / -local[..., 2:] / np.array(view.half) * np.array([1.0, -1.0])
-    return (share + 1.0) * 0.5 * np.array(resolution) - 0.5
-
-
-def expected(
-    view: Way, grids: list[Grid], winds: Winds, pixels: Array, resolution: tuple[int, int], time: float
-) -> tuple[Array, Array]:
-    """Way (n, 2) px that smoke in pixels (n, 2) goes in `time` s, and the light (n,) that it stops there."""
-    direction = rays(view, pixels, resolution)
-    through, way, weight = np.ones(len(pixels)), np.zeros((len(pixels), 2)), np.zeros(len(pixels))
-    for distance in np.arange(100.0, FARTHEST, STEP):
-        place = view.position[0] + distance * direction
-        extinction = sum(grid.at(place).astype(float) for grid in grids)
-        stopped = through * -np.expm1(-extinction * STEP)
-        through = through - stopped
-        seen = stopped > 1e-4
-        if np.any(seen):
-            wind = winds.at(place[seen]).astype(float)
-            moved = projected(view, place[seen] + time * wind, resolution) - pixels[seen]
-            known = np.isfinite(moved[:, 0])
-            at = np.flatnonzero(seen)[known]
-            way[at] += stopped[at, None] * moved[known]
-            weight[at] += stopped[at]
-    return way / np.maximum(weight, 1e-9)[:, None], weight
 
 
 def compared(shot: Shot, name: str, out: Path, apart: int) -> tuple[Array, Array]:

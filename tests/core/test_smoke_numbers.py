@@ -22,6 +22,7 @@ def loaded(name):
 
 optical = loaded("optical")
 pictures = loaded("smoke_pictures")
+sight = loaded("lines_of_sight")
 
 
 def canvas(shapes):
@@ -120,3 +121,41 @@ def test_what_is_even_or_new_is_not_trusted():
     assert not optical.displacement(even, even, centre, 24)[1].any()
     assert optical.displacement(0.5 + 0.1 * one, 0.5 + 0.1 * one, centre, 24)[1].all()
     assert optical.displacement(0.5 + 0.1 * one, 0.5 + 0.1 * other, centre, 24)[1].mean() < 0.02
+
+
+class Camera:
+    """At 100 m, looking north, 90 degrees wide."""
+
+    position = np.array([[0.0, 0.0, 100.0]])
+    rotation = np.array([[[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]]])
+    half = (1.0, 0.5)
+
+
+class Shear:
+    """Wind east that grows from 0 at the camera's height, m/s; unknown far east."""
+
+    def at(self, place):
+        wind = np.stack([0.1 * (place[:, 2] - 100.0), 0 * place[:, 2], 0 * place[:, 2] + 2.0], 1)
+        return np.where(place[:, :1] < 900.0, wind, np.nan)
+
+
+def test_what_is_seen_goes_as_the_wind_where_it_is_seen():
+    """Thick smoke from 2 km on: its face alone counts, at the width of the picture over 2 x the distance."""
+    wall = sight.Grid(np.full((200, 50, 100), 0.1, np.float32), np.array([-2000.0, 2010.0, -890.0]), 20.0)
+    pixels = np.array([[100.0, 20.0], [99.5, 49.5], [150.0, 49.5]])
+    way, light = sight.expected(Camera, [wall], Shear(), pixels, (200, 100), 3.0)
+    assert light[:2] == pytest.approx(1.0, abs=0.01)
+    assert light[2] < 0.01
+    up = (49.5 - pixels[0, 1]) / 100.0 * 2010.0
+    expected = np.array([0.1 * up, -2.0]) * 3.0 / 2010.0 * 100.0
+    assert way[0] == pytest.approx(expected, rel=0.02)
+    assert way[1] == pytest.approx([0.0, expected[1]], abs=0.005)
+
+
+def test_thin_smoke_lets_what_is_behind_it_count():
+    near = sight.Grid(np.full((400, 5, 200), 0.0069, np.float32), np.array([-4000.0, 1000.0, -1900.0]), 20.0)
+    far = sight.Grid(np.full((400, 50, 200), 0.1, np.float32), np.array([-4000.0, 4000.0, -1900.0]), 20.0)
+    _, light = sight.expected(Camera, [near], Shear(), np.array([[99.5, 49.5]]), (200, 100), 1.0)
+    assert light == pytest.approx(0.5, abs=0.03)
+    way, _ = sight.expected(Camera, [near, far], Shear(), np.array([[99.5, 49.5]]), (200, 100), 1.0)
+    assert -way[0, 1] == pytest.approx(2.0 * 100.0 * (0.5 / 1050 + 0.5 / 4000), rel=0.06)
