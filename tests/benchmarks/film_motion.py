@@ -32,7 +32,7 @@ from firetwin.scene.smoke.baker import Baker
 from firetwin.shot import file
 from firetwin.shot.shot import Shot
 from firetwin_core import run
-from lines_of_sight import Grid, expected
+from lines_of_sight import Grid, SolvedWind, expected
 from numpy.typing import NDArray
 from optical import displacement, luminance
 
@@ -104,28 +104,6 @@ def density(openvdb, path: Path) -> Grid:
     return Grid(values, np.array(found.transform.indexToWorld(low)), found.transform.voxelSize()[0])
 
 
-class Winds:
-    """The wind of a flow's finest part at places."""
-
-    def __init__(self, shot: Shot, part, path: Path) -> None:
-        with np.load(path) as kept:
-            self.wind = kept["wind"].astype(np.float32)
-        self.part = part
-        self.middle = 0.5 * (np.array(part.box.levels)[1:] + np.array(part.box.levels)[:-1])
-
-    def at(self, place: Array) -> NDArray[np.float32]:
-        """(..., 3) m/s of the cells that places (..., 3) are in; not a number outside."""
-        box, shape = self.part.box, self.wind.shape[:3]
-        i, j = (np.floor((place[..., a] - box.corner[a]) / box.spacing).astype(np.int64) for a in (0, 1))
-        inside = (i >= 0) & (j >= 0) & (i < shape[2]) & (j < shape[1])
-        i, j = np.clip(i, 0, shape[2] - 1), np.clip(j, 0, shape[1] - 1)
-        ground = self.part.ground[j, i] - self.part.mean
-        # height = mean + m + ground (1 - m / top), turned round
-        above = (place[..., 2] - self.part.mean - ground) / (1.0 - ground / self.part.top)
-        k = np.clip(np.searchsorted(self.part.box.levels, above) - 1, 0, shape[0] - 1)
-        return np.where(inside[..., None], self.wind[k, j, i], np.nan)
-
-
 def compared(shot: Shot, name: str, out: Path, apart: int) -> tuple[Array, Array]:
     """Ways (n, 2) of all patches of a camera, as the picture has them and as the flow has."""
     view = next(view for view in shot.paths if view.camera.name == name)
@@ -138,7 +116,8 @@ def compared(shot: Shot, name: str, out: Path, apart: int) -> tuple[Array, Array
     inner = np.stack(np.meshgrid(*[np.linspace(-half + 4, half - 4, 3)] * 2), -1).reshape(-1, 2)
     found = [], []
     for frame in range(1, shot.frames.count + 1 - apart, KEPT):
-        winds = Winds(shot, layers[-1].part, out / f"wind_{frame:06d}.npz")
+        with np.load(out / f"wind_{frame:06d}.npz") as kept:
+            winds = SolvedWind(layers[-1].part, kept["wind"].astype(np.float32))
         folder = _volumes(out, layers[-1], frame)
         grids = [density(openvdb, layer.file(folder, frame)) for layer in layers]
         pixels = (centre[:, None] + inner).reshape(-1, 2)

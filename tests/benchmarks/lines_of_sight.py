@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
+from firetwin.scene.smoke.flow import Part
 from numpy.typing import NDArray
 
 STEP, FARTHEST = 20.0, 12_000.0  # m along a line of sight
@@ -43,6 +44,26 @@ class Grid:
         inside = np.all((index >= 0) & (index < shape), axis=-1)
         found = self.values[tuple(np.moveaxis(np.clip(index, 0, shape - 1), -1, 0))]
         return np.where(inside.reshape(inside.shape + (1,) * (found.ndim - inside.ndim)), found, 0)
+
+
+@dataclass(frozen=True)
+class SolvedWind:
+    """The wind (nz, rows, columns, 3) in the cells of a `firetwin.scene.smoke.flow.Part`, m/s."""
+
+    part: Part
+    wind: NDArray[np.float32]
+
+    def at(self, place: Array) -> NDArray[np.float32]:
+        """(n, 3) m/s of the cells that places (n, 3) are in; not a number outside."""
+        box, (levels, rows, columns) = self.part.box, self.wind.shape[:3]
+        i, j = (np.floor((place[:, a] - box.corner[a]) / box.spacing).astype(np.int64) for a in (0, 1))
+        inside = (i >= 0) & (j >= 0) & (i < columns) & (j < rows)
+        i, j = np.clip(i, 0, columns - 1), np.clip(j, 0, rows - 1)
+        ground = self.part.ground[j, i] - self.part.mean
+        # Part.heights turned round: height = mean + above + ground (1 - above / top)
+        above = (place[:, 2] - self.part.mean - ground) / (1.0 - ground / self.part.top)
+        k = np.clip(np.searchsorted(box.levels, above) - 1, 0, levels - 1)
+        return np.where(inside[:, None], self.wind[k, j, i], np.nan)
 
 
 def rays(view: View, pixels: Array, resolution: tuple[int, int]) -> Array:

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from firetwin.scene.smoke.boxes import Box
+from firetwin.scene.smoke.flow import Part
 
 pytest.importorskip("scipy")
 pytest.importorskip("matplotlib")
@@ -159,3 +161,16 @@ def test_thin_smoke_lets_what_is_behind_it_count():
     assert light == pytest.approx(0.5, abs=0.03)
     way, _ = sight.expected(Camera, [near, far], Shear(), np.array([[99.5, 49.5]]), (200, 100), 1.0)
     assert -way[0, 1] == pytest.approx(2.0 * 100.0 * (0.5 / 1050 + 0.5 / 4000), rel=0.06)
+
+
+def test_the_wind_of_a_place_is_that_of_its_cell():
+    rng = np.random.default_rng(2)
+    box = Box(tuple(np.linspace(0, 2000, 11)), (6, 8), 100.0, (300.0, -200.0))
+    part = Part(box, rng.uniform(100, 400, (6, 8)), 250.0, 2000.0, Path())
+    wind = rng.normal(size=(10, 6, 8, 3)).astype(np.float32)
+    x, y = box.middles()
+    up = part.heights()
+    places = np.stack(np.broadcast_arrays(x, y[:, None], up), -1)
+    found = sight.SolvedWind(part, wind).at(places.reshape(-1, 3)).reshape(wind.shape)
+    np.testing.assert_array_equal(found, wind)
+    assert np.isnan(sight.SolvedWind(part, wind).at(np.array([[200.0, 0.0, 500.0]]))).all()
