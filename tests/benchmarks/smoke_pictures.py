@@ -26,10 +26,10 @@ from scipy import ndimage
 
 THRESHOLDS = (0.06, 0.12)  # of the brightness as it is shown, 0 to 1
 SMALLEST = 12  # px: smaller blobs are left out
-SQUARE = 48  # px, side of a square of the spectrum
-FILLED = 0.98  # of it that smoke has to fill
-BANDS = 12
-LONGEST = 24.0  # px, wavelength from which on bumps are looked for; longer ones are too few to tell
+SQUARE = 32  # px, side of a square of the spectrum
+FILLED = 0.95  # of it that smoke has to fill
+BANDS = 8
+LONGEST = 16.0  # px, wavelength from which on bumps are looked for; longer ones are too few to tell
 FINEST = 3.0  # px: below lie the pixels' own filter and grain
 
 Picture = NDArray[np.float64]
