@@ -1,11 +1,12 @@
 """How much of the burning front has smoke within 100 m above it.
 
-    python tests/benchmarks/smoke_roots.py SCENE.toml [--frame 1] [--volumes DIR] [--json]
+    python tests/benchmarks/smoke_roots.py SCENE.toml [--frame 1] [--volumes DIR] [--seen] [--json]
 
 Takes the volumes of a frame in DIR, or makes them there (a folder that is removed, unless it is given). Of
 each place that burns, `HEIGHTS` above the ground are looked at: it has smoke where extinction reaches `SEEN`
 somewhere. Prints the share by number of places and by their heat. Solved smoke's volumes hold its extinction;
-puffs' hold mass, from which `EXTINCTION` makes it.
+puffs' hold mass, from which `EXTINCTION` makes it. With `--seen` only places count that the cameras see:
+volumes that a shot has baked hold what is seen alone.
 """
 
 from __future__ import annotations
@@ -65,7 +66,7 @@ def thickest(place: Array, volumes: list[Path]) -> Array:
     return total.max(axis=1)
 
 
-def shares(shot: Shot, frame: int, folder: Path) -> dict[str, float]:
+def shares(shot: Shot, frame: int, folder: Path, seen: bool) -> dict[str, float]:
     """All numbers."""
     if not list(folder.glob(f"*_{frame:06d}.vdb")):
         Baker(shot).write(folder / f"smoke_{frame:06d}.vdb", frame)
@@ -73,6 +74,9 @@ def shares(shot: Shot, frame: int, folder: Path) -> dict[str, float]:
     burning = shot.fire.sources(float(shot.frames.times[frame - 1]))
     place = burning.position.copy()
     place[:, 2] = shot.bare_ground.up(place[:, 0], place[:, 1])
+    if seen:
+        there = shot.sights.seen(place, np.full(len(place), 1.0), pixel=np.inf)
+        place, burning = place[there], burning.take(np.flatnonzero(there))
     thick = thickest(place, volumes)
     rooted = thick > SEEN
     return {
@@ -91,13 +95,14 @@ def main() -> None:
     parser.add_argument("scene", type=Path)
     parser.add_argument("--frame", type=int, default=1)
     parser.add_argument("--volumes", type=Path)
+    parser.add_argument("--seen", action="store_true")
     parser.add_argument("--json", action="store_true")
     given = parser.parse_args()
     settings = file.read(given.scene)
     settings = replace(settings, smoke=replace(settings.smoke, complete=True))  # also what no camera sees
     shot = Shot(settings, run.open(settings.run))
     with tempfile.TemporaryDirectory() as scratch:
-        found = shares(shot, given.frame, given.volumes or Path(scratch))
+        found = shares(shot, given.frame, given.volumes or Path(scratch), given.seen)
     if given.json:
         print(json.dumps(found))
         return
