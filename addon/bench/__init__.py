@@ -21,6 +21,7 @@ SUBJECTS = (
     "smoke",
     "step",
     "plume",
+    "flow",
     "interpolation",
     "frames",
     "particles",

@@ -1,13 +1,10 @@
-"""How fast the flow is solved, beside the same kind of step in plain NumPy.
+"""How fast a flow of the example's size is solved; `firetwin bench` has a smaller step beside NumPy's.
 
     .venv/bin/python tests/benchmarks/flow.py [--threads 2] [--steps 6] [--json]
 
 A box as the example's (192 x 192 x 44 cells of 200 m) and a nest in it (180 x 180 x 56 of 67 m), both under
-a fire of 40 GW, with water vapour. NumPy's step does the same for three scalars and the three parts of the
-wind: flux form, one direction after another, the same limiter, two substeps, and a cosine transform with a
-tridiagonal solve; it leaves out eddies, terrain, water and sides. Prints cells x steps per second of wall
-time, the processors' seconds of a step, which say what an idle machine would take, and the memory that the
-process has held at most.
+a fire of 40 GW, with water vapour. Prints cells x steps per second of wall time, the processors' seconds of a
+step, which say what an idle machine would take, and the memory that the process has held at most.
 """
 
 from __future__ import annotations
@@ -59,47 +56,6 @@ def example() -> tuple[flow.Solver, flow.Solver]:
     return box, nest
 
 
-def limited(flux: NDArray, mass: NDArray, q: NDArray, axis: int) -> NDArray:
-    """One direction of transport through the upper face of each cell, periodic."""
-    up = flux > 0
-    here, ahead = np.where(up, q, np.roll(q, -1, axis)), np.where(up, np.roll(q, -1, axis), q)
-    behind = np.where(up, np.roll(q, 1, axis), np.roll(q, -2, axis))
-    share = np.minimum(np.abs(flux) / np.where(up, mass, np.roll(mass, -1, axis)), 1)
-    a, b = ahead - here, here - behind
-    size = np.minimum(
-        np.minimum(2 * np.abs(a), 2 * np.abs(b)), ((2 - share) * np.abs(a) + (1 + share) * np.abs(b)) / 3
-    )
-    value = here + 0.5 * (1 - share) * np.where(a * b > 0, np.copysign(size, a), 0)
-    carried = flux * value
-    after = mass - flux + np.roll(flux, 1, axis)
-    return (mass * q - carried + np.roll(carried, 1, axis)) / after
-
-
-def numpy_step(shape: tuple[int, int, int]) -> float:
-    """Seconds of one step on a box of this shape."""
-    from scipy import fft
-
-    rng = np.random.default_rng(0)
-    fields = [rng.random(shape, np.float32) for _ in range(6)]
-    fluxes = [rng.random(shape, np.float32) * np.float32(0.3) for _ in range(3)]
-    pivot = rng.random(shape, np.float32)
-    start = time.perf_counter()
-    for _ in range(2):
-        mass = np.ones(shape, np.float32)
-        for axis, flux in zip((2, 1, 0), fluxes, strict=True):
-            fields = [limited(flux, mass, q, axis) for q in fields]
-            mass = mass - flux + np.roll(flux, 1, axis)
-    modes = fft.dctn(fields[0], axes=(1, 2))
-    for k in range(1, shape[0]):
-        modes[k] = (modes[k] - modes[k - 1]) * pivot[k]
-    for k in range(shape[0] - 2, -1, -1):
-        modes[k] -= pivot[k] * modes[k + 1]
-    pressure = fft.idctn(modes, axes=(1, 2))
-    for axis, field in enumerate(fields[3:]):
-        field -= pressure - np.roll(pressure, 1, axis)
-    return time.perf_counter() - start
-
-
 def measured(steps: int) -> dict[str, float]:
     """All numbers."""
     box, nest = example()
@@ -112,7 +68,6 @@ def measured(steps: int) -> dict[str, float]:
             seconds[name] += (time.perf_counter() - start) / (count * steps)
             work[name] += (time.process_time() - processors) / (count * steps)
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    plain = numpy_step(box.shape)
     return {
         "box_s_per_step": seconds["box"],
         "box_cells_steps_per_s": np.prod(box.shape) / seconds["box"],
@@ -122,8 +77,6 @@ def measured(steps: int) -> dict[str, float]:
         "nest_processor_s_per_step": work["nest"],
         "substeps": box.substeps,
         "memory_mb": memory,
-        "numpy_s_per_step": plain,
-        "numpy_cells_steps_per_s": np.prod(box.shape) / plain,
         "example_s": 390 * seconds["box"] + 180 * seconds["nest"],
         "example_processor_s": 390 * work["box"] + 180 * work["nest"],
     }

@@ -12,6 +12,7 @@ from firetwin.bench import (
     SUBJECTS,
     emitters,
     facts,
+    flow,
     frames,
     geodesy,
     interpolation,
@@ -222,6 +223,30 @@ def test_plumes_rise_as_the_theory_says():
     time, top = right
     assert abs(top / plume.theory(1e9, np.array(time)) - 1) < 0.01
     assert abs(wrong[1] / top - 1) > 1e-3
+
+
+def test_the_flow_and_its_rival_take_the_same_step():
+    """From one moment, without what NumPy's leaves out: eddies, and the return to the air around."""
+    free = {"side_time": 1e9, "top_time": 1e9, "ground_time": 1e9}
+    ours = flow.burning((20, 24, 32), mixing=0.0, **free)
+    theirs = flow.with_numpy(ours)
+    ours.step(flow.DT)
+    theirs.step(flow.DT)
+    assert theirs.substeps == ours.substeps == 2
+    assert theirs.divergence() < 1e-6
+    assert theirs.mass() == pytest.approx(ours.mass()["airborne"], rel=1e-5)
+    state = ours.state()
+    inner = np.s_[:20, 3:21, 3:29]
+    for name, beside in (("u", 8.0), ("v", 3.0), ("w", 0.0), ("theta", theirs.rest), ("smoke", 0.0)):
+        found, expected = (values[inner] for values in (theirs.fields[name], state[name]))
+        assert np.abs(found - expected).sum() < 0.06 * np.abs(expected - beside).sum(), name
+
+
+def test_the_flow_keeps_heat_and_smoke():
+    given, held = flow.warmed()
+    assert given < 1e-9
+    assert held < 1e-4
+    assert flow.written() < 1e-6
 
 
 def test_the_smoke_files_hold_their_mass(monkeypatch):

@@ -1,0 +1,197 @@
+"""Does smoke move in a film as the air does in its flow? Optical flow beside the solver's wind.
+
+    python tests/benchmarks/film_motion.py RUN --out DIR [--frames 24] [--apart 2] [--measure]
+
+Films the head of the sample's fire and a flank in the wind with two cameras that stand still, a frame a
+second, with smoke as a flow. In every fourth frame the wind of the flow is kept as it is solved, and seen
+through the camera: along each line of sight the way that smoke goes in the picture until `--apart` frames
+later, weighted by how much of it is seen there. Beside it stands the way that the picture itself has gone
+(Lucas and Kanade 1981, "An iterative image registration technique", IJCAI), in patches of `PATCH` pixels that
+smoke fills and that have enough in them to be followed. Prints their median difference in pixels and in per
+cent of the median way, how much of the flow's way the pictures go, and pops: the largest change from frame to
+frame over the median one.
+
+DIR may be used again: what is there is not made anew; `--measure` makes nothing at all.
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import bpy  # noqa: F401 (Blender's own libraries come first)
+import numpy as np
+from firetwin.bench.harness import Bench
+from firetwin.bench.volume import bundled_openvdb
+from firetwin.scene.smoke import flow_frames
+from firetwin.scene.smoke.baker import Baker
+from firetwin.shot import file
+from firetwin.shot.shot import Shot
+from firetwin_core import run
+from lines_of_sight import Grid, SolvedWind, expected
+from numpy.typing import NDArray
+from optical import displacement, luminance
+
+PATCH, EVERY = 24, 8  # px: side of a patch, and from one to the next
+KEPT = 4  # frames from one kept wind to the next
+OPAQUE = 0.7  # of the light that smoke in a patch has to stop, in the mean
+
+SCENE = """run = "{run}"
+cache = "cache"
+[time]
+start = 2014-09-17T16:12:00-07:00
+end = 2014-09-17T16:12:{end:02d}-07:00
+frames = {frames}
+[forest]
+trees = false
+grass = false
+[smoke]
+method = "flow"
+[render]
+resolution = [320, 180]
+samples = 6
+passes = ["rgb"]
+video = false
+[[cameras]]
+name = "head"
+[[cameras.keys]]
+latitude = 38.990
+longitude = -120.5505
+height = 600.0
+target = "head"
+[[cameras]]
+name = "flank"
+[[cameras.keys]]
+latitude = {flank[0]}
+longitude = {flank[1]}
+height = 700.0
+target = "point"
+target_latitude = {flank[2]}
+target_longitude = {flank[3]}
+target_height = 300.0
+"""
+FLANK = (38.94090, -120.58700, 38.92470, -120.56620)  # from 2.6 km upwind of the western flank
+
+Array = NDArray[np.float64]
+
+
+def solve(shot: Shot, out: Path) -> None:
+    """Solve the flow and keep its finest wind of every `KEPT`-th frame, in cells' middles."""
+    solved = Baker(shot).flow
+    for frame in range(1, shot.frames.count + 1):
+        place = out / f"wind_{frame:06d}.npz"
+        if (frame - 1) % KEPT or place.exists():
+            continue
+        if solved.parts[-1].moment(frame).exists():
+            sys.exit(f"{out}/cache holds frame {frame} but not its wind: remove the cache")
+        solved.ready(frame)
+        solver = solved._live.solvers[-1]
+        np.savez(place, wind=solver.velocity().astype(np.float16))
+        print(f"solved to frame {frame}", flush=True)
+    solved.solve([shot.frames.count])
+
+
+def density(openvdb, path: Path) -> Grid:
+    """A file's extinction, 1/m."""
+    found = openvdb.read(str(path), "density")
+    low, high = found.evalActiveVoxelBoundingBox()
+    values = np.zeros([b - a + 1 for a, b in zip(low, high, strict=True)], np.float32)
+    found.copyToArray(values, ijk=low)
+    return Grid(values, np.array(found.transform.indexToWorld(low)), found.transform.voxelSize()[0])
+
+
+def compared(shot: Shot, name: str, out: Path, apart: int) -> tuple[Array, Array]:
+    """Ways (n, 2) of all patches of a camera, as the picture has them and as the flow has."""
+    view = next(view for view in shot.paths if view.camera.name == name)
+    resolution = shot.settings.render.resolution
+    openvdb, baker = bundled_openvdb(Bench()), Baker(shot)
+    layers = flow_frames.layers(shot, baker.flow)
+    half = PATCH // 2
+    columns, rows = (np.arange(half, side - half, EVERY) for side in resolution)
+    centre = np.stack(np.meshgrid(columns, rows), -1).reshape(-1, 2).astype(float)
+    inner = np.stack(np.meshgrid(*[np.linspace(-half + 4, half - 4, 3)] * 2), -1).reshape(-1, 2)
+    found = [], []
+    for frame in range(1, shot.frames.count + 1 - apart, KEPT):
+        with np.load(out / f"wind_{frame:06d}.npz") as kept:
+            winds = SolvedWind(layers[-1].part, kept["wind"].astype(np.float32))
+        folder = _volumes(out, layers[-1], frame)
+        grids = [density(openvdb, layer.file(folder, frame)) for layer in layers]
+        pixels = (centre[:, None] + inner).reshape(-1, 2)
+        seconds = apart * shot.frames.step
+        way, light = expected(view, grids, winds, pixels, resolution, seconds)
+        light = light.reshape(len(centre), -1)
+        way = (way.reshape(len(centre), -1, 2) * light[..., None]).sum(1) / light.sum(1)[:, None].clip(1e-9)
+        smoky = light.mean(1) > OPAQUE
+        first, second = (luminance(picture(out, name, at)) for at in (frame, frame + apart))
+        seen, trusted = displacement(first, second, centre[smoky].astype(int), PATCH)
+        found[0].append(seen[trusted])
+        found[1].append(way[smoky][trusted])
+    return np.concatenate(found[0]), np.concatenate(found[1])
+
+
+def picture(out: Path, name: str, frame: int) -> Path:
+    """A rendered frame."""
+    return out / "film" / name / "rgb" / f"{name}_rgb_{frame:06d}.png"
+
+
+def _volumes(out: Path, layer, frame: int) -> Path:
+    """The folder in which a frame's volumes are."""
+    return max(out.glob(f"cache/**/{layer.file(Path(), frame).name}"), key=lambda p: p.stat().st_mtime).parent
+
+
+def pops(out: Path, name: str, count: int) -> dict[str, float]:
+    """Mean change of brightness from frame to frame: the median, and the largest over it."""
+    pictures = [luminance(picture(out, name, frame)) for frame in range(1, count + 1)]
+    change = [float(np.abs(b - a).mean()) for a, b in itertools.pairwise(pictures)]
+    return {"median_change": float(np.median(change)), "largest_over_median": max(change) / np.median(change)}
+
+
+def summary(seen: Array, way: Array) -> dict[str, float]:
+    """How well ways (n, 2) agree."""
+    off, long = np.linalg.norm(seen - way, axis=1), np.linalg.norm(way, axis=1)
+    return {
+        "patches": len(off),
+        "median_way_px": float(np.median(long)),
+        "median_error_px": float(np.median(off)),
+        "median_error_percent": float(100.0 * np.median(off) / np.median(long)),
+        "mean_seen_px": [float(v) for v in np.median(seen, axis=0)],
+        "mean_flow_px": [float(v) for v in np.median(way, axis=0)],
+        "seen_over_flow": float(np.sum(seen * way) / np.sum(way * way)),
+    }
+
+
+def main() -> None:
+    """Solve, render, measure."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("run", type=Path)
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--frames", type=int, default=24)
+    parser.add_argument("--apart", type=int, default=2)
+    parser.add_argument("--measure", action="store_true")
+    wanted = parser.parse_args()
+    wanted.out.mkdir(parents=True, exist_ok=True)
+    scene = wanted.out / "motion.toml"
+    scene.write_text(
+        SCENE.format(run=wanted.run.resolve(), frames=wanted.frames, end=wanted.frames - 1, flank=FLANK),
+        encoding="utf-8",
+    )
+    settings = file.read(scene)
+    shot = Shot(settings, run.open(settings.run))
+    if not wanted.measure:
+        solve(shot, wanted.out)
+        command = "import sys; from firetwin.cli import main; sys.exit(main(sys.argv[1:]))"
+        film = [sys.executable, "-c", command, "render", scene, "--out", wanted.out / "film", "--resume"]
+        subprocess.run(film, check=True)
+    report = {}
+    for camera in ("head", "flank"):
+        report[camera] = summary(*compared(shot, camera, wanted.out, wanted.apart))
+        report[camera] |= pops(wanted.out, camera, wanted.frames)
+    print(json.dumps(report, indent=1))
+
+
+if __name__ == "__main__":
+    main()
