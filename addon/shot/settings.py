@@ -142,7 +142,7 @@ class Smoke:
     method: str = key(
         "puffs",
         "where the run has none",
-        choices={"puffs": "balls, a second a frame", "flow": "air solved once per shot, in minutes"},
+        choices={"puffs": "balls, a second a frame", "flow": "air, solved once"},
     )
     spin_up: float = key(
         1800.0,
