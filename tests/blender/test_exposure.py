@@ -18,12 +18,12 @@ MIDDLE = 38.845, -120.55
 DAY, NIGHT = datetime(2014, 9, 17, 21, 30, tzinfo=UTC), datetime(2014, 9, 18, 6, 30, tzinfo=UTC)
 
 
-def fire(run_folder, folder, start):
-    """The run with a tenth of its heat, 44 GW as the King Fire has, and another start."""
+def fire(run_folder, folder, start, heat=0.1):
+    """The run with another start and a part of its heat: a tenth, 44 GW, is what the King Fire has."""
     shutil.copytree(run_folder, folder)
     text = (folder / "run.toml").read_text()
     (folder / "run.toml").write_text(text.replace("2014-09-17T21:00:00Z", start))
-    np.save(folder / "heat_flux.npy", 0.1 * np.load(folder / "heat_flux.npy"))
+    np.save(folder / "heat_flux.npy", heat * np.load(folder / "heat_flux.npy"))
     return runs.open(folder)
 
 
@@ -35,6 +35,12 @@ def run(run_folder, tmp_path_factory):
 @pytest.fixture(scope="session")
 def night_run(run_folder, tmp_path_factory):
     return fire(run_folder, tmp_path_factory.mktemp("night") / "run", "2014-09-18T06:00:00Z")
+
+
+@pytest.fixture(scope="session")
+def firestorm(run_folder, tmp_path_factory):
+    """Ten King Fires by night."""
+    return fire(run_folder, tmp_path_factory.mktemp("storm") / "run", "2014-09-18T06:00:00Z", heat=1.0)
 
 
 @pytest.fixture
@@ -74,12 +80,12 @@ def test_without_smoke_nothing_glows_and_the_night_is_exposed_for_its_moon(filme
     assert 3.0 < moonlit <= 4.0
 
 
-@pytest.mark.parametrize("away", [1.5, 4.0, 14.0])
-def test_the_brightest_tenth_of_the_glow_keeps_its_colour(filmed, night_run, away):
-    shot = Shot(filmed(away), night_run)
+@pytest.mark.parametrize("away", [1.5, 4.0])
+def test_the_brightest_tenth_of_the_glow_keeps_its_colour(filmed, firestorm, away):
+    shot = Shot(filmed(away), firestorm)
     _, light = exposure.radiance(shot, shot.paths[0], 1)
     bright = np.sort(light)[-len(light) // 10 :].mean()
-    assert 0.0 < bright * 2.0 ** exposure.at(shot, np.array([1]))[0] < 0.85
+    assert 0.5 < bright * 2.0 ** exposure.at(shot, np.array([1]))[0] < 0.85
 
 
 @pytest.mark.parametrize("away", [1.5, 4.0, 14.0])
