@@ -21,9 +21,7 @@ _FRESH, _OLD = (0.46, 0.38, 0.31), (0.95, 0.945, 0.94)  # albedo: of soot and ch
 _MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
 FORWARD = 0.6  # anisotropy of smoke (Reid et al. 2005: 0.5 to 0.65 in green light)
 _ANISOTROPY = FORWARD / (1.0 + FORWARD)  # of what is left when light that goes on counts as not scattered
-_LIGHT = (
-    0.5  # of extinction that light meets on its way: 0.7 by theory, less for the bounces that are left out
-)
+_LIGHT = 0.5  # of extinction counts for light: 0.7 by theory, less for the bounces that are left out
 
 
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
