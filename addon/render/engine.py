@@ -52,7 +52,7 @@ def _cycles(settings: Settings, scene: bpy.types.Scene) -> None:
     compat.set_denoising(cycles, settings.render.denoise)
     cycles.max_bounces, cycles.diffuse_bounces = 4, 1
     cycles.glossy_bounces = cycles.transmission_bounces = 0
-    cycles.volume_bounces = volume_bounces(settings.render.samples)
+    cycles.volume_bounces = 1  # the material of smoke stands in for more
     compat.march_through_volumes(cycles)
     cycles.transparent_max_bounces = _TRANSPARENT
     cycles.sample_clamp_direct, cycles.sample_clamp_indirect = 0.0, 4.0
@@ -63,11 +63,6 @@ def _cycles(settings: Settings, scene: bpy.types.Scene) -> None:
     if scene.world is not None:  # the sky has no sun disc: its own, finer map takes 2 s of every frame
         scene.world.cycles.sampling_method = "MANUAL"
         scene.world.cycles.sample_map_resolution = 256
-
-
-def volume_bounces(samples: int) -> int:
-    """Scattering inside smoke: two for a picture, none for a preview, where noise hides it anyway."""
-    return 2 if samples >= 12 else 1 if samples >= 4 else 0
 
 
 def _eevee(settings: Settings, scene: bpy.types.Scene) -> None:

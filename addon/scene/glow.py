@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..shot.shot import Shot
-from .light import sky
+from .light import exposure
 
 FLAME = (1.0, 0.33, 0.04)
 EMBER = (1.0, 0.11, 0.012)
@@ -13,5 +15,5 @@ _LIGHT = 13.0  # radiance of flames at exposure 0
 
 def brightness(shot: Shot) -> float:
     """Radiance of flames: less in a longer exposure, as a photographer stops down, else nights burn out."""
-    state = sky.State(shot.settings.light, *shot.sun(shot.frames.middle))
-    return _LIGHT * 2.0 ** (-0.85 * state.exposure)
+    stops = exposure.at(shot, np.array([0.5 * (1 + shot.frames.count)]))[0]
+    return float(_LIGHT * 2.0 ** (-0.85 * stops))

@@ -174,7 +174,7 @@ class Light:
     haze: float = key(1.0, "how strong it is; 0: none, 1: a dry September day", at_least=0)
     exposure: float | None = key(
         None,
-        "brighter or darker; left out, from the height of the sun: 0.5 by day, 3.5 by night",
+        "brighter or darker; left out, from what the camera sees: about 0.5 by day, up to 4 by night",
         unit="stops",
         at_least=-20,
         at_most=20,

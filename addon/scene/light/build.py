@@ -11,12 +11,12 @@ from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import haze
-from .sky import State
+from . import exposure
+from .sky import NIGHT_SKY, State
 
 _KEYS = 25  # the sky changes at this many moments of the shot
 _SKY = 0.12  # strength of the sky texture; more drowns the sunlit side of smoke
 _DUST = 0.3  # of the sky texture; 1 makes it pale and greenish
-_NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.15
 THERMAL_SKY = 250.0  # K, a clear sky in the long-wave infrared
 _TRANSFORM, _LOOK = "AgX", "AgX - Medium High Contrast"
 _INSTEAD = ("Filmic", "Standard")  # view transforms where there is no AgX, the better first
@@ -41,7 +41,7 @@ def build(shot: Shot, stage: Stage) -> list[str]:
         return []
     if stage.scene.world is None:
         _world(stage.scene, frames, states)
-    _expose(stage.scene, frames, np.array([s.exposure for s in states]))
+    _expose(stage.scene, frames, exposure.at(shot, frames))
     return _colours(stage.scene.view_settings)
 
 
@@ -53,7 +53,7 @@ def _moments(shot: Shot) -> tuple[NDArray[np.float64], list[State]]:
 
 
 def _state(shot: Shot, time: float) -> State:
-    return State(shot.settings.light, *shot.sun(time))
+    return State(*shot.sun(time))
 
 
 def _lamp(collection: bpy.types.Collection, frames: NDArray[np.float64], states: list[State]) -> None:
@@ -79,7 +79,7 @@ def _world(scene: bpy.types.Scene, frames: NDArray[np.float64], states: list[Sta
     sky.name = "Sky"
     light = tree.vector("SCALE", sky, name=0)
     compat.find_socket(light.socket.node.inputs, "Scale").default_value = _SKY
-    light = tree.vector("ADD", light, tuple(_NIGHT_SKY))
+    light = tree.vector("ADD", light, tuple(NIGHT_SKY))
     seen = tree.output("ShaderNodeBackground", {"Color": light, "Strength": 1.0})
     cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": THERMAL_SKY})
     tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), seen, cold))

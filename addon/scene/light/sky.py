@@ -8,13 +8,23 @@ from __future__ import annotations
 import numpy as np
 
 from ...shot import noise, sun
-from ...shot.settings import Light
 
 _SUN = 11.1  # W/m2 over the air
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
 _MOON = 0.2  # W/m2, for the exposure of the night: shows ridges and the tops of smoke
 _MOON_COLOUR = (0.65, 0.78, 1.0)
+NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.15  # radiance
 _DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.02
+
+
+MEAN = (
+    (-9.0, -6.0, -4.0, -2.0, 0.0, 2.0, 5.0, 10.0, 20.0, 34.0, 50.0, 70.0),
+    (0.0, 0.0002, 0.0024, 0.014, 0.045, 0.087, 0.140, 0.194, 0.243, 0.271, 0.287, 0.297),
+)
+"""Heights of the sun (degrees), and the irradiance of the sky over pi, luminance, as Cycles 4.5 draws it."""
+
+GLOW = (1.0, 0.25, 0.04)  # colour of smoke that flames light
+_GLOW_LIGHT = 0.018, 0.28  # radiance of thick smoke amid 1 GW of luminous heat, by day and by night
 
 
 class State:
@@ -28,9 +38,15 @@ class State:
         Irradiance (W/m2) and colour of the sun, at night of the moon.
     sky
         Height and bearing of the sun for the sky texture, radians.
+    sky_mean
+        Mean radiance of the clear sky by cosine, luminance.
+    haze
+        Radiance of haze.
+    glow
+        Radiance of thick smoke amid 1 GW of luminous heat, of the colour GLOW: by day the sky's drowns it.
     """
 
-    def __init__(self, light: Light, bearing: float, height: float) -> None:
+    def __init__(self, bearing: float, height: float) -> None:
         self.sky = (float(np.radians(height)), float(np.radians(bearing)))
         day = float(noise.smoothstep(-1.0, 4.0, height))
         by_sun = height > sun.NIGHT
@@ -41,8 +57,9 @@ class State:
         self.colour = shining / shining.max()
         blue = float(noise.smoothstep(-10.0, 12.0, height))
         self.haze = tuple(_NIGHT_HAZE + (_DAY_HAZE - _NIGHT_HAZE) * blue**2)
-        given = light.exposure
-        self.exposure = 0.5 + 3.0 * float(noise.smoothstep(3.0, -9.0, height)) if given is None else given
+        self.sky_mean = float(np.interp(height, *MEAN)) + NIGHT_SKY.mean()
+        by_day, by_night = _GLOW_LIGHT
+        self.glow = float(by_night + (by_day - by_night) * noise.smoothstep(-8.0, 8.0, height))
 
 
 def air_mass(height: float) -> float:

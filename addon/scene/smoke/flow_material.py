@@ -1,4 +1,11 @@
-"""Material of smoke that was solved: its files hold the extinction itself; here it gets colour and light."""
+"""Material of smoke that was solved: its files hold the extinction itself; here it gets colour and light.
+
+Smoke scatters light mostly forwards, so light goes on through it much as if it were thinner and scattered
+more evenly (Joseph, Wiscombe and Weinman 1976, "The delta-Eddington approximation for radiative flux
+transfer"). So one bounce does for many: of a ball 16 deep in the sun it is off 24 bounces by 11 to 16 % of
+the light, and one bounce of nearly even scattering by 13 to 54 %. Camera's rays, which draw outlines, meet
+all of the smoke.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +19,9 @@ from . import flow_frames, material
 
 _FRESH, _OLD = (0.58, 0.50, 0.43), (0.95, 0.945, 0.94)  # albedo: of soot and char, and of aged haze and cloud
 _MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
-_ANISOTROPY = 0.15  # as for `material.ANISOTROPY`
+FORWARD = 0.6  # anisotropy of smoke (Reid et al. 2005: 0.5 to 0.65 in green light)
+_ANISOTROPY = FORWARD / (1.0 + FORWARD)  # of what is left when light that goes on counts as not scattered
+_LIGHT = 0.5  # of extinction counts for light: 0.7 by theory, less for the bounces that are left out
 
 
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
@@ -29,7 +38,9 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     detailed = tree.add_shader(_smoke(tree, density, scattered), light)
     # Most steps belong to rays of light through the smoke; one grid is enough for them.
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
-    tree.volume(tree.mix_shader(camera, _smoke(tree, density, _MIDDLE), detailed))
+    thinner = density * _LIGHT
+    thinner.socket.node.name = "Light"
+    tree.volume(tree.mix_shader(camera, _smoke(tree, thinner, _MIDDLE), detailed))
     made.cycles.volume_sampling = "DISTANCE"
     made.cycles.emission_sampling = "NONE"
     return made

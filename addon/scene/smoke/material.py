@@ -13,9 +13,9 @@ import numpy as np
 
 from ...blender import nodes
 from ...blender.owned import Stage
-from ...shot.noise import smoothstep
 from ...shot.shot import Shot
 from .. import haze
+from ..light.sky import GLOW, State
 from . import view
 
 EXTINCTION_PER_DILUTION = 0.04  # 1/m: 4 m2/g (fresh biomass smoke, Reid et al. 2005) times 10 mg/m3
@@ -30,8 +30,6 @@ _CLIMB = 1.0  # m/s
 _VEIL = (0.002, 0.005)  # dilution between which thin smoke fades; volumes end at the lower one
 _LOW, _HIGH = (0.62, 0.53, 0.44), (0.95, 0.945, 0.94)  # albedo near the ground and far up
 _MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
-GLOW = (1.0, 0.25, 0.04)
-_GLOW_LIGHT = 0.018, 0.28  # radiance of thick smoke amid 1 GW of luminous heat, by day and by night
 
 
 @dataclass(frozen=True)
@@ -83,9 +81,8 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
 
 
 def glow_light(shot: Shot) -> float:
-    """Light of the flames on smoke in the middle of the shot: by day the sky's drowns it."""
-    height = shot.sun(shot.frames.middle)[1]
-    return float(_GLOW_LIGHT[1] + (_GLOW_LIGHT[0] - _GLOW_LIGHT[1]) * smoothstep(-8.0, 8.0, height))
+    """Light of the flames on smoke in the middle of the shot."""
+    return State(*shot.sun(shot.frames.middle)).glow
 
 
 def _extinction(dilution: nodes.Value, opacity: nodes.Value, most: float) -> nodes.Value:

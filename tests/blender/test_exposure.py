@@ -1,0 +1,126 @@
+"""Exposure from what the camera sees: the glow by night, the smoke's shade, and smooth over time."""
+
+import shutil
+from dataclasses import replace
+from datetime import UTC, datetime
+
+import numpy as np
+import pytest
+from firetwin.scene import glow
+from firetwin.scene.light import exposure
+from firetwin.shot import settings as scene_settings
+from firetwin.shot.rigs.drone import CameraKey, Drone
+from firetwin.shot.rigs.satellite import Satellite
+from firetwin.shot.shot import Shot
+from firetwin_core import run as runs
+
+MIDDLE = 38.845, -120.55
+DAY, NIGHT = datetime(2014, 9, 17, 21, 30, tzinfo=UTC), datetime(2014, 9, 18, 6, 30, tzinfo=UTC)
+
+
+def fire(run_folder, folder, start, heat=0.1):
+    """The run with another start and a part of its heat: a tenth, 44 GW, is what the King Fire has."""
+    shutil.copytree(run_folder, folder)
+    text = (folder / "run.toml").read_text()
+    (folder / "run.toml").write_text(text.replace("2014-09-17T21:00:00Z", start))
+    np.save(folder / "heat_flux.npy", heat * np.load(folder / "heat_flux.npy"))
+    return runs.open(folder)
+
+
+@pytest.fixture(scope="session")
+def run(run_folder, tmp_path_factory):
+    return fire(run_folder, tmp_path_factory.mktemp("day") / "run", "2014-09-17T21:00:00Z")
+
+
+@pytest.fixture(scope="session")
+def night_run(run_folder, tmp_path_factory):
+    return fire(run_folder, tmp_path_factory.mktemp("night") / "run", "2014-09-18T06:00:00Z")
+
+
+@pytest.fixture(scope="session")
+def firestorm(run_folder, tmp_path_factory):
+    """Ten King Fires by night."""
+    return fire(run_folder, tmp_path_factory.mktemp("storm") / "run", "2014-09-18T06:00:00Z", heat=1.0)
+
+
+@pytest.fixture
+def filmed(settings):
+    """Settings of one camera that looks at the fire from these kilometres south of it."""
+
+    def make(*kilometres, moment=NIGHT, frames=1, at=(0.0, 1.0), light=None, **smoke):
+        keys = tuple(
+            CameraKey(when, MIDDLE[0] - away / 111.0, MIDDLE[1], 700.0, "point", *MIDDLE, 300.0)
+            for when, away in zip(at, kilometres, strict=False)
+        )
+        return replace(
+            settings,
+            time=scene_settings.Time(start=moment, end=moment if frames == 1 else None, frames=frames),
+            smoke=scene_settings.Smoke(**smoke),
+            light=light or settings.light,
+            cameras=(scene_settings.Camera("drone", Drone(keys=keys)),),
+        )
+
+    return make
+
+
+def stops(settings, run):
+    shot = Shot(settings, run)
+    return exposure.at(shot, np.arange(1, shot.frames.count + 1))
+
+
+def test_the_nearer_the_fire_by_night_the_shorter_the_exposure(filmed, night_run):
+    far, near, close = (stops(filmed(away), night_run)[0] for away in (14.0, 4.0, 1.5))
+    assert far > near + 0.3
+    assert near > close + 0.1
+
+
+def test_without_smoke_nothing_glows_and_the_night_is_exposed_for_its_moon(filmed, night_run):
+    moonlit = stops(filmed(1.5, enabled=False), night_run)[0]
+    assert moonlit > stops(filmed(1.5), night_run)[0] + 1.0
+    assert 3.0 < moonlit <= 4.0
+
+
+@pytest.mark.parametrize("away", [1.5, 4.0])
+def test_the_brightest_tenth_of_the_glow_keeps_its_colour(filmed, firestorm, away):
+    shot = Shot(filmed(away), firestorm)
+    _, light = exposure.radiance(shot, shot.paths[0], 1)
+    bright = np.sort(light)[-len(light) // 10 :].mean()
+    assert 0.5 < bright * 2.0 ** exposure.at(shot, np.array([1]))[0] < 0.85
+
+
+@pytest.mark.parametrize("away", [1.5, 4.0, 14.0])
+def test_by_day_it_is_about_that_of_a_clear_day_wherever_the_camera_is(filmed, run, away):
+    assert stops(filmed(away, moment=DAY), run)[0] == pytest.approx(0.5, abs=0.5)
+
+
+def test_it_is_smooth_where_the_camera_jumps(filmed, night_run):
+    found = stops(filmed(14.0, 14.0, 1.5, 1.5, frames=48, at=(0.0, 0.5, 0.52, 1.0)), night_run)
+    assert found[0] > found[-1] + 0.5
+    assert np.abs(np.diff(found)).max() < 0.25 * (found[0] - found[-1])
+
+
+def test_ground_under_smoke_lies_in_its_shade(filmed, run):
+    def ground(**smoke):
+        shot = Shot(filmed(4.0, moment=DAY, **smoke), run)
+        camera = shot.paths[0]
+        down = replace(camera, rotation=np.eye(3)[None], position=np.array([[2500.0, 800.0, 1800.0]]))
+        return exposure.radiance(shot, down, 1)[0].mean()
+
+    assert ground() < 0.8 * ground(enabled=False)
+
+
+def test_what_the_scene_file_says_wins_at_every_frame(filmed, night_run):
+    given = scene_settings.Light(exposure=-1.25)
+    assert np.all(stops(filmed(1.5, frames=3, light=given), night_run) == -1.25)
+
+
+def test_all_that_a_satellite_sees_is_ground(filmed, run):
+    cameras = (scene_settings.Camera("satellite", Satellite(swath=20_000.0)),)
+    shot = Shot(replace(filmed(4.0, moment=DAY, enabled=False), cameras=cameras), run)
+    found, _ = exposure.radiance(shot, shot.paths[0], 1)
+    assert np.ptp(found) < 0.02  # haze over hills and valleys; the sky would be brighter than all ground
+
+
+def test_flames_are_drawn_brighter_where_the_exposure_is_shorter(filmed, night_run):
+    far, close = (glow.brightness(Shot(filmed(away), night_run)) for away in (14.0, 1.5))
+    assert close > 1.5 * far

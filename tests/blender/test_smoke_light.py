@@ -1,0 +1,72 @@
+"""Light in solved smoke: one bounce beside many bounces of light that goes forwards, as smoke scatters it."""
+
+import bpy
+import numpy as np
+import pytest
+from firetwin.blender import compat, nodes
+from firetwin.scene.smoke import flow_material
+from firetwin_core import sensor, volume
+
+RADIUS, EXTINCTION, VOXEL = 400.0, 0.02, 50.0  # m, 1/m, m
+
+
+@pytest.fixture
+def ball(shot, stage, scene, tmp_path):
+    """A ball of old smoke, 16 deep, under sun and sky; returns what renders it."""
+    at = np.arange(-9, 10) * VOXEL
+    x, y, z = np.meshgrid(at, at, at, indexing="ij")
+    density = np.where(x**2 + y**2 + z**2 < RADIUS**2, EXTINCTION, 0.0).astype(np.float32)
+    path = tmp_path / "ball.vdb"
+    grids = {"density": density, "fresh": np.zeros_like(density)}
+    volume.write(path, grids, VOXEL, (float(at[0]),) * 3, tolerance=1e-6)
+    data = bpy.data.volumes.new("ball")
+    data.filepath = str(path)
+    data.render.space, data.render.step_size = "WORLD", 25.0
+    data.materials.append(flow_material.build(shot, stage))
+    thing = bpy.data.objects.new("ball", data)
+    scene.world = bpy.data.worlds.new("sky")
+    sky = nodes.Tree(compat.node_tree(scene.world))
+    sky.surface(sky.output("ShaderNodeBackground", {"Color": (0.27, 0.27, 0.27), "Strength": 1.0}))
+    lamp = bpy.data.lights.new("sun", "SUN")
+    lamp.energy = 9.0
+    sun = bpy.data.objects.new("sun", lamp)
+    eye = bpy.data.cameras.new("eye")
+    eye.type, eye.ortho_scale, eye.clip_end = "ORTHO", 900.0, 1e5
+    camera = bpy.data.objects.new("eye", eye)
+    camera.location, camera.rotation_euler = (0.0, -5000.0, 0.0), (np.radians(90.0), 0.0, 0.0)
+    for each in (thing, sun, camera):
+        scene.collection.objects.link(each)
+    scene.camera = camera
+
+    def render(bearing, bounces, light=None, anisotropy=None):
+        sun.rotation_euler = (np.radians(90.0), 0.0, -np.radians(bearing))
+        made = data.materials[0].node_tree.nodes
+        if light is not None:
+            made["Light"].inputs[1].default_value = light
+        for node in made:
+            if anisotropy is not None and node.bl_idname == "ShaderNodeVolumeScatter":
+                node.inputs["Anisotropy"].default_value = anisotropy
+        scene.render.engine = "CYCLES"
+        compat.march_through_volumes(scene.cycles)
+        scene.cycles.samples, scene.cycles.use_adaptive_sampling = 64, False
+        scene.cycles.use_denoising = False
+        scene.cycles.max_bounces = scene.cycles.volume_bounces = bounces
+        scene.render.resolution_x = scene.render.resolution_y = 16
+        scene.render.resolution_percentage = 100
+        compat.still_settings(scene.render)
+        scene.render.image_settings.file_format = "OPEN_EXR"
+        scene.render.image_settings.color_depth = "32"
+        scene.render.filepath = str(tmp_path / "ball.exr")
+        bpy.ops.render.render(write_still=True)
+        return np.asarray(sensor.read_image(tmp_path / "ball.exr"))[..., 1][4:12, 4:12]  # nothing but smoke
+
+    return render
+
+
+@pytest.mark.parametrize("bearing", [95.0, 140.0])  # that light goes to; the camera looks to 0
+def test_one_bounce_is_near_many_of_light_that_goes_forwards(ball, bearing):
+    ours = ball(bearing, 1)
+    even = ball(bearing, 1, light=1.0, anisotropy=0.15)
+    truth = ball(bearing, 24, light=1.0, anisotropy=flow_material.FORWARD)
+    assert np.abs(ours - truth).mean() < 0.25 * truth.mean()
+    assert np.abs(ours - truth).mean() < 0.75 * np.abs(even - truth).mean()
