@@ -47,7 +47,9 @@ def _cycles(settings: Settings, scene: bpy.types.Scene) -> None:
     cycles = scene.cycles
     cycles.samples = settings.render.samples
     cycles.use_adaptive_sampling = False
-    cycles.sampling_pattern = "TABULATED_SOBOL"  # named, for what Blender starts with differs between versions
+    cycles.sampling_pattern = (
+        "TABULATED_SOBOL"  # named, for what Blender starts with differs between versions
+    )
     cycles.seed, cycles.use_animated_seed = settings.render.seed, False
     compat.set_denoising(cycles, settings.render.denoise)
     cycles.max_bounces, cycles.diffuse_bounces = 4, 1

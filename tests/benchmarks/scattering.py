@@ -91,7 +91,7 @@ def sampled(**settings: object) -> Callable[[Bench], None]:
 
     def tweak(bench: Bench) -> None:
         usual = {
-            "sampling_pattern": "BLUE_NOISE",
+            "sampling_pattern": "TABULATED_SOBOL",
             "denoising_input_passes": "RGB_ALBEDO_NORMAL",
             "denoising_prefilter": "ACCURATE",
             "sample_clamp_direct": 0.0,
@@ -113,7 +113,7 @@ BOUNCES = {f"{count} bounces": bounces(count) for count in (0, 1, 2)} | {
 }
 NOISE = {
     "as it is": sampled(),
-    "tabulated Sobol": sampled(sampling_pattern="TABULATED_SOBOL"),
+    "blue noise": sampled(sampling_pattern="BLUE_NOISE"),
     "guide: colour alone": sampled(denoising_input_passes="RGB"),
     "guide: albedo": sampled(denoising_input_passes="RGB_ALBEDO"),
     "prefilter fast": sampled(denoising_prefilter="FAST"),
