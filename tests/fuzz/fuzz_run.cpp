@@ -72,7 +72,8 @@ void open(const fs::path& folder) {
   const auto [low, high] = run.flux_range();
   fuzz::check(std::isfinite(low) && std::isfinite(high) && low <= high, "a range is a range");
   fuzz::check(flux::arrival_time(run).size() == run.cells(), "arrival has every cell");
-  fuzz::check(flux::fuel_arrival_time(run).size() == run.surface_fuel().values().size(), "fuel arrival too");
+  fuzz::check(flux::fuel_arrival_time(run).size() == run.surface_fuel().values().size(),
+              "fuel arrival too");
 }
 
 } // namespace
