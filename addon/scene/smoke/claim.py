@@ -1,28 +1,20 @@
 """One process at a time does a piece of work; the others wait until it is done, or take it over. No Blender.
 
-Who works holds a lock of the operating system on an empty file; it ends with the process, however that ends.
-Where a file system knows no locks, everybody works: they do the same twice.
+Who works holds SQLite's lock of an empty database, which every system has and which ends with the process,
+however that ends. Where a file system knows no locks, everybody works: they do the same twice.
 """
 
 from __future__ import annotations
 
 import contextlib
-import errno
-import os
+import sqlite3
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from ...errors import writing
 
-try:
-    import fcntl
-except ImportError:  # Windows
-    fcntl = None
-    import msvcrt
-
 _LOOK = 0.5  # s between two looks of who waits
-_BUSY = (errno.EWOULDBLOCK, errno.EACCES, errno.EDEADLK)
 
 
 @contextlib.contextmanager
@@ -40,25 +32,20 @@ def held(path: Path, done: Callable[[], bool], wait: Callable[[], None]) -> Iter
         The folder cannot be written.
     """
     with writing(path):
-        file = os.open(path, os.O_CREAT | os.O_RDWR)
-    try:
-        mine = _lock(file)
+        path.touch()
+    with contextlib.closing(sqlite3.connect(path, timeout=0.0, isolation_level=None)) as database:
+        mine = _lock(database)
         while not mine and not done():
             wait()
             time.sleep(_LOOK)
-            mine = _lock(file)
+            mine = _lock(database)
         yield mine
-    finally:
-        os.close(file)
 
 
-def _lock(file: int) -> bool:
-    """Whether a file is ours now."""
+def _lock(database: sqlite3.Connection) -> bool:
+    """Whether a database is ours now."""
     try:
-        if fcntl is not None:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        else:
-            msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
-    except OSError as error:
-        return error.errno not in _BUSY
+        database.execute("BEGIN EXCLUSIVE")
+    except sqlite3.Error as error:
+        return getattr(error, "sqlite_errorcode", 0) != sqlite3.SQLITE_BUSY
     return True
