@@ -23,6 +23,7 @@ from .settings import Camera, Settings
 from .sight import Sights
 
 _BEFORE = 3600.0  # s before the first frame that ground which burned since counts as burning
+WIDE_LENS = 28.0  # mm; pictures to scale count as taken with it
 _NOWHERE = 20_000.0  # m, distance of a fire that no camera looks at
 
 
@@ -163,6 +164,6 @@ class Shot:
         return min(
             float(np.percentile(self.sights.distance_from(view, cells.position[::5]), 10.0))
             if view.perspective
-            else 2.0 * view.half[0] * 28.0 / SENSOR  # as a 28 mm lens with pixels as large on the ground
+            else 2.0 * view.half[0] * WIDE_LENS / SENSOR  # as a lens with pixels as large on the ground
             for view in self.paths
         )

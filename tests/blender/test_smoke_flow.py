@@ -335,3 +335,18 @@ def test_the_scene_shows_both_layers(shot, stage, scene):
     for volume in volumes.values():
         volume.grids.load()
         assert {grid.name for grid in volume.grids} >= {"density", "fresh"}
+
+
+def test_voxels_of_smoke_are_as_fine_as_pixels_show(flowing, run, monkeypatch):
+    monkeypatch.setattr(Shot, "fire_distance", 5000.0)
+
+    def voxel(width):
+        render = replace(flowing.render, resolution=(width, width // 2))
+        settings = replace(flowing, smoke=replace(flowing.smoke, voxel_size=0.0), render=render)
+        shot = Shot(settings, run)
+        return flow_frames.layers(shot, flow.Flow(shot))[-1].voxel
+
+    lens = 2.0 * Shot(flowing, run).near[0].half[0]
+    assert voxel(1000) == pytest.approx(4.0 * 5000.0 * lens / 1000)
+    assert voxel(100) == 36.0
+    assert voxel(8000) == 20.0

@@ -17,15 +17,16 @@ from firetwin_core import flow, lod, volume
 from numpy.typing import NDArray
 
 from ...shot import noise
-from ...shot.shot import Shot
+from ...shot.path import SENSOR
+from ...shot.shot import WIDE_LENS, Shot
 from . import moments
 from .boxes import Box
 from .flow import Flow, Part
 
 GRIDS = ("density", "fresh", "glow")
 THICKEST = 0.03  # 1/m, at which extinction levels off: more is as opaque and takes shorter steps
-_NEAR = (20.0, 36.0)  # m, voxels of the nest from 3 km and from 40 km away
-_DISTANCE = (3000.0, 40_000.0)
+_NEAR = (20.0, 36.0)  # m, voxels of the nest: the smallest and the largest
+_PIXELS = 4.0  # that a voxel is wide where it lies between them: finer smoke shows no better, and costs more
 _FAR = 80.0  # m, of the rest
 _LUMPS = {True: (340.0, (3.5, 2.5, 2.5)), False: (1100.0, (2.5, 1.5, 1.5))}  # m; blur of the drift, cells
 _INSIDE, _FADE = 600.0, (700.0, 2500.0)  # m from a box's side where smoke ends, and in which it fades
@@ -59,8 +60,14 @@ def layers(shot: Shot, solved: Flow) -> list[Layer]:
     wanted = shot.settings.smoke.voxel_size
     if len(parts) == 1:
         return [Layer("smoke", parts[0], wanted or _FAR, False)]
-    near = float(np.interp(np.log(shot.fire_distance), np.log(_DISTANCE), _NEAR))
+    near = float(np.clip(_PIXELS * _pixel(shot), *_NEAR))
     return [Layer("far", parts[0], max(wanted, _FAR), False), Layer("smoke", parts[1], wanted or near, True)]
+
+
+def _pixel(shot: Shot) -> float:
+    """Size (m) at the fire of the smallest pixel of a picture."""
+    width = min((2.0 * view.half[0] for view in shot.near), default=SENSOR / WIDE_LENS)
+    return width * shot.fire_distance / shot.settings.render.resolution[0]
 
 
 class Painter:
