@@ -26,7 +26,9 @@ logged() { # what log command...
   fi
 }
 
-if ! dpkg-query --show "${packages[@]}" >/dev/null 2>&1; then
+# A package that another one only recommends is known to dpkg, without a status of its own.
+if ! states=$(dpkg-query --show --showformat='${db:Status-Status}\n' "${packages[@]}" 2>/dev/null) ||
+  grep -qvx installed <<<"$states"; then
   export DEBIAN_FRONTEND=noninteractive
   logged "reading the package lists" /tmp/apt.log apt-get update
   logged "installing Blender (700 MB)" /tmp/apt.log apt-get install --yes --no-install-recommends "${packages[@]}"
