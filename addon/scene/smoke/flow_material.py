@@ -17,7 +17,7 @@ from ...shot.shot import Shot
 from .. import haze
 from . import flow_frames, material
 
-_FRESH, _OLD = (0.58, 0.50, 0.43), (0.95, 0.945, 0.94)  # albedo: of soot and char, and of aged haze and cloud
+_FRESH, _OLD = (0.44, 0.36, 0.29), (0.95, 0.945, 0.94)  # albedo: of soot and char, and of aged haze and cloud
 _MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
 FORWARD = 0.6  # anisotropy of smoke (Reid et al. 2005: 0.5 to 0.65 in green light)
 _ANISOTROPY = FORWARD / (1.0 + FORWARD)  # of what is left when light that goes on counts as not scattered
