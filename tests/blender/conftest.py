@@ -11,6 +11,7 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 from firetwin.blender import compat, nodes, owned  # noqa: E402
+from firetwin.scene.smoke import boxes  # noqa: E402
 from firetwin.shot import settings as scene_settings  # noqa: E402
 from firetwin.shot.rigs.drone import CameraKey, Drone  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
@@ -154,3 +155,13 @@ def shoot(tmp_path):
         return np.asarray(sensor.read_image(tmp_path / "shot.exr"))[..., :3]
 
     return render
+
+
+@pytest.fixture
+def few_cells(monkeypatch):
+    """A flow of smoke on few, large cells, with a nest that begins late."""
+    monkeypatch.setattr(boxes, "_LEVELS", (150.0, 600.0, 10))
+    monkeypatch.setattr(boxes, "_NEST_LEVELS", (120.0, 400.0, 11))
+    monkeypatch.setattr(boxes, "_NEST", 72)
+    monkeypatch.setattr(boxes, "_MARGIN", 2000.0)
+    monkeypatch.setattr(boxes, "LEAD", 40.0)

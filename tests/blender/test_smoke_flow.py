@@ -19,14 +19,9 @@ from firetwin_core import run as runs  # noqa: E402
 
 
 @pytest.fixture
-def flowing(settings, monkeypatch):
+def flowing(settings, few_cells, monkeypatch):
     """Settings of two frames whose smoke is a flow on few, large cells."""
-    monkeypatch.setattr(boxes, "_LEVELS", (150.0, 600.0, 10))
-    monkeypatch.setattr(boxes, "_NEST_LEVELS", (120.0, 400.0, 11))
-    monkeypatch.setattr(boxes, "_NEST", 72)
-    monkeypatch.setattr(boxes, "_MARGIN", 2000.0)
     monkeypatch.setattr(boxes, "_DOWNWIND", (0.0, 0.0))
-    monkeypatch.setattr(boxes, "LEAD", 40.0)
     camera = replace(settings.cameras[0], frames="1-2")
     time = replace(settings.time, start=datetime(2014, 9, 17, 21, 30, tzinfo=UTC), end=None, frames=40)
     smoke = replace(settings.smoke, enabled=True, method="flow", spin_up=120.0, voxel_size=200.0)

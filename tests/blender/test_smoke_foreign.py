@@ -23,14 +23,9 @@ SPLIT = 4  # fuel cells along one of the model's
 
 
 @pytest.fixture(autouse=True)
-def few_cells(monkeypatch):
+def short_plumes(few_cells, monkeypatch):
     """Large cells, and few of them."""
-    monkeypatch.setattr(boxes, "_LEVELS", (150.0, 600.0, 10))
-    monkeypatch.setattr(boxes, "_NEST_LEVELS", (120.0, 400.0, 11))
-    monkeypatch.setattr(boxes, "_NEST", 72)
-    monkeypatch.setattr(boxes, "_MARGIN", 2000.0)
     monkeypatch.setattr(boxes, "_DOWNWIND", (0.0, 2000.0))
-    monkeypatch.setattr(boxes, "LEAD", 40.0)
 
 
 @pytest.fixture

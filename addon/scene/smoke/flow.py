@@ -116,9 +116,7 @@ class Flow:
             if self._has(frame):
                 return
             progress = progress or self.progress
-            folder = self.parts[-1].folder
-            with writing(folder):
-                folder.mkdir(parents=True, exist_ok=True)
+            folder = self._folders()[-1]
 
             waiting = functools.cache(
                 lambda: progress(0, 1, "waiting for another process to solve the smoke's flow")
@@ -157,13 +155,19 @@ class Flow:
     @contextlib.contextmanager
     def in_use(self) -> Iterator[None]:
         """Keep others from clearing the moments away meanwhile."""
+        folders = self._folders()
+        for folder in folders:
+            cache.sweep(folder)
+        with cache.in_use(*folders):
+            yield
+
+    def _folders(self) -> list[Path]:
+        """The folders of all boxes, which are there now."""
         folders = [part.folder for part in self.parts]
         for folder in folders:
             with writing(folder):
                 folder.mkdir(parents=True, exist_ok=True)
-            cache.sweep(folder)
-        with cache.in_use(*folders):
-            yield
+        return folders
 
     def _folder(self, of: list[Box]) -> Path:
         """Where the moments of the last of these boxes are kept."""

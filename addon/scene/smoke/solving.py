@@ -51,9 +51,6 @@ class Live:
         self.winds = _winds(shot, whole.begin)
         self.solvers = [self._outer(whole.parts[0])]
         self.drifts: list[flow.Drift] = []
-        with writing(whole.parts[-1].folder):
-            for part in whole.parts:
-                part.folder.mkdir(parents=True, exist_ok=True)
         self._resume(self._step_of(frame))
         self._widen()
 
