@@ -13,9 +13,8 @@ import bpy
 
 from ..blender import nodes, owned
 from ..blender.owned import Stage
+from .light import sky
 
-EXTINCTION = 1.2e-5  # 1/m at z = 0 on a dry September day: clear mountain air
-SCALE_HEIGHT = 5000.0  # m, between that of dust (about 2 km) and of the air itself (8 km)
 _GROUP = "haze"
 
 
@@ -30,13 +29,13 @@ def _group(stage: Stage) -> bpy.types.NodeTree:
     tree = nodes.Tree(group)
     extinction = tree.node("ShaderNodeValue")
     extinction.name = "Extinction"
-    extinction.outputs[0].default_value = EXTINCTION
+    extinction.outputs[0].default_value = sky.HAZE
     colour = tree.node("ShaderNodeRGB")
     colour.name = "Colour"
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
     geometry = tree.node("ShaderNodeNewGeometry")
-    low = tree.separate(tree.pick(geometry, "Position"))[2] / SCALE_HEIGHT
-    rise = tree.separate(tree.pick(geometry, "Incoming"))[2] * distance / SCALE_HEIGHT
+    low = tree.separate(tree.pick(geometry, "Position"))[2] / sky.HAZE_HEIGHT
+    rise = tree.separate(tree.pick(geometry, "Incoming"))[2] * distance / sky.HAZE_HEIGHT
     rise = rise + 2.0e-3 * (tree.math("ABSOLUTE", rise) < 1.0e-3)  # never 0, where the mean below is 1
     mean = (1.0 - (-rise).exp()) / rise
     depth = distance * extinction * (-low).exp() * mean
@@ -49,7 +48,7 @@ def _group(stage: Stage) -> bpy.types.NodeTree:
 def settings(stage: Stage, amount: float, colour: tuple[float, float, float]) -> None:
     """Set how much haze there is (1: a dry September day) and the radiance of its light."""
     group = _group(stage)
-    group.nodes["Extinction"].outputs[0].default_value = EXTINCTION * amount
+    group.nodes["Extinction"].outputs[0].default_value = sky.HAZE * amount
     group.nodes["Colour"].outputs[0].default_value = (*colour, 1.0)
 
 

@@ -18,15 +18,16 @@ constexpr float lively_rise[] = {0.4F, 2.5F};    // m/s
 constexpr float lively_warmth[] = {0.12F, 0.9F}; // K
 constexpr float lively_age = 420.0F;             // s
 constexpr float soft_cut[] = {2.4F, 6.2F}, crisp_cut[] = {5.2F, 6.2F};
-constexpr float soft_gain = 1.5F, crisp_gain = 3.5F;
+constexpr float soft_gain = 1.5F, crisp_gain = 3.5F, veil_gain = 1.0F;
 constexpr float soft_reach = 1.5F; // of noise in the amount
 constexpr float crisp_reach[] = {0.8F, 7.0F};
 constexpr float whole[] = {5.5F,
                            8.5F}; // amount near by that noise of least and of full reach tears
 constexpr float lump_slope = 1.4F;
-constexpr float core = 8.0F;          // amount of a vigorous core at least
-constexpr float cloud_depth = 500.0F; // m above condensation over which smoke turns to cloud
-constexpr float cloud_gain = 1.0F;    // of cloud in the amount
+constexpr float core[] = {6.3F, 8.0F}; // of a vigorous core at least, in thin and in thick smoke
+constexpr float cloud_depth = 500.0F;  // m above condensation over which smoke turns to cloud
+constexpr float cloud_amount = 2.5F;   // of droplets in the amount
+constexpr float cloud_ages[] = {900.0F, 2400.0F}; // s, between which droplets evaporate
 constexpr float roughness = 0.7F;
 constexpr double finer = 0.47;
 constexpr int lump_octaves = 3, most_octaves = 7;
@@ -141,6 +142,11 @@ Detail::Detail(const Moment& m, const Look& look)
   }
 }
 
+/// How much of vapour that rose to a height has condensed, 0 to 1.
+float Detail::capped(float height) const {
+  return smoothstep(look_.condensation, look_.condensation + cloud_depth, height);
+}
+
 void Detail::find_vigour(const Moment& m) {
   std::vector<float> near = amount_, dense = amount_;
   spread(near, shape_, 2);
@@ -148,11 +154,14 @@ void Detail::find_vigour(const Moment& m) {
   spread(dense, shape_, 2);
   vigour_.resize(shape_.size());
   for (std::size_t n = 0; n < vigour_.size(); ++n) {
+    const float cap = capped(heights_[n]);
     const float lively = ramp(lively_rise[0], lively_rise[1], m.rise[n]) +
                          ramp(lively_warmth[0], lively_warmth[1], m.warmth[n]) +
-                         0.8F * ramp(lively_age, 0.0F, m.age[n]);
-    vigour_[n] =
-        std::max(std::min(lively, 1.0F) * ramp(5.0F, 6.8F, near[n]), ramp(6.0F, 7.6F, dense[n]));
+                         0.8F * ramp(lively_age, 0.0F, m.age[n]) +
+                         cap * ramp(cloud_ages[1], cloud_ages[0], m.age[n]);
+    const float droplets = cloud_amount * cap;
+    vigour_[n] = std::max(std::min(lively, 1.0F) * ramp(5.0F, 6.8F, near[n] + droplets),
+                          ramp(6.0F, 7.6F, dense[n]));
   }
   blur(vigour_, shape_, {1.0, 1.0, 1.0});
   for (float& vigour : vigour_) {
@@ -193,9 +202,12 @@ void Detail::find_reach() {
   std::vector<float> densest = amount_;
   spread(densest, shape_, 2);
   blur(densest, shape_, {1.0, 1.0, 1.0});
+  solid_.resize(s.size());
   for (std::size_t n = 0; n < reach_.size(); ++n) {
     const float steep = square[n] / std::max(reach_[n], 1.0e-6F);
-    const float most = mix(crisp_reach[0], crisp_reach[1], ramp(whole[0], whole[1], densest[n]));
+    const float thick = densest[n] + cloud_amount * capped(heights_[n]);
+    const float most = mix(crisp_reach[0], crisp_reach[1], ramp(whole[0], whole[1], thick));
+    solid_[n] = ramp(core[0], core[1], thick);
     reach_[n] =
         std::clamp(lump_slope * static_cast<float>(look_.size) * steep, crisp_reach[0], most);
   }
@@ -279,22 +291,27 @@ float Detail::vigour(const Column& c, float level) const {
 
 /// At a fractional level, `above` m over the ground; 0 where the smoke ends.
 float Detail::extinction(Column& c, float level, float above, float v, float cloud) const {
-  const float amount = std::max(cubic(amount_, shape_, c.column, c.row, level), 0.0F);
+  const float amount =
+      std::max(cubic(amount_, shape_, c.column, c.row, level), 0.0F) + cloud_amount * cloud;
   const Between<1> reaches(shape_.nx, shape_.ny, shape_.nz, reach_.data());
   const float reach = mix(soft_reach, reaches.at(c.column, c.row, level)[0], v);
   const float low = mix(soft_cut[0], crisp_cut[0], v), high = mix(soft_cut[1], crisp_cut[1], v);
-  if (amount + 1.2F * reach < low) {
+  const float solid =
+      Between<1>(shape_.nx, shape_.ny, shape_.nz, solid_.data()).at(c.column, c.row, level)[0];
+  const float thin = v * (1.0F - solid);
+  if (amount + 1.2F * reach < low && (thin < 0.02F || amount + 1.2F * soft_reach < soft_cut[0])) {
     return 0.0F;
   }
-  const float raised = amount + reach * noise(c, level, above, v);
-  const float edge = smoothstep(low, high, raised);
-  if (edge <= 0.0F) {
-    return 0.0F;
-  }
-  const float held = mix(raised, std::max(amount, core), v) + cloud_gain * cloud;
-  const float gain = per_kg * static_cast<float>(look_.opacity) * mix(soft_gain, crisp_gain, v);
+  const float raise = noise(c, level, above, v);
+  const auto dense = [&](float cut_low, float cut_high, float raised, float held, float gain) {
+    return std::exp(held) * gain * smoothstep(cut_low, cut_high, raised);
+  };
+  const float raised = amount + reach * raise, veiled = amount + soft_reach * raise;
+  const float held = mix(raised, std::max(amount, mix(core[0], core[1], solid)), v);
+  const float lumps = dense(low, high, raised, held, mix(soft_gain, crisp_gain, v));
+  const float veil = thin * dense(soft_cut[0], soft_cut[1], veiled, veiled, veil_gain);
   const float rooted = mix(root, 1.0F, smoothstep(root_heights[0], root_heights[1], above));
-  const float full = std::exp(held) * unit * gain * edge * rooted;
+  const float full = (lumps + veil) * unit * per_kg * static_cast<float>(look_.opacity) * rooted;
   return look_.thickest * (1.0F - std::exp(-full / look_.thickest));
 }
 
@@ -334,8 +351,7 @@ void Detail::paint_column(Column& c, const Brick& b, Index i, Index j, const Pai
         part < 0.0F ? std::max(height - c.surface, 0.0F) : mix(levels_[k], levels_[k + 1], held);
     const std::size_t n = first + static_cast<std::size_t>(m);
     const float lively = vigour(c, level);
-    const float cloud =
-        lively * smoothstep(look_.condensation, look_.condensation + cloud_depth, height);
+    const float cloud = lively * capped(height);
     out.density[n] = c.share * extinction(c, level, above, lively, cloud);
     out.fresh[n] = (1.0F - cloud) *
                    smoothstep(look_.ages[1], look_.ages[0], ages.at(c.column, c.row, level)[0]);

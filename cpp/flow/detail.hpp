@@ -83,6 +83,7 @@ public:
 private:
   struct Column;
   void find_vigour(const Moment& moment);
+  float capped(float height) const;
   void find_reach();
   void find_smoky();
   bool begin(Column& column) const;
@@ -100,6 +101,7 @@ private:
   std::vector<float> amount_; ///< ln(smoke / 1 ug/m3), at least 0
   std::vector<float> vigour_; ///< 0 to 1
   std::vector<float> reach_;  ///< of crisp noise in the amount
+  std::vector<float> solid_;  ///< 0 where smoke is thin all round, 1 where it is thick
   std::vector<float> age_, glow_, drift_;
   std::vector<std::uint8_t> smoky_; ///< whether there is smoke to see within a cell
   std::array<float, Drift::phases> weights_;

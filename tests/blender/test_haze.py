@@ -4,6 +4,7 @@ import bpy
 import pytest
 from firetwin.blender import nodes
 from firetwin.scene import haze
+from firetwin.scene.light import sky
 
 
 def _look(stage, shoot, height, distance):
@@ -36,13 +37,13 @@ def _look(stage, shoot, height, distance):
 
 def test_level_rays_fade_by_the_extinction_at_their_height(stage, shoot):
     haze.settings(stage, 1.0, (2.0, 0.0, 0.0))
-    depth = haze.EXTINCTION * 30_000.0 * math.exp(-2000.0 / haze.SCALE_HEIGHT)
+    depth = sky.HAZE * 30_000.0 * math.exp(-2000.0 / sky.HAZE_HEIGHT)
     assert _look(stage, shoot, 2000.0, -30_000.0) == pytest.approx(2.0 * (1.0 - math.exp(-depth)), rel=0.01)
 
 
 def test_from_space_the_whole_air_is_one_scale_height_deep(stage, shoot):
     haze.settings(stage, 1.0, (2.0, 0.0, 0.0))
-    depth = haze.EXTINCTION * haze.SCALE_HEIGHT
+    depth = sky.HAZE * sky.HAZE_HEIGHT
     assert _look(stage, shoot, 0.0, 60_000.0) == pytest.approx(2.0 * (1.0 - math.exp(-depth)), rel=0.01)
 
 

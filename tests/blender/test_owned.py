@@ -7,7 +7,7 @@ import pytest
 from firetwin.blender import compat, nodes, owned
 from firetwin.render import layers
 from firetwin.scene import build
-from firetwin.scene.haze import EXTINCTION
+from firetwin.scene.light.sky import HAZE
 from firetwin.shot.shot import Shot
 
 # What the window and Blender's own bookkeeping change, and what is worked out from other things.
@@ -345,7 +345,7 @@ def test_two_scenes_do_not_disturb_each_other(shot, run):
     layers.build(hazy.settings, second)
     assert not differences(before, all_of(uids))
     amounts = [stage.root["haze"].nodes["Extinction"].outputs[0].default_value for stage in (first, second)]
-    assert amounts == pytest.approx([EXTINCTION, 3.0 * EXTINCTION])
+    assert amounts == pytest.approx([HAZE, 3.0 * HAZE])
     build.build(hazy, second.scene, parts=["forest", "light"])
     layers.remove(second.scene)
     build.remove(second.scene)

@@ -149,7 +149,7 @@ def test_vapour_makes_rising_smoke_white_and_thicker_from_its_height_on():
 
 
 def test_calm_old_smoke_makes_no_cloud():
-    thin = {"smoke": np.full((N, N, N), 1e-7)}
+    thin = {"smoke": np.full((N, N, N), 1e-7), "age": np.full((N, N, N), 3600.0)}
     without = painted(**thin)[0]
     assert without.max() > 0.0
     assert np.array_equal(painted(condensation=0.0, **thin)[0], without)

@@ -11,13 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...shot import heat, noise
+from ...shot import heat
 from ...shot.path import Path
 from ...shot.shot import Shot
+from ..light import exposure
 
-# Degrees of the sun: under the lower one flames light the ground fully, over the upper one not at all. By day
-# sunlight drowns their light by more than the few stops that exposures of day and night differ here.
-NIGHT, DAY = -6.0, 6.0
 LIGHT = 6.0e-4  # W of light for each luminous W of heat by night; chosen by eye
 _REACH = 9000.0  # m from a camera; light on ground farther away is not seen
 _NEAR = 150.0  # m; nearer than this the distance from the camera does not make lamps closer to each other
@@ -52,8 +50,8 @@ class Lamps:
 
 
 def darkness(shot: Shot, times: Array) -> Array:
-    """0 by day to 1 by night at model times (n,), s; it begins too gently to be seen."""
-    return noise.smoothstep(DAY, NIGHT, [shot.sun(float(time))[1] for time in times]) ** 2
+    """0 by day to 1 where it is dark at model times (n,), s; it begins too gently to be seen."""
+    return exposure.darkness(shot, times) ** 2
 
 
 def place(shot: Shot) -> Lamps:

@@ -1,11 +1,8 @@
-"""Exposure from what a camera will see in each frame: sun, sky, haze, and the light and shade of the smoke.
+"""Exposure from what a camera will see in each frame, and how dark it is there.
 
-A meter as in a camera: a few rays through the picture, each of which ends on the ground or in the sky, with
-smoke before it or not. Where smoke will be is roughly known before it is made: that of each fire rises and
-bends over in the wind as Briggs says. A picture is exposed for the geometric mean of what the rays find
-(Reinhard et al. 2002, doi 10.1145/566654.566575, eq. 1), by part of the stops that this differs from a clear
-day's, so that nights stay dark; and not so long that its brightest tenth burns out. Flames are left out: they
-are drawn to suit the exposure (`scene.glow`).
+A picture is exposed for the geometric mean of what the meter's rays find (Reinhard et al. 2002, doi
+10.1145/566654.566575, eq. 1), by part of the stops that this differs from a clear day's, so that nights stay
+dark; and not so long that smoke in the light of flames burns out.
 """
 
 from __future__ import annotations
@@ -16,48 +13,32 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from ...shot import heat, targets
+from ...shot import noise, targets
 from ...shot.path import Path
 from ...shot.shot import Shot
-from .. import haze
-from . import sky
+from . import meter, sky
 
 _KEYS = 13  # at most so many moments of a shot are metered
-_RAYS = 16, 9
-_REACH = np.geomspace(40.0, 60_000.0, 72)  # m where the ground is looked for, from where it may begin
-_HIGHEST = 4500.0  # m over the scene's zero; no ground is higher
-_GROUND = 0.06  # reflectance of forest, brush and ash, luminance: `ground.material`, in the mean
-_CLOUD = 0.3  # of lit smoke: a deep ball of it has 0.27, the sun behind the camera, to 0.46, at its side
 _DAY, _CLEAR = 0.5, 0.19  # stops at a clear afternoon's geometric mean, radiance
 _GIVE = 0.6, 0.3  # part of the stops followed below and above that: white smoke is to be white; by eye
 _WHITE = 0.8  # luminance on the picture of the brightest tenth of the glow, at most: above, AgX pales it
-_LEAST, _MOST = -2.0, 4.0  # stops
-_BLOCK, _FIRES = 600.0, 80  # m, heat this close is one fire; and how many there are at most
-_TIMES = np.array([30.0, 90.0, 180.0, 300.0, 480.0, 720.0, 1080.0, 1600.0])  # s since smoke left its fire
-_TOP = 3500.0  # m above the fire that smoke rises to at most
-_BRIGGS = 1.6, 6.9e-6  # rise is 1.6 F^(1/3) x^(2/3) / u; F in m4/s3 of a W: g / (pi cp rho T), 0.7 convected
-_EXTINCTION = 4000.0 * 0.02 / 17.4e6  # m2/J: 4 m2/g of the smoke that is a fiftieth of the fuel
+_AMID = 0.2  # of all of it in the mean, at most: amid smoke that glows, flames and trees must show; by eye
+_LEAST, _MOST = -3.0, 4.0  # stops
+_DARK = 1.2, 3.4  # stops without any flames from which, and at which, light is that of flames alone; by eye
 
 Array = NDArray[np.float64]
-_known: WeakKeyDictionary[Shot, tuple[Array, Array]] = WeakKeyDictionary()
 
 
 @dataclass(frozen=True)
-class Smoke:
-    """Smoke as the meter knows it: parcels of n fires at m ages, and the fires' light.
+class _Metered:
+    """Of k frames: stops, and darkness of the darkest camera."""
 
-    Attributes
-    ----------
-    place, radius, depth
-        (n, m, 3) m, (n, m) m and (n, m) optical depth across.
-    light
-        Places (k, 3) m and luminous powers (k,) W.
-    """
+    frame: Array
+    stops: Array
+    darkness: Array
 
-    place: Array
-    radius: Array
-    depth: Array
-    light: tuple[Array, Array]
+
+_known: WeakKeyDictionary[Shot, _Metered] = WeakKeyDictionary()
 
 
 def at(shot: Shot, frames: NDArray) -> Array:
@@ -65,23 +46,36 @@ def at(shot: Shot, frames: NDArray) -> Array:
     given = shot.settings.light.exposure
     if given is not None:
         return np.full(np.shape(frames), float(given))
+    found = _metered(shot)
+    return np.interp(frames, found.frame, found.stops)
+
+
+def darkness(shot: Shot, times: NDArray) -> Array:
+    """How dark (n,) it is without flames at model times (n,), s, for the camera that has least light.
+
+    0 by day, where sunlight drowns theirs, to 1 by night and deep under smoke.
+    """
+    found = _metered(shot)
+    return np.interp(times, shot.frames.first + (found.frame - 1.0) * shot.frames.step, found.darkness)
+
+
+def _metered(shot: Shot) -> _Metered:
     if shot not in _known:
-        _known[shot] = _metered(shot)
-    return np.interp(frames, *_known[shot])
+        count = min(shot.frames.count, _KEYS)
+        frames = np.unique(np.linspace(1, shot.frames.count, count).round())
+        _known[shot] = _smooth(shot, frames)
+    return _known[shot]
 
 
-def _metered(shot: Shot) -> tuple[Array, Array]:
-    """Frames (k,) and their stops, smooth over time."""
-    count = min(shot.frames.count, _KEYS)
-    frames = np.unique(np.linspace(1, shot.frames.count, count).round())
+def _smooth(shot: Shot, frames: Array) -> _Metered:
+    """Meter frames (k,), smooth over time."""
     if not shot.paths:
-        return frames, np.array([_stops(_clear(_state(shot, frame)), np.zeros(2)) for frame in frames])
+        found = [meter.clear(sky.State(*shot.sun(shot.frames.time(frame)))) for frame in frames]
+        stops = np.array([_stops(each, np.zeros(2)) for each in found])
+        return _Metered(frames, stops, noise.smoothstep(*_DARK, stops))
+    dark = np.array([[_dark(shot, view, int(frame)) for frame in frames] for view in shot.paths])
     stops = np.array([_stops(*radiance(shot, shot.paths[0], int(frame))) for frame in frames])
-    return frames, targets.smoothed(stops)
-
-
-def _state(shot: Shot, frame: float) -> sky.State:
-    return sky.State(*shot.sun(shot.frames.time(frame)))
+    return _Metered(frames, targets.smoothed(stops), targets.smoothed(dark.max(axis=0)))
 
 
 def _stops(found: Array, glow: Array) -> float:
@@ -90,117 +84,19 @@ def _stops(found: Array, glow: Array) -> float:
     below = np.log2(_CLEAR) - mean
     wanted = _DAY + _GIVE[0] * max(below, 0.0) + _GIVE[1] * min(below, 0.0)
     bright = np.sort(glow)[-max(len(glow) // 10, 1) :].mean()
-    return float(np.clip(min(wanted, np.log2(_WHITE / max(bright, 1.0e-6))), _LEAST, _MOST))
+    most = min(_WHITE / max(bright, 1.0e-6), _AMID / max(glow.mean(), 1.0e-6))
+    return float(np.clip(min(wanted, np.log2(most)), _LEAST, _MOST))
 
 
-def _clear(light: sky.State) -> Array:
-    """Radiance of plain ground and of the sky over it."""
-    ground = _GROUND / np.pi * light.power * light.direction[2] + _GROUND * light.sky_mean
-    return np.array([ground, light.sky_mean])
+def _dark(shot: Shot, view: Path, frame: int) -> float:
+    """How dark it is for a camera in a frame, 0 to 1."""
+    found, _shine = meter.measure(shot, view, frame)
+    return float(noise.smoothstep(*_DARK, _stops(found, np.zeros(1))))
 
 
 def radiance(shot: Shot, view: Path, frame: int) -> tuple[Array, Array]:
     """Luminances (n,) along the meter's rays in a frame: of all light, and of the flames' in smoke."""
-    light, smoke = _state(shot, frame), _smoke(shot, shot.frames.time(frame))
-    start, along = _rays(view, frame - 1)
-    ends = _ends(shot, start, along)
-    ground = np.isfinite(ends)
-    far = np.where(ground, ends, 0.0)
-    place = start + far[:, None] * along
-    sun = np.exp(-_depth(smoke, place, np.broadcast_to(light.direction, place.shape), np.inf))
-    lit = _GROUND / np.pi * light.power * light.direction[2] * sun + _GROUND * light.sky_mean
-    behind = np.where(ground, lit, light.sky_mean * _gradation(along[:, 2]))
-    clear = np.exp(-shot.settings.light.haze * _haze_depth(start[:, 2], along[:, 2], far))
-    behind = np.where(ground, behind * clear + _luminance(light.haze) * (1.0 - clear), behind)
-    hidden = 1.0 - np.exp(-_depth(smoke, start, along, ends))
-    glow = hidden * light.glow * _luminance(sky.GLOW) * _glow(smoke, start, along, ends)
-    return (1.0 - hidden) * behind + hidden * _lit_smoke(light, along) + glow, glow
-
-
-def _rays(view: Path, frame: int) -> tuple[Array, Array]:
-    """Starts and directions (n, 3) of rays spread evenly over a camera's picture."""
-    across, up = (((np.arange(count) + 0.5) / count * 2.0 - 1.0) for count in _RAYS)
-    across, up = (v.ravel() for v in np.meshgrid(across * view.half[0], up * view.half[1]))
-    turn, place = view.rotation[frame], np.broadcast_to(view.position[frame], (len(up), 3))
-    plane = across[:, None] * turn[:, 0] + up[:, None] * turn[:, 1]
-    if not view.perspective:
-        return place + plane, np.broadcast_to(-turn[:, 2], plane.shape)
-    along = plane - turn[:, 2]
-    return place, along / np.linalg.norm(along, axis=1, keepdims=True)
-
-
-def _ends(shot: Shot, start: Array, along: Array) -> Array:
-    """How far (n,) rays go before they meet the ground, m; infinite where they do not."""
-    down = np.minimum(along[:, 2], -1.0e-3)
-    begin = np.maximum((_HIGHEST - start[:, 2]) / down, 0.0)
-    reach = begin[:, None] + _REACH
-    way = start[:, None] + reach[..., None] * along[:, None]
-    low = way[..., 2] < shot.bare_ground.up(way[..., 0].ravel(), way[..., 1].ravel()).reshape(way.shape[:2])
-    return np.where(low.any(axis=1), reach[np.arange(len(low)), np.argmax(low, axis=1)], np.inf)
-
-
-def _haze_depth(height: Array, up: Array, far: Array) -> Array:
-    """Optical depth (n,) of haze along rays from heights (m) with sines of slope `up`, as `haze` has it."""
-    rise = up * far / haze.SCALE_HEIGHT
-    rise = np.where(np.abs(rise) < 1.0e-3, 1.0e-3, rise)
-    return haze.EXTINCTION * far * np.exp(-height / haze.SCALE_HEIGHT) * (1.0 - np.exp(-rise)) / rise
-
-
-def _gradation(up: Array) -> Array:
-    """Of a clear sky: radiance over its mean at sines of height; fitted to Cycles' sky, sun at 34 degrees."""
-    return 0.55 + 2.7 * (1.0 - np.clip(up, 0.0, 1.0)) ** 2
-
-
-def _smoke(shot: Shot, time: float) -> Smoke:
-    """Smoke of a moment, (n = 0) where it is switched off."""
-    sources = shot.fire.sources(time)
-    if not shot.settings.smoke.enabled:
-        sources = sources.take(np.empty(0, np.int64))
-    fires = heat.lights(sources, _BLOCK, _FIRES)
-    shine = heat.lights(sources.luminous(), _BLOCK, _FIRES)
-    speed = max(float(np.hypot(*shot.wind)), 1.0)
-    drift = np.array([*shot.wind, 0.0])[None, None] * _TIMES[None, :, None]
-    flux = (_BRIGGS[1] * fires.power[:, None]) ** (1.0 / 3.0)
-    rise = np.minimum(_BRIGGS[0] * flux * (speed * _TIMES) ** (2.0 / 3.0) / speed, _TOP)
-    place = fires.position[:, None] + drift
-    place[..., 2] += rise
-    radius = 0.5 * rise + 0.5 * _BLOCK  # Briggs: a plume is half as wide as it has risen
-    depth = _EXTINCTION * fires.power[:, None] / (2.0 * radius * speed)
-    return Smoke(place, radius, depth, (shine.position, shine.power))
-
-
-def _depth(smoke: Smoke, start: Array, along: Array, ends: Array | float) -> Array:
-    """Optical depth (n,) of the smoke along rays: of each fire's the parcel that is thickest on them."""
-    total = np.zeros(len(start))
-    for place, radius, depth in zip(smoke.place, smoke.radius, smoke.depth, strict=True):
-        off = place[None] - start[:, None]
-        far = np.einsum("nmk,nk->nm", off, along)
-        beside = np.maximum((off**2).sum(axis=2) - far**2, 0.0)
-        seen = (far > 0.0) & (far < np.broadcast_to(ends, len(start))[:, None] + radius)
-        total += (seen * depth * np.exp(-beside / radius**2)).max(axis=1)
-    return total
-
-
-def _lit_smoke(light: sky.State, along: Array) -> Array:
-    """Luminance (n,) of thick smoke on rays: of a Lambert sphere in the sun, and of the sky."""
-    phase = np.arccos(-np.clip(along @ light.direction, -1.0, 1.0))
-    sphere = (np.sin(phase) + (np.pi - phase) * np.cos(phase)) * 2.0 / (3.0 * np.pi)
-    return _CLOUD * (light.power * sphere / np.pi + light.sky_mean)
-
-
-def _glow(smoke: Smoke, start: Array, along: Array, ends: Array) -> Array:
-    """Most light (n,) of flames in smoke on a ray: sum of P / 1 GW exp(-r / 1100 m) / (1 + (r / 250 m)^2)."""
-    places, power = smoke.light
-    most = np.zeros(len(start))
-    for place in places:
-        far = np.maximum(((place - start) * along).sum(axis=1), 0.0)
-        nearest = start + np.minimum(far, ends)[:, None] * along
-        square = ((nearest[:, None] - places[None]) ** 2).sum(axis=2)
-        light = np.exp(-np.sqrt(square) / 1100.0) / (1.0 + square / 250.0**2)
-        most = np.maximum(most, light @ power / 1.0e9)
-    return most
-
-
-def _luminance(colour: tuple[float, ...]) -> float:
-    """Of linear red, green and blue (ITU-R BT.709)."""
-    return float(np.dot(colour, (0.2126, 0.7152, 0.0722)))
+    found, shine = meter.measure(shot, view, frame)
+    strength = sky.glow(float(noise.smoothstep(*_DARK, _stops(found, np.zeros(1)))))
+    glow = strength * meter.luminance(sky.GLOW) * shine
+    return found + glow, glow

@@ -11,11 +11,12 @@ from ...shot import noise, sun
 
 _SUN = 11.1  # W/m2 over the air
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
-_MOON = 0.2  # W/m2, for the exposure of the night: shows ridges and the tops of smoke
+_MOON = 0.12  # W/m2, for the exposure of the night: shows ridges and the tops of smoke
 _MOON_COLOUR = (0.65, 0.78, 1.0)
-NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.15  # radiance
+NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.07  # radiance
 _DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.02
-
+HAZE = 1.2e-5  # extinction at z = 0 on a dry September day, 1/m: clear mountain air
+HAZE_HEIGHT = 5000.0  # m; it thins by exp(-z / this), between dust (about 2 km) and air (8 km)
 
 MEAN = (
     (-9.0, -6.0, -4.0, -2.0, 0.0, 2.0, 5.0, 10.0, 20.0, 34.0, 50.0, 70.0),
@@ -24,7 +25,7 @@ MEAN = (
 """Heights of the sun (degrees), and the irradiance of the sky over pi, luminance, as Cycles 4.5 draws it."""
 
 GLOW = (1.0, 0.25, 0.04)  # colour of smoke that flames light
-_GLOW_LIGHT = 0.018, 0.28  # radiance of thick smoke amid 1 GW of luminous heat, by day and by night
+_GLOW_LIGHT = 0.018, 0.28  # of that, by day and by night
 
 
 class State:
@@ -42,8 +43,6 @@ class State:
         Mean radiance of the clear sky by cosine, luminance.
     haze
         Radiance of haze.
-    glow
-        Radiance of thick smoke amid 1 GW of luminous heat, of the colour GLOW: by day the sky's drowns it.
     """
 
     def __init__(self, bearing: float, height: float) -> None:
@@ -58,8 +57,12 @@ class State:
         blue = float(noise.smoothstep(-10.0, 12.0, height))
         self.haze = tuple(_NIGHT_HAZE + (_DAY_HAZE - _NIGHT_HAZE) * blue**2)
         self.sky_mean = float(np.interp(height, *MEAN)) + NIGHT_SKY.mean()
-        by_day, by_night = _GLOW_LIGHT
-        self.glow = float(by_night + (by_day - by_night) * noise.smoothstep(-8.0, 8.0, height))
+
+
+def glow(darkness: float) -> float:
+    """Radiance of thick smoke amid 1 GW of luminous heat, of the colour GLOW: by day the sky's drowns it."""
+    by_day, by_night = _GLOW_LIGHT
+    return by_day + (by_night - by_day) * darkness
 
 
 def air_mass(height: float) -> float:

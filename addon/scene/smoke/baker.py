@@ -16,6 +16,7 @@ from ...errors import Error, writing
 from ...shot import burning, heat
 from ...shot.fire import Cells, Fire
 from ...shot.shot import Shot
+from ..light import exposure
 from . import cache, flow_frames, moments, stability
 from .flow import Flow
 from .view import resolution
@@ -111,7 +112,7 @@ class Baker:
         self.flow.ready(frame)
         time = float(self.times[frame - 1])
         metadata = self._metadata(time, "a flow of the air, solved from the model's heat")
-        lights = lit if flow_frames.dark(self.shot.sun(time)[1]) else None
+        lights = lit if exposure.darkness(self.shot, time) > 0.0 else None
         for painter in self.painters:
             place = painter.layer.file(path.parent, frame)
             mine = files.part_of(place)

@@ -16,7 +16,6 @@ import numpy as np
 from firetwin_core import flow, lod, volume
 from numpy.typing import NDArray
 
-from ...shot import noise
 from ...shot.path import SENSOR
 from ...shot.shot import WIDE_LENS, Shot
 from . import moments
@@ -238,8 +237,3 @@ def _stretched(values: NDArray, at: NDArray[np.int64], count: int, axis: int) ->
     part = (place - low).reshape([-1 if a == axis else 1 for a in range(values.ndim)])
     high = np.minimum(low + 1, len(at) - 1)
     return (values.take(low, axis) * (1 - part) + values.take(high, axis) * part).astype(np.float32)
-
-
-def dark(sun: float) -> bool:
-    """Whether flames light the smoke so that it shows, under a sun at `sun` degrees."""
-    return bool(noise.smoothstep(-8.0, 8.0, sun) < 1.0)

@@ -15,7 +15,8 @@ from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import haze
-from . import flow_frames, material
+from ..light import exposure, sky
+from . import material
 
 _FRESH, _OLD = (0.44, 0.36, 0.29), (0.95, 0.945, 0.94)  # albedo: of soot and char, and of aged haze and cloud
 _MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
@@ -31,9 +32,9 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     albedo = tree.mix_colour(tree.attribute("fresh"), _OLD, _FRESH)
     part, air = haze.fraction(tree, stage)
     light = tree.emission(air, part * density)
-    if flow_frames.dark(shot.sun(shot.frames.middle)[1]):
+    if exposure.darkness(shot, shot.frames.middle) > 0.0:
         glow = tree.attribute("glow") * (1.0 - part) * material.glow_light(shot)
-        light = tree.add_shader(light, tree.emission(material.GLOW, glow * density))
+        light = tree.add_shader(light, tree.emission(sky.GLOW, glow * density))
     scattered = tree.mix_colour(part, albedo, (0.0, 0.0, 0.0))
     detailed = tree.add_shader(_smoke(tree, density, scattered), light)
     # Most steps belong to rays of light through the smoke; one grid is enough for them.

@@ -15,7 +15,7 @@ from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import haze
-from ..light.sky import GLOW, State
+from ..light import exposure, sky
 from . import view
 
 EXTINCTION_PER_DILUTION = 0.04  # 1/m: 4 m2/g (fresh biomass smoke, Reid et al. 2005) times 10 mg/m3
@@ -65,7 +65,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     glow = tree.attribute("glow") * (1.0 - part) * glow_light(shot)
 
     def seen(density: nodes.Value) -> nodes.Value:
-        light = tree.add_shader(tree.emission(air, part * density), tree.emission(GLOW, glow * density))
+        light = tree.add_shader(tree.emission(air, part * density), tree.emission(sky.GLOW, glow * density))
         return tree.add_shader(_smoke(tree, density, scattered), light)
 
     # A mix by 0 or 1 evaluates one side only: deep inside, the noise changes nothing and is left out.
@@ -82,7 +82,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
 
 def glow_light(shot: Shot) -> float:
     """Light of the flames on smoke in the middle of the shot."""
-    return State(*shot.sun(shot.frames.middle)).glow
+    return sky.glow(float(exposure.darkness(shot, shot.frames.middle)))
 
 
 def _extinction(dilution: nodes.Value, opacity: nodes.Value, most: float) -> nodes.Value:

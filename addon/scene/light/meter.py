@@ -1,0 +1,182 @@
+"""What a camera's light meter finds in a frame: sun, sky, haze, and the light and shade of the smoke.
+
+A meter as in a camera: a few rays through the picture, each of which ends on the ground or in the sky, with
+smoke before it or not. Where smoke will be is roughly known before it is made: that of each fire rises and
+bends over in the wind as Briggs says. Flames are left out: they are drawn to suit the exposure
+(`scene.glow`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...shot import heat
+from ...shot.path import Path
+from ...shot.shot import Shot
+from . import sky
+
+_RAYS = 16, 9
+_REACH = np.geomspace(40.0, 60_000.0, 72)  # m where the ground is looked for, from where it may begin
+_HIGHEST = 4500.0  # m over the scene's zero; no ground is higher
+_GROUND = 0.06  # reflectance of forest, brush and ash, luminance: `ground.material`, in the mean
+_CLOUD = 0.3  # of lit smoke: a deep ball of it has 0.27, the sun behind the camera, to 0.46, at its side
+_BLOCK, _FIRES = 600.0, 80  # m, heat this close is one fire; and how many there are at most
+_TIMES = np.array([30.0, 90.0, 180.0, 300.0, 480.0, 720.0, 1080.0, 1600.0])  # s since smoke left its fire
+_HIDES, _FRONT = 0.3, 1.5  # optical depth of a parcel that hides much; its radii from there to its middle
+_THROUGH = 0.5  # of smoke's depth counts for the light on it: `smoke.flow_material`
+_TOP = 3500.0  # m above the fire that smoke rises to at most
+_BRIGGS = 1.6, 6.9e-6  # rise is 1.6 F^(1/3) x^(2/3) / u; F in m4/s3 of a W: g / (pi cp rho T), 0.7 convected
+_EXTINCTION = 4000.0 * 0.02 / 17.4e6  # m2/J: 4 m2/g of the smoke that is a fiftieth of the fuel
+
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Smoke:
+    """Smoke as the meter knows it: parcels of n fires at m ages, and the fires' light.
+
+    Attributes
+    ----------
+    place, radius, depth
+        (n, m, 3) m, (n, m) m and (n, m) optical depth across.
+    light
+        Places (k, 3) m and luminous powers (k,) W.
+    """
+
+    place: Array
+    radius: Array
+    depth: Array
+    light: tuple[Array, Array]
+
+
+def clear(light: sky.State) -> Array:
+    """Radiance of plain ground and of the sky over it."""
+    ground = _GROUND / np.pi * light.power * light.direction[2] + _GROUND * light.sky_mean
+    return np.array([ground, light.sky_mean])
+
+
+def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array]:
+    """Luminances (n,) along the meter's rays in a frame, and what flames add (GW) to those in smoke."""
+    light, smoke = sky.State(*shot.sun(shot.frames.time(frame))), _smoke(shot, shot.frames.time(frame))
+    start, along = _rays(view, frame - 1)
+    ends = _ends(shot, start, along)
+    ground = np.isfinite(ends)
+    far = np.where(ground, ends, 0.0)
+    place = start + far[:, None] * along
+    lit = _GROUND / np.pi * light.power * light.direction[2] * _sunlit(smoke, place, light, 1.0)
+    behind = np.where(ground, lit + _GROUND * light.sky_mean, light.sky_mean * _gradation(along[:, 2]))
+    clear = np.exp(-shot.settings.light.haze * _haze_depth(start[:, 2], along[:, 2], far))
+    behind = np.where(ground, behind * clear + luminance(light.haze) * (1.0 - clear), behind)
+    depth, met = _depth(smoke, start, along, ends)
+    hidden = 1.0 - np.exp(-depth)
+    shade = _sunlit(smoke, start + met[:, None] * along, light, _THROUGH)
+    found = (1.0 - hidden) * behind + hidden * _lit_smoke(light, along) * shade
+    return found, hidden * _shine(smoke, start, along, ends)
+
+
+def _sunlit(smoke: Smoke, place: Array, light: sky.State, through: float) -> Array:
+    """Part (n,) of sunlight that gets to places (n, 3) through smoke of whose depth a part counts."""
+    depth, _met = _depth(smoke, place, np.broadcast_to(light.direction, place.shape), np.inf)
+    return np.exp(-through * depth)
+
+
+def _rays(view: Path, frame: int) -> tuple[Array, Array]:
+    """Starts and directions (n, 3) of rays spread evenly over a camera's picture."""
+    across, up = (((np.arange(count) + 0.5) / count * 2.0 - 1.0) for count in _RAYS)
+    across, up = (v.ravel() for v in np.meshgrid(across * view.half[0], up * view.half[1]))
+    turn, place = view.rotation[frame], np.broadcast_to(view.position[frame], (len(up), 3))
+    plane = across[:, None] * turn[:, 0] + up[:, None] * turn[:, 1]
+    if not view.perspective:
+        return place + plane, np.broadcast_to(-turn[:, 2], plane.shape)
+    along = plane - turn[:, 2]
+    return place, along / np.linalg.norm(along, axis=1, keepdims=True)
+
+
+def _ends(shot: Shot, start: Array, along: Array) -> Array:
+    """How far (n,) rays go before they meet the ground, m; infinite where they do not."""
+    down = np.minimum(along[:, 2], -1.0e-3)
+    begin = np.maximum((_HIGHEST - start[:, 2]) / down, 0.0)
+    reach = begin[:, None] + _REACH
+    way = start[:, None] + reach[..., None] * along[:, None]
+    low = way[..., 2] < shot.bare_ground.up(way[..., 0].ravel(), way[..., 1].ravel()).reshape(way.shape[:2])
+    return np.where(low.any(axis=1), reach[np.arange(len(low)), np.argmax(low, axis=1)], np.inf)
+
+
+def _haze_depth(height: Array, up: Array, far: Array) -> Array:
+    """Optical depth (n,) of haze along rays from heights (m) with sines of slope `up`, as `haze` has it."""
+    rise = up * far / sky.HAZE_HEIGHT
+    rise = np.where(np.abs(rise) < 1.0e-3, 1.0e-3, rise)
+    return sky.HAZE * far * np.exp(-height / sky.HAZE_HEIGHT) * (1.0 - np.exp(-rise)) / rise
+
+
+def _gradation(up: Array) -> Array:
+    """Of a clear sky: radiance over its mean at sines of height; fitted to Cycles' sky, sun at 34 degrees."""
+    return 0.55 + 2.7 * (1.0 - np.clip(up, 0.0, 1.0)) ** 2
+
+
+def _smoke(shot: Shot, time: float) -> Smoke:
+    """Smoke of a moment, (n = 0) where it is switched off."""
+    sources = shot.fire.sources(time)
+    if not shot.settings.smoke.enabled:
+        sources = sources.take(np.empty(0, np.int64))
+    fires = heat.lights(sources, _BLOCK, _FIRES)
+    shine = heat.lights(sources.luminous(), _BLOCK, _FIRES)
+    speed = max(float(np.hypot(*shot.wind)), 1.0)
+    drift = np.array([*shot.wind, 0.0])[None, None] * _TIMES[None, :, None]
+    flux = (_BRIGGS[1] * fires.power[:, None]) ** (1.0 / 3.0)
+    rise = np.minimum(_BRIGGS[0] * flux * (speed * _TIMES) ** (2.0 / 3.0) / speed, _TOP)
+    place = fires.position[:, None] + drift
+    place[..., 2] += rise
+    radius = 0.5 * rise + 0.5 * _BLOCK  # Briggs: a plume is half as wide as it has risen
+    depth = _EXTINCTION * fires.power[:, None] / (2.0 * radius * speed)
+    return Smoke(place, radius, depth, (shine.position, shine.power))
+
+
+def _depth(smoke: Smoke, start: Array, along: Array, ends: Array | float) -> tuple[Array, Array]:
+    """Optical depth (n,) of the smoke along rays, and how far off (n,) the first that hides much is met, m.
+
+    Of each fire's parcels the one counts that is thickest on a ray.
+    """
+    total, met = np.zeros(len(start)), np.full(len(start), np.inf)
+    rows = np.arange(len(start))
+    for place, radius, depth in zip(smoke.place, smoke.radius, smoke.depth, strict=True):
+        off = place[None] - start[:, None]
+        far = np.einsum("nmk,nk->nm", off, along)
+        beside = np.maximum((off**2).sum(axis=2) - far**2, 0.0)
+        seen = (far > 0.0) & (far < np.broadcast_to(ends, len(start))[:, None] + radius)
+        thick = seen * depth * np.exp(-beside / radius**2)
+        most = np.argmax(thick, axis=1)
+        thickest = thick[rows, most]
+        front = np.maximum(far[rows, most] - _FRONT * radius[most], 0.0)
+        met = np.where(thickest > _HIDES, np.minimum(met, front), met)
+        total += thickest
+    return total, np.where(np.isfinite(met), met, 0.0)
+
+
+def _lit_smoke(light: sky.State, along: Array) -> Array:
+    """Luminance (n,) of thick smoke on rays: of a Lambert sphere in the sun, and of the sky."""
+    phase = np.arccos(-np.clip(along @ light.direction, -1.0, 1.0))
+    sphere = (np.sin(phase) + (np.pi - phase) * np.cos(phase)) * 2.0 / (3.0 * np.pi)
+    return _CLOUD * (light.power * sphere / np.pi + light.sky_mean)
+
+
+def _shine(smoke: Smoke, start: Array, along: Array, ends: Array) -> Array:
+    """Most light (n,) of flames on smoke on a ray: sum of P / 1 GW exp(-r / 1100 m) / (1 + (r / 250 m)^2)."""
+    places, power = smoke.light
+    most = np.zeros(len(start))
+    for place in places:
+        far = np.maximum(((place - start) * along).sum(axis=1), 0.0)
+        nearest = start + np.minimum(far, ends)[:, None] * along
+        square = ((nearest[:, None] - places[None]) ** 2).sum(axis=2)
+        light = np.exp(-np.sqrt(square) / 1100.0) / (1.0 + square / 250.0**2)
+        most = np.maximum(most, light @ power / 1.0e9)
+    return most
+
+
+def luminance(colour: tuple[float, ...]) -> float:
+    """Of linear red, green and blue (ITU-R BT.709)."""
+    return float(np.dot(colour, (0.2126, 0.7152, 0.0722)))
