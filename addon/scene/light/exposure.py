@@ -24,7 +24,7 @@ _GIVE = 0.6, 0.3  # part of the stops followed below and above that: white smoke
 _WHITE = 0.8  # luminance on the picture of the brightest tenth of the glow, at most: above, AgX pales it
 _AMID = 0.2  # of all of it in the mean, at most: amid smoke that glows, flames and trees must show; by eye
 _LEAST, _MOST = -3.0, 4.0  # stops
-_DARK = 1.2, 3.4  # stops without any flames from which, and at which, light is that of flames alone; by eye
+_DARK = 1.4, 3.4  # stops without any flames from which, and at which, light is that of flames alone; by eye
 
 Array = NDArray[np.float64]
 
