@@ -1,7 +1,6 @@
 #include "forest/scatter.hpp"
 
 #include "base/check.hpp"
-#include "base/clones.hpp"
 #include "forest/placement.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -178,7 +177,6 @@ Plants scatter(const Site& site, bool trees, Fuel fuel, Write write) {
 
 } // namespace
 
-FIRETWIN_CLONES("avx512f", "avx2")
 float largest_fuel(std::span<const float> fuel) {
   constexpr std::size_t lanes = 16; // as wide as registers may be
   std::array<float, lanes> largest{};
