@@ -49,10 +49,12 @@ std::shared_ptr<Trees> trees(const py::object& canopy_fuel, const py::object& la
   const SiteArrays arrays(fuel, latitude, longitude, elevation, mask);
   const auto site = arrays.site(frame, seed, jitter);
   const py::gil_scoped_release release;
-  // A grid without canopy has no largest fuel and no tree that would need it.
-  const double largest = double{forest::largest_fuel(view(fuel))};
-  const double scale = max_fuel.value_or(largest > 0.0 ? largest : 1.0);
-  return std::make_shared<Trees>(Trees{forest::trees(view(fuel), site, scale)});
+  if (!max_fuel) {
+    // A grid without canopy has no largest fuel and no tree that would need it.
+    const double largest = double{forest::largest_fuel(view(fuel))};
+    max_fuel = largest > 0.0 ? largest : 1.0;
+  }
+  return std::make_shared<Trees>(Trees{forest::trees(view(fuel), site, *max_fuel)});
 }
 
 std::shared_ptr<Grass> grass(const py::object& surface_fuel, const py::object& latitude,

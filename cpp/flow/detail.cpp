@@ -1,5 +1,6 @@
 #include "flow/detail.hpp"
 
+#include "base/smoothstep.hpp"
 #include "flow/between.hpp"
 #include "flow/noise.hpp"
 #include "flow/parallel.hpp"
@@ -34,11 +35,6 @@ constexpr int lump_octaves = 3, most_octaves = 7;
 constexpr float root = 0.12F; // share of the extinction at the ground
 constexpr float root_heights[] = {10.0F, 130.0F};
 constexpr float terrain_fade = 1000.0F; // m over which levels forget ground finer than the flow's
-
-float smoothstep(float low, float high, float x) {
-  const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
-  return t * t * (3.0F - 2.0F * t);
-}
 
 float ramp(float low, float high, float x) {
   return std::clamp((x - low) / (high - low), 0.0F, 1.0F);

@@ -81,21 +81,25 @@ std::size_t list_all(std::size_t y, std::size_t columns, Grows grows, Buffer<std
   return n;
 }
 
-/// The same of the cells that a mask has, which is skimmed word by word: most of it may be empty.
+/// The same of the cells that a mask has, whose empty words are stepped over: most of it may be so.
 template <class Grows>
 std::size_t list_masked(std::span<const bool> mask, std::size_t y, std::size_t columns, Grows grows,
                         Buffer<std::uint32_t>& out) {
   const bool* row = &mask[y * columns];
   std::size_t n = 0;
-  for (std::size_t first = 0; first < columns; first += sizeof(std::uint64_t)) {
-    const std::size_t last = std::min(first + sizeof(std::uint64_t), columns);
-    std::uint64_t word = 0;
-    std::memcpy(&word, row + first, last - first);
-    for (std::size_t x = first; word != 0 && x < last; ++x) {
-      if (row[x] && grows(y * columns + x)) {
-        out[n++] = static_cast<std::uint32_t>(x);
+  std::uint64_t word = 0;
+  for (std::size_t x = 0; x < columns;) {
+    if (x + sizeof word <= columns) {
+      std::memcpy(&word, row + x, sizeof word);
+      if (word == 0) {
+        x += sizeof word;
+        continue;
       }
     }
+    if (row[x] && grows(y * columns + x)) {
+      out[n++] = static_cast<std::uint32_t>(x);
+    }
+    ++x;
   }
   return n;
 }

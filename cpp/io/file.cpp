@@ -60,8 +60,6 @@ void File::read(std::uint64_t offset, std::span<char> out) const {
 
 namespace {
 
-constexpr std::size_t piece = 1U << 18; // bytes; longer lines get more
-
 void check_size(const File& file, std::uint64_t limit) {
   if (file.size() > limit) {
     fail(file.path(), "is " + std::to_string(file.size()) + " bytes long, more than the limit of " +
@@ -85,7 +83,7 @@ Buffer<char> read_all(const std::filesystem::path& path, std::uint64_t limit) {
   return bytes;
 }
 
-void read_lines(const std::filesystem::path& path, std::uint64_t limit,
+void read_lines(const std::filesystem::path& path, std::uint64_t limit, std::size_t piece,
                 const std::function<void(std::span<const char>, std::uint64_t)>& take) {
   const File file(path);
   check_size(file, limit);

@@ -39,7 +39,8 @@ Buffer<char> read_all(const std::filesystem::path& path, std::uint64_t limit);
 
 /// The same piece by piece in memory that stays in the processor's cache, each of whole lines (but
 /// for the last line of a file, which may lack its end), with the number of bytes after it.
-void read_lines(const std::filesystem::path& path, std::uint64_t limit,
+/// @param piece bytes, above 0; longer lines get more
+void read_lines(const std::filesystem::path& path, std::uint64_t limit, std::size_t piece,
                 const std::function<void(std::span<const char> lines, std::uint64_t left)>& take);
 
 } // namespace firetwin::io

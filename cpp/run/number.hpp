@@ -12,7 +12,7 @@ template <class T> struct Number {
   NumberError error;
 };
 
-/// One decimal number at `first`, as parse_text (text.hpp) defines it. The caller checks that a
+/// One decimal number at `first`, as read_text (text.hpp) defines it. The caller checks that a
 /// separator follows.
 template <class T> Number<T> parse_number(const char* first, const char* last);
 

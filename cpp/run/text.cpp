@@ -157,25 +157,17 @@ private:
 
 } // namespace
 
-template <class T> Grid<T> parse_text(std::span<const char> text, const std::string& path) {
-  Parser<T> parser(path);
-  parser.take(text, 0);
-  return parser.finish();
-}
-
-template <class T> Grid<T> read_text(const std::filesystem::path& path) {
+template <class T> Grid<T> read_text(const std::filesystem::path& path, std::size_t piece) {
   const std::string name = io::utf8(path);
   Parser<T> parser(name);
-  io::read_lines(path, largest_text, [&parser](std::span<const char> lines, std::uint64_t left) {
+  const auto take = [&parser](std::span<const char> lines, std::uint64_t left) {
     parser.take(lines, left);
-  });
+  };
+  io::read_lines(path, largest_text, piece, take);
   return parser.finish();
 }
 
-template Grid<float> parse_text(std::span<const char>, const std::string&);
-template Grid<double> parse_text(std::span<const char>, const std::string&);
-
-template Grid<float> read_text(const std::filesystem::path&);
-template Grid<double> read_text(const std::filesystem::path&);
+template Grid<float> read_text(const std::filesystem::path&, std::size_t);
+template Grid<double> read_text(const std::filesystem::path&, std::size_t);
 
 } // namespace firetwin::run

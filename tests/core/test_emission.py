@@ -19,6 +19,18 @@ def cloud(time, places=PLACES, ground=None, id=(7, 8, 9), seed=1, wind=WIND, **o
     return particles.state(time, places, wind=wind, id=id, size=10.0, ground=ground, seed=seed, **arguments)
 
 
+@pytest.mark.parametrize(
+    ("id", "reason"),
+    [
+        ((7.0, 8.5, 9.0), "id must hold integers, not float64"),
+        ((7, -8, 9), "id holds an integer too large or too small for uint64"),
+    ],
+)
+def test_sources_are_numbered_in_whole_numbers(id, reason):
+    with pytest.raises(ValueError, match=reason):
+        cloud(10.0, id=id)
+
+
 def transcription(id, number, seed):
     """The random numbers of one particle, by the plain Philox."""
     unit = [

@@ -48,6 +48,24 @@ def test_all_that_has_fuel_and_is_reached_burns_once(make_run):
     assert found.surface.sum() + found.canopy.sum() == pytest.approx(weight[burns].sum(), rel=1e-12)
 
 
+@pytest.mark.parametrize("pace", [40.0, 4000.0])  # s a cell: cells are crossed in a minute, and in an hour
+@pytest.mark.parametrize("load", [0.0, 3.0])  # kg/m2 on the surface: the canopy alone, and slow timber
+def test_what_still_burns_is_found_however_long_ago_it_began(make_run, monkeypatch, pace, load):
+    """A window has what all of the fuel, gathered without one, says that burns in it."""
+    monkeypatch.setattr(fuels, "_DETAIL", 1.0)  # so that each cell is a piece
+    surface = np.full((FY, FX), load, np.float32)
+    run = runs.open(make_run(fuel_arrival_time=front(pace), surface_fuel=surface))
+    every = fuels.gather(run, None, -np.inf, np.inf, np.inf)
+    assert len(every.cell) == FY * FX - 2
+    for before in (0.0, 1e3, 4e4):
+        for first in np.linspace(-pace, every.over.max() + 1.1 * before, 41):
+            found = fuels.gather(run, None, first, first + 60.0, before)
+            recent = (every.over > first) | (every.arrival >= first - before)
+            expected = every.take((every.begin < first + 60.0) & recent)
+            for field in fields(fuels.Fuel):
+                assert np.array_equal(getattr(found, field.name), getattr(expected, field.name)), field.name
+
+
 @pytest.mark.parametrize("form", ["npy", "text"])
 @pytest.mark.parametrize("order", ["C", "F"])
 def test_rows_are_those_of_the_whole_grid(make_run, form, order):

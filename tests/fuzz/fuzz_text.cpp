@@ -1,7 +1,9 @@
-// The text grid reader: no input may do anything but give a full grid or an InputError, and what it
-// gave must come back when it is written with enough digits and read again.
+// The text grid reader: no input may do anything but give a full grid or an InputError, the same in
+// whatever pieces it is read, and what it gave must come back when it is written with enough digits
+// and read again. The first byte is the size of a piece; the rest is the file.
 
 #include "check.hpp"
+#include "memory_file.hpp"
 #include "run/text.hpp"
 
 #include <array>
@@ -9,11 +11,17 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <filesystem>
 #include <string>
+#include <variant>
 
 namespace {
 
 using namespace firetwin;
+namespace fs = std::filesystem;
+
+constexpr std::size_t largest = 1U << 16U; ///< bytes; no input is longer
 
 template <class T> std::string written(const Grid<T>& grid) {
   std::string text;
@@ -36,20 +44,43 @@ template <class T> bool same(const Grid<T>& a, const Grid<T>& b) {
   return equal;
 }
 
-template <class T> void read(std::span<const char> text) {
-  fuzz::expect_result_or_input_error([&] {
-    const Grid<T> grid = run::parse_text<T>(text, "input");
-    fuzz::check(grid.rows > 0 && grid.columns > 0, "a grid has rows and columns");
-    fuzz::check(grid.values.size() == grid.rows * grid.columns, "a grid is full");
-    fuzz::check(same(grid, run::parse_text<T>(written(grid), "again")), "values come back");
-  });
+/// The grid, or what is wrong with it.
+template <class T> std::variant<Grid<T>, InputError> read(const fs::path& path, std::size_t piece) {
+  try {
+    return run::read_text<T>(path, piece);
+  } catch (const InputError& error) {
+    fuzz::check_error(error);
+    return error;
+  }
+}
+
+template <class T> void check(const fs::path& path, std::size_t piece) {
+  const auto whole = read<T>(path, largest), parts = read<T>(path, piece);
+  fuzz::check(whole.index() == parts.index(), "pieces are read as the whole is");
+  if (const auto* error = std::get_if<InputError>(&whole)) {
+    fuzz::check(std::strcmp(error->what(), std::get<InputError>(parts).what()) == 0,
+                "pieces have the error of the whole");
+    return;
+  }
+  const Grid<T>& grid = std::get<Grid<T>>(whole);
+  fuzz::check(grid.rows > 0 && grid.columns > 0, "a grid has rows and columns");
+  fuzz::check(grid.values.size() == grid.rows * grid.columns, "a grid is full");
+  fuzz::check(same(grid, std::get<Grid<T>>(parts)), "pieces have the values of the whole");
+  static const fuzz::MemoryFile again;
+  again.write(written(grid));
+  fuzz::check(same(grid, run::read_text<T>(again.path())), "values come back");
 }
 
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::span<const char> text(reinterpret_cast<const char*>(data), size);
-  read<float>(text);
-  read<double>(text);
+  static const fuzz::MemoryFile memory;
+  if (size == 0) {
+    return 0;
+  }
+  memory.write({reinterpret_cast<const char*>(data + 1), size - 1});
+  const std::size_t piece = std::size_t{data[0]} + 1;
+  check<float>(memory.path(), piece);
+  check<double>(memory.path(), piece);
   return 0;
 }

@@ -62,7 +62,8 @@ def seeds() -> dict[str, list[bytes]]:
     whole = [b"\x00" + t for t in toml[-2:]] + [bytes([i]) + t for i in range(1, 10) for t in text[:4]]
     whole += [bytes([i]) + npy_file(HEADERS[0], data) for i in (3, 6, 8)]
     whole += [bytes([i]) + axis for i in (2, 5) for axis in (b"179.9 -180 -179.9\n", b"239.4,239.5,239.6,\n")]
-    return {"text": text, "npy": npy, "toml": toml, "run": whole}
+    pieced = [bytes([piece]) + t for t in text for piece in (0, 6, 255)]
+    return {"text": pieced, "npy": npy, "toml": toml, "run": whole}
 
 
 def main(folder: Path) -> None:
