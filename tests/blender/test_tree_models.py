@@ -14,8 +14,8 @@ from mathutils import Vector
 TRIANGLES = ((10_000, 30_000), (1_000, 2_500), (60, 350), (16, 40))  # of living trees, level by level
 BRUSH = ((3_000, 6_000), (800, 2_500), (60, 350), (16, 40))
 SNAGS = ((100, 1_000), (50, 300), (20, 120), (2, 10))
-# Diameter of the crown over the height: forest trees 0.2 to 0.3 by the ratio of crown to trunk, and wider where
-# they have room; oaks 0.6 to 1.2; the brush is wider than tall (assumed, from the species' descriptions).
+# Diameter of the crown over the height: conifers in the open are a quarter to a half as wide as tall, black
+# oaks about as wide, and the brush is wider than tall (assumed, from the species' descriptions).
 WIDTH = {
     "large": (0.25, 0.55),
     "medium": (0.22, 0.50),
@@ -85,7 +85,7 @@ STEP = {"side": (0.0, 0.0, -24.0), "above": (0.0, -16.0, 0.0)}  # m from level t
 
 @pytest.fixture
 def looks(shot, stage, scene, tmp_path):
-    """Cover (levels, trees) and colour (levels, trees, 3) of each level from the side and above, by Cycles."""
+    """Cover (levels, trees) and colour (levels, trees, 3), from the side and from above, by Cycles."""
     made = library.tree_models(shot, stage)
     made.use_fake_user = True  # it outlives the first view
     row, column = (v.ravel() for v in np.mgrid[: levels.LEVELS, : len(LIVING)])
@@ -140,7 +140,7 @@ def _rendered(scene, path):
     render.filepath = str(path)
     bpy.ops.render.render(write_still=True)
     image = bpy.data.images.load(str(path))
-    return np.array(image.pixels[:]).reshape(*image.size[::-1], 4)[::-1]
+    return np.array(image.pixels[:]).reshape(render.resolution_y, render.resolution_x, 4)[::-1]
 
 
 def test_coarser_levels_cover_as_much_and_look_as_bright(looks):

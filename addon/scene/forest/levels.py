@@ -11,7 +11,6 @@ from .shape import Array, Shape
 
 LEVELS = 4
 PIXELS = (150.0, 40.0, 12.0)  # a tree is drawn in level 0 if taller, in 1, in 2, and in 3 if smaller
-_SLABS = 5  # of the impostor's crown
 
 
 def level(pixels: ArrayLike) -> NDArray[np.int64]:
@@ -62,10 +61,15 @@ def fans(shape: Shape, leaves: Leaves, groups: NDArray[np.int64], fit: Fit) -> N
 
 
 def slabs(leaves: Leaves) -> NDArray[np.int64]:
-    """Groups (n,) of leaves: slabs of as many each, one over the other, cut in two along x and y in turn."""
-    order = np.argsort(np.argsort(leaves.middle[:, 2]))
-    slab = order * _SLABS // len(order)
-    return 2 * slab + (np.where(slab % 2 == 0, leaves.middle[:, 0], leaves.middle[:, 1]) > 0.0)
+    """Groups (n,) of leaves: slabs of as many each, one over the other, cut in sectors round the trunk.
+
+    Many slabs of few sectors where a crown is tall, the reverse where it is wide.
+    """
+    x, y, z = leaves.middle.T
+    layers, sectors = (5, 2) if z.std() > x.std() else (2, 5)
+    slab = np.argsort(np.argsort(z)) * layers // len(z)
+    turn = np.arctan2(y, x) / (2.0 * np.pi) + slab / (2.0 * sectors)
+    return slab * sectors + np.floor(sectors * (turn % 1.0)).astype(np.int64)
 
 
 def _add(shape: Shape, corners: Array, colour: Array, fit: Fit) -> None:

@@ -1,7 +1,8 @@
 """Materials of trees: needles and leaves that live, torch, scorch and char, bark, and grass.
 
-What differs from tree to tree comes from its point, as attributes of the instancer: `arrival_time` (s), `tint`,
-`dead`, `severity` (0..1), `elevation` (m). What differs within a tree is the mesh's colour attribute `leaf`.
+What differs from tree to tree comes from its point, as attributes of the instancer: `arrival_time` (s),
+`tint`, `dead`, `severity` (0..1), `elevation` (m). What differs within a tree is the mesh's colour attribute
+`leaf`.
 """
 
 from __future__ import annotations
@@ -12,11 +13,11 @@ from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import haze, temperature
-from ..glow import FLAME
+from ..glow import EMBER, FLAME
 
 TORCHING = 350.0  # s that a crown is in flames
 SPARED = 0.15  # severity up to which a crown is scorched from below and keeps its needles
-_FLAME_LIGHT = 2.5  # radiance at exposure 0; crowns near by fill pixels
+_FLAME_LIGHT = 1.8  # radiance at exposure 0; crowns near by fill pixels
 _DEAD = 0.07  # part of the trees that stood dead and brown before
 _BROWN = ((0.085, 0.048, 0.022), (0.135, 0.080, 0.040))  # needles killed by drought, beetles or heat
 _BLACK = ((0.010, 0.008, 0.007), (0.030, 0.024, 0.020))  # needles that burned
@@ -133,10 +134,11 @@ def _leaves(
     flaming = (
         age.smoothstep(0.0, 40.0)
         * age.smoothstep(TORCHING, 0.4 * TORCHING)
-        * flicker.smoothstep(0.4, 0.6)
+        * flicker.smoothstep(0.44, 0.66)
         * torched
     )
-    burning = tree.add_shader(leaf, tree.emission(FLAME, flaming * _FLAME_LIGHT))
+    flame = tree.mix_colour(flaming.smoothstep(0.1, 0.8), EMBER, FLAME)
+    burning = tree.add_shader(leaf, tree.emission(flame, flaming * _FLAME_LIGHT))
     ambient = temperature.ambient(tree, shot, tree.attribute("elevation", "INSTANCER"), 1.0)
     kelvin = temperature.burning(tree, ambient, age, age > 0.0, flaming, 0.0)
     tree.surface(nodes.thermal_switch(tree, haze.apply(tree, burning, stage), kelvin))

@@ -1,7 +1,7 @@
 """Models of trees, a metre tall: ten conifers for Algorithm 2's classes, black oaks, snags, brush; and grass.
 
-Each is made from its own seed, so a scene's trees are always the same. The levels of a model are the same tree
-drawn with fewer triangles.
+Each is made from its own seed, so a scene's trees are always the same. The levels of a model are the same
+tree drawn with fewer triangles.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ SNAGS = (12, 13, 14)
 BRUSH = (15, 16)
 KINDS = ("large", "medium", "small", "oak", "brush")
 GRASS = (0, 1)
-REACH = 0.65  # of a tree's height: no part of its model is farther from its middle
+REACH = 0.68  # of a tree's height: no part of its model is farther from its middle
 _LEAVES = 1500  # of level 1
 
 
