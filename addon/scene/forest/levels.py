@@ -57,7 +57,13 @@ def fans(shape: Shape, leaves: Leaves, groups: NDArray[np.int64], fit: Fit) -> N
     angles = 2.0 * np.pi * np.arange(3)[None, :, None] / 3
     for other, turn in ((wide + 0.3 * thin, 0.0), (0.5 * wide - 1.2 * thin, np.pi)):
         reach = np.cos(angles + turn) * long[:, None] + np.sin(angles + turn) * other[:, None]
-        _add(shape, middle[:, None] + reach, colour, fit)
+        _add(
+            shape,
+            middle[:, None] + reach,
+            colour,
+            fit,
+            (leaves.middle[:, 2].min(), leaves.middle[:, 2].max()),
+        )
 
 
 def slabs(leaves: Leaves) -> NDArray[np.int64]:
@@ -72,7 +78,11 @@ def slabs(leaves: Leaves) -> NDArray[np.int64]:
     return slab * sectors + np.floor(sectors * (turn % 1.0)).astype(np.int64)
 
 
-def _add(shape: Shape, corners: Array, colour: Array, fit: Fit) -> None:
-    """Add triangles (n, 3, 3) of these colours (n, 3), stretched about their middles."""
+def _add(
+    shape: Shape, corners: Array, colour: Array, fit: Fit, crown: tuple[float, float] = (-np.inf, np.inf)
+) -> None:
+    """Add triangles (n, 3, 3) of these colours (n, 3), stretched about their middles but inside the crown."""
     middle = corners.mean(axis=1, keepdims=True)
-    shape.leaves(middle + (corners - middle) * np.array([fit[0], fit[0], fit[1]]), colour * fit[2])
+    corners = middle + (corners - middle) * np.array([fit[0], fit[0], fit[1]])
+    corners[..., 2] = np.clip(corners[..., 2], *crown)
+    shape.leaves(corners, colour * fit[2])
