@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -44,6 +45,7 @@ class Leaves:
         return np.stack([self.middle - self.along, tip + self.across, tip - self.across], axis=1)
 
 
+@lru_cache(maxsize=1)  # the levels of a tree are made one after the other
 def grown(habit: Habit, seed: int) -> tuple[Limbs, Leaves]:
     """Branches of a tree about a metre tall, and its leaves."""
     random = np.random.default_rng(seed)
