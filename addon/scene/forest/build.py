@@ -1,7 +1,8 @@
 """The forest: Algorithm 2's trees and grass, and the stand near the cameras, as instances on points.
 
 A point has float attributes `scale` (height, m), `rotation`, `arrival_time`, `elevation`, `canopy_fuel`,
-`tint`, `dead`, and the numbers of its models, `model` and `snag_model`. Only what a camera can see is made.
+`tint`, `dead`, `severity`, and the numbers of its models, `model` and `snag_model`. Only what a camera can
+see is made.
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ from ...shot import noise
 from ...shot.ground import NEVER, Ground, bilinear
 from ...shot.shot import Shot
 from .. import clock
-from . import material, models
+from . import models
+from .library import grass_models, levelled, tree_models
 from .stand import Stand
 
 GRASS_DISTANCE = 400.0  # m
@@ -34,11 +36,11 @@ def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Objec
     collection = stage.part("Forest")
     made = []
     if grown is not None:
-        library = _tree_models(shot, stage)
+        library = tree_models(shot, stage)
         for name, points in (("Trees", algorithm2(shot)), ("Stand", _stand(shot, grown))):
-            made.append(_instances(shot, collection, name, points, library))
+            made.append(_instances(shot, collection, name, levelled(shot, points), library))
     if shot.settings.forest.grass:
-        library = _grass_models(shot, stage)
+        library = grass_models(shot, stage)
         made.append(_instances(shot, collection, "Grass", _grass(shot), library))
     return made
 
@@ -142,6 +144,7 @@ def _points(
         "scale": scale,
         "rotation": rotation,
         "model": model,
+        "severity": 1.0 - lot,
         "snag_model": np.where(lot < _SNAG, np.array(models.SNAGS)[size], model),
         "arrival_time": np.minimum(ground.arrival_at(row, column), NEVER),
         "elevation": bilinear(ground.fields.elevation, row, column),
@@ -203,38 +206,3 @@ def _node_group(shot: Shot, name: str, library: bpy.types.Collection) -> bpy.typ
     )
     tree.node("NodeGroupOutput", {"Geometry": instances})
     return tree.node_tree
-
-
-def _tree_models(shot: Shot, stage: Stage) -> bpy.types.Collection:
-    needles = material.foliage(shot, stage)
-    wood, char = (material.bark(shot, stage, charred=charred) for charred in (False, True))
-    shapes = models.trees()
-    looks = [(char, char) if k in models.SNAGS else (needles, wood) for k in range(len(shapes))]
-    return _library("Tree", shapes, looks)
-
-
-def _grass_models(shot: Shot, stage: Stage) -> bpy.types.Collection:
-    straw = material.grass(shot, stage)
-    shapes = models.clumps()
-    return _library("Grass", shapes, [(straw,)] * len(shapes))
-
-
-def _library(
-    kind: str, shapes: list[models.Shape], looks: list[tuple[bpy.types.Material, ...]]
-) -> bpy.types.Collection:
-    """A collection of models outside of the scene; instances are numbered by the order of their names."""
-    library = owned.library(f"{kind} Models")
-    for k, (shape, materials) in enumerate(zip(shapes, looks, strict=True)):
-        data = _mesh(f"Firetwin {kind} {k:02d}", shape, materials)
-        owned.add(library, f"{kind} {k:02d}", data)
-    return library
-
-
-def _mesh(name: str, shape: models.Shape, materials: tuple[bpy.types.Material, ...]) -> bpy.types.Mesh:
-    data = bpy.data.meshes.new(name)
-    data.from_pydata(np.concatenate(shape.points).tolist(), [], shape.faces)
-    data.polygons.foreach_set("material_index", shape.materials)
-    for look in materials:
-        data.materials.append(look)
-    data.update()
-    return data

@@ -1,6 +1,8 @@
 """Materials of trees: needles and leaves that live, torch, scorch and char, bark, and grass.
 
-What differs from tree to tree comes from its point: `arrival_time` (s), `tint`, `dead` (0..1), `elevation`.
+What differs from tree to tree comes from its point, as attributes of the instancer: `arrival_time` (s),
+`tint`, `dead`, `severity` (0..1), `elevation` (m). What differs within a tree is the mesh's colour attribute
+`leaf`.
 """
 
 from __future__ import annotations
@@ -11,21 +13,37 @@ from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import haze, temperature
-from ..glow import FLAME
+from ..glow import EMBER, FLAME
 
 TORCHING = 350.0  # s that a crown is in flames
-_FLAME_LIGHT = 2.5  # radiance at exposure 0; crowns near by fill pixels
+SPARED = 0.15  # severity up to which a crown is scorched from below and keeps its needles
+_FLAME_LIGHT = 1.8  # radiance at exposure 0; crowns near by fill pixels
 _DEAD = 0.07  # part of the trees that stood dead and brown before
+_BROWN = ((0.085, 0.048, 0.022), (0.135, 0.080, 0.040))  # needles killed by drought, beetles or heat
+_BLACK = ((0.010, 0.008, 0.007), (0.030, 0.024, 0.020))  # needles that burned
 
 
 def foliage(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Foliage"."""
     material, tree = nodes.material("Firetwin Foliage", (0.16, 0.32, 0.10))
     tint = tree.attribute("tint", "INSTANCER")
-    green = tree.mix_colour(tint, (0.022, 0.040, 0.015), (0.068, 0.090, 0.032))
-    brown = tree.mix_colour(tint, (0.085, 0.048, 0.022), (0.125, 0.080, 0.042))
+    leaf = tree.attribute("leaf", output="Color")
+    varied = tree.mix_colour(tint, (0.68, 0.76, 0.82), (1.36, 1.22, 1.05))
+    green = tree.mix_colour(1.0, leaf, varied, "MULTIPLY")
+    brown = tree.mix_colour(tint, *_BROWN)
     living = tree.mix_colour(tree.attribute("dead", "INSTANCER") < _DEAD, green, brown)
-    _leaves(tree, shot, stage, living, _rounded(tree))
+    place = _place(tree)
+    severity, age = tree.attribute("severity", "INSTANCER"), _age(tree)
+    killed = age.smoothstep(20.0, 200.0)
+    reach = severity.ramp(0.0, SPARED, 0.35, 0.95)  # of the height: heat browns what is below
+    scorched = tree.separate(place)[2].smoothstep(reach + 0.08, reach - 0.08)
+    spared = tree.mix_colour(scorched * killed, living, brown)
+    black = tree.mix_colour(tree.attribute("dead", "INSTANCER"), *_BLACK)
+    browned = tree.mix_colour(age.smoothstep(0.0, 60.0), living, brown)
+    burned = tree.mix_colour(age.smoothstep(40.0, 240.0), browned, black)
+    torched = severity > SPARED
+    colour = tree.mix_colour(torched, spared, burned)
+    _leaves(tree, shot, stage, colour, _rounded(tree, place), torched)
     material.cycles.emission_sampling = "NONE"
     return material
 
@@ -36,10 +54,18 @@ def bark(shot: Shot, stage: Stage, *, charred: bool) -> bpy.types.Material:
     material, tree = nodes.material(f"Firetwin {name}", shown)
     material.cycles.emission_sampling = "NONE"
     tint = tree.attribute("tint", "INSTANCER")
-    brown = tree.mix_colour(tint, (0.070, 0.046, 0.030), (0.115, 0.075, 0.048))
     black = tree.mix_colour(tint, (0.010, 0.009, 0.009), (0.045, 0.040, 0.036))
     age = _age(tree)
-    colour = black if charred else tree.mix_colour(age > 60.0, brown, black)
+    if charred:
+        colour = black
+    else:
+        wood = tree.attribute("leaf", output="Color")
+        brown = tree.mix_colour(
+            1.0, wood, tree.mix_colour(tint, (0.7, 0.7, 0.7), (1.2, 1.2, 1.2)), "MULTIPLY"
+        )
+        low = tree.separate(_place(tree))[2].smoothstep(0.5, 0.3)  # flames of a ground fire char the foot
+        whole = tree.attribute("severity", "INSTANCER") > SPARED
+        colour = tree.mix_colour((age > 60.0) * tree.math("MAXIMUM", low, whole), brown, black)
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
     ambient = temperature.ambient(tree, shot, tree.attribute("elevation", "INSTANCER"), 1.0)
     kelvin = temperature.cooling(tree, ambient, age, age > 0.0)
@@ -52,8 +78,9 @@ def grass(shot: Shot, stage: Stage) -> bpy.types.Material:
     material, tree = nodes.material("Firetwin Grass", (0.42, 0.38, 0.16))
     tint = tree.attribute("tint", "INSTANCER")
     dry = tree.mix_colour(tint, (0.150, 0.115, 0.055), (0.060, 0.065, 0.028))
+    colour = tree.mix_colour(_age(tree).smoothstep(20.0, 200.0), dry, tree.mix_colour(tint, *_BLACK))
     normal = tree.output("ShaderNodeNewGeometry", name="Normal")
-    _leaves(tree, shot, stage, dry, normal)
+    _leaves(tree, shot, stage, colour, normal, 1.0)
     material.cycles.emission_sampling = "NONE"
     return material
 
@@ -62,17 +89,20 @@ def _age(tree: nodes.Tree) -> nodes.Value:
     return nodes.model_time(tree) - tree.attribute("arrival_time", "INSTANCER")
 
 
-def _rounded(tree: nodes.Tree) -> nodes.Value:
-    """Normals that point outwards from the trunk, so that a crown has a sunlit and a shaded side."""
-    geometry = tree.node("ShaderNodeNewGeometry")
-    local = tree.output(
+def _place(tree: nodes.Tree) -> nodes.Value:
+    """Where in a tree, in its heights."""
+    return tree.output(
         "ShaderNodeVectorTransform",
-        [tree.pick(geometry, "Position")],
+        [tree.output("ShaderNodeNewGeometry", name="Position")],
         vector_type="POINT",
         convert_from="WORLD",
         convert_to="OBJECT",
     )
-    x, y, z = tree.separate(local)
+
+
+def _rounded(tree: nodes.Tree, place: nodes.Value) -> nodes.Value:
+    """Normals that point outwards from the trunk, so that a crown has a sunlit and a shaded side."""
+    x, y, z = tree.separate(place)
     radial = tree.output(
         "ShaderNodeVectorTransform",
         [tree.vector("NORMALIZE", tree.combine(x, y, 0.05 + z * 0.04))],
@@ -81,26 +111,34 @@ def _rounded(tree: nodes.Tree) -> nodes.Value:
         convert_to="WORLD",
     )
     facing = tree.vector("NORMALIZE", radial)
-    own = tree.vector("MULTIPLY", tree.pick(geometry, "Normal"), (0.55, 0.55, 0.55))
+    normal = tree.output("ShaderNodeNewGeometry", name="Normal")
+    own = tree.vector("MULTIPLY", normal, (0.55, 0.55, 0.55))
     return tree.vector("NORMALIZE", tree.vector("ADD", facing, own))
 
 
-def _leaves(tree: nodes.Tree, shot: Shot, stage: Stage, living: nodes.Value, normal: nodes.Value) -> None:
-    """Finish a leaf material whose colour before the fire is `living`."""
+def _leaves(
+    tree: nodes.Tree,
+    shot: Shot,
+    stage: Stage,
+    colour: nodes.Value,
+    normal: nodes.Value,
+    torched: nodes.Value | float,
+) -> None:
+    """Finish a leaf material of this colour; it goes up in flames where `torched` is 1."""
     age = _age(tree)
-    scorched = tree.mix_colour(
-        tree.attribute("dead", "INSTANCER"), (0.018, 0.013, 0.010), (0.070, 0.042, 0.022)
-    )
-    colour = tree.mix_colour(age.smoothstep(20.0, 200.0), living, scorched)
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Normal": normal})
     through = tree.output("ShaderNodeBsdfTranslucent", {"Color": colour, "Normal": normal})
     leaf = tree.mix_shader(0.22, matt, through)
     position = tree.output("ShaderNodeNewGeometry", name="Position")
     flicker = tree.noise(tree.vector("ADD", position, tree.combine(0.0, 0.0, age * -6.0)), 4.0, 2.0)
     flaming = (
-        age.smoothstep(0.0, 40.0) * age.smoothstep(TORCHING, 0.4 * TORCHING) * flicker.smoothstep(0.4, 0.6)
+        age.smoothstep(0.0, 40.0)
+        * age.smoothstep(TORCHING, 0.4 * TORCHING)
+        * flicker.smoothstep(0.44, 0.66)
+        * torched
     )
-    burning = tree.add_shader(leaf, tree.emission(FLAME, flaming * _FLAME_LIGHT))
+    flame = tree.mix_colour(flaming.smoothstep(0.1, 0.8), EMBER, FLAME)
+    burning = tree.add_shader(leaf, tree.emission(flame, flaming * _FLAME_LIGHT))
     ambient = temperature.ambient(tree, shot, tree.attribute("elevation", "INSTANCER"), 1.0)
     kelvin = temperature.burning(tree, ambient, age, age > 0.0, flaming, 0.0)
     tree.surface(nodes.thermal_switch(tree, haze.apply(tree, burning, stage), kelvin))

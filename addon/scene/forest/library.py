@@ -1,0 +1,163 @@
+"""The models in Blender: ours, and an artist's in their place.
+
+An artist's models are the objects of a collection named "Firetwin Models" with these custom properties:
+
+class
+    "large", "medium", "small", "oak" or "brush": whose place they take. All models of that class and state
+    are replaced, by each of the artist's in turn, in the order of their names.
+level
+    0 (near, what is meant without it) to 3 (far). A level that is not there is drawn as the next finer one,
+    or the finest there is.
+state
+    "living" (what is meant without it), or "snag": burned, without needles.
+
+Their place and size do not matter: an object's lowest point is put on the ground, its origin on the trunk's
+axis, and its height becomes that of the tree. Their materials stay theirs; what burns and varies is there as
+attributes of the instancer that `material` names.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...blender import owned
+from ...blender.owned import Stage
+from ...errors import Error
+from ...shot.shot import Shot
+from . import levels, material, models
+from .levels import LEVELS
+from .shape import Shape
+
+ARTISTS = "Firetwin Models"
+_STATES = ("living", "snag")
+Look = tuple[bpy.types.Material, ...]
+Kind = tuple[str, str]  # class and state
+
+
+def tree_models(shot: Shot, stage: Stage) -> bpy.types.Collection:
+    """A collection outside of the scene of all models in all levels, numbered as `models.instance` says."""
+    leaf = material.foliage(shot, stage)
+    wood, char = (material.bark(shot, stage, charred=charred) for charred in (False, True))
+    swapped, count = _artists(), defaultdict(int)
+    library = owned.library("Tree Models")
+    for k, model in enumerate(models.trees()):
+        look = (char, char) if model.state == "snag" else (leaf, wood)
+        theirs, turn = swapped.get((model.kind, model.state)), count[model.kind, model.state]
+        count[model.kind, model.state] += 1
+        for level in range(LEVELS):
+            name = f"Tree {k:02d} {level}"
+            data = _of_level(theirs, level, turn) if theirs else _mesh(name, model.make(level), look)
+            owned.add(library, name, data)
+    return library
+
+
+def grass_models(shot: Shot, stage: Stage) -> bpy.types.Collection:
+    """A collection outside of the scene of all models of grass, in the order of their numbers."""
+    straw = material.grass(shot, stage)
+    library = owned.library("Grass Models")
+    for k, shape in enumerate(models.clumps()):
+        owned.add(library, f"Grass {k:02d}", _mesh(f"Grass {k:02d}", shape, (straw,)))
+    return library
+
+
+def levelled(shot: Shot, points: dict[str, NDArray]) -> dict[str, NDArray]:
+    """Points of trees whose models are instances, in the level that the nearest camera of the shot asks for.
+
+    One level for the whole shot: nothing changes its shape while it is seen.
+    """
+    width = shot.settings.render.resolution[0]
+    lens, plain = (
+        max((0.5 * width / path.half[0] for path in shot.paths if path.perspective == near), default=0.0)
+        for near in (True, False)
+    )
+    near = lens / np.maximum(shot.sights.distance(points["position"]), 1.0)
+    level = levels.level(points["scale"] * np.maximum(near, plain))
+    return {**points, **{key: models.instance(points[key], level) for key in ("model", "snag_model")}}
+
+
+def _mesh(name: str, shape: Shape, look: Look) -> bpy.types.Mesh:
+    points, triangles, materials, colours = shape.mesh()
+    data = bpy.data.meshes.new(f"Firetwin {name}")
+    data.vertices.add(len(points))
+    data.vertices.foreach_set("co", points.astype(np.float32).ravel())
+    data.loops.add(triangles.size)
+    data.loops.foreach_set("vertex_index", triangles.astype(np.int32).ravel())
+    data.polygons.add(len(triangles))
+    data.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
+    data.polygons.foreach_set("material_index", materials.astype(np.int32))
+    leaf = data.attributes.new("leaf", "FLOAT_COLOR", "POINT")
+    leaf.data.foreach_set(
+        "color", np.pad(colours, [(0, 0), (0, 1)], constant_values=1.0).astype(np.float32).ravel()
+    )
+    for each in look:
+        data.materials.append(each)
+    data.update(calc_edges=True)
+    return data
+
+
+def _artists() -> dict[Kind, dict[int, list[bpy.types.Mesh]]]:
+    """Copies of an artist's models by class and state and by level, a metre tall.
+
+    Raises
+    ------
+    Error
+        An object's properties are none of those that are known.
+    """
+    found: dict[Kind, dict[int, list[bpy.types.Mesh]]] = defaultdict(lambda: defaultdict(list))
+    collection = bpy.data.collections.get(ARTISTS)
+    things = collection.all_objects if collection is not None else ()
+    for thing in sorted(things, key=lambda thing: thing.name):
+        if "class" in thing:
+            kind, state, level = thing["class"], thing.get("state", "living"), thing.get("level", 0)
+            _check(thing.name, "class", kind, models.KINDS)
+            _check(thing.name, "state", state, _STATES)
+            _check(thing.name, "level", level, range(LEVELS))
+            found[kind, state][level].append(_copy(thing))
+    return found
+
+
+def _check(name: str, key: str, value: object, known: tuple[str, ...] | range) -> None:
+    if value not in known:
+        raise Error(
+            f'the object "{name}" in the collection "{ARTISTS}": its property {key} is {value!r}; '
+            f"known are {', '.join(map(str, known))}"
+        )
+
+
+def _copy(thing: bpy.types.Object) -> bpy.types.Mesh:
+    """A mesh of ours with an artist's object as it is drawn, on the ground and a metre tall.
+
+    Raises
+    ------
+    Error
+        It has no surface, or no height.
+    """
+    graph = bpy.context.evaluated_depsgraph_get()
+    seen = thing.evaluated_get(graph)
+    try:
+        data = bpy.data.meshes.new_from_object(seen, preserve_all_data_layers=True, depsgraph=graph)
+    except RuntimeError:
+        data = None
+    points = np.empty((0 if data is None else len(data.vertices), 3), np.float32)
+    if len(points):
+        data.vertices.foreach_get("co", points.ravel())
+        turn = np.array(thing.matrix_world.to_3x3(), np.float32)
+        points = points @ turn.T
+    height = float(np.ptp(points[:, 2])) if len(points) else 0.0
+    if height <= 0.0:
+        raise Error(f'the object "{thing.name}" in the collection "{ARTISTS}" is no tree: it has no height')
+    points[:, 2] -= points[:, 2].min()
+    data.vertices.foreach_set("co", (points / height).ravel())
+    data.update()
+    return owned.mark(data)
+
+
+def _of_level(theirs: dict[int, list[bpy.types.Mesh]], level: int, turn: int) -> bpy.types.Mesh:
+    """The model whose turn it is, in this level, or the next finer one, or else the finest."""
+    finer = [known for known in theirs if known <= level]
+    meshes = theirs[max(finer) if finer else min(theirs)]
+    return meshes[turn % len(meshes)]

@@ -1,0 +1,260 @@
+"""Models of trees: budgets, sizes, levels that look alike, and an artist's in their place."""
+
+import bpy
+import numpy as np
+import pytest
+from firetwin.blender import nodes, owned
+from firetwin.errors import Error
+from firetwin.scene.forest import build as forest
+from firetwin.scene.forest import levels, library, models
+from firetwin.scene.forest.shape import FOLIAGE
+from firetwin.shot.ground import NEVER
+from mathutils import Vector
+
+TRIANGLES = ((10_000, 30_000), (1_000, 2_500), (60, 350), (16, 40))  # of living trees, level by level
+BRUSH = ((3_000, 6_000), (800, 2_500), (60, 350), (16, 40))
+SNAGS = ((100, 1_000), (50, 300), (20, 120), (2, 10))
+# Diameter of the crown over the height: conifers in the open are a quarter to a half as wide as tall, black
+# oaks about as wide, and the brush is wider than tall (assumed, from the species' descriptions).
+WIDTH = {
+    "large": (0.25, 0.55),
+    "medium": (0.22, 0.50),
+    "small": (0.25, 0.65),
+    "oak": (0.6, 1.2),
+    "brush": (1.0, 3.0),
+}
+MODELS = models.trees()
+
+
+@pytest.fixture(scope="module")
+def meshes():
+    """Every model in every level: points, triangles, materials, colours."""
+    return [[model.make(level).mesh() for level in range(levels.LEVELS)] for model in MODELS]
+
+
+def test_levels_keep_their_budgets(meshes):
+    for model, each in zip(MODELS, meshes, strict=True):
+        budgets = SNAGS if model.state == "snag" else BRUSH if model.kind == "brush" else TRIANGLES
+        for (_, triangles, *_), (low, high) in zip(each, budgets, strict=True):
+            assert low <= len(triangles) <= high, model
+
+
+def test_no_triangle_is_degenerate_and_no_point_unused(meshes):
+    for points, triangles, materials, colours in (mesh for each in meshes for mesh in each):
+        a, b, c = points[triangles].transpose(1, 0, 2)
+        assert np.linalg.norm(np.cross(b - a, c - a), axis=-1).min() > 1e-9
+        assert np.array_equal(np.unique(triangles), np.arange(len(points)))
+        assert len(materials) == len(triangles)
+        assert colours.min() > 0.0
+        assert colours.max() < 0.25
+
+
+def test_models_are_a_metre_tall_and_as_wide_as_their_kind(meshes):
+    for model, each in zip(MODELS, meshes, strict=True):
+        points, triangles, materials, _ = each[0]
+        if model.state == "snag":
+            assert 0.8 < points[:, 2].max() <= 1.05
+            continue
+        assert points[:, 2].max() == pytest.approx(1.0, abs=1e-6)
+        leaves = points[np.unique(triangles[materials == FOLIAGE])]
+        low, high = WIDTH[model.kind]
+        assert low < 2.0 * np.quantile(np.hypot(*leaves[:, :2].T), 0.99) < high, model
+
+
+def test_no_part_of_a_tree_is_farther_from_its_middle_than_is_said(meshes):
+    for model, each in zip(MODELS, meshes, strict=True):
+        if model.kind != "brush":
+            for points, *_ in each:
+                assert np.linalg.norm(points - [0.0, 0.0, 0.5], axis=1).max() <= models.REACH, model
+    for shape in models.clumps():
+        points = np.concatenate(shape.points) - [0.0, 0.0, 0.5 * forest._GRASS]
+        assert np.linalg.norm(points, axis=1).max() <= models.REACH * forest._GRASS
+
+
+def test_models_are_made_from_their_seeds(meshes):
+    for model, each in zip(models.trees(), meshes, strict=True):
+        for known, again in zip(each[1:3], (model.make(1).mesh(), model.make(2).mesh()), strict=True):
+            assert all(np.array_equal(a, b) for a, b in zip(known, again, strict=True))
+    same = [(a, b) for a in range(17) for b in range(a) if len(meshes[a][1][0]) == len(meshes[b][1][0])]
+    assert not any(np.array_equal(meshes[a][1][0], meshes[b][1][0]) for a, b in same)
+
+
+LIVING = [k for k, model in enumerate(MODELS) if model.state == "living" and model.kind != "brush"]
+STEP = {"side": (0.0, 0.0, -24.0), "above": (0.0, -16.0, 0.0)}  # m from level to level; trees are 16 m apart
+
+
+@pytest.fixture
+def looks(shot, stage, scene, tmp_path):
+    """Cover (levels, trees) and colour (levels, trees, 3), from the side and from above, by Cycles."""
+    made = library.tree_models(shot, stage)
+    made.use_fake_user = True  # it outlives the first view
+    row, column = (v.ravel() for v in np.mgrid[: levels.LEVELS, : len(LIVING)])
+    number = models.instance(np.array(LIVING)[column], row)
+    zero, half = np.zeros(len(number)), np.full(len(number), 0.5)
+    height = np.array([11.0 if MODELS[k].kind == "oak" else 20.0 for k in LIVING])[column]
+    points = {"scale": height, "rotation": zero, "model": number, "snag_model": number, "tint": half}
+    points |= {
+        "arrival_time": zero + NEVER,
+        "elevation": zero,
+        "canopy_fuel": half,
+        "severity": zero,
+        "dead": half,
+    }
+    camera = _lit(scene)
+    found = {}
+    for view, step in STEP.items():
+        place = column[:, None] * [[16.0, 0.0, 0.0]] + row[:, None] * np.array([step])
+        forest._instances(shot, stage.part("Chart"), "Chart", {"position": place, **points}, made)
+        tall = int(-min(step))
+        camera.location = 8.0 * np.array([len(LIVING) - 1.0, 0.0, 0.0]) + 1.5 * np.array(step)
+        camera.location += Vector((0.0, -300.0, 10.0) if view == "side" else (0.0, 0.0, 300.0))
+        camera.rotation_euler = (0.5 * np.pi if view == "side" else 0.0, 0.0, 0.0)
+        camera.data.ortho_scale = 16 * len(LIVING)
+        scene.render.resolution_x, scene.render.resolution_y = 32 * len(LIVING), 2 * levels.LEVELS * tall
+        pixels = _rendered(scene, tmp_path / f"{view}.exr")
+        pixels = pixels.reshape(levels.LEVELS, 2 * tall, len(LIVING), 32, 4)
+        cover = pixels[..., 3].mean((1, 3))
+        found[view] = cover, pixels[..., :3].mean((1, 3)) / cover[..., None]
+    return found
+
+
+def _lit(scene):
+    """Light the scene; its camera."""
+    sun = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
+    sun.data.energy, sun.rotation_euler = 5.0, (0.9, 0.0, 0.8)
+    camera = bpy.data.objects.new("eye", bpy.data.cameras.new("eye"))
+    camera.data.type, camera.data.clip_end = "ORTHO", 1000.0
+    for thing in (sun, camera):
+        scene.collection.objects.link(thing)
+    scene.camera, scene.render.film_transparent = camera, True
+    scene.world = bpy.data.worlds.new("sky")
+    scene.world.color = (0.3, 0.35, 0.5)
+    return camera
+
+
+def _rendered(scene, path):
+    render = scene.render
+    render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 8, False
+    scene.cycles.use_adaptive_sampling, scene.cycles.diffuse_bounces = False, 1
+    render.image_settings.file_format, render.image_settings.color_mode = "OPEN_EXR", "RGBA"
+    render.filepath = str(path)
+    bpy.ops.render.render(write_still=True)
+    image = bpy.data.images.load(str(path))
+    return np.array(image.pixels[:]).reshape(render.resolution_y, render.resolution_x, 4)[::-1]
+
+
+def test_coarser_levels_cover_as_much_and_look_as_bright(looks):
+    bright = []
+    for cover, colour in looks.values():
+        assert cover[0].min() > 0.05
+        assert np.abs(np.log(cover[1:] / cover[0])).max() < np.log(1.25)
+        assert np.abs(np.log(cover[1:].mean(1) / cover[0].mean())).max() < np.log(1.12)
+        bright.append(np.log(colour[1:].mean(-1) / colour[0].mean(-1)))
+        share = colour / colour.sum(-1, keepdims=True)
+        assert np.abs(share[1:] - share[0]).max() < 0.06
+    assert np.abs(bright).max() < np.log(1.7)
+    assert np.abs(np.mean(bright, axis=0)).max() < np.log(1.25)
+    assert np.abs(np.mean(bright, axis=(0, 2))).max() < np.log(1.1)
+
+
+def test_smaller_trees_are_drawn_in_coarser_levels():
+    assert levels.level(np.array([1e9, 180.0, 179.9, 50.0, 49.9, 14.0, 13.9, 0.0])).tolist() == [
+        0,
+        0,
+        1,
+        1,
+        2,
+        2,
+        3,
+        3,
+    ]
+
+
+def test_each_tree_is_in_the_level_that_its_nearest_view_asks_for(shot):
+    place = shot.paths[0].position[0] + np.array([[0.0, 0.0, -50.0], [0.0, 0.0, -90_000.0]])
+    points = {
+        "position": place,
+        "scale": np.full(2, 20.0),
+        "model": np.array([3, 3]),
+        "snag_model": np.array([12, 3]),
+    }
+    seen = library.levelled(shot, points)
+    lens = 0.5 * 64 / shot.paths[0].half[0]
+    near = levels.level(20.0 * lens / shot.sights.distance(place))
+    assert near[1] == 3 > near[0]
+    assert seen["model"].tolist() == [12 + near[0], 15]
+    assert seen["snag_model"].tolist() == [48 + near[0], 15]
+
+
+def _artist(name, size, **properties):
+    """An artist's tree: a box `size` m tall, somewhere."""
+    bpy.ops.mesh.primitive_cube_add(size=2.0, location=(70.0, -20.0, 5.0))
+    thing = bpy.context.object
+    thing.name, thing.scale = name, (1.0, 1.0, 0.5 * size)
+    bpy.context.view_layer.update()
+    collection = bpy.data.collections.get(library.ARTISTS) or bpy.data.collections.new(library.ARTISTS)
+    collection.objects.link(thing)
+    for key, value in properties.items():
+        thing[key] = value
+    return thing
+
+
+def test_an_artists_models_take_the_place_of_their_class(shot, stage):
+    fine = _artist("b", 8.0, **{"class": "large", "level": 0})
+    fine.data.materials.append(bpy.data.materials.new("theirs"))
+    _artist("c", 8.0, **{"class": "large", "level": 2}).modifiers.new("more", "SUBSURF")
+    _artist("a", 3.0, **{"class": "small", "state": "snag"})
+    made = library.tree_models(shot, stage)
+    assert len(made.objects) == len(MODELS) * levels.LEVELS
+    for thing in made.objects:
+        k, level = map(int, thing.name.split()[2:4])
+        theirs = (MODELS[k].kind, MODELS[k].state) in (("large", "living"), ("small", "snag"))
+        height = np.array([vertex.co for vertex in thing.data.vertices])[:, 2]
+        if theirs:
+            assert len(height) == (26 if MODELS[k].state == "living" and level >= 2 else 8)
+            assert (height.min(), height.max()) == pytest.approx((0.0, 1.0), abs=1e-6)
+            assert MODELS[k].state == "snag" or level >= 2 or thing.data.materials[0].name == "theirs"
+        else:
+            assert len(thing.data.materials) == 2
+    owned.purge()
+    assert bpy.data.objects["b"].data.materials[0].name == "theirs"
+    assert np.allclose(bpy.data.objects["b"].location, (70.0, -20.0, 5.0))
+
+
+@pytest.mark.parametrize(
+    ("properties", "says"),
+    [
+        ({"class": "larg"}, "the object \"x\".*class is 'larg'; known are large, medium"),
+        ({"class": "oak", "level": 4}, "level is 4; known are 0, 1, 2, 3"),
+        ({"class": "oak", "state": "burnt"}, "state is 'burnt'; known are living, snag"),
+    ],
+)
+def test_an_artists_property_that_is_not_known_is_named(shot, stage, properties, says):
+    _artist("x", 2.0, **properties)
+    with pytest.raises(Error, match=says):
+        library.tree_models(shot, stage)
+
+
+def test_crowns_live_torch_char_or_are_scorched_from_below(shot, stage, scene, tmp_path):
+    """Four trees of one model: living, torching, charred with needles, and spared by a ground fire."""
+    made, camera = library.tree_models(shot, stage), _lit(scene)
+    age, severity = np.array([-1e6, 90.0, 600.0, 600.0]), np.array([0.9, 0.9, 0.9, 0.01])
+    half, model = np.full(4, 0.5), models.instance(np.full(4, 3), np.ones(4, np.int64))
+    points = {
+        "position": np.arange(4)[:, None] * [[16.0, 0.0, 0.0]],
+        "scale": 40.0 * half,
+        "rotation": 0.0 * half,
+    }
+    points |= {"model": model, "snag_model": model, "tint": half, "dead": half, "elevation": half}
+    points |= {"canopy_fuel": half, "severity": severity, "arrival_time": scene.get(nodes.TIME, 0.0) - age}
+    forest._instances(shot, stage.part("Chart"), "Chart", points, made)
+    camera.location, camera.rotation_euler = (24.0, -300.0, 10.0), (0.5 * np.pi, 0.0, 0.0)
+    camera.data.ortho_scale, scene.render.resolution_x, scene.render.resolution_y = 64, 128, 48
+    pixels = _rendered(scene, tmp_path / "fire.exr").reshape(48, 4, 32, 4)
+    low, high = (part.sum((0, 2)) for part in (pixels[26:42], pixels[4:20]))
+    red, green, _, _ = low.T / low[:, 3]
+    assert green[0] > red[0]
+    assert red[1] > 5.0 * red[0]
+    assert green[2] < 0.6 * green[0]
+    assert red[3] > 1.3 * green[3]
+    assert high[3, 1] > high[3, 0]  # its top lives
