@@ -24,7 +24,9 @@ LIMIT = 5.0  # s for 10 million on two threads
 def drone() -> lod.Sight:
     """What a drone sees that flies 5 km and looks down a little, ahead."""
     camera = np.column_stack([np.linspace(0.0, 5000.0, FRAMES), np.zeros(FRAMES), np.full(FRAMES, 3500.0)])
-    right, up, back = (0.0, -1.0, 0.0), (0.3, 0.0, 0.954), (-0.954, 0.0, 0.3)
+    down = np.radians(17.0)
+    right, up = (0.0, -1.0, 0.0), (np.sin(down), 0.0, np.cos(down))
+    back = (-np.cos(down), 0.0, np.sin(down))
     rotation = np.broadcast_to(np.column_stack([right, up, back]), (FRAMES, 3, 3))
     return lod.Sight(camera, rotation, np.tile([0.64, 0.36], (FRAMES, 1)))
 
