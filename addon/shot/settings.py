@@ -94,7 +94,7 @@ class Forest:
     density: str = key(
         "stand",
         "how many trees",
-        choices={"stand": "hundreds a hectare, as the canopy fuel says", "paper": "one for each fuel cell"},
+        choices={"stand": "hundreds a hectare, by canopy fuel", "paper": "one for each fuel cell"},
     )
     budget: int = key(
         200_000,
