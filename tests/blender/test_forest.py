@@ -87,6 +87,16 @@ def test_far_trees_are_fewer_and_wider_and_about_the_budget(near_settings, run):
     assert np.mean([tuple(key) in known for key in few.key.tolist()]) > 0.97  # but for those seen as wider
 
 
+def test_what_is_kept_goes_on_beside_what_is_seen(near_settings, run):
+    shot = Shot(replace(near_settings, forest=replace(near_settings.forest, budget=200)), run)
+    mask = seen.cells(shot, stand.TALLEST, shot.settings.forest.draw_distance)
+    kept = stand._kept(shot, mask)
+    beside = np.lib.stride_tricks.sliding_window_view(np.pad(mask, 1), (3, 3)).any((2, 3)) & ~mask
+    assert 0 < mask.sum() < mask.size
+    assert kept[mask].max() < 1.0
+    assert kept[beside].max() < 1.0  # else the last trees in sight would crowd
+
+
 def test_the_paper_mode_has_no_stand(settings, run, stage):
     shot = Shot(settings, run)
     grown = stand.grow(shot)

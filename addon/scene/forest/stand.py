@@ -117,18 +117,20 @@ def _kept(shot: Shot, mask: NDArray[np.bool_]) -> NDArray[np.float32]:
     kept = np.ones(mask.shape, np.float32)
     if not mask.any():
         return kept
-    distance = shot.sights.distance(seen.middles(shot)[mask])
+    # Neighbours as well: what is kept is bilinear between the cells' middles.
+    beside = np.lib.stride_tricks.sliding_window_view(np.pad(mask, 1), (3, 3)).any((2, 3))
+    distance = shot.sights.distance(seen.middles(shot)[beside])
     near, parallel = _finest(shot)
     pixel = np.minimum(distance * near if np.isfinite(near) else np.inf, parallel)
     fade = _fade(distance, shot.settings.forest.draw_distance) if parallel > seen.PIXEL else 1.0
-    stems = core.stems(run.canopy_fuel[mask]) * fade * np.prod(shot.ground.cell)
+    stems = core.stems(run.canopy_fuel[beside]) * mask[beside] * fade * np.prod(shot.ground.cell)
     low, high = 0.0, _CROWN
     if np.sum(stems * _part(pixel, high)) > budget:
         for _ in range(30):
             middle = 0.5 * (low + high)
             few = np.sum(stems * _part(pixel, middle)) < budget
             low, high = (middle, high) if few else (low, middle)
-    kept[mask] = _part(pixel, high)
+    kept[beside] = _part(pixel, high)
     return kept
 
 
