@@ -16,6 +16,7 @@ SUBJECTS = (
     "text",
     "geodesy",
     "forest",
+    "stand",
     "emitters",
     "volume",
     "smoke",

@@ -89,16 +89,18 @@ class Ground:
 class Forest:
     """Trees and grass."""
 
-    trees: bool = key(
-        True, "one for each fuel cell with a canopy, and those that fill the forest near cameras"
-    )
+    trees: bool = key(True, "where there is canopy fuel")
     grass: bool = key(True, "clumps where there is surface fuel")
-    stand_spacing: float = key(13.0, "between the trees that fill the forest near cameras", unit="m", above=0)
-    stand_radius: float = key(
-        3400.0,
-        "how far from a camera it is filled; 0 leaves one tree for each fuel cell",
-        unit="m",
-        at_least=0,
+    density: str = key(
+        "stand",
+        "how many trees",
+        choices={"stand": "hundreds a hectare, by canopy fuel", "paper": "one for each fuel cell"},
+    )
+    budget: int = key(
+        200_000,
+        "about the most trees of a stand; far ones are fewer and wider",
+        at_least=1,
+        at_most=10_000_000,
     )
     draw_distance: float = key(
         12_000.0,

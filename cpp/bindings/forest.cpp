@@ -1,9 +1,11 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "forest/scatter.hpp"
+#include "forest/allometry.hpp"
+#include "forest/stand.hpp"
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -17,6 +19,7 @@ using geo::LocalFrame;
 /// Same data, two Python types: trees and grass.
 struct Trees : Plants {};
 struct Grass : Plants {};
+using forest::Stems;
 
 /// The arrays of a Site, kept alive and checked against the shape of the fuel.
 struct SiteArrays {
@@ -68,6 +71,29 @@ std::shared_ptr<Grass> grass(const py::object& surface_fuel, const py::object& l
   return std::make_shared<Grass>(Grass{forest::grass(view(fuel), site)});
 }
 
+std::shared_ptr<Stems> stand(const py::object& canopy_fuel, const py::object& latitude,
+                             const py::object& longitude, const py::object& elevation,
+                             const LocalFrame& frame, std::uint64_t seed, const py::object& kept,
+                             const py::object& mask) {
+  const auto fuel = to_array<float>(canopy_fuel, "canopy_fuel", {-1, -1});
+  const SiteArrays arrays(fuel, latitude, longitude, elevation, mask);
+  Array<float> part;
+  if (!kept.is_none()) {
+    part = to_array<float>(kept, "kept", {fuel.shape(0), fuel.shape(1)});
+  }
+  const auto site = arrays.site(frame, seed, 1.0);
+  const py::gil_scoped_release release;
+  return std::make_shared<Stems>(forest::stand(view(fuel), site, view(part)));
+}
+
+Array<double> stems(const py::object& canopy_fuel) {
+  const auto fuel = to_array<double>(canopy_fuel, "canopy_fuel");
+  Array<double> out(std::vector<py::ssize_t>(fuel.shape(), fuel.shape() + fuel.ndim()));
+  const auto from = view(fuel);
+  std::transform(from.begin(), from.end(), out.mutable_data(), &forest::stems);
+  return out;
+}
+
 template <class T> Array<T> lend_buffer(const Buffer<T>& values, const py::object& owner) {
   return lend<T>(values, {length(values.size())}, owner);
 }
@@ -100,6 +126,15 @@ void init_forest(Module module) {
       .def_property_readonly("size_class", &column<Trees, &Trees::size_class>)
       .def_property_readonly("model", &column<Trees, &Trees::model>);
   bind_plants<Grass>(module, "Grass");
+  bind_plants<Stems>(module, "Stems")
+      .def_property_readonly("size_class", &column<Stems, &Stems::size_class>)
+      .def_property_readonly("model", &column<Stems, &Stems::model>)
+      .def_property_readonly("width", &column<Stems, &Stems::width>)
+      .def_property_readonly("key", &column<Stems, &Stems::key>);
+  module.def("stems", &stems, py::arg("canopy_fuel"));
+  module.def("stand", &stand, py::arg("canopy_fuel"), py::arg("latitude"), py::arg("longitude"),
+             py::arg("elevation"), py::arg("frame"), py::arg("seed") = 0,
+             py::arg("kept") = py::none(), py::arg("mask") = py::none());
   module.def("trees", &trees, py::arg("canopy_fuel"), py::arg("latitude"), py::arg("longitude"),
              py::arg("elevation"), py::arg("frame"), py::arg("seed") = 0,
              py::arg("max_fuel") = py::none(), py::arg("jitter") = 1.0,

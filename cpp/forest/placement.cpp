@@ -74,7 +74,7 @@ void place_row(const Cells& all, const RowOf& row, const geo::Origin& origin, do
 
 } // namespace
 
-Placement::Axis::Axis(std::span<const double> nodes)
+Axis::Axis(std::span<const double> nodes)
     : value(nodes), first(nodes.size()), width(nodes.size()), before(nodes.size(), 0.0),
       after(nodes.size(), 0.0) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -11,6 +11,16 @@
 
 namespace firetwin::forest {
 
+/// One axis, by its nodes.
+struct Axis {
+  explicit Axis(std::span<const double> nodes);
+  std::span<const double> value; ///< degrees
+  std::vector<double> first;     ///< where the cell begins
+  std::vector<double> width;     ///< of the cell, with its sign
+  std::vector<double> before;    ///< 1 / (previous value - value), 0 without one
+  std::vector<double> after;     ///< 1 / (next value - value), 0 without one
+};
+
 /// Where the plants of a row of cells stand: jittered inside their cells, on the bilinear
 /// elevation.
 class Placement {
@@ -33,15 +43,6 @@ public:
   void place(std::size_t y, std::size_t first, std::size_t last, Row& row) const;
 
 private:
-  /// One axis, by its nodes.
-  struct Axis {
-    explicit Axis(std::span<const double> nodes);
-    std::span<const double> value; ///< degrees
-    std::vector<double> first;     ///< where the cell begins
-    std::vector<double> width;     ///< of the cell, with its sign
-    std::vector<double> before;    ///< 1 / (previous value - value), 0 without one
-    std::vector<double> after;     ///< 1 / (next value - value), 0 without one
-  };
   void copy_row(std::size_t y, std::size_t first, std::size_t last, Buffer<double>& out) const;
 
   const Site& site_;

@@ -1,6 +1,7 @@
 #include "forest/scatter.hpp"
 
 #include "base/check.hpp"
+#include "forest/allometry.hpp"
 #include "forest/placement.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -23,8 +24,7 @@ using Range = tbb::blocked_range<std::size_t>;
 constexpr std::size_t rows_per_task = 16;
 constexpr std::size_t widest_gap = 16; // cells that are placed for nothing rather than one by one
 
-constexpr double least_canopy_fuel = 0.01; // kg/m2
-constexpr double grass_depth = 0.70;       // m
+constexpr double grass_depth = 0.70; // m
 
 struct Class {
   double least_fuel; ///< kg/m2
@@ -176,6 +176,10 @@ Plants scatter(const Site& site, bool trees, Fuel fuel, Write write) {
 }
 
 } // namespace
+
+int models(SizeClass kind) {
+  return classes[kind].models;
+}
 
 float largest_fuel(std::span<const float> fuel) {
   constexpr std::size_t lanes = 16; // as wide as registers may be

@@ -10,6 +10,9 @@ namespace firetwin::forest {
 
 enum SizeClass : std::uint8_t { small_tree = 0, medium_tree = 1, large_tree = 2 };
 
+/// How many models a class has.
+int models(SizeClass kind);
+
 /// n trees in order of their cells; grass leaves size_class and model empty.
 struct Plants {
   Buffer<std::int64_t> cell; ///< y fx + x

@@ -89,7 +89,7 @@ def settings(run_folder, tmp_path):
             frames=3,
         ),
         ground=scene_settings.Ground(near_radius=0.0, apron=20_000.0),
-        forest=scene_settings.Forest(stand_radius=0.0),
+        forest=scene_settings.Forest(density="paper"),
         smoke=scene_settings.Smoke(enabled=False),
         cameras=(scene_settings.Camera("drone", Drone(keys=keys)),),
         render=scene_settings.Render(resolution=(64, 36), samples=4, denoise=False),
@@ -102,7 +102,7 @@ def near_settings(settings):
     return replace(
         settings,
         ground=replace(settings.ground, near_radius=1500.0, near_spacing=20.0),
-        forest=replace(settings.forest, stand_radius=900.0, stand_spacing=20.0),
+        forest=replace(settings.forest, density="stand", budget=3000, draw_distance=1500.0),
     )
 
 

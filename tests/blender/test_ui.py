@@ -27,7 +27,7 @@ frames = 3
 near_radius = 0.0
 apron = 20000.0
 [forest]
-stand_radius = 0.0
+density = "paper"
 [smoke]
 enabled = false
 [render]

@@ -5,7 +5,7 @@ BARE = """\
 near_radius = 0.0
 apron = 20000.0
 [forest]
-stand_radius = 0.0
+density = "paper"
 """
 
 TINY = """\

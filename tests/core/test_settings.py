@@ -169,12 +169,12 @@ def test_the_json_schema_is_one():
     found = json_schema(Settings)
     jsonschema.Draft202012Validator.check_schema(found)
     assert found["properties"]["time"]["properties"]["start"]["format"] == "date-time"
-    spacing = found["properties"]["forest"]["properties"]["stand_spacing"]
+    spacing = found["properties"]["ground"]["properties"]["near_spacing"]
     assert spacing == {
-        "description": "between the trees that fill the forest near cameras, m",
+        "description": "spacing of its points there, m",
         "type": "number",
         "exclusiveMinimum": 0,
-        "default": 13.0,
+        "default": 12.0,
     }
     assert found["properties"]["render"]["properties"]["engine"]["enum"] == ["cycles", "eevee"]
 

@@ -21,7 +21,7 @@ run = "run"
 near_radius = 0.0
 apron = 5000.0
 [forest]
-stand_radius = 0.0
+density = "paper"
 [smoke]
 enabled = false
 [[cameras]]

@@ -1,8 +1,8 @@
-"""The forest: Algorithm 2's trees and grass, and the stand near the cameras, as instances on points.
+"""The forest: trees, of the stand or one for each fuel cell (Algorithm 2), and grass, as instances on points.
 
-A point has float attributes `scale` (height, m), `rotation`, `arrival_time`, `elevation`, `canopy_fuel`,
-`tint`, `dead`, `severity`, and the numbers of its models, `model` and `snag_model`. Only what a camera can
-see is made.
+A point has float attributes `scale` (height, m), `width` (how much wider than its model it is), `rotation`,
+`arrival_time`, `elevation`, `canopy_fuel`, `tint`, `dead`, `severity`, and the numbers of its models, `model`
+and `snag_model`. Only what a camera can see is made.
 """
 
 from __future__ import annotations
@@ -15,30 +15,26 @@ from numpy.typing import NDArray
 from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
 from ...shot import noise
-from ...shot.ground import NEVER, Ground, bilinear
+from ...shot.ground import NEVER, bilinear
 from ...shot.shot import Shot
 from .. import clock
-from . import models
+from . import models, seen
 from .library import grass_models, levelled, tree_models
 from .stand import Stand
 
 GRASS_DISTANCE = 400.0  # m
 BARE_AFTER = 900.0  # s after the fire came a burned tree is a snag
 _TALLEST, _GRASS = 31.0, 10.0  # m; as tall as any tree of Algorithm 2, and as one that would hold a clump
-_AROUND = 30.0  # m; a tree farther beside the view than it is tall takes little light of the sky from it
-_RELIEF = 30.0  # m; so far up and down the drawn ground's relief may move a tree
 _SNAG = 0.85  # part of the burned trees that become snags
-_PIXEL = 25.0  # m; a satellite whose pixels are larger sees no tree
 
 
 def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Object]:
-    """Build "Firetwin Trees", "Firetwin Stand" and "Firetwin Grass", each where there is something to see."""
+    """Build "Firetwin Trees" and "Firetwin Grass", each where there is something to see."""
     collection = stage.part("Forest")
     made = []
     if grown is not None:
-        library = tree_models(shot, stage)
-        for name, points in (("Trees", algorithm2(shot)), ("Stand", _stand(shot, grown))):
-            made.append(_instances(shot, collection, name, levelled(shot, points), library))
+        points = algorithm2(shot) if shot.settings.forest.density == "paper" else _stand(shot, grown)
+        made.append(_instances(shot, collection, "Trees", levelled(shot, points), tree_models(shot, stage)))
     if shot.settings.forest.grass:
         library = grass_models(shot, stage)
         made.append(_instances(shot, collection, "Grass", _grass(shot), library))
@@ -58,77 +54,43 @@ def algorithm2(shot: Shot) -> dict[str, NDArray]:
         run.fuel_elevation,
         shot.local_frame,
         seed=seed,
-        mask=_cells(shot, _TALLEST, reach),
+        mask=seen.cells(shot, _TALLEST, reach),
     )
-    position = _settled(shot.ground, found.position)
-    kept = np.flatnonzero(visible(shot, position, found.scale, reach))
+    position = seen.settled(shot.ground, found.position)
+    kept = np.flatnonzero(seen.visible(shot, position, found.scale, reach))
     cell = found.cell[kept]
     first = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[found.size_class[kept]]
     model = first + found.model[kept]
-    return _points(shot, position[kept], found.scale[kept], found.rotation[kept], model, cell, cell * 0)
-
-
-def visible(shot: Shot, foot: NDArray, height: NDArray | float, reach: float) -> NDArray[np.bool_]:
-    """Which plants (n,) `height` m tall with feet at (n, 3) count: seen, or throwing shadows on what is.
-
-    Those beside a view within `_AROUND` count too, as they take light of the sky from it; those farther away
-    than `reach` or too small for a satellite do not.
-    """
-    height = np.broadcast_to(height, len(foot))
-    middle = np.column_stack([foot[:, :2], foot[:, 2] + 0.5 * height])
-    return shot.sights.seen(
-        middle, models.REACH * height, reach=reach, margin=_AROUND, shadows=True, pixel=_PIXEL
+    width = np.ones(len(cell))
+    return _points(
+        shot, position[kept], found.scale[kept], width, found.rotation[kept], model, cell, cell * 0
     )
 
 
-def _cells(shot: Shot, height: float, reach: float) -> NDArray[np.bool_]:
-    """Fuel cells (fy, fx) of the run where a plant of at most this height may count."""
-    run = shot.run
-    place = shot.local_frame.forward_grid(run.fuel_latitude, run.fuel_longitude, run.fuel_elevation)
-    slope = sum(_steps(place[..., 2], axis) for axis in (0, 1))
-    size = np.hypot(0.5 * np.hypot(*shot.ground.cell), slope) + _RELIEF
-    counts = visible(shot, place.reshape(-1, 3), height + size.ravel() / models.REACH, reach)
-    return counts.reshape(size.shape)
-
-
-def _steps(height: NDArray[np.float64], axis: int) -> NDArray[np.float64]:
-    """Largest difference of each height from its neighbours' along an axis, where they are known."""
-    padded = np.pad(height, [(1, 1) if k == axis else (0, 0) for k in (0, 1)], "edge")
-    step = np.nan_to_num(np.abs(np.diff(padded, axis=axis)))
-    return np.lib.stride_tricks.sliding_window_view(step, 2, axis).max(-1)
-
-
-def _settled(ground: Ground, position: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Positions on the ground as it is drawn."""
-    position = position.copy()
-    near = np.flatnonzero(ground.detail(*position.T) > 0.0)
-    if len(near):
-        position[near, 2] = ground.up(position[near, 0], position[near, 1])
-    return position
-
-
 def _stand(shot: Shot, grown: Stand) -> dict[str, NDArray]:
-    return _points(shot, grown.position, grown.height, grown.rotation, grown.model, *grown.key.T)
+    return _points(shot, grown.position, grown.height, grown.width, grown.rotation, grown.model, *grown.key.T)
 
 
 def _grass(shot: Shot) -> dict[str, NDArray]:
     run, ground, seed = shot.run, shot.ground, shot.settings.seed
     axes = run.fuel_latitude, run.fuel_longitude
-    mask = _cells(shot, _GRASS, GRASS_DISTANCE)
+    mask = seen.cells(shot, _GRASS, GRASS_DISTANCE)
     found = core.grass(run.surface_fuel, *axes, run.fuel_elevation, ground.frame, seed=seed, mask=mask)
-    position = _settled(ground, found.position)
+    position = seen.settled(ground, found.position)
     moved = np.abs(position[:, 2] - found.position[:, 2]) > 0.0
     position[moved, 2] -= 0.7
-    kept = np.flatnonzero(visible(shot, position, _GRASS, GRASS_DISTANCE))
+    kept = np.flatnonzero(seen.visible(shot, position, _GRASS, GRASS_DISTANCE))
     cell, position = found.cell[kept], position[kept]
     model = (noise.uniform(cell, 7, seed) < 0.5).astype(np.int64)
-    return _points(shot, position, found.scale[kept], found.rotation[kept], model, cell, cell * 0 + 1)
+    scale, width = found.scale[kept], np.ones(len(cell))
+    return _points(shot, position, scale, width, found.rotation[kept], model, cell, cell * 0 + 1)
 
 
 def _points(
     shot: Shot,
     position: NDArray,
     scale: NDArray,
+    width: NDArray,
     rotation: NDArray,
     model: NDArray,
     key: NDArray,
@@ -142,6 +104,7 @@ def _points(
     return {
         "position": position,
         "scale": scale,
+        "width": width,
         "rotation": rotation,
         "model": model,
         "severity": 1.0 - lot,
@@ -193,6 +156,8 @@ def _node_group(shot: Shot, name: str, library: bpy.types.Collection) -> bpy.typ
         "FunctionNodeCompare", [age, BARE_AFTER], data_type="FLOAT", operation="GREATER_THAN"
     )
     model = {"Switch": burned, "False": attribute("model", "INT"), "True": attribute("snag_model", "INT")}
+    up = attribute("scale", "FLOAT")
+    across = up * attribute("width", "FLOAT")
     instances = tree.output(
         "GeometryNodeInstanceOnPoints",
         {
@@ -201,7 +166,7 @@ def _node_group(shot: Shot, name: str, library: bpy.types.Collection) -> bpy.typ
             "Pick Instance": True,
             "Instance Index": tree.output("GeometryNodeSwitch", model, input_type="INT"),
             "Rotation": tree.combine(0.0, 0.0, attribute("rotation", "FLOAT")),
-            "Scale": attribute("scale", "FLOAT"),
+            "Scale": tree.combine(across, across, up),
         },
     )
     tree.node("NodeGroupOutput", {"Geometry": instances})
