@@ -48,7 +48,7 @@ def test_vertices_are_the_local_frame_of_the_fuel_grid(plain, run):
     row, column = (place[:, 1 - k] * ground.shape[k] - 0.5 - ground.fields.margin for k in (0, 1))
     inside = (np.abs(row - 59.5) < 59.9) & (np.abs(column - 59.5) < 59.9)
     i, j = (np.round(v[inside]).astype(int) for v in (row, column))
-    assert len(i) > 400
+    assert len(i) > 200
     assert np.abs(row[inside] - i).max() < 1e-3
     assert _vertices(mesh)[inside] == pytest.approx(wanted[i, j], abs=3e-3)
 
