@@ -16,6 +16,7 @@ SUBJECTS = (
     "text",
     "geodesy",
     "forest",
+    "ground",
     "emitters",
     "volume",
     "smoke",
