@@ -17,6 +17,7 @@ SUBJECTS = (
     "geodesy",
     "forest",
     "stand",
+    "ground",
     "emitters",
     "volume",
     "smoke",

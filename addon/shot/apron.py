@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from . import noise
 
 GROWTH = 1.16  # each row beyond the grid is this much wider than the one before
+_BANDS = 12  # of height, each with its own fuels
 _FORGET = 9_000.0  # m; the heights of the edge fade into the region's within this distance
 
 
@@ -62,10 +63,8 @@ def extend(fields: Fields, cell: tuple[float, float], half_width: float, seed: i
     elevation = _heights(np.pad(fields.elevation, count, "edge"), y, x, distance, spacing, seed)
     apron = distance > 0.0
     canopy, surface = (
-        np.where(
-            apron, _fuel(fields.elevation, fuel, elevation, y, x, distance, seed + k), np.pad(fuel, count)
-        )
-        for k, fuel in enumerate((fields.canopy_fuel, fields.surface_fuel))
+        np.where(apron, _fuel(fields.elevation, fuel, elevation, y, x, distance, seed), np.pad(fuel, count))
+        for fuel in (fields.canopy_fuel, fields.surface_fuel)
     )
     return Fields(latitude, longitude, elevation, canopy, surface, count)
 
@@ -132,15 +131,26 @@ def _fuel(
     distance: NDArray[np.float64],
     seed: int,
 ) -> NDArray[np.float64]:
-    """Fuel in the apron: that of the edge at first, farther out what is usual at that height, in patches."""
+    """Fuel in the apron: that of the edge at first, farther out as at that height of the grid, in patches.
+
+    Not only its mean but all its distribution is that of the grid, for as much ground has to be bare.
+    """
     margin = (height.shape[0] - known_height.shape[0]) // 2
-    edges = np.quantile(known_height, np.linspace(0.0, 1.0, 13))
-    band = np.clip(np.searchsorted(edges, known_height) - 1, 0, 11)
-    mean = np.bincount(band.ravel(), known_fuel.ravel(), 12) / np.maximum(
-        np.bincount(band.ravel(), None, 12), 1
-    )
-    usual = np.interp(height, 0.5 * (edges[1:] + edges[:-1]), mean)
-    patches = 0.5 + noise.fractal(x[None, :], y[:, None], 1_700.0, 3, seed + 50)
-    usual = usual * np.clip(0.4 + 1.2 * patches, 0.0, 2.0)
-    near = np.exp(-distance / 500.0)
-    return near * np.pad(known_fuel, margin, "edge") + (1.0 - near) * usual
+    edges = np.quantile(known_height, np.linspace(0.0, 1.0, _BANDS + 1))
+    band = np.clip(np.searchsorted(edges, known_height) - 1, 0, _BANDS - 1)
+    parts = np.linspace(0.0, 1.0, 65)
+    found = [known_fuel[band == k] for k in range(_BANDS)]
+    quantiles = np.array([np.quantile(fuel if len(fuel) else known_fuel, parts) for fuel in found])
+    which = np.interp(height, 0.5 * (edges[1:] + edges[:-1]), np.arange(_BANDS))
+    which = np.clip(np.round(which + _rank(x, y, 400.0, seed + 58) - 0.5), 0, _BANDS - 1).astype(int)
+    at = _rank(x, y, 1_700.0, seed + 50) * (len(parts) - 1)
+    low = np.minimum(at.astype(int), len(parts) - 2)
+    usual = quantiles[which, low] + (at - low) * (quantiles[which, low + 1] - quantiles[which, low])
+    same = np.exp(-distance / 500.0) > _rank(x, y, 300.0, seed + 54)
+    return np.where(same, np.pad(known_fuel, margin, "edge"), usual)
+
+
+def _rank(x: NDArray[np.float64], y: NDArray[np.float64], size: float, seed: int) -> NDArray[np.float64]:
+    """Noise with patches of `size` metres, spread evenly from 0 to 1."""
+    patches = noise.fractal(x[None, :], y[:, None], size, 3, seed)
+    return 1.0 / (1.0 + np.exp(-1.702 * patches / max(float(np.std(patches)), 1.0e-9)))  # nearly normal

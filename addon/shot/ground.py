@@ -6,6 +6,7 @@ import copy
 import functools
 
 import numpy as np
+from firetwin_core import terrain
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
@@ -40,6 +41,8 @@ class Ground:
     ----------
     eyes
         (m, 3) camera places in the scene, m; without any the ground is bilinear everywhere.
+    surface
+        What the ground has near eyes, more than between its grid points: Catmull-Rom, and ridges and gullies.
     """
 
     def __init__(self, settings: Settings, run: Run, arrival: Array) -> None:
@@ -68,6 +71,18 @@ class Ground:
         self.bare, self.water = _bare(self.fields), _water(self.fields)
         slope = np.hypot(*np.gradient(self.fields.elevation, *self._metres()))
         self._slope = np.minimum(slope, 1.0)
+        self.surface = terrain.Surface(
+            self.fields.elevation,
+            self._slope,
+            1.0 - self.water,
+            self.cell,
+            _OCTAVES,
+            strength=RELIEF,
+            level=_RELIEF_LEVEL,
+            sharp=_SHARP,
+            mean=_RELIEF_MEAN,
+            seed=self.seed + 90,
+        )
 
     def seen_from(self, eyes: ArrayLike) -> Ground:
         """The same ground with detail near these places (m, 3) in the scene, m."""
@@ -137,29 +152,18 @@ class Ground:
         near = np.flatnonzero(detail.ravel() > 0.0)
         if len(near):
             r, c, w = (v.ravel()[near] for v in (row, column, detail))
-            fine = catmull_rom(self.fields.elevation, r, c) + self._relief(r, c)
             flat = height.ravel()
-            flat[near] += w * (fine - flat[near])
+            flat[near] += w * self.surface.detail(r, c)
             height = flat.reshape(row.shape)
         return height
 
-    def _relief(self, row: Array, column: Array) -> Array:
-        """Ridges and gullies finer than the grid, stronger on slopes."""
-        y, x = row * self.cell[0], column * self.cell[1]
-        shape = np.zeros_like(row)
-        for octave, (size, weight) in enumerate(_OCTAVES):
-            wave = noise.perlin(x / size, y / size, self.seed + 90 + octave)
-            shape += weight * (1.0 - _SHARP * np.abs(wave))  # sharp ridges, round hollows
-        dry = 1.0 - bilinear(self.water, row, column)
-        return RELIEF * dry * (_RELIEF_LEVEL + bilinear(self._slope, row, column)) * (shape - _RELIEF_MEAN)
-
     def floor(self) -> Array:
-        """Scene points (ny, nx, 3) of the grid, lowered where need be: no ground is drawn under them.
+        """Scene points (ny, nx, 3) of the grid, lowered where need be: no ground is under them.
 
         Over a quad of the grid ground is nowhere lower than the lowest of its corners. Far from eyes that is
         so as quads are drawn as they are. Near them Catmull-Rom is at most 1/8 of the second differences off
         the straight line along one axis and 1.25/8 along the other, as its weights' sizes add up to 1.25; and
-        `_relief` goes down to RELIEF times the slope's factor times the least of its octaves together.
+        relief goes down to RELIEF times the slope's factor times the least of its octaves together.
         """
         elevation = self.fields.elevation
         place = self.frame.forward_grid(self.fields.latitude, self.fields.longitude, elevation)
@@ -315,25 +319,3 @@ def bilinear(field: Array, row: ArrayLike, column: ArrayLike) -> Array:
     i1, j1 = np.minimum(i + 1, field.shape[0] - 1), np.minimum(j + 1, field.shape[1] - 1)
     low = field[i, j] * (1.0 - u) + field[i, j1] * u
     return low * (1.0 - v) + (field[i1, j] * (1.0 - u) + field[i1, j1] * u) * v
-
-
-def catmull_rom(field: Array, row: ArrayLike, column: ArrayLike) -> Array:
-    """Values of `field` (ny, nx) between its points, with continuous slope (Catmull and Rom 1974)."""
-    i, v = _split(row, field.shape[0])
-    j, u = _split(column, field.shape[1])
-    total = np.zeros(i.shape)
-    for di, wi in zip(range(-1, 3), _weights(v), strict=True):
-        ii = np.clip(i + di, 0, field.shape[0] - 1)
-        for dj, wj in zip(range(-1, 3), _weights(u), strict=True):
-            total += wi * wj * field[ii, np.clip(j + dj, 0, field.shape[1] - 1)]
-    return total
-
-
-def _weights(t: Array) -> tuple[Array, Array, Array, Array]:
-    """Catmull-Rom weights of the four neighbours at fraction t."""
-    return (
-        0.5 * t * (-1.0 + t * (2.0 - t)),
-        1.0 + 0.5 * t * t * (-5.0 + 3.0 * t),
-        0.5 * t * (1.0 + t * (4.0 - 3.0 * t)),
-        0.5 * t * t * (t - 1.0),
-    )

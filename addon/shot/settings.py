@@ -71,12 +71,20 @@ class Time:
 
 @dataclass(frozen=True)
 class Ground:
-    """The model's grid, finer near cameras, and an apron out to the horizon."""
+    """The model's grid, as fine as cameras see it, and an apron out to the horizon."""
 
     near_radius: float = key(
-        4000.0, "finer ground within this distance of a camera's path", unit="m", at_least=0
+        4000.0,
+        "ridges and gullies finer than the grid within this distance of a camera's path",
+        unit="m",
+        at_least=0,
     )
-    near_spacing: float = key(12.0, "spacing of its points there", unit="m", above=0)
+    error: float = key(
+        0.5,
+        "how far the mesh may be above or below the ground that cameras see; more is coarser",
+        unit="pixels",
+        above=0,
+    )
     apron: float = key(
         110_000.0,
         "half-width of the ground drawn round the run; smaller shows the edge of the world",
@@ -287,7 +295,7 @@ class Settings:
         shows=("ground", "forest", "fire", "smoke"),
     )
     time: Time = key(default_factory=Time, help="which moments of the run the frames show")
-    ground: Ground = key(default_factory=Ground, help="its grid, finer near cameras")
+    ground: Ground = key(default_factory=Ground, help="its grid, as fine as cameras see it")
     forest: Forest = key(default_factory=Forest, help="trees and grass")
     fire: Fire = key(default_factory=Fire, help="flames, firebrands and the glowing ground")
     smoke: Smoke = key(default_factory=Smoke, help="the smoke volume")

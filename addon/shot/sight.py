@@ -8,7 +8,7 @@ import numpy as np
 from firetwin_core import lod
 from numpy.typing import ArrayLike, NDArray
 
-from . import sun
+from . import accuracy, sun
 from .ground import RELIEF, Ground
 from .path import Path
 
@@ -87,7 +87,7 @@ class Sights:
         counts = [len(frames) for frames in filmed]
         position = _joined([path.position[frames] for path, frames in zip(paths, filmed, strict=True)], (3,))
         if self._ground is None:
-            self._ground, self._floor = _occluder(shot.ground)
+            self._ground, self._floor = _occluder(shot)
         return lod.Sight(
             position,
             _joined([path.rotation[frames] for path, frames in zip(paths, filmed, strict=True)], (3, 3)),
@@ -110,14 +110,27 @@ def _joined(parts: list[NDArray], shape: tuple[int, ...]) -> NDArray:
     return np.concatenate(parts) if parts else np.empty((0, *shape))
 
 
-def _occluder(ground: Ground) -> tuple[lod.Occluder, float]:
+def _occluder(shot: Shot) -> tuple[lod.Occluder, float]:
     """The run's part of the ground, as what hides, and the lowest scene z of all of it.
 
-    Hills of the apron hide nothing: its cells are too large to make good walls.
+    It is as much lower as its mesh may be where it is seen, for where a line of sight goes into the ground it
+    is seen. Hills of the apron hide nothing: its cells are too large to make good walls.
     """
-    floor, margin = ground.floor(), ground.fields.margin
+    floor, margin = shot.ground.floor(), shot.ground.fields.margin
+    lowest = float(floor[..., 2].min()) - accuracy.UNSEEN
     inner = slice(margin, -margin or None)
-    return lod.Occluder(floor[inner, inner]), float(floor[..., 2].min())
+    floor = floor[inner, inner]
+    floor[..., 2] -= accuracy.most(shot, _distance(shot, floor))
+    return lod.Occluder(floor), lowest
+
+
+def _distance(shot: Shot, place: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Least distance of places (ny, nx, 3) from cameras in perspective, m."""
+    views = [(path, shot.filmed(path)) for path in shot.near]
+    position = _joined([path.position[frames] for path, frames in views], (3,))
+    rotation = _joined([path.rotation[frames] for path, frames in views], (3, 3))
+    alone = lod.Sight(position, rotation, np.ones(2))
+    return lod.distance(place.reshape(-1, 3), alone).reshape(place.shape[:2])
 
 
 def _clear(ground: Ground, position: NDArray[np.float64]) -> NDArray[np.bool_]:

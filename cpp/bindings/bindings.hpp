@@ -18,6 +18,7 @@ void init_flux(Module module);
 void init_lod(Module module);
 void init_forest(Module module);
 void init_particles(Module module);
+void init_terrain(Module module);
 void init_volume(Module module);
 void init_sensor(Module module);
 void init_flow(Module module);

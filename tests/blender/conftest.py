@@ -101,7 +101,7 @@ def near_settings(settings):
     """The same with a detailed ground and a stand."""
     return replace(
         settings,
-        ground=replace(settings.ground, near_radius=1500.0, near_spacing=20.0),
+        ground=replace(settings.ground, near_radius=1500.0),
         forest=replace(settings.forest, density="stand", budget=3000, draw_distance=1500.0),
     )
 

@@ -46,7 +46,6 @@ NEVER_BPY = (
     ),
     *(f"firetwin.scene.fire.{name}" for name in ("firebrands", "flames", "lamps")),
     *(f"firetwin.scene.forest.{name}" for name in ("seen", "stand")),
-    "firetwin.scene.ground.grid_mesh",
     "firetwin.scene.light.sky",
     *(f"firetwin.scene.smoke.{name}" for name in ("bake", "cache", "stability", "view")),
 )

@@ -60,7 +60,7 @@ def test_every_default_is_right():
 # Where, what is put there, where the complaint is and words that it must hold.
 WRONG = [
     (("time", "frames"), 0, ["time.frames", "from 1 to 100,000, not 0"]),
-    (("ground", "near_spacing"), 0.0, ["ground.near_spacing", "above 0, not 0"]),
+    (("ground", "error"), 0.0, ["ground.error", "above 0, not 0"]),
     (("fire", "budget"), -1, ["fire.budget", "at least 0, not -1"]),
     (("fire", "emitters"), "fronts", ['"front" or "cells", not "fronts"', 'did you mean "front"?']),
     (("render", "resolution"), (640, 20000), ["from 16 to 16,384, not 20000"]),
@@ -194,7 +194,7 @@ REFUSED = [
     "[time]\nframes = true",
     "[time]\nframes = 1.5",
     '[time]\nstart = "yesterday"\nfps = "12"',
-    "[ground]\nnear_spacing = 0",
+    "[ground]\nerror = 0",
     "[ground]\napron = -1",
     "[forest]\ntrees = 1",
     '[fire]\nemitters = "edge"',

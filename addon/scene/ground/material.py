@@ -15,11 +15,13 @@ from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import haze, temperature
 from ..glow import CLOSE, EMBER, FLAME
+from . import fields
 
 FLAMING_TIME = 100.0, 300.0  # s that the edge is in flames, seen from nearby and from FAR
 FAR = 9000.0  # m; from there the edge is drawn wider, as a picture's pixels are
 EMBER_TIME = 3600.0  # s in which embers fade to 1/e
 _CROWNS_SEEN = (5000.0, 15_000.0)  # m from the camera at which crowns are full and gone
+_OWN = 1.25  # radii of the stand; from farther away trees are too small to leave the canopy to them
 _JITTER = 130.0  # s; breaks the straight edges of the mesh's triangles
 _FLAME_LIGHT, _EMBER_LIGHT = 10.0, 1.8  # radiance at exposure 0
 _DIMMED = 0.3  # part of their light that flames of the edge have near by
@@ -40,10 +42,11 @@ class _Place:
     burned: nodes.Value  # 0 or 1
 
 
-def build(shot: Shot, stage: Stage) -> bpy.types.Material:
-    """Build "Firetwin Ground"."""
+def build(shot: Shot, stage: Stage, images: dict[str, bpy.types.Image]) -> bpy.types.Material:
+    """Build "Firetwin Ground", which reads the fields of these images."""
     material, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
-    place = _place(tree)
+    known = fields.Fields(tree, images)
+    place = _place(tree, known, shot.settings.forest.stand_radius)
     rock = _rock(tree, place)
     green, bump = _unburned(tree, place, rock)
     char = _charred(tree, place, rock)
@@ -51,7 +54,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     flaming, embers = _glow(tree, place, rock)
     normal = tree.output("ShaderNodeBump", {"Strength": 0.9, "Distance": 1.0, "Height": bump})
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Roughness": 0.6, "Normal": normal})
-    lake = tree.attribute("water") > 0.5
+    lake = known["water"] > 0.5
     matt = tree.mix_shader(lake, matt, _water(tree, place))
     light = tree.mix_colour(flaming / (flaming + embers + 1.0e-4), EMBER, FLAME)
     power = flaming * _FLAME_LIGHT * place.distance.ramp(*CLOSE, _DIMMED, 1.0) + embers * (
@@ -67,23 +70,23 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     return material
 
 
-def _place(tree: nodes.Tree) -> _Place:
+def _place(tree: nodes.Tree, known: fields.Fields, radius: float) -> _Place:
     geometry = tree.node("ShaderNodeNewGeometry")
     position = tree.pick(geometry, "Position")
     slope = 1.0 - tree.separate(tree.pick(geometry, "True Normal"))[2]
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
     wander = tree.noise(position, 170.0, 2.0) + tree.noise(position, 1100.0, 1.0) - 1.0
-    age = nodes.model_time(tree) - tree.attribute("burn_time") + wander * (2.0 * _JITTER)
-    edge = tree.attribute("burned") + (tree.noise(position, 120.0, 3.0) - 0.5) * 0.8
+    age = nodes.model_time(tree) - known["burn_time"] + wander * (2.0 * _JITTER)
+    edge = known["burned"] + (tree.noise(position, 120.0, 3.0) - 0.5) * 0.8
     burned = (age > 0.0) * (edge > 0.5)
     return _Place(
         position,
         slope,
-        tree.attribute("canopy_fuel"),
-        tree.attribute("bare"),
+        known["canopy_fuel"],
+        known["bare"],
         tree.attribute("elevation"),
         distance,
-        tree.attribute("stand"),
+        known["stand"] * distance.ramp(max(radius, 1.0), _OWN * max(radius, 1.0), 1.0, 0.0),
         age,
         burned,
     )

@@ -8,6 +8,7 @@ from . import lod as lod
 from . import particles as particles
 from . import run as run
 from . import sensor as sensor
+from . import terrain as terrain
 from . import volume as volume
 
 __version__: str

@@ -1,0 +1,111 @@
+"""Fields of the ground's grid for its material: images, as exact wherever the mesh has few points.
+
+A mesh carries `grid`, the place in the images; a pixel is a point of the grid, and between them values are
+bilinear.
+"""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...blender import nodes, owned
+from ...shot.shot import Shot
+from ..forest.stand import Stand
+
+GRID = "grid"
+_LARGEST = 2048  # pixels of an image's side; of larger grids the means of some points
+_FUEL, _FIRE = "Firetwin Ground Fuel", "Firetwin Ground Fire"
+NAMES = {
+    "canopy_fuel": (_FUEL, 0),
+    "bare": (_FUEL, 1),
+    "water": (_FUEL, 2),
+    "burn_time": (_FIRE, 0),
+    "burned": (_FIRE, 1),
+    "stand": (_FIRE, 2),
+}
+"""In which image and channel each field is."""
+
+
+def images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]:
+    """Make the images, by name: `canopy_fuel` (kg/m2), `bare` (part without fuel), `water` (1 on lakes).
+
+    And `burn_time` (arrival in s, continued a little past the last perimeter), `burned` (1 inside it) and
+    `stand` (part of the forest that is drawn tree by tree).
+    """
+    ground = shot.ground
+    known = {
+        "canopy_fuel": ground.fields.canopy_fuel,
+        "bare": ground.bare,
+        "water": ground.water,
+        "burn_time": np.minimum(ground.burn_time, 1.0e7),
+        "burned": ground.burned,
+        "stand": _stand_cover(shot, grown),
+    }
+    size = -(-max(ground.shape) // _LARGEST)
+    made = {}
+    for image in (_FUEL, _FIRE):
+        channels = [known[name] for name, (holder, _) in NAMES.items() if holder == image]
+        made[image] = _image(image, [_thinned(field, size) for field in channels])
+    return made
+
+
+def place(shape: tuple[int, int], row: NDArray, column: NDArray) -> NDArray[np.float32]:
+    """`grid` of fractional rows and columns (n,) of a grid of this shape: (n, 3), the last of them 0."""
+    size = -(-max(shape) // _LARGEST)
+    rows, columns = (size * -(-count // size) for count in shape)
+    return np.stack([(column + 0.5) / columns, (row + 0.5) / rows, 0.0 * row], axis=-1).astype(np.float32)
+
+
+class Fields:
+    """The fields as outputs of a material's nodes."""
+
+    def __init__(self, tree: nodes.Tree, made: dict[str, bpy.types.Image]) -> None:
+        at = tree.attribute(GRID, output="Vector")
+        self._channels = {
+            name: tree.separate(
+                tree.output("ShaderNodeTexImage", {"Vector": at}, image=image, extension="EXTEND")
+            )
+            for name, image in made.items()
+        }
+
+    def __getitem__(self, name: str) -> nodes.Value:
+        image, channel = NAMES[name]
+        return self._channels[image][channel]
+
+
+def _thinned(field: NDArray[np.float64], size: int) -> NDArray[np.float32]:
+    """Means of size x size points each; beyond its ends a field goes on level."""
+    if size == 1:
+        return field.astype(np.float32)
+    field = np.pad(field, [(0, -count % size) for count in field.shape], "edge")
+    rows, columns = (count // size for count in field.shape)
+    return field.reshape(rows, size, columns, size).mean(axis=(1, 3), dtype=np.float64).astype(np.float32)
+
+
+def _image(name: str, channels: list[NDArray[np.float32]]) -> bpy.types.Image:
+    """An image of numbers, which is saved with the scene."""
+    rows, columns = channels[0].shape
+    image = bpy.data.images.new(name, columns, rows, alpha=False, float_buffer=True, is_data=True)
+    pixels = np.ones((rows, columns, 4), np.float32)
+    for index, channel in enumerate(channels):
+        pixels[..., index] = channel
+    image.pixels.foreach_set(pixels.ravel())
+    image.pack()
+    return owned.mark(image)
+
+
+def _stand_cover(shot: Shot, grown: Stand | None) -> NDArray[np.float64]:
+    """Part of the forest's trees that stands there one by one, so that the ground need not draw it."""
+    ground = shot.ground
+    cover = np.zeros(ground.shape)
+    if grown is None or not shot.near:
+        return cover
+    place = ground.frame.forward_grid(
+        ground.fields.latitude, ground.fields.longitude, ground.fields.elevation
+    )
+    distance = shot.sights.distance(place.reshape(-1, 3)).reshape(ground.shape)
+    close = distance < grown.radius
+    cover[close] = grown.coverage(distance[close])
+    return cover

@@ -1,0 +1,88 @@
+"""The ground as a surface, and a mesh of few triangles that follows it as closely as is asked."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+class Surface:
+    """The ground between the points of a grid, seen closely: smooth, with relief.
+
+    Parameters
+    ----------
+    elevation
+        (ny, nx) m, two rows and columns or more.
+    steep
+        (ny, nx) how far relief is that of a slope of 45 degrees, 0..1.
+    dry
+        (ny, nx) 0 on water, where there is no relief, 1 elsewhere.
+    cell
+        Distance of rows and of columns, m.
+    octaves
+        Wavelength (m) and weight of each wave of the relief.
+    strength
+        Of the relief where slopes are 45 degrees, m; on level ground `level` of it.
+    sharp
+        How much lower than its ridges a wave is.
+    mean
+        Of the waves together, which is taken away.
+    seed
+        Another number gives other relief.
+    """
+
+    def __init__(
+        self,
+        elevation: ArrayLike,
+        steep: ArrayLike,
+        dry: ArrayLike,
+        cell: tuple[float, float],
+        octaves: Sequence[tuple[float, float]],
+        strength: float,
+        level: float,
+        sharp: float,
+        mean: float,
+        seed: int,
+    ) -> None: ...
+    def detail(self, row: ArrayLike, column: ArrayLike) -> NDArray[np.float64]:
+        """Heights (n,) seen closely, less the bilinear ones, at fractional rows and columns (n,); m.
+
+        Between grid points the surface is that of Catmull and Rom 1974, with gradient noise (Perlin 2002).
+        """
+
+def mesh(
+    place: ArrayLike,
+    tolerance: ArrayLike,
+    fine: ArrayLike | None = None,
+    surface: Surface | None = None,
+    eye: ArrayLike | None = None,
+    radius: float = 0.0,
+    margin: int = 0,
+    widest: int = 4,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]:
+    """Triangles whose vertical error is nowhere above the tolerance, without cracks.
+
+    At no point of the grid is it, nor at any point of the cells that are halved. Right triangles are halved
+    where they are off, and their neighbours with them (newest vertex bisection; Lindstrom et al. 1996; Evans
+    et al. 2001). The same for any number of threads.
+
+    Parameters
+    ----------
+    place
+        (ny, nx, 3) points of the ground, m; x ascends with columns, y with rows.
+    tolerance
+        (ny, nx) largest vertical error, m. Between the grid's points the least of the four counts.
+    fine
+        (ny - 1, nx - 1) how often each cell is halved, so that heights between the grid's points count.
+    surface, eye, radius
+        What is added to the bilinear ground within `radius` (m) of the eyes (m, 3): all of it within 0.6 of
+        that, nothing beyond.
+    margin, widest
+        Triangles that reach into so many rows and columns at each side span at most `widest` cells.
+
+    Returns
+    -------
+    row, column
+        (n,) vertices: fractional rows and columns of the grid.
+    triangle
+        (m, 3) vertices of each, counter-clockwise seen from above.
+    """

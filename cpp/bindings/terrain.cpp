@@ -1,0 +1,101 @@
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "terrain/mesh.hpp"
+#include "terrain/surface.hpp"
+
+#include <pybind11/stl.h>
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <array>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace firetwin::bindings {
+namespace py = pybind11;
+namespace {
+
+using terrain::Surface;
+
+template <class T> std::vector<T> values(const Array<T>& array) {
+  return {array.data(), array.data() + array.size()};
+}
+
+std::shared_ptr<Surface> surface(const py::object& elevation, const py::object& steep,
+                                 const py::object& dry, std::array<double, 2> cell,
+                                 const std::vector<std::array<double, 2>>& octaves, double strength,
+                                 double level, double sharp, double mean, std::int64_t seed) {
+  const auto height = to_array<double>(elevation, "elevation", {-1, -1});
+  const auto slope = to_array<float>(steep, "steep", {height.shape(0), height.shape(1)});
+  const auto land = to_array<float>(dry, "dry", {height.shape(0), height.shape(1)});
+  terrain::Relief relief{{}, strength, level, sharp, mean, seed};
+  for (const auto& [size, weight] : octaves) {
+    relief.octaves.push_back({size, weight});
+  }
+  const py::gil_scoped_release release;
+  return std::make_shared<Surface>(
+      Grid<double>{static_cast<std::size_t>(height.shape(0)),
+                   static_cast<std::size_t>(height.shape(1)), values(height)},
+      values(slope), values(land), cell[0], cell[1], std::move(relief));
+}
+
+Array<double> detail(const Surface& ground, const py::object& row, const py::object& column) {
+  const auto rows = to_array<double>(row, "row", {-1});
+  const auto columns = to_array<double>(column, "column", {rows.size()});
+  auto result = new_array<double>({rows.size()});
+  const auto i = view(rows), j = view(columns);
+  const auto out = writable(result);
+  const py::gil_scoped_release release;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size(), 1024), [&](const auto& range) {
+    for (std::size_t k = range.begin(); k < range.end(); ++k) {
+      out[k] = ground.detail(i[k], j[k]);
+    }
+  });
+  return result;
+}
+
+using Made = std::tuple<Array<double>, Array<double>, Array<std::int32_t>>;
+
+Made mesh(const py::object& place, const py::object& tolerance, const py::object& fine,
+          const std::shared_ptr<Surface>& ground, const py::object& eye, double radius,
+          std::size_t margin, std::size_t widest) {
+  const auto places = to_array<float>(place, "place", {-1, -1, 3});
+  const auto errors = to_array<float>(tolerance, "tolerance", {places.shape(0), places.shape(1)});
+  Array<double> eyes;
+  if (!eye.is_none()) {
+    eyes = to_array<double>(eye, "eye", {-1, 3});
+  }
+  Array<std::uint8_t> levels;
+  if (!fine.is_none()) {
+    levels = to_array<std::uint8_t>(fine, "fine", {places.shape(0) - 1, places.shape(1) - 1});
+  }
+  terrain::Mesh made;
+  {
+    const py::gil_scoped_release release;
+    made = terrain::mesh({static_cast<std::size_t>(places.shape(0)),
+                          static_cast<std::size_t>(places.shape(1)), view(places), view(errors),
+                          view(levels), margin, widest},
+                         {ground.get(), view(eyes), radius});
+  }
+  const auto vertices = length(made.row.size()), triangles = length(made.triangle.size() / 3);
+  return {give(std::move(made.row), {vertices}), give(std::move(made.column), {vertices}),
+          give(std::move(made.triangle), {triangles, 3})};
+}
+
+} // namespace
+
+void init_terrain(Module module) {
+  Class<Surface, std::shared_ptr<Surface>>(module, "Surface")
+      .def(py::init(&surface), py::arg("elevation"), py::arg("steep"), py::arg("dry"),
+           py::arg("cell"), py::arg("octaves"), py::arg("strength"), py::arg("level"),
+           py::arg("sharp"), py::arg("mean"), py::arg("seed"))
+      .def("detail", &detail, py::arg("row"), py::arg("column"));
+  module.def("mesh", &mesh, py::arg("place"), py::arg("tolerance"), py::arg("fine") = py::none(),
+             py::arg("surface") = py::none(), py::arg("eye") = py::none(), py::arg("radius") = 0.0,
+             py::arg("margin") = 0, py::arg("widest") = 4);
+}
+
+} // namespace firetwin::bindings

@@ -1,0 +1,129 @@
+#include "terrain/surface.hpp"
+
+#include "base/check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace firetwin::terrain {
+namespace {
+
+/// Mixes lattice coordinates into 32 bits (the finaliser of MurmurHash3).
+std::uint32_t hash(std::int64_t x, std::int64_t y, std::int64_t seed) {
+  std::uint32_t h =
+      static_cast<std::uint32_t>(x) * 0x9E3779B1U ^ static_cast<std::uint32_t>(y) * 0x85EBCA77U;
+  h ^= static_cast<std::uint32_t>(seed) * 0x27D4EB2FU + 0x165667B1U;
+  h = (h ^ (h >> 16)) * 0x85EBCA6BU;
+  h = (h ^ (h >> 13)) * 0xC2B2AE35U;
+  return h ^ (h >> 16);
+}
+
+double fade(double t) {
+  return t * t * t * (t * (6.0 * t - 15.0) + 10.0);
+}
+
+/// Catmull-Rom weights of the four neighbours at a fraction.
+std::array<double, 4> weights(double t) {
+  return {0.5 * t * (-1.0 + t * (2.0 - t)), 1.0 + 0.5 * t * t * (-5.0 + 3.0 * t),
+          0.5 * t * (1.0 + t * (4.0 - 3.0 * t)), 0.5 * t * t * (t - 1.0)};
+}
+
+} // namespace
+
+double perlin(double x, double y, std::int64_t seed) {
+  const double column = std::floor(x), row = std::floor(y);
+  const double u = x - column, v = y - row;
+  const auto slope = [&](int dx, int dy) {
+    const double angle =
+        hash(static_cast<std::int64_t>(column) + dx, static_cast<std::int64_t>(row) + dy, seed) *
+        (2.0 * std::numbers::pi / 4294967296.0);
+    return std::cos(angle) * (u - dx) + std::sin(angle) * (v - dy);
+  };
+  const double low = slope(0, 0) + fade(u) * (slope(1, 0) - slope(0, 0));
+  const double high = slope(0, 1) + fade(u) * (slope(1, 1) - slope(0, 1));
+  return 1.41 * (low + fade(v) * (high - low));
+}
+
+/// The cell that a place is in, and how far it is in it.
+struct Surface::Place {
+  std::size_t row, column;
+  double v, u;
+
+  template <class T> double bilinear(const std::vector<T>& field, std::size_t columns) const {
+    const T* low = &field[row * columns + column];
+    const T* high = low + columns;
+    const double below = double{low[0]} * (1.0 - u) + double{low[1]} * u;
+    return below * (1.0 - v) + (double{high[0]} * (1.0 - u) + double{high[1]} * u) * v;
+  }
+};
+
+Surface::Surface(Grid<double> elevation, std::vector<float> steep, std::vector<float> dry,
+                 double cell_north, double cell_east, Relief relief)
+    : elevation_(std::move(elevation)), steep_(std::move(steep)), dry_(std::move(dry)),
+      cell_north_(cell_north), cell_east_(cell_east), relief_(std::move(relief)) {
+  if (elevation_.rows < 2 || elevation_.columns < 2) {
+    throw std::invalid_argument("elevation must have two rows and columns or more");
+  }
+  if (steep_.size() != elevation_.values.size() || dry_.size() != elevation_.values.size()) {
+    throw std::invalid_argument("steep and dry must have as many values as elevation");
+  }
+  check_above_zero(cell_north_, "cell");
+  check_above_zero(cell_east_, "cell");
+}
+
+Surface::Place Surface::place(double row, double column) const {
+  const auto split = [](double at, std::size_t count, double& part) {
+    const double whole = std::clamp(std::floor(at), 0.0, static_cast<double>(count - 2));
+    part = at - whole;
+    return static_cast<std::size_t>(whole);
+  };
+  Place found{};
+  found.row = split(row, elevation_.rows, found.v);
+  found.column = split(column, elevation_.columns, found.u);
+  return found;
+}
+
+double Surface::smooth(const Place& at) const {
+  const auto down = weights(at.v), across = weights(at.u);
+  const auto held = [](std::size_t index, std::size_t offset, std::size_t count) {
+    const std::size_t shifted = index + offset; // one too many
+    return std::min(shifted > 0 ? shifted - 1 : 0, count - 1);
+  };
+  double total = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double* line = &elevation_.values[held(at.row, i, rows()) * columns()];
+    double sum = 0.0;
+    for (std::size_t j = 0; j < 4; ++j) {
+      sum += across[j] * line[held(at.column, j, columns())];
+    }
+    total += down[i] * sum;
+  }
+  return total;
+}
+
+double Surface::relief(const Place& at, double row, double column) const {
+  const double dry = at.bilinear(dry_, columns());
+  if (dry <= 0.0 || relief_.strength <= 0.0) {
+    return 0.0;
+  }
+  const double y = row * cell_north_, x = column * cell_east_;
+  double shape = 0.0;
+  std::int64_t seed = relief_.seed;
+  for (const Octave& octave : relief_.octaves) {
+    const double wave = perlin(x / octave.size, y / octave.size, seed++);
+    shape += octave.weight * (1.0 - relief_.sharp * std::abs(wave)); // sharp ridges, round hollows
+  }
+  return relief_.strength * dry * (relief_.level + at.bilinear(steep_, columns())) *
+         (shape - relief_.mean);
+}
+
+double Surface::detail(double row, double column) const {
+  const Place at = place(row, column);
+  return smooth(at) - at.bilinear(elevation_.values, columns()) + relief(at, row, column);
+}
+
+} // namespace firetwin::terrain

@@ -1,0 +1,51 @@
+"""The invented ground beyond the run's grid."""
+
+import numpy as np
+import pytest
+from firetwin.shot import apron, noise
+
+CELL = (74.0, 74.0)
+
+
+@pytest.fixture(scope="module")
+def fields():
+    """A forest with bare patches, thinner with height."""
+    y, x = np.mgrid[:200, :200] * 74.0
+    elevation = 1500.0 + 600.0 * noise.fractal(x, y, 6000.0, 4, 3)
+    patches = noise.fractal(x, y, 600.0, 3, 9)
+    canopy = np.where(patches > 0.15, 0.0, np.clip(2.5 - elevation / 1000.0, 0.0, None))
+    axis = np.arange(200) * 74.0 / 111_000.0
+    return apron.Fields(38.0 + axis, -120.0 + axis, elevation, canopy, canopy * 0.5 + 0.02)
+
+
+def test_as_much_of_the_apron_is_bare_as_of_the_grid_at_that_height(fields):
+    made = apron.extend(fields, CELL, 60_000.0, 1)
+    out = np.ones(made.elevation.shape, bool)
+    out[made.margin : -made.margin, made.margin : -made.margin] = False
+    shares = []
+    for low, high in np.lib.stride_tricks.sliding_window_view(
+        np.quantile(fields.elevation, [0.1, 0.5, 0.9]), 2
+    ):
+        known = (fields.elevation > low) & (fields.elevation < high)
+        there = out & (made.elevation > low) & (made.elevation < high)
+        assert there.sum() > 1000
+        for field, other in (
+            (fields.canopy_fuel, made.canopy_fuel),
+            (fields.surface_fuel, made.surface_fuel),
+        ):
+            assert other[there].mean() == pytest.approx(field[known].mean(), rel=0.25)
+        shares.append((np.mean(made.canopy_fuel[there] < 0.01), np.mean(fields.canopy_fuel[known] < 0.01)))
+    for found, wanted in shares:
+        assert found == pytest.approx(wanted, abs=0.08)
+    assert shares[0][1] > 0.1
+
+
+def test_nothing_of_the_grid_is_changed_and_the_apron_has_the_grids_fuels(fields):
+    made = apron.extend(fields, CELL, 60_000.0, 1)
+    inner = slice(made.margin, -made.margin)
+    for name in ("elevation", "canopy_fuel", "surface_fuel"):
+        np.testing.assert_array_equal(getattr(made, name)[inner, inner], getattr(fields, name))
+        values = getattr(made, name)
+        assert np.isfinite(values).all()
+    assert made.canopy_fuel.min() >= 0.0
+    assert made.canopy_fuel.max() <= fields.canopy_fuel.max()
