@@ -123,7 +123,7 @@ def surface(rows, columns, seed=0):
 
 
 def test_near_an_eye_the_mesh_follows_the_surface_between_grid_points():
-    rows, columns, halvings = 24, 30, 3
+    rows, columns, halvings = 14, 18, 3
     height, near = surface(rows, columns)
     place, eye = grid(height), np.array([[300.0, 240.0, 500.0]])
     fine = np.zeros((rows - 1, columns - 1), np.uint8)
