@@ -63,8 +63,8 @@ def closed(row, column, triangle, rows, columns):
     assert len(set(zip(row, column, strict=True))) == len(row)
 
 
-@settings(deadline=None, max_examples=20)
-@given(st.integers(2, 30), st.integers(2, 30), st.integers(0, 99), st.floats(0.2, 0.8), st.floats(0.0, 60.0))
+@settings(deadline=None, max_examples=15)
+@given(st.integers(2, 20), st.integers(2, 20), st.integers(0, 99), st.floats(0.2, 0.8), st.floats(0.0, 60.0))
 def test_the_mesh_is_nowhere_farther_off_than_its_tolerance(rows, columns, seed, roughness, most):
     place = grid(rough(rows, columns, seed, roughness))
     tolerance = np.random.default_rng(seed).uniform(0.2 * most, most, (rows, columns)).astype(np.float32)
@@ -73,6 +73,15 @@ def test_the_mesh_is_nowhere_farther_off_than_its_tolerance(rows, columns, seed,
     y, x = (v.ravel() for v in np.mgrid[:rows, :columns])
     off = np.abs(drawn(place, row, column, triangle, y, x) - place[y, x, 2])
     assert np.all(off <= tolerance[y, x] + 1e-3)
+
+
+def test_the_rim_of_a_grid_whose_rows_are_curved_is_followed_as_well():
+    height = 0.0 * np.mgrid[:65, :65][0]
+    height[0, 1::2] = height[-1, 1::2] = 9.0
+    place = grid(height)
+    place[..., 1] += 1e-6 * (place[..., 0] - 640.0) ** 2
+    row, _column, _triangle = terrain.mesh(place, np.ones(height.shape))
+    assert np.sum(row == 0.0) == np.sum(row == 64.0) == 65
 
 
 def test_level_ground_takes_few_triangles_and_a_hill_takes_them_where_it_is():
@@ -114,18 +123,18 @@ def surface(rows, columns, seed=0):
 
 
 def test_near_an_eye_the_mesh_follows_the_surface_between_grid_points():
-    rows, columns, halvings = 24, 30, 3
+    rows, columns, halvings = 14, 18, 3
     height, near = surface(rows, columns)
     place, eye = grid(height), np.array([[300.0, 240.0, 500.0]])
     fine = np.zeros((rows - 1, columns - 1), np.uint8)
-    fine[6:16, 8:22] = halvings
+    fine[8:12, 10:15] = halvings
     for most in (0.3, 2.0):
         row, column, triangle = terrain.mesh(
             place, np.full((rows, columns), most), fine, near, eye, radius=1e4
         )
         closed(row, column, triangle, rows, columns)
         steps = 2**halvings
-        y, x = np.meshgrid(np.arange(6 * steps, 16 * steps + 1), np.arange(8 * steps, 22 * steps + 1))
+        y, x = np.meshgrid(np.arange(8 * steps, 12 * steps + 1), np.arange(10 * steps, 15 * steps + 1))
         y, x = (v.ravel() / steps for v in (y, x))
 
         def true(r, c):
