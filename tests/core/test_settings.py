@@ -169,12 +169,13 @@ def test_the_json_schema_is_one():
     found = json_schema(Settings)
     jsonschema.Draft202012Validator.check_schema(found)
     assert found["properties"]["time"]["properties"]["start"]["format"] == "date-time"
-    spacing = found["properties"]["ground"]["properties"]["near_spacing"]
-    assert spacing == {
-        "description": "spacing of its points there, m",
+    error = found["properties"]["ground"]["properties"]["error"]
+    assert error == {
+        "description": "how far the mesh may be above or below the ground that cameras see, pixels; "
+        "more is coarser",
         "type": "number",
         "exclusiveMinimum": 0,
-        "default": 12.0,
+        "default": 0.5,
     }
     assert found["properties"]["render"]["properties"]["engine"]["enum"] == ["cycles", "eevee"]
 
