@@ -21,7 +21,7 @@ FLAMING_TIME = 100.0, 300.0  # s that the edge is in flames, seen from nearby an
 FAR = 9000.0  # m; from there the edge is drawn wider, as a picture's pixels are
 EMBER_TIME = 3600.0  # s in which embers fade to 1/e
 _CROWNS_SEEN = (5000.0, 15_000.0)  # m from the camera at which crowns are full and gone
-_OWN = 1.25  # radii of the stand; from farther away trees are too small to leave the canopy to them
+_OWN = 1.25  # times the distance to which trees are drawn: from there on the canopy is the ground's
 _JITTER = 130.0  # s; breaks the straight edges of the mesh's triangles
 _FLAME_LIGHT, _EMBER_LIGHT = 10.0, 1.8  # radiance at exposure 0
 _DIMMED = 0.3  # part of their light that flames of the edge have near by
@@ -46,7 +46,7 @@ def build(shot: Shot, stage: Stage, images: dict[str, bpy.types.Image]) -> bpy.t
     """Build "Firetwin Ground", which reads the fields of these images."""
     material, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
     known = fields.Fields(tree, images)
-    place = _place(tree, known, shot.settings.forest.stand_radius)
+    place = _place(tree, known, shot.settings.forest.draw_distance)
     rock = _rock(tree, place)
     green, bump = _unburned(tree, place, rock)
     char = _charred(tree, place, rock)
