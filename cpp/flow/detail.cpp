@@ -28,7 +28,7 @@ constexpr float lump_slope = 1.4F;
 constexpr float core[] = {6.3F, 8.0F}; // of a vigorous core at least, in thin and in thick smoke
 constexpr float cloud_depth = 500.0F;  // m above condensation over which smoke turns to cloud
 constexpr float cloud_amount = 2.5F;   // of droplets in the amount
-constexpr float cloud_ages[] = {900.0F, 2400.0F}; // s, between which droplets evaporate
+constexpr float cloud_ages[] = {600.0F, 1600.0F}; // s, between which droplets evaporate
 constexpr float roughness = 0.7F;
 constexpr double finer = 0.47;
 constexpr int lump_octaves = 3, most_octaves = 7;

@@ -74,6 +74,7 @@ def _hang(
     volume.sequence_mode = "CLIP"
     volume.render.space = "WORLD"
     volume.render.step_size = part.step
+    volume.render.clipping = flow_frames.THIN  # Cycles leaves out what is thinner, in blocks that show
     volume.display.density = part.extinction  # in the solid view, like the render's
     volume.display.wireframe_type = "NONE"
     volume.materials.append(look)

@@ -28,9 +28,10 @@ _NEAR = (20.0, 36.0)  # m, voxels of the nest: the smallest and the largest
 _PIXELS = 4.0  # that a voxel is wide where it lies between them: finer smoke shows no better, and costs more
 _FAR = 80.0  # m, of the rest
 _LUMPS = {True: (340.0, (3.5, 2.5, 2.5)), False: (1100.0, (2.5, 1.5, 1.5))}  # m; blur of the drift, cells
-_INSIDE, _FADE = 600.0, (700.0, 2500.0)  # m from a box's side where smoke ends, and in which it fades
+_INSIDE, _FADE = 600.0, (700.0, 4000.0)  # m from a box's side where smoke ends, and in which it fades
+_THINNING = 6  # power of the fade at the far end: what is thick hides as much until a hundredth is left
 _SEEN = 1e-9  # kg/m3; thinner smoke is not looked at
-_THIN = 2.0e-5  # 1/m; thinner smoke is left out
+THIN = 5.0e-5  # 1/m; thinner smoke is left out
 _BLOCK, _ROUND = 16, 300.0  # voxels; m round a block that count as it: of light that smoke passes on
 _GLOW_REACH, _GLOW_CORE, _GLOW_EVERY = 1100.0, 250.0, 3  # m, m, cells
 
@@ -96,7 +97,7 @@ class Painter:
         density, fresh, glow = self._detail(moment, lights).paint(
             origin, self.layer.voxel, surface, share, count, wanted
         )
-        density[density < _THIN] = 0.0
+        density[density < THIN] = 0.0
         grids: dict[str, Any] = {"density": density, "fresh": fresh}
         if glow is not None:
             grids["glow"] = glow
@@ -144,7 +145,7 @@ class Painter:
     def _share(self, x: Array, y: Array) -> Array:
         """How much of the smoke at places this layer draws, 0 to 1."""
         box = self.layer.part.box
-        share = _inside(box, x, y, _FADE[0] if self.layer.fine else _FADE[1])
+        share = _inside(box, x, y, _FADE[0]) if self.layer.fine else _inside(box, x, y, _FADE[1]) ** _THINNING
         if self.inner is not None:
             share = share * (1.0 - _inside(self.inner, x, y, _FADE[0]))
         return share
