@@ -13,11 +13,11 @@ from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import haze, temperature
-from ..glow import EMBER, FLAME
+from ..glow import EMBER, FLAME, brightness
 
-TORCHING = 350.0  # s that a crown is in flames
+TORCHING = 180.0  # s that a crown is in flames
 SPARED = 0.15  # severity up to which a crown is scorched from below and keeps its needles
-_FLAME_LIGHT = 1.8  # radiance at exposure 0; crowns near by fill pixels
+_TORCH = 0.1  # of the flames' radiance; crowns near by fill pixels
 _DEAD = 0.07  # part of the trees that stood dead and brown before
 _BROWN = ((0.085, 0.048, 0.022), (0.135, 0.080, 0.040))  # needles killed by drought, beetles or heat
 _BLACK = ((0.010, 0.008, 0.007), (0.030, 0.024, 0.020))  # needles that burned
@@ -134,11 +134,11 @@ def _leaves(
     flaming = (
         age.smoothstep(0.0, 40.0)
         * age.smoothstep(TORCHING, 0.4 * TORCHING)
-        * flicker.smoothstep(0.44, 0.66)
+        * flicker.smoothstep(0.50, 0.72)
         * torched
     )
     flame = tree.mix_colour(flaming.smoothstep(0.1, 0.8), EMBER, FLAME)
-    burning = tree.add_shader(leaf, tree.emission(flame, flaming * _FLAME_LIGHT))
+    burning = tree.add_shader(leaf, tree.emission(flame, flaming * (_TORCH * brightness(shot))))
     ambient = temperature.ambient(tree, shot, tree.attribute("elevation", "INSTANCER"), 1.0)
     kelvin = temperature.burning(tree, ambient, age, age > 0.0, flaming, 0.0)
     tree.surface(nodes.thermal_switch(tree, haze.apply(tree, burning, stage), kelvin))
