@@ -92,7 +92,14 @@ def looks(shot, stage, scene, tmp_path):
     number = models.instance(np.array(LIVING)[column], row)
     zero, half = np.zeros(len(number)), np.full(len(number), 0.5)
     height = np.array([11.0 if MODELS[k].kind == "oak" else 20.0 for k in LIVING])[column]
-    points = {"scale": height, "rotation": zero, "model": number, "snag_model": number, "tint": half}
+    points = {
+        "scale": height,
+        "rotation": zero,
+        "width": zero + 1.0,
+        "model": number,
+        "snag_model": number,
+        "tint": half,
+    }
     points |= {
         "arrival_time": zero + NEVER,
         "elevation": zero,
