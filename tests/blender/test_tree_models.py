@@ -251,6 +251,7 @@ def test_crowns_live_torch_char_or_are_scorched_from_below(shot, stage, scene, t
         "position": np.arange(4)[:, None] * [[16.0, 0.0, 0.0]],
         "scale": 40.0 * half,
         "rotation": 0.0 * half,
+        "width": 2.0 * half,
     }
     points |= {"model": model, "snag_model": model, "tint": half, "dead": half, "elevation": half}
     points |= {"canopy_fuel": half, "severity": severity, "arrival_time": scene.get(nodes.TIME, 0.0) - age}
