@@ -92,7 +92,14 @@ def looks(shot, stage, scene, tmp_path):
     number = models.instance(np.array(LIVING)[column], row)
     zero, half = np.zeros(len(number)), np.full(len(number), 0.5)
     height = np.array([11.0 if MODELS[k].kind == "oak" else 20.0 for k in LIVING])[column]
-    points = {"scale": height, "rotation": zero, "model": number, "snag_model": number, "tint": half}
+    points = {
+        "scale": height,
+        "rotation": zero,
+        "width": zero + 1.0,
+        "model": number,
+        "snag_model": number,
+        "tint": half,
+    }
     points |= {
         "arrival_time": zero + NEVER,
         "elevation": zero,
@@ -244,6 +251,7 @@ def test_crowns_live_torch_char_or_are_scorched_from_below(shot, stage, scene, t
         "position": np.arange(4)[:, None] * [[16.0, 0.0, 0.0]],
         "scale": 40.0 * half,
         "rotation": 0.0 * half,
+        "width": 2.0 * half,
     }
     points |= {"model": model, "snag_model": model, "tint": half, "dead": half, "elevation": half}
     points |= {"canopy_fuel": half, "severity": severity, "arrival_time": scene.get(nodes.TIME, 0.0) - age}
