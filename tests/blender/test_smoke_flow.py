@@ -330,6 +330,18 @@ def test_the_scene_shows_both_layers(shot, stage, scene):
     for volume in volumes.values():
         volume.grids.load()
         assert {grid.name for grid in volume.grids} >= {"density", "fresh"}
+        assert volume.render.clipping <= 1.01 * flow_frames.THIN  # else what is painted is left out in blocks
+
+
+def test_smoke_has_all_but_gone_where_its_box_ends(shot):
+    layer = flow_frames.layers(shot, flow.Flow(shot))[0]
+    box = layer.part.box
+    painter = flow_frames.Painter(shot, layer, None)
+    along = box.corner[0] + np.array([0.0, 600.0, 1000.0, 0.5 * (box.high[0] - box.corner[0])])
+    share = painter._share(along, np.full(4, 0.5 * (box.corner[1] + box.high[1])))
+    assert share[:2].tolist() == [0.0, 0.0]
+    assert 0.0 < share[2] < 1e-5
+    assert share[3] > share[2]
 
 
 def test_voxels_of_smoke_are_as_fine_as_pixels_show(flowing, run, monkeypatch):

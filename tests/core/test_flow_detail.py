@@ -164,6 +164,15 @@ def test_thin_rising_smoke_is_not_torn_to_pieces():
     assert np.mean(column > 1e-3) > 0.85
 
 
+def test_thin_plumes_are_translucent_and_thick_ones_are_not():
+    """Both rise; the medians of what shows, of the thickest there is (0.03 / m)."""
+    rising = {"rise": np.full((N, N, N), 5.0)}
+    thin, thick = (painted(smoke=amount * moment()["smoke"] / 3e-6, **rising)[0] for amount in (6e-7, 6e-6))
+    thin, thick = (np.median(each[each > 1e-3]) / 0.03 for each in (thin, thick))
+    assert thin < 0.5
+    assert thick > 0.6
+
+
 def test_where_no_smoke_is_none_is_painted():
     density, fresh, glow = painted(smoke=np.zeros((N, N, N)))
     assert not density.any()

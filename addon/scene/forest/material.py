@@ -13,11 +13,11 @@ from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import haze, temperature
-from ..glow import EMBER, FLAME, brightness
+from ..glow import CLOSE, EMBER, FLAME, brightness
 
-TORCHING = 180.0  # s that a crown is in flames
+TORCHING = 300.0  # s that a crown is in flames
 SPARED = 0.15  # severity up to which a crown is scorched from below and keeps its needles
-_TORCH = 0.1  # of the flames' radiance; crowns near by fill pixels
+_TORCH = 0.1, 0.35  # of the flames' radiance, at the distances CLOSE: crowns near by fill pixels
 _DEAD = 0.07  # part of the trees that stood dead and brown before
 _BROWN = ((0.085, 0.048, 0.022), (0.135, 0.080, 0.040))  # needles killed by drought, beetles or heat
 _BLACK = ((0.010, 0.008, 0.007), (0.030, 0.024, 0.020))  # needles that burned
@@ -134,11 +134,12 @@ def _leaves(
     flaming = (
         age.smoothstep(0.0, 40.0)
         * age.smoothstep(TORCHING, 0.4 * TORCHING)
-        * flicker.smoothstep(0.50, 0.72)
+        * flicker.smoothstep(0.47, 0.69)
         * torched
     )
+    afar = tree.output("ShaderNodeCameraData", name="View Distance").ramp(*CLOSE, *_TORCH)
     flame = tree.mix_colour(flaming.smoothstep(0.1, 0.8), EMBER, FLAME)
-    burning = tree.add_shader(leaf, tree.emission(flame, flaming * (_TORCH * brightness(shot))))
+    burning = tree.add_shader(leaf, tree.emission(flame, flaming * afar * brightness(shot)))
     ambient = temperature.ambient(tree, shot, tree.attribute("elevation", "INSTANCER"), 1.0)
     kelvin = temperature.burning(tree, ambient, age, age > 0.0, flaming, 0.0)
     tree.surface(nodes.thermal_switch(tree, haze.apply(tree, burning, stage), kelvin))
