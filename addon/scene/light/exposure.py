@@ -73,8 +73,9 @@ def _smooth(shot: Shot, frames: Array) -> _Metered:
         found = [meter.clear(sky.State(*shot.sun(shot.frames.time(frame)))) for frame in frames]
         stops = np.array([_stops(each, np.zeros(2)) for each in found])
         return _Metered(frames, stops, noise.smoothstep(*_DARK, stops))
-    dark = np.array([[_dark(shot, view, int(frame)) for frame in frames] for view in shot.paths])
-    stops = np.array([_stops(*radiance(shot, shot.paths[0], int(frame))) for frame in frames])
+    found = [[meter.measure(shot, view, int(frame)) for frame in frames] for view in shot.paths]
+    dark = np.array([[_dark(light) for light, _shine in view] for view in found])
+    stops = np.array([_stops(*_with_flames(*measured)) for measured in found[0]])
     return _Metered(frames, targets.smoothed(stops), targets.smoothed(dark.max(axis=0)))
 
 
@@ -88,15 +89,17 @@ def _stops(found: Array, glow: Array) -> float:
     return float(np.clip(min(wanted, np.log2(most)), _LEAST, _MOST))
 
 
-def _dark(shot: Shot, view: Path, frame: int) -> float:
-    """How dark it is for a camera in a frame, 0 to 1."""
-    found, _shine = meter.measure(shot, view, frame)
+def _dark(found: Array) -> float:
+    """How dark it is where these radiances (n,) are found without flames, 0 to 1."""
     return float(noise.smoothstep(*_DARK, _stops(found, np.zeros(1))))
+
+
+def _with_flames(found: Array, shine: Array) -> tuple[Array, Array]:
+    """Radiances (n,) of all light and of the flames' in smoke, of what the meter measures."""
+    glow = sky.glow(_dark(found)) * meter.luminance(sky.GLOW) * shine
+    return found + glow, glow
 
 
 def radiance(shot: Shot, view: Path, frame: int) -> tuple[Array, Array]:
     """Luminances (n,) along the meter's rays in a frame: of all light, and of the flames' in smoke."""
-    found, shine = meter.measure(shot, view, frame)
-    strength = sky.glow(float(noise.smoothstep(*_DARK, _stops(found, np.zeros(1)))))
-    glow = strength * meter.luminance(sky.GLOW) * shine
-    return found + glow, glow
+    return _with_flames(*meter.measure(shot, view, frame))
