@@ -13,7 +13,6 @@ from .ground import Ground
 
 if TYPE_CHECKING:
     from .settings import Camera
-    from .shot import Shot
 
 SENSOR = 36.0  # mm, width of the film
 _HIGHEST = 1500.0  # m; a camera is not raised more than this to see over a ridge
@@ -41,6 +40,8 @@ class Path:
     hidden
         (frames,) metres that the camera would have to be higher than its keys say to see its target over the
         ridges between; None where nobody asked.
+    sensor
+        Width of the chip or film, mm.
     """
 
     camera: Camera
@@ -50,6 +51,7 @@ class Path:
     half: tuple[float, float]
     perspective: bool = True
     hidden: Array | None = None
+    sensor: float = SENSOR
 
 
 def eyes(ways: list[Array], radius: float) -> Array:
@@ -88,11 +90,6 @@ def smooth(at: Array, values: Array, moments: Array) -> Array:
     return a + (b - a) * noise.smoothstep(0.0, 1.0, s) + bend
 
 
-def below(ground: Ground, position: Array, clearance: Array) -> Array:
-    """How much higher (frames,) cameras must be for the hills under them to stay `clearance` below."""
-    return np.maximum(ground.up(position[:, 0], position[:, 1]) + clearance - position[:, 2], 0.0)
-
-
 def hidden(ground: Ground, position: Array, target: Array, margin: float = 40.0) -> Array:
     """How much higher (frames,) cameras must be to see their target over the ridges between, by `margin`."""
     part = np.linspace(0.03, 0.85, 40)[:, None, None]  # of the way; near the target any slope hides it
@@ -119,13 +116,6 @@ def blend(at: Array, aims: Array, moments: Array) -> Array:
     s = noise.smoothstep(0.0, 1.0, (moments - at[i]) / np.maximum(at[i + 1] - at[i], 1.0e-9))[:, None]
     frames = np.arange(len(moments))
     return aims[i, frames] * (1.0 - s) + aims[i + 1, frames] * s
-
-
-def half_view(shot: Shot, focal_length: float) -> tuple[float, float]:
-    """Tangents of half the angles of view, across and up, of a lens (mm) that fills the shot's pictures."""
-    width, height = shot.settings.render.resolution
-    half = 0.5 * SENSOR / focal_length
-    return half, half * height / width
 
 
 def look(position: Array, target: Array) -> Array:

@@ -40,8 +40,8 @@ def _file_name(value: str) -> str | None:
     return f'"{value}" names files, so it is made of letters, digits, - and _'
 
 
-def _even(value: tuple[int, int]) -> str | None:
-    if all(side % 2 == 0 for side in value):
+def _even(value: tuple[int, int] | None) -> str | None:
+    if value is None or all(side % 2 == 0 for side in value):
         return None
     return "must be two even numbers of pixels (video needs even ones)"
 
@@ -207,6 +207,14 @@ class Camera:
         (), 'such as ["rgb"]; empty: those of [render]', choices=passes.helps, shows=()
     )
     frames: str = key("", 'such as "24" or "1-48:4"; empty: all')
+    resolution: tuple[int, int] | None = key(
+        None,
+        "of its pictures, both even; left out, as [render] says",
+        unit="pixels",
+        at_least=16,
+        at_most=16384,
+        check=_even,
+    )
 
     @property
     def kind(self) -> str:

@@ -55,7 +55,9 @@ class Shot:
 
     def of(self, name: str) -> Shot:
         """The same shot with this camera alone: what it films depends on no other."""
-        shot = Shot(replace(self.settings, cameras=(self.camera(name),)), self.run)
+        camera = self.camera(name)
+        render = replace(self.settings.render, resolution=self.resolution(camera))
+        shot = Shot(replace(self.settings, cameras=(camera,), render=render), self.run)
         shot.fire, shot.bare_ground = self.fire, self.bare_ground
         return shot
 
@@ -72,6 +74,10 @@ class Shot:
                 return camera
         names = ", ".join(camera.name for camera in self.settings.cameras) or "none"
         raise UsageError(f'--camera: there is no "{name}"; the scene has {names}')
+
+    def resolution(self, camera: Camera) -> tuple[int, int]:
+        """Width and height (pixels) of a camera's pictures."""
+        return camera.resolution or self.settings.render.resolution
 
     def frames_of(self, camera: Camera) -> list[int]:
         """Frames that a camera films, ascending."""

@@ -17,7 +17,7 @@ import firetwin_core
 from ..run.content import sha256
 from .settings import Camera
 
-EVERYWHERE = ("scene", "blender", "run", "shot", "shot/rigs/_key.py")
+EVERYWHERE = ("scene", "blender", "run", "shot", "shot/rigs/_key.py", "shot/rigs/_lens.py")
 PACKAGE = Path(__file__).parents[1]
 
 

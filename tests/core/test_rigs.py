@@ -70,9 +70,9 @@ def test_a_kind_is_added_by_one_file(tower, tmp_path):
     assert camera == Camera("lookout", tower(mast=30.0))
     assert camera.kind == "tower"
     settings = dataclasses.replace(file.read(path), path=Path("scene.toml"))
-    assert "mast = 30.0       # length of the mast, m (default 20.0)" in file.text(settings)
+    assert "mast = 30.0                 # length of the mast, m (default 20.0)" in file.text(settings)
     assert "kind of camera: on the ground, turning round" in file.text(settings)
-    tables = [{"kind": "tower", "mast": 30.0, "turns": 1, "frames": ""}]
+    tables = [{"kind": "tower", "mast": 30.0, "turns": 1, "frames": "", "resolution": None}]
     assert schema.chosen(settings, {"camera"}) == {"cameras": tables}
     validator = jsonschema.Draft202012Validator(json_schema(Settings))
     assert validator.is_valid({"cameras": [{"kind": "tower", "mast": 30}]})

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ...blender import compat, owned
 from ...blender.owned import Stage
-from ...shot.path import SENSOR, Path
+from ...shot.path import Path
 from ...shot.shot import Shot
 
 NEAR, FAR = 0.5, 300_000.0  # m
@@ -35,9 +35,9 @@ def _camera(view: Path, collection: bpy.types.Collection) -> bpy.types.Object:
     name = f"Camera {view.camera.name}"
     data = bpy.data.cameras.new(f"Firetwin {name}")
     data.clip_start, data.clip_end = NEAR, FAR
-    data.sensor_fit, data.sensor_width = "HORIZONTAL", SENSOR
+    data.sensor_fit, data.sensor_width = "HORIZONTAL", view.sensor
     if view.perspective:
-        data.lens = 0.5 * SENSOR / view.half[0]
+        data.lens = 0.5 * view.sensor / view.half[0]
     else:
         data.type, data.ortho_scale = "ORTHO", 2.0 * view.half[0]
     thing = owned.add(collection, name, data, what=f"camera {view.camera.name}")

@@ -46,7 +46,7 @@ class Satellite(Rig):
         count = shot.frames.count
         position = np.repeat(place + np.array([0.0, 0.0, HEIGHT]), count, axis=0)
         rotation = np.repeat(np.eye(3)[None], count, axis=0)
-        width, height = shot.settings.render.resolution
+        width, height = shot.resolution(camera)
         half = 0.5 * self.swath
         target = np.repeat(place, count, axis=0)
         return Path(camera, position, rotation, target, (half, half * height / width), perspective=False)
