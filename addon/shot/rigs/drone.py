@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path as File
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,10 +12,14 @@ from .. import flight, path, targets
 from ..flight import Waypoints
 from ..path import Array, Path
 from ..schema import Where, key
+from ..track import MOMENTS, read
 from ._key import CameraKey, rising
 from ._lens import Lens
 
 if TYPE_CHECKING:
+    from firetwin_core.run import Run
+
+    from ..frames import Frames
     from ..ground import Ground
     from ..settings import Camera
     from ..shot import Shot
@@ -25,7 +30,7 @@ _CLEARANCE = 0.35  # of the height asked for above the ground that stays over hi
 
 @dataclass(frozen=True)
 class Drone(Lens):
-    """In perspective, flying smoothly from key to key."""
+    """In perspective, flying smoothly from key to key or along a track."""
 
     over_ridges: bool = key(
         False, 'rise until it sees its "head" or "fire" over the ridges; else it keeps its height'
@@ -43,33 +48,60 @@ class Drone(Lens):
         at_least=0,
         at_most=5,
     )
+    track: File | None = key(  # noqa: RUF009
+        None,
+        "flight to follow, .gpx, .kml or .csv; its keys then say only where it looks, without any: ahead",
+        shows=(),
+    )
+    track_times: str = key("own", "when a track with times is flown", choices=MOMENTS)
     keys: tuple[CameraKey, ...] = key((), "where it is at one moment")
 
     def wrong(self) -> tuple[Where, str] | None:
         """A drone is somewhere, and its moments rise."""
-        if not self.keys:
-            return ("keys",), "has no [[cameras.keys]]; a drone needs at least one"
+        if not self.keys and self.track is None:
+            return ("keys",), "has no [[cameras.keys]] and no track; a drone needs at least one key"
         return rising(self.keys)
 
     def places(self) -> list[Place]:
         """Its keys, and the points that it looks at."""
         found: list[Place] = []
         for i, at in enumerate(self.keys):
-            found.append((("keys", i, "latitude"), at.latitude, at.longitude))
+            if self.track is None:
+                found.append((("keys", i, "latitude"), at.latitude, at.longitude))
             if at.target == "point":
                 found.append((("keys", i, "target_latitude"), at.target_latitude, at.target_longitude))
+        if self.track is not None:
+            found += [(("track",), *corner) for corner in read(self.track).corners()]
         return found
 
+    def reads(self) -> list[File]:
+        """Its track."""
+        return [] if self.track is None else [self.track]
+
+    def misfit(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
+        """A track that keeps its own times is flown while the frames are."""
+        if self.track is None or self.track_times != "own":
+            return None
+        missed = read(self.track).missed(run, frames)
+        return (("track",), f"follows {self.track.name}, which {missed}") if missed else None
+
     def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
-        """Smooth between keys, over the hills between them, looking at its targets."""
+        """Smooth between keys or along its track, over the hills between, looking at its targets."""
         count = shot.frames.count
-        moments = np.linspace(0.0, 1.0, count) if count > 1 else np.zeros(1)
-        keys = sorted(self.keys, key=lambda each: each.at)
-        way = _waypoints(keys)
-        position = way.flown(ground, moments)
-        over = path.smooth(way.at, np.where(way.over_ground, way.height, 0.0), moments)
+        moments = np.linspace(0.0, 1.0, count)
+        keys = sorted(self.keys, key=lambda each: each.at) or [CameraKey(target="ahead")]
+        clearance = np.full(count, self.clearance)
+        if self.track is None:
+            way = _waypoints(keys)
+            position = way.flown(ground, moments)
+            over = path.smooth(way.at, np.where(way.over_ground, way.height, 0.0), moments)
+            clearance = np.maximum(clearance, _CLEARANCE * over)
+        else:
+            recorded = read(self.track)
+            way, shown = recorded.at(self.track_times, shot.run, shot.frames, ground.frame)
+            position = way.flown(ground, shown)
         target = self._target(keys, position, moments, shot, ground)
-        short = flight.short(ground, position, np.maximum(self.clearance, _CLEARANCE * over))
+        short = flight.short(ground, position, clearance)
         hidden = np.zeros(count)
         if any(each.target in targets.MOVING for each in keys):  # nobody could know where the fire would be
             hidden = path.hidden(ground, position, target)
