@@ -63,7 +63,9 @@ def _tracks(path: Path, found: list[_Element]) -> Iterator[Point]:
     for each in found:
         if each.name == "Track":
             if when and len(when) != len(coord):
-                reason = f"a track with {len(when)} times <when> and {len(coord)} places <gx:coord>; it needs as many"
+                reason = (
+                    f"a track of {len(when)} times <when> and {len(coord)} places <gx:coord>; make them equal"
+                )
                 raise input_error(path, each.line, 0, reason)
             for i, place in enumerate(coord):
                 at = moment(path, when[i].line, when[i].text) if when else None

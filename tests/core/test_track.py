@@ -171,7 +171,12 @@ BAD = {
     "some times": ("a.gpx", gpx([point(PLACES[0], TIMES[1]), point(PLACES[1])]), 4, "without a time"),
     "some heights": ("a.gpx", gpx([point(PLACES[0]), point(PLACES[1], ele=False)]), 4, "without a height"),
     "time": ("a.gpx", GPX.replace(TIMES[1], "yesterday"), 4, '"yesterday" is no time such as'),
-    "counts": ("a.kml", KML.replace(f"<when>{TIMES[0]}</when>", ""), 1, "2 times <when> and 3 places"),
+    "counts": (
+        "a.kml",
+        KML.replace(f"<when>{TIMES[0]}</when>", ""),
+        1,
+        "2 times <when> and 3 places <gx:coord>",
+    ),
     "swapped": ("a.kml", LINE.format("", "-120.6,38.9,3\n38.9,-120.6,3"), 3, "is no latitude"),
     "columns": ("a.csv", "a,b\n1,2", 1, "names no column latitude"),
     "cell": ("a.csv", CSV.replace("38.904", "38,904"), 3, 'the latitude is "38,904"'),
