@@ -323,4 +323,13 @@ class Settings:
                 frame_list.parse(camera.frames, self.time.frames)
             except ValueError as error:
                 return ("cameras", i, "frames"), f"cameras.frames: {error}"
+        return self._leaderless()
+
+    def _leaderless(self) -> tuple[Where, str] | None:
+        for i, camera in enumerate(self.cameras):
+            name = getattr(camera.rig, "follows", "")
+            if name and camera.rig.leader(self.cameras) is None:
+                others = [each.name for each in self.cameras if not hasattr(each.rig, "follows")]
+                reason = f'camera "{camera.name}" follows "{name}", and no other camera has this name'
+                return ("cameras", i, "follows"), reason + suggestion(name, others)
         return None

@@ -11,10 +11,8 @@ from numpy.typing import NDArray
 
 from ...blender import compat, owned
 from ...blender.owned import Stage
-from ...shot.path import Path
+from ...shot.path import Path, clip
 from ...shot.shot import Shot
-
-NEAR, FAR = 0.5, 300_000.0  # m
 
 
 def build(shot: Shot, stage: Stage) -> list[bpy.types.Object]:
@@ -25,19 +23,22 @@ def build(shot: Shot, stage: Stage) -> list[bpy.types.Object]:
     before = stage.scene.camera
     chosen = before[owned.MARK] if before is not None and owned.ours(before) else ""
     collection = stage.part("Cameras")
-    built = [_camera(view, collection) for view in shot.paths]
+    built = [_camera(view, collection, clip(view, shot.ground)) for view in shot.paths]
     if stage.scene.camera is None and built:
         stage.scene.camera = next((thing for thing in built if owned.ours(thing, chosen)), built[0])
     return built
 
 
-def _camera(view: Path, collection: bpy.types.Collection) -> bpy.types.Object:
+def _camera(view: Path, collection: bpy.types.Collection, ends: tuple[float, float]) -> bpy.types.Object:
     name = f"Camera {view.camera.name}"
     data = bpy.data.cameras.new(f"Firetwin {name}")
-    data.clip_start, data.clip_end = NEAR, FAR
+    data.clip_start, data.clip_end = ends
     data.sensor_fit, data.sensor_width = "HORIZONTAL", view.sensor
-    if view.perspective:
-        data.lens = 0.5 * view.sensor / view.half[0]
+    lens = 0.5 * view.sensor * (view.meet or 1.0) / view.halves[:, 0]
+    if view.perspective or view.meet:
+        data.lens = lens[0]
+        if np.ptp(lens) > 0.0:
+            compat.animate(data, "lens", 0, range(1, len(lens) + 1), lens)
     else:
         data.type, data.ortho_scale = "ORTHO", 2.0 * view.half[0]
     thing = owned.add(collection, name, data, what=f"camera {view.camera.name}")

@@ -13,6 +13,7 @@ import pkgutil
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
     from firetwin_core.run import Run
@@ -43,6 +44,10 @@ class Rig:
     def reads(self) -> list[Path]:
         """Files that its way depends on."""
         return []
+
+    def leader(self, cameras: Sequence[Camera]) -> Camera | None:
+        """Another of these cameras on whose way its own depends."""
+        return None
 
     def misfit(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
         """What of it does not fit the run: where in its table, and words that follow the camera's name."""
