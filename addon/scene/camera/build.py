@@ -1,4 +1,4 @@
-"""Camera objects with one keyframe per frame, from the paths of the scene's cameras."""
+"""Camera objects with as few keyframes as their paths allow, each with handles that people can move."""
 
 from __future__ import annotations
 
@@ -11,8 +11,12 @@ from numpy.typing import NDArray
 
 from ...blender import compat, owned
 from ...blender.owned import Stage
+from ...shot import sparse
 from ...shot.path import Path, clip
 from ...shot.shot import Shot
+
+_NEAR = 0.005  # m, how far a camera may be from its path between its keys
+_PIXELS = 0.05  # by which its picture may be turned or zoomed there
 
 
 def build(shot: Shot, stage: Stage) -> list[bpy.types.Object]:
@@ -23,35 +27,43 @@ def build(shot: Shot, stage: Stage) -> list[bpy.types.Object]:
     before = stage.scene.camera
     chosen = before[owned.MARK] if before is not None and owned.ours(before) else ""
     collection = stage.part("Cameras")
-    built = [_camera(view, collection, clip(view, shot.ground)) for view in shot.paths]
+    built = [
+        _camera(view, collection, clip(view, shot.ground), shot.resolution(view.camera)[0])
+        for view in shot.paths
+    ]
     if stage.scene.camera is None and built:
         stage.scene.camera = next((thing for thing in built if owned.ours(thing, chosen)), built[0])
     return built
 
 
-def _camera(view: Path, collection: bpy.types.Collection, ends: tuple[float, float]) -> bpy.types.Object:
+def _camera(
+    view: Path, collection: bpy.types.Collection, ends: tuple[float, float], width: int
+) -> bpy.types.Object:
     name = f"Camera {view.camera.name}"
     data = bpy.data.cameras.new(f"Firetwin {name}")
     data.clip_start, data.clip_end = ends
     data.sensor_fit, data.sensor_width = "HORIZONTAL", view.sensor
     lens = 0.5 * view.sensor * (view.meet or 1.0) / view.halves[:, 0]
     if view.perspective or view.meet:
-        data.lens = lens[0]
-        if np.ptp(lens) > 0.0:
-            compat.animate(data, "lens", 0, range(1, len(lens) + 1), lens)
+        _animate(data, "lens", lens[:, None], 2.0 * _PIXELS / width * lens.min())
     else:
         data.type, data.ortho_scale = "ORTHO", 2.0 * view.half[0]
     thing = owned.add(collection, name, data, what=f"camera {view.camera.name}")
     thing.rotation_mode = "QUATERNION"
     quaternions = _quaternions(view.rotation)
-    thing.location, thing.rotation_quaternion = view.position[0], quaternions[0]
-    if len(np.unique(view.position, axis=0)) > 1 or np.ptp(quaternions, axis=0).max() > 0.0:
-        frames = range(1, len(quaternions) + 1)
-        for axis in range(3):
-            compat.animate(thing, "location", axis, frames, view.position[:, axis])
-        for axis in range(4):
-            compat.animate(thing, "rotation_quaternion", axis, frames, quaternions[:, axis])
+    pixel = 2.0 * view.halves.min() / (view.meet or 1.0) / width if view.perspective or view.meet else 1.0
+    _animate(thing, "location", view.position, _NEAR)
+    _animate(thing, "rotation_quaternion", quaternions, 0.5 * _PIXELS * pixel)  # half the angle is in them
     return thing
+
+
+def _animate(block: bpy.types.ID, what: str, values: NDArray[np.float64], tolerance: float) -> None:
+    """Set a property to values (frames, channels) in keys as few as that allows; one that stays has none."""
+    setattr(block, what, values[0] if values.shape[1] > 1 else values[0, 0])
+    if np.ptp(values, axis=0).max() > 0.0:
+        kept, slopes = sparse.keys(values, tolerance)
+        for axis in range(values.shape[1]):
+            compat.animate_smoothly(block, what, axis, kept + 1, values[kept, axis], slopes[:, axis])
 
 
 def _quaternions(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
