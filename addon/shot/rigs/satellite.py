@@ -84,7 +84,8 @@ class Satellite(Rig):
         return Path(camera, position, rotation, place, half(camera, shot, self.swath), False, meet=distance)
 
     def _eye(self, frame: geo.LocalFrame) -> Array:
-        return frame.forward([0.0], [self.geostationary], [ORBIT])[0]
+        """Its place (3,) in the scene as Blender can hold it, to 2 or 4 m: pose and picture are then one."""
+        return frame.forward([0.0], [self.geostationary], [ORBIT])[0].astype(np.float32).astype(np.float64)
 
 
 def _over_horizon(place: Array, eye: Array, frame: geo.LocalFrame) -> float:
