@@ -1,4 +1,4 @@
-"""The command line: ``firetwin sample | info | maps | build | bake | render | cache | schema | bench``.
+"""The command line: ``firetwin sample | info | maps | build | bake | render | track | cache | schema | ...``.
 
 Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage,
 130: Ctrl-C. Nothing heavy is imported before it is needed, so that help and mistakes answer at once.
@@ -127,6 +127,11 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument("--passes", metavar="LIST", help="such as rgb,thermal (as the scene file says)")
     render.add_argument("--resume", action="store_true", help="keep what is finished and still matches")
 
+    track = command("track", "write a camera's way as a GPX track", TRACK)
+    _scene(track)
+    track.add_argument("--camera", metavar="NAME", help="this camera (the first)")
+    track.add_argument("--out", metavar="FILE.gpx", type=Path, required=True, help="file to write")
+
     cache = command("cache", "list the smoke volumes that are kept, or make room", CACHE)
     cache.add_argument(
         "places", metavar="SCENE|DIR", nargs="*", type=Path, help="scene files or cache folders (./cache)"
@@ -215,6 +220,10 @@ passes:
 
 Without --resume everything asked for is rendered again. Several renders, also of several computers, may write
 to one folder at once: they share the frames."""
+
+TRACK = """\
+A point per frame: WGS84 degrees, metres above the sea (the datum of the run's elevations) and the model time
+in UTC. A drone with track = "FILE.gpx" flies it again; flight planners and maps read it too."""
 
 CACHE = """\
 Lists each shot's volumes with their size and last use, those used last first. With --prune the ones used

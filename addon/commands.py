@@ -85,6 +85,26 @@ def render(arguments: argparse.Namespace) -> None:
     _list(arguments.out)
 
 
+def track(arguments: argparse.Namespace) -> None:
+    """Write a camera's way as a GPX track."""
+    from . import files
+    from .errors import UsageError
+    from .shot import track_xml
+
+    if arguments.out.suffix.lower() != ".gpx":
+        raise UsageError(f"--out: {arguments.out} does not end in .gpx")
+    shot = _choice(arguments).shot()
+    names = [camera.name for camera in shot.settings.cameras]
+    if not names:
+        raise UsageError(f"{arguments.scene} has no [[cameras]], so there is no way to write")
+    alone = shot.of(arguments.camera or names[0])
+    (view,) = alone.paths
+    moments = [alone.moment(frame) for frame in range(1, alone.frames.count + 1)]
+    text = track_xml.gpx_text(view.camera.name, *alone.local_frame.reverse(view.position), moments)
+    files.write(arguments.out, lambda part: part.write_text(text, encoding="utf-8"))
+    print(arguments.out)
+
+
 def cache(arguments: argparse.Namespace) -> None:
     """List smoke volumes that are kept, or remove those used longest ago."""
     from .jobs import cache

@@ -5,6 +5,7 @@ Features are looked for, version numbers are not compared.
 
 from __future__ import annotations
 
+import itertools
 import os
 from collections.abc import Sequence
 from typing import Any
@@ -50,6 +51,37 @@ def animate(
     linear = bpy.types.Keyframe.bl_rna.properties["interpolation"].enum_items["LINEAR"].value
     curve.keyframe_points.foreach_set("interpolation", [linear] * len(frames))
     curve.update()
+
+
+def animate_smoothly(
+    datablock: bpy.types.ID,
+    data_path: str,
+    index: int,
+    frames: Sequence[float],
+    values: Sequence[float],
+    slopes: Sequence[float],
+) -> None:
+    """Make a property go through `values` at `frames` with `slopes` (per frame), all (n,), in smooth curves.
+
+    Handles are aligned and reach a third of the way to the next key, so each piece is the cubic with these
+    ends and slopes.
+    """
+    curve = new_fcurve(datablock, data_path, index)
+    points = curve.keyframe_points
+    points.add(len(frames))
+    kinds = {
+        name: points[0].bl_rna.properties[name].enum_items for name in ("interpolation", "handle_left_type")
+    }
+    points.foreach_set("interpolation", [kinds["interpolation"]["BEZIER"].value] * len(frames))
+    for side in ("handle_left_type", "handle_right_type"):
+        points.foreach_set(side, [kinds["handle_left_type"]["ALIGNED"].value] * len(frames))
+    gaps = [after - before for before, after in itertools.pairwise(frames)] or [1.0]
+    for k, point in enumerate(points):
+        frame, value, slope = float(frames[k]), float(values[k]), float(slopes[k])
+        before, after = gaps[max(k - 1, 0)] / 3.0, gaps[min(k, len(gaps) - 1)] / 3.0
+        point.co = frame, value
+        point.handle_left = frame - before, value - slope * before
+        point.handle_right = frame + after, value + slope * after
 
 
 def fcurves(datablock: bpy.types.ID) -> list[bpy.types.FCurve]:

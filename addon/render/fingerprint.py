@@ -24,7 +24,7 @@ _RENDERING = ("render/engine.py", "render/layers.py", "render/pictures.py", "ren
 
 
 def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) -> dict[str, Any]:
-    """What a camera's frames in one pass depend on: settings of that camera and no other.
+    """What a camera's frames in one pass depend on: settings of that camera, and of the one that it follows.
 
     Parameters
     ----------
@@ -32,7 +32,9 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
         Hashes of the run's fields.
     """
     aspects = passes.known()[name].aspects
-    cameras = [each for each in settings.cameras if each.name == camera]
+    (mine,) = (each for each in settings.cameras if each.name == camera)
+    leader = mine.rig.leader(settings.cameras)
+    cameras = [mine] if leader is None else [mine, leader]
     return {
         "versions": versions(),
         "sources": sources.of(aspects, cameras, *_RENDERING, *_modules(name)),
@@ -40,7 +42,7 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
         "camera": camera,
         "pass": name,
         "settings": schema.chosen(settings, aspects, camera),
-    }
+    } | ({"leader": schema.chosen(settings, {"camera"}, leader.name)} if leader else {})
 
 
 def _modules(name: str) -> list[str]:

@@ -12,7 +12,6 @@ from ..blender import compat
 from ..errors import writing
 from ..progress import Progress, silent
 from ..run import times
-from ..shot.settings import Settings
 from ..shot.shot import Shot
 from . import engine, films, picture, whole
 from .picture import Picture
@@ -44,7 +43,7 @@ def _film(shot: Shot, making: Making, camera: str, name: str, made_from: dict[st
         with making.claims.part_folder() as part:
             made = part / path.name
             frames = [frame for frame, _ in made_from["frames"]]
-            _settings(shot.settings, scene, made, len(frames))
+            _settings(shot, camera, scene, made, len(frames))
             engine.label(shot.run, scene)
             _strips(shot, scene, out, camera, name, frames)
             with writing(path):
@@ -57,12 +56,12 @@ def _film(shot: Shot, making: Making, camera: str, name: str, made_from: dict[st
         bpy.data.scenes.remove(scene)
 
 
-def _settings(settings: Settings, scene: bpy.types.Scene, path: Path, count: int) -> None:
+def _settings(shot: Shot, camera: str, scene: bpy.types.Scene, path: Path, count: int) -> None:
     """H.264 in MP4; the pictures are in display colours, so the film's view transform changes nothing."""
     render = scene.render
-    render.resolution_x, render.resolution_y = settings.render.resolution
+    render.resolution_x, render.resolution_y = shot.resolution(shot.camera(camera))
     render.resolution_percentage = 100
-    render.fps, render.fps_base = settings.time.fps, 1.0
+    render.fps, render.fps_base = shot.settings.time.fps, 1.0
     scene.frame_start, scene.frame_end = 1, count
     scene.display_settings.display_device = "sRGB"
     scene.view_settings.view_transform, scene.view_settings.look = "Standard", "None"
@@ -73,7 +72,7 @@ def _settings(settings: Settings, scene: bpy.types.Scene, path: Path, count: int
     compat.film_settings(render)
     render.ffmpeg.format, render.ffmpeg.codec = "MPEG4", "H264"
     render.ffmpeg.constant_rate_factor, render.ffmpeg.ffmpeg_preset = "PERC_LOSSLESS", "GOOD"
-    render.ffmpeg.gopsize = settings.time.fps
+    render.ffmpeg.gopsize = shot.settings.time.fps
     render.ffmpeg.audio_codec = "NONE"
     render.use_file_extension = False
     render.filepath = str(path)
@@ -84,7 +83,7 @@ def _strips(
 ) -> None:
     """One picture after the other, and over each the model time that it shows."""
     editor = scene.sequence_editor_create()
-    height = shot.settings.render.resolution[1]
+    height = shot.resolution(shot.camera(camera))[1]
     for position, number in enumerate(numbers, start=1):
         shown = str((out / Picture(camera, number, name).file("png")).resolve())
         editor.strips.new_image(f"picture {number}", shown, 1, position, fit_method="ORIGINAL")

@@ -6,12 +6,12 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ..run import areas, times
-from . import file
+from . import file, frames
 from .settings import Settings
 
 
 def check(settings: Settings, run: Run) -> None:
-    """Check the time window and the places of the cameras.
+    """Check the time window, and the places of the cameras and what else they say of the run.
 
     Raises
     ------
@@ -22,6 +22,9 @@ def check(settings: Settings, run: Run) -> None:
     for index, camera in enumerate(settings.cameras):
         for where, latitude, longitude in camera.rig.places():
             _near(settings, run, ("cameras", index, *where), camera.name, latitude, longitude)
+        if found := camera.rig.misfit(run, frames.of(settings.time, run)):
+            reason = f'camera "{camera.name}" {found[1]}'
+            raise file.error_at(settings.path, ("cameras", index, *found[0]), reason)
 
 
 def _window(settings: Settings, run: Run) -> None:

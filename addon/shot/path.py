@@ -12,10 +12,14 @@ from . import noise
 from .ground import Ground
 
 if TYPE_CHECKING:
+    from firetwin_core import geo
+
     from .settings import Camera
-    from .shot import Shot
 
 SENSOR = 36.0  # mm, width of the film
+UP = np.array([0.0, 0.0, 1.0])
+_NEAREST = 0.5  # m
+_HIGHEST_AIR = 20_000.0  # m, over any smoke
 _HIGHEST = 1500.0  # m; a camera is not raised more than this to see over a ridge
 
 Array = NDArray[np.float64]
@@ -35,12 +39,19 @@ class Path:
         (frames, 3) where it looks.
     half
         Tangents of half the horizontal and vertical angle of view; where lines of sight are parallel, half
-        the width and height of the picture in metres.
+        the width and height of the picture in metres. Of a lens that zooms, those of its longest.
     perspective
         Whether lines of sight meet in the camera; else they are parallel.
     hidden
         (frames,) metres that the camera would have to be higher than its keys say to see its target over the
         ridges between; None where nobody asked.
+    sensor
+        Width of the chip or film, mm.
+    wider
+        (frames,) how many times as large `half` is in each frame; None: 1 always.
+    meet
+        Where lines of sight meet so far away that they count as parallel: how far, m, from what it looks at;
+        `half` is there. 0: never.
     """
 
     camera: Camera
@@ -50,6 +61,15 @@ class Path:
     half: tuple[float, float]
     perspective: bool = True
     hidden: Array | None = None
+    sensor: float = SENSOR
+    wider: Array | None = None
+    meet: float = 0.0
+
+    @property
+    def halves(self) -> Array:
+        """`half` in every frame (frames, 2)."""
+        wider = np.ones(len(self.position)) if self.wider is None else self.wider
+        return wider[:, None] * np.array(self.half)
 
 
 def eyes(ways: list[Array], radius: float) -> Array:
@@ -88,11 +108,6 @@ def smooth(at: Array, values: Array, moments: Array) -> Array:
     return a + (b - a) * noise.smoothstep(0.0, 1.0, s) + bend
 
 
-def below(ground: Ground, position: Array, clearance: Array) -> Array:
-    """How much higher (frames,) cameras must be for the hills under them to stay `clearance` below."""
-    return np.maximum(ground.up(position[:, 0], position[:, 1]) + clearance - position[:, 2], 0.0)
-
-
 def hidden(ground: Ground, position: Array, target: Array, margin: float = 40.0) -> Array:
     """How much higher (frames,) cameras must be to see their target over the ridges between, by `margin`."""
     part = np.linspace(0.03, 0.85, 40)[:, None, None]  # of the way; near the target any slope hides it
@@ -121,18 +136,42 @@ def blend(at: Array, aims: Array, moments: Array) -> Array:
     return aims[i, frames] * (1.0 - s) + aims[i + 1, frames] * s
 
 
-def half_view(shot: Shot, focal_length: float) -> tuple[float, float]:
-    """Tangents of half the angles of view, across and up, of a lens (mm) that fills the shot's pictures."""
-    width, height = shot.settings.render.resolution
-    half = 0.5 * SENSOR / focal_length
-    return half, half * height / width
-
-
-def look(position: Array, target: Array) -> Array:
-    """Rotations (n, 3, 3) that look from `position` at `target` with the horizon level."""
+def look(position: Array, target: Array, up: Array = UP) -> Array:
+    """Rotations (n, 3, 3) that look from `position` at `target` with the horizon level: across `up` (3,)."""
     back = position - target
     back /= np.maximum(np.linalg.norm(back, axis=1, keepdims=True), 1.0e-9)
-    right = np.cross([0.0, 0.0, 1.0], back)
+    right = np.cross(up, back)
     length = np.linalg.norm(right, axis=1, keepdims=True)
     right = np.where(length > 1.0e-6, right / np.maximum(length, 1.0e-9), [1.0, 0.0, 0.0])
     return np.stack([right, np.cross(back, right), back], axis=-1)
+
+
+def compass(frame: geo.LocalFrame, place: Array) -> tuple[Array, Array, Array]:
+    """East, north and up, unit vectors (3,), of a place (3,) in the scene, whose up is not the scene's."""
+    latitude, longitude, height = (float(v[0]) for v in frame.reverse(place[None]))
+    north = frame.forward([latitude - 1.0e-3, latitude + 1.0e-3], [longitude] * 2, [height] * 2)
+    up = frame.forward([latitude] * 2, [longitude] * 2, [height - 1000.0, height + 1000.0])
+    north, up = ((ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0]) for ends in (north, up))
+    return np.cross(north, up), north, up
+
+
+def clip(view: Path, ground: Ground) -> tuple[float, float]:
+    """Nearest and farthest distance (m) that a camera draws: all of the ground and of the air over it.
+
+    Cameras over all that is drawn begin half-way to it, so that depth keeps its digits.
+    """
+    latitude, longitude = (np.linspace(axis[0], axis[-1], 17) for axis in _axes(ground))
+    heights = [float(ground.fields.elevation.min()), _HIGHEST_AIR]
+    points = np.concatenate(
+        [ground.frame.forward_grid(latitude, longitude, np.full((17, 17), h)).reshape(-1, 3) for h in heights]
+    )
+    middle = view.position.mean(axis=0)
+    spread = float(np.linalg.norm(view.position - middle, axis=1).max())
+    away = np.linalg.norm(points - middle, axis=1)
+    above = view.position[:, 2].min() > points[:, 2].max()
+    near = 0.5 * (float(away.min()) - spread) if above else 0.0
+    return max(near, _NEAREST), 1.05 * (float(away.max()) + spread)
+
+
+def _axes(ground: Ground) -> tuple[Array, Array]:
+    return ground.fields.latitude, ground.fields.longitude

@@ -40,8 +40,8 @@ def _file_name(value: str) -> str | None:
     return f'"{value}" names files, so it is made of letters, digits, - and _'
 
 
-def _even(value: tuple[int, int]) -> str | None:
-    if all(side % 2 == 0 for side in value):
+def _even(value: tuple[int, int] | None) -> str | None:
+    if value is None or all(side % 2 == 0 for side in value):
         return None
     return "must be two even numbers of pixels (video needs even ones)"
 
@@ -207,6 +207,14 @@ class Camera:
         (), 'such as ["rgb"]; empty: those of [render]', choices=passes.helps, shows=()
     )
     frames: str = key("", 'such as "24" or "1-48:4"; empty: all')
+    resolution: tuple[int, int] | None = key(
+        None,
+        "of its pictures, both even; left out, as [render] says",
+        unit="pixels",
+        at_least=16,
+        at_most=16384,
+        check=_even,
+    )
 
     @property
     def kind(self) -> str:
@@ -315,4 +323,13 @@ class Settings:
                 frame_list.parse(camera.frames, self.time.frames)
             except ValueError as error:
                 return ("cameras", i, "frames"), f"cameras.frames: {error}"
+        return self._leaderless()
+
+    def _leaderless(self) -> tuple[Where, str] | None:
+        for i, camera in enumerate(self.cameras):
+            name = getattr(camera.rig, "follows", "")
+            if name and camera.rig.leader(self.cameras) is None:
+                others = [each.name for each in self.cameras if not hasattr(each.rig, "follows")]
+                reason = f'camera "{camera.name}" follows "{name}", and no other camera has this name'
+                return ("cameras", i, "follows"), reason + suggestion(name, others)
         return None

@@ -42,10 +42,12 @@ class Shot:
         Frames and the model times that they show.
     fire
         What burns from the first frame to the last; it is there for all cameras.
+    cameras
+        All of the scene file's, also those that are not filmed here: others may follow them.
     """
 
     def __init__(self, settings: Settings, run: Run) -> None:
-        self.settings, self.run = settings, run
+        self.settings, self.run, self.cameras = settings, run, settings.cameras
         self.frames: Frames = frames.of(settings.time, run)
         self._filmed: dict[str, NDArray[np.int64]] = {}
         smoke = settings.smoke
@@ -55,8 +57,10 @@ class Shot:
 
     def of(self, name: str) -> Shot:
         """The same shot with this camera alone: what it films depends on no other."""
-        shot = Shot(replace(self.settings, cameras=(self.camera(name),)), self.run)
-        shot.fire, shot.bare_ground = self.fire, self.bare_ground
+        camera = self.camera(name)
+        render = replace(self.settings.render, resolution=self.resolution(camera))
+        shot = Shot(replace(self.settings, cameras=(camera,), render=render), self.run)
+        shot.fire, shot.bare_ground, shot.cameras = self.fire, self.bare_ground, self.cameras
         return shot
 
     def camera(self, name: str) -> Camera:
@@ -72,6 +76,10 @@ class Shot:
                 return camera
         names = ", ".join(camera.name for camera in self.settings.cameras) or "none"
         raise UsageError(f'--camera: there is no "{name}"; the scene has {names}')
+
+    def resolution(self, camera: Camera) -> tuple[int, int]:
+        """Width and height (pixels) of a camera's pictures."""
+        return camera.resolution or self.settings.render.resolution
 
     def frames_of(self, camera: Camera) -> list[int]:
         """Frames that a camera films, ascending."""

@@ -91,7 +91,7 @@ class Sights:
         return lod.Sight(
             position,
             _joined([path.rotation[frames] for path, frames in zip(paths, filmed, strict=True)], (3, 3)),
-            np.repeat(np.reshape([path.half for path in paths], (-1, 2)), counts, axis=0),
+            _joined([path.halves[frames] for path, frames in zip(paths, filmed, strict=True)], (2,)),
             sun=self._sun(_joined(filmed, ()).astype(np.int64)),
             parallel=np.repeat([not path.perspective for path in paths], counts),
             clear=_clear(shot.ground, position),

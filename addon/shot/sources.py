@@ -1,7 +1,8 @@
 """Which of our own code makes an aspect of a product: so that files know what made them.
 
 The rule: the code of an aspect is the folder of its name in ``scene``. Whatever is made, so do the modules
-that lie loose in ``scene``, what is in `EVERYWHERE`, the cameras' rigs, and the compiled core.
+that lie loose in ``scene``, what is in `EVERYWHERE`, the cameras' rigs, and the compiled core. With them
+come the files that the rigs read.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ import firetwin_core
 from ..run.content import sha256
 from .settings import Camera
 
-EVERYWHERE = ("scene", "blender", "run", "shot", "shot/rigs/_key.py")
+EVERYWHERE = ("scene", "blender", "run", "shot", "shot/rigs/_key.py", "shot/rigs/_lens.py")
 PACKAGE = Path(__file__).parents[1]
 
 
@@ -29,10 +30,12 @@ def of(aspects: Iterable[str], cameras: Iterable[Camera], *more: str | Path) -> 
     more
         Further files of the package, such as "render/engine.py", or of other places.
     """
+    cameras = list(cameras)
     scene = [f"scene/{name}" for name in sorted(aspects) if (PACKAGE / "scene" / name).is_dir()]
     rigs = {inspect.getfile(type(camera.rig)) for camera in cameras}
     places = [PACKAGE / place for place in (*EVERYWHERE, *scene, *rigs, *more)]
-    return {"core": _core()} | dict(sorted(map(_hash, places)))
+    read = {path.name: sha256(path)[:16] for camera in cameras for path in camera.rig.reads()}
+    return {"core": _core()} | dict(sorted(map(_hash, places))) | read
 
 
 @functools.cache

@@ -9,6 +9,7 @@ from .ground import NEVER, Ground
 
 Array = NDArray[np.float64]
 
+MOVING = ("head", "fire")  # what moves by itself
 RECENT = 1800.0  # s; ground reached within this time belongs to the moving front
 _KNOTS = 24  # the target is worked out at this many moments and is smooth between them
 _BLOCK = 1500.0  # m; parts of the front that are compared

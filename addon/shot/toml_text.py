@@ -15,7 +15,12 @@ from .settings import Settings
 
 Line = tuple[str, str]  # what is written, and the comment beside it
 
-_SAMPLES = {datetime: "2014-09-17T21:30:00Z", float: "0.0"}  # for a key that has no value
+_SAMPLES = {  # for a key that has no value
+    datetime: "2014-09-17T21:30:00Z",
+    float: "0.0",
+    tuple[int, int]: "[1280, 720]",
+    Path: '"flight.gpx"',
+}
 
 
 def text(settings: Settings) -> str:

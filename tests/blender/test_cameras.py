@@ -4,10 +4,11 @@ import bpy
 import numpy as np
 import pytest
 from bpy_extras.object_utils import world_to_camera_view
-from firetwin.blender import owned
+from firetwin.blender import compat, owned
 from firetwin.scene.camera import build as cameras
 from firetwin.shot import targets
 from firetwin.shot.rigs.drone import Drone
+from firetwin.shot.rigs.lookout import Lookout, LookoutKey
 from firetwin.shot.rigs.satellite import Satellite
 from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
@@ -36,7 +37,7 @@ def test_a_camera_looks_at_its_target_in_every_frame(shot, stage, scene):
         assert world_to_camera_view(scene, camera, target)[:2] == pytest.approx((0.5, 0.5), abs=1e-3)
         assert camera.matrix_world.col[0].z == pytest.approx(0.0, abs=1e-5)  # a level horizon
         assert camera.location[:] == pytest.approx(shot.paths[0].position[frame - 1], abs=0.01)
-    assert camera.data.clip_end >= 200_000.0
+    assert camera.data.clip_end >= 20_000.0 * 2.0**0.5  # the apron's corners
 
 
 def test_keys_are_met_at_their_height_over_the_ground(shot):
@@ -44,6 +45,45 @@ def test_keys_are_met_at_their_height_over_the_ground(shot):
     for frame, key in ((0, keys[0]), (-1, keys[1])):
         below = shot.ground.point(key.latitude, key.longitude)[0]
         assert shot.paths[0].position[frame] - below == pytest.approx([0.0, 0.0, key.height], abs=1.0)
+
+
+def test_few_keys_with_handles_go_where_the_path_goes(settings, run, stage, scene):
+    """Of 240 frames: within 5 mm and a twentieth of a pixel of the path in every one of them."""
+    shot = _with_keys(settings, run, 240, bank=1.0)
+    (camera,), (view,) = _built(shot, stage), shot.paths
+    curves = compat.fcurves(camera)
+    assert {curve.data_path for curve in curves} == {"location", "rotation_quaternion"}
+    for curve in curves:
+        assert 2 <= len(curve.keyframe_points) < 80
+        assert {point.handle_left_type for point in curve.keyframe_points} == {"ALIGNED"}
+    moved, turned = [], []
+    for frame in range(1, 241, 7):
+        scene.frame_set(frame)
+        matrix = np.array(camera.matrix_world)
+        moved.append(np.linalg.norm(matrix[:3, 3] - view.position[frame - 1]))
+        turned.append(np.linalg.norm(matrix[:3, 2] - view.rotation[frame - 1, :, 2]))
+    pixel = 2.0 * view.half[0] / shot.settings.render.resolution[0]
+    print(f"{len(curves[0].keyframe_points)} and {len(curves[3].keyframe_points)} keys, {max(moved):.4f} m")
+    assert max(moved) < 0.005 + 0.001  # and what a float32 is off by
+    assert max(turned) < 0.05 * pixel + 1e-6
+
+
+def test_a_lookout_zooms_and_a_far_satellite_has_a_long_lens(settings, run, stage, scene):
+    keys = (LookoutKey(0.0, 40.0), LookoutKey(1.0, 40.0, zoom=4.0))
+    rigs = {
+        "tower": Lookout(50.0, 25.0, latitude=38.83, longitude=-120.57, keys=keys),
+        "goes": Satellite(swath=8000.0, geostationary=-137.0),
+    }
+    cameras_of_both = tuple(Camera(name, rig) for name, rig in rigs.items())
+    shot = Shot(replace(settings, cameras=cameras_of_both), run)
+    tower, goes = _built(shot, stage)
+    for frame, lens in ((1, 50.0), (2, 100.0), (3, 200.0)):
+        scene.frame_set(frame)
+        assert tower.data.lens == pytest.approx(lens, rel=1e-4)
+    assert tower.data.sensor_width == 25.0
+    assert goes.data.type == "PERSP"
+    assert goes.data.lens / 18.0 * 4000.0 == pytest.approx(shot.paths[1].meet, rel=1e-6)
+    assert goes.animation_data is None
 
 
 def test_a_hill_between_keys_lifts_the_camera(settings, run):

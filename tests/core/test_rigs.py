@@ -70,9 +70,9 @@ def test_a_kind_is_added_by_one_file(tower, tmp_path):
     assert camera == Camera("lookout", tower(mast=30.0))
     assert camera.kind == "tower"
     settings = dataclasses.replace(file.read(path), path=Path("scene.toml"))
-    assert "mast = 30.0       # length of the mast, m (default 20.0)" in file.text(settings)
+    assert "mast = 30.0                 # length of the mast, m (default 20.0)" in file.text(settings)
     assert "kind of camera: on the ground, turning round" in file.text(settings)
-    tables = [{"kind": "tower", "mast": 30.0, "turns": 1, "frames": ""}]
+    tables = [{"kind": "tower", "mast": 30.0, "turns": 1, "frames": "", "resolution": None}]
     assert schema.chosen(settings, {"camera"}) == {"cameras": tables}
     validator = jsonschema.Draft202012Validator(json_schema(Settings))
     assert validator.is_valid({"cameras": [{"kind": "tower", "mast": 30}]})
@@ -84,8 +84,8 @@ def test_a_kind_is_added_by_one_file(tower, tmp_path):
     [
         ("mast = 0", 3, "cameras.mast must be above 0, not 0"),
         ("turns = 99", 3, 'camera "drone" turns faster than a short mast bears'),
-        ("swath = 5.0", 3, 'swath belongs to kind "satellite"'),
-        ("keys = []", 3, 'keys belongs to kind "drone" or "satellite"'),
+        ("swath = 5.0", 3, 'swath belongs to kind "minimap" or "satellite"'),
+        ("keys = []", 3, 'keys belongs to kind "drone", "lookout" or "satellite"'),
         ("masts = 5.0", 3, 'did you mean "mast"?'),
     ],
 )

@@ -87,7 +87,8 @@ def _sunlit(smoke: Smoke, place: Array, light: sky.State, through: float) -> Arr
 def _rays(view: Path, frame: int) -> tuple[Array, Array]:
     """Starts and directions (n, 3) of rays spread evenly over a camera's picture."""
     across, up = (((np.arange(count) + 0.5) / count * 2.0 - 1.0) for count in _RAYS)
-    across, up = (v.ravel() for v in np.meshgrid(across * view.half[0], up * view.half[1]))
+    half = view.halves[frame]
+    across, up = (v.ravel() for v in np.meshgrid(across * half[0], up * half[1]))
     turn, place = view.rotation[frame], np.broadcast_to(view.position[frame], (len(up), 3))
     plane = across[:, None] * turn[:, 0] + up[:, None] * turn[:, 1]
     if not view.perspective:

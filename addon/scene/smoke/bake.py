@@ -215,6 +215,7 @@ def _key(shot: Shot, progress: Progress) -> str:
     """Hash of everything that the volumes depend on."""
     settings, complete = shot.settings, shot.settings.smoke.complete
     found = schema.chosen(settings, {"time", "smoke"} if complete else {"time", "smoke", "camera", "ground"})
+    leaders = [each for camera in settings.cameras if (each := camera.rig.leader(shot.cameras))]
     solved = baker.solved(shot)
     for name in _NOT_IN_FILES:
         del found["smoke"][name]
@@ -231,9 +232,10 @@ def _key(shot: Shot, progress: Progress) -> str:
         for camera in found.get("cameras", ()):
             del camera["frames"]  # however they are written
         found["sight"] = [height / width, [shot.frames_of(camera) for camera in settings.cameras]]
+        found["leaders"] = [repr(each) for each in leaders]
     return content.fingerprint(
         {
-            "sources": sources.of({"smoke"}, settings.cameras),
+            "sources": sources.of({"smoke"}, [*settings.cameras, *leaders]),
             "run": content.inputs(shot.run, settings.cache, ("temperature",), progress),
             "settings": found,
             "voxel": drawn,

@@ -13,8 +13,14 @@ import pkgutil
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from firetwin_core.run import Run
+
+    from ..frames import Frames
     from ..ground import Ground
-    from ..path import Path
+    from ..path import Path as Way
     from ..schema import Where
     from ..settings import Camera
     from ..shot import Shot
@@ -35,7 +41,19 @@ class Rig:
         """Where in the table a place stands, and its latitude and longitude: all must be on the ground."""
         return []
 
-    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+    def reads(self) -> list[Path]:
+        """Files that its way depends on."""
+        return []
+
+    def leader(self, cameras: Sequence[Camera]) -> Camera | None:
+        """Another of these cameras on whose way its own depends."""
+        return None
+
+    def misfit(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
+        """What of it does not fit the run: where in its table, and words that follow the camera's name."""
+        return None
+
+    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Way:
         """The camera's way through the shot over this ground."""
         raise NotImplementedError
 

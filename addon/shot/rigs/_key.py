@@ -17,17 +17,21 @@ class CameraKey:
     longitude: float = key(
         0.0, "where the camera is; west is negative", unit="degrees east", at_least=-180, at_most=180
     )
-    height: float = key(300.0, "height above the ground", unit="m", above=0)
+    height: float = key(300.0, "height above the ground, or above the sea", unit="m", above=0)
     target: str = key(
         "point",
         "it looks at",
-        choices={"head": "of the fire", "fire": "its middle", "point": "given below"},
+        choices={"head": "of the fire", "fire": "its middle", "point": "", "ahead": ""},
     )
     target_latitude: float = key(0.0, "where the point is", unit="degrees north", at_least=-90, at_most=90)
     target_longitude: float = key(
         0.0, "where the point is; west is negative", unit="degrees east", at_least=-180, at_most=180
     )
     target_height: float = key(0.0, "height above the ground of what it looks at", unit="m")
+    above: str = key("ground", "what its own height is above", choices=("ground", "sea"))
+    tilt: float = key(
+        15.0, 'how far under the horizon it looks "ahead"', unit="degrees", at_least=-90, at_most=90
+    )
 
 
 def rising(keys: tuple[CameraKey, ...]) -> tuple[Where, str] | None:

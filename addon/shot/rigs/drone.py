@@ -3,83 +3,138 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path as File
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .. import path, targets
+from .. import flight, path, targets
+from ..flight import Waypoints
 from ..path import Array, Path
 from ..schema import Where, key
-from . import Rig
+from ..track import MOMENTS, read
 from ._key import CameraKey, rising
+from ._lens import Lens
 
 if TYPE_CHECKING:
+    from firetwin_core.run import Run
+
+    from ..frames import Frames
     from ..ground import Ground
     from ..settings import Camera
     from ..shot import Shot
     from . import Place
 
-_CLEARANCE = 0.35  # of the height asked for that stays over hills between keys
+_CLEARANCE = 0.35  # of the height asked for above the ground that stays over hills between keys
 
 
 @dataclass(frozen=True)
-class Drone(Rig):
-    """In perspective, flying smoothly from key to key."""
+class Drone(Lens):
+    """In perspective, flying smoothly from key to key or along a track."""
 
-    focal_length: float = key(28.0, "of the lens; film is 36 mm wide", unit="mm", at_least=1, at_most=5000)
     over_ridges: bool = key(
-        False, 'rise until it sees its "head" or "fire" over the ridges between; else it keeps its height'
+        False, 'rise until it sees its "head" or "fire" over the ridges; else it keeps its height'
     )
+    clearance: float = key(
+        10.0, "never nearer to the ground than this, also between frames", unit="m", above=0
+    )
+    bank: float = key(
+        0.0, "how much it leans into turns; 1: as an aircraft, 0: the horizon is level", at_least=0, at_most=1
+    )
+    vibration: float = key(
+        0.0,
+        "standard deviation about each axis; 0.02 is a good gimbal's",
+        unit="degrees",
+        at_least=0,
+        at_most=5,
+    )
+    track: File | None = key(  # noqa: RUF009
+        None,
+        "flight to follow, .gpx, .kml or .csv; its keys then say only where it looks, without any: ahead",
+        shows=(),
+    )
+    track_times: str = key("own", "when a track with times is flown", choices=MOMENTS)
     keys: tuple[CameraKey, ...] = key((), "where it is at one moment")
 
     def wrong(self) -> tuple[Where, str] | None:
         """A drone is somewhere, and its moments rise."""
-        if not self.keys:
-            return ("keys",), "has no [[cameras.keys]]; a drone needs at least one"
+        if not self.keys and self.track is None:
+            return ("keys",), "has no [[cameras.keys]] and no track; a drone needs at least one key"
         return rising(self.keys)
 
     def places(self) -> list[Place]:
         """Its keys, and the points that it looks at."""
         found: list[Place] = []
         for i, at in enumerate(self.keys):
-            found.append((("keys", i, "latitude"), at.latitude, at.longitude))
+            if self.track is None:
+                found.append((("keys", i, "latitude"), at.latitude, at.longitude))
             if at.target == "point":
                 found.append((("keys", i, "target_latitude"), at.target_latitude, at.target_longitude))
+        if self.track is not None:
+            found += [(("track",), *corner) for corner in read(self.track).corners()]
         return found
 
+    def reads(self) -> list[File]:
+        """Its track."""
+        return [] if self.track is None else [self.track]
+
+    def misfit(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
+        """A track that keeps its own times is flown while the frames are."""
+        if self.track is None or self.track_times != "own":
+            return None
+        missed = read(self.track).missed(run, frames)
+        return (("track",), f"follows {self.track.name}, which {missed}") if missed else None
+
     def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
-        """Smooth between keys, over the hills between them, looking at its targets with the horizon level."""
-        keys = sorted(self.keys, key=lambda each: each.at)
-        at = np.array([each.at for each in keys])
+        """Smooth between keys or along its track, over the hills between, looking at its targets."""
         count = shot.frames.count
-        moments = np.linspace(0.0, 1.0, count) if count > 1 else np.zeros(1)
-        base = ground.point(*(_column(keys, name) for name in ("latitude", "longitude", "height")))
-        position = np.stack([path.smooth(at, base[:, axis], moments) for axis in range(3)], axis=-1)
-        aims = [_aim(each, shot, ground) for each in keys]
-        target = path.blend(at, np.array(aims), moments)
-        short = path.below(ground, position, _CLEARANCE * path.smooth(at, _column(keys, "height"), moments))
+        moments = np.linspace(0.0, 1.0, count)
+        keys = sorted(self.keys, key=lambda each: each.at) or [CameraKey(target="ahead")]
+        clearance = np.full(count, self.clearance)
+        if self.track is None:
+            way = _waypoints(keys)
+            position = way.flown(ground, moments)
+            over = path.smooth(way.at, np.where(way.over_ground, way.height, 0.0), moments)
+            clearance = np.maximum(clearance, _CLEARANCE * over)
+        else:
+            recorded = read(self.track)
+            way, shown = recorded.at(self.track_times, shot.run, shot.frames, ground.frame)
+            position = way.flown(ground, shown)
+        target = self._target(keys, position, moments, shot, ground)
+        short = flight.short(ground, position, clearance)
         hidden = np.zeros(count)
-        if any(each.target != "point" for each in keys):  # nobody could know where the fire would be
+        if any(each.target in targets.MOVING for each in keys):  # nobody could know where the fire would be
             hidden = path.hidden(ground, position, target)
         if self.over_ridges:
             short = np.maximum(short, hidden)
         position[:, 2] += path.eased(short)
-        return Path(
-            camera,
-            position,
-            path.look(position, target),
-            target,
-            path.half_view(shot, self.focal_length),
-            hidden=hidden,
-        )
+        target = self._target(keys, position, moments, shot, ground)
+        rotation = path.look(position, target)
+        if self.bank > 0.0:
+            rotation = flight.rolled(rotation, self.bank * flight.bank(position, shot.frames.step))
+        if self.vibration > 0.0:
+            rotation = flight.trembling(rotation, self.vibration, shot.settings.seed, camera.name)
+        half = self.half(camera, shot)
+        return Path(camera, position, rotation, target, half, hidden=hidden, sensor=self.sensor_width)
+
+    def _target(
+        self, keys: list[CameraKey], position: Array, moments: Array, shot: Shot, ground: Ground
+    ) -> Array:
+        """Where it looks (frames, 3) from there."""
+        at = np.array([each.at for each in keys])
+        return path.blend(at, np.array([_aim(each, position, shot, ground) for each in keys]), moments)
 
 
-def _column(keys: list[CameraKey], name: str) -> Array:
-    return np.array([getattr(each, name) for each in keys], np.float64)
+def _waypoints(keys: list[CameraKey]) -> Waypoints:
+    columns = ("at", "latitude", "longitude", "height")
+    values = (np.array([getattr(each, name) for each in keys], np.float64) for name in columns)
+    return Waypoints(*values, np.array([each.above == "ground" for each in keys]))
 
 
-def _aim(at: CameraKey, shot: Shot, ground: Ground) -> Array:
+def _aim(at: CameraKey, position: Array, shot: Shot, ground: Ground) -> Array:
     """Where a key points in every frame (frames, 3)."""
+    if at.target == "ahead":
+        return flight.ahead(position, np.full(len(position), at.tilt))
     if at.target == "point":
         place = ground.point(at.target_latitude, at.target_longitude, at.target_height)
         return np.repeat(place, shot.frames.count, axis=0)

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .. import path
+from .. import flight, path
 from ..path import Path
 from ..schema import key
-from . import Rig
+from ._lens import FOCAL_LENGTH, Lens
 
 if TYPE_CHECKING:
     from ..ground import Ground
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Orbit(Rig):
+class Orbit(Lens):
     """In perspective, circling a point and looking at it."""
 
-    focal_length: float = key(35.0, "of the lens; film is 36 mm wide", unit="mm", at_least=1, at_most=5000)
+    focal_length: float = key(35.0, "of the lens", **FOCAL_LENGTH)
     latitude: float | None = key(
         None,
         "of the point; left out, the middle of the run",
@@ -62,10 +62,10 @@ class Orbit(Rig):
         angle = np.radians(self.bearing) + self.speed * elapsed / self.radius
         circle = np.stack([np.sin(angle), np.cos(angle), np.zeros(len(angle))], axis=-1)
         position = point + self.radius * circle + np.array([0.0, 0.0, self.height])
-        position[:, 2] += path.eased(path.below(ground, position, np.full(len(angle), self.clearance)))
+        position[:, 2] += path.eased(flight.short(ground, position, np.full(len(angle), self.clearance)))
         target = np.repeat(point[None] + np.array([0.0, 0.0, self.target_height]), len(angle), axis=0)
-        half = path.half_view(shot, self.focal_length)
-        return Path(camera, position, path.look(position, target), target, half)
+        half = self.half(camera, shot)
+        return Path(camera, position, path.look(position, target), target, half, sensor=self.sensor_width)
 
 
 RIG = Orbit

@@ -1,0 +1,80 @@
+"""A lookout: a camera on a mast that turns and zooms."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .. import path
+from ..path import Path
+from ..schema import Where, key
+from ._key import rising
+from ._lens import Lens
+
+if TYPE_CHECKING:
+    from ..ground import Ground
+    from ..settings import Camera
+    from ..shot import Shot
+    from . import Place
+
+_FAR = 5000.0  # m, of the points that it counts as looking at
+
+
+@dataclass(frozen=True)
+class LookoutKey:
+    """Where a lookout looks at one moment."""
+
+    at: float = key(0.0, "when; 0: first frame, 1: last frame", at_least=0, at_most=1)
+    pan: float = key(0.0, "bearing, clockwise from north; it turns the short way round", unit="degrees")
+    tilt: float = key(0.0, "under the horizon; negative is up", unit="degrees", at_least=-89, at_most=89)
+    zoom: float = key(1.0, "times the focal length", at_least=0.01, at_most=1000)
+
+
+@dataclass(frozen=True)
+class Lookout(Lens):
+    """On a mast in one place, turning and zooming from key to key."""
+
+    latitude: float = key(0.0, "where it stands", unit="degrees north", at_least=-90, at_most=90)
+    longitude: float = key(
+        0.0, "where it stands; west is negative", unit="degrees east", at_least=-180, at_most=180
+    )
+    height: float = key(20.0, "of the mast above the ground", unit="m", above=0)
+    keys: tuple[LookoutKey, ...] = key((), "where it looks at one moment; without one to the north")
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """Its moments rise."""
+        return rising(self.keys)
+
+    def places(self) -> list[Place]:
+        """Where it stands."""
+        return [(("latitude",), self.latitude, self.longitude)]
+
+    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+        """It stays; bearings count from the north and tilts from the horizon of its own place."""
+        count = shot.frames.count
+        keys = self.keys or (LookoutKey(),)
+        at, pan, tilt, zoom = np.array([[k.at, k.pan, k.tilt, k.zoom] for k in keys], np.float64).T
+        moments = np.linspace(0.0, 1.0, count)
+        pan = path.smooth(at, np.unwrap(np.radians(pan)), moments)
+        tilt = np.radians(path.smooth(at, tilt, moments))
+        zoom = np.exp(path.smooth(at, np.log(zoom), moments))
+        place = ground.point(self.latitude, self.longitude, self.height)
+        east, north, up = path.compass(ground.frame, place[0])
+        flat = np.sin(pan)[:, None] * east + np.cos(pan)[:, None] * north
+        position = np.repeat(place, count, axis=0)
+        target = position + _FAR * (np.cos(tilt)[:, None] * flat - np.sin(tilt)[:, None] * up)
+        across, high = self.half(camera, shot)
+        return Path(
+            camera,
+            position,
+            path.look(position, target, up),
+            target,
+            (across / float(zoom.max()), high / float(zoom.max())),
+            wider=zoom.max() / zoom,
+            sensor=self.sensor_width,
+        )
+
+
+RIG = Lookout

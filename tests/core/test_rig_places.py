@@ -1,0 +1,179 @@
+"""Lookout, chase, minimap and satellite: where they are and where they look."""
+
+from dataclasses import replace
+from datetime import UTC, datetime
+
+import numpy as np
+import pytest
+from firetwin.errors import InputError
+from firetwin.render import fingerprint
+from firetwin.shot import file, fit, path, targets
+from firetwin.shot.rigs._key import CameraKey
+from firetwin.shot.rigs.chase import Chase
+from firetwin.shot.rigs.drone import Drone
+from firetwin.shot.rigs.lookout import Lookout, LookoutKey
+from firetwin.shot.rigs.minimap import Minimap
+from firetwin.shot.rigs.satellite import ORBIT, Satellite
+from firetwin.shot.settings import Camera, Forest, Ground, Settings, Time
+from firetwin.shot.shot import Shot
+from firetwin_core import lod
+from firetwin_core import run as runs
+
+pyproj = pytest.importorskip("pyproj")
+
+KEYS = (
+    CameraKey(0.0, 38.900, -120.599, 300.0, "ahead"),
+    CameraKey(1.0, 38.908, -120.587, 300.0, "ahead"),
+)
+
+
+@pytest.fixture
+def run(make_run):
+    """The small run, its front going east over all of it within two minutes."""
+    arrival = np.repeat(np.linspace(0.0, 110.0, 10)[None], 8, axis=0)
+    return runs.open(make_run(fuel_arrival_time=arrival.astype(np.float32)))
+
+
+def shot_of(run, *cameras, frames=21):
+    settings = Settings(
+        time=Time(start=datetime(2014, 9, 17, 4, 45, tzinfo=UTC), frames=frames),
+        ground=Ground(near_radius=0.0, apron=3000.0),
+        forest=Forest(trees=False),
+        cameras=cameras,
+    )
+    return Shot(settings, run)
+
+
+def lookout(*keys, **more):
+    return Camera("tower", Lookout(latitude=38.904, longitude=-120.594, keys=keys, **more))
+
+
+def test_a_lookout_turns_the_short_way_and_tilts_from_its_own_horizon(run):
+    shot = shot_of(run, lookout(LookoutKey(0.0, 350.0, 5.0), LookoutKey(1.0, 30.0, 5.0)))
+    (view,) = shot.paths
+    latitude, longitude, height = shot.local_frame.reverse(view.position)
+    assert (latitude, longitude) == (pytest.approx(38.904), pytest.approx(-120.594))
+    aim = shot.local_frame.reverse(view.target)
+    bearing = pyproj.Geod(ellps="WGS84").inv(longitude, latitude, aim[1], aim[0])[0]
+    assert bearing[[0, 10, -1]] == pytest.approx([-10.0, 10.0, 30.0], abs=1e-4)
+    assert (np.diff(bearing) > 0.0).all()
+    sunk = 5000.0 * np.sin(np.radians(5.0)) - 5000.0**2 / (2 * 6.37e6)  # the Earth falls away below the line
+    assert height - aim[2] == pytest.approx(sunk, abs=0.05)
+    up = path.compass(shot.local_frame, view.position[0])[2]
+    assert view.rotation[:, :, 0] @ up == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_lookout_zooms_evenly_to_the_eye(run):
+    shot = shot_of(run, lookout(LookoutKey(0.0), LookoutKey(1.0, zoom=4.0), focal_length=50.0))
+    (view,) = shot.paths
+    wide = 18.0 / 50.0
+    assert view.half[0] == pytest.approx(wide / 4.0), "what decides detail is the longest lens"
+    across = view.halves[:, 0]
+    assert across[[0, -1]] == pytest.approx([wide, wide / 4.0])
+    assert across[1:] / across[:-1] == pytest.approx(0.25 ** (1 / 20))
+    aim = view.position[0] + 1000.0 * (-view.rotation[0, :, 2] + 0.5 * wide * view.rotation[0, :, 0])
+    first, last = (shot.sights.at(frame) for frame in (1, 21))
+    assert lod.seen(aim[None], 0.0, first).all()
+    assert not lod.seen(aim[None], 0.0, last).any()
+
+
+def test_a_chase_stays_behind_the_head_and_frames_it(run):
+    shot = shot_of(run, Camera("chase", Chase(distance=200.0, height=150.0, target_height=10.0)), frames=61)
+    (view,) = shot.paths
+    head = targets.follow("head", shot.ground, shot.frames.times, 10.0)
+    assert view.target == pytest.approx(head)
+    local = np.einsum("nij,ni->nj", view.rotation, head - view.position)
+    assert local[:, :2] == pytest.approx(0.0, abs=1e-6)
+    assert (local[:, 2] < 0.0).all()
+    away = view.position - head
+    assert np.hypot(away[:, 0], away[:, 1]) == pytest.approx(200.0)
+    assert (away[10:-10, 0] < -150.0).all(), "the fire runs east, so behind is west"
+    above = view.position[:, 2] - shot.ground.up(view.position[:, 0], view.position[:, 1])
+    assert above.min() >= 50.0
+    turned = shot_of(run, Camera("chase", Chase(distance=200.0, side=90.0)), frames=61).paths[0]
+    assert ((turned.position - turned.target)[10:-10, 1] < -150.0).all(), "its right is south"
+
+
+def test_a_minimap_goes_along_north_up(run):
+    drone, over = Camera("scout", Drone(keys=KEYS)), Camera("map", Minimap(swath=800.0))
+    shot = shot_of(run, over, drone)
+    flown = shot.paths[1].position
+    for one in (shot, shot.of("map")):  # also where the drone is not filmed
+        view = one.paths[0]
+        assert view.position[:, :2] == pytest.approx(flown[:, :2], abs=1.0)
+        assert np.ptp(view.position[:, 0]) > 500.0
+        assert not view.perspective
+        assert view.half == (400.0, 225.0)
+        assert np.array_equal(view.rotation, np.repeat(np.eye(3)[None], 21, axis=0))
+    alone = shot_of(run, over).paths[0]
+    assert alone.position[:, :2] == pytest.approx(0.0)
+
+
+def test_a_minimap_is_made_again_when_the_camera_it_follows_moves(run):
+    over = Camera("map", Minimap(follows="scout"))
+    moved = replace(KEYS[1], longitude=-120.588)
+
+    def made_with(*cameras):
+        return fingerprint.of_picture(Settings(cameras=cameras), {}, "map", "rgb")
+
+    first = made_with(Camera("scout", Drone(keys=KEYS)), over)
+    assert first == made_with(Camera("scout", Drone(keys=KEYS)), over, Camera("other", Satellite()))
+    assert first != made_with(Camera("scout", Drone(keys=(KEYS[0], moved))), over)
+
+
+@pytest.mark.parametrize("follows", ["scuot", "map"])
+def test_a_minimap_that_follows_nobody_is_an_error(tmp_path, follows):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(
+        '[[cameras]]\nname = "scout"\n[[cameras.keys]]\nat = 0.0\n'
+        f'[[cameras]]\nkind = "minimap"\nname = "map"\nfollows = "{follows}"\n'
+    )
+    with pytest.raises(InputError, match=r"scene.toml:8:1: camera \"map\" follows \"\w+\", and no other"):
+        file.read(scene)
+
+
+def test_a_geostationary_satellite_is_over_the_equator_and_sees_rows_of_parallels(run):
+    shot = shot_of(run, Camera("goes", Satellite(swath=4000.0, geostationary=-137.0)))
+    (view,) = shot.paths
+    latitude, longitude, height = shot.local_frame.reverse(view.position[:1])
+    assert (latitude[0], longitude[0]) == pytest.approx((0.0, -137.0), abs=1e-6)
+    assert (latitude[0], longitude[0], height[0]) == pytest.approx((0.0, -137.0, ORBIT), abs=4.0)
+    assert np.linalg.norm(shot.local_frame.reverse(view.position)[2][0] + 6_378_137.0) == pytest.approx(
+        42_164_160.0
+    )
+    middle = shot.ground.point(shot.local_frame.latitude, shot.local_frame.longitude)[0]
+    assert view.meet == pytest.approx(np.linalg.norm(view.position[0] - middle))
+    over = 90.0 - np.degrees(np.arccos(-view.rotation[0, :, 2] @ [0, 0, -1]))
+    assert over == pytest.approx(42.0, abs=1.0)  # 48 degrees from the zenith
+    axis = np.array([0.0, np.cos(np.radians(38.9)), np.sin(np.radians(38.9))])
+    assert view.rotation[0, :, 0] @ axis == pytest.approx(0.0, abs=1e-4)
+    assert view.rotation[0, :, 1] @ axis > 0.5
+    side = middle + view.rotation[0, :, 0] * np.array([[1900.0], [2100.0]])
+    assert shot.sights.seen(side, 0.0, pixel=np.inf).tolist() == [True, False]
+    near, far = path.clip(view, shot.ground)
+    assert near < view.meet - 5e4 < view.meet + 5e4 < far
+    assert near > 1e7
+
+
+@pytest.mark.parametrize(
+    ("east", "words"), [(75.0, "under the horizon"), (165.0, "degrees over the horizon")]
+)
+def test_a_satellite_that_cannot_see_the_fire_is_an_error(run, tmp_path, east, words):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(f'[[cameras]]\nkind = "satellite"\nname = "goes"\ngeostationary = {east}\n')
+    with pytest.raises(InputError, match=words) as caught:
+        fit.check(file.read(scene), run)
+    assert caught.value.line == 4
+
+
+def test_what_cameras_draw_holds_all_of_the_ground(run):
+    rigs = (Drone(keys=KEYS), Satellite(), Satellite(geostationary=-100.0), Minimap())
+    shot = shot_of(run, *(Camera(f"c{i}", rig) for i, rig in enumerate(rigs)))
+    corners = shot.local_frame.forward_grid(
+        shot.ground.fields.latitude, shot.ground.fields.longitude, shot.ground.fields.elevation
+    ).reshape(-1, 3)
+    for view in shot.paths:
+        near, far = path.clip(view, shot.ground)
+        depth = (view.position[:, None] - corners) @ view.rotation[0, :, 2]
+        assert depth.max() < far
+        assert near == 0.5 if view.perspective else near < depth.min()
