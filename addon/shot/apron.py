@@ -5,6 +5,7 @@ Its rows and columns continue those of the grid with growing spacing, so that th
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,13 +40,20 @@ class Fields:
     margin: int = 0
 
 
-def extend(fields: Fields, cell: tuple[float, float], half_width: float, seed: int) -> Fields:
+Known = Callable[[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
+
+
+def extend(
+    fields: Fields, cell: tuple[float, float], half_width: float, seed: int, known: Known | None = None
+) -> Fields:
     """`fields` with an apron that reaches `half_width` metres from the middle.
 
     Parameters
     ----------
     cell
         Size of a cell, north and east, m.
+    known
+        Makes heights (ny, nx) of a grid of latitudes and longitudes of invented ones, where more is known.
     """
     rows, columns = fields.elevation.shape
     reach = half_width - 0.5 * min(rows * cell[0], columns * cell[1])
@@ -62,6 +70,8 @@ def extend(fields: Fields, cell: tuple[float, float], half_width: float, seed: i
     spacing = np.maximum(dy[:, None], dx[None, :]) * (GROWTH - 1.0)
     elevation = _heights(np.pad(fields.elevation, count, "edge"), y, x, distance, spacing, seed)
     apron = distance > 0.0
+    if known is not None:
+        elevation = np.where(apron, known(latitude, longitude, elevation), elevation)
     canopy, surface = (
         np.where(apron, _fuel(fields.elevation, fuel, elevation, y, x, distance, seed), np.pad(fuel, count))
         for fuel in (fields.canopy_fuel, fields.surface_fuel)

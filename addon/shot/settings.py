@@ -85,6 +85,11 @@ class Ground:
         unit="pixels",
         above=0,
     )
+    elevation: Path | None = key(
+        None,
+        "elevation model, a GeoTIFF in any projection; where it has heights they are the ground's",
+        shows=(),
+    )
     apron: float = key(
         110_000.0,
         "half-width of the ground drawn round the run; smaller shows the edge of the world",

@@ -15,7 +15,7 @@ from .settings import Settings
 
 Line = tuple[str, str]  # what is written, and the comment beside it
 
-_SAMPLES = {datetime: "2014-09-17T21:30:00Z", float: "0.0"}  # for a key that has no value
+_SAMPLES = {datetime: "2014-09-17T21:30:00Z", float: "0.0", Path: '"file.tif"'}  # for a key that has no value
 
 
 def text(settings: Settings) -> str:

@@ -33,7 +33,7 @@ def cells(shot: Shot, height: float, reach: float) -> NDArray[np.bool_]:
     """Fuel cells (fy, fx) of the run where a plant of at most this height may count."""
     place = middles(shot)
     slope = sum(_steps(place[..., 2], axis) for axis in (0, 1))
-    size = np.hypot(0.5 * np.hypot(*shot.ground.cell), slope) + _RELIEF
+    size = np.hypot(0.5 * np.hypot(*shot.ground.cell), slope) + max(_RELIEF, shot.ground.rough)
     counts = visible(shot, place.reshape(-1, 3), height + size.ravel() / models.REACH, reach)
     return counts.reshape(size.shape)
 
@@ -41,7 +41,7 @@ def cells(shot: Shot, height: float, reach: float) -> NDArray[np.bool_]:
 def middles(shot: Shot) -> NDArray[np.float64]:
     """Middles (fy, fx, 3) of the run's fuel cells in the scene, m."""
     run = shot.run
-    return shot.local_frame.forward_grid(run.fuel_latitude, run.fuel_longitude, run.fuel_elevation)
+    return shot.local_frame.forward_grid(run.fuel_latitude, run.fuel_longitude, shot.relief.fuel)
 
 
 def _steps(height: NDArray[np.float64], axis: int) -> NDArray[np.float64]:

@@ -68,7 +68,7 @@ def grow(shot: Shot) -> Stand:
     axes = run.fuel_latitude, run.fuel_longitude
     kept = _kept(shot, mask)
     found = core.stand(
-        run.canopy_fuel, *axes, run.fuel_elevation, shot.local_frame, settings.seed, kept=kept, mask=mask
+        run.canopy_fuel, *axes, shot.relief.fuel, shot.local_frame, settings.seed, kept=kept, mask=mask
     )
     position = seen.settled(shot.ground, found.position)
     key = np.stack([found.key >> 32, found.key & 0xFFFFFFFF], axis=-1)

@@ -1,0 +1,192 @@
+"""A raster of the user's own, placed on the Earth by its projection: a GeoTIFF, read by rasterio.
+
+rasterio is an extra, wanted only where such a file is named. Of a file no more is read than is asked for, and
+no more of that is held at once than `_MEMORY`.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import Error, InputError, input_error
+from ..run import areas
+from . import file
+from .settings import Settings
+
+_MEMORY = 64  # MB
+_GLIMPSE = 192  # pixels a side
+_OFF = 0.02  # pixels that a place may be off when it is looked up
+_EARTH = "EPSG:4326"  # WGS84, degrees
+
+Array = NDArray[np.float64]
+
+
+def library(settings: Settings, name: str) -> ModuleType:
+    """The package rasterio, which the key `name` of [ground] needs.
+
+    Raises
+    ------
+    InputError
+        It is not installed; names the line of the scene file.
+    """
+    try:
+        import rasterio
+        import rasterio.warp
+        import rasterio.windows
+    except ImportError:
+        reason = f'ground.{name} needs the Python package rasterio: pip install "firetwin[raster]"'
+        raise file.error_at(settings.path, ("ground", name), reason) from None
+    return rasterio
+
+
+class Raster:
+    """A GeoTIFF that the key `name` of [ground] names.
+
+    Attributes
+    ----------
+    bounds
+        West, south, east and north, degrees.
+    resolution
+        Size of a pixel in its middle, about, m.
+
+    Raises
+    ------
+    InputError
+        rasterio is missing, the file is no GeoTIFF, or says not where it lies on the Earth.
+    """
+
+    def __init__(self, settings: Settings, name: str) -> None:
+        self.rasterio = library(settings, name)
+        self.path: Path = getattr(settings.ground, name)
+        if not self.path.is_file():
+            reason = f"ground.{name}: there is no file {self.path}"
+            raise file.error_at(settings.path, ("ground", name), reason)
+        with self.open() as source:
+            if source.crs is None or source.transform.is_identity:
+                raise self.error(
+                    "does not say where on the Earth it lies; gdal_edit.py -a_srs and -a_ullr can tell it"
+                )
+            bounds = self.rasterio.warp.transform_bounds(source.crs, _EARTH, *source.bounds)
+            if not np.isfinite(bounds).all():
+                raise self.error("lies nowhere on the Earth by its own projection")
+            self.bounds, self.shape = bounds, source.shape
+            self.count, self.unit = source.count, (source.units[0] or "").strip().lower()
+            self.whole = np.issubdtype(np.dtype(source.dtypes[0]), np.integer)
+            self.types, self.nodata = source.dtypes, source.nodata
+        south, north = bounds[1], bounds[3]
+        metres = 111_200.0 * np.array([north - south, (bounds[2] - bounds[0]) * np.cos(np.radians(south))])
+        self.resolution = float(np.min(metres / self.shape))
+
+    def error(self, reason: str) -> InputError:
+        """An error about this file."""
+        return input_error(self.path, 0, 0, reason)
+
+    @contextmanager
+    def open(self) -> Iterator[Any]:
+        """The file, open; whatever goes wrong in reading is said in one line.
+
+        Raises
+        ------
+        InputError
+        """
+        known = self.rasterio.errors
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", known.NotGeoreferencedWarning)
+                with (
+                    self.rasterio.Env(GDAL_DISABLE_READDIR_ON_OPEN="EMPTY_DIR", GDAL_CACHEMAX=_MEMORY),
+                    self.rasterio.open(self.path, driver="GTiff") as source,
+                ):
+                    yield source
+        except Error:
+            raise
+        except (known.RasterioError, OSError, ValueError) as error:
+            why = " ".join(str(error.__cause__ or error).split()).replace(str(self.path), "it")
+            raise self.error(f"cannot be read as a GeoTIFF ({why})") from error
+
+    def overlaps(self, latitude: Array, longitude: Array) -> bool:
+        """Whether it covers any of a rectangle that holds these places, degrees."""
+        west, south, east, north = self.bounds
+        longitude = longitude + self._turn(longitude)
+        return bool(
+            latitude.min() < north
+            and latitude.max() > south
+            and longitude.min() < east
+            and longitude.max() > west
+        )
+
+    def on_grid(self, latitude: Array, longitude: Array, bands: int = 1) -> NDArray[np.float32]:
+        """Its values (bands, ny, nx) at the points of a regular grid, NaN where it has none.
+
+        Between pixels they are bilinear; where the grid is coarser, means about each point.
+
+        Parameters
+        ----------
+        latitude, longitude
+            (ny,), (nx,) degrees, evenly spaced and ascending.
+        """
+        whole = np.full((bands, len(latitude), len(longitude)), np.nan, np.float32)
+        longitude = longitude + self._turn(longitude)
+        west, south, east, north = self.bounds
+        rows, columns = _within(latitude, south, north), _within(longitude, west, east)
+        found = np.full(whole[:, rows, columns].shape, np.nan, np.float32)
+        if found.size == 0:
+            return whole
+        dx, dy = (float((axis[-1] - axis[0]) / (len(axis) - 1)) for axis in (longitude, latitude))
+        corner = longitude[columns.start] - 0.5 * dx, latitude[rows.start] - 0.5 * dy
+        with self.open() as source:
+            self.rasterio.warp.reproject(
+                self.rasterio.band(source, list(range(1, bands + 1))),
+                found,
+                dst_transform=self.rasterio.Affine(dx, 0.0, corner[0], 0.0, dy, corner[1]),
+                dst_crs=_EARTH,
+                src_nodata=self.nodata,
+                dst_nodata=np.nan,
+                resampling=self.rasterio.warp.Resampling.bilinear,
+                warp_mem_limit=_MEMORY,
+                tolerance=_OFF,
+            )
+            scales, offsets = source.scales[:bands], source.offsets[:bands]
+        whole[:, rows, columns] = (
+            found * np.float32(scales)[:, None, None] + np.float32(offsets)[:, None, None]
+        )
+        return whole
+
+    def glimpse(self) -> tuple[NDArray[np.float32], Array, Array]:
+        """Some values of the first band (n,) as they stand there, NaN for no data, with their places.
+
+        Latitude and longitude (n,) are degrees.
+        """
+        with self.open() as source:
+            shape = tuple(min(_GLIMPSE, side) for side in source.shape)
+            read = source.read(1, out_shape=shape, masked=True).astype(np.float32).filled(np.nan)
+            read = read * np.float32(source.scales[0]) + np.float32(source.offsets[0])
+            row, column = (
+                (np.arange(count) + 0.5) * side / count
+                for count, side in zip(shape, source.shape, strict=True)
+            )
+            column, row = (v.ravel() for v in np.meshgrid(column, row))
+            a, b, c, d, e, f = source.transform[:6]
+            x, y = a * column + b * row + c, d * column + e * row + f
+            longitude, latitude = self.rasterio.warp.transform(source.crs, _EARTH, x, y)
+        return read.ravel(), np.array(latitude), np.array(longitude)
+
+    def _turn(self, longitude: Array) -> float:
+        """Whole turns (degrees) that bring these longitudes to the raster's."""
+        middle = 0.5 * float(longitude[0] + longitude[-1])
+        return float(areas.turned(middle, 0.5 * (self.bounds[0] + self.bounds[2]))) - middle
+
+
+def _within(axis: Array, low: float, high: float) -> slice:
+    """Which points of an even, ascending axis lie between two values, and one more at each end."""
+    step = axis[1] - axis[0]
+    first, last = np.searchsorted(axis, (low - step, high + step))
+    return slice(int(first), int(last))
