@@ -14,6 +14,7 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
+from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ..errors import Error, InputError, input_error
@@ -27,6 +28,7 @@ _OFF = 0.02  # pixels that a place may be off when it is looked up
 _EARTH = "EPSG:4326"  # WGS84, degrees
 
 Array = NDArray[np.float64]
+Bounds = tuple[float, float, float, float]
 
 
 def library(settings: Settings, name: str) -> ModuleType:
@@ -114,14 +116,7 @@ class Raster:
 
     def overlaps(self, latitude: Array, longitude: Array) -> bool:
         """Whether it covers any of a rectangle that holds these places, degrees."""
-        west, south, east, north = self.bounds
-        longitude = longitude + self._turn(longitude)
-        return bool(
-            latitude.min() < north
-            and latitude.max() > south
-            and longitude.min() < east
-            and longitude.max() > west
-        )
+        return overlap(self.bounds, latitude, longitude)
 
     def on_grid(self, latitude: Array, longitude: Array, bands: int = 1) -> NDArray[np.float32]:
         """Its values (bands, ny, nx) at the points of a regular grid, NaN where it has none.
@@ -134,7 +129,7 @@ class Raster:
             (ny,), (nx,) degrees, evenly spaced and ascending.
         """
         whole = np.full((bands, len(latitude), len(longitude)), np.nan, np.float32)
-        longitude = longitude + self._turn(longitude)
+        longitude = longitude + _turn(self.bounds, longitude)
         west, south, east, north = self.bounds
         rows, columns = _within(latitude, south, north), _within(longitude, west, east)
         found = np.full(whole[:, rows, columns].shape, np.nan, np.float32)
@@ -179,10 +174,34 @@ class Raster:
             longitude, latitude = self.rasterio.warp.transform(source.crs, _EARTH, x, y)
         return read.ravel(), np.array(latitude), np.array(longitude)
 
-    def _turn(self, longitude: Array) -> float:
-        """Whole turns (degrees) that bring these longitudes to the raster's."""
-        middle = 0.5 * float(longitude[0] + longitude[-1])
-        return float(areas.turned(middle, 0.5 * (self.bounds[0] + self.bounds[2]))) - middle
+
+def overlap(bounds: Bounds, latitude: Array, longitude: Array) -> bool:
+    """Whether west, south, east and north hold any of a rectangle that holds these places; degrees."""
+    west, south, east, north = bounds
+    longitude = longitude + _turn(bounds, longitude)
+    return bool(
+        latitude.min() < north
+        and latitude.max() > south
+        and longitude.min() < east
+        and longitude.max() > west
+    )
+
+
+def extent(run: Run) -> Bounds:
+    """West, south, east and north of a run's grid, degrees."""
+    return run.longitude.min(), run.latitude.min(), run.longitude.max(), run.latitude.max()
+
+
+def said(bounds: Bounds) -> str:
+    """``38.900 to 38.909 N and -120.600 to -120.584 E``."""
+    west, south, east, north = bounds
+    return f"{south:.3f} to {north:.3f} N and {west:.3f} to {east:.3f} E"
+
+
+def _turn(bounds: Bounds, longitude: Array) -> float:
+    """Whole turns (degrees) that bring these longitudes to those of west and east."""
+    middle = 0.5 * float(longitude[0] + longitude[-1])
+    return float(areas.turned(middle, 0.5 * (bounds[0] + bounds[2]))) - middle
 
 
 def _within(axis: Array, low: float, high: float) -> slice:

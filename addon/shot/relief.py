@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..run import areas
 from . import noise
-from .raster import Array, Raster
+from .raster import Array, Raster, extent, said
 from .settings import Settings
 
 _BLEND = 600.0  # m
@@ -120,7 +120,7 @@ def check(settings: Settings, run: Run) -> None:
     if model.unit not in _UNITS:
         raise model.error(f'has heights in "{model.unit}", and metres or feet are wanted: gdal_calc.py')
     if not model.overlaps(run.latitude, run.longitude):
-        raise model.error(f"{_where(model.bounds)}, beside the run, which {_where(_bounds(run))}")
+        raise model.error(f"covers {said(model.bounds)}, beside the run, which covers {said(extent(run))}")
     height, latitude, longitude = model.glimpse()
     height = height * unit(model)
     own = _own(run, latitude, longitude)
@@ -217,13 +217,3 @@ def _own(run: Run, latitude: Array, longitude: Array) -> Array:
         near = np.interp(at, axis[rising], np.arange(len(axis)))
         index.append(rising[np.round(near).astype(int)])
     return np.where(inside, run.elevation[tuple(index)], np.nan)
-
-
-def _bounds(run: Run) -> tuple[float, float, float, float]:
-    latitude, longitude = run.latitude, run.longitude
-    return longitude.min(), latitude.min(), longitude.max(), latitude.max()
-
-
-def _where(bounds: tuple[float, float, float, float]) -> str:
-    west, south, east, north = bounds
-    return f"covers {south:.3f} to {north:.3f} N and {west:.3f} to {east:.3f} E"
