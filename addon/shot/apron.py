@@ -15,6 +15,7 @@ from . import noise
 
 GROWTH = 1.16  # each row beyond the grid is this much wider than the one before
 _BANDS = 12  # of height, each with its own fuels
+_PATCHES = ((1_700.0, 50), (400.0, 58), (300.0, 54))  # m and random numbers of the fuels' patches
 _FORGET = 9_000.0  # m; the heights of the edge fade into the region's within this distance
 
 
@@ -72,8 +73,10 @@ def extend(
     apron = distance > 0.0
     if known is not None:
         elevation = np.where(apron, known(latitude, longitude, elevation), elevation)
+    yy, xx = (np.broadcast_to(at, distance.shape)[apron] for at in (y[:, None], x[None, :]))
+    ranks = [_rank(xx, yy, size, seed + use) for size, use in _PATCHES]
     canopy, surface = (
-        np.where(apron, _fuel(fields.elevation, fuel, elevation, y, x, distance, seed), np.pad(fuel, count))
+        _fuel(fields.elevation, fuel, elevation, distance, ranks)
         for fuel in (fields.canopy_fuel, fields.surface_fuel)
     )
     return Fields(latitude, longitude, elevation, canopy, surface, count)
@@ -109,16 +112,17 @@ def _heights(
     trend = np.clip(trend, low - 200.0, high + 300.0)
     relief = float(np.std(edge[inside] - trend[inside]))
     hills, amplitude = np.zeros_like(edge), 1.0
+    away = ~inside
     for octave in range(7):
         size = 14_000.0 / 2.0**octave
-        fine = noise.smoothstep(size / 2.0, size / 4.0, spacing)
-        hills += amplitude * fine * noise.perlin(xx / size, yy / size, seed + octave)
+        fine = noise.smoothstep(size / 2.0, size / 4.0, spacing[away])
+        hills[away] += amplitude * fine * noise.perlin(xx[away] / size, yy[away] / size, seed + octave)
         amplitude *= 0.5
-    away = 1.0 - np.exp(-distance / _FORGET)
+    far = 1.0 - np.exp(-distance / _FORGET)
     small = 1.0 - np.exp(-distance / 1500.0)
     blur = 1.0 - np.exp(-distance / 600.0)  # else every bump of the edge runs on outwards as a ridge
     edge = edge + blur * (_blurred_edge(edge, inside) - edge)
-    return edge + away * (trend - edge) + small * 2.2 * relief * hills
+    return edge + far * (trend - edge) + small * 2.2 * relief * hills
 
 
 def _blurred_edge(edge: NDArray[np.float64], inside: NDArray[np.bool_]) -> NDArray[np.float64]:
@@ -136,31 +140,32 @@ def _fuel(
     known_height: NDArray[np.float64],
     known_fuel: NDArray[np.float64],
     height: NDArray[np.float64],
-    y: NDArray[np.float64],
-    x: NDArray[np.float64],
     distance: NDArray[np.float64],
-    seed: int,
+    ranks: list[NDArray[np.float64]],
 ) -> NDArray[np.float64]:
-    """Fuel in the apron: that of the edge at first, farther out as at that height of the grid, in patches.
+    """Fuel and the apron's: that of the edge at first, farther out as at such a height of the grid, patchy.
 
     Not only its mean but all its distribution is that of the grid, for as much ground has to be bare.
+    `ranks` are 0..1 at the apron's points: of its fuels, its height, and whether it is still as the edge.
     """
+    apron = distance > 0.0
     margin = (height.shape[0] - known_height.shape[0]) // 2
     edges = np.quantile(known_height, np.linspace(0.0, 1.0, _BANDS + 1))
     band = np.clip(np.searchsorted(edges, known_height) - 1, 0, _BANDS - 1)
     parts = np.linspace(0.0, 1.0, 65)
     found = [known_fuel[band == k] for k in range(_BANDS)]
     quantiles = np.array([np.quantile(fuel if len(fuel) else known_fuel, parts) for fuel in found])
-    which = np.interp(height, 0.5 * (edges[1:] + edges[:-1]), np.arange(_BANDS))
-    which = np.clip(np.round(which + _rank(x, y, 400.0, seed + 58) - 0.5), 0, _BANDS - 1).astype(int)
-    at = _rank(x, y, 1_700.0, seed + 50) * (len(parts) - 1)
+    which = np.interp(height[apron], 0.5 * (edges[1:] + edges[:-1]), np.arange(_BANDS))
+    which = np.clip(np.round(which + ranks[1] - 0.5), 0, _BANDS - 1).astype(int)
+    at = ranks[0] * (len(parts) - 1)
     low = np.minimum(at.astype(int), len(parts) - 2)
     usual = quantiles[which, low] + (at - low) * (quantiles[which, low + 1] - quantiles[which, low])
-    same = np.exp(-distance / 500.0) > _rank(x, y, 300.0, seed + 54)
-    return np.where(same, np.pad(known_fuel, margin, "edge"), usual)
+    found = np.pad(known_fuel, margin, "edge")
+    found[apron] = np.where(np.exp(-distance[apron] / 500.0) > ranks[2], found[apron], usual)
+    return found
 
 
 def _rank(x: NDArray[np.float64], y: NDArray[np.float64], size: float, seed: int) -> NDArray[np.float64]:
-    """Noise with patches of `size` metres, spread evenly from 0 to 1."""
-    patches = noise.fractal(x[None, :], y[:, None], size, 3, seed)
+    """Noise at places (n,) with patches of `size` metres, spread evenly from 0 to 1."""
+    patches = noise.fractal(x, y, size, 3, seed)
     return 1.0 / (1.0 + np.exp(-1.702 * patches / max(float(np.std(patches)), 1.0e-9)))  # nearly normal

@@ -137,10 +137,10 @@ class Ground:
         end = max(end, float(np.max(arrival, initial=end, where=reached)))
         part = np.clip(0.5 + (end - time) / np.where(known, crossing, 1.0), 0.0, 1.0)
         burned = np.where(known & (reached | (time > end)), part, 0.0)
-        y, x = (np.arange(count) * size for count, size in zip(arrival.shape, self.cell, strict=True))
-        patches = noise.fractal(x[None, :], y[:, None], 800.0, 3, self.seed + 70)
-        spared = noise.smoothstep(0.50, 0.68, patches)  # islands that the fire left out (invented), about 6 %
-        self.burned = np.pad(burned * (1.0 - spared), margin)
+        row, column = np.nonzero(burned)
+        patches = noise.fractal(column * self.cell[1], row * self.cell[0], 800.0, 3, self.seed + 70)
+        burned[row, column] *= 1.0 - noise.smoothstep(0.50, 0.68, patches)  # islands left out (invented), 6 %
+        self.burned = np.pad(burned, margin)
         self.burn_time = np.pad(np.where(known, time, NEVER), margin, constant_values=NEVER)
 
     def indices(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
@@ -282,8 +282,7 @@ def _water(fields: apron.Fields) -> Array:
     """Lakes, 0 or 1: ground without fuel that is as level as only water is, 5 cm over three cells."""
     if min(fields.elevation.shape) < 3:
         return np.zeros(fields.elevation.shape)
-    patches = np.lib.stride_tricks.sliding_window_view(np.pad(fields.elevation, 1, "edge"), (3, 3))
-    level = np.ptp(patches, axis=(2, 3)) < _LEVEL
+    level = _widened(fields.elevation, 1) + _widened(-fields.elevation, 1) < _LEVEL
     bare = _fuelless(fields)
     inner = (level & bare).astype(np.float64)
     return np.where(bare & (inner + _neighbours(inner) > 0.0), 1.0, 0.0)
