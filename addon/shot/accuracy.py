@@ -53,9 +53,6 @@ def wanted(shot: Shot) -> Accuracy:
     )
     rows, columns = ground.shape
     fine = fine[: rows - 1, : columns - 1]
-    margin = ground.fields.margin
-    if margin:  # the apron is never seen close up
-        fine = np.pad(fine[margin:-margin, margin:-margin], margin)
     return Accuracy(place, _at_points(tolerance[: rows - 1, : columns - 1]), _within_limit(fine))
 
 
