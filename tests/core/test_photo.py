@@ -100,7 +100,8 @@ def test_what_is_near_cameras_is_shown_more_finely(make, tmp_path, monkeypatch):
     assert np.all((near.low < eye) & (eye < near.high))
     scale = [float(np.max((p.high - p.low) / p.pixels.shape[1::-1])) for p in (whole, near)]
     assert scale[1] < 0.7 * scale[0]
-    assert np.percentile(np.abs(off(shot, near)[0]), 99) < 0.05
+    for picture in (whole, near):
+        assert np.percentile(np.abs(off(shot, picture)[0]), 99) < 0.08
 
 
 def test_alpha_and_no_data_leave_the_ground_as_it_is(make, tmp_path):
