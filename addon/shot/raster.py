@@ -6,6 +6,7 @@ no more of that is held at once than `_MEMORY`.
 
 from __future__ import annotations
 
+import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -23,7 +24,7 @@ from . import file
 from .settings import Settings
 
 _MEMORY = 64  # MB
-_GLIMPSE = 192  # pixels a side
+_GLIMPSES, _GLIMPSE = 6, 8  # looks along each side, and pixels of one
 _OFF = 0.02  # pixels that a place may be off when it is looked up
 _EARTH = "EPSG:4326"  # WGS84, degrees
 
@@ -44,7 +45,7 @@ def library(settings: Settings, name: str) -> ModuleType:
         import rasterio.warp
         import rasterio.windows
     except ImportError:
-        reason = f'ground.{name} needs the Python package rasterio: pip install "firetwin[raster]"'
+        reason = f"ground.{name} needs the Python package rasterio: {sys.executable} -m pip install rasterio"
         raise file.error_at(settings.path, ("ground", name), reason) from None
     return rasterio
 
@@ -155,24 +156,32 @@ class Raster:
         )
         return whole
 
-    def glimpse(self) -> tuple[NDArray[np.float32], Array, Array]:
+    def glimpse(self, within: Bounds) -> tuple[NDArray[np.float32], Array, Array]:
         """Some values of the first band (n,) as they stand there, NaN for no data, with their places.
 
-        Latitude and longitude (n,) are degrees.
+        Latitude and longitude (n,) are degrees; the places are spread over a box, degrees.
         """
+        values, columns, rows = [], [], []
         with self.open() as source:
-            shape = tuple(min(_GLIMPSE, side) for side in source.shape)
-            read = source.read(1, out_shape=shape, masked=True).astype(np.float32).filled(np.nan)
-            read = read * np.float32(source.scales[0]) + np.float32(source.offsets[0])
-            row, column = (
-                (np.arange(count) + 0.5) * side / count
-                for count, side in zip(shape, source.shape, strict=True)
-            )
-            column, row = (v.ravel() for v in np.meshgrid(column, row))
+            box = self.rasterio.warp.transform_bounds(_EARTH, source.crs, *within)
             a, b, c, d, e, f = source.transform[:6]
-            x, y = a * column + b * row + c, d * column + e * row + f
-            longitude, latitude = self.rasterio.warp.transform(source.crs, _EARTH, x, y)
-        return read.ravel(), np.array(latitude), np.array(longitude)
+            (top, bottom), (left, right) = (
+                np.clip(at, 0, side - 1)
+                for at, side in zip(_pixels(source.transform, box), source.shape, strict=True)
+            )
+            for row in np.linspace(top, bottom, _GLIMPSES).astype(int):
+                for column in np.linspace(left, right, _GLIMPSES).astype(int):
+                    window = self.rasterio.windows.Window(column, row, _GLIMPSE, _GLIMPSE)
+                    read = source.read(1, window=window, masked=True).astype(np.float32).filled(np.nan)
+                    y, x = (v + 0.5 for v in np.mgrid[: read.shape[0], : read.shape[1]])
+                    values.append(read.ravel())
+                    columns.append((x + column).ravel())
+                    rows.append((y + row).ravel())
+            x, y = np.concatenate(columns), np.concatenate(rows)
+            place = a * x + b * y + c, d * x + e * y + f
+            longitude, latitude = self.rasterio.warp.transform(source.crs, _EARTH, *place)
+            found = np.concatenate(values) * np.float32(source.scales[0]) + np.float32(source.offsets[0])
+        return found, np.array(latitude), np.array(longitude)
 
 
 def overlap(bounds: Bounds, latitude: Array, longitude: Array) -> bool:
@@ -209,3 +218,11 @@ def _within(axis: Array, low: float, high: float) -> slice:
     step = axis[1] - axis[0]
     first, last = np.searchsorted(axis, (low - step, high + step))
     return slice(int(first), int(last))
+
+
+def _pixels(transform: Any, box: Bounds) -> tuple[Array, Array]:
+    """Rows and columns of the corners of a box in a raster's own coordinates."""
+    a, b, c, d, e, f = (~transform)[:6]
+    x, y = np.array(box)[[0, 2, 0, 2]], np.array(box)[[1, 1, 3, 3]]
+    row, column = d * x + e * y + f, a * x + b * y + c
+    return np.array([row.min(), row.max()]), np.array([column.min(), column.max()])

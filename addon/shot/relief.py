@@ -121,12 +121,14 @@ def check(settings: Settings, run: Run) -> None:
         raise model.error(f'has heights in "{model.unit}", and metres or feet are wanted: gdal_calc.py')
     if not model.overlaps(run.latitude, run.longitude):
         raise model.error(f"covers {said(model.bounds)}, beside the run, which covers {said(extent(run))}")
-    height, latitude, longitude = model.glimpse()
+    height, latitude, longitude = model.glimpse(extent(run))
     height = height * unit(model)
     own = _own(run, latitude, longitude)
     here = np.isfinite(own) & np.isfinite(height)
     if not here.any():
-        raise model.error("has no data at any place of the run that was looked at")
+        if not Relief(run, model).share.any():
+            raise model.error("has no data at any place of the run")
+        return
     height, own = height[here], own[here]
     wrong = (height < _POSSIBLE[0]) | (height > _POSSIBLE[1])
     if wrong.any():

@@ -246,7 +246,9 @@ def test_without_rasterio_it_says_what_to_install(make, monkeypatch):
         return real(name, *rest)
 
     monkeypatch.setattr(builtins, "__import__", without)
-    with pytest.raises(InputError, match=r'scene\.toml:9:1: ground\.elevation needs .* "firetwin\[raster\]"'):
+    with pytest.raises(
+        InputError, match=r"scene\.toml:9:1: ground\.elevation needs .* -m pip install rasterio"
+    ):
         make().shot()
     make(key="").shot()
 
