@@ -82,7 +82,6 @@ class Raster:
                 raise self.error("lies nowhere on the Earth by its own projection")
             self.bounds, self.shape = bounds, source.shape
             self.count, self.unit = source.count, (source.units[0] or "").strip().lower()
-            self.whole = np.issubdtype(np.dtype(source.dtypes[0]), np.integer)
             self.types, self.nodata = source.dtypes, source.nodata
         south, north = bounds[1], bounds[3]
         metres = 111_200.0 * np.array([north - south, (bounds[2] - bounds[0]) * np.cos(np.radians(south))])

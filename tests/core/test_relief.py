@@ -240,10 +240,10 @@ def test_what_is_cut_off_is_one_line(make, tiff, tmp_path):
 def test_without_rasterio_it_says_what_to_install(make, monkeypatch):
     real = builtins.__import__
 
-    def without(name, *rest):
+    def without(name, *rest, **more):
         if name.startswith("rasterio"):
             raise ImportError(name)
-        return real(name, *rest)
+        return real(name, *rest, **more)
 
     monkeypatch.setattr(builtins, "__import__", without)
     with pytest.raises(
