@@ -4,11 +4,12 @@
 
 A satellite's picture of the whole domain and of land beyond it at noon, without fire and smoke, in one scene
 with two drones, so that it also shows what is drawn for them: finer ground, single trees, and where these
-end. Each border is a distance from something: from the domain's edge, or from the drones. Compared are two
-bands of equal width on both sides of it, as the largest difference of mean colour (R, G or B as it is shown)
-in per cent of the mean. Land is not alike everywhere, so the same is done for borders of the same shape
-moved to other places, where nothing changes: half of these differ by less than the median here. Places near
-burned ground and lakes are left out.
+end. Borders are the domain's edge, distances from the drones within what they see, and the edges of what they
+see, beyond which no tree is made. Compared are two bands of equal width on both sides of each, as the largest
+difference of mean colour (R, G or B as it is shown) in per cent of the mean. Land is not alike everywhere, so
+the same is done for borders of the same shape moved to other places, where nothing changes: half of these
+differ by less than the median, and one in twenty by more than the last number. Places near burned ground and
+lakes are left out.
 
 With --picture an older OUT/seams.png is measured, or another picture of the same view.
 """
@@ -30,6 +31,7 @@ from numpy.typing import NDArray
 SWATH = 66_000.0  # m
 BAND = 600.0  # m on each side of a border
 MOVED = 200  # borders of the same shape elsewhere
+FEWEST = 40  # pixels of a band, for its mean to say anything
 LIMIT = 2.0  # per cent
 SCENE = """\
 run = "{run}"
@@ -55,25 +57,28 @@ kind = "satellite"
 swath = {swath}
 [[cameras]]
 name = "inside"
+focal_length = 14.0
 [[cameras.keys]]
 latitude = {inside[0]}
 longitude = {inside[1]}
-height = 300.0
+height = 2500.0
 target = "point"
 target_latitude = {middle[0]}
 target_longitude = {middle[1]}
 [[cameras]]
 name = "outward"
+focal_length = 14.0
 [[cameras.keys]]
 latitude = {outward[0]}
 longitude = {outward[1]}
-height = 300.0
+height = 2500.0
 target = "point"
 target_latitude = {outward[0]}
 target_longitude = {beyond}
 """
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 
 def scene(folder: Path, out: Path, size: int, samples: int) -> Shot:
@@ -135,15 +140,46 @@ def square(east: Array, north: Array, low: Array, high: Array) -> Array:
     return np.where((x > 0.0) & (y > 0.0), np.hypot(x, y), np.maximum(x, y))
 
 
-def step(picture: Array, distance: Array, counts: NDArray[np.bool_]) -> float:
+Border = tuple[Mask, Mask]  # the bands on both of its sides
+
+
+def step(picture: Array, border: Border) -> float:
     """Largest difference (per cent) of mean colour between bands on both sides of a border."""
-    inner, outer = (
-        picture[counts & (side * distance > 0.0) & (side * distance < BAND)] for side in (-1.0, 1.0)
-    )
-    if min(len(inner), len(outer)) < 50:
-        return float("nan")
-    low, high = inner.mean(axis=0), outer.mean(axis=0)
+    low, high = (picture[band].mean(axis=0) if band.sum() >= FEWEST else np.nan for band in border)
     return float(100.0 * np.max(np.abs(high - low) / (0.5 * (high + low))))
+
+
+def bands(distance: Array, counts: Mask) -> Border:
+    """What is within `BAND` of where a distance is 0, on both sides."""
+    return tuple(counts & (side * distance > 0.0) & (side * distance < BAND) for side in (-1.0, 1.0))
+
+
+def beside(seen: Mask, counts: Mask, width: int) -> Border:
+    """What lies within `width` pixels of the border of an area, inside and outside of it."""
+    window = (2 * width + 1, 2 * width + 1)
+
+    def near(mask: Mask) -> Mask:
+        return np.lib.stride_tricks.sliding_window_view(np.pad(mask, width), window).any((2, 3))
+
+    return counts & seen & near(~seen), counts & ~seen & near(seen)
+
+
+def moved(border: Border, counts: Mask, rng: np.random.Generator) -> Border:
+    """The same border elsewhere, turned or turned over."""
+    turn, over, way = rng.integers(4), rng.integers(2), rng.integers(-len(counts) // 2, len(counts) // 2, 2)
+    made = []
+    for band in border:
+        band = np.rot90(band[::-1] if over else band, turn)
+        shifted = np.zeros_like(band)
+        (to, of), (to1, of1) = (_shift(int(step), len(band)) for step in way)
+        shifted[to, to1] = band[of, of1]
+        made.append(shifted & counts)
+    return tuple(made)
+
+
+def _shift(step: int, count: int) -> tuple[slice, slice]:
+    """Where to and where from `count` things go that go on by `step`."""
+    return slice(max(step, 0), count + min(step, 0)), slice(max(-step, 0), count - max(step, 0))
 
 
 def measured(shot: Shot, picture: Array) -> dict[str, dict[str, float]]:
@@ -156,30 +192,31 @@ def measured(shot: Shot, picture: Array) -> dict[str, dict[str, float]]:
     water = ground.sample(ground.water, *flat).reshape(east.shape)
     counts = (burned == 0.0) & (water == 0.0)
     low, high = domain(ground)
-    known = {"domain": square(east, north, low, high)}
-    null = {"domain": [_shrunk(east, north, low, high, rng) for _ in range(MOVED)]}
-    reach = shot.settings.forest.draw_distance
-    radii = {
-        "finer ground ends": ground.near_radius,
-        "finer ground fades": 0.6 * ground.near_radius,
-        "trees end": reach,
-        "trees thin": 0.75 * reach,
-    }
+    known = {"domain": bands(square(east, north, low, high), counts)}
+    null = {"domain": [bands(_shrunk(east, north, low, high, rng), counts) for _ in range(MOVED)]}
     up = ground.up(*flat).reshape(east.shape)
+    reach = shot.settings.forest.draw_distance
+    radii = {"finer ground": ground.near_radius, "trees end": reach, "trees thin": 0.875 * reach}
     for view in shot.near:
-        eye = view.position[0]
-        away = np.sqrt((east - eye[0]) ** 2 + (north - eye[1]) ** 2 + (up - eye[2]) ** 2)
-        others = [np.hypot(east - x, north - y) for x, y in rng.uniform(low, high, (MOVED, 2))]
+        place = np.stack([east, north, up], axis=-1)
+        away = np.linalg.norm(place - view.position[0], axis=-1)
+        alone = shot.of(view.camera.name)
+        seen = alone.sights.seen(place.reshape(-1, 3), 30.0).reshape(away.shape)
         for name, radius in radii.items():
-            known[f"{view.camera.name}: {name}"] = away - radius
-            null[f"{view.camera.name}: {name}"] = [other - radius for other in others]
+            known[f"{view.camera.name}: {name}"] = bands(away - radius, counts & seen)
+        near = counts & (away < 0.75 * reach)
+        known[f"{view.camera.name}: trees beside none"] = beside(seen, near, round(BAND * size / SWATH))
+    for name in known.keys() - null.keys():
+        null[name] = [moved(known[name], counts, rng) for _ in range(MOVED)]
     found = {}
-    for name, distance in known.items():
-        elsewhere = [step(picture, other, counts) for other in null[name]]
+    for name, border in known.items():
+        elsewhere = [value for other in null[name] if np.isfinite(value := step(picture, other))]
+        if not elsewhere:
+            continue  # too little of it is seen
         found[name] = {
-            "difference": step(picture, distance, counts),
-            "median elsewhere": float(np.nanmedian(elsewhere)),
-            "95 % elsewhere": float(np.nanpercentile(elsewhere, 95.0)),
+            "difference": step(picture, border),
+            "median elsewhere": float(np.median(elsewhere)),
+            "95 % elsewhere": float(np.percentile(elsewhere, 95.0)),
         }
     return found
 
