@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 
 from . import noise
 
-GROWTH = 1.16  # each row beyond the grid is this much wider than the one before
+GROWTH = 1.05  # each row beyond the grid is this much wider than the one before
 _BANDS = 12  # of height, each with its own fuels
 _PATCHES = ((1_700.0, 50), (400.0, 58), (300.0, 54))  # m and random numbers of the fuels' patches
 _FORGET = 9_000.0  # m; the heights of the edge fade into the region's within this distance
-_LIKE = 6_000.0  # m; in patches that grow rarer so fast, land is as that at the other side of the edge
+_LIKE = 3_000.0  # m; in patches that grow rarer so fast, land is as that at the other side of the edge
+_DEVIATION = 0.304  # of a wave of gradient noise
 _SMOOTH = 20  # cells to each side; relief finer than this crosses the edge as it is
 
 
@@ -77,7 +78,7 @@ def extend(
     if known is not None:
         elevation = np.where(apron, known(latitude, longitude, elevation), elevation)
     yy, xx = (np.broadcast_to(at, distance.shape)[apron] for at in (y[:, None], x[None, :]))
-    ranks = [_rank(xx, yy, size, seed + use) for size, use in _PATCHES]
+    ranks = [_rank(xx, yy, size, spacing[apron], seed + use) for size, use in _PATCHES]
     canopy, surface = (
         _fuel(fields.elevation, fuel, across, elevation, distance, ranks)
         for fuel in (fields.canopy_fuel, fields.surface_fuel)
@@ -184,7 +185,24 @@ def _fuel(
     return found
 
 
-def _rank(x: NDArray[np.float64], y: NDArray[np.float64], size: float, seed: int) -> NDArray[np.float64]:
-    """Noise at places (n,) with patches of `size` metres, spread evenly from 0 to 1."""
-    patches = noise.fractal(x, y, size, 3, seed)
-    return 1.0 / (1.0 + np.exp(-1.702 * patches / max(float(np.std(patches)), 1.0e-9)))  # nearly normal
+def _rank(
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    size: float,
+    spacing: NDArray[np.float64],
+    seed: int,
+) -> NDArray[np.float64]:
+    """Noise at places (n,) spread evenly from 0 to 1, in patches of `size` metres.
+
+    Where the grid is too coarse for them (`spacing`, (n,) m) they are larger, else they would be streaks.
+    """
+    largest = np.maximum(size, 4.0 * spacing)
+    total, square = np.zeros(x.shape), np.zeros(x.shape)
+    for octave in range(-2, 2 + int(np.ceil(np.log2(largest.max() / size)))):
+        wave = size * 2.0**octave
+        finer = np.log2(largest / wave)
+        strength = np.where(finer < 0.0, 1.0 + finer, np.exp2(-finer)) * np.clip(3.0 - finer, 0.0, 1.0)
+        some = np.flatnonzero(strength > 0.0)
+        total[some] += strength[some] * noise.perlin(x[some] / wave, y[some] / wave, seed + octave % 4)
+        square[some] += strength[some] ** 2
+    return 1.0 / (1.0 + np.exp(-1.702 / _DEVIATION * total / np.sqrt(square)))  # nearly normal
