@@ -61,13 +61,20 @@ def inputs(
     """
     folder = Path(run.path)
     fields = {path.name: _files(path) for path in _fields(run, leave_out)}
-    hashes = _hashes(folder, [path for files in fields.values() for path in files], cache, progress)
+    places = folder / REMEMBERED, cache / f"run-{fingerprint({'run': str(folder.resolve())})}.json"
+    hashes = _hashes(folder, [path for files in fields.values() for path in files], places, progress)
     found = {}
     for name, files in fields.items():
         lines = [f"{path.name} {hashes[path]}" for path in files]
         whole = (folder / name).is_dir()
         found[name] = hashlib.sha256("\n".join(lines).encode()).hexdigest() if whole else hashes[files[0]]
     return found
+
+
+def of_file(path: Path, cache: Path, progress: Progress = silent) -> str:
+    """SHA-256 of a file that is no part of a run; remembered in the cache, as its folder is not ours."""
+    place = cache / f"file-{fingerprint({'file': str(path.resolve())})}.json"
+    return _hashes(path.parent, [path], (place,), progress)[path]
 
 
 def stamp(path: Path) -> Stamp:
@@ -103,10 +110,9 @@ def _files(path: Path) -> list[Path]:
     return sorted(each for each in path.iterdir() if each.suffix in (".npy", ".txt") and each.name[0] != ".")
 
 
-def _hashes(folder: Path, paths: list[Path], cache: Path, progress: Progress) -> dict[Path, str]:
+def _hashes(folder: Path, paths: list[Path], places: tuple[Path, ...], progress: Progress) -> dict[Path, str]:
     stamps = {path: stamp(path) for path in paths}
     if any((path, stamps[path]) not in _read for path in paths):
-        places = (folder / REMEMBERED, cache / f"run-{fingerprint({'run': str(folder.resolve())})}.json")
         _remember(folder, places)
         lacking = {path: stamps[path] for path in paths if (path, stamps[path]) not in _read}
         _read_all(lacking, progress)

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .ground import RELIEF
-
 if TYPE_CHECKING:
     from .shot import Shot
 
@@ -47,7 +45,7 @@ def wanted(shot: Shot) -> Accuracy:
     ground = shot.ground
     place = _places(shot)
     size = max(round(_BLOCK / max(ground.cell)), 1)
-    centre, radius, shape = _blocks(place, size)
+    centre, radius, shape = _blocks(place, size, 4.0 * ground.rough)
     tolerance, distance = _tolerance(shot, centre, radius)
     fine = _halvings(shot, tolerance, distance)
     tolerance, fine = (
@@ -55,9 +53,6 @@ def wanted(shot: Shot) -> Accuracy:
     )
     rows, columns = ground.shape
     fine = fine[: rows - 1, : columns - 1]
-    margin = ground.fields.margin
-    if margin:  # the apron is never seen close up
-        fine = np.pad(fine[margin:-margin, margin:-margin], margin)
     return Accuracy(place, _at_points(tolerance[: rows - 1, : columns - 1]), _within_limit(fine))
 
 
@@ -71,8 +66,8 @@ def _places(shot: Shot) -> NDArray[np.float32]:
     return place
 
 
-def _blocks(place: NDArray[np.float32], size: int) -> tuple[NDArray, NDArray, tuple[int, int]]:
-    """Middles (n, 3) of blocks of `size` cells, radii (n,) that hold all of each, and how many there are."""
+def _blocks(place: NDArray[np.float32], size: int, more: float) -> tuple[NDArray, NDArray, tuple[int, int]]:
+    """Middles (n, 3) of blocks of `size` cells, radii (n,) that hold each, `more` added, and how many."""
     rows, columns = (np.arange(0, count - 1, size) for count in place.shape[:2])
     low, high = place[rows][:, columns], place
     ends = [
@@ -90,7 +85,7 @@ def _blocks(place: NDArray[np.float32], size: int) -> tuple[NDArray, NDArray, tu
         )
     centre = np.stack([*(0.5 * (low[..., k] + high[..., k]) for k in (0, 1)), 0.5 * (least + most)], axis=-1)
     across = np.hypot(*(0.5 * np.abs(high[..., k] - low[..., k]) for k in (0, 1)))
-    radius = np.hypot(1.05 * across, 0.5 * (most - least)) + 4.0 * RELIEF
+    radius = np.hypot(1.05 * across, 0.5 * (most - least)) + more
     return centre.reshape(-1, 3).astype(np.float64), radius.ravel().astype(np.float64), least.shape
 
 
@@ -126,7 +121,8 @@ def _tolerance(shot: Shot, centre: NDArray, radius: NDArray) -> tuple[NDArray, N
 def _halvings(shot: Shot, tolerance: NDArray, distance: NDArray) -> NDArray[np.int64]:
     """How often cells of blocks are halved: where the surface has more than its grid, as errors ask for."""
     ground = shot.ground
-    spacing = np.maximum(_SPACING * tolerance, _FINEST)
+    finest = min(_FINEST, max(ground.cell) / ground.patch.parts) if ground.patch else _FINEST
+    spacing = np.maximum(_SPACING * tolerance, finest)
     halvings = np.ceil(np.log2(max(ground.cell) / spacing)).astype(np.int64)
     return np.where(distance < ground.near_radius, np.maximum(halvings, 1), 0)
 

@@ -5,6 +5,7 @@ Its rows and columns continue those of the grid with growing spacing, so that th
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,9 +13,13 @@ from numpy.typing import NDArray
 
 from . import noise
 
-GROWTH = 1.16  # each row beyond the grid is this much wider than the one before
+GROWTH = 1.05  # each row beyond the grid is this much wider than the one before
 _BANDS = 12  # of height, each with its own fuels
+_PATCHES = ((1_700.0, 50), (400.0, 58), (300.0, 54))  # m and random numbers of the fuels' patches
 _FORGET = 9_000.0  # m; the heights of the edge fade into the region's within this distance
+_LIKE = 3_000.0  # m; in patches that grow rarer so fast, land is as that at the other side of the edge
+_DEVIATION = 0.304  # of a wave of gradient noise
+_SMOOTH = 20  # cells to each side; relief finer than this crosses the edge as it is
 
 
 @dataclass(frozen=True)
@@ -39,13 +44,20 @@ class Fields:
     margin: int = 0
 
 
-def extend(fields: Fields, cell: tuple[float, float], half_width: float, seed: int) -> Fields:
+Known = Callable[[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
+
+
+def extend(
+    fields: Fields, cell: tuple[float, float], half_width: float, seed: int, known: Known | None = None
+) -> Fields:
     """`fields` with an apron that reaches `half_width` metres from the middle.
 
     Parameters
     ----------
     cell
         Size of a cell, north and east, m.
+    known
+        Makes heights (ny, nx) of a grid of latitudes and longitudes of invented ones, where more is known.
     """
     rows, columns = fields.elevation.shape
     reach = half_width - 0.5 * min(rows * cell[0], columns * cell[1])
@@ -60,10 +72,15 @@ def extend(fields: Fields, cell: tuple[float, float], half_width: float, seed: i
     dx = np.maximum(np.maximum(x[count] - x, x - x[count + columns - 1]), 0.0)
     distance = np.hypot(dy[:, None], dx[None, :])
     spacing = np.maximum(dy[:, None], dx[None, :]) * (GROWTH - 1.0)
-    elevation = _heights(np.pad(fields.elevation, count, "edge"), y, x, distance, spacing, seed)
+    across = tuple(_reflected(side, _positions(side, steps)) for side in (rows, columns))
+    elevation = _heights(fields.elevation, across, y, x, distance, spacing, seed)
     apron = distance > 0.0
+    if known is not None:
+        elevation = np.where(apron, known(latitude, longitude, elevation), elevation)
+    yy, xx = (np.broadcast_to(at, distance.shape)[apron] for at in (y[:, None], x[None, :]))
+    ranks = [_rank(xx, yy, size, spacing[apron], seed + use) for size, use in _PATCHES]
     canopy, surface = (
-        np.where(apron, _fuel(fields.elevation, fuel, elevation, y, x, distance, seed), np.pad(fuel, count))
+        _fuel(fields.elevation, fuel, across, elevation, distance, ranks)
         for fuel in (fields.canopy_fuel, fields.surface_fuel)
     )
     return Fields(latitude, longitude, elevation, canopy, surface, count)
@@ -80,77 +97,112 @@ def _positions(count: int, steps: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.concatenate([-steps[::-1], np.arange(count), count - 1 + steps])
 
 
+def _reflected(count: int, position: NDArray[np.float64]) -> NDArray[np.int64]:
+    """The row of a grid of `count` that lies as far within the edge as each of these lies beyond it."""
+    whole = 2 * (count - 1)
+    around = np.round(position).astype(int) % whole
+    return np.minimum(around, whole - around)
+
+
 def _heights(
-    edge: NDArray[np.float64],
+    known: NDArray[np.float64],
+    across: tuple[NDArray[np.int64], NDArray[np.int64]],
     y: NDArray[np.float64],
     x: NDArray[np.float64],
     distance: NDArray[np.float64],
     spacing: NDArray[np.float64],
     seed: int,
 ) -> NDArray[np.float64]:
-    """Edge heights that fade into the region's plane with hills; hills finer than the mesh are left out."""
-    inside = distance == 0.0
+    """Edge heights that fade into the region's plane with hills; hills finer than the mesh are left out.
+
+    Relief finer than `_SMOOTH` goes on as it is within the edge (`across`), turned over so that slopes go on.
+    """
+    margin, inside = (len(y) - known.shape[0]) // 2, distance == 0.0
     yy, xx = np.broadcast_arrays(y[:, None], x[None, :])
     design = np.stack([np.ones(inside.sum()), yy[inside], xx[inside]], axis=1)
     normal = design.T @ design
-    plane = np.linalg.lstsq(normal, design.T @ edge[inside], rcond=None)[0]
+    plane = np.linalg.lstsq(normal, design.T @ known.ravel(), rcond=None)[0]
     trend = plane[0] + plane[1] * yy + plane[2] * xx
-    low, high = np.percentile(edge[inside], [2, 98])
+    low, high = np.percentile(known, [2, 98])
     trend = np.clip(trend, low - 200.0, high + 300.0)
-    relief = float(np.std(edge[inside] - trend[inside]))
-    hills, amplitude = np.zeros_like(edge), 1.0
+    relief = float(np.std(known.ravel() - trend[inside]))
+    hills, amplitude, away = np.zeros(distance.shape), 1.0, ~inside
     for octave in range(7):
         size = 14_000.0 / 2.0**octave
-        fine = noise.smoothstep(size / 2.0, size / 4.0, spacing)
-        hills += amplitude * fine * noise.perlin(xx / size, yy / size, seed + octave)
+        fine = noise.smoothstep(size / 2.0, size / 4.0, spacing[away])
+        hills[away] += amplitude * fine * noise.perlin(xx[away] / size, yy[away] / size, seed + octave)
         amplitude *= 0.5
-    away = 1.0 - np.exp(-distance / _FORGET)
-    small = 1.0 - np.exp(-distance / 1500.0)
-    blur = 1.0 - np.exp(-distance / 600.0)  # else every bump of the edge runs on outwards as a ridge
-    edge = edge + blur * (_blurred_edge(edge, inside) - edge)
-    return edge + away * (trend - edge) + small * 2.2 * relief * hills
+    smooth = _blurred(known)
+    fine = known - smooth
+    like = np.exp(-distance / _LIKE)
+    turned = (
+        2.0 * np.pad(fine, margin, "edge") * noise.smoothstep(1500.0, 0.0, distance) - fine[np.ix_(*across)]
+    )
+    far = 1.0 - np.exp(-distance / _FORGET)
+    edge = np.pad(smooth, margin, "edge")
+    made = edge + far * (trend - edge) + like * turned + (1.0 - like) * 2.2 * relief * hills
+    made[inside] = known.ravel()
+    return made
 
 
-def _blurred_edge(edge: NDArray[np.float64], inside: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Continue the outermost heights of the grid outwards, averaged along the edge over 41 cells."""
-    rows, columns = np.flatnonzero(inside.any(1)), np.flatnonzero(inside.any(0))
-    core = edge[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-    window = np.ones(41) / 41.0
-    smooth = core.copy()
-    for side in (np.s_[0, :], np.s_[-1, :], np.s_[:, 0], np.s_[:, -1]):
-        smooth[side] = np.convolve(np.pad(core[side], 20, "edge"), window, "valid")
-    return np.pad(smooth, (edge.shape[0] - core.shape[0]) // 2, "edge")
+def _blurred(field: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Means over `_SMOOTH` cells to each side along both axes, twice; beyond its ends it goes on level."""
+    window = 2 * _SMOOTH + 1
+    for axis in (0, 1, 0, 1):
+        padded = np.pad(field, [(_SMOOTH + 1, _SMOOTH) if k == axis else (0, 0) for k in (0, 1)], "edge")
+        total = np.cumsum(padded, axis=axis)
+        count = field.shape[axis]
+        field = (total.take(range(window, window + count), axis) - total.take(range(count), axis)) / window
+    return field
 
 
 def _fuel(
     known_height: NDArray[np.float64],
     known_fuel: NDArray[np.float64],
+    across: tuple[NDArray[np.int64], NDArray[np.int64]],
     height: NDArray[np.float64],
-    y: NDArray[np.float64],
-    x: NDArray[np.float64],
     distance: NDArray[np.float64],
-    seed: int,
+    ranks: list[NDArray[np.float64]],
 ) -> NDArray[np.float64]:
-    """Fuel in the apron: that of the edge at first, farther out as at that height of the grid, in patches.
+    """Fuel and the apron's: as across the edge at first, farther out as at such a height of the grid, patchy.
 
-    Not only its mean but all its distribution is that of the grid, for as much ground has to be bare.
+    Not only its mean but all its distribution is that of the grid: as much ground has to be bare.
+    `ranks` are 0..1 at the apron's points: of its fuels, its height, and whether it is as across the edge.
     """
-    margin = (height.shape[0] - known_height.shape[0]) // 2
+    apron = distance > 0.0
     edges = np.quantile(known_height, np.linspace(0.0, 1.0, _BANDS + 1))
     band = np.clip(np.searchsorted(edges, known_height) - 1, 0, _BANDS - 1)
     parts = np.linspace(0.0, 1.0, 65)
     found = [known_fuel[band == k] for k in range(_BANDS)]
     quantiles = np.array([np.quantile(fuel if len(fuel) else known_fuel, parts) for fuel in found])
-    which = np.interp(height, 0.5 * (edges[1:] + edges[:-1]), np.arange(_BANDS))
-    which = np.clip(np.round(which + _rank(x, y, 400.0, seed + 58) - 0.5), 0, _BANDS - 1).astype(int)
-    at = _rank(x, y, 1_700.0, seed + 50) * (len(parts) - 1)
+    which = np.interp(height[apron], 0.5 * (edges[1:] + edges[:-1]), np.arange(_BANDS))
+    which = np.clip(np.round(which + ranks[1] - 0.5), 0, _BANDS - 1).astype(int)
+    at = ranks[0] * (len(parts) - 1)
     low = np.minimum(at.astype(int), len(parts) - 2)
     usual = quantiles[which, low] + (at - low) * (quantiles[which, low + 1] - quantiles[which, low])
-    same = np.exp(-distance / 500.0) > _rank(x, y, 300.0, seed + 54)
-    return np.where(same, np.pad(known_fuel, margin, "edge"), usual)
+    found = known_fuel[np.ix_(*across)]
+    found[apron] = np.where(np.exp(-distance[apron] / _LIKE) > ranks[2], found[apron], usual)
+    return found
 
 
-def _rank(x: NDArray[np.float64], y: NDArray[np.float64], size: float, seed: int) -> NDArray[np.float64]:
-    """Noise with patches of `size` metres, spread evenly from 0 to 1."""
-    patches = noise.fractal(x[None, :], y[:, None], size, 3, seed)
-    return 1.0 / (1.0 + np.exp(-1.702 * patches / max(float(np.std(patches)), 1.0e-9)))  # nearly normal
+def _rank(
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    size: float,
+    spacing: NDArray[np.float64],
+    seed: int,
+) -> NDArray[np.float64]:
+    """Noise at places (n,) spread evenly from 0 to 1, in patches of `size` metres.
+
+    Where the grid is too coarse for them (`spacing`, (n,) m) they are larger, else they would be streaks.
+    """
+    largest = np.maximum(size, 4.0 * spacing)
+    total, square = np.zeros(x.shape), np.zeros(x.shape)
+    for octave in range(-2, 2 + int(np.ceil(np.log2(largest.max() / size)))):
+        wave = size * 2.0**octave
+        finer = np.log2(largest / wave)
+        strength = np.where(finer < 0.0, 1.0 + finer, np.exp2(-finer)) * np.clip(3.0 - finer, 0.0, 1.0)
+        some = np.flatnonzero(strength > 0.0)
+        total[some] += strength[some] * noise.perlin(x[some] / wave, y[some] / wave, seed + octave % 4)
+        square[some] += strength[some] ** 2
+    return 1.0 / (1.0 + np.exp(-1.702 / _DEVIATION * total / np.sqrt(square)))  # nearly normal

@@ -22,6 +22,7 @@ from ..run.frame import local_frame
 from . import burning, heat
 from .fuel import BURN_OUT_CANOPY, Fuel, gather
 from .heat import Array, Sources
+from .relief import Relief
 
 _AHEAD = 600.0  # s after the last moment: what catches fire in the interval that goes on then
 
@@ -65,9 +66,14 @@ class Fire:
         Model times of the shot, s.
     before
         s before `first` from which on what has burned is asked for, smoke for instance.
+    relief
+        Heights of the ground; None: the run's.
     """
 
-    def __init__(self, run: Run, first: float, last: float, before: float = 0.0) -> None:
+    def __init__(
+        self, run: Run, first: float, last: float, before: float = 0.0, relief: Relief | None = None
+    ) -> None:
+        self.relief = relief or Relief(run)
         self.run, self.first, self.last, self.before = run, first, last, before
         self.frame = local_frame(run)
 
@@ -93,7 +99,7 @@ class Fire:
     def fuel(self) -> Fuel:
         """What burns in the shot, or has burned not long before it."""
         known = None if self.run.has("fuel_arrival_time") else self.arrival
-        return gather(self.run, known, self.first, self.last + _AHEAD, self.before)
+        return gather(self.run, known, self.first, self.last + _AHEAD, self.before, self.relief)
 
     def sources(self, time: float) -> Sources:
         """Everything that gives heat at `time` (s): together each model cell's flux times its area.
@@ -158,5 +164,5 @@ class Fire:
         """Scene points (n, 3) of the centres of model cells."""
         run = self.run
         row, column = np.divmod(cell, len(run.longitude))
-        height = np.nan_to_num(run.elevation[row, column].astype(np.float64))
+        height = np.nan_to_num(self.relief.coarse[row, column].astype(np.float64))
         return self.frame.forward(run.latitude[row], run.longitude[column], height)

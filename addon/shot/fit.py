@@ -6,19 +6,21 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ..run import areas, times
-from . import file, frames
+from . import file, frames, photo, relief
 from .settings import Settings
 
 
 def check(settings: Settings, run: Run) -> None:
-    """Check the time window, and the places of the cameras and what else they say of the run.
+    """Check the time window, the cameras' places, what else they say of the run, and the user's own rasters.
 
     Raises
     ------
     InputError
-        Names the line of the scene file.
+        Names the line of the scene file, or the raster.
     """
     _window(settings, run)
+    relief.check(settings, run)
+    photo.check(settings, run)
     for index, camera in enumerate(settings.cameras):
         for where, latitude, longitude in camera.rig.places():
             _near(settings, run, ("cameras", index, *where), camera.name, latitude, longitude)

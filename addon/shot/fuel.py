@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from functools import partial
 
 import numpy as np
 from firetwin_core.run import Run
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from ..run import blocks
 from ..run.frame import local_frame
 from . import burning
+from .relief import Relief
 
 BURN_OUT_CANOPY = 90.0  # s, foliage and twigs (assumed)
 # s and s for each kg/m2: brush of 0.3 kg/m2 takes 210 s and timber litter of 3 kg/m2 1020 s, as in WRF-SFIRE
@@ -61,7 +63,9 @@ class Fuel:
         return Fuel(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
 
-def gather(run: Run, known: Array | None, first: float, last: float, before: float) -> Fuel:
+def gather(
+    run: Run, known: Array | None, first: float, last: float, before: float, relief: Relief | None = None
+) -> Fuel:
     """Fuel that burns between the model times `first` and `last`, or that `before` s earlier caught fire.
 
     Of the run's fields only the rows are read in which something burns, some at a time.
@@ -70,9 +74,12 @@ def gather(run: Run, known: Array | None, first: float, last: float, before: flo
     ----------
     known
         (fy, fx) s, arrival times, NaN where never; none asks the run for its own.
+    relief
+        Heights of the ground; None: the run's.
     """
+    heights = relief or Relief(run)
     arrival = blocks.arrival(run, known)
-    parts = [_of_rows(run, arrival, rows, (first, last, before)) for rows in blocks.rows(run)]
+    parts = [_of_rows(run, heights, arrival, rows, (first, last, before)) for rows in blocks.rows(run)]
     every = Fuel(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(Fuel)))
     row, column = np.divmod(every.fuel_cell, len(run.fuel_longitude))
     found = _pieces(run, every, row, column)
@@ -81,6 +88,7 @@ def gather(run: Run, known: Array | None, first: float, last: float, before: flo
 
 def _of_rows(
     run: Run,
+    heights: Relief,
     arrival: Callable[[int, int], NDArray],
     rows: tuple[int, int],
     window: tuple[float, float, float],
@@ -91,11 +99,11 @@ def _of_rows(
     time = arrival(edge, min(end + 1, len(run.fuel_latitude)))  # with a row on each side for its slope
     inner = time[top - edge : end - edge]
     row, column = np.nonzero(inner < last + burning.CROSSING[1])
-    surface = np.nan_to_num(_at(run, "surface_fuel", top, row, column))
+    surface = np.nan_to_num(_at(partial(run.fuel_rows, "surface_fuel"), top, row, column))
     burning_out = np.maximum(_slow(surface), BURN_OUT_CANOPY)
     near = inner[row, column] > first - np.maximum(burning.CROSSING[1] + _OVER * burning_out, before)
     row, column, surface, burning_out = row[near], column[near], surface[near], burning_out[near]
-    canopy = np.nan_to_num(_at(run, "canopy_fuel", top, row, column))
+    canopy = np.nan_to_num(_at(partial(run.fuel_rows, "canopy_fuel"), top, row, column))
     came = inner[row, column].astype(np.float64)
     crossing = burning.crossing(time, row + top - edge, column)
     begin = came - 0.5 * crossing  # the arrival time is that of the cell's centre
@@ -103,7 +111,7 @@ def _of_rows(
     recent = (over > first) | (came >= first - before)
     burns = np.flatnonzero((surface + canopy > 0.0) & (begin < last) & recent)
     row, column, surface = row[burns], column[burns], surface[burns]
-    height = np.nan_to_num(_at(run, "fuel_elevation", top, row, column))
+    height = np.nan_to_num(_at(heights.rows, top, row, column))
     place = run.fuel_latitude[row + top], run.fuel_longitude[column]
     return Fuel(
         (row + top) * len(run.fuel_longitude) + column,
@@ -119,12 +127,12 @@ def _of_rows(
     )
 
 
-def _at(run: Run, field: str, top: int, row: Index, column: Index) -> Array:
-    """Values of a field of the fuel grid at rows, counted from `top` on, and columns."""
+def _at(rows: Callable[[int, int], NDArray], top: int, row: Index, column: Index) -> Array:
+    """Values of what `rows` reads of the fuel grid at rows, counted from `top` on, and columns."""
     if len(row) == 0:
         return np.empty(0)
     first = int(row.min())
-    values = run.fuel_rows(field, top + first, top + int(row.max()) + 1)
+    values = rows(top + first, top + int(row.max()) + 1)
     return values[row - first, column].astype(np.float64)
 
 

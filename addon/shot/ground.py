@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..run import areas
 from ..run.frame import local_frame
-from . import apron, burning, noise
+from . import apron, burning, close, noise
+from .relief import Relief
 from .settings import Settings
 
 NEVER = 1.0e9  # arrival time of places that never burned, s
@@ -43,9 +44,14 @@ class Ground:
         (m, 3) camera places in the scene, m; without any the ground is bilinear everywhere.
     surface
         What the ground has near eyes, more than between its grid points: Catmull-Rom, and ridges and gullies.
+    patch
+        What an elevation model says in their place; None: nothing.
+    rough
+        How far (m) the surface may be from the bilinear ground, about.
     """
 
-    def __init__(self, settings: Settings, run: Run, arrival: Array) -> None:
+    def __init__(self, settings: Settings, run: Run, arrival: Array, relief: Relief | None = None) -> None:
+        self._relief = relief or Relief(run)
         self.frame = local_frame(run)
         latitude, longitude = run.fuel_latitude, run.fuel_longitude
         width, height = areas.cell_size(
@@ -57,21 +63,27 @@ class Ground:
             _ascending(longitude, width / east),
             *(
                 np.nan_to_num(_oriented(field, latitude, longitude))
-                for field in (run.fuel_elevation, run.canopy_fuel, run.surface_fuel)
+                for field in (self._relief.fuel, run.canopy_fuel, run.surface_fuel)
             ),
         )
         self.cell = (
             north * float(np.mean(np.diff(known.latitude))),
             east * float(np.mean(np.diff(known.longitude))),
         )
-        self.fields = apron.extend(known, self.cell, settings.ground.apron, settings.seed)
+        self.fields = apron.extend(
+            known, self.cell, settings.ground.apron, settings.seed, lambda *grid: self._relief.mixed(*grid)[0]
+        )
+        self._share = np.pad(_oriented(self._relief.share, latitude, longitude), self.fields.margin)
         self.seed, self.near_radius = settings.seed, settings.ground.near_radius
         self._set_arrival(_oriented(arrival, latitude, longitude), float(run.times[-1]))
         self.eyes = np.empty((0, 3))
         self.bare, self.water = _bare(self.fields), _water(self.fields)
         slope = np.hypot(*np.gradient(self.fields.elevation, *self._metres()))
         self._slope = np.minimum(slope, 1.0)
-        self.surface = terrain.Surface(
+        self.surface, self.patch, self.rough = self._surface(), None, RELIEF
+
+    def _surface(self, patch: close.Patch | None = None) -> terrain.Surface:
+        return terrain.Surface(
             self.fields.elevation,
             self._slope,
             1.0 - self.water,
@@ -82,13 +94,23 @@ class Ground:
             sharp=_SHARP,
             mean=_RELIEF_MEAN,
             seed=self.seed + 90,
+            patch=patch,
         )
 
     def seen_from(self, eyes: ArrayLike) -> Ground:
         """The same ground with detail near these places (m, 3) in the scene, m."""
         seen = copy.copy(self)
         seen.eyes = np.asarray(eyes, np.float64).reshape(-1, 3)
+        if self._relief.model and self.near_radius > 0.0 and (near := seen._round_eyes(seen._grid())):
+            seen.patch = close.patch(self.fields, self._share, self._relief, self.cell, near)
+        if seen.patch:
+            seen.surface = self._surface(seen.patch)
+            seen.rough = max(RELIEF, float(np.abs(seen.patch.offset).max()))
         return seen
+
+    def _grid(self) -> Array:
+        """Scene points (ny, nx, 3) of the grid, m."""
+        return self.frame.forward_grid(self.fields.latitude, self.fields.longitude, self.fields.elevation)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -115,10 +137,10 @@ class Ground:
         end = max(end, float(np.max(arrival, initial=end, where=reached)))
         part = np.clip(0.5 + (end - time) / np.where(known, crossing, 1.0), 0.0, 1.0)
         burned = np.where(known & (reached | (time > end)), part, 0.0)
-        y, x = (np.arange(count) * size for count, size in zip(arrival.shape, self.cell, strict=True))
-        patches = noise.fractal(x[None, :], y[:, None], 800.0, 3, self.seed + 70)
-        spared = noise.smoothstep(0.50, 0.68, patches)  # islands that the fire left out (invented), about 6 %
-        self.burned = np.pad(burned * (1.0 - spared), margin)
+        row, column = np.nonzero(burned)
+        patches = noise.fractal(column * self.cell[1], row * self.cell[0], 800.0, 3, self.seed + 70)
+        burned[row, column] *= 1.0 - noise.smoothstep(0.50, 0.68, patches)  # islands left out (invented), 6 %
+        self.burned = np.pad(burned, margin)
         self.burn_time = np.pad(np.where(known, time, NEVER), margin, constant_values=NEVER)
 
     def indices(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
@@ -163,22 +185,29 @@ class Ground:
         Over a quad of the grid ground is nowhere lower than the lowest of its corners. Far from eyes that is
         so as quads are drawn as they are. Near them Catmull-Rom is at most 1/8 of the second differences off
         the straight line along one axis and 1.25/8 along the other, as its weights' sizes add up to 1.25; and
-        relief goes down to RELIEF times the slope's factor times the least of its octaves together.
+        relief goes down to RELIEF times the slope's factor times the least of its octaves together. Where an
+        elevation model says more, its lowest point within a quad counts.
         """
-        elevation = self.fields.elevation
-        place = self.frame.forward_grid(self.fields.latitude, self.fields.longitude, elevation)
+        place = self._grid()
         near = self._round_eyes(place)
         if near is None or self.near_radius <= 0.0:
             return place
-        height = elevation[near]
+        height = self.fields.elevation[near]
         bend = sum(np.abs(_second_difference(height, axis)) for axis in (0, 1)) * (1.25 / 8.0)
         relief = RELIEF * (_RELIEF_LEVEL + self._slope[near]) * (_RELIEF_MEAN - _LEAST_SHAPE)
         place[near] = self.frame.forward_grid(
             self.fields.latitude[near[0]],
             self.fields.longitude[near[1]],
-            height - _widened(bend, 2) - relief,
+            height - np.maximum(_widened(bend, 2) + relief, _widened(self._hollows()[near], 1)),
         )
         return place
+
+    def _hollows(self) -> NDArray[np.float32]:
+        """How far (ny, nx) m an elevation model goes below the grid's ground in the next cell."""
+        below = np.zeros(self.shape, np.float32)
+        if self.patch:
+            below[self.patch.place] = self.patch.hollows()
+        return below
 
     def _round_eyes(self, place: Array) -> tuple[slice, slice] | None:
         """Rows and columns of the grid, whose points are `place`, that hold all that is near an eye."""
@@ -253,8 +282,7 @@ def _water(fields: apron.Fields) -> Array:
     """Lakes, 0 or 1: ground without fuel that is as level as only water is, 5 cm over three cells."""
     if min(fields.elevation.shape) < 3:
         return np.zeros(fields.elevation.shape)
-    patches = np.lib.stride_tricks.sliding_window_view(np.pad(fields.elevation, 1, "edge"), (3, 3))
-    level = np.ptp(patches, axis=(2, 3)) < _LEVEL
+    level = _widened(fields.elevation, 1) + _widened(-fields.elevation, 1) < _LEVEL
     bare = _fuelless(fields)
     inner = (level & bare).astype(np.float64)
     return np.where(bare & (inner + _neighbours(inner) > 0.0), 1.0, 0.0)

@@ -50,6 +50,12 @@ def _at_least_one(value: tuple[str, ...]) -> str | None:
     return None if value else 'is empty; name at least one, such as "rgb"'
 
 
+def _box(value: tuple[float, ...]) -> str | None:
+    if not value or (len(value) == 4 and value[0] < value[2] and -90.0 <= value[1] < value[3] <= 90.0):
+        return None
+    return "must be west, south, east and north in degrees, as [-121.0, 38.6, -120.2, 39.1]"
+
+
 @dataclass(frozen=True)
 class Time:
     """Which model times the frames show; frames are spread evenly from `start` to `end`."""
@@ -84,6 +90,19 @@ class Ground:
         "how far the mesh may be above or below the ground that cameras see; more is coarser",
         unit="pixels",
         above=0,
+    )
+    elevation: Path | None = key(
+        None,
+        "elevation model, a GeoTIFF in any projection; where it has heights they are the ground's",
+        shows=(),
+    )
+    photo: Path | None = key(
+        None,
+        "orthophoto, a GeoTIFF, or a PNG or JPEG with a world file in degrees: the ground's unburned colour",
+        shows=(),
+    )
+    photo_extent: tuple[float, ...] = key(
+        (), "west, south, east and north of a PNG or JPEG without a world file", unit="degrees", check=_box
     )
     apron: float = key(
         110_000.0,

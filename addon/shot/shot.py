@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from datetime import datetime
 from functools import cached_property
@@ -12,13 +13,15 @@ from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ..errors import UsageError
-from ..run import times
+from ..progress import Progress, silent
+from ..run import content, times
 from ..run.frame import local_frame
-from . import burning, frame_list, frames, path, sun
+from . import burning, frame_list, frames, path, relief, sun
 from .fire import Fire
 from .frames import Frames
 from .ground import Ground
 from .path import SENSOR, Path
+from .relief import Relief
 from .settings import Camera, Settings
 from .sight import Sights
 
@@ -40,6 +43,8 @@ class Shot:
         The model run.
     frames
         Frames and the model times that they show.
+    relief
+        Heights of the ground on the run's grids.
     fire
         What burns from the first frame to the last; it is there for all cameras.
     cameras
@@ -53,14 +58,25 @@ class Shot:
         smoke = settings.smoke
         since = smoke.spin_up if smoke.method == "flow" else smoke.max_age
         before = max(since + burning.BURN_TIME, _BEFORE)
-        self.fire = Fire(run, self.frames.first, self.frames.last, before)
+        self.relief: Relief = relief.of(settings, run)
+        self.fire = Fire(run, self.frames.first, self.frames.last, before, self.relief)
+
+    def inputs(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
+        """SHA-256 of each field of the run but some, and of the elevation model."""
+        settings = self.settings
+        found = content.inputs(self.run, settings.cache, leave_out, progress)
+        model = settings.ground.elevation
+        return found | (
+            {"elevation model": content.of_file(model, settings.cache, progress)} if model else {}
+        )
 
     def of(self, name: str) -> Shot:
         """The same shot with this camera alone: what it films depends on no other."""
         camera = self.camera(name)
         render = replace(self.settings.render, resolution=self.resolution(camera))
         shot = Shot(replace(self.settings, cameras=(camera,), render=render), self.run)
-        shot.fire, shot.bare_ground, shot.cameras = self.fire, self.bare_ground, self.cameras
+        shot.relief, shot.fire, shot.bare_ground = self.relief, self.fire, self.bare_ground
+        shot.cameras = self.cameras
         return shot
 
     def camera(self, name: str) -> Camera:
@@ -108,7 +124,7 @@ class Shot:
     @cached_property
     def bare_ground(self) -> Ground:
         """The ground without the detail near cameras."""
-        return Ground(self.settings, self.run, self.fire.arrival)
+        return Ground(self.settings, self.run, self.fire.arrival, self.relief)
 
     @cached_property
     def ground(self) -> Ground:

@@ -9,7 +9,7 @@ from firetwin_core import lod
 from numpy.typing import ArrayLike, NDArray
 
 from . import accuracy, sun
-from .ground import RELIEF, Ground
+from .ground import Ground
 from .path import Path
 
 if TYPE_CHECKING:
@@ -134,7 +134,7 @@ def _distance(shot: Shot, place: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _clear(ground: Ground, position: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which places are surely above the ground as it is drawn, whose relief is `RELIEF` strong."""
+    """Which places are surely above the ground as it is drawn, which is `rough`."""
     if len(position) == 0:
         return np.empty(0, bool)
-    return position[:, 2] > ground.up(position[:, 0], position[:, 1]) + RELIEF
+    return position[:, 2] > ground.up(position[:, 0], position[:, 1]) + ground.rough

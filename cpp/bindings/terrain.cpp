@@ -10,6 +10,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -24,10 +25,27 @@ template <class T> std::vector<T> values(const Array<T>& array) {
   return {array.data(), array.data() + array.size()};
 }
 
+/// First row and column, parts of a cell, offsets and shares.
+using Known = std::tuple<std::size_t, std::size_t, std::size_t, py::object, py::object>;
+
+terrain::Patch patch(const Known& known) {
+  const auto& [row, column, parts, offset, share] = known;
+  const auto offsets = to_array<float>(offset, "offset", {-1, -1});
+  const auto shares = to_array<float>(share, "share", {offsets.shape(0), offsets.shape(1)});
+  return {row,
+          column,
+          parts,
+          static_cast<std::size_t>(offsets.shape(0)),
+          static_cast<std::size_t>(offsets.shape(1)),
+          values(offsets),
+          values(shares)};
+}
+
 std::shared_ptr<Surface> surface(const py::object& elevation, const py::object& steep,
                                  const py::object& dry, std::array<double, 2> cell,
                                  const std::vector<std::array<double, 2>>& octaves, double strength,
-                                 double level, double sharp, double mean, std::int64_t seed) {
+                                 double level, double sharp, double mean, std::int64_t seed,
+                                 const std::optional<Known>& known) {
   const auto height = to_array<double>(elevation, "elevation", {-1, -1});
   const auto slope = to_array<float>(steep, "steep", {height.shape(0), height.shape(1)});
   const auto land = to_array<float>(dry, "dry", {height.shape(0), height.shape(1)});
@@ -35,11 +53,12 @@ std::shared_ptr<Surface> surface(const py::object& elevation, const py::object& 
   for (const auto& [size, weight] : octaves) {
     relief.octaves.push_back({size, weight});
   }
+  terrain::Patch fine = known ? patch(*known) : terrain::Patch{};
   const py::gil_scoped_release release;
   return std::make_shared<Surface>(
       Grid<double>{static_cast<std::size_t>(height.shape(0)),
                    static_cast<std::size_t>(height.shape(1)), values(height)},
-      values(slope), values(land), cell[0], cell[1], std::move(relief));
+      values(slope), values(land), cell[0], cell[1], std::move(relief), std::move(fine));
 }
 
 Array<double> detail(const Surface& ground, const py::object& row, const py::object& column) {
@@ -91,7 +110,7 @@ void init_terrain(Module module) {
   Class<Surface, std::shared_ptr<Surface>>(module, "Surface")
       .def(py::init(&surface), py::arg("elevation"), py::arg("steep"), py::arg("dry"),
            py::arg("cell"), py::arg("octaves"), py::arg("strength"), py::arg("level"),
-           py::arg("sharp"), py::arg("mean"), py::arg("seed"))
+           py::arg("sharp"), py::arg("mean"), py::arg("seed"), py::arg("patch") = py::none())
       .def("detail", &detail, py::arg("row"), py::arg("column"));
   module.def("mesh", &mesh, py::arg("place"), py::arg("tolerance"), py::arg("fine") = py::none(),
              py::arg("surface") = py::none(), py::arg("eye") = py::none(), py::arg("radius") = 0.0,

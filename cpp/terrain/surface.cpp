@@ -62,28 +62,35 @@ struct Surface::Place {
 };
 
 Surface::Surface(Grid<double> elevation, std::vector<float> steep, std::vector<float> dry,
-                 double cell_north, double cell_east, Relief relief)
+                 double cell_north, double cell_east, Relief relief, Patch patch)
     : elevation_(std::move(elevation)), steep_(std::move(steep)), dry_(std::move(dry)),
-      cell_north_(cell_north), cell_east_(cell_east), relief_(std::move(relief)) {
+      cell_north_(cell_north), cell_east_(cell_east), relief_(std::move(relief)),
+      patch_(std::move(patch)) {
   if (elevation_.rows < 2 || elevation_.columns < 2) {
     throw std::invalid_argument("elevation must have two rows and columns or more");
   }
   if (steep_.size() != elevation_.values.size() || dry_.size() != elevation_.values.size()) {
     throw std::invalid_argument("steep and dry must have as many values as elevation");
   }
+  const std::size_t points = patch_.rows * patch_.columns;
+  if (patch_.offset.size() != points || patch_.share.size() != points || patch_.parts == 0 ||
+      (points > 0 && std::min(patch_.rows, patch_.columns) < 2)) {
+    throw std::invalid_argument(
+        "a patch must have offsets and shares, two rows and columns or more");
+  }
   check_above_zero(cell_north_, "cell");
   check_above_zero(cell_east_, "cell");
 }
 
-Surface::Place Surface::place(double row, double column) const {
+Surface::Place Surface::place(double row, double column, std::size_t rows, std::size_t columns) {
   const auto split = [](double at, std::size_t count, double& part) {
     const double whole = std::clamp(std::floor(at), 0.0, static_cast<double>(count - 2));
     part = at - whole;
     return static_cast<std::size_t>(whole);
   };
   Place found{};
-  found.row = split(row, elevation_.rows, found.v);
-  found.column = split(column, elevation_.columns, found.u);
+  found.row = split(row, rows, found.v);
+  found.column = split(column, columns, found.u);
   return found;
 }
 
@@ -122,8 +129,24 @@ double Surface::relief(const Place& at, double row, double column) const {
 }
 
 double Surface::detail(double row, double column) const {
-  const Place at = place(row, column);
-  return smooth(at) - at.bilinear(elevation_.values, columns()) + relief(at, row, column);
+  const Place at = place(row, column, rows(), columns());
+  const auto own = [&] {
+    return smooth(at) - at.bilinear(elevation_.values, columns()) + relief(at, row, column);
+  };
+  if (patch_.rows == 0) {
+    return own();
+  }
+  const double y = (row - static_cast<double>(patch_.row)) * static_cast<double>(patch_.parts);
+  const double x =
+      (column - static_cast<double>(patch_.column)) * static_cast<double>(patch_.parts);
+  if (!(y >= 0.0 && x >= 0.0 && y <= static_cast<double>(patch_.rows - 1) &&
+        x <= static_cast<double>(patch_.columns - 1))) {
+    return own();
+  }
+  const Place on = place(y, x, patch_.rows, patch_.columns);
+  const double share = on.bilinear(patch_.share, patch_.columns);
+  const double known = on.bilinear(patch_.offset, patch_.columns);
+  return share >= 1.0 ? known : own() * (1.0 - share) + known * share;
 }
 
 } // namespace firetwin::terrain

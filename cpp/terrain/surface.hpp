@@ -27,8 +27,18 @@ struct Relief {
   std::int64_t seed = 0;
 };
 
+/// Heights known more finely than by the grid, in a part of it: a lattice of `parts` points to a
+/// cell along both axes, from a point of the grid on.
+struct Patch {
+  std::size_t row = 0, column = 0; ///< of its first point on the grid
+  std::size_t parts = 1;
+  std::size_t rows = 0, columns = 0; ///< of the lattice; 0: there is none
+  std::vector<float> offset;         ///< height less the bilinear one of the grid, m
+  std::vector<float> share;          ///< 0..1, how far it counts in place of the surface's own
+};
+
 /// The ground between the points of a grid, seen closely: smooth (Catmull and Rom 1974), with
-/// relief.
+/// relief; or as a patch knows it.
 ///
 /// Its rows and columns are `cell` metres apart, as relief counts them.
 class Surface {
@@ -36,9 +46,10 @@ public:
   /// @param elevation m, two rows and columns or more
   /// @param steep how far relief is that of a slope of 45 degrees, 0..1, as many
   /// @param dry 0 on water, where there is no relief, 1 elsewhere, as many
+  /// @param patch what is known of the heights between the grid's points
   /// @throws std::invalid_argument
   Surface(Grid<double> elevation, std::vector<float> steep, std::vector<float> dry,
-          double cell_north, double cell_east, Relief relief);
+          double cell_north, double cell_east, Relief relief, Patch patch);
 
   std::size_t rows() const { return elevation_.rows; }
   std::size_t columns() const { return elevation_.columns; }
@@ -48,7 +59,7 @@ public:
 
 private:
   struct Place;
-  Place place(double row, double column) const;
+  static Place place(double row, double column, std::size_t rows, std::size_t columns);
   double smooth(const Place& at) const;
   double relief(const Place& at, double row, double column) const;
 
@@ -56,6 +67,7 @@ private:
   std::vector<float> steep_, dry_;
   double cell_north_, cell_east_;
   Relief relief_;
+  Patch patch_;
 };
 
 } // namespace firetwin::terrain

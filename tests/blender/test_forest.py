@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from firetwin.scene import build
 from firetwin.scene.forest import build as forest
-from firetwin.scene.forest import models, seen, stand
+from firetwin.scene.forest import models, plot, seen, stand
 from firetwin.shot.ground import NEVER
 from firetwin.shot.rigs.satellite import Satellite
 from firetwin.shot.shot import Shot
@@ -92,8 +92,8 @@ def test_far_trees_are_fewer_and_wider_and_about_the_budget(near_settings, run):
 
 def test_what_is_kept_goes_on_beside_what_is_seen(near_settings, run):
     shot = Shot(replace(near_settings, forest=replace(near_settings.forest, budget=200)), run)
-    mask = seen.cells(shot, stand.TALLEST, shot.settings.forest.draw_distance)
-    kept = stand._kept(shot, mask)
+    (own,) = plot.of(shot, stand.TALLEST, shot.settings.forest.draw_distance)
+    mask, (kept,) = own.mask, stand._kept(shot, [own])
     beside = np.lib.stride_tricks.sliding_window_view(np.pad(mask, 1), (3, 3)).any((2, 3)) & ~mask
     assert 0 < mask.sum() < mask.size
     assert kept[mask].max() < 1.0

@@ -49,3 +49,24 @@ def test_nothing_of_the_grid_is_changed_and_the_apron_has_the_grids_fuels(fields
         assert np.isfinite(values).all()
     assert made.canopy_fuel.min() >= 0.0
     assert made.canopy_fuel.max() <= fields.canopy_fuel.max()
+
+
+def test_land_goes_on_across_the_edge_as_it_is_within(fields):
+    """No streak: along the edge and away from it fuels vary alike. No kink: slopes there are as elsewhere."""
+    made = apron.extend(fields, CELL, 60_000.0, 1)
+    margin = made.margin
+    for turn in range(4):
+        canopy, height = (np.rot90(field, turn) for field in (made.canopy_fuel, made.elevation))
+        inner = slice(margin, -margin)
+        out, within = canopy[margin - 6 : margin, inner], canopy[margin : margin + 6, inner]
+        along, away = (np.abs(np.diff(out, axis=axis)).mean() for axis in (1, 0))
+        assert away > 0.7 * along
+        assert out.mean() == pytest.approx(within.mean(), rel=0.1)
+        slope = height[margin, inner] - height[margin + 1, inner]
+        beyond = (height[margin - 1, inner] - height[margin, inner]) / apron.GROWTH
+        assert np.corrcoef(slope, beyond)[0, 1] > 0.8
+
+
+def test_rows_beyond_an_edge_are_those_as_far_within():
+    position = np.array([-3.0, -1.0, 0.0, 4.0, 9.0, 10.0, 12.0, 19.0])
+    assert apron._reflected(10, position).tolist() == [3, 1, 0, 4, 9, 8, 6, 1]

@@ -262,6 +262,7 @@ SPECIAL = {
     "zone": st.sampled_from(ZONES),
     "name": st.from_regex(r"[A-Za-z0-9][A-Za-z0-9_-]{0,5}", fullmatch=True),
     "frames": st.sampled_from(["", "1", " 1 ,1-1:3"]),
+    "photo_extent": st.sampled_from([(), (-121.0, 38.5, -120.0, 39.25)]),
     "resolution": st.tuples(*2 * [st.integers(8, 8192).map(lambda half: 2 * half)]),
 }
 
@@ -311,18 +312,24 @@ def test_settings_come_back_from_their_text(tmp_path_factory, whole):
     path = folder / "scene.toml"
     path.write_text(file.text(whole), encoding="utf-8")
     back = file.read(path)
-    folders = {name: Path("/scenes") / relative(getattr(back, name), folder) for name in ("run", "cache")}
-    cameras = tuple(dataclasses.replace(camera, rig=at_home(camera.rig, folder)) for camera in back.cameras)
-    assert dataclasses.replace(back, path=whole.path, cameras=cameras, **folders) == whole
+    ground = dataclasses.replace(back.ground, **moved(back.ground, folder, "elevation", "photo"))
+    cameras = tuple(
+        dataclasses.replace(camera, rig=dataclasses.replace(camera.rig, **moved(camera.rig, folder, "track")))
+        for camera in back.cameras
+    )
+    back = dataclasses.replace(
+        back, path=whole.path, ground=ground, cameras=cameras, **moved(back, folder, "run", "cache")
+    )
+    assert back == whole
 
 
-def at_home(rig, folder):
-    track = getattr(rig, "track", None)
-    return dataclasses.replace(rig, track=Path("/scenes") / relative(track, folder)) if track else rig
-
-
-def relative(path, folder):
-    return path.relative_to(folder) if path.is_relative_to(folder) else path
+def moved(table, folder, *names):
+    """Paths of a table as if its file were in /scenes."""
+    paths = {name: path for name in names if (path := getattr(table, name, None)) is not None}
+    return {
+        name: Path("/scenes") / path.relative_to(folder) if path.is_relative_to(folder) else path
+        for name, path in paths.items()
+    }
 
 
 # What reading stands on.

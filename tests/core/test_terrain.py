@@ -179,6 +179,49 @@ def test_the_surface_is_smooth_with_ridges_of_gradient_noise():
     assert wet.detail(row, column) == pytest.approx(7.0 * 0.25 * (waves - 0.55), abs=1e-9)
 
 
+def test_a_patch_counts_in_place_of_the_surface_by_its_share():
+    rows, columns, parts = 9, 11, 4
+    height, own = surface(rows, columns, 3)
+    steep, dry = np.ones((2, rows, columns), np.float32)
+    rng = np.random.default_rng(7)
+    offset = rng.uniform(-9.0, 9.0, (3 * parts + 1, 4 * parts + 1)).astype(np.float32)
+    share = rng.uniform(0.0, 1.0, offset.shape).astype(np.float32)
+    share[:5] = 1.0
+
+    def made(patch):
+        return terrain.Surface(height, steep, dry, (20.0, 20.0), OCTAVES, 7.0, 0.25, 2.4, 0.55, 91, patch)
+
+    own, near = made(None), made((2, 5, parts, offset, share))
+    row, column = rng.uniform(0, rows - 1, 2000), rng.uniform(0, columns - 1, 2000)
+    y, x = (row - 2) * parts, (column - 5) * parts
+    inside = (y >= 0) & (x >= 0) & (y <= 3 * parts) & (x <= 4 * parts)
+    assert 100 < inside.sum() < 1000
+    i, j = np.minimum(y[inside].astype(int), 3 * parts - 1), np.minimum(x[inside].astype(int), 4 * parts - 1)
+    v, u = y[inside] - i, x[inside] - j
+
+    def between(field):
+        low = field[i, j] * (1 - u) + field[i, j + 1] * u
+        return low * (1 - v) + (field[i + 1, j] * (1 - u) + field[i + 1, j + 1] * u) * v
+
+    wanted = own.detail(row, column)
+    wanted[inside] += between(share) * (between(offset) - wanted[inside])
+    assert near.detail(row, column) == pytest.approx(wanted, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("patch", "reason"),
+    [
+        ((0, 0, 1, np.zeros((1, 5)), np.zeros((1, 5))), "two rows and columns"),
+        ((0, 0, 0, np.zeros((2, 5)), np.zeros((2, 5))), "a patch must have"),
+        ((0, 0, 1, np.zeros((2, 5)), np.zeros((2, 4))), "share must have shape"),
+    ],
+)
+def test_what_is_no_patch_is_refused(patch, reason):
+    field = np.zeros((4, 5))
+    with pytest.raises(ValueError, match=reason):
+        terrain.Surface(field, field, field, (20.0, 20.0), OCTAVES, 7.0, 0.25, 2.4, 0.55, 91, patch)
+
+
 @pytest.mark.parametrize(
     ("change", "reason"),
     [

@@ -183,7 +183,7 @@ def cells(shot: Shot) -> Points:
     An emitter is drawn as a flame of 40 m at scale 100 (assumed: the paper gives scales, no sizes).
     """
     run = shot.run
-    position = shot.local_frame.forward_grid(run.latitude, run.longitude, np.nan_to_num(run.elevation))
+    position = shot.local_frame.forward_grid(run.latitude, run.longitude, np.nan_to_num(shot.relief.coarse))
     low, high = run.flux_range()
     step = shot.frames.step or 1.0
     width = float(np.sqrt(burning.cell_area(run) * run.surface_fuel.size / run.elevation.size))

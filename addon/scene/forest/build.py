@@ -51,7 +51,7 @@ def algorithm2(shot: Shot) -> dict[str, NDArray]:
     found = core.trees(
         run.canopy_fuel,
         *axes,
-        run.fuel_elevation,
+        shot.relief.fuel,
         shot.local_frame,
         seed=seed,
         mask=seen.cells(shot, _TALLEST, reach),
@@ -75,7 +75,7 @@ def _grass(shot: Shot) -> dict[str, NDArray]:
     run, ground, seed = shot.run, shot.ground, shot.settings.seed
     axes = run.fuel_latitude, run.fuel_longitude
     mask = seen.cells(shot, _GRASS, GRASS_DISTANCE)
-    found = core.grass(run.surface_fuel, *axes, run.fuel_elevation, ground.frame, seed=seed, mask=mask)
+    found = core.grass(run.surface_fuel, *axes, shot.relief.fuel, ground.frame, seed=seed, mask=mask)
     position = seen.settled(ground, found.position)
     moved = np.abs(position[:, 2] - found.position[:, 2]) > 0.0
     position[moved, 2] -= 0.7

@@ -29,19 +29,33 @@ def visible(
     return shot.sights.seen(middle, radius, reach=reach, margin=_AROUND, shadows=True, pixel=PIXEL)
 
 
-def cells(shot: Shot, height: float, reach: float) -> NDArray[np.bool_]:
-    """Fuel cells (fy, fx) of the run where a plant of at most this height may count."""
-    place = middles(shot)
+def cells(
+    shot: Shot,
+    height: float,
+    reach: float,
+    place: NDArray[np.float64] | None = None,
+    among: NDArray[np.bool_] | None = None,
+) -> NDArray[np.bool_]:
+    """Cells where a plant of at most this height may count, of middles (fy, fx, 3) or the run's fuel cells.
+
+    Parameters
+    ----------
+    among
+        (fy, fx) only these are looked at.
+    """
+    place = middles(shot) if place is None else place
     slope = sum(_steps(place[..., 2], axis) for axis in (0, 1))
-    size = np.hypot(0.5 * np.hypot(*shot.ground.cell), slope) + _RELIEF
-    counts = visible(shot, place.reshape(-1, 3), height + size.ravel() / models.REACH, reach)
-    return counts.reshape(size.shape)
+    size = np.hypot(0.5 * np.hypot(*shot.ground.cell), slope) + max(_RELIEF, shot.ground.rough)
+    among = np.ones(size.shape, bool) if among is None else among
+    counts = np.zeros(size.shape, bool)
+    counts[among] = visible(shot, place[among], height + size[among] / models.REACH, reach)
+    return counts
 
 
 def middles(shot: Shot) -> NDArray[np.float64]:
     """Middles (fy, fx, 3) of the run's fuel cells in the scene, m."""
     run = shot.run
-    return shot.local_frame.forward_grid(run.fuel_latitude, run.fuel_longitude, run.fuel_elevation)
+    return shot.local_frame.forward_grid(run.fuel_latitude, run.fuel_longitude, shot.relief.fuel)
 
 
 def _steps(height: NDArray[np.float64], axis: int) -> NDArray[np.float64]:

@@ -6,6 +6,7 @@ The core plants them (`forest.stand`); here is decided where, and what part of t
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from firetwin_core import forest as core
@@ -14,7 +15,8 @@ from numpy.typing import NDArray
 from ...shot import noise
 from ...shot.ground import bilinear
 from ...shot.shot import Shot
-from . import models, seen
+from . import models, plot, seen
+from .plot import Plot
 
 TALLEST = 42.0  # m; the core's largest tree
 CLEARING = 40.0  # m round the cameras where no tree stands: these models are made for 60 m and more
@@ -59,17 +61,10 @@ class Stand:
 
 def grow(shot: Shot) -> Stand:
     """Plant what the cameras see of the stand within `draw_distance`; nothing where density is "paper"."""
-    settings, run = shot.settings, shot.run
+    settings = shot.settings
     reach = settings.forest.draw_distance
-    mask = np.zeros(run.canopy_fuel.shape, bool)
-    if settings.forest.density == "stand":
-        mask = seen.cells(shot, TALLEST, reach)
-        mask &= np.nan_to_num(run.canopy_fuel) > 0.0
-    axes = run.fuel_latitude, run.fuel_longitude
-    kept = _kept(shot, mask)
-    found = core.stand(
-        run.canopy_fuel, *axes, run.fuel_elevation, shot.local_frame, settings.seed, kept=kept, mask=mask
-    )
+    plots = plot.of(shot, TALLEST, reach) if settings.forest.density == "stand" else []
+    found = _planted(shot, plots)
     position = seen.settled(shot.ground, found.position)
     key = np.stack([found.key >> 32, found.key & 0xFFFFFFFF], axis=-1)
     distance = shot.sights.distance(position)
@@ -93,6 +88,38 @@ def grow(shot: Shot) -> Stand:
     )
 
 
+class _Stems(NamedTuple):
+    """Of `core.Stems`, what is needed, of all plots."""
+
+    position: NDArray[np.float64]
+    size_class: NDArray[np.uint8]
+    model: NDArray[np.uint8]
+    scale: NDArray[np.float32]
+    width: NDArray[np.float32]
+    rotation: NDArray[np.float32]
+    key: NDArray[np.int64]
+
+
+def _planted(shot: Shot, plots: list[Plot]) -> _Stems:
+    """Stems of all plots."""
+    found = [
+        core.stand(
+            each.canopy_fuel,
+            each.latitude,
+            each.longitude,
+            each.elevation,
+            shot.local_frame,
+            each.seed,
+            kept=kept,
+            mask=each.mask,
+        )
+        for each, kept in zip(plots, _kept(shot, plots), strict=True)
+    ]
+    nothing = _Stems(np.empty((0, 3)), *(np.empty(0, kind) for kind in "BBfff"), np.empty(0, np.int64))
+    fields = ([getattr(nothing, name), *(getattr(stems, name) for stems in found)] for name in _Stems._fields)
+    return _Stems(*(np.concatenate(parts) for parts in fields))
+
+
 def _fade(distance: NDArray, reach: float) -> NDArray[np.float64]:
     """Part of the trees that is drawn: none beyond `reach`, where the ground's colour is the forest."""
     return noise.smoothstep(reach, 0.75 * reach, distance) if reach > 0.0 else np.zeros_like(distance)
@@ -107,31 +134,36 @@ def _finest(shot: Shot) -> tuple[float, float]:
     )
 
 
-def _kept(shot: Shot, mask: NDArray[np.bool_]) -> NDArray[np.float32]:
+def _kept(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
     """Part (fy, fx) of the stems to keep: all where pixels are small, beyond as the area of their picture.
 
     Pixels at a place are those of the sharpest camera at the distance of the nearest. All trees are kept
     where a pixel is smaller than a crown, or smaller than lets all be about `forest.budget`.
     """
-    run, budget = shot.run, shot.settings.forest.budget
-    kept = np.ones(mask.shape, np.float32)
-    if not mask.any():
-        return kept
-    # Neighbours as well: what is kept is bilinear between the cells' middles.
-    beside = np.lib.stride_tricks.sliding_window_view(np.pad(mask, 1), (3, 3)).any((2, 3))
-    distance = shot.sights.distance(seen.middles(shot)[beside])
+    budget, reach = shot.settings.forest.budget, shot.settings.forest.draw_distance
     near, parallel = _finest(shot)
-    pixel = np.minimum(distance * near if np.isfinite(near) else np.inf, parallel)
-    fade = _fade(distance, shot.settings.forest.draw_distance) if parallel > seen.PIXEL else 1.0
-    stems = core.stems(run.canopy_fuel[beside]) * mask[beside] * fade * np.prod(shot.ground.cell)
+    # Neighbours as well: what is kept is bilinear between the cells' middles.
+    besides = [np.lib.stride_tricks.sliding_window_view(np.pad(p.mask, 1), (3, 3)).any((2, 3)) for p in plots]
+    pixels, stems = [], []
+    for each, beside in zip(plots, besides, strict=True):
+        distance = shot.sights.distance(each.place[beside])
+        pixels.append(np.minimum(distance * near if np.isfinite(near) else np.inf, parallel))
+        fade = _fade(distance, reach) if parallel > seen.PIXEL else 1.0
+        stems.append(core.stems(each.canopy_fuel[beside]) * each.mask[beside] * fade * each.area)
+
+    def count(full: float) -> float:
+        return sum(float(np.sum(s * _part(p, full))) for s, p in zip(stems, pixels, strict=True))
+
     low, high = 0.0, _CROWN
-    if np.sum(stems * _part(pixel, high)) > budget:
+    if count(high) > budget:
         for _ in range(30):
             middle = 0.5 * (low + high)
-            few = np.sum(stems * _part(pixel, middle)) < budget
-            low, high = (middle, high) if few else (low, middle)
-    kept[beside] = _part(pixel, high)
-    return kept
+            low, high = (middle, high) if count(middle) < budget else (low, middle)
+    made = []
+    for each, beside, pixel in zip(plots, besides, pixels, strict=True):
+        made.append(np.ones(each.mask.shape, np.float32))
+        made[-1][beside] = _part(pixel, high)
+    return made
 
 
 def _part(pixel: NDArray[np.float64], full: float) -> NDArray[np.float64]:

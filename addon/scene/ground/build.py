@@ -31,7 +31,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None) -> bpy.types.Object:
     data.attributes.new("elevation", "FLOAT", "POINT").data.foreach_set("value", height.astype(np.float32))
     place = fields.place(ground.shape, row, column)
     data.attributes.new(fields.GRID, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", place.ravel())
-    data.materials.append(material.build(shot, stage, fields.images(shot, grown)))
+    data.materials.append(material.build(shot, stage, fields.images(shot, grown), fields.photos(shot)))
     return owned.add(collection, "Ground", data)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...blender import nodes, owned
+from ...shot import photo
 from ...shot.shot import Shot
 from ..forest.stand import Stand
 
@@ -94,6 +95,19 @@ def _image(name: str, channels: list[NDArray[np.float32]]) -> bpy.types.Image:
     image.pixels.foreach_set(pixels.ravel())
     image.pack()
     return owned.mark(image)
+
+
+def photos(shot: Shot) -> list[tuple[photo.Picture, bpy.types.Image]]:
+    """The user's orthophoto as images, which are saved with the scene; a finer one after a coarser."""
+    made = []
+    for number, picture in enumerate(photo.pictures(shot), 1):
+        rows, columns = picture.pixels.shape[:2]
+        image = bpy.data.images.new(f"Firetwin Photo {number}", columns, rows, alpha=True)
+        image.alpha_mode = "CHANNEL_PACKED"
+        image.pixels.foreach_set((picture.pixels / np.float32(255.0)).ravel())
+        image.pack()
+        made.append((picture, owned.mark(image)))
+    return made
 
 
 def _stand_cover(shot: Shot, grown: Stand | None) -> NDArray[np.float64]:

@@ -6,12 +6,14 @@ Reflectances are a picture's, chosen by eye against photographs, not measured.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import bpy
 
 from ...blender import nodes
 from ...blender.owned import Stage
+from ...shot import photo
 from ...shot.shot import Shot
 from .. import haze, temperature
 from ..glow import CLOSE, EMBER, FLAME
@@ -42,13 +44,20 @@ class _Place:
     burned: nodes.Value  # 0 or 1
 
 
-def build(shot: Shot, stage: Stage, images: dict[str, bpy.types.Image]) -> bpy.types.Material:
-    """Build "Firetwin Ground", which reads the fields of these images."""
+def build(
+    shot: Shot,
+    stage: Stage,
+    images: dict[str, bpy.types.Image],
+    photos: Sequence[tuple[photo.Picture, bpy.types.Image]] = (),
+) -> bpy.types.Material:
+    """Build "Firetwin Ground", which reads the fields of these images and is coloured by these photos."""
     material, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
     known = fields.Fields(tree, images)
     place = _place(tree, known, shot.settings.forest.draw_distance)
     rock = _rock(tree, place)
     green, bump = _unburned(tree, place, rock)
+    for picture, image in photos:
+        green, bump = _photographed(tree, place, picture, image, green, bump)
     char = _charred(tree, place, rock)
     colour = tree.mix_colour(place.burned, green, char)
     flaming, embers = _glow(tree, place, rock)
@@ -142,6 +151,23 @@ def _unburned(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> tuple[nodes
     boulders = tree.noise(place.position, 9.0, 4.0, 0.6) * 3.0
     stone = tree.mix_colour(alone * (1.0 - place.near) * 0.8, _granite(tree, place), canopy)
     return tree.mix_colour(rock, colour, stone), tree.mix(rock, relief, boulders)
+
+
+def _photographed(
+    tree: nodes.Tree,
+    place: _Place,
+    picture: photo.Picture,
+    image: bpy.types.Image,
+    colour: nodes.Value,
+    bump: nodes.Value,
+) -> tuple[nodes.Value, nodes.Value]:
+    """Colour and bump with the photo's colour where it has any: what it shows of heights is in its light."""
+    scale = 1.0 / (picture.high - picture.low)
+    across = tree.vector("SUBTRACT", place.position, (*picture.low, 0.0))
+    at = tree.vector("MULTIPLY", across, (*scale, 0.0))
+    shown = tree.node("ShaderNodeTexImage", {"Vector": at}, image=image, extension="CLIP")
+    counts = tree.pick(shown, "Alpha")
+    return tree.mix_colour(counts, colour, tree.pick(shown, "Color")), bump * (1.0 - counts)
 
 
 def _granite(tree: nodes.Tree, place: _Place) -> nodes.Value:

@@ -236,7 +236,7 @@ def _key(shot: Shot, progress: Progress) -> str:
     return content.fingerprint(
         {
             "sources": sources.of({"smoke"}, [*settings.cameras, *leaders]),
-            "run": content.inputs(shot.run, settings.cache, ("temperature",), progress),
+            "run": shot.inputs(("temperature",), progress),
             "settings": found,
             "voxel": drawn,
             "grids": None if complete else baker.SHOWN,

@@ -153,7 +153,7 @@ class Baker:
             self.shot.local_frame,
             run.latitude,
             run.longitude,
-            run.elevation,
+            self.shot.relief.coarse,
             run.height_3d_at(known),
             smoke,
             self.resolution.voxel,

@@ -174,7 +174,7 @@ class Flow:
         shot = self.shot
         found = {
             "sources": sources.of((), (), *_MADE_BY),
-            "run": content.inputs(shot.run, shot.settings.cache, ("temperature", "smoke_3d")),
+            "run": shot.inputs(("temperature", "smoke_3d")),
             "time": schema.chosen(shot.settings, {"time"}),
             "spin_up": shot.settings.smoke.spin_up,
             "fuel_since": shot.fire.before,

@@ -28,6 +28,10 @@ class Surface:
         Of the waves together, which is taken away.
     seed
         Another number gives other relief.
+    patch
+        Heights known more finely in a part of the grid: its first row and column, how many points it has to
+        a cell, their heights (m, n) less the grid's bilinear ones in metres, and shares (m, n) 0..1: how far
+        they count in place of smoothness and relief.
     """
 
     def __init__(
@@ -42,6 +46,7 @@ class Surface:
         sharp: float,
         mean: float,
         seed: int,
+        patch: tuple[int, int, int, ArrayLike, ArrayLike] | None = None,
     ) -> None: ...
     def detail(self, row: ArrayLike, column: ArrayLike) -> NDArray[np.float64]:
         """Heights (n,) seen closely, less the bilinear ones, at fractional rows and columns (n,); m.

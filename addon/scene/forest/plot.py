@@ -1,0 +1,111 @@
+"""Where a stand may grow: the run's fuel grid, and the invented land round it as far as cameras see trees.
+
+So trees end nowhere but where `draw_distance` ends them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...run import areas
+from ...shot.relief import between
+from ...shot.shot import Shot
+from . import seen
+
+_CELL = 74.0  # m, least size of a cell beyond the run; its fuels are invented in larger patches
+_OTHER = 7919  # added to the seed: land beyond is no copy of the run's
+
+
+@dataclass(frozen=True)
+class Plot:
+    """A grid of cells that trees may stand in.
+
+    Attributes
+    ----------
+    latitude, longitude
+        (fy,), (fx,) degrees.
+    canopy_fuel, elevation
+        (fy, fx) kg/m2, m.
+    place
+        (fy, fx, 3) middles of the cells in the scene, m.
+    mask
+        (fy, fx) which of them a camera may see a tree of.
+    area
+        m2 of a cell.
+    seed
+        Of its trees.
+    """
+
+    latitude: NDArray[np.float64]
+    longitude: NDArray[np.float64]
+    canopy_fuel: NDArray
+    elevation: NDArray
+    place: NDArray[np.float64]
+    mask: NDArray[np.bool_]
+    area: float
+    seed: int
+
+
+def of(shot: Shot, height: float, reach: float) -> list[Plot]:
+    """The run's plot, and the one beyond it where cameras come near enough to see trees there.
+
+    Parameters
+    ----------
+    height
+        Of the tallest tree, m.
+    reach
+        How far from cameras trees stand, m.
+    """
+    run, seed = shot.run, shot.settings.seed
+    place, fuel = seen.middles(shot), np.nan_to_num(run.canopy_fuel)
+    mask = seen.cells(shot, height, reach, place) & (fuel > 0.0)
+    area = float(np.prod(shot.ground.cell))
+    own = Plot(
+        run.fuel_latitude, run.fuel_longitude, run.canopy_fuel, shot.relief.fuel, place, mask, area, seed
+    )
+    beyond = _beyond(shot, height, reach)
+    return [own] if beyond is None else [own, beyond]
+
+
+def _beyond(shot: Shot, height: float, reach: float) -> Plot | None:
+    ground = shot.ground
+    fields = ground.fields
+    if fields.margin == 0 or not _near_edge(shot, reach):
+        return None
+    axes, inside = [], []
+    degrees = areas.metres_per_degree(ground.frame.latitude)
+    for axis, cell, scale in zip((fields.latitude, fields.longitude), ground.cell, degrees, strict=True):
+        low, high = axis[fields.margin], axis[-fields.margin - 1]
+        step = max(cell, _CELL) / scale
+        more = int(np.ceil(reach / max(cell, _CELL)))
+        rim = np.arange(1, more + 1) * step
+        within = np.linspace(low, high, max(round((high - low) / step), 1) + 1)
+        axes.append(np.concatenate([low - rim[::-1], within, high + rim]))
+        inside.append(np.arange(len(axes[-1])) - more)
+        inside[-1] = (inside[-1] >= 0) & (inside[-1] < len(within))
+    row, _ = ground.indices(axes[0], np.full(len(axes[0]), axes[1][0]))
+    _, column = ground.indices(np.full(len(axes[1]), axes[0][0]), axes[1])
+    fuel, elevation = (
+        between(field, row, column).astype(np.float32) for field in (fields.canopy_fuel, fields.elevation)
+    )
+    place = shot.local_frame.forward_grid(*axes, elevation)
+    out = ~(inside[0][:, None] & inside[1][None, :])
+    mask = seen.cells(shot, height, reach, place, out & (fuel > 0.0))
+    area = max(ground.cell[0], _CELL) * max(ground.cell[1], _CELL)
+    return Plot(*axes, fuel, elevation, place, mask, area, shot.settings.seed + _OTHER)
+
+
+def _near_edge(shot: Shot, reach: float) -> bool:
+    """Whether any camera in perspective is as near to the run's edge as it sees trees."""
+    fields, cell = shot.ground.fields, shot.ground.cell
+    for view in shot.near:
+        place = view.position[shot.filmed(view)]
+        row, column = shot.ground.indices(*shot.ground.geodetic(place[:, 0], place[:, 1]))
+        for at, count, size in zip((row, column), fields.elevation.shape, cell, strict=True):
+            inner = min((at - fields.margin).min(), (count - 1 - fields.margin - at).min())
+            if inner * size < reach:
+                return True
+    return False
