@@ -1,6 +1,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "sensor/detector.hpp"
+#include "sensor/eye_dome.hpp"
 #include "sensor/image.hpp"
 #include "sensor/palette.hpp"
 #include "sensor/planck_table.hpp"
@@ -146,6 +147,16 @@ Array<float> thermal_composite(const py::object& rgb, const py::object& kelvin, 
   return colour;
 }
 
+Array<float> eye_dome(const py::object& depth, double strength, std::size_t radius) {
+  const auto metres = to_array<float>(depth, "depth", {-1, -1});
+  auto shade = new_array<float>({metres.shape(0), metres.shape(1)});
+  const auto out = writable(shade);
+  const py::gil_scoped_release release;
+  sensor::eye_dome(view(metres), static_cast<std::size_t>(metres.shape(0)),
+                   static_cast<std::size_t>(metres.shape(1)), strength, radius, out);
+  return shade;
+}
+
 Array<float> read_image(const std::filesystem::path& path) {
   sensor::Image image;
   {
@@ -198,6 +209,8 @@ void init_sensor(Module module) {
              py::arg("palette") = "white-hot", py::arg("power") = 1.0);
   module.def("thermal_composite", &thermal_composite, py::arg("rgb"), py::arg("kelvin"),
              py::arg("low"), py::arg("high"), py::arg("strength") = 1.0);
+  module.def("eye_dome", &eye_dome, py::arg("depth"), py::arg("strength") = 4.0,
+             py::arg("radius") = 1);
   module.def("read_image", &read_image, py::arg("path"));
   module.def("write_image", &write_image, py::arg("path"), py::arg("pixels"),
              py::arg("metadata") = py::none(), py::arg("channels") = py::none());

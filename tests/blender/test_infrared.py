@@ -17,7 +17,7 @@ from firetwin_core import sensor
 
 @pytest.fixture
 def plates(scene, shot, stage):
-    """Show materials made by functions of (tree, shot, stage) -> radiance, side by side, 5 pixels each way."""
+    """Show radiances, functions of (tree, shot, stage), side by side in 5 by 5 pixels."""
 
     def show(*radiances, by=shot):
         for index, radiance in enumerate(radiances):

@@ -87,7 +87,7 @@ def render(plain, shot, stage, tmp_path):
 def test_depth_is_that_of_an_analytic_plane(render, settings):
     (depth,) = render("depth").values()
     width, height = settings.render.resolution
-    assert depth.shape == (height, width, 1)
+    assert depth.shape == (height, width, 2)
     # A ray through the middle of row r falls by d = cos(pitch) - y sin(pitch) per metre along the axis,
     # y = (height / 2 - r - 1/2) / focal length in pixels; it meets the plane at depth HEIGHT / d.
     y = (height / 2 - np.arange(height) - 0.5) / (28.0 / 36.0 * width)

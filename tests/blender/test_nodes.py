@@ -1,10 +1,10 @@
 import math
 
 import bpy
-import numpy as np
 import pytest
 from firetwin.blender import compat, nodes, owned
 from firetwin.scene import clock
+from firetwin_core import sensor
 
 
 @pytest.fixture

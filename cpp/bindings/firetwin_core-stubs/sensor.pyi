@@ -46,8 +46,8 @@ class PlanckTable:
         """What a detector makes of the radiance (h, w) W m-2 sr-1 that reaches it.
 
         `blur`: standard deviation of its Gaussian point spread function, pixels; beyond the edges pixels go
-        on as they are. `noise`: noise-equivalent temperature difference of black bodies at 300 K, K; Gaussian,
-        by `key` and the pixel alone. `saturation`: temperature that fills its range, K; 0: none. `bits`: of
+        on as they are. `noise`: noise-equivalent temperature difference of black bodies at 300 K; Gaussian, by
+        `key` and the pixel alone. `saturation`: temperature that fills its range, K; 0: none. `bits`: of
         counts proportional to radiance, at most 16 and with a saturation; 0: not quantised.
 
         Returns
@@ -81,6 +81,13 @@ def thermal_composite(
     8-bit pixels are refused: divide them by 255.
     """
 
+def eye_dome(depth: ArrayLike, strength: float = 4.0, radius: int = 1) -> NDArray[np.float32]:
+    """Eye-dome lighting (C. Boucheny 2009) of depths (h, w) m -> (h, w) factors 0..1 for a picture.
+
+    exp(-strength * s), with s the mean over eight neighbours `radius` pixels away of how many times (as a
+    logarithm to base 2) the pixel is deeper. NaN and depths beyond 1e9 m count as 1e9 m.
+    """
+
 def read_image(path: str | PathLike[str]) -> NDArray[np.float32]:
     """PNG, EXR, TIFF or JPEG (by content) -> (h, w, channels)."""
 
@@ -92,7 +99,7 @@ def write_image(
 ) -> None:
     """Write (h, w) or (h, w, c) pixels to a temporary file that is renamed once it is whole and on the disk.
 
-    .png as 8-bit (values clamped to 0..1), .exr as 32-bit float with ZIP, where `channels` are the channels' names.
+    .png as 8-bit (values clamped to 0..1), .exr as 32-bit float with ZIP and these names of `channels`.
 
     Raises
     ------
