@@ -55,7 +55,7 @@ def test_thermal_layers_show_a_number_and_others_the_shader(scene, plate, shoot)
     scene.view_layers[0].name = "rgb"
     scene.view_layers.new("thermal")[nodes.THERMAL] = 1.0
     assert shoot(scene, "rgb")[2, 2] == pytest.approx([0.2, 0.3, 0.4], abs=1e-5)
-    assert shoot(scene, "thermal") == pytest.approx(sensor.brightness_temperature(311.5), rel=1e-5)
+    assert shoot(scene, "thermal") == pytest.approx(float(sensor.brightness_temperature(311.5)), rel=1e-5)
 
 
 def test_sockets_are_found_by_name_and_missing_ones_named():
