@@ -29,6 +29,7 @@ SUBJECTS = (
     "particles",
     "facts",
     "planning",
+    "radiometry",
 )
 """In the order of the report."""
 

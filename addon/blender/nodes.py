@@ -3,7 +3,7 @@
 ground, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
 age = nodes.model_time(tree) - tree.attribute("arrival_time")
 embers = (age / -3600.0).exp()
-tree.surface(nodes.thermal_switch(tree, tree.emission(colour, embers), kelvin))
+tree.surface(nodes.thermal_switch(tree, tree.emission(colour, embers), radiance))
 """
 
 from __future__ import annotations
@@ -242,6 +242,6 @@ def model_time(tree: Tree) -> Value:
     return tree.attribute(TIME, "VIEW_LAYER")
 
 
-def thermal_switch(tree: Tree, shader: Any, kelvin: Any) -> Value:
-    """`shader`, but the temperature (K) as pixel value in view layers with `firetwin_thermal` = 1."""
-    return tree.mix_shader(tree.attribute(THERMAL, "VIEW_LAYER"), shader, tree.emission(kelvin, 1.0))
+def thermal_switch(tree: Tree, shader: Any, value: Any) -> Value:
+    """`shader`, but a number as pixel value in view layers with `firetwin_thermal` = 1."""
+    return tree.mix_shader(tree.attribute(THERMAL, "VIEW_LAYER"), shader, tree.emission(value, 1.0))

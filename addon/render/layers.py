@@ -26,7 +26,7 @@ def build(settings: Settings, stage: Stage) -> None:
     """
     if not stage.own:
         return
-    for each in passes.known().values():
+    for each in _rendered():
         layer = _layer(stage.scene, each)
         layer[nodes.THERMAL] = 1.0 if each.data else 0.0
         layer.cycles.use_denoising = not each.data and settings.render.denoise
@@ -46,10 +46,10 @@ def complete(settings: Settings, stage: Stage, parts: Collection[str]) -> None:
     if not stage.own:
         return
     there = {layer.get(owned.MARK) for layer in stage.scene.view_layers}
-    if any(f"pass {name}" not in there for name in passes.known()):
+    if any(f"pass {each.name}" not in there for each in _rendered()):
         build(settings, stage)
         return
-    for each in passes.known().values():
+    for each in _rendered():
         _leave_out(_layer(stage.scene, each), each, parts)
 
 
@@ -93,6 +93,11 @@ def still(each: Pass) -> bool:
     return "png" in each.files and each.finish is None
 
 
+def _rendered() -> list[Pass]:
+    """Passes with a view layer."""
+    return [each for each in passes.known().values() if each.output]
+
+
 def _layer(scene: bpy.types.Scene, each: Pass) -> bpy.types.ViewLayer:
     """The view layer of a pass: there already, else the one that a new scene begins with, else a new one."""
     what = f"pass {each.name}"
@@ -126,7 +131,7 @@ def _compositor(scene: bpy.types.Scene) -> None:
     if not owned.ours(tree):
         return
     there = {node[owned.MARK] for node in tree.nodes if owned.ours(node)}
-    for each in passes.known().values():
+    for each in _rendered():
         if f"exr {each.name}" not in there:
             before = set(tree.nodes)
             _record(scene, tree, each)

@@ -72,6 +72,7 @@ class _Frame:
         frame: int,
     ) -> None:
         self.shot, self.scene, self.making, self.part = shot, stage.scene, making, part
+        self.camera, self.frame = camera, frame
         self.pictures = {name: Picture(camera, frame, name) for name in passes.known()}
         self.scene.camera = stage.camera(camera)
         self.scene.frame_set(frame)
@@ -84,14 +85,14 @@ class _Frame:
         lacking = {need for need in needed if plan.missing(store, [self.pictures[need]], made_with)}
         drawn = [known[name] for name in known if name in names or name in lacking]
         for centres in (False, True):
-            if group := [each.name for each in drawn if each.pixel_centres is centres]:
+            if group := [each.name for each in drawn if each.output and each.pixel_centres is centres]:
                 self.draw(group, centres)
         for each in drawn:
             if each.finish:
                 there = {need: self.files(need, need in needed - lacking) for need in each.needs}
                 mine = self.files(each.name)
                 with writing(mine[each.files[0]]):
-                    each.finish(mine, there, self.shot.settings)
+                    each.finish(mine, there, self.shot, self.camera, self.frame)
         return [self.pictures[name] for name in names]
 
     def draw(self, names: list[str], centres: bool) -> None:

@@ -8,7 +8,7 @@ import bpy
 
 from ..blender import owned
 from ..shot.shot import Shot
-from . import clock
+from . import clock, infrared, temperature
 from .camera import build as camera
 from .fire import build as fire
 from .forest import build as forest
@@ -70,6 +70,8 @@ def steps(
     yield "surveying the ground"
     _ = shot.paths
     clock.build(shot, stage())
+    temperature.build(shot, stage())
+    infrared.build(shot, stage())
     if set(parts) == set(PARTS):
         clock.frames(shot, stage())
     if shot.settings.forest.trees and _WITH_STAND & set(parts):

@@ -1,50 +1,184 @@
-"""Surface temperatures (K) for the thermal view.
+"""Temperatures (K) of all that the thermal view shows, as outputs of shader nodes.
 
-Flames are 1000-1500 K (Frankman et al. 2008); a pixel of the burning edge mixes flame with gaps, so it is
-drawn at 1000-1200 K. Behind it the ground cools exponentially. The rate of cooling, the heat of embers
-and the warming of the ground by the sun are assumed, not measured.
+Air has the temperature of the run at the place, and 6.5 K less for each kilometre above the model's ground
+there. Unburned ground is warmer than the air by what it takes in over what it passes on, (a S - loss) / h:
+the direct sun S (A. B. Meinel and M. P. Meinel 1976: 1353 W/m2 x 0.7^(m^0.678) through m masses of air) on a
+surface that faces it, less 70 W/m2 of net long-wave radiation into a clear sky; h is 30 W m-2 K-1 for bare
+ground and 80 for crowns, which stay within some kelvin of the air (both assumed). Shadows of ridges and trees
+do not cool the ground.
+
+Burned ground cools by `shot.temperature.cooling`: 97 K above the rest after ten minutes, 38 K after an hour,
+19 K after four. Flames are 1000-1500 K (Frankman et al. 2008); a pixel of the burning edge mixes
+flames with gaps, so they are drawn at 1000-1200 K.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-from ..blender import nodes
-from ..shot import sun
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blender import compat, nodes, owned
+from ..blender.owned import Stage
+from ..shot import sun, temperature
+from ..shot.ground import bilinear
 from ..shot.shot import Shot
 
-LAPSE = 6.5e-3  # K/m, the standard atmosphere
-AIR = 300.0  # K at 600 m on the afternoon of 17 Sep 2014 (assumed)
-NIGHT = -12.0  # K, the ground at night against the afternoon (assumed)
-SUNLIT = 9.0  # K, bare ground square to the sun against its surroundings (assumed)
 FLAME_LOW, FLAME_HIGH = 1000.0, 1200.0  # K
-EMBER = 850.0  # K, a pixel full of glowing embers (assumed)
-SMOULDER, COOLING = 220.0, 1500.0  # K above ambient just behind the flames, s to 1/e (assumed)
+EMBER = 850.0  # K, ground full of glowing embers (assumed)
+WATER = 292.0  # K, a lake in September (assumed)
+_BARE, _NEEDLES = 30.0, 80.0  # W m-2 K-1
+_ABSORBED, _LOSS = 0.85, 70.0  # part of sunlight; W/m2
+_GROUP, _IMAGE = "temperature", "Firetwin Air Temperature"
+_SIDE = 128  # pixels of a moment's field
+_MOMENTS = 25  # at most
 
 
-def ambient(tree: nodes.Tree, shot: Shot, elevation: Any, canopy: Any) -> nodes.Value:
-    """Temperature of unburned ground and crowns: that of the air, warmer where bare ground is sunlit."""
-    bearing, height = shot.sun(shot.frames.middle)
-    day = float(min(max(height / 20.0, 0.0), 1.0))
-    normal = tree.output("ShaderNodeNewGeometry", name="Normal")
-    facing = tree.math(
-        "MAXIMUM",
-        tree.vector("DOT_PRODUCT", normal, tuple(sun.direction(bearing, height)), name="Value"),
-        0.0,
-    )
-    bare = canopy.ramp(0.0, 1.0, 1.0, 0.25) if isinstance(canopy, nodes.Value) else canopy
-    air = elevation * -LAPSE + (AIR + LAPSE * 600.0 + (1.0 - day) * NIGHT)
-    return air + facing * bare * (SUNLIT * day)
-
-
-def cooling(tree: nodes.Tree, background: Any, age: nodes.Value, burned: Any) -> nodes.Value:
-    """Temperature of what has burned, without flames or embers of its own."""
-    return background + (-(tree.math("MAXIMUM", age, 0.0) / COOLING)).exp() * burned * SMOULDER
-
-
-def burning(
-    tree: nodes.Tree, background: Any, age: nodes.Value, burned: Any, flaming: nodes.Value, embers: Any
+def ambient(
+    tree: nodes.Tree, shot: Shot, stage: Stage, elevation: Any, normal: Any, bare: Any
 ) -> nodes.Value:
-    """Temperature of what burns or has burned: flames and embers (each 0..1) over the cooling ash."""
-    glowing = tree.mix(embers, cooling(tree, background, age, burned), EMBER)
-    return tree.mix(flaming.smoothstep(0.0, 0.5), glowing, flaming.ramp(0.0, 1.0, FLAME_LOW, FLAME_HIGH))
+    """Temperature of unburned ground (`bare` 1) or crowns (0) at an elevation (m), facing along `normal`."""
+    node = tree.node("ShaderNodeGroup", {"Elevation": elevation}, node_tree=_group(shot, stage))
+    lit = tree.math("MAXIMUM", tree.vector("DOT_PRODUCT", normal, tree.pick(node, "Sun"), name="Value"), 0.0)
+    gain = lit * _ABSORBED - _LOSS
+    return tree.pick(node, "Kelvin") + gain * tree.mix(bare, 1.0 / _NEEDLES, 1.0 / _BARE)
+
+
+def air(tree: nodes.Tree, shot: Shot, stage: Stage) -> nodes.Value:
+    """Temperature of the air at this point."""
+    height = tree.separate(tree.output("ShaderNodeNewGeometry", name="Position"))[2]
+    return tree.output("ShaderNodeGroup", {"Elevation": height}, "Kelvin", node_tree=_group(shot, stage))
+
+
+def cooled(tree: nodes.Tree, background: Any, age: nodes.Value, burned: Any) -> nodes.Value:
+    """Temperature of what has burned, without flames or embers of its own."""
+    age = tree.math("MAXIMUM", age, 0.0)
+    before = tree.math("MAXIMUM", age - temperature.PULSE, 0.0)
+    above = (tree.math("SQRT", age) - tree.math("SQRT", before)) * burned
+    return background + above * temperature.COOLING
+
+
+def build(shot: Shot, stage: Stage) -> None:
+    """Make the air's temperature and the sun those of this shot, for materials that are there and to come."""
+    _fill(_group(shot, stage, fill=False), shot)
+
+
+def sunlight(height: float) -> float:
+    """Direct sunlight (W/m2) square to a sun at this height (degrees); 0 below the horizon."""
+    if height <= 0.0:
+        return 0.0
+    mass = 1.0 / (np.sin(np.radians(height)) + 0.50572 * (height + 6.07995) ** -1.6364)  # Kasten, Young 1989
+    return float(1353.0 * 0.7 ** (mass**0.678))
+
+
+def _group(shot: Shot, stage: Stage, fill: bool = True) -> bpy.types.NodeTree:
+    """The node group (made once per scene): elevation (m) -> kelvin of the air, and W/m2 towards the sun."""
+    if stage.root.get(_GROUP) is not None:
+        return stage.root[_GROUP]
+    group = owned.mark(bpy.data.node_groups.new("Firetwin Temperature", "ShaderNodeTree"))
+    stage.root[_GROUP] = group
+    group.interface.new_socket("Elevation", in_out="INPUT", socket_type="NodeSocketFloat")
+    group.interface.new_socket("Kelvin", in_out="OUTPUT", socket_type="NodeSocketFloat")
+    group.interface.new_socket("Sun", in_out="OUTPUT", socket_type="NodeSocketVector")
+    tree = nodes.Tree(group)
+    elevation = tree.pick(tree.node("NodeGroupInput"), "Elevation")
+    position = tree.output("ShaderNodeNewGeometry", name="Position")
+    corner, scale = (_named(tree, "ShaderNodeCombineXYZ", name) for name in ("Corner", "Scale"))
+    across, up, _ = tree.separate(tree.vector("MULTIPLY", tree.vector("SUBTRACT", position, corner), scale))
+    edge = 0.5 / _SIDE
+    across, up = (tree.math("MINIMUM", tree.math("MAXIMUM", v, edge), 1.0 - edge) for v in (across, up))
+    start, pace, last = (_named(tree, "ShaderNodeValue", name) for name in ("Start", "Pace", "Last"))
+    moment = tree.math("MAXIMUM", (nodes.model_time(tree) - start) * pace, 0.0)
+    moment = tree.math("MINIMUM", moment, last)
+    whole = tree.math("FLOOR", moment)
+    count = last + 1.0
+
+    def field(number: Any) -> nodes.Value:
+        place = tree.combine(across, (number + up) / count, 0.0)
+        image = tree.node("ShaderNodeTexImage", {"Vector": place}, extension="EXTEND")
+        image.name = f"Field {number.socket.node.name}"
+        return tree.pick(image)
+
+    following = tree.math("MINIMUM", whole + 1.0, last)
+    both = tree.mix_colour(moment - whole, field(whole), field(following))
+    kelvin, model, _ = tree.separate(both)
+    sunward = _named(tree, "ShaderNodeCombineXYZ", "Sun")
+    kelvin = kelvin - (elevation - model) * temperature.LAPSE
+    tree.node("NodeGroupOutput", {"Kelvin": kelvin, "Sun": sunward})
+    if fill:
+        _fill(group, shot)
+    return group
+
+
+def _named(tree: nodes.Tree, kind: str, name: str) -> nodes.Value:
+    node = tree.node(kind)
+    node.name = name
+    return tree.pick(node)
+
+
+def _fill(group: bpy.types.NodeTree, shot: Shot) -> None:
+    """Write the run's temperatures over a square grid of the scene, its moments above one another."""
+    frames, run = shot.frames, shot.run
+    moving = frames.last > frames.first
+    count = min(_MOMENTS, max(frames.count, 2)) if moving else 1
+    times = np.linspace(frames.first, frames.last, count)
+    low, high = _extent(shot)
+    east, north = (low[k] + (high[k] - low[k]) * (np.arange(_SIDE) + 0.5) / _SIDE for k in (0, 1))
+    east, north = (v.ravel() for v in np.meshgrid(east, north))
+    place = temperature.indices(run, *shot.ground.geodetic(east, north))
+    pixels = np.ones((count, _SIDE * _SIDE, 4), np.float32)
+    pixels[..., 1] = bilinear(np.nan_to_num(run.elevation.astype(np.float64)), *place)
+    for index, time in enumerate(times):
+        pixels[index, :, 0] = bilinear(temperature.at(run, float(time)), *place)
+    old = next((node.image for node in group.nodes if node.type == "TEX_IMAGE" and node.image), None)
+    image = owned.mark(
+        bpy.data.images.new(_IMAGE, _SIDE, _SIDE * count, alpha=False, float_buffer=True, is_data=True)
+    )
+    image.pixels.foreach_set(pixels.ravel())
+    image.pack()
+    for node in group.nodes:
+        if node.type == "TEX_IMAGE":
+            node.image = image
+    if old is not None and old.users == 0:
+        bpy.data.images.remove(old)
+    _set(group, "Corner", (*low, 0.0))
+    _set(group, "Scale", (*(1.0 / (high - low)), 0.0))
+    group.nodes["Start"].outputs[0].default_value = frames.first
+    group.nodes["Pace"].outputs[0].default_value = (
+        (count - 1) / (frames.last - frames.first) if moving else 0.0
+    )
+    group.nodes["Last"].outputs[0].default_value = count - 1
+    _sun(group, shot, count)
+
+
+def _extent(shot: Shot) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Scene x and y (m) of the corners of the run's model grid."""
+    run = shot.run
+    latitude, longitude = (
+        np.array([axis.min(), axis.max()], np.float64) for axis in (run.latitude, run.longitude)
+    )
+    height = np.full(4, float(np.nanmean(run.elevation)))
+    corners = shot.local_frame.forward(np.repeat(latitude, 2), np.tile(longitude, 2), height)[:, :2]
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    return low, np.maximum(high, low + 1.0)
+
+
+def _sun(group: bpy.types.NodeTree, shot: Shot, count: int) -> None:
+    """Animate the vector towards the sun, as long as its light is strong."""
+    frames = np.linspace(1.0, shot.frames.count, count)
+    vectors = []
+    for frame in frames:
+        bearing, height = shot.sun(float(shot.frames.time(frame)))
+        vectors.append(sun.direction(bearing, height) * sunlight(height))
+    _set(group, "Sun", vectors[0])
+    for axis in range(3):
+        if count > 1:
+            path = f'nodes["Sun"].inputs[{axis}].default_value'
+            compat.animate(group, path, 0, frames, [vector[axis] for vector in vectors])
+
+
+def _set(group: bpy.types.NodeTree, name: str, values: Any) -> None:
+    for socket, value in zip(group.nodes[name].inputs, values, strict=True):
+        socket.default_value = float(value)

@@ -21,6 +21,7 @@ from . import frame_list, passes, rigs
 from .nearest import suggestion
 from .schema import Where, key, kind_of, one_of, parts
 
+BANDS = {"lwir": (8.0, 14.0), "mwir": (3.4, 4.1)}  # um, of infrared cameras
 _LARGEST_SEED = 2**31 - 1  # Cycles takes no larger one
 
 
@@ -217,6 +218,39 @@ class Light:
 
 
 @dataclass(frozen=True)
+class Thermal:
+    """The infrared camera of the thermal view, ideal unless it is given flaws."""
+
+    band: str = key(
+        "lwir", "wavelengths that it sees", choices={"lwir": "8 to 14 um", "mwir": "3.4 to 4.1 um"}
+    )
+    palette: str = key(
+        "white-hot",
+        "colours of the picture",
+        choices=("white-hot", "black-hot", "ironbow", "inferno"),
+    )
+    vapour: float = key(
+        10.0,
+        "water in the air at sea level, which dims what is far; 0: clear",
+        unit="g/m3",
+        at_least=0,
+        at_most=40,
+    )
+    blur: float = key(0.0, "standard deviation of its point spread", unit="pixels", at_least=0, at_most=20)
+    noise: float = key(0.0, "its NETD, at 300 K", unit="K", at_least=0, at_most=100)
+    saturation: float = key(
+        0.0, "the hottest that it can tell; 0: no limit", unit="K", at_least=0, at_most=3000
+    )
+    bits: int = key(0, "of counts in its EXR, up to saturation; 0: none", at_least=0, at_most=16)
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """Counts end somewhere."""
+        if self.bits and not self.saturation:
+            return ("bits",), "thermal.bits needs thermal.saturation, which fills the range of the counts"
+        return None
+
+
+@dataclass(frozen=True)
 class Camera:
     """A camera: what it records, and how it is set up and moved (its rig, the kind of camera)."""
 
@@ -291,18 +325,18 @@ class Render:
     seed: int = key(
         0, "another number gives other grain", at_least=0, at_most=_LARGEST_SEED, shows=("grain",)
     )
-    thermal_low: float = key(
-        320.0,
-        "where colour begins in the thermal picture; ground in the sun has less",
+    thermal_low: float | None = key(
+        None,
+        "where the thermal picture's palette begins; left out, the coldest air of the shot",
         unit="K",
         above=0,
         shows=("thermal",),
     )
-    thermal_high: float = key(800.0, "where it ends in white", unit="K", shows=("thermal",))
+    thermal_high: float = key(800.0, "where it ends", unit="K", above=0, shows=("thermal",))
 
     def wrong(self) -> tuple[Where, str] | None:
         """The thermal picture's colours have a range."""
-        if self.thermal_high <= self.thermal_low:
+        if self.thermal_low is not None and self.thermal_high <= self.thermal_low:
             return ("thermal_high",), "render.thermal_high must be above render.thermal_low"
         return None
 
@@ -327,6 +361,7 @@ class Settings:
     fire: Fire = key(default_factory=Fire, help="flames, firebrands and the glowing ground")
     smoke: Smoke = key(default_factory=Smoke, help="the smoke volume")
     light: Light = key(default_factory=Light, help="sun, haze, exposure and the light of the flames")
+    thermal: Thermal = key(default_factory=Thermal, help="the infrared camera of the thermal view")
     render: Render = key(default_factory=Render, help="how frames are made")
     cameras: tuple[Camera, ...] = key((), "a camera and what it records", shows=("camera",))
 

@@ -1,7 +1,10 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "sensor/detector.hpp"
+#include "sensor/eye_dome.hpp"
 #include "sensor/image.hpp"
-#include "sensor/planck.hpp"
+#include "sensor/palette.hpp"
+#include "sensor/planck_table.hpp"
 #include "sensor/thermal.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -9,9 +12,14 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace firetwin::bindings {
 namespace py = pybind11;
@@ -19,31 +27,106 @@ namespace {
 
 using sensor::Band;
 
-/// Applies `function(value, band)` to every element.
-template <class Function>
-Array<double> each(const py::object& object, const std::string& name,
-                   std::pair<double, double> limits, Function function) {
-  const auto values = to_array<double>(object, name);
-  const Band band{limits.first, limits.second};
-  sensor::check(band);
-  auto result = new_array<double>({values.shape(), values.shape() + values.ndim()});
+using sensor::PlanckTable;
+
+/// Applies `function(value)` to every element, by all threads.
+template <class T, class Function>
+Array<T> each(const py::object& object, const std::string& name, Function function) {
+  const auto values = to_array<T>(object, name);
+  auto result = new_array<T>({values.shape(), values.shape() + values.ndim()});
   const auto in = view(values);
   const auto out = writable(result);
   const py::gil_scoped_release release;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, in.size(), 1024), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      out[i] = function(in[i], band);
+      out[i] = static_cast<T>(function(static_cast<double>(in[i])));
     }
   });
   return result;
 }
 
-Array<double> radiance(const py::object& kelvin, std::pair<double, double> band) {
-  return each(kelvin, "kelvin", band, &sensor::radiance);
+Band checked(std::pair<double, double> limits) {
+  const Band band{limits.first, limits.second};
+  sensor::check(band);
+  return band;
 }
 
-Array<double> brightness_temperature(const py::object& radiance, std::pair<double, double> band) {
-  return each(radiance, "radiance", band, &sensor::brightness_temperature);
+Array<double> radiance(const py::object& kelvin, std::pair<double, double> limits) {
+  const Band band = checked(limits);
+  return each<double>(kelvin, "kelvin", [&](double k) { return sensor::radiance(k, band); });
+}
+
+Array<double> brightness_temperature(const py::object& radiance, std::pair<double, double> limits) {
+  const Band band = checked(limits);
+  return each<double>(radiance, "radiance",
+                      [&](double r) { return sensor::brightness_temperature(r, band); });
+}
+
+double checked_wavelength(double micrometres) {
+  if (!(micrometres > 0.0) || !std::isfinite(micrometres)) {
+    wrong("wavelength", "must be above 0 and finite, in micrometres");
+  }
+  return micrometres;
+}
+
+Array<double> spectral_radiance(const py::object& kelvin, double wavelength) {
+  checked_wavelength(wavelength);
+  return each<double>(kelvin, "kelvin",
+                      [&](double k) { return sensor::spectral_radiance(k, wavelength); });
+}
+
+Array<double> spectral_temperature(const py::object& radiance, double wavelength) {
+  checked_wavelength(wavelength);
+  return each<double>(radiance, "radiance",
+                      [&](double r) { return sensor::spectral_temperature(r, wavelength); });
+}
+
+Array<float> table_radiance(const PlanckTable& table, const py::object& kelvin) {
+  return each<float>(kelvin, "kelvin", [&](double k) { return table.radiance(k); });
+}
+
+Array<float> table_temperature(const PlanckTable& table, const py::object& radiance) {
+  return each<float>(radiance, "radiance", [&](double r) { return table.temperature(r); });
+}
+
+py::tuple detect(const PlanckTable& table, const py::object& radiance, double blur, double noise,
+                 double saturation, int bits, std::uint64_t key) {
+  const sensor::Detector detector{blur, noise, saturation, bits};
+  sensor::check(detector);
+  const auto in = to_array<float>(radiance, "radiance", {-1, -1});
+  auto measured = new_array<float>({in.shape(0), in.shape(1)});
+  auto counts = new_array<std::uint16_t>({in.shape(0), bits > 0 ? in.shape(1) : 0});
+  const auto out = writable(measured);
+  const auto whole = writable(counts);
+  std::ranges::copy(view(in), out.begin());
+  {
+    const py::gil_scoped_release release;
+    sensor::detect(detector, table, key, static_cast<std::size_t>(in.shape(0)),
+                   static_cast<std::size_t>(in.shape(1)), out, whole);
+  }
+  return py::make_tuple(measured, bits > 0 ? py::object(counts) : py::object(py::none()));
+}
+
+/// Calls `work(first pixel, count)` for pieces of so many pixels, by all threads.
+template <class Work> void in_pieces(std::size_t pixels, Work work) {
+  const py::gil_scoped_release release;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels, 4096),
+                    [&](const auto& range) { work(range.begin(), range.end() - range.begin()); });
+}
+
+Array<float> colour(const py::object& kelvin, double low, double high, const std::string& name,
+                    double power) {
+  const auto k = to_array<float>(kelvin, "kelvin", {-1, -1});
+  const sensor::Palette& palette = sensor::palette(name);
+  auto result = new_array<float>({k.shape(0), k.shape(1), 3});
+  const auto in = view(k);
+  const auto out = writable(result);
+  sensor::colour({}, low, high, power, palette, {}); // says what is wrong where there are no pixels
+  in_pieces(in.size(), [&](std::size_t first, std::size_t count) {
+    sensor::colour(in.subspan(first, count), low, high, power, palette,
+                   out.subspan(3 * first, 3 * count));
+  });
+  return result;
 }
 
 Array<float> thermal_composite(const py::object& rgb, const py::object& kelvin, double low,
@@ -55,9 +138,23 @@ Array<float> thermal_composite(const py::object& rgb, const py::object& kelvin, 
   const auto pixels = to_array<float>(rgb, "rgb", {k.shape(0), k.shape(1), 3});
   auto colour = new_array<float>({k.shape(0), k.shape(1), 3});
   const auto out = writable(colour);
-  const py::gil_scoped_release release;
-  sensor::thermal_composite(view(pixels), view(k), low, high, strength, out);
+  const auto in = view(k);
+  sensor::thermal_composite({}, {}, low, high, strength, {});
+  in_pieces(in.size(), [&](std::size_t first, std::size_t count) {
+    sensor::thermal_composite(view(pixels).subspan(3 * first, 3 * count), in.subspan(first, count),
+                              low, high, strength, out.subspan(3 * first, 3 * count));
+  });
   return colour;
+}
+
+Array<float> eye_dome(const py::object& depth, double strength, std::size_t radius) {
+  const auto metres = to_array<float>(depth, "depth", {-1, -1});
+  auto shade = new_array<float>({metres.shape(0), metres.shape(1)});
+  const auto out = writable(shade);
+  const py::gil_scoped_release release;
+  sensor::eye_dome(view(metres), static_cast<std::size_t>(metres.shape(0)),
+                   static_cast<std::size_t>(metres.shape(1)), strength, radius, out);
+  return shade;
 }
 
 Array<float> read_image(const std::filesystem::path& path) {
@@ -71,16 +168,20 @@ Array<float> read_image(const std::filesystem::path& path) {
 }
 
 void write_image(const std::filesystem::path& path, const py::object& pixels,
-                 const std::optional<io::Metadata>& metadata) {
+                 const std::optional<io::Metadata>& metadata,
+                 const std::optional<std::vector<std::string>>& channels) {
   const auto image = to_array<float>(pixels, "pixels");
   if (image.ndim() != 2 && image.ndim() != 3) {
     wrong("pixels", "must have shape (h, w) or (h, w, channels), not " + shape_text(image));
   }
   const auto size = [&](py::ssize_t axis) { return static_cast<std::size_t>(image.shape(axis)); };
-  const std::size_t channels = image.ndim() == 3 ? size(2) : 1;
+  const std::size_t count = image.ndim() == 3 ? size(2) : 1;
+  if (channels && channels->size() != count) {
+    wrong("channels", "must be as many names as there are channels, " + std::to_string(count));
+  }
   const py::gil_scoped_release release;
-  sensor::write_image(path, view(image), size(0), size(1), channels,
-                      metadata.value_or(io::Metadata{}));
+  sensor::write_image(path, view(image), size(0), size(1), count, metadata.value_or(io::Metadata{}),
+                      channels.value_or(std::vector<std::string>{}));
 }
 
 } // namespace
@@ -90,11 +191,29 @@ void init_sensor(Module module) {
   module.def("radiance", &radiance, py::arg("kelvin"), py::arg("band") = long_wave);
   module.def("brightness_temperature", &brightness_temperature, py::arg("radiance"),
              py::arg("band") = long_wave);
+  module.def("spectral_radiance", &spectral_radiance, py::arg("kelvin"), py::arg("wavelength"));
+  module.def("spectral_temperature", &spectral_temperature, py::arg("radiance"),
+             py::arg("wavelength"));
+  Class<PlanckTable>(module, "PlanckTable")
+      .def(py::init([](std::pair<double, double> limits, std::size_t knots) {
+             return PlanckTable(checked(limits), knots);
+           }),
+           py::arg("band") = long_wave, py::arg("knots") = 512)
+      .def("radiance", &table_radiance, py::arg("kelvin"))
+      .def("brightness_temperature", &table_temperature, py::arg("radiance"))
+      .def("detect", &detect, py::arg("radiance"), py::kw_only(), py::arg("blur") = 0.0,
+           py::arg("noise") = 0.0, py::arg("saturation") = 0.0, py::arg("bits") = 0,
+           py::arg("key") = 0);
+  module.def("palettes", &sensor::palettes);
+  module.def("colour", &colour, py::arg("kelvin"), py::arg("low"), py::arg("high"),
+             py::arg("palette") = "white-hot", py::arg("power") = 1.0);
   module.def("thermal_composite", &thermal_composite, py::arg("rgb"), py::arg("kelvin"),
              py::arg("low"), py::arg("high"), py::arg("strength") = 1.0);
+  module.def("eye_dome", &eye_dome, py::arg("depth"), py::arg("strength") = 4.0,
+             py::arg("radius") = 1);
   module.def("read_image", &read_image, py::arg("path"));
   module.def("write_image", &write_image, py::arg("path"), py::arg("pixels"),
-             py::arg("metadata") = py::none());
+             py::arg("metadata") = py::none(), py::arg("channels") = py::none());
 }
 
 } // namespace firetwin::bindings

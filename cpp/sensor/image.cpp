@@ -11,6 +11,7 @@
 #include <array>
 #include <mutex>
 #include <ostream>
+#include <stdexcept>
 #include <string_view>
 
 namespace firetwin::sensor {
@@ -52,12 +53,15 @@ void set_limits() {
 }
 
 OIIO::ImageSpec make_spec(std::size_t height, std::size_t width, std::size_t channels, bool exr,
-                          const io::Metadata& metadata) {
+                          const io::Metadata& metadata, const std::vector<std::string>& names) {
   OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height),
                        static_cast<int>(channels),
                        exr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
   if (exr) {
     spec.attribute("compression", "zip");
+  }
+  if (exr && !names.empty()) {
+    spec.channelnames = names;
   }
   for (const auto& [key, value] : metadata) {
     spec.attribute(key, value);
@@ -123,15 +127,18 @@ Image read_image(const std::filesystem::path& path) {
 
 void write_image(const std::filesystem::path& path, std::span<const float> pixels,
                  std::size_t height, std::size_t width, std::size_t channels,
-                 const io::Metadata& metadata) {
+                 const io::Metadata& metadata, const std::vector<std::string>& names) {
   const bool exr = path.extension() == ".exr";
   if (!exr && path.extension() != ".png") {
     io::fail(path, "an image file must end in .png or .exr");
   }
   check_size(path, height, width, channels);
+  if (!names.empty() && names.size() != channels) {
+    throw std::invalid_argument("names must be as many as there are channels");
+  }
   // Into memory first: OpenImageIO does not say when the end of an EXR finds no room on the disk.
   const std::vector<unsigned char> bytes =
-      encode(path, pixels, make_spec(height, width, channels, exr, metadata), exr);
+      encode(path, pixels, make_spec(height, width, channels, exr, metadata, names), exr);
   io::write_file(path, [&bytes](std::ostream& stream) {
     stream.write(reinterpret_cast<const char*>(bytes.data()),
                  static_cast<std::streamsize>(bytes.size()));

@@ -22,9 +22,10 @@ struct Image {
 Image read_image(const std::filesystem::path& path);
 
 /// Writes .png (8 bit, values clamped to 0..1) or .exr (32-bit float, ZIP), all of it or nothing
-/// (see io/new_file.hpp). @throws InputError when that cannot be done.
+/// (see io/new_file.hpp). @param names of an EXR's channels, as many as there are; none: R, G, B...
+/// @throws InputError when that cannot be done.
 void write_image(const std::filesystem::path& path, std::span<const float> pixels,
                  std::size_t height, std::size_t width, std::size_t channels,
-                 const io::Metadata& metadata);
+                 const io::Metadata& metadata, const std::vector<std::string>& names = {});
 
 } // namespace firetwin::sensor

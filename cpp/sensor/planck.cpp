@@ -23,6 +23,12 @@ double first() {
   return 2.0 * (k / h) * (k / h) * (k / h) * k / (c * c);
 }
 
+/// 2 h c^2 / lambda^5 in W m-2 sr-1 um-1, for lambda in um.
+double scale(double wavelength) {
+  const double square = wavelength * wavelength;
+  return 2.0 * planck_constant * light_speed * light_speed * 1e24 / (square * square * wavelength);
+}
+
 /// x^3 / (e^x - 1)
 double integrand(double x) {
   return x > 700.0 ? 0.0 : x * x * x / std::expm1(x);
@@ -93,6 +99,20 @@ void check(const Band& band) {
   }
 }
 
+double spectral_radiance(double kelvin, double wavelength) {
+  if (!(kelvin > 0.0)) {
+    return kelvin == 0.0 ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+  }
+  return scale(wavelength) / std::expm1(second / (wavelength * kelvin));
+}
+
+double spectral_temperature(double radiance, double wavelength) {
+  if (!(radiance > 0.0)) {
+    return radiance == 0.0 ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+  }
+  return second / (wavelength * std::log1p(scale(wavelength) / radiance));
+}
+
 double radiance(double kelvin, const Band& band) {
   if (!(kelvin > 0.0)) {
     return kelvin == 0.0 ? 0.0 : std::numeric_limits<double>::quiet_NaN();
@@ -103,6 +123,11 @@ double radiance(double kelvin, const Band& band) {
   const double squared = kelvin * kelvin;
   return first() * squared * squared *
          planck_integral(second / (band.high * kelvin), second / (band.low * kelvin));
+}
+
+double power(double kelvin, const Band& band) {
+  const double value = radiance(kelvin, band);
+  return slope(kelvin, value, band) * kelvin / value;
 }
 
 // Newton's method on log(radiance) against 1/T, which is nearly straight where x is large and

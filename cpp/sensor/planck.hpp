@@ -11,11 +11,22 @@ struct Band {
 /// @throws std::invalid_argument unless 0 < low < high are finite.
 void check(const Band& band);
 
+/// Radiance of a black body at one wavelength (um), W m-2 sr-1 um-1: Planck's law. 0 K gives 0;
+/// negative and NaN temperatures give NaN.
+double spectral_radiance(double kelvin, double wavelength);
+
+/// The temperature of a black body with this spectral radiance, K: the inverse, in closed form. 0
+/// gives 0, infinity infinity; negative values and NaN give NaN.
+double spectral_temperature(double radiance, double wavelength);
+
 /// Radiance of a black body over a band, W m-2 sr-1: the integral of Planck's law
 /// 2 h c^2 / (lambda^5 (exp(h c / (lambda k T)) - 1)), to about 1e-12 of its value for bands at
 /// least a thousandth of their wavelength wide. 0 K gives 0; negative and NaN temperatures give
 /// NaN.
 double radiance(double kelvin, const Band& band);
+
+/// d log(radiance) / d log(temperature) of a black body over a band, for kelvin > 0.
+double power(double kelvin, const Band& band);
 
 /// The temperature of a black body with this radiance, K: the inverse of radiance. 0 gives 0,
 /// infinity infinity; negative values and NaN give NaN.

@@ -131,7 +131,7 @@ def stage(scene):
 
 @pytest.fixture
 def shoot(tmp_path):
-    """Render the scene with Cycles and return its pixels, (height, width, 3), scene-linear."""
+    """Render the scene with Cycles: pixels (height, width, 3), scene-linear; of "thermal" layers kelvin."""
 
     def render(scene, layer: str | None = None) -> np.ndarray:
         scene.render.engine = "CYCLES"
@@ -152,7 +152,8 @@ def shoot(tmp_path):
         scene.render.use_compositing = False
         scene.render.filepath = str(tmp_path / "shot.exr")
         bpy.ops.render.render(write_still=True)
-        return np.asarray(sensor.read_image(tmp_path / "shot.exr"))[..., :3]
+        pixels = np.asarray(sensor.read_image(tmp_path / "shot.exr"))[..., :3]
+        return sensor.PlanckTable().brightness_temperature(pixels) if layer == "thermal" else pixels
 
     return render
 

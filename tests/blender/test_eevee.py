@@ -49,7 +49,7 @@ def test_eevee_renders_the_ground_under_the_sky_and_their_temperatures(run_folde
     assert sky.mean() > ground.mean() + 0.1
     assert sky.mean(0)[2] > sky.mean(0)[0]
     kelvin = image("thermal/drone_thermal_000002.exr")[..., 0]
-    np.testing.assert_allclose(kelvin[:4], 250.0, atol=0.1)  # the sky
+    np.testing.assert_allclose(kelvin[:4], 250.0, atol=0.2)  # the sky, in half floats
     assert 285.0 < np.quantile(kelvin[-12:], 0.02) < 400.0  # unburned, or the warm scar
     assert kelvin.max() < 1600.0
 

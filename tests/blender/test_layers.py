@@ -9,36 +9,39 @@ from firetwin.blender import compat, nodes, owned
 from firetwin.render import engine, layers, pictures
 from firetwin.render.picture import Picture
 from firetwin.render.sharing import making
+from firetwin.scene import infrared
 from firetwin.scene.build import PARTS
-from firetwin.shot import passes
+from firetwin.shot import passes, temperature
 from firetwin_core import sensor
 
+THERMAL = "drone/thermal/drone_thermal_000002.exr"
 HEIGHT, PITCH = 120.0, np.radians(80.0)  # of the camera over the plane; 90 degrees looks at the horizon
 
 
 @pytest.fixture
-def plain(settings, stage, scene):
+def plain(settings, stage, scene, shot):
     """A plane of 300 K under a 250 K sky, with a glowing card (800 K) and smoke before the camera."""
     parts = {name.title(): stage.part(name.title()) for name in PARTS}
     _quad(
         parts["Ground"],
         "Ground",
         [(-9e4, -9e4, 0), (9e4, -9e4, 0), (9e4, 9e4, 0), (-9e4, 9e4, 0)],
-        _surface("Ground", 300.0),
+        _surface("Ground", 300.0, shot, stage),
     )
     card = [(-8, 60, 60), (-2, 60, 60), (-2, 60, 100), (-8, 60, 100)]
-    _quad(parts["Fire"], "Card", card, _surface("Card", 800.0))
+    _quad(parts["Fire"], "Card", card, _surface("Card", 800.0, shot, stage))
     bpy.ops.mesh.primitive_cube_add(size=30, location=(20, 90, 90))
     smoke = bpy.context.object
     smoke.users_collection[0].objects.unlink(smoke)
     parts["Smoke"].objects.link(smoke)
     material, tree = nodes.material("Firetwin Smoke")
-    tree.volume(tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": 1.0}))
+    black = tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": 1.0})
+    tree.volume(infrared.smoke(tree, shot, stage, black, tree.math("ADD", 1.0, 0.0)))
     smoke.data.materials.append(material)
     world = scene.world = bpy.data.worlds.new("Firetwin Sky")
     tree = nodes.Tree(compat.node_tree(world))
     seen = tree.output("ShaderNodeBackground", {"Color": (0.4, 0.5, 0.6), "Strength": 1.0})
-    cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": 250.0})
+    cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": infrared.sky(shot)})
     tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), seen, cold))
     data = bpy.data.cameras.new("Firetwin Camera drone")
     data.clip_end, data.lens = 3e5, 28.0
@@ -49,10 +52,10 @@ def plain(settings, stage, scene):
     return scene
 
 
-def _surface(name, kelvin):
+def _surface(name, kelvin, shot, stage):
     material, tree = nodes.material(f"Firetwin {name}")
     shader = tree.output("ShaderNodeBsdfDiffuse", {"Color": (0.2, 0.3, 0.1)})
-    tree.surface(nodes.thermal_switch(tree, shader, (kelvin,) * 3))
+    tree.surface(infrared.switch(tree, shader, infrared.emitted(tree, shot, stage, kelvin)))
     return material
 
 
@@ -84,7 +87,7 @@ def render(plain, shot, stage, tmp_path):
 def test_depth_is_that_of_an_analytic_plane(render, settings):
     (depth,) = render("depth").values()
     width, height = settings.render.resolution
-    assert depth.shape == (height, width, 1)
+    assert depth.shape == (height, width, 2)
     # A ray through the middle of row r falls by d = cos(pitch) - y sin(pitch) per metre along the axis,
     # y = (height / 2 - r - 1/2) / focal length in pixels; it meets the plane at depth HEIGHT / d.
     y = (height / 2 - np.arange(height) - 0.5) / (28.0 / 36.0 * width)
@@ -105,18 +108,24 @@ def test_depth_is_of_the_ground_behind_flames_and_smoke(render):
     assert spread.max() < 0.02  # the card at 60 m and the smoke would halve it
 
 
-def test_kelvin_is_exact_and_unseen_through_smoke(render):
-    images = render("thermal")
-    kelvin = next(image for path, image in images.items() if path.endswith("exr"))
+def test_temperatures_come_through_the_whole_chain(render):
+    kelvin, radiance = np.moveaxis(render("thermal")[THERMAL], -1, 0)
     assert kelvin.dtype == np.float32
-    assert kelvin.shape[2] == 1
-    values = kelvin[..., 0]
-    assert (values[-6:, :8] == 300.0).all()
-    assert (values[0] == 250.0).all()
-    assert values.max() == 800.0
-    pure = np.isin(values, (250.0, 300.0, 800.0))
-    assert pure.mean() > 0.9  # the rest are pixels on an edge
-    assert ((values >= 250.0) & (values <= 800.0)).all()
+    assert kelvin[-6:, :8] == pytest.approx(300.0, abs=2e-3)
+    assert kelvin[0] == pytest.approx(250.0, abs=2e-3)
+    assert kelvin.max() == pytest.approx(800.0, abs=2e-3)
+    assert radiance == pytest.approx(sensor.radiance(kelvin), rel=1e-5)
+
+
+def test_smoke_dims_the_infrared_a_little_and_adds_its_own(render, shot):
+    """30 m of smoke that is black in the visible picture: a depth of 0.24 between 8 and 14 um."""
+    radiance = render("thermal")[THERMAL][..., 1]
+    clear, behind = radiance[18:30, :4].mean(), radiance[20:26, 40:44].mean()
+    air = sensor.radiance(300.0)
+    through = np.exp(-30.0 * infrared.SOOT * infrared.GREEN / 11.0)
+    assert 0.7 < through < 0.85
+    assert clear == pytest.approx(float(air), rel=1e-3)
+    assert abs(behind / clear - 1.0) < 0.1  # smoke as warm as the air, before ground as warm
 
 
 def test_the_denoiser_leaves_temperatures_alone(render, settings, stage, plain):
@@ -124,18 +133,16 @@ def test_the_denoiser_leaves_temperatures_alone(render, settings, stage, plain):
     engine.apply(denoised, plain)
     layers.build(denoised, stage)
     kelvin = next(i for path, i in render("thermal").items() if path.endswith("exr"))
-    assert (kelvin[-6:, :8] == 300.0).all()
+    assert kelvin[-6:, :8, 0] == pytest.approx(300.0, abs=2e-3)
 
 
-def test_the_thermal_picture_is_the_blend_of_the_picture_and_the_gradient(render, settings):
-    images = render("rgb", "thermal")
-    rgb = images["drone/rgb/drone_rgb_000002.png"]
-    kelvin = images["drone/thermal/drone_thermal_000002.exr"][..., 0]
-    low, high = settings.render.thermal_low, settings.render.thermal_high
-    expected = sensor.thermal_composite(rgb[..., :3], kelvin, low, high)
+def test_the_thermal_picture_shows_its_temperatures(render, settings, shot):
+    images = render("thermal")
+    kelvin = images[THERMAL][..., 0]
+    low, high = temperature.coldest(shot.run, shot.frames.middle), settings.render.thermal_high
+    expected = sensor.colour(kelvin, low, high, settings.thermal.palette, passes.thermal.POWER)
     shown = images["drone/thermal/drone_thermal_000002.png"][..., :3]
     assert np.abs(shown - expected).max() <= 0.5 / 255 + 1e-6
-    assert np.abs(shown - rgb[..., :3]).max() > 0.3
 
 
 def test_smoke_is_in_the_picture_and_the_picture_is_display_colour(render):
@@ -174,5 +181,5 @@ def test_layers_leave_out_what_their_sensor_does_not_see(plain):
         return {part.name for part in parts if part.exclude}
 
     assert left_out("rgb") == set()
-    assert left_out("thermal") == {"Firetwin Smoke"}
+    assert left_out("thermal") == set()
     assert left_out("depth") == {"Firetwin Smoke", "Firetwin Fire"}

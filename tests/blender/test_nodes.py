@@ -1,10 +1,10 @@
 import math
 
 import bpy
-import numpy as np
 import pytest
 from firetwin.blender import compat, nodes, owned
 from firetwin.scene import clock
+from firetwin_core import sensor
 
 
 @pytest.fixture
@@ -50,12 +50,12 @@ def test_model_time_reaches_shaders_at_every_frame(scene, plate, shoot, shot, st
         assert shot.frames.time(frame) == pytest.approx(seconds)
 
 
-def test_thermal_layers_show_kelvin_and_others_the_shader(scene, plate, shoot):
+def test_thermal_layers_show_a_number_and_others_the_shader(scene, plate, shoot):
     _show(plate, lambda t: nodes.thermal_switch(t, t.emission((0.2, 0.3, 0.4)), t.math("ADD", 311.5, 0.0)))
     scene.view_layers[0].name = "rgb"
     scene.view_layers.new("thermal")[nodes.THERMAL] = 1.0
     assert shoot(scene, "rgb")[2, 2] == pytest.approx([0.2, 0.3, 0.4], abs=1e-5)
-    assert np.abs(shoot(scene, "thermal") - 311.5).max() < 0.1
+    assert shoot(scene, "thermal") == pytest.approx(float(sensor.brightness_temperature(311.5)), rel=1e-5)
 
 
 def test_sockets_are_found_by_name_and_missing_ones_named():

@@ -193,7 +193,7 @@ def test_only_frames_whose_smoke_is_shown_are_baked(smoky, run):
     assert bake.shot_frames(Shot(replace(smoky, cameras=(blind, still)), run)) == [2]
 
 
-def test_a_thermal_picture_alone_is_made_from_a_visible_one_with_all_its_smoke(smoky, run, monkeypatch):
+def test_a_thermal_picture_shows_all_smoke(smoky, run, monkeypatch):
     thermal = replace(smoky.cameras[0], name="a", passes=("thermal",))
     still = replace(smoky.cameras[0], name="b", frames="2")
     shot = Shot(replace(smoky, cameras=(thermal, still)), run)

@@ -20,6 +20,7 @@ from firetwin.bench import (
     planning,
     plots,
     plume,
+    radiometry,
     smoke,
     table,
     text,
@@ -27,6 +28,7 @@ from firetwin.bench import (
 )
 from firetwin.bench.harness import Bench
 from firetwin.bench.timing import Times
+from firetwin_core import sensor
 from firetwin_core.geo import LocalFrame
 
 
@@ -304,3 +306,16 @@ def test_frames_go_through_the_run(monkeypatch):
     ring = frames.circle(40)
     assert ring.shape == (frames.MODEL_TIMES, 40, 40)
     assert 0 < (ring[0] > 0).sum() < (ring[-1] > 0).sum()
+
+
+def test_infrared_pictures_are_the_same_with_numpy(tmp_path):
+    radiance = radiometry.picture()
+    exact = sensor.brightness_temperature(radiance, radiometry.BAND)
+    assert np.abs(radiometry.with_numpy(radiance) - exact).max() < 0.01
+    sensor.write_image(tmp_path / "in.exr", radiance)
+    low, high = radiometry.LOW, radiometry.HIGH
+    stops = sensor.colour(np.linspace(low, high, 8)[None], low, high, "ironbow")[0]
+    radiometry.ours_on_files(tmp_path / "in.exr", tmp_path / "a.png", sensor.PlanckTable(radiometry.BAND))
+    radiometry.numpy_on_files(tmp_path / "in.exr", tmp_path / "b.png", stops)
+    ours, other = (sensor.read_image(tmp_path / f"{name}.png") for name in "ab")
+    assert np.abs(ours - other).max() < 1.01 / 255

@@ -28,7 +28,7 @@ def test_help_names_every_command():
     assert result.returncode == 0
     assert all(
         f"    {name}  " in result.stdout
-        for name in ("sample", "info", "maps", "build", "bake", "render", "schema", "bench")
+        for name in ("sample", "info", "maps", "satellite", "build", "bake", "render", "schema", "bench")
     )
     assert result.stderr == ""
 
@@ -80,7 +80,9 @@ sys.exit(main(["bench"]))
     assert_one_line(result, 1, "benchmarks", "checkout")
 
 
-@pytest.mark.parametrize("command", ["sample", "info", "maps", "build", "bake", "render", "schema", "bench"])
+@pytest.mark.parametrize(
+    "command", ["sample", "info", "maps", "satellite", "build", "bake", "render", "schema", "bench"]
+)
 def test_every_command_explains_itself(command):
     result = firetwin(command, "--help")
     assert result.returncode == 0

@@ -2,11 +2,16 @@
 
 import dataclasses
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from firetwin.run.frame import local_frame
 from firetwin.shot import passes
-from firetwin.shot.settings import Camera, Render, Settings
+from firetwin.shot.passes import _bar, _view
+from firetwin.shot.path import Path
+from firetwin.shot.settings import Camera, Render, Settings, Thermal
+from firetwin_core import run as runs
 from firetwin_core import sensor
 
 KNOWN = passes.known()
@@ -28,22 +33,24 @@ def test_a_pass_says_what_it_is(name):
     assert module.__doc__
     assert each.help.strip()
     assert not each.help.endswith(".")
-    assert "exr" in each.files  # Blender writes it
+    assert ("exr" in each.files) >= bool(each.output)  # Blender writes it
+    assert each.output or each.finish
     assert set(each.needs) <= set(KNOWN) - {name}
     assert (each.finish is not None) >= bool(each.needs)
     assert each.filmed <= ("png" in each.files)
 
 
-def test_data_is_neither_denoised_nor_seen_through_smoke():
+def test_data_is_not_denoised_and_only_surfaces_leave_out_smoke():
     assert [name for name, each in KNOWN.items() if not each.data] == ["rgb"]
-    assert all(("smoke" in each.leaves_out) == each.data for each in KNOWN.values())
+    assert [name for name, each in KNOWN.items() if "smoke" in each.leaves_out] == ["depth", "normal"]
     assert "smoke" not in KNOWN["depth"].aspects
 
 
 def test_what_files_depend_on_holds_what_they_are_made_from():
     thermal, rgb = KNOWN["thermal"], KNOWN["rgb"]
-    assert thermal.aspects == thermal.shows | rgb.shows
-    assert rgb.aspects == rgb.shows
+    assert thermal.aspects == thermal.shows
+    made = dataclasses.replace(thermal, needs=("rgb",))
+    assert made.aspects == thermal.shows | rgb.shows
 
 
 def test_passes_of_a_camera_come_in_order():
@@ -63,26 +70,151 @@ def test_a_pass_is_added_by_one_file(tmp_path, monkeypatch):
     monkeypatch.setattr(passes, "__path__", [*passes.__path__, str(tmp_path)])
     passes.known.cache_clear()
     try:
-        before = [name for name in KNOWN if name != "thermal"]
-        assert list(passes.known()) == [*before, "mask", "thermal"]
+        names = list(KNOWN)
+        names.insert(names.index("thermal"), "mask")
+        assert list(passes.known()) == names
         assert passes.known()["mask"].aspects == {"fire"} | KNOWN["depth"].shows
     finally:
         passes.known.cache_clear()
         sys.modules.pop(f"{passes.__name__}.mask")
 
 
-def test_the_thermal_picture_is_made_of_its_temperatures_and_the_visible_one(tmp_path):
-    kelvin = np.linspace(300, 900, 24, dtype=np.float32).reshape(4, 6)
-    rgb = np.full((4, 6, 3), 0.25, np.float32)
-    files = {end: tmp_path / f"thermal.{end}" for end in ("exr", "png")}
-    needed = {"rgb": {end: tmp_path / f"rgb.{end}" for end in ("png", "exr")}}
-    sensor.write_image(files["exr"], np.repeat(kelvin[..., None], 3, axis=-1))
-    sensor.write_image(needed["rgb"]["png"], rgb)
-    settings = Settings(render=Render(thermal_low=320.0, thermal_high=800.0))
-    KNOWN["thermal"].finish(files, needed, settings)
-    made = sensor.read_image(files["png"])[..., :3]
-    visible = sensor.read_image(needed["rgb"]["png"])[..., :3]
-    expected = sensor.thermal_composite(visible, kelvin, 320.0, 800.0)
-    np.testing.assert_allclose(made, expected, atol=1 / 255)
-    assert np.abs(made[0, 0] - visible[0, 0]).max() < 0.01  # colder than where colour begins
-    assert made[-1, -1].min() > 0.9  # white
+def thermal(path, radiance, **keys):
+    """The thermal pass's EXR (h, w, channels) and PNG of rendered radiance."""
+    files = {end: path / f"thermal.{end}" for end in ("exr", "png")}
+    sensor.write_image(files["exr"], np.repeat(radiance[..., None], 3, axis=-1))
+    settings = Settings(render=Render(thermal_low=290.0, thermal_high=1000.0), thermal=Thermal(**keys))
+    KNOWN["thermal"].finish(files, {}, SimpleNamespace(settings=settings), "drone", 1)
+    return sensor.read_image(files["exr"]), sensor.read_image(files["png"])[..., :3]
+
+
+def scene(height=36, width=64):
+    """300 K with a 1000 K patch, and a row of pixels that are half of each: W m-2 sr-1."""
+    cold, hot = sensor.radiance([300.0, 1000.0])
+    radiance = np.full((height, width), cold, np.float32)
+    radiance[10:20, 10:20], radiance[25] = hot, 0.5 * (cold + hot)
+    return radiance
+
+
+def test_the_thermal_pass_holds_brightness_temperature_and_radiance(tmp_path):
+    found, picture = thermal(tmp_path, scene())
+    kelvin, radiance = np.moveaxis(found, -1, 0)
+    assert np.array_equal(radiance, scene())
+    assert kelvin[0, 0] == pytest.approx(300.0, abs=1e-3)
+    assert kelvin[15, 15] == pytest.approx(1000.0, abs=1e-3)
+    half = sensor.brightness_temperature(0.5 * sensor.radiance([300.0, 1000.0]).sum())
+    assert kelvin[25] == pytest.approx(float(half), abs=1e-3)
+    assert half > 700.0
+    expected = sensor.colour(kelvin, 290.0, 1000.0, "white-hot", 0.4)
+    assert np.abs(picture - expected).max() < 0.51 / 255
+
+
+def test_the_names_of_its_channels_are_in_the_exr(tmp_path):
+    thermal(tmp_path, scene(), saturation=800.0, bits=14)
+    header = (tmp_path / "thermal.exr").read_bytes()[:1000]
+    assert all(name in header for name in (b"kelvin\0", b"radiance\0", b"signal\0"))
+
+
+def test_the_detector_of_the_settings_measures(tmp_path):
+    kelvin, _, signal = np.moveaxis(thermal(tmp_path, scene(), saturation=800.0, bits=14)[0], -1, 0)
+    assert kelvin.max() == pytest.approx(800.0, abs=1e-3)
+    assert signal.max() == 2**14 - 1
+    assert np.array_equal(signal, np.round(signal))
+    noisy = thermal(tmp_path, scene(), noise=0.1)[0][..., 0]
+    assert noisy[0].std() == pytest.approx(0.1, rel=0.5)
+    assert np.array_equal(noisy, thermal(tmp_path, scene(), noise=0.1)[0][..., 0])
+    assert thermal(tmp_path, scene(), blur=2.0)[0][15, 21, 0] > 320.0
+    mid, low = (sensor.radiance(300.0, band) for band in ((3.4, 4.1), (8.0, 14.0)))
+    other = thermal(tmp_path, scene() / np.float32(low / mid), band="mwir")[0]
+    assert other[0, 0, 0] == pytest.approx(300.0, abs=1e-3)
+
+
+def test_a_bar_of_round_temperatures_stands_at_the_right(tmp_path):
+    assert _bar.marks(290.0, 1000.0, 0.4, 20.0)[-1] == 1000.0
+    assert all(kelvin % 10 == 0 for kelvin in _bar.marks(290.0, 1000.0, 0.4, 20.0))
+    assert len(_bar.marks(299.0, 301.0, 1.0, 20.0)) >= 3
+    _, picture = thermal(tmp_path, scene(180, 320), palette="inferno")
+    bare = sensor.colour(np.full((180, 320), 300.0), 290.0, 1000.0, "inferno", 0.4)
+    bar = picture[20:160, 312:316].mean(axis=(1, 2))
+    assert bar[0] > bar[-1] + 0.5
+    assert np.all(np.diff(bar) < 0.02)
+    assert np.abs(picture[30:, :280] - bare[30:, :280]).max() < 0.51 / 255
+
+
+def view(perspective):
+    """A camera 1 km up that looks straight down, turned so that its top is east."""
+    rotation = np.array([[[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]])
+    half = (0.5, 0.25) if perspective else (500.0, 250.0)
+    place = np.array([[10.0, 20.0, 1000.0]])
+    return Path(Camera(name="drone"), place, rotation, place, half, perspective)
+
+
+@pytest.mark.parametrize("perspective", [True, False])
+def test_points_of_a_depth_are_where_the_ground_is(perspective):
+    planar = np.full((20, 40), 1000.0, np.float32)
+    planar[0] = 1e10
+    found = _view.points(view(perspective), 1, planar)
+    assert np.isnan(found[0]).all()
+    assert np.abs(found[1:, :, 2]).max() < 1e-9
+    assert found[10, 20, :2] == pytest.approx([10.0 - 12.5, 20.0 - 12.5])  # half a pixel right and down
+    assert found[19, 39, :2] == pytest.approx([10.0 - 250.0 + 12.5, 20.0 - 500.0 + 12.5])
+    ranges = _view.ranges(view(perspective), planar)
+    expected = np.linalg.norm(found - view(True).position[0], axis=-1) if perspective else planar
+    np.testing.assert_allclose(ranges[1:], expected[1:], rtol=1e-6)
+    assert np.all(ranges[0] == np.float32(1e10))
+
+
+class Seen:
+    """A shot of one camera over a run of 300 K with a warm quarter, as passes that only finish need it."""
+
+    def __init__(self, run):
+        self.run, self.local_frame, self.paths = run, local_frame(run), [view(False)]
+        self.settings = Settings()
+        self.frames = SimpleNamespace(step=0.0, middle=0.0, time=lambda frame: 0.0)
+
+
+@pytest.fixture
+def finished(tmp_path, make_run):
+    """Finish a pass from a grey picture and the depth of even ground, half of it sky: (before, after)."""
+
+    def finish(name, **fields):
+        seen = Seen(runs.open(make_run(**fields)))
+        seen.paths[0].position[:] = [0.0, 0.0, 1000.0]
+        needed = {"rgb": {"png": tmp_path / "rgb.png"}, "depth": {"exr": tmp_path / "depth.exr"}}
+        rgb = np.random.default_rng(0).uniform(0.0, 0.5, (20, 40, 3))
+        planar = np.full((20, 40), 1000.0)
+        planar[:5] = 1e10
+        sensor.write_image(needed["rgb"]["png"], rgb)
+        sensor.write_image(needed["depth"]["exr"], planar)
+        KNOWN[name].finish({"png": tmp_path / "made.png"}, needed, seen, "drone", 1)
+        return [sensor.read_image(path)[..., :3] for path in (needed["rgb"]["png"], tmp_path / "made.png")]
+
+    return finish
+
+
+def test_the_papers_map_adds_the_gradient_of_the_models_temperature(finished):
+    field = np.full((3, 4, 5), 300.0, np.float32)
+    field[:, :, 3:] = 320.0  # the east, which is the picture's upper half
+    before, after = finished("thermal_map", temperature=field, elevation=np.zeros((4, 5), np.float32))
+    assert np.array_equal(after[:5], before[:5])  # sky
+    assert np.abs(after[-2:] - before[-2:]).max() < 1 / 255 + 1e-6  # the lowest temperature is black
+    warm = (after - before)[5]
+    assert warm.max() > 0.2
+    assert np.all(after >= before - 1e-6)
+
+
+def test_eye_dome_lighting_darkens_the_sky_behind_the_ground_alone(finished):
+    before, after = finished("edl")
+    assert np.abs(after[5:] - before[5:]).max() < 0.51 / 255
+    assert np.all(after[4] < 0.01)
+    assert np.array_equal(after[:4], before[:4])
+
+
+def test_depth_has_both_distances_by_name(tmp_path):
+    path = tmp_path / "depth.exr"
+    sensor.write_image(path, np.full((20, 40), 1000.0))
+    KNOWN["depth"].finish({"exr": path}, {}, SimpleNamespace(paths=[view(True)]), "drone", 1)
+    planar, far = np.moveaxis(sensor.read_image(path), -1, 0)
+    assert np.all(planar == 1000.0)
+    assert far[0, 0] == pytest.approx(1000.0 * np.sqrt(1 + (0.5 * 39 / 40) ** 2 + (0.25 * 19 / 20) ** 2))
+    assert all(name in path.read_bytes()[:600] for name in (b"planar\0", b"range\0"))

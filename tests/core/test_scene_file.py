@@ -137,7 +137,7 @@ MISTAKES = [
     ('run = "elsewhere/run"', "light = 3", 1, 1, ["light must be a table, not 3"]),
     ('run = "elsewhere/run"', "run", 1, 6, ["not valid TOML"]),
     ('"two"', '"two', 19, 12, ["not valid TOML"]),
-    ("[320, 180]", "[320, 180]\nthermal_high = 200", 10, 1, ["thermal_high", "thermal_low"]),
+    ("[320, 180]", "[320, 180]\nthermal_low = 300\nthermal_high = 200", 11, 1, ["thermal_high"]),
     ("[320, 180]", '[320, 180]\nengine = "evee"', 10, 1, ['"eevee"']),
 ]
 

@@ -93,9 +93,11 @@ def test_what_a_product_depends_on_is_chosen_by_aspect():
     assert schema.chosen(SETTINGS, {"time"}) == {"time": time}
     assert schema.chosen(SETTINGS, {"film"}) == {"time": {"fps": 24, "zone": "America/Los_Angeles"}}
     assert schema.chosen(SETTINGS, {"picture"}) == {"render": {"engine": "cycles", "resolution": [640, 360]}}
-    assert schema.chosen(SETTINGS, {"grain", "thermal"}) == {
-        "render": {"samples": 6, "denoise": True, "seed": 0, "thermal_low": 320.0, "thermal_high": 800.0}
-    }
+    grain = {"samples": 6, "denoise": True, "seed": 0}
+    assert schema.chosen(SETTINGS, {"grain"}) == {"render": grain}
+    found = schema.chosen(SETTINGS, {"thermal"})
+    assert found["render"] == {"thermal_low": None, "thermal_high": 800.0}
+    assert found["thermal"]["band"] == "lwir"
     for aspect in ("ground", "forest", "fire", "smoke"):
         assert set(schema.chosen(SETTINGS, {aspect})) == {"seed", aspect}
     assert set(schema.chosen(SETTINGS, {"light"})) == {"light"}
@@ -138,10 +140,10 @@ def test_equal_settings_are_chosen_as_equal_json():
     assert repr(schema.chosen(same, ASPECTS)) == repr(schema.chosen(SETTINGS, ASPECTS))
 
 
-def test_the_pass_thermal_depends_on_the_picture_too():
+def test_the_pass_thermal_depends_on_smoke_and_its_own_settings():
     aspects = passes.known()["thermal"].aspects
     assert "thermal" in aspects
-    assert "smoke" in aspects  # only its picture shows it
+    assert "smoke" in aspects
     changed = dataclasses.replace(SETTINGS, render=Render(thermal_high=900.0), fire=Fire(torches=False))
     depth = passes.known()["depth"].aspects
     assert schema.chosen(changed, depth) == schema.chosen(SETTINGS, depth)

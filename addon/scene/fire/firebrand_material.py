@@ -7,7 +7,7 @@ import bpy
 from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
-from .. import glow, haze
+from .. import glow, haze, infrared
 
 _COOL, _HOT = (1.0, 0.10, 0.008), (1.0, 0.42, 0.10)
 _LIGHT = 40.0  # radiance over that of flames; chosen by eye, as in a long exposure
@@ -26,7 +26,8 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     strength = shine * cover * (1.0 - part) * (_LIGHT * glow.brightness(shot))
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": (1.0, 1.0, 1.0)})
     glowing = tree.add_shader(tree.emission(colour, strength), clear)
-    warm = tree.mix_shader(cover, clear, tree.emission(kelvin, 1.0))
+    warmth = infrared.through_air(tree, shot, stage, infrared.emitted(tree, shot, stage, kelvin))
+    warm = tree.mix_shader(cover, clear, tree.emission(warmth, 1.0))
     tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), glowing, warm))
     material.cycles.emission_sampling = "NONE"
     return material

@@ -7,7 +7,7 @@ import bpy
 from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
-from .. import glow, haze
+from .. import glow, haze, infrared
 
 _RIM, _BODY, _CORE = (1.0, 0.12, 0.008), (1.0, 0.34, 0.04), (1.0, 0.55, 0.15)
 _DIMMED = 0.2  # part of their light that flames have at the nearer of the distances `glow.CLOSE`
@@ -45,7 +45,11 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     shader = tree.add_shader(tree.emission(colour, strength * (1.0 - part)), clear)
     flame = shape > 0.12
     gap = tree.output("ShaderNodeBsdfTransparent")  # which hides nothing of the heat behind it
-    hot = tree.mix_shader(flame, gap, tree.emission(tree.attribute("kelvin", "INSTANCER"), 1.0))
+    depth = tree.attribute("flame_width", "INSTANCER")
+    emissivity = flame * (1.0 - (depth * -infrared.FLAME).exp())
+    warmth = infrared.emitted(tree, shot, stage, tree.attribute("kelvin", "INSTANCER"))
+    warmth = infrared.through_air(tree, shot, stage, warmth)
+    hot = tree.mix_shader(emissivity, gap, tree.emission(warmth, 1.0))
     light = tree.mix_shader(flame, clear, shader)
     tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), light, hot))
     material.cycles.emission_sampling = "NONE"

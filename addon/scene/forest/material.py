@@ -12,7 +12,7 @@ import bpy
 from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
-from .. import haze, temperature
+from .. import haze, infrared, temperature
 from ..glow import CLOSE, EMBER, FLAME, brightness
 
 TORCHING = 300.0  # s that a crown is in flames
@@ -67,9 +67,9 @@ def bark(shot: Shot, stage: Stage, *, charred: bool) -> bpy.types.Material:
         whole = tree.attribute("severity", "INSTANCER") > SPARED
         colour = tree.mix_colour((age > 60.0) * tree.math("MAXIMUM", low, whole), brown, black)
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
-    ambient = temperature.ambient(tree, shot, tree.attribute("elevation", "INSTANCER"), 1.0)
-    kelvin = temperature.cooling(tree, ambient, age, age > 0.0)
-    tree.surface(nodes.thermal_switch(tree, haze.apply(tree, matt, stage), kelvin))
+    normal = tree.output("ShaderNodeNewGeometry", name="Normal")
+    warmth = _warmth(tree, shot, stage, normal, age, age > 0.0)
+    tree.surface(_switch(tree, shot, stage, matt, warmth))
     return material
 
 
@@ -140,6 +140,31 @@ def _leaves(
     afar = tree.output("ShaderNodeCameraData", name="View Distance").ramp(*CLOSE, *_TORCH)
     flame = tree.mix_colour(flaming.smoothstep(0.1, 0.8), EMBER, FLAME)
     burning = tree.add_shader(leaf, tree.emission(flame, flaming * afar * brightness(shot)))
-    ambient = temperature.ambient(tree, shot, tree.attribute("elevation", "INSTANCER"), 1.0)
-    kelvin = temperature.burning(tree, ambient, age, age > 0.0, flaming, 0.0)
-    tree.surface(nodes.thermal_switch(tree, haze.apply(tree, burning, stage), kelvin))
+    warmth = _warmth(tree, shot, stage, normal, age, 0.0)
+    hot = flaming.ramp(0.0, 1.0, temperature.FLAME_LOW, temperature.FLAME_HIGH)
+    hot = infrared.emitted(tree, shot, stage, hot)
+    warmth = tree.mix(flaming.smoothstep(0.0, 0.5), warmth, hot)
+    tree.surface(_switch(tree, shot, stage, burning, warmth))
+
+
+def _warmth(
+    tree: nodes.Tree,
+    shot: Shot,
+    stage: Stage,
+    normal: nodes.Value,
+    age: nodes.Value,
+    burned: nodes.Value | float,
+) -> nodes.Value:
+    """Infrared radiance of needles and wood, before the air; leaves that `burned` cool at once."""
+    elevation = tree.attribute("elevation", "INSTANCER")
+    ambient = temperature.ambient(tree, shot, stage, elevation, normal, 0.0)
+    kelvin = temperature.cooled(tree, ambient, age, burned)
+    return infrared.emitted(tree, shot, stage, kelvin, infrared.NEEDLES)
+
+
+def _switch(
+    tree: nodes.Tree, shot: Shot, stage: Stage, shader: nodes.Value, warmth: nodes.Value
+) -> nodes.Value:
+    """`shader` through the haze, or the infrared radiance through the air."""
+    seen = infrared.through_air(tree, shot, stage, warmth)
+    return infrared.switch(tree, haze.apply(tree, shader, stage), seen)

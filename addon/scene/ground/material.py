@@ -15,9 +15,9 @@ from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot import photo
 from ...shot.shot import Shot
-from .. import haze, temperature
+from .. import haze, infrared
 from ..glow import CLOSE, EMBER, FLAME
-from . import fields
+from . import fields, heat
 
 FLAMING_TIME = 100.0, 300.0  # s that the edge is in flames, seen from nearby and from FAR
 FAR = 9000.0  # m; from there the edge is drawn wider, as a picture's pixels are
@@ -30,7 +30,7 @@ _DIMMED = 0.3  # part of their light that flames of the edge have near by
 
 
 @dataclass
-class _Place:
+class Place:
     """What the material knows about a point of the ground."""
 
     position: nodes.Value
@@ -72,14 +72,13 @@ def build(
     # Lamps and the smoke's glow carry the light of flames: rays that happen to meet the edge would be noise.
     seen = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     shader = haze.apply(tree, tree.add_shader(matt, tree.emission(light, power * seen)), stage)
-    ambient = temperature.ambient(tree, shot, place.elevation, place.canopy)
-    kelvin = temperature.burning(tree, ambient, place.age, place.burned, flaming, embers)
-    tree.surface(nodes.thermal_switch(tree, shader, kelvin))
+    warmth = heat.radiance(tree, shot, stage, place, rock, lake, normal, (flaming, embers))
+    tree.surface(infrared.switch(tree, shader, warmth))
     material.cycles.emission_sampling = "NONE"  # as lamps, its small lights would be noise
     return material
 
 
-def _place(tree: nodes.Tree, known: fields.Fields, radius: float) -> _Place:
+def _place(tree: nodes.Tree, known: fields.Fields, radius: float) -> Place:
     geometry = tree.node("ShaderNodeNewGeometry")
     position = tree.pick(geometry, "Position")
     slope = 1.0 - tree.separate(tree.pick(geometry, "True Normal"))[2]
@@ -88,7 +87,7 @@ def _place(tree: nodes.Tree, known: fields.Fields, radius: float) -> _Place:
     age = nodes.model_time(tree) - known["burn_time"] + wander * (2.0 * _JITTER)
     edge = known["burned"] + (tree.noise(position, 120.0, 3.0) - 0.5) * 0.8
     burned = (age > 0.0) * (edge > 0.5)
-    return _Place(
+    return Place(
         position,
         slope,
         known["canopy_fuel"],
@@ -101,7 +100,7 @@ def _place(tree: nodes.Tree, known: fields.Fields, radius: float) -> _Place:
     )
 
 
-def _rock(tree: nodes.Tree, place: _Place) -> nodes.Value:
+def _rock(tree: nodes.Tree, place: Place) -> nodes.Value:
     """Bare rock 0..1: where nothing grows, on cliffs, and in outcrops that grow commoner with height."""
     ragged = tree.noise(place.position, 260.0, 6.0, 0.66)
     bare = (place.bare + (ragged - 0.5) * 1.7).smoothstep(0.42, 0.58) * (place.bare > 0.02)
@@ -110,7 +109,7 @@ def _rock(tree: nodes.Tree, place: _Place) -> nodes.Value:
     return tree.math("MAXIMUM", bare, tree.math("MAXIMUM", cliff, high * 0.9))
 
 
-def _unburned(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> tuple[nodes.Value, nodes.Value]:
+def _unburned(tree: nodes.Tree, place: Place, rock: nodes.Value) -> tuple[nodes.Value, nodes.Value]:
     """Colour, and height of the canopy (m) for the bump."""
     fine = tree.noise(place.position, 24.0, 4.0, 0.65)
     patch = tree.noise(place.position, 420.0, 4.0, 0.6)
@@ -155,7 +154,7 @@ def _unburned(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> tuple[nodes
 
 def _photographed(
     tree: nodes.Tree,
-    place: _Place,
+    place: Place,
     picture: photo.Picture,
     image: bpy.types.Image,
     colour: nodes.Value,
@@ -170,7 +169,7 @@ def _photographed(
     return tree.mix_colour(counts, colour, tree.pick(shown, "Color")), bump * (1.0 - counts)
 
 
-def _granite(tree: nodes.Tree, place: _Place) -> nodes.Value:
+def _granite(tree: nodes.Tree, place: Place) -> nodes.Value:
     grain = tree.noise(place.position, 40.0, 6.0, 0.72)
     crack = tree.noise(place.position, 34.0, 5.0, 0.62) - 0.5
     joints = tree.math("ABSOLUTE", crack).smoothstep(0.016, 0.0)
@@ -182,7 +181,7 @@ def _granite(tree: nodes.Tree, place: _Place) -> nodes.Value:
     return tree.mix_colour(shrubs * 0.8, stone, (0.030, 0.038, 0.018))
 
 
-def _water(tree: nodes.Tree, place: _Place) -> nodes.Value:
+def _water(tree: nodes.Tree, place: Place) -> nodes.Value:
     """Dark water that mirrors the sky, more at grazing angles, ruffled by the wind."""
     ripples = tree.noise(place.position, 7.0, 2.0) * 0.05
     normal = tree.output("ShaderNodeBump", {"Strength": 0.5, "Distance": 1.0, "Height": ripples})
@@ -191,7 +190,7 @@ def _water(tree: nodes.Tree, place: _Place) -> nodes.Value:
     return tree.mix_shader(tree.output("ShaderNodeFresnel", {"IOR": 1.33}), deep, mirror)
 
 
-def _charred(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> nodes.Value:
+def _charred(tree: nodes.Tree, place: Place, rock: nodes.Value) -> nodes.Value:
     """Char, white ash in streaks, brown scorched crowns where it burned mildly, and rock as it was."""
     tone = tree.noise(place.position, 90.0, 4.0, 0.62)
     char = tree.mix_colour(tone.smoothstep(0.3, 0.72), (0.009, 0.008, 0.008), (0.052, 0.046, 0.041))
@@ -207,7 +206,7 @@ def _charred(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> nodes.Value:
     return tree.mix_colour(rock, char, stone)
 
 
-def _glow(tree: nodes.Tree, place: _Place, rock: nodes.Value) -> tuple[nodes.Value, nodes.Value]:
+def _glow(tree: nodes.Tree, place: Place, rock: nodes.Value) -> tuple[nodes.Value, nodes.Value]:
     """Flames of the edge and embers behind it, each 0..1."""
     fuel = place.burned * (1.0 - rock)
     tongues = tree.noise(place.position, 40.0, 4.0, 0.68).smoothstep(0.46, 0.60)

@@ -10,14 +10,13 @@ from numpy.typing import NDArray
 from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
 from ...shot.shot import Shot
-from .. import haze
+from .. import haze, infrared
 from . import exposure
 from .sky import NIGHT_SKY, State
 
 _KEYS = 25  # the sky changes at this many moments of the shot
 _SKY = 0.12  # strength of the sky texture; more drowns the sunlit side of smoke
 _DUST = 0.3  # of the sky texture; 1 makes it pale and greenish
-THERMAL_SKY = 250.0  # K, a clear sky in the long-wave infrared
 _TRANSFORM, _LOOK = "AgX", "AgX - Medium High Contrast"
 _INSTEAD = ("Filmic", "Standard")  # view transforms where there is no AgX, the better first
 
@@ -41,6 +40,7 @@ def build(shot: Shot, stage: Stage) -> list[str]:
         return []
     if stage.scene.world is None:
         _world(stage.scene, frames, states)
+    _thermal_sky(stage.scene.world, infrared.sky(shot))
     _expose(stage.scene, frames, exposure.at(shot, frames))
     return _colours(stage.scene.view_settings)
 
@@ -81,12 +81,20 @@ def _world(scene: bpy.types.Scene, frames: NDArray[np.float64], states: list[Sta
     compat.find_socket(light.socket.node.inputs, "Scale").default_value = _SKY
     light = tree.vector("ADD", light, tuple(NIGHT_SKY))
     seen = tree.output("ShaderNodeBackground", {"Color": light, "Strength": 1.0})
-    cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": THERMAL_SKY})
+    cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": 0.0})
+    cold.socket.node.name = "Thermal Sky"
     tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), seen, cold))
     compat.set_sky(sky, states[0].sky[0], states[0].sky[1], _DUST)
     place = f'nodes["{sky.name}"]'
     _key(world.node_tree, f"{place}.sun_elevation", frames, np.array([s.sky[0] for s in states]))
     _key(world.node_tree, f"{place}.sun_rotation", frames, np.unwrap([s.sky[1] for s in states]))
+
+
+def _thermal_sky(world: bpy.types.World, radiance: float) -> None:
+    """Set what the sky gives off in thermal view layers; worlds that are not ours stay."""
+    node = world.node_tree.nodes.get("Thermal Sky") if world.node_tree and owned.ours(world) else None
+    if node is not None:
+        compat.find_socket(node.inputs, "Strength").default_value = radiance
 
 
 def _expose(scene: bpy.types.Scene, frames: NDArray[np.float64], exposures: NDArray[np.float64]) -> None:

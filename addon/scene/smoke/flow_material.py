@@ -14,7 +14,7 @@ import bpy
 from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
-from .. import haze
+from .. import haze, infrared
 from ..light import exposure, sky
 from . import material
 
@@ -41,7 +41,8 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     thinner = density * _LIGHT
     thinner.socket.node.name = "Light"
-    tree.volume(tree.mix_shader(camera, _smoke(tree, thinner, _MIDDLE), detailed))
+    visible = tree.mix_shader(camera, _smoke(tree, thinner, _MIDDLE), detailed)
+    tree.volume(infrared.smoke(tree, shot, stage, visible, density))
     made.cycles.volume_sampling = "DISTANCE"
     made.cycles.emission_sampling = "NONE"
     return made

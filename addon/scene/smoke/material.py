@@ -14,7 +14,7 @@ import numpy as np
 from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
-from .. import haze
+from .. import haze, infrared
 from ..light import exposure, sky
 from . import view
 
@@ -74,7 +74,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     # Most steps belong to rays of light through the smoke. They need no detail: one grid is enough.
     plain = _smoke(tree, _extinction(tree.attribute("shade"), opacity, drawn.extinction), _MIDDLE)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
-    tree.volume(tree.mix_shader(camera, plain, detailed))
+    tree.volume(infrared.smoke(tree, shot, stage, tree.mix_shader(camera, plain, detailed), density))
     material.cycles.volume_sampling = "DISTANCE"
     material.cycles.emission_sampling = "NONE"
     return material

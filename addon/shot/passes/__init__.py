@@ -15,8 +15,10 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ..settings import Camera, Settings
+    from ..shot import Shot
 
-Finish = Callable[[Mapping[str, Path], Mapping[str, Mapping[str, Path]], "Settings"], None]
+Files = Mapping[str, Path]
+Finish = Callable[[Files, Mapping[str, Files], "Shot", str, int], None]
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,7 @@ class Pass:
     files
         Suffixes of its files.
     output
-        Socket of Blender's Render Layers node.
+        Socket of Blender's Render Layers node; empty: nothing is rendered, `finish` makes all files.
     enable
         Property of a view layer that switches the socket on; empty: it is always there.
     leaves_out
@@ -40,7 +42,7 @@ class Pass:
     samples
         Rays per pixel; None: those of [render].
     data
-        Never denoised, and the shaders show temperature instead of light.
+        Never denoised, and the shaders show infrared radiance instead of light.
     channels
         Of its EXR: "colour" or "grey".
     bits
@@ -54,8 +56,9 @@ class Pass:
     needs
         Other passes whose files its own are made from.
     finish
-        Makes the files that Blender does not. Called with the pass's files by suffix, the EXR finished; the
-        files of the passes that it needs, by pass and suffix; and the settings.
+        Makes the files that Blender does not, or goes on with those that it made. Called with the pass's
+        files by suffix; those of the passes that it needs, by pass and suffix; the shot; the camera's name;
+        and the frame.
     """
 
     name: str

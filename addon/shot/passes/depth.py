@@ -1,17 +1,38 @@
-"""Distance along the camera's axis, in metres, to ground and trees.
+"""Distance in metres to ground and trees, along the camera's axis and along the line of sight.
 
-Flames and smoke are left out, as they have no surface. One ray goes through the middle of each pixel, so
-that no pixel is a mean of near and far. The sky is 1e10 m, as everywhere in Blender.
+The EXR holds two channels, `planar` and `range`. Flames and smoke are left out, as they have no surface. One
+ray goes through the middle of each pixel, so that no pixel is a mean of near and far. The sky is 1e10 m, as
+everywhere in Blender.
 """
 
 from __future__ import annotations
 
-from . import Pass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from . import Files, Pass, _view
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ..shot import Shot
+
+
+def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, _frame: int) -> None:
+    """Add the range to the depth that was rendered."""
+    from firetwin_core import sensor
+
+    planar = sensor.read_image(files["exr"])[..., 0]
+    both = np.stack([planar, _view.ranges(_view.of(shot, camera), planar)], axis=-1)
+    about = {"Comment": "m; planar: along the camera's axis, range: along the line of sight"}
+    sensor.write_image(files["exr"], both, about, ["planar", "range"])
+
 
 PASS = Pass(
     name="depth",
     order=20,
-    help="Metres to ground and trees, 32-bit EXR",
+    help="Metres to ground and trees, along the axis and the line of sight, 32-bit EXR",
     files=("exr",),
     output="Depth",
     enable="use_pass_z",
@@ -19,4 +40,5 @@ PASS = Pass(
     samples=1,
     pixel_centres=True,
     shows=frozenset({"time", "camera", "picture", "ground", "forest"}),
+    finish=finish,
 )

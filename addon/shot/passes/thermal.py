@@ -1,44 +1,76 @@
-"""Temperatures in kelvin, as a long-wave infrared camera (8 to 14 um) measures them.
+"""What a long-wave (or mid-wave) infrared camera measures: radiance of the band and brightness temperature.
 
-Smoke is left out, as infrared sees through most of it, and so are the lamps that light ground and trees in
-place of the flames. A pixel is the mean over itself, as in a detector. The EXR holds kelvin; the PNG is the
-visible picture with a colour gradient of the temperatures added, as in the paper.
+Everything gives off Planck's radiance by its temperature and emissivity; a pixel is the mean of the radiance
+over itself, as in a detector: half 300 K and half 1200 K is about 840 K. Air and smoke dim what is behind
+them and add their own light. The lamps that light ground and trees in place of the flames are left out.
+
+The EXR holds two channels, `radiance` (W m-2 sr-1) and `kelvin`, the temperature of a black body as bright,
+both as [thermal]'s detector measures them; and `signal`, its counts, where it has bits. The PNG shows the
+temperatures by a palette, spread towards the cold end, with a bar of temperatures.
 """
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from . import Pass
+import numpy as np
+
+from . import Pass, _bar
 
 if TYPE_CHECKING:
-    from ..settings import Settings
+    from ..shot import Shot
+
+POWER = 0.4  # of the palette's scale: what is cold gets more of its colours
 
 
-def add_gradient(
-    files: Mapping[str, Path], needed: Mapping[str, Mapping[str, Path]], settings: Settings
+def finish(
+    files: Mapping[str, Path], _needed: Mapping[str, Mapping[str, Path]], shot: Shot, camera: str, frame: int
 ) -> None:
-    """Write the PNG: the gradient of the temperatures added to the visible picture."""
+    """Let the detector measure the radiance, write what it found, and the picture."""
     from firetwin_core import sensor
 
-    kelvin = sensor.read_image(files["exr"])[..., 0]
-    rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
-    low, high = settings.render.thermal_low, settings.render.thermal_high
-    sensor.write_image(files["png"], sensor.thermal_composite(rgb, kelvin, low, high))
+    from .. import temperature
+    from ..settings import BANDS
+
+    settings = shot.settings.thermal
+    table = sensor.PlanckTable(BANDS[settings.band])
+    reached = sensor.read_image(files["exr"])[..., 0]
+    measured, counts = table.detect(
+        reached,
+        blur=settings.blur,
+        noise=settings.noise,
+        saturation=settings.saturation,
+        bits=settings.bits,
+        key=zlib.crc32(f"{camera} {frame} {shot.settings.render.seed}".encode()),
+    )
+    channels = {"kelvin": table.brightness_temperature(measured), "radiance": measured}
+    if counts is not None:
+        channels["signal"] = counts.astype(np.float32)
+    low_um, high_um = BANDS[settings.band]
+    about = {"Comment": f"kelvin: brightness temperature; radiance: W m-2 sr-1, {low_um:g} to {high_um:g} um"}
+    sensor.write_image(files["exr"], np.stack(list(channels.values()), axis=-1), about, list(channels))
+    low, high = shot.settings.render.thermal_low, shot.settings.render.thermal_high
+    if low is None:
+        low = min(temperature.coldest(shot.run, shot.frames.middle), high - 1.0)
+    shown = sensor.colour(channels["kelvin"], low, high, settings.palette, POWER)
+    _bar.draw(shown, low, high, settings.palette, POWER)
+    sensor.write_image(files["png"], shown)
 
 
 PASS = Pass(
     name="thermal",
     order=30,
-    help="Temperature in kelvin, 32-bit EXR, and the picture with its gradient added",
+    help="Infrared radiance and brightness temperature, 32-bit EXR, and a picture of them",
     files=("exr", "png"),
     output="Image",
-    leaves_out=("smoke", "lamps"),
+    leaves_out=("lamps",),
     samples=4,
     filmed=True,
-    shows=frozenset({"time", "camera", "picture", "ground", "forest", "fire", "light", "thermal"}),
-    needs=("rgb",),
-    finish=add_gradient,
+    shows=frozenset(
+        {"time", "camera", "picture", "ground", "forest", "fire", "smoke", "light", "grain", "thermal"}
+    ),
+    finish=finish,
 )

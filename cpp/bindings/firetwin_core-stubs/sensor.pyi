@@ -13,6 +13,63 @@ def brightness_temperature(
 ) -> NDArray[np.float64]:
     """The inverse of `radiance` -> K."""
 
+def spectral_radiance(kelvin: ArrayLike, wavelength: float) -> NDArray[np.float64]:
+    """Planck's law at a wavelength (micrometres) -> W m-2 sr-1 um-1."""
+
+def spectral_temperature(radiance: ArrayLike, wavelength: float) -> NDArray[np.float64]:
+    """The inverse of `spectral_radiance`, in closed form -> K."""
+
+class PlanckTable:
+    """`radiance` and its inverse for pictures: cubic interpolation of logarithms between `knots` knots.
+
+    Between 150 and 3000 K both are within 1e-9 of the integral's values (relative, of bands from 3 to 14 um
+    with 512 knots), before rounding to float32; beyond, the integral itself is used.
+    """
+
+    def __init__(self, band: tuple[float, float] = (8.0, 14.0), knots: int = 512) -> None: ...
+    def radiance(self, kelvin: ArrayLike) -> NDArray[np.float32]:
+        """Radiance of black bodies (K) over the band -> W m-2 sr-1."""
+
+    def brightness_temperature(self, radiance: ArrayLike) -> NDArray[np.float32]:
+        """The inverse of `radiance` -> K."""
+
+    def detect(
+        self,
+        radiance: ArrayLike,
+        *,
+        blur: float = 0.0,
+        noise: float = 0.0,
+        saturation: float = 0.0,
+        bits: int = 0,
+        key: int = 0,
+    ) -> tuple[NDArray[np.float32], NDArray[np.uint16] | None]:
+        """What a detector makes of the radiance (h, w) W m-2 sr-1 that reaches it.
+
+        `blur`: standard deviation of its Gaussian point spread function, pixels; beyond the edges pixels go
+        on as they are. `noise`: noise-equivalent temperature difference of black bodies at 300 K; Gaussian, by
+        `key` and the pixel alone. `saturation`: temperature that fills its range, K; 0: none. `bits`: of
+        counts proportional to radiance, at most 16 and with a saturation; 0: not quantised.
+
+        Returns
+        -------
+        measured
+            (h, w) radiance, W m-2 sr-1.
+        counts
+            (h, w) whole numbers; None without bits.
+        """
+
+def palettes() -> list[str]:
+    """Names of the palettes that `colour` knows."""
+
+def colour(
+    kelvin: ArrayLike, low: float, high: float, palette: str = "white-hot", power: float = 1.0
+) -> NDArray[np.float32]:
+    """Display colours (h, w, 3) of temperatures (h, w) K.
+
+    Each is the palette at ((kelvin - low) / (high - low)) ** power; beyond the ends as at the nearer one, NaN
+    as at `low`. "inferno" is matplotlib's by 17 stops, within 0.03.
+    """
+
 def thermal_composite(
     rgb: ArrayLike, kelvin: ArrayLike, low: float, high: float, strength: float = 1.0
 ) -> NDArray[np.float32]:
@@ -24,13 +81,25 @@ def thermal_composite(
     8-bit pixels are refused: divide them by 255.
     """
 
+def eye_dome(depth: ArrayLike, strength: float = 4.0, radius: int = 1) -> NDArray[np.float32]:
+    """Eye-dome lighting (C. Boucheny 2009) of depths (h, w) m -> (h, w) factors 0..1 for a picture.
+
+    exp(-strength * s), with s the mean over eight neighbours `radius` pixels away of how many times (as a
+    logarithm to base 2) the pixel is deeper. NaN and depths beyond 1e9 m count as 1e9 m.
+    """
+
 def read_image(path: str | PathLike[str]) -> NDArray[np.float32]:
     """PNG, EXR, TIFF or JPEG (by content) -> (h, w, channels)."""
 
-def write_image(path: str | PathLike[str], pixels: ArrayLike, metadata: dict[str, str] | None = None) -> None:
+def write_image(
+    path: str | PathLike[str],
+    pixels: ArrayLike,
+    metadata: dict[str, str] | None = None,
+    channels: list[str] | None = None,
+) -> None:
     """Write (h, w) or (h, w, c) pixels to a temporary file that is renamed once it is whole and on the disk.
 
-    .png as 8-bit (values clamped to 0..1), .exr as 32-bit float with ZIP.
+    .png as 8-bit (values clamped to 0..1), .exr as 32-bit float with ZIP and these names of `channels`.
 
     Raises
     ------

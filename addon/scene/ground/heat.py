@@ -1,0 +1,39 @@
+"""Infrared radiance of the ground: unburned, cooling, glowing and in flames, by the area of each."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ...blender import nodes
+from ...blender.owned import Stage
+from ...shot.shot import Shot
+from .. import infrared, temperature
+
+if TYPE_CHECKING:
+    from .material import Place
+
+
+def radiance(
+    tree: nodes.Tree,
+    shot: Shot,
+    stage: Stage,
+    place: Place,
+    rock: nodes.Value,
+    lake: nodes.Value,
+    normal: nodes.Value,
+    burning: tuple[nodes.Value, nodes.Value],
+) -> nodes.Value:
+    """Radiance at the camera; `burning` is how much of the ground is flames and embers, each 0..1."""
+    flaming, embers = burning
+    bare = tree.math("MAXIMUM", rock, place.canopy.ramp(0.0, 1.2, 1.0, 0.1))
+    bare = tree.math("MAXIMUM", bare, place.burned)
+    ambient = temperature.ambient(tree, shot, stage, place.elevation, normal, bare)
+    kelvin = temperature.cooled(tree, ambient, place.age, place.burned * (1.0 - rock))
+    kelvin = tree.mix(lake, kelvin, temperature.WATER)
+    emissivity = tree.mix(bare, infrared.NEEDLES, tree.mix(place.burned, infrared.GROUND, infrared.CHAR))
+    emissivity = tree.mix(lake, tree.mix(rock, emissivity, infrared.STONE), infrared.LAKE)
+    own = infrared.emitted(tree, shot, stage, kelvin, emissivity)
+    own = tree.mix(embers, own, infrared.emitted(tree, shot, stage, temperature.EMBER))
+    hot = flaming.ramp(0.0, 1.0, temperature.FLAME_LOW, temperature.FLAME_HIGH)
+    own = tree.mix(flaming.smoothstep(0.0, 0.5), own, infrared.emitted(tree, shot, stage, hot))
+    return infrared.through_air(tree, shot, stage, own)

@@ -1,0 +1,134 @@
+"""What an infrared camera sees: surfaces, air and smoke give off radiance over its band, in W m-2 sr-1.
+
+A surface of emissivity e gives e L(T), and mirrors (1 - e) of the sky. L is Planck's law over the band by
+Gauss and Legendre's rule with five wavelengths: off the integral by 0.3 mK (8 to 14 um) and 0.2 mK (3.4 to
+4.1 um) at most between 180 and 1600 K, in the shaders' float32. Pixels are means of radiance.
+
+Over d km of air with w g/m3 of water vapour exp(-0.03 w d^0.75) of it comes through, and the air adds its
+own light: for 7 g/m3 that is the transmission of G. J. Tattersall's Thermimage (after FLIR Systems: 0.81 over
+1 km, 0.31 over 10 km) within 0.01. The vapour thins to 1/e in 2 km of height. The middle infrared is taken
+alike.
+
+Smoke is nearly clear in the infrared: its particles, 0.1 to 0.3 um in diameter (Radke et al. 1990), absorb as
+1 / wavelength and scatter next to nothing (C. F. Bohren and D. R. Huffman 1983, 5.1). Of extinction in green
+light a sixth is absorption (single-scattering albedo 0.84, Reid et al. 2005), and a twentieth of that is left
+at 11 um, a seventh at 3.75 um. Ash, whose pieces are larger, and cloud water in smoke, which hides the fire
+in the infrared too, are left out.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+from firetwin_core import sensor
+
+from ..blender import nodes, owned
+from ..blender.owned import Stage
+from ..shot.settings import BANDS
+from ..shot.shot import Shot
+from . import temperature
+
+SKY = 250.0  # K, brightness temperature of a clear sky (assumed, the same all over)
+GREEN = 0.55  # um
+SOOT = 0.16  # part of smoke's extinction in green light that is absorption
+NEEDLES, GROUND, CHAR, STONE, LAKE = 0.98, 0.96, 0.97, 0.94, 0.985  # emissivities, 8 to 14 um (assumed)
+FLAME = 0.6  # 1/m: emissivity of a flame of depth D is 1 - exp(-0.6 D) (assumed)
+_DIM = 0.03  # of air, per g/m3, at 1 km
+_BEND = 0.75
+_HALF = 2000.0  # m in which vapour thins to 1/e
+_GROUP, _NODES = "infrared", 5
+_FIRST = 2.0 * 6.62607015e-34 * 299792458.0**2 * 1e24  # W m-2 sr-1 um4
+_SECOND = 14387.768775  # um K
+
+
+def switch(tree: nodes.Tree, shader: Any, radiance: Any) -> nodes.Value:
+    """`shader`, but the radiance in data layers."""
+    return nodes.thermal_switch(tree, shader, radiance)
+
+
+def emitted(tree: nodes.Tree, shot: Shot, stage: Stage, kelvin: Any, emissivity: Any = 1.0) -> nodes.Value:
+    """Radiance that a surface gives off and mirrors."""
+    inputs = {"Kelvin": kelvin, "Emissivity": emissivity}
+    return tree.output("ShaderNodeGroup", inputs, "Radiance", node_tree=_group(shot, stage))
+
+
+def through_air(tree: nodes.Tree, shot: Shot, stage: Stage, radiance: Any) -> nodes.Value:
+    """Radiance as it comes to the camera from this point."""
+    clear = tree.output("ShaderNodeGroup", (), "Clear", node_tree=_group(shot, stage))
+    own = emitted(tree, shot, stage, temperature.air(tree, shot, stage))
+    return tree.mix(clear, own, radiance)
+
+
+def smoke(tree: nodes.Tree, shot: Shot, stage: Stage, visible: Any, density: nodes.Value) -> nodes.Value:
+    """`visible`, the shader of smoke with this extinction (1/m) in green light; its warmth in data layers."""
+    low, high = BANDS[shot.settings.thermal.band]
+    absorbed = density * (SOOT * 2.0 * GREEN / (low + high))
+    black = tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": absorbed})
+    own = emitted(tree, shot, stage, temperature.air(tree, shot, stage))
+    warm = tree.add_shader(black, tree.emission((1.0, 1.0, 1.0), own * absorbed))
+    return tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), visible, warm)
+
+
+def build(shot: Shot, stage: Stage) -> None:
+    """Make band and air those of this shot, for materials that are there and to come."""
+    _fill(_group(shot, stage), shot)
+
+
+def sky(shot: Shot) -> float:
+    """Radiance of the sky, W m-2 sr-1."""
+    return float(sensor.radiance(SKY, BANDS[shot.settings.thermal.band]))
+
+
+def _group(shot: Shot, stage: Stage) -> bpy.types.NodeTree:
+    """The node group (made once per scene): kelvin and emissivity -> radiance; part that air lets through."""
+    if stage.root.get(_GROUP) is not None:
+        return stage.root[_GROUP]
+    group = owned.mark(bpy.data.node_groups.new("Firetwin Infrared", "ShaderNodeTree"))
+    stage.root[_GROUP] = group
+    for name, direction in (("Kelvin", "INPUT"), ("Emissivity", "INPUT"), ("Radiance", "OUTPUT")):
+        group.interface.new_socket(name, in_out=direction, socket_type="NodeSocketFloat")
+    group.interface.new_socket("Clear", in_out="OUTPUT", socket_type="NodeSocketFloat")
+    tree = nodes.Tree(group)
+    entry = tree.node("NodeGroupInput")
+    inverse = 1.0 / tree.math("MAXIMUM", tree.pick(entry, "Kelvin"), 100.0)
+    own: Any = 0.0
+    for index in range(_NODES):
+        weight, exponent = (_value(tree, f"{name} {index}") for name in ("Weight", "Exponent"))
+        own = own + weight / ((inverse * exponent).exp() - 1.0)
+    radiance = tree.mix(tree.pick(entry, "Emissivity"), _value(tree, "Sky"), own)
+    tree.node("NodeGroupOutput", {"Radiance": radiance, "Clear": _clear(tree)})
+    _fill(group, shot)
+    return group
+
+
+def _clear(tree: nodes.Tree) -> nodes.Value:
+    """Part of the radiance that air between here and the camera lets through."""
+    distance = tree.output("ShaderNodeCameraData", name="View Distance")
+    geometry = tree.node("ShaderNodeNewGeometry")
+    low = tree.separate(tree.pick(geometry, "Position"))[2] / _HALF
+    rise = tree.separate(tree.pick(geometry, "Incoming"))[2] * distance / _HALF
+    rise = rise + 2.0e-3 * (tree.math("ABSOLUTE", rise) < 1.0e-3)  # never 0, where the mean below is 1
+    mean = (1.0 - (-rise).exp()) / rise
+    path = distance * 1.0e-3 * (-low).exp() * mean
+    return (-(path.power(_BEND) * _value(tree, "Dim"))).exp()
+
+
+def _value(tree: nodes.Tree, name: str) -> nodes.Value:
+    node = tree.node("ShaderNodeValue")
+    node.name = name
+    return tree.pick(node)
+
+
+def _fill(group: bpy.types.NodeTree, shot: Shot) -> None:
+    """Set what depends on the band and the air."""
+    low, high = BANDS[shot.settings.thermal.band]
+    places, weights = np.polynomial.legendre.leggauss(_NODES)
+    waves = 0.5 * (low + high) + 0.5 * (high - low) * places
+    values = {"Sky": sky(shot), "Dim": _DIM * shot.settings.thermal.vapour}
+    for index, (wave, weight) in enumerate(zip(waves, weights, strict=True)):
+        values[f"Weight {index}"] = 0.5 * (high - low) * weight * _FIRST / wave**5
+        values[f"Exponent {index}"] = _SECOND / wave
+    for name, value in values.items():
+        group.nodes[name].outputs[0].default_value = float(value)

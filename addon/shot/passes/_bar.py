@@ -1,0 +1,70 @@
+"""A bar of temperatures at the right edge of a picture, with its numbers in K."""
+
+from __future__ import annotations
+
+import numpy as np
+from firetwin_core import sensor
+from numpy.typing import NDArray
+
+# Three by five points for each sign, row by row from the top.
+_SIGNS = {
+    "0": "111101101101111",
+    "1": "010110010010111",
+    "2": "111001111100111",
+    "3": "111001111001111",
+    "4": "101101111001001",
+    "5": "111100111001111",
+    "6": "111100111101111",
+    "7": "111001010010010",
+    "8": "111101111101111",
+    "9": "111101111001111",
+    "K": "101101110101101",
+}
+_STEPS = (1000, 500, 100, 50, 10, 5, 2, 1)
+_ENOUGH = 5  # marks; steps under 10 K are for scales that have fewer
+
+
+def draw(picture: NDArray[np.float32], low: float, high: float, palette: str, power: float) -> None:
+    """Draw into a picture (h, w, 3): the palette as `sensor.colour` uses it, hot at the top, and marks.
+
+    Pictures too small for it stay as they are.
+    """
+    height, width = picture.shape[:2]
+    size = max(height // 240, 1)  # pixels to a point of a sign
+    if height < 90 or width < 90:
+        return
+    top, bottom = int(0.08 * height), int(0.92 * height)
+    right = width - 3 * size
+    left = right - 6 * size
+    part = np.linspace(1.0, 0.0, bottom - top)[:, None]
+    bar = sensor.colour(low + (high - low) * part ** (1.0 / power), low, high, palette, power)
+    picture[top - size : bottom + size, left - size : right + size] = 1.0
+    picture[top:bottom, left:right] = bar
+    for kelvin in marks(low, high, power, (bottom - top) / (9.0 * size)):
+        at = bottom - 1 - round((bottom - 1 - top) * ((kelvin - low) / (high - low)) ** power)
+        picture[at : at + 1, left - 3 * size : left] = 1.0
+        _write(picture, f"{kelvin:.0f}", left - 4 * size, at, size)
+    _write(picture, "K", right + size, top - 5 * size, size)
+
+
+def marks(low: float, high: float, power: float, most: float) -> list[float]:
+    """Round temperatures (K) between the ends, at most about so many, none too near another on the scale."""
+    found: list[float] = []
+    for step in _STEPS:
+        if step < 10 and len(found) >= _ENOUGH:
+            break
+        for kelvin in np.arange(np.ceil(low / step) * step, high + 1e-9, step):
+            places = [((each - low) / (high - low)) ** power for each in (*found, kelvin)]
+            if all(abs(place - places[-1]) >= 1.0 / most for place in places[:-1]):
+                found.append(float(kelvin))
+    return sorted(found)
+
+
+def _write(picture: NDArray[np.float32], text: str, right: int, middle: int, size: int) -> None:
+    """White signs on black, their right end at `right` and their middle in row `middle`."""
+    signs = [np.array(list(_SIGNS[sign]), np.float32).reshape(5, 3) for sign in text]
+    line = np.concatenate([np.pad(sign, ((1, 1), (1, 0))) for sign in signs], axis=1)
+    line = np.kron(np.pad(line, ((0, 0), (0, 1))), np.ones((size, size), np.float32))
+    top = min(max(middle - line.shape[0] // 2, 0), picture.shape[0] - line.shape[0])
+    left = max(right - line.shape[1], 0)
+    picture[top : top + line.shape[0], left : left + line.shape[1]] = line[:, : picture.shape[1] - left, None]

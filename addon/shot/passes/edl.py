@@ -1,0 +1,39 @@
+"""The visible picture with eye-dome lighting: what lies behind its neighbours is darker, so shapes stand out.
+
+The FIRETWIN paper uses it without saying how strong; strength and radius are chosen by eye.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from . import Files, Pass
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ..shot import Shot
+
+STRENGTH, RADIUS = 4.0, 1
+
+
+def finish(files: Files, needed: Mapping[str, Files], _shot: Shot, _camera: str, _frame: int) -> None:
+    """Darken the picture by its depth."""
+    from firetwin_core import sensor
+
+    depth = sensor.read_image(needed["depth"]["exr"])[..., 0]
+    rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
+    sensor.write_image(files["png"], rgb * sensor.eye_dome(depth, STRENGTH, RADIUS)[..., None])
+
+
+PASS = Pass(
+    name="edl",
+    order=40,
+    help="The picture with eye-dome lighting from its depth",
+    files=("png",),
+    output="",
+    filmed=True,
+    shows=frozenset(),
+    needs=("rgb", "depth"),
+    finish=finish,
+)

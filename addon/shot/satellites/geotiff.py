@@ -1,0 +1,67 @@
+"""Pictures of satellites as GeoTIFF, through rasterio (GDAL)."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+
+from ... import files
+from ...errors import Error
+from .imager import Instrument, Picture
+
+
+def write(path: Path, picture: Picture, instrument: Instrument, run: str, moment: datetime) -> None:
+    """Write four bands of 32-bit floats: brightness temperatures (K), fire radiative power (W) and the mask.
+
+    Raises
+    ------
+    Error
+        rasterio is not installed.
+    """
+    rasterio = _rasterio()
+    layers = {
+        f"brightness temperature at {instrument.short:g} um, K": picture.short,
+        f"brightness temperature at {instrument.long:g} um, K": picture.long,
+        "fire radiative power, W": picture.power,
+        "fire mask: 0 none, 10 fire, 11 saturated": picture.mask,
+    }
+    x, y = picture.grid.corner(picture.row, picture.column)
+    across, down = picture.grid.step
+    profile = {
+        "driver": "GTiff",
+        "height": picture.short.shape[0],
+        "width": picture.short.shape[1],
+        "count": len(layers),
+        "dtype": "float32",
+        "crs": rasterio.crs.CRS.from_user_input(picture.grid.crs),
+        "transform": rasterio.Affine(across, 0.0, x, 0.0, down, y),
+        "compress": "deflate",
+    }
+    path.parent.mkdir(parents=True, exist_ok=True)
+
+    def fill(part: Path) -> None:
+        with rasterio.open(part, "w", **profile) as made:
+            for number, (name, layer) in enumerate(layers.items(), 1):
+                made.write(layer.astype(np.float32), number)
+                made.set_band_description(number, name)
+            made.update_tags(
+                title=instrument.title,
+                note=instrument.hypothetical,
+                run=run,
+                time=moment.isoformat(timespec="seconds"),
+                heat_of_the_run_W=f"{picture.heat:.6g}",
+            )
+
+    files.write(path, fill)
+
+
+def _rasterio() -> ModuleType:
+    try:
+        import rasterio
+    except ModuleNotFoundError:
+        reason = "GeoTIFF needs rasterio; install it with: pip install 'firetwin[rasterio]'"
+        raise Error(reason) from None
+    return rasterio

@@ -1,0 +1,198 @@
+"""What an imager measures of a run: fire smaller than its pixels, by radiance weighted by area.
+
+A pixel's radiance is (1 - f) L(background) + f L(1000 K) (J. Dozier 1981, Remote Sensing of Environment 11,
+221), at one wavelength for each band. Fires radiate 14 % of their heat (M. J. Wooster et al. 2005,
+doi 10.1029/2005JD006318: 14 +- 3 %), so f is the area that gives off this part of the run's heat flux at
+1000 K. The background is the run's air, and ground that cools since the fire passed. Air, smoke, clouds and
+mirrored sunlight (some kelvin at 3.9 um by day) are left out, and pixels are even boxes beside one another.
+
+Fire radiative power by the radiance in the middle infrared is A sigma / a (L - L(background)), with
+a = 3.0e-9 W m-2 sr-1 um-1 K-4 (Wooster et al. 2003, 2005): at 3.9 um and 1000 K that is 1.13 of the power
+itself, so that all pixels together have 0.158 of the run's heat as long as none is saturated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from firetwin_core import sensor
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from .. import burning, temperature
+from ..fire import Fire
+from ..ground import bilinear
+from .grid import Array, EvenGrid, FixedGrid, Grid, pixel_areas
+
+FIRE = 1000.0  # K
+RADIATED = 0.14  # of the heat
+STEFAN_BOLTZMANN = 5.670374419e-8  # W m-2 K-4
+WOOSTER = 3.0e-9  # W m-2 sr-1 um-1 K-4
+NONE, BURNING, SATURATED = 0, 10, 11  # of the mask, as in GOES-R's fire product
+_WARMER = 10.0  # K that a fire shows more in the short band than in the long (assumed)
+_PARTS = 6  # points along a pixel's sides at which the background is looked up
+
+
+@dataclass(frozen=True)
+class Instrument:
+    """An imager: wavelengths (um) and the hottest black bodies (K) of its middle and long-wave band."""
+
+    name: str
+    title: str
+    short: float
+    long: float
+    saturation: tuple[float, float]
+    hypothetical: str
+
+
+ABI = Instrument(
+    "abi",
+    "GOES-R Advanced Baseline Imager, bands 7 and 14",
+    3.9,
+    11.2,
+    (400.0, 330.0),
+    "hypothetical: this imager is on GOES-16 to -19, launched from 2016 on",
+)
+VIIRS = Instrument(
+    "viirs",
+    "VIIRS-like imager at 375 m, bands I4 and I5, gridded",
+    3.74,
+    11.45,
+    (367.0, 380.0),
+    "hypothetical: seen from straight above at this moment; real passes are about 01:30 and 13:30",
+)
+INSTRUMENTS = {each.name: each for each in (ABI, VIIRS)}
+
+
+class NothingSeenError(ValueError):
+    """No whole pixel lies in the run's domain."""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What an imager measured, (rows, columns) each.
+
+    Attributes
+    ----------
+    short, long
+        Brightness temperatures, K.
+    power
+        Fire radiative power, W.
+    mask
+        `NONE`, `BURNING` or `SATURATED`.
+    area
+        m2 of each pixel.
+    grid, row, column
+        Where the pixels are, and the first of them.
+    heat
+        Of the run in all pixels, W.
+    """
+
+    short: Array
+    long: Array
+    power: Array
+    mask: NDArray[np.uint8]
+    area: Array
+    grid: Grid
+    row: int
+    column: int
+    heat: float
+
+
+def grid_of(instrument: Instrument, run: Run, longitude: float) -> Grid:
+    """Pixels of an instrument; a geostationary one stands over a longitude (degrees)."""
+    return FixedGrid(longitude) if instrument is ABI else EvenGrid(float(np.mean(run.latitude)), 375.0)
+
+
+def picture(instrument: Instrument, grid: Grid, fire: Fire, time: float) -> Picture:
+    """What it measures of a run's fire at a time (s): of pixels that lie wholly in the run's domain."""
+    run = fire.run
+    rows, columns = _inside(grid, run)
+    area = pixel_areas(grid, rows, columns)
+    kelvin = _background(grid, fire, time, rows, columns)
+    part, heat = _burning(grid, fire, time, rows, columns, area)
+    shown, power = [], np.zeros(area.shape)
+    for wave, most in zip((instrument.short, instrument.long), instrument.saturation, strict=True):
+        background = sensor.spectral_radiance(kelvin, wave).mean(axis=-1)
+        radiance = (1.0 - part) * background + part * sensor.spectral_radiance(FIRE, wave)
+        radiance = np.minimum(radiance, sensor.spectral_radiance(most, wave))
+        shown.append(sensor.spectral_temperature(radiance, wave))
+        if wave == instrument.short:
+            power = area * STEFAN_BOLTZMANN / WOOSTER * np.maximum(radiance - background, 0.0)
+    mask = np.where(shown[0] - shown[1] > _WARMER, BURNING, NONE)
+    mask = np.where(shown[0] >= instrument.saturation[0] - 1e-6, SATURATED, mask).astype(np.uint8)
+    power = np.where(mask > NONE, power, 0.0)
+    return Picture(shown[0], shown[1], power, mask, area, grid, int(rows[0]), int(columns[0]), heat)
+
+
+def _inside(grid: Grid, run: Run) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Whole rows and columns of a rectangle of pixels in the run's domain.
+
+    Raises
+    ------
+    NothingSeenError
+        The domain is smaller than a pixel, or not in sight.
+    """
+    latitude = np.linspace(run.latitude.min(), run.latitude.max(), 33)
+    longitude = np.linspace(run.longitude.min(), run.longitude.max(), 33)
+    sides = [grid.forward(latitude, np.full(33, each)) for each in longitude[[0, -1]]]
+    ends = [grid.forward(np.full(33, each), longitude) for each in latitude[[0, -1]]]
+    west, east = (column for _, column in sides)
+    south, north = (row for row, _ in ends)
+    if not np.all(np.isfinite([west, east, south, north])):
+        raise NothingSeenError("the run is behind the horizon of this satellite")
+    rows = np.arange(int(np.ceil(north.max())), int(np.floor(south.min())))
+    columns = np.arange(int(np.ceil(west.max())), int(np.floor(east.min())))
+    if len(rows) == 0 or len(columns) == 0:
+        raise NothingSeenError("the run's domain holds no whole pixel of this imager")
+    return rows, columns
+
+
+def _background(grid: Grid, fire: Fire, time: float, rows: NDArray, columns: NDArray) -> Array:
+    """(rows, columns, parts) K of ground without flames at points of each pixel."""
+    run = fire.run
+    inside = (np.arange(_PARTS) + 0.5) / _PARTS
+    row = (rows[:, None] + inside).reshape(len(rows), 1, _PARTS, 1)
+    column = (columns[:, None] + inside).reshape(1, len(columns), 1, _PARTS)
+    latitude, longitude = grid.reverse(*np.broadcast_arrays(row, column))
+    kelvin = bilinear(temperature.at(run, time), *temperature.indices(run, latitude, longitude))
+    fuel_row, fuel_column = (
+        np.rint(temperature.index(axis, place)).astype(np.int64)
+        for axis, place in ((run.fuel_latitude, latitude), (run.fuel_longitude, longitude))
+    )
+    age = time - fire.arrival[fuel_row, fuel_column]
+    kelvin = kelvin + temperature.cooling(np.where(age > 0.0, age, 0.0))
+    return kelvin.reshape(len(rows), len(columns), -1)
+
+
+def _burning(
+    grid: Grid, fire: Fire, time: float, rows: NDArray, columns: NDArray, area: Array
+) -> tuple[Array, float]:
+    """Part of each pixel that is fire, and the heat (W) of all."""
+    sources = fire.sources(time)
+    if len(sources.power) == 0:
+        return np.zeros(area.shape), 0.0
+    latitude, longitude, _ = fire.frame.reverse(sources.position)
+    row, column = (np.floor(v).astype(np.int64) for v in grid.forward(latitude, longitude))
+    row, column = row - rows[0], column - columns[0]
+    inside = (row >= 0) & (row < len(rows)) & (column >= 0) & (column < len(columns))
+    flat = row[inside] * len(columns) + column[inside]
+    heat = np.bincount(flat, sources.power[inside], area.size).reshape(area.shape)
+    flames = RADIATED * heat / (STEFAN_BOLTZMANN * FIRE**4)
+    return np.minimum(flames / area, 1.0), float(heat.sum())
+
+
+def times(run: Run, every: float) -> list[float]:
+    """Model times (s) of a run every so many seconds, from its first."""
+    return [float(time) for time in np.arange(run.times[0], run.times[-1] + 1e-6, every)]
+
+
+def film(
+    instrument: Instrument, run: Run, longitude: float, moments: list[float]
+) -> Iterator[tuple[float, Picture]]:
+    """Pictures at these model times (s), each with its time."""
+    grid, fire = grid_of(instrument, run, longitude), Fire(run, moments[0], moments[-1], burning.BURN_TIME)
+    for time in moments:
+        yield time, picture(instrument, grid, fire, time)

@@ -1,0 +1,76 @@
+"""Temperature of the air near the ground: that of the run, or an assumed day where it has none."""
+
+from __future__ import annotations
+
+import numpy as np
+from firetwin_core.run import Run
+from numpy.typing import ArrayLike, NDArray
+
+from . import sun
+
+PULSE = 120.0  # s that the front heats the ground (assumed)
+COOLING = 2.0 * 20_000.0 / (600.0 * np.sqrt(np.pi))
+"""K s-1/2: q = 20 kW/m2, and the thermal effusivity e = 600 J m-2 K-1 s-1/2 of dry soil (assumed)."""
+
+LAPSE = 6.5e-3  # K/m, the standard atmosphere
+_DAY, _NIGHT = 304.0, 292.0  # K at sea level under a sun 20 degrees high, and without one (assumed)
+
+Array = NDArray[np.float64]
+
+
+def at(run: Run, time: float) -> Array:
+    """(ny, nx) K at a model time (s), linear between the run's times and held beyond them."""
+    if not run.has("temperature"):
+        day = float(np.clip(sun.at(run, time)[1] / 20.0, 0.0, 1.0))
+        return _NIGHT + day * (_DAY - _NIGHT) - LAPSE * np.nan_to_num(run.elevation.astype(np.float64))
+    times = run.times
+    after = int(np.clip(np.searchsorted(times, time), 1, max(len(times) - 1, 1)))
+    before = after - 1
+    if len(times) == 1:
+        return _filled(run.temperature(0))
+    part = float(np.clip((time - times[before]) / (times[after] - times[before]), 0.0, 1.0))
+    return (1.0 - part) * _filled(run.temperature(before)) + part * _filled(run.temperature(after))
+
+
+def mean(run: Run, start: float, end: float) -> Array:
+    """(ny, nx) K, mean over the run's times from `start` to `end` (s), or at `end` where there is none."""
+    inside = np.flatnonzero((run.times >= start) & (run.times <= end))
+    if len(inside) == 0 or not run.has("temperature"):
+        return at(run, end)
+    total = np.zeros((len(run.latitude), len(run.longitude)))
+    for index in inside:
+        total += _filled(run.temperature(int(index)))
+    return total / len(inside)
+
+
+def coldest(run: Run, time: float) -> float:
+    """K that a tenth of the run's air is colder than at a time (s)."""
+    return float(np.percentile(at(run, time), 10.0))
+
+
+def cooling(age: ArrayLike) -> Array:
+    """K that ground is warmer `age` s after the front came than it was, without flames or embers.
+
+    That of a thick body which took in a flux q for the time p (H. S. Carslaw and J. C. Jaeger 1959,
+    "Conduction of Heat in Solids", 2.9): 2 q / (e sqrt(pi)) (sqrt(t) - sqrt(t - p)).
+    """
+    age = np.maximum(np.asarray(age, np.float64), 0.0)
+    return COOLING * (np.sqrt(age) - np.sqrt(np.maximum(age - PULSE, 0.0)))
+
+
+def indices(run: Run, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
+    """Fractional row and column of the run's grid at places (degrees), held inside it."""
+    return index(run.latitude, latitude), index(run.longitude, longitude)
+
+
+def index(axis: NDArray, value: ArrayLike) -> Array:
+    """Fractional index of values on an axis that rises or falls, held inside it."""
+    order = slice(None, None, -1) if axis[0] > axis[-1] else slice(None)
+    return np.interp(value, axis[order], np.arange(len(axis), dtype=np.float64)[order])
+
+
+def _filled(field: NDArray) -> Array:
+    """A field with its mean where it is not known."""
+    known = np.isfinite(field)
+    field = field.astype(np.float64)
+    return field if known.all() else np.where(known, field, field[known].mean() if known.any() else _DAY)

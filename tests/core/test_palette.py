@@ -1,0 +1,51 @@
+"""Palettes of temperatures: their ends, their order, and matplotlib's inferno."""
+
+import matplotlib
+import numpy as np
+import pytest
+from firetwin_core.sensor import colour, palettes
+
+RAMP = np.linspace(300.0, 800.0, 511)[None]
+
+
+def test_palettes_are_these():
+    assert palettes() == ["white-hot", "black-hot", "ironbow", "inferno", "paper"]
+
+
+def test_white_hot_and_black_hot_are_grey_and_opposite():
+    white, black = (colour(RAMP, 300, 800, name) for name in ("white-hot", "black-hot"))
+    np.testing.assert_allclose(white[0], np.repeat(np.linspace(0, 1, 511)[:, None], 3, 1), atol=1e-6)
+    np.testing.assert_allclose(white, 1.0 - black, atol=1e-6)
+
+
+def test_inferno_is_close_to_that_of_matplotlib():
+    expected = matplotlib.colormaps["inferno"](np.linspace(0, 1, 511))[:, :3]
+    assert np.abs(colour(RAMP, 300, 800, "inferno")[0] - expected).max() < 0.03
+
+
+@pytest.mark.parametrize("name", ["white-hot", "ironbow", "inferno", "paper"])
+def test_hotter_is_never_darker(name):
+    light = colour(RAMP, 300, 800, name)[0] @ [0.2126, 0.7152, 0.0722]
+    assert np.diff(light).min() > -0.002
+    assert light[-1] > light[0] + 0.7
+
+
+def test_beyond_the_ends_and_nan():
+    found = colour([[0.0, 2000.0, np.nan, 300.0, 800.0]], 300, 800, "ironbow")[0]
+    assert np.array_equal(found[0], found[3])
+    assert np.array_equal(found[1], found[4])
+    assert np.array_equal(found[2], found[3])
+
+
+def test_a_power_spreads_the_cold_end():
+    np.testing.assert_allclose(colour([[425.0]], 300, 800, power=0.5)[0, 0], [0.5] * 3, atol=1e-6)
+
+
+@pytest.mark.parametrize("wrong", [(800, 300), (np.nan, 800), (300, 300)])
+def test_impossible_ends(wrong):
+    with pytest.raises(ValueError, match="low and high"):
+        colour(RAMP, *wrong)
+    with pytest.raises(ValueError, match="palette"):
+        colour(RAMP, 300, 800, "blue")
+    with pytest.raises(ValueError, match="power"):
+        colour(RAMP, 300, 800, power=0.0)

@@ -1,0 +1,169 @@
+"""Satellites' pixels: geometry against PROJ, sub-pixel fire against Dozier, power against the run's heat."""
+
+from datetime import UTC, datetime
+
+import numpy as np
+import pytest
+from firetwin.cli import main
+from firetwin.shot import temperature
+from firetwin.shot.fire import Fire
+from firetwin.shot.satellites import geotiff, imager
+from firetwin.shot.satellites.grid import ORBIT, EvenGrid, FixedGrid, pixel_areas
+from firetwin_core import run as runs
+from firetwin_core import sensor
+from hypothesis import given
+from hypothesis import strategies as st
+
+GRID = FixedGrid(-137.0)
+PLACE = 38.8, -120.6
+
+
+@given(st.floats(-60, 60), st.floats(-190, -80))
+def test_scan_angles_are_those_of_proj(latitude, longitude):
+    pyproj = pytest.importorskip("pyproj")
+    x, y = pyproj.Transformer.from_crs("+proj=longlat +ellps=GRS80", GRID.crs, always_xy=True).transform(
+        longitude, latitude
+    )
+    found = GRID.angles(latitude, longitude)
+    if np.isfinite([x, y]).all():
+        assert np.array(found) * ORBIT == pytest.approx([x, y], abs=1e-3)
+
+
+@given(st.floats(-60, 60), st.floats(-190, -80))
+def test_a_line_of_sight_comes_back(latitude, longitude):
+    row, column = GRID.forward(latitude, longitude)
+    if np.isfinite(row):
+        assert np.array(GRID.reverse(row, column)) == pytest.approx([latitude, longitude], abs=1e-6)
+
+
+def test_what_is_behind_the_horizon_is_not_seen():
+    assert np.isnan(GRID.angles(38.8, 60.0)).all()
+
+
+def test_a_pixel_is_2_km_below_the_satellite_and_longer_at_the_fire():
+    assert pixel_areas(GRID, np.array([0]), np.array([0])) == pytest.approx(4.0e6, rel=0.01)
+    row, column = (int(np.floor(v)) for v in GRID.forward(*PLACE))
+    assert pixel_areas(GRID, np.array([row]), np.array([column])) == pytest.approx(2240 * 3050, rel=0.04)
+
+
+def test_pixels_of_a_swath_are_375_m():
+    even = EvenGrid(38.8, 375.0)
+    row, column = (int(np.floor(v)) for v in even.forward(*PLACE))
+    assert pixel_areas(even, np.array([row]), np.array([column])) == pytest.approx(375.0**2, rel=1e-3)
+
+
+@pytest.fixture
+def burning(make_run):
+    """A run of 300 K over 24 x 24 cells of 1 km with one cell that burns, as strongly as asked."""
+
+    def make(flux=5.0e4, **more):
+        side = 24
+        fields = {
+            "latitude": 38.8 + np.arange(side) / 111.0,
+            "longitude": -120.6 + np.arange(side) / 87.0,
+            "heat_flux": np.zeros((2, side, side), np.float32),
+            "temperature": np.full((2, side, side), 300.0, np.float32),
+        }
+        fields["heat_flux"][:, 11, 12] = flux
+        for name in ("elevation", "fuel_elevation", "surface_fuel", "canopy_fuel"):
+            fields[name] = np.zeros((side, side), np.float32)
+        fields |= {"fuel_latitude": fields["latitude"], "fuel_longitude": fields["longitude"]}
+        fields["fuel_arrival_time"] = np.full((side, side), np.nan, np.float32)
+        folder = make_run(**(fields | dict.fromkeys(("wind_east", "wind_north")) | more))
+        return runs.open(folder.rename(folder.with_name(f"run {len(list(folder.parent.iterdir()))}")))
+
+    return make
+
+
+def seen(run, name):
+    instrument = imager.INSTRUMENTS[name]
+    time = float(run.times[0])
+    grid, fire = imager.grid_of(instrument, run, -137.0), Fire(run, time, time, 600.0)
+    return imager.picture(instrument, grid, fire, time)
+
+
+def test_a_pixel_shows_the_radiance_mean_of_fire_and_ground(burning):
+    """Dozier: 1000 K over 0.37 % of 300 K is 400 K at 3.9 um and 306.5 K at 11.2 um."""
+    run = burning(5.0e3)
+    found = seen(run, "abi")
+    hot = np.unravel_index(found.short.argmax(), found.short.shape)
+    part = imager.RADIATED * found.heat / (imager.STEFAN_BOLTZMANN * 1000.0**4) / found.area[hot]
+    assert 0.001 < part < 0.02
+    for wave, shown, most in zip((3.9, 11.2), (found.short, found.long), imager.ABI.saturation, strict=True):
+        fire, ground = sensor.spectral_radiance([1000.0, 300.0], wave)
+        mixed = sensor.spectral_temperature(part * fire + (1.0 - part) * ground, wave)
+        expected = min(float(mixed), most)
+        assert shown[hot] == pytest.approx(expected, abs=1e-3)
+        assert np.sort(shown.ravel())[-2] == pytest.approx(300.0, abs=1e-3)
+    assert (found.mask > 0).sum() == 1
+
+
+def test_the_power_of_all_pixels_is_a_sixth_of_the_heat_where_none_is_saturated(burning):
+    found = seen(burning(5.0e3), "abi")
+    assert (found.mask == imager.BURNING).sum() == 1
+    assert found.heat > 0
+    ratio = found.power.sum() / found.heat
+    exact = imager.RADIATED * sensor.spectral_radiance(1000.0, 3.9) / (imager.WOOSTER * 1000.0**4)
+    assert ratio == pytest.approx(float(exact), rel=1e-3)
+    assert ratio == pytest.approx(0.158, abs=0.001)
+
+
+@pytest.mark.parametrize("name", ["abi", "viirs"])
+def test_pixels_saturate(burning, name):
+    found = seen(burning(1.0e6), name)
+    most = imager.INSTRUMENTS[name].saturation
+    assert (found.short.max(), found.long.max()) == pytest.approx(most, abs=1e-6)
+    assert (found.mask == imager.SATURATED).any()
+    assert found.power.sum() < 0.1 * found.heat
+
+
+def test_warmer_air_is_a_warmer_background(burning):
+    cold, warm = (
+        seen(burning(temperature=np.full((2, 24, 24), kelvin, np.float32)), "viirs")
+        for kelvin in (300.0, 310.0)
+    )
+    calm = cold.mask == imager.NONE
+    assert (warm.long - cold.long)[calm] == pytest.approx(10.0, abs=1e-3)
+
+
+def test_the_scar_is_warm_and_cools(burning):
+    arrival = np.full((24, 24), -3600.0, np.float32)
+    fresh, old = (
+        seen(burning(0.0, fuel_arrival_time=each), "viirs") for each in (arrival, arrival - 36_000.0)
+    )
+    assert fresh.long == pytest.approx(300.0 + temperature.cooling(3600.0), abs=0.1)
+    assert np.all((old.long > 300.5) & (old.long < fresh.long))
+
+
+def test_a_geotiff_lies_where_its_pixels_are(burning, tmp_path):
+    rasterio = pytest.importorskip("rasterio")
+    pyproj = pytest.importorskip("pyproj")
+    for name in ("abi", "viirs"):
+        found, path = seen(burning(), name), tmp_path / f"{name}.tif"
+        geotiff.write(path, found, imager.INSTRUMENTS[name], "Test", datetime(2014, 9, 17, tzinfo=UTC))
+        with rasterio.open(path) as read:
+            assert read.count == 4
+            assert "hypothetical" in read.tags()["note"]
+            np.testing.assert_allclose(read.read(1), found.short, rtol=1e-6)
+            if name == "abi":
+                projection = read.crs.to_dict()
+                assert [projection[key] for key in ("proj", "lon_0", "h")] == ["geos", -137, ORBIT]
+            else:
+                assert read.crs == "EPSG:4326"
+            x, y = read.xy(2, 3)  # the middle of a pixel
+            back = pyproj.Transformer.from_crs(read.crs.to_wkt(), "EPSG:4326", always_xy=True)
+            longitude, latitude = back.transform(x, y)
+        row, column = found.grid.forward(latitude, longitude)
+        assert (row, column) == pytest.approx((found.row + 2.5, found.column + 3.5), abs=1e-3)
+        assert [path.name for path in tmp_path.glob("*.xml")] == []
+
+
+def test_the_command_writes_a_picture_for_each_moment(burning, tmp_path, capsys):
+    pytest.importorskip("rasterio")
+    run = burning()
+    assert main(["satellite", str(run.path), "--out", str(tmp_path / "out"), "--every", "1000000"]) == 0
+    written = capsys.readouterr().out.split()
+    assert len(written) == 1
+    assert written[0].endswith("Z.tif")
+    assert main(["satellite", str(run.path), "--out", str(tmp_path / "o"), "--longitude", "60"]) == 2
+    assert "horizon" in capsys.readouterr().err
