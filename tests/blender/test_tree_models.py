@@ -282,7 +282,7 @@ def test_an_artists_property_that_is_not_known_is_named(shot, stage, properties,
 
 
 def test_crowns_live_torch_char_or_are_scorched_from_below(shot, stage, scene, tmp_path):
-    """Five trees of one model: living, torching, charred with needles, scorched from below, scorched whole."""
+    """Trees of one model: living, torching, charred with needles, scorched from below, scorched whole."""
     made, camera = library.tree_models(shot, stage), _lit(scene)
     age, scorch = np.array([-1e6, 90.0, 600.0, 600.0, 600.0]), np.array([1.0, 1.0, 1.0, 0.4, 1.0])
     half, model = np.full(5, 0.5), models.instance(np.full(5, 3), np.ones(5, np.int64))
@@ -311,3 +311,31 @@ def test_crowns_live_torch_char_or_are_scorched_from_below(shot, stage, scene, t
     assert red[3] > 1.3 * green[3]
     assert high[3, 1] > high[3, 0]  # its top lives
     assert high[4, 0] > 1.3 * high[4, 1]
+
+
+def test_a_far_tree_has_a_sunlit_side_and_burns_as_a_near_one(shot, stage, scene, tmp_path):
+    """Living, charred and scorched firs in levels 0 and 3, as small as level 3 is, sun from the right."""
+    made, camera = library.tree_models(shot, stage), _lit(scene)
+    bpy.data.objects["sun"].rotation_euler = (0.0, 0.9, 0.0)
+    state, level = (v.ravel() for v in np.mgrid[:3, :4:3])
+    model, half = models.instance(np.full(6, 3), level), np.full(6, 0.5)
+    points = {
+        "position": np.arange(6)[:, None] * [[16.0, 0.0, 0.0]],
+        "scale": 40.0 * half,
+        "rotation": 0.0 * half,
+        "width": 2.0 * half,
+    }
+    points |= {"model": model, "snag_model": model, "tint": half, "dead": half, "elevation": half}
+    points |= {"canopy_fuel": half, "scorch": 2.0 * half, "torched": np.array([0.0, 1.0, 0.0])[state]}
+    points["arrival_time"] = scene.get(nodes.TIME, 0.0) - np.array([-1e6, 600.0, 600.0])[state]
+    forest._instances(shot, stage.part("Chart"), "Chart", points, made)
+    camera.location, camera.rotation_euler = (40.0, -300.0, 10.0), (0.5 * np.pi, 0.0, 0.0)
+    camera.data.ortho_scale, scene.render.resolution_x, scene.render.resolution_y = 96, 96, 24
+    pixels = _rendered(scene, tmp_path / "far.exr").reshape(24, 6, 16, 4)
+    left, right = (part.sum((0, 2)) for part in (pixels[:, :, :8], pixels[:, :, 8:]))
+    colour = (left + right)[:, :3] / (left + right)[:, 3:]
+    lit = (right[:, :3].sum(-1) / right[:, 3]) / (left[:, :3].sum(-1) / left[:, 3])
+    for near, far in ((0, 1), (2, 3), (4, 5)):
+        assert lit[far] > 1.15
+        assert abs(np.log(lit[far] / lit[near])) < np.log(1.8)
+        assert np.abs(np.log(colour[far] / colour[near])).max() < np.log(1.8)
