@@ -181,26 +181,29 @@ def _scattered(shot: Shot, number: int, pixel: float, budget: int) -> Things:
     """Things of a kind, level as they are."""
     kind, seed = list(KINDS.values())[number], shot.settings.seed + 600 + 20 * number
     reach = min(2.0 * kind.limits[1] / (_PIXELS * pixel), _FARTHEST)
-    cells = _cells(shot, kind.cells, reach, budget)
+    cells, least = _cells(shot, kind.cells, reach, budget)
     width = _BLOCK / kind.cells
 
     def lot(use: int, cells: NDArray = cells) -> Array:
         return noise.uniform(*cells.T, seed + use)
 
-    place = (cells + 0.5 + 0.9 * (np.stack([lot(0), lot(1)], axis=-1) - 0.5)) * width
+    height = kind.height * np.exp(kind.spread * noise.normal(lot(3), lot(4)))
+    height = np.clip(height, *kind.limits)
+    # Half of what is twice as tall as the least is drawn, so that nothing begins at once.
+    tall = height / (pixel * _PIXELS) / (0.5 + lot(5))
+    near = np.flatnonzero(tall > least)
+    cells, height, tall = cells[near], height[near], tall[near]
+    place = (cells + 0.5 + 0.9 * (np.stack([lot(0, cells), lot(1, cells)], axis=-1) - 0.5)) * width
     canopy, surface, bare, water = _ground(shot, place)
     density = np.asarray(kind.density(canopy, surface, bare)) * (water < 0.5)
     if kind.patches:
         waves = noise.fractal(place[:, 0], place[:, 1], kind.patches, 2, seed + 9)
         density = density * 2.0 * noise.smoothstep(-0.45, 0.45, waves)
-    stands = np.flatnonzero(lot(2) < density * width**2)
-    cells, place = cells[stands], place[stands]
-    height = kind.height * np.exp(kind.spread * noise.normal(lot(3, cells), lot(4, cells)))
-    height = np.clip(height, *kind.limits)
+    stands = np.flatnonzero(lot(2, cells) < density * width**2)
+    cells, place, height, tall = cells[stands], place[stands], height[stands], tall[stands]
     position = np.column_stack([place, shot.ground.up(*place.T)]) if len(place) else np.empty((0, 3))
     distance = shot.sights.distance(position)
-    # Half of what is twice as tall as the least is drawn, so that nothing begins at once.
-    size = height / (pixel * np.maximum(distance, 0.1) * _PIXELS) / (0.5 + lot(5, cells))
+    size = tall / np.maximum(distance, 0.1)
     kept = np.flatnonzero((size > 1.0) & (distance > 0.5 + 1.2 * height) & (distance < _FARTHEST))
     cells, height = cells[kept], height[kept]
     which = (lot(6, cells) * len(kind.models)).astype(np.int64)
@@ -219,16 +222,16 @@ def _scattered(shot: Shot, number: int, pixel: float, budget: int) -> Things:
     )
 
 
-def _cells(shot: Shot, count: int, reach: float, budget: int) -> NDArray[np.int64]:
+def _cells(shot: Shot, count: int, reach: float, budget: int) -> tuple[NDArray[np.int64], Array]:
     """Cells (n, 2) of a lattice, east and north, in the blocks that cameras see within `reach` m.
 
-    A block has `count` along its side. Where they are more than 40 for each thing of the budget, those
-    farther away are left out.
+    With them comes how near (n,) a camera may be to each, m. A block has `count` along its side. Where they
+    are more than 40 for each thing of the budget, those farther away are left out.
     """
     eyes = np.concatenate([path.position[shot.filmed(path)] for path in shot.near] or [np.empty((0, 3))])
     low = eyes[:, 2] - shot.ground.up(*eyes[:, :2].T) < reach if len(eyes) else np.empty(0, bool)
     if not low.any():
-        return np.empty((0, 2), np.int64)
+        return np.empty((0, 2), np.int64), np.empty(0)
     blocks = np.unique(np.floor(eyes[low, :2] / _BLOCK).astype(np.int64), axis=0)
     around = int(np.ceil(reach / _BLOCK)) + 1
     ring = np.mgrid[-around : around + 1, -around : around + 1].reshape(2, -1).T
@@ -243,7 +246,8 @@ def _cells(shot: Shot, count: int, reach: float, budget: int) -> NDArray[np.int6
     chosen = np.flatnonzero(near)
     chosen = np.sort(chosen[np.argsort(distance[chosen], kind="stable")[:most]])
     inside = np.indices((count, count)).reshape(2, -1).T
-    return (blocks[chosen, None] * count + inside).reshape(-1, 2)
+    cells = (blocks[chosen, None] * count + inside).reshape(-1, 2)
+    return cells, np.repeat(distance[chosen] - 0.85 * _BLOCK, count**2)
 
 
 def _ground(shot: Shot, place: Array) -> tuple[Array, Array, Array, Array]:
