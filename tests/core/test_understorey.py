@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from firetwin.scene.forest import fate, models, seen, understorey
+from firetwin.scene.forest import fate, models, understorey
 from firetwin.shot.rigs.drone import CameraKey, Drone
 from firetwin.shot.settings import Camera, Forest, Ground, Render, Settings
 from firetwin.shot.shot import Shot
@@ -127,7 +127,7 @@ def test_less_is_drawn_farther_away_without_a_ring(film):
     shot = film(camera("a"), canopy=0.0)
     things = understorey.grow(shot)
     distance = shot.sights.distance(things.position)
-    pixel, _ = seen.finest(shot)
+    pixel, _ = shot.pixel
     assert np.all(things.height > 1.0 * pixel * distance)  # half of two pixels
     tufts = np.isin(things.model, models.TUFTS)
     edges = np.linspace(15.0, 165.0, 11)

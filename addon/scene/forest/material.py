@@ -13,9 +13,8 @@ import bpy
 from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
-from .. import haze, temperature
+from .. import granite, haze, temperature
 from ..glow import CLOSE, EMBER, FLAME, brightness
-from ..ground import granite
 
 TORCHING = 300.0  # s that a crown is in flames
 _TORCH = 0.1, 0.35  # of the flames' radiance, at the distances CLOSE: crowns near by fill pixels

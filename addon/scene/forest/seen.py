@@ -29,15 +29,6 @@ def visible(
     return shot.sights.seen(middle, radius, reach=reach, margin=_AROUND, shadows=True, pixel=PIXEL)
 
 
-def finest(shot: Shot) -> tuple[float, float]:
-    """Sizes of the smallest pixels: for perspective m per m of distance, and with parallel lines, m."""
-    width = shot.settings.render.resolution[0]
-    sizes = [(path.perspective, 2.0 * path.half[0] / width) for path in shot.paths]
-    return tuple(
-        min((size for kind, size in sizes if kind == near), default=np.inf) for near in (True, False)
-    )
-
-
 def cells(shot: Shot, height: float, reach: float) -> NDArray[np.bool_]:
     """Fuel cells (fy, fx) of the run where a plant of at most this height may count."""
     place = middles(shot)

@@ -73,7 +73,7 @@ def grow(shot: Shot) -> Stand:
     position = seen.settled(shot.ground, found.position)
     key = np.stack([found.key >> 32, found.key & 0xFFFFFFFF], axis=-1)
     distance = shot.sights.distance(position)
-    fade = _fade(distance, reach) if seen.finest(shot)[1] > seen.PIXEL else 1.0
+    fade = _fade(distance, reach) if shot.pixel[1] > seen.PIXEL else 1.0
     chosen = (noise.uniform(*key.T, settings.seed + 202) < fade) & (distance > CLEARING)
     chosen[chosen] = seen.visible(shot, position[chosen], found.scale[chosen], reach, found.width[chosen])
     chosen = np.flatnonzero(chosen)
@@ -111,7 +111,7 @@ def _kept(shot: Shot, mask: NDArray[np.bool_]) -> NDArray[np.float32]:
     # Neighbours as well: what is kept is bilinear between the cells' middles.
     beside = np.lib.stride_tricks.sliding_window_view(np.pad(mask, 1), (3, 3)).any((2, 3))
     distance = shot.sights.distance(seen.middles(shot)[beside])
-    near, parallel = seen.finest(shot)
+    near, parallel = shot.pixel
     pixel = np.minimum(distance * near if np.isfinite(near) else np.inf, parallel)
     fade = _fade(distance, shot.settings.forest.draw_distance) if parallel > seen.PIXEL else 1.0
     stems = core.stems(run.canopy_fuel[beside]) * mask[beside] * fade * np.prod(shot.ground.cell)

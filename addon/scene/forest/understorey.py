@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ...shot import noise
 from ...shot.ground import bilinear
 from ...shot.shot import Shot
-from . import models, seen
+from . import models
 
 _PIXELS = 2.0  # least height of what is drawn, pixels; of half of what is as tall
 _BLOCK = 32.0  # m; blocks of the scene that are looked at together
@@ -160,7 +160,7 @@ class Things:
 def grow(shot: Shot) -> Things:
     """What the cameras see of the understorey: at most `forest.understorey` things, the largest in view."""
     budget = shot.settings.forest.understorey
-    pixel, _ = seen.finest(shot)
+    pixel, _ = shot.pixel
     if budget == 0 or not np.isfinite(pixel):
         return _nothing()
     parts = [_scattered(shot, number, pixel, budget) for number in range(len(KINDS))]

@@ -13,9 +13,9 @@ import bpy
 from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
-from .. import haze, temperature
+from .. import granite, haze, temperature
 from ..glow import CLOSE, EMBER, FLAME
-from . import fields, granite
+from . import fields
 
 FLAMING_TIME = 100.0, 300.0  # s that the edge is in flames, seen from nearby and from FAR
 FAR = 9000.0  # m; from there the edge is drawn wider, as a picture's pixels are

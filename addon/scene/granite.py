@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from ...blender import nodes
-from ...shot.shot import Shot
-from ..forest import seen
+from ..blender import nodes
+from ..shot.shot import Shot
 
 _LIGHT, _GREY = (0.205, 0.196, 0.180), (0.090, 0.087, 0.082)
 _DARK = (0.026, 0.025, 0.022)  # joints, and streaks of water and black lichen
@@ -22,7 +21,7 @@ _SETS = ((0.36, 13.0), (1.83, 21.0))  # of joints: direction (rad) and distance 
 
 def pixel(tree: nodes.Tree, shot: Shot, distance: nodes.Value) -> nodes.Value:
     """Size of a pixel (m) of the sharpest camera at a `distance` (m) from the camera."""
-    near, parallel = seen.finest(shot)
+    near, parallel = shot.pixel
     least = min(parallel, 1.0e4)
     return distance * near if np.isfinite(near) else distance * 0.0 + least
 
