@@ -18,6 +18,7 @@ from .settings import Settings
 
 NEVER = 1.0e9  # arrival time of places that never burned, s
 _LEVEL = 0.05  # m
+_SPREAD = (0.01, 5.0)  # m/s
 RELIEF = 7.0  # standard deviation of the added relief where slopes are 45 degrees, m
 _OCTAVES = ((210.0, 1.0), (105.0, 0.55), (52.0, 0.27), (26.0, 0.12))  # of the relief: m, weight
 _SHARP = 2.4
@@ -254,6 +255,18 @@ class Ground:
         """Arrival time (s) at fractional rows and columns; NEVER in islands and where most never burned."""
         burned = bilinear(self.burned, row, column)
         return np.where(burned >= 0.5, bilinear(np.minimum(self.burn_time, 1.0e8), row, column), NEVER)
+
+    def spread(self, row: Array, column: Array) -> Array:
+        """Rate of spread (m/s): the inverse of the arrival time's slope over one cell."""
+        slope = []
+        for axis, size in enumerate(self.cell):
+            shift = (0.5, 0.0) if axis == 0 else (0.0, 0.5)
+            times = [
+                bilinear(np.minimum(self.burn_time, 1.0e8), row + sign * shift[0], column + sign * shift[1])
+                for sign in (1.0, -1.0)
+            ]
+            slope.append((times[0] - times[1]) / size)
+        return np.clip(1.0 / np.maximum(np.hypot(*slope), 1.0e-6), *_SPREAD)
 
 
 def _ascending(axis: Array, size: float) -> Array:

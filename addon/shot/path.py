@@ -72,6 +72,17 @@ class Path:
         return wider[:, None] * np.array(self.half)
 
 
+def finest(paths: list[Path], width: int) -> tuple[float, float]:
+    """Sizes of the smallest pixels of pictures so many pixels wide, infinite without a camera of that kind.
+
+    In perspective m per m of distance, and with parallel lines m.
+    """
+    sizes = [(path.perspective, 2.0 * path.half[0] / width) for path in paths]
+    return tuple(
+        min((size for kind, size in sizes if kind == near), default=np.inf) for near in (True, False)
+    )
+
+
 def eyes(ways: list[Array], radius: float) -> Array:
     """(m, 3) places along ways (n, 3) each, a quarter of `radius` apart: where the ground needs detail."""
     kept: list[Array] = []

@@ -130,6 +130,12 @@ class Forest:
         at_least=1,
         at_most=10_000_000,
     )
+    understorey: int = key(
+        40_000,
+        "most bushes, logs, rocks and tufts of grass near the cameras; 0: none",
+        at_least=0,
+        at_most=10_000_000,
+    )
     draw_distance: float = key(
         12_000.0,
         "trees farther than this from every camera are part of the ground's colour",

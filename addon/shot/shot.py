@@ -138,6 +138,11 @@ class Shot:
         """Paths of all cameras over the ground."""
         return self._paths(self.ground)
 
+    @cached_property
+    def pixel(self) -> tuple[float, float]:
+        """Sizes of the smallest pixels: in perspective m per m of distance, with parallel lines m."""
+        return path.finest(self.paths, self.settings.render.resolution[0])
+
     def _paths(self, ground: Ground) -> list[Path]:
         return [camera.rig.path(camera, self, ground) for camera in self.settings.cameras]
 

@@ -79,6 +79,37 @@ def test_models_are_made_from_their_seeds(meshes):
     assert not any(np.array_equal(meshes[a][1][0], meshes[b][1][0]) for a, b in same)
 
 
+BELOW = {  # most triangles of level 0 and 3, least and most width over the height
+    "brush": (500, 60, 0.5, 2.5),
+    "log": (600, 60, 12.0, 21.0),
+    "rock": (2_100, 130, 1.2, 4.0),
+    "tuft": (250, 40, 1.0, 2.5),
+    "twigs": (400, 80, 5.0, 30.0),
+}
+
+
+@pytest.mark.parametrize("model", models.undergrowth(), ids=lambda model: f"{model.kind}-{model.state}")
+def test_what_lies_below_is_a_metre_tall_and_of_few_triangles(model):
+    near, far, narrow, wide = BELOW[model.kind]
+    made = [model.make(level).mesh() for level in range(levels.LEVELS)]
+    counts = [len(triangles) for _, triangles, *_ in made]
+    assert counts == sorted(counts, reverse=True)
+    assert counts[0] <= near
+    assert counts[3] <= far
+    for level, (points, triangles, _, colours) in enumerate(made):
+        a, b, c = points[triangles].transpose(1, 0, 2)
+        assert np.linalg.norm(np.cross(b - a, c - a), axis=-1).min() > 1e-9
+        assert np.array_equal(np.unique(triangles), np.arange(len(points)))
+        assert colours.max() < 0.25
+        again = model.make(level).mesh()
+        assert all(np.array_equal(one, other) for one, other in zip(made[level], again, strict=True))
+    points = made[0][0]
+    if (model.kind, model.state) != ("tuft", "snag"):  # stubble is a fifth as tall
+        assert (0.7 if model.kind in ("brush", "log") else 0.95) < points[:, 2].max() < 2.4
+        assert narrow < np.ptp(points[:, :2], axis=0).max() < wide
+    assert -0.5 < points[:, 2].min() < 0.1
+
+
 LIVING = [k for k, model in enumerate(MODELS) if model.state == "living" and model.kind != "brush"]
 STEP = {"side": (0.0, 0.0, -24.0), "above": (0.0, -16.0, 0.0)}  # m from level to level; trees are 16 m apart
 
@@ -104,7 +135,8 @@ def looks(shot, stage, scene, tmp_path):
         "arrival_time": zero + NEVER,
         "elevation": zero,
         "canopy_fuel": half,
-        "severity": zero,
+        "scorch": zero,
+        "torched": zero,
         "dead": half,
     }
     camera = _lit(scene)
@@ -211,16 +243,23 @@ def test_an_artists_models_take_the_place_of_their_class(shot, stage):
     fine.data.materials.append(bpy.data.materials.new("theirs"))
     _artist("c", 8.0, **{"class": "large", "level": 2}).modifiers.new("more", "SUBSURF")
     _artist("a", 3.0, **{"class": "small", "state": "snag"})
+    _artist("d", 2.0, **{"class": "rock"})
     made = library.tree_models(shot, stage)
-    assert len(made.objects) == len(MODELS) * levels.LEVELS
+    every = models.every()
+    assert len(made.objects) == len(every) * levels.LEVELS
     for thing in made.objects:
         k, level = map(int, thing.name.split()[2:4])
-        theirs = (MODELS[k].kind, MODELS[k].state) in (("large", "living"), ("small", "snag"))
+        theirs = (every[k].kind, every[k].state) in (
+            ("large", "living"),
+            ("small", "snag"),
+            ("rock", "living"),
+        )
         height = np.array([vertex.co for vertex in thing.data.vertices])[:, 2]
         if theirs:
-            assert len(height) == (26 if MODELS[k].state == "living" and level >= 2 else 8)
+            assert len(height) == (26 if every[k].kind == "large" and level >= 2 else 8)
             assert (height.min(), height.max()) == pytest.approx((0.0, 1.0), abs=1e-6)
-            assert MODELS[k].state == "snag" or level >= 2 or thing.data.materials[0].name == "theirs"
+            if every[k].kind == "large" and level < 2:
+                assert thing.data.materials[0].name == "theirs"
         else:
             assert len(thing.data.materials) == 2
     owned.purge()
@@ -243,22 +282,27 @@ def test_an_artists_property_that_is_not_known_is_named(shot, stage, properties,
 
 
 def test_crowns_live_torch_char_or_are_scorched_from_below(shot, stage, scene, tmp_path):
-    """Four trees of one model: living, torching, charred with needles, and spared by a ground fire."""
+    """Trees of one model: living, torching, charred with needles, scorched from below, scorched whole."""
     made, camera = library.tree_models(shot, stage), _lit(scene)
-    age, severity = np.array([-1e6, 90.0, 600.0, 600.0]), np.array([0.9, 0.9, 0.9, 0.01])
-    half, model = np.full(4, 0.5), models.instance(np.full(4, 3), np.ones(4, np.int64))
+    age, scorch = np.array([-1e6, 90.0, 600.0, 600.0, 600.0]), np.array([1.0, 1.0, 1.0, 0.4, 1.0])
+    half, model = np.full(5, 0.5), models.instance(np.full(5, 3), np.ones(5, np.int64))
     points = {
-        "position": np.arange(4)[:, None] * [[16.0, 0.0, 0.0]],
+        "position": np.arange(5)[:, None] * [[16.0, 0.0, 0.0]],
         "scale": 40.0 * half,
         "rotation": 0.0 * half,
         "width": 2.0 * half,
     }
     points |= {"model": model, "snag_model": model, "tint": half, "dead": half, "elevation": half}
-    points |= {"canopy_fuel": half, "severity": severity, "arrival_time": scene.get(nodes.TIME, 0.0) - age}
+    points |= {
+        "canopy_fuel": half,
+        "scorch": scorch,
+        "torched": np.array([1.0, 1.0, 1.0, 0.0, 0.0]),
+        "arrival_time": scene.get(nodes.TIME, 0.0) - age,
+    }
     forest._instances(shot, stage.part("Chart"), "Chart", points, made)
-    camera.location, camera.rotation_euler = (24.0, -300.0, 10.0), (0.5 * np.pi, 0.0, 0.0)
-    camera.data.ortho_scale, scene.render.resolution_x, scene.render.resolution_y = 64, 128, 48
-    pixels = _rendered(scene, tmp_path / "fire.exr").reshape(48, 4, 32, 4)
+    camera.location, camera.rotation_euler = (32.0, -300.0, 10.0), (0.5 * np.pi, 0.0, 0.0)
+    camera.data.ortho_scale, scene.render.resolution_x, scene.render.resolution_y = 80, 160, 48
+    pixels = _rendered(scene, tmp_path / "fire.exr").reshape(48, 5, 32, 4)
     low, high = (part.sum((0, 2)) for part in (pixels[26:42], pixels[4:20]))
     red, green, _, _ = low.T / low[:, 3]
     assert green[0] > red[0]
@@ -266,3 +310,32 @@ def test_crowns_live_torch_char_or_are_scorched_from_below(shot, stage, scene, t
     assert green[2] < 0.6 * green[0]
     assert red[3] > 1.3 * green[3]
     assert high[3, 1] > high[3, 0]  # its top lives
+    assert high[4, 0] > 1.3 * high[4, 1]
+
+
+def test_a_far_tree_has_a_sunlit_side_and_burns_as_a_near_one(shot, stage, scene, tmp_path):
+    """Living, charred and scorched firs in levels 0 and 3, as small as level 3 is, sun from the right."""
+    made, camera = library.tree_models(shot, stage), _lit(scene)
+    bpy.data.objects["sun"].rotation_euler = (0.0, 0.9, 0.0)
+    state, level = (v.ravel() for v in np.mgrid[:3, :4:3])
+    model, half = models.instance(np.full(6, 3), level), np.full(6, 0.5)
+    points = {
+        "position": np.arange(6)[:, None] * [[16.0, 0.0, 0.0]],
+        "scale": 40.0 * half,
+        "rotation": 0.0 * half,
+        "width": 2.0 * half,
+    }
+    points |= {"model": model, "snag_model": model, "tint": half, "dead": half, "elevation": half}
+    points |= {"canopy_fuel": half, "scorch": 2.0 * half, "torched": np.array([0.0, 1.0, 0.0])[state]}
+    points["arrival_time"] = scene.get(nodes.TIME, 0.0) - np.array([-1e6, 600.0, 600.0])[state]
+    forest._instances(shot, stage.part("Chart"), "Chart", points, made)
+    camera.location, camera.rotation_euler = (40.0, -300.0, 10.0), (0.5 * np.pi, 0.0, 0.0)
+    camera.data.ortho_scale, scene.render.resolution_x, scene.render.resolution_y = 96, 96, 24
+    pixels = _rendered(scene, tmp_path / "far.exr").reshape(24, 6, 16, 4)
+    left, right = (part.sum((0, 2)) for part in (pixels[:, :, :8], pixels[:, :, 8:]))
+    colour = (left + right)[:, :3] / (left + right)[:, 3:]
+    lit = (right[:, :3].sum(-1) / right[:, 3]) / (left[:, :3].sum(-1) / left[:, 3])
+    for near, far in ((0, 1), (2, 3), (4, 5)):
+        assert lit[far] > 1.15
+        assert abs(np.log(lit[far] / lit[near])) < np.log(1.8)
+        assert np.abs(np.log(colour[far] / colour[near])).max() < np.log(1.8)

@@ -45,7 +45,7 @@ NEVER_BPY = (
         )
     ),
     *(f"firetwin.scene.fire.{name}" for name in ("firebrands", "flames", "lamps")),
-    *(f"firetwin.scene.forest.{name}" for name in ("seen", "stand")),
+    *(f"firetwin.scene.forest.{name}" for name in ("fate", "seen", "stand", "understorey")),
     "firetwin.scene.light.sky",
     *(f"firetwin.scene.smoke.{name}" for name in ("bake", "cache", "stability", "view")),
 )

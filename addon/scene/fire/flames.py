@@ -13,21 +13,21 @@ from firetwin_core import flux, lod, particles
 from numpy.typing import NDArray
 
 from ...shot import burning, noise
-from ...shot.ground import Ground, bilinear
+from ...shot.ground import bilinear
 from ...shot.path import Path
 from ...shot.shot import Shot
+from ..forest import fate
 from ..forest.stand import Stand
 
 SIGHT = 12_000.0  # m; fronts farther than this are the ground's glowing edge alone
 _SPACING = ((2500.0, 8.0), (5000.0, 12.0), (SIGHT, 24.0))  # m from the camera -> m between points
 _LINE = 1.5  # points abreast: a point flames while the front moves on by this many spacings
 _RESIDENCE = (40.0, 900.0)  # s
-_SPREAD = (0.01, 5.0)  # m/s
 _SIZES = 0.45  # standard deviation of the logarithm of flame lengths
 _LENGTHS = (1.0, 75.0)  # m
 _KELVIN = (1000.0, 1500.0)  # flames (Frankman et al. 2008)
 _TORCH_SIGHT = 2500.0  # m
-_TORCHES = 0.8  # part of the crowns that flare up where the canopy is dense
+_TORCHES = 1.0  # part of the burning crowns that flare up where the canopy is dense
 _AROUND = 250.0  # m round a cell to where its flames, and the firebrands that they throw up, reach
 _CELL_FLAME = 40.0  # m; flame of a cell's emitter at scale 100
 
@@ -110,7 +110,7 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
     arrival = ground.arrival_at(row, column)
     keep = (arrival <= last) & (arrival > first - _RESIDENCE[1])
     row, column, spacing, arrival, key = row[keep], column[keep], spacing[keep], arrival[keep], key[keep]
-    speed = _spread(ground, row, column)
+    speed = ground.spread(row, column)
     residence = np.clip(_LINE * spacing / speed, *_RESIDENCE)
     random = np.array([noise.uniform(*key.T, settings.seed + 500 + use) for use in range(3)])
     fuel = bilinear(ground.fields.canopy_fuel + ground.fields.surface_fuel, row, column)
@@ -146,8 +146,8 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
 def torches(shot: Shot, grown: Stand) -> Points:
     """Crowns of the stand that flare up when the front reaches them: tall, thin and short-lived.
 
-    A crown burns for half a minute to a minute, up to twice the tree's height (assumed), and the denser the
-    canopy the more crowns do.
+    Of the crowns that burn (`fate`) the denser the canopy the more flare up, for half a minute to a minute
+    and up to twice the tree's height (assumed).
     """
     ground, first, last = shot.ground, shot.frames.first, shot.frames.last
     near = np.flatnonzero((grown.distance < _TORCH_SIGHT) & (grown.height > 6.0))
@@ -156,14 +156,15 @@ def torches(shot: Shot, grown: Stand) -> Points:
     canopy = bilinear(ground.fields.canopy_fuel, row, column)
     key = grown.key[near].T
     luck, size, late, seed = (noise.uniform(*key, shot.settings.seed + 400 + k) for k in range(4))
-    lit = (luck < _TORCHES * canopy / (canopy + 1.0)) & (arrival <= last)
+    lit = (luck < _TORCHES * canopy / (canopy + 0.5)) & (arrival <= last)
+    lit &= fate.of(shot, row, column, grown.height[near], grown.key[near]).torched
     residence = 30.0 + 30.0 * size
     arrival = arrival + 20.0 * late
     chosen = np.flatnonzero(lit & (arrival + residence > first))
     row, column, size = row[chosen], column[chosen], size[chosen]
     height = grown.height[near[chosen]]
     length = np.clip(height * (1.1 + 0.9 * size), *_LENGTHS)
-    intensity = burning.HEAT / 1000.0 * canopy[chosen] * _spread(ground, row, column)
+    intensity = burning.HEAT / 1000.0 * canopy[chosen] * ground.spread(row, column)
     return Points(
         grown.position[near[chosen]],
         arrival[chosen],
@@ -256,19 +257,6 @@ def _candidates(shot: Shot) -> tuple[Array, Array, Array, NDArray[np.int64]]:
     row, column, spacing, key = (np.concatenate([part[i] for part in parts]) for i in range(4))
     rows, columns = ground.shape
     return np.clip(row, 0.0, rows - 1.0), np.clip(column, 0.0, columns - 1.0), spacing, key
-
-
-def _spread(ground: Ground, row: Array, column: Array) -> Array:
-    """Rate of spread (m/s): the inverse of the arrival time's slope over one cell."""
-    slope = []
-    for axis, size in enumerate(ground.cell):
-        shift = (0.5, 0.0) if axis == 0 else (0.0, 0.5)
-        times = [
-            bilinear(np.minimum(ground.burn_time, 1.0e8), row + sign * shift[0], column + sign * shift[1])
-            for sign in (1.0, -1.0)
-        ]
-        slope.append((times[0] - times[1]) / size)
-    return np.clip(1.0 / np.maximum(np.hypot(*slope), 1.0e-6), *_SPREAD)
 
 
 def _within_budget(points: Points, shot: Shot, views: list[Path]) -> Points:

@@ -1,8 +1,9 @@
-"""The forest: trees, of the stand or one for each fuel cell (Algorithm 2), and grass, as instances on points.
+"""The forest: trees, of the stand or one for each fuel cell (Algorithm 2), what is under them, and grass.
 
-A point has float attributes `scale` (height, m), `width` (how much wider than its model it is), `rotation`,
-`arrival_time`, `elevation`, `canopy_fuel`, `tint`, `dead`, `severity`, and the numbers of its models, `model`
-and `snag_model`. Only what a camera can see is made.
+All are instances on points. A point has float attributes `scale` (height, m), `width` (how much wider than
+its model it is), `rotation`, `pitch` and `roll` (radians), `arrival_time`, `elevation`, `canopy_fuel`,
+`tint`, `dead`, `scorch`, `torched`, and the numbers of its models, `model` and `snag_model`. Only what a
+camera can see is made.
 """
 
 from __future__ import annotations
@@ -18,23 +19,28 @@ from ...shot import noise
 from ...shot.ground import NEVER, bilinear
 from ...shot.shot import Shot
 from .. import clock
-from . import models, seen
+from . import fate, models, seen, understorey
 from .library import grass_models, levelled, tree_models
 from .stand import Stand
 
 GRASS_DISTANCE = 400.0  # m
 BARE_AFTER = 900.0  # s after the fire came a burned tree is a snag
+_GONE_AFTER = 300.0  # s, and brush and grass are stems and stubble
 _TALLEST, _GRASS = 31.0, 10.0  # m; as tall as any tree of Algorithm 2, and as one that would hold a clump
-_SNAG = 0.85  # part of the burned trees that become snags
 
 
 def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Object]:
-    """Build "Firetwin Trees" and "Firetwin Grass", each where there is something to see."""
+    """Build "Firetwin Trees", "Firetwin Understorey" and "Firetwin Grass", each where one sees something."""
     collection = stage.part("Forest")
-    made = []
+    made, below = [], understorey.grow(shot)
+    if grown is not None or len(below.size):
+        library = tree_models(shot, stage)
     if grown is not None:
         points = algorithm2(shot) if shot.settings.forest.density == "paper" else _stand(shot, grown)
-        made.append(_instances(shot, collection, "Trees", levelled(shot, points), tree_models(shot, stage)))
+        made.append(_instances(shot, collection, "Trees", levelled(shot, points), library))
+    if len(below.size):
+        points = levelled(shot, _below(shot, below))
+        made.append(_instances(shot, collection, "Understorey", points, library, _GONE_AFTER))
     if shot.settings.forest.grass:
         library = grass_models(shot, stage)
         made.append(_instances(shot, collection, "Grass", _grass(shot), library))
@@ -71,6 +77,15 @@ def _stand(shot: Shot, grown: Stand) -> dict[str, NDArray]:
     return _points(shot, grown.position, grown.height, grown.width, grown.rotation, grown.model, *grown.key.T)
 
 
+def _below(shot: Shot, things: understorey.Things) -> dict[str, NDArray]:
+    points = _points(
+        shot, things.position, things.height, things.width, things.rotation, things.model, *things.key.T
+    )
+    whole = np.ones(len(things.size))  # flames of the ground reach all of it
+    points |= {"scorch": whole, "torched": whole, "snag_model": things.burned}
+    return {**points, "pitch": things.pitch, "roll": things.roll}
+
+
 def _grass(shot: Shot) -> dict[str, NDArray]:
     run, ground, seed = shot.run, shot.ground, shot.settings.seed
     axes = run.fuel_latitude, run.fuel_longitude
@@ -99,7 +114,8 @@ def _points(
     """All attributes of n trees; random ones hang on two integers per tree."""
     ground, seed = shot.ground, shot.settings.seed
     row, column = ground.indices(*ground.geodetic(position[:, 0], position[:, 1]))
-    tint, dead, lot = (noise.uniform(key, second, seed + 300 + k) for k in range(3))
+    tint, dead = (noise.uniform(key, second, seed + 300 + k) for k in range(2))
+    burned = fate.of(shot, row, column, scale, np.stack([key, second], axis=-1))
     size = np.select([scale > 20.0, scale > 12.0], [0, 1], 2)
     return {
         "position": position,
@@ -107,8 +123,9 @@ def _points(
         "width": width,
         "rotation": rotation,
         "model": model,
-        "severity": 1.0 - lot,
-        "snag_model": np.where(lot < _SNAG, np.array(models.SNAGS)[size], model),
+        "scorch": burned.scorch,
+        "torched": burned.torched.astype(np.float64),
+        "snag_model": np.where(burned.torched, np.array(models.SNAGS)[size], model),
         "arrival_time": np.minimum(ground.arrival_at(row, column), NEVER),
         "elevation": bilinear(ground.fields.elevation, row, column),
         "canopy_fuel": bilinear(ground.fields.canopy_fuel, row, column),
@@ -123,6 +140,7 @@ def _instances(
     name: str,
     points: dict[str, NDArray],
     library: bpy.types.Collection,
+    bare_after: float = BARE_AFTER,
 ) -> bpy.types.Object:
     """Make an object of bare points with the node group that puts models on them."""
     data = bpy.data.meshes.new(f"Firetwin {name}")
@@ -136,12 +154,14 @@ def _instances(
     data.update()
     thing = owned.add(collection, name, data)
     modifier = thing.modifiers.new("Firetwin Instances", "NODES")
-    modifier.node_group = _node_group(shot, f"Firetwin {name}", library)
+    modifier.node_group = _node_group(shot, f"Firetwin {name}", library, bare_after)
     return thing
 
 
-def _node_group(shot: Shot, name: str, library: bpy.types.Collection) -> bpy.types.NodeTree:
-    """A model on every point, which becomes a snag some time after the fire came."""
+def _node_group(
+    shot: Shot, name: str, library: bpy.types.Collection, bare_after: float
+) -> bpy.types.NodeTree:
+    """A model on every point, which becomes a snag `bare_after` s after the fire came."""
     tree, given = nodes.geometry(name)
     collection = tree.node("GeometryNodeCollectionInfo", transform_space="ORIGINAL")
     compat.find_socket(collection.inputs, "Collection").default_value = library
@@ -153,7 +173,7 @@ def _node_group(shot: Shot, name: str, library: bpy.types.Collection) -> bpy.typ
 
     age = clock.geometry_time(tree, shot) - attribute("arrival_time", "FLOAT")
     burned = tree.output(
-        "FunctionNodeCompare", [age, BARE_AFTER], data_type="FLOAT", operation="GREATER_THAN"
+        "FunctionNodeCompare", [age, bare_after], data_type="FLOAT", operation="GREATER_THAN"
     )
     model = {"Switch": burned, "False": attribute("model", "INT"), "True": attribute("snag_model", "INT")}
     up = attribute("scale", "FLOAT")
@@ -165,7 +185,7 @@ def _node_group(shot: Shot, name: str, library: bpy.types.Collection) -> bpy.typ
             "Instance": collection,
             "Pick Instance": True,
             "Instance Index": tree.output("GeometryNodeSwitch", model, input_type="INT"),
-            "Rotation": tree.combine(0.0, 0.0, attribute("rotation", "FLOAT")),
+            "Rotation": tree.combine(*(attribute(turn, "FLOAT") for turn in ("roll", "pitch", "rotation"))),
             "Scale": tree.combine(across, across, up),
         },
     )

@@ -3,17 +3,18 @@
 An artist's models are the objects of a collection named "Firetwin Models" with these custom properties:
 
 class
-    "large", "medium", "small", "oak" or "brush": whose place they take. All models of that class and state
-    are replaced, by each of the artist's in turn, in the order of their names.
+    "large", "medium", "small", "oak", "brush", "log", "rock", "tuft" or "twigs": whose place they take. All
+    models of that class and state are replaced, by each of the artist's in turn, in the order of their names.
 level
     0 (near, what is meant without it) to 3 (far). A level that is not there is drawn as the next finer one,
     or the finest there is.
 state
-    "living" (what is meant without it), or "snag": burned, without needles.
+    "living" (what is meant without it), or "snag": burned, without needles; of a tuft its stubble. Logs,
+    rocks and twigs are the same before the fire and after it.
 
 Their place and size do not matter: an object's lowest point is put on the ground, its origin on the trunk's
-axis, and its height becomes that of the tree. Their materials stay theirs; what burns and varies is there as
-attributes of the instancer that `material` names.
+axis, and its height becomes that of the tree, or the thickness of a log, which lies along x. Their materials
+stay theirs; what burns and varies is there as attributes of the instancer that `material` names.
 """
 
 from __future__ import annotations
@@ -42,10 +43,12 @@ def tree_models(shot: Shot, stage: Stage) -> bpy.types.Collection:
     """A collection outside of the scene of all models in all levels, numbered as `models.instance` says."""
     leaf = material.foliage(shot, stage)
     wood, char = (material.bark(shot, stage, charred=charred) for charred in (False, True))
+    stone, straw = material.rock(shot, stage), material.grass(shot, stage)
     swapped, count = _artists(), defaultdict(int)
     library = owned.library("Tree Models")
-    for k, model in enumerate(models.trees()):
-        look = (char, char) if model.state == "snag" else (leaf, wood)
+    looks = {"rock": (stone, stone), "tuft": (straw, wood)}
+    for k, model in enumerate(models.every()):
+        look = (char, char) if model.state == "snag" else looks.get(model.kind, (leaf, wood))
         theirs, turn = swapped.get((model.kind, model.state)), count[model.kind, model.state]
         count[model.kind, model.state] += 1
         for level in range(LEVELS):

@@ -1,7 +1,8 @@
 """Materials of trees: needles and leaves that live, torch, scorch and char, bark, and grass.
 
 What differs from tree to tree comes from its point, as attributes of the instancer: `arrival_time` (s),
-`tint`, `dead`, `severity` (0..1), `elevation` (m). What differs within a tree is the mesh's colour attribute
+`tint`, `dead`, `scorch` (0..1 of the height: so far up heat browns needles), `torched` (1: the crown burns),
+`elevation` (m). What differs within a tree is the mesh's colour attribute
 `leaf`.
 """
 
@@ -12,11 +13,10 @@ import bpy
 from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
-from .. import haze, infrared, temperature
+from .. import granite, haze, infrared, temperature
 from ..glow import CLOSE, EMBER, FLAME, brightness
 
 TORCHING = 300.0  # s that a crown is in flames
-SPARED = 0.15  # severity up to which a crown is scorched from below and keeps its needles
 _TORCH = 0.1, 0.35  # of the flames' radiance, at the distances CLOSE: crowns near by fill pixels
 _DEAD = 0.07  # part of the trees that stood dead and brown before
 _BROWN = ((0.085, 0.048, 0.022), (0.135, 0.080, 0.040))  # needles killed by drought, beetles or heat
@@ -33,15 +33,14 @@ def foliage(shot: Shot, stage: Stage) -> bpy.types.Material:
     brown = tree.mix_colour(tint, *_BROWN)
     living = tree.mix_colour(tree.attribute("dead", "INSTANCER") < _DEAD, green, brown)
     place = _place(tree)
-    severity, age = tree.attribute("severity", "INSTANCER"), _age(tree)
+    torched, age = tree.attribute("torched", "INSTANCER"), _age(tree)
     killed = age.smoothstep(20.0, 200.0)
-    reach = severity.ramp(0.0, SPARED, 0.35, 0.95)  # of the height: heat browns what is below
+    reach = tree.attribute("scorch", "INSTANCER") * 1.16 - 0.08  # over the whole crown where it is 1
     scorched = tree.separate(place)[2].smoothstep(reach + 0.08, reach - 0.08)
     spared = tree.mix_colour(scorched * killed, living, brown)
     black = tree.mix_colour(tree.attribute("dead", "INSTANCER"), *_BLACK)
     browned = tree.mix_colour(age.smoothstep(0.0, 60.0), living, brown)
     burned = tree.mix_colour(age.smoothstep(40.0, 240.0), browned, black)
-    torched = severity > SPARED
     colour = tree.mix_colour(torched, spared, burned)
     _leaves(tree, shot, stage, colour, _rounded(tree, place), torched)
     material.cycles.emission_sampling = "NONE"
@@ -64,12 +63,34 @@ def bark(shot: Shot, stage: Stage, *, charred: bool) -> bpy.types.Material:
             1.0, wood, tree.mix_colour(tint, (0.7, 0.7, 0.7), (1.2, 1.2, 1.2)), "MULTIPLY"
         )
         low = tree.separate(_place(tree))[2].smoothstep(0.5, 0.3)  # flames of a ground fire char the foot
-        whole = tree.attribute("severity", "INSTANCER") > SPARED
+        whole = tree.attribute("torched", "INSTANCER")
         colour = tree.mix_colour((age > 60.0) * tree.math("MAXIMUM", low, whole), brown, black)
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
     normal = tree.output("ShaderNodeNewGeometry", name="Normal")
     warmth = _warmth(tree, shot, stage, normal, age, age > 0.0)
     tree.surface(_switch(tree, shot, stage, matt, warmth))
+    return material
+
+
+def rock(shot: Shot, stage: Stage) -> bpy.types.Material:
+    """Build "Firetwin Rock": the ground's granite, darker from rock to rock, sooty where it burned."""
+    material, tree = nodes.material("Firetwin Rock", (0.32, 0.31, 0.29))
+    position = tree.output("ShaderNodeNewGeometry", name="Position")
+    distance = tree.output("ShaderNodeCameraData", name="View Distance")
+    tint, age = tree.attribute("tint", "INSTANCER"), _age(tree)
+    stone, height = granite.face(tree, position, granite.pixel(tree, shot, distance))
+    stone = tree.mix_colour(
+        1.0, stone, tree.mix_colour(tint, (0.62, 0.60, 0.56), (1.1, 1.1, 1.1)), "MULTIPLY"
+    )
+    soot = tree.separate(_place(tree))[2].smoothstep(1.1, 0.0) * (age > 60.0)
+    colour = tree.mix_colour(soot * 0.85, stone, (0.022, 0.020, 0.019))
+    normal = tree.output("ShaderNodeBump", {"Strength": 0.8, "Distance": 1.0, "Height": height})
+    matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Roughness": 0.6, "Normal": normal})
+    elevation = tree.attribute("elevation", "INSTANCER")
+    ambient = temperature.ambient(tree, shot, stage, elevation, normal, 1.0)
+    warmth = infrared.emitted(tree, shot, stage, ambient, infrared.STONE)
+    tree.surface(_switch(tree, shot, stage, matt, warmth))
+    material.cycles.emission_sampling = "NONE"
     return material
 
 

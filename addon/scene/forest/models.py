@@ -1,4 +1,4 @@
-"""Models of trees, a metre tall: ten conifers for Algorithm 2's classes, black oaks, snags, brush; and grass.
+"""Models, a metre tall: ten conifers of Algorithm 2's classes, oaks, snags, brush; what lies below; grass.
 
 Each is made from its own seed, so a scene's trees are always the same. The levels of a model are the same
 tree drawn with fewer triangles.
@@ -13,8 +13,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from . import floor, levels
 from . import habit as habits
-from . import levels
 from .growth import dead, grown, wood
 from .habit import Habit
 from .shape import FOLIAGE, Shape
@@ -23,7 +23,15 @@ FIRST_MODEL = {2: 0, 1: 2, 0: 6}  # Algorithm 2's size class (LARGE 2, MEDIUM 1,
 OAKS = (10, 11)
 SNAGS = (12, 13, 14)
 BRUSH = (15, 16)
-KINDS = ("large", "medium", "small", "oak", "brush")
+BURNED_BRUSH, LOGS, ROCKS, TUFTS, STUBBLE, TWIGS = (
+    (17, 18),
+    (19, 20),
+    (21, 22, 23),
+    (24, 25),
+    (26, 27),
+    (28, 29),
+)
+KINDS = ("large", "medium", "small", "oak", "brush", "log", "rock", "tuft", "twigs")
 GRASS = (0, 1)
 REACH = 0.68  # of a tree's height: no part of its model is farther from its middle
 _LEAVES = 1500  # of level 1
@@ -115,6 +123,24 @@ def trees() -> list[Model]:
         ),
         *(Model("brush", "living", partial(tree, habit, 150 + k)) for k, habit in enumerate(brush)),
     ]
+
+
+def undergrowth() -> list[Model]:
+    """What lies and grows under the trees, in the order of its numbers, which go on from theirs."""
+    brush = [(habits.MANZANITA, 150), (habits.CEANOTHUS, 151)]  # the seeds of the living
+    return [
+        *(Model("brush", "snag", partial(floor.burned_brush, habit, seed)) for habit, seed in brush),
+        *(Model("log", "living", partial(floor.log, 160 + k)) for k in range(len(LOGS))),
+        *(Model("rock", "living", partial(floor.rock, 170 + k)) for k in range(len(ROCKS))),
+        *(Model("tuft", "living", partial(floor.tuft, 180 + k)) for k in range(len(TUFTS))),
+        *(Model("tuft", "snag", partial(floor.stubble, 180 + k)) for k in range(len(STUBBLE))),
+        *(Model("twigs", "living", partial(floor.twigs, 190 + k)) for k in range(len(TWIGS))),
+    ]
+
+
+def every() -> list[Model]:
+    """All of the forest's models but Algorithm 2's grass, in the order of their numbers."""
+    return [*trees(), *undergrowth()]
 
 
 def instance(model: NDArray[np.int64], level: NDArray[np.int64]) -> NDArray[np.int64]:

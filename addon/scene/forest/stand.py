@@ -19,7 +19,7 @@ from . import models, plot, seen
 from .plot import Plot
 
 TALLEST = 42.0  # m; the core's largest tree
-CLEARING = 40.0  # m round the cameras where no tree stands: these models are made for 60 m and more
+CLEARING = 10.0  # m round the cameras where no tree stands, and none in their way
 _CROWN = 5.0  # m, width of a middling tree; where a pixel is wider, fewer trees show as much
 
 
@@ -68,7 +68,7 @@ def grow(shot: Shot) -> Stand:
     position = seen.settled(shot.ground, found.position)
     key = np.stack([found.key >> 32, found.key & 0xFFFFFFFF], axis=-1)
     distance = shot.sights.distance(position)
-    fade = _fade(distance, reach) if _finest(shot)[1] > seen.PIXEL else 1.0
+    fade = _fade(distance, reach) if shot.pixel[1] > seen.PIXEL else 1.0
     chosen = (noise.uniform(*key.T, settings.seed + 202) < fade) & (distance > CLEARING)
     chosen[chosen] = seen.visible(shot, position[chosen], found.scale[chosen], reach, found.width[chosen])
     chosen = np.flatnonzero(chosen)
@@ -125,15 +125,6 @@ def _fade(distance: NDArray, reach: float) -> NDArray[np.float64]:
     return noise.smoothstep(reach, 0.75 * reach, distance) if reach > 0.0 else np.zeros_like(distance)
 
 
-def _finest(shot: Shot) -> tuple[float, float]:
-    """Sizes of the smallest pixels: for perspective m per m of distance, and with parallel lines, m."""
-    width = shot.settings.render.resolution[0]
-    sizes = [(path.perspective, 2.0 * path.half[0] / width) for path in shot.paths]
-    return tuple(
-        min((size for kind, size in sizes if kind == near), default=np.inf) for near in (True, False)
-    )
-
-
 def _kept(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
     """Part (fy, fx) of the stems to keep: all where pixels are small, beyond as the area of their picture.
 
@@ -141,7 +132,7 @@ def _kept(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
     where a pixel is smaller than a crown, or smaller than lets all be about `forest.budget`.
     """
     budget, reach = shot.settings.forest.budget, shot.settings.forest.draw_distance
-    near, parallel = _finest(shot)
+    near, parallel = shot.pixel
     # Neighbours as well: what is kept is bilinear between the cells' middles.
     besides = [np.lib.stride_tricks.sliding_window_view(np.pad(p.mask, 1), (3, 3)).any((2, 3)) for p in plots]
     pixels, stems = [], []

@@ -15,7 +15,7 @@ from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot import photo
 from ...shot.shot import Shot
-from .. import haze, infrared
+from .. import granite, haze, infrared
 from ..glow import CLOSE, EMBER, FLAME
 from . import fields, heat
 
@@ -42,6 +42,8 @@ class Place:
     near: nodes.Value  # 1 where trees are drawn one by one
     age: nodes.Value  # s since the fire came, negative before
     burned: nodes.Value  # 0 or 1
+    pixel: nodes.Value  # m
+    duff: nodes.Value  # -1..1, grain of the soil, of needles and of ash; 0 where pixels are larger
 
 
 def build(
@@ -53,12 +55,13 @@ def build(
     """Build "Firetwin Ground", which reads the fields of these images and is coloured by these photos."""
     material, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
     known = fields.Fields(tree, images)
-    place = _place(tree, known, shot.settings.forest.draw_distance)
+    place = _place(tree, known, shot)
     rock = _rock(tree, place)
-    green, bump = _unburned(tree, place, rock)
+    stone = _granite(tree, place)
+    green, bump = _unburned(tree, place, rock, stone)
     for picture, image in photos:
         green, bump = _photographed(tree, place, picture, image, green, bump)
-    char = _charred(tree, place, rock)
+    char = _charred(tree, place, rock, stone[0])
     colour = tree.mix_colour(place.burned, green, char)
     flaming, embers = _glow(tree, place, rock)
     normal = tree.output("ShaderNodeBump", {"Strength": 0.9, "Distance": 1.0, "Height": bump})
@@ -78,7 +81,8 @@ def build(
     return material
 
 
-def _place(tree: nodes.Tree, known: fields.Fields, radius: float) -> Place:
+def _place(tree: nodes.Tree, known: fields.Fields, shot: Shot) -> Place:
+    radius = shot.settings.forest.draw_distance
     geometry = tree.node("ShaderNodeNewGeometry")
     position = tree.pick(geometry, "Position")
     slope = 1.0 - tree.separate(tree.pick(geometry, "True Normal"))[2]
@@ -87,6 +91,7 @@ def _place(tree: nodes.Tree, known: fields.Fields, radius: float) -> Place:
     age = nodes.model_time(tree) - known["burn_time"] + wander * (2.0 * _JITTER)
     edge = known["burned"] + (tree.noise(position, 120.0, 3.0) - 0.5) * 0.8
     burned = (age > 0.0) * (edge > 0.5)
+    pixel = granite.pixel(tree, shot, distance)
     return Place(
         position,
         slope,
@@ -97,6 +102,8 @@ def _place(tree: nodes.Tree, known: fields.Fields, radius: float) -> Place:
         known["stand"] * distance.ramp(max(radius, 1.0), _OWN * max(radius, 1.0), 1.0, 0.0),
         age,
         burned,
+        pixel,
+        granite.fine(tree, position, 0.6, 5.0, pixel, 0.72),
     )
 
 
@@ -109,7 +116,9 @@ def _rock(tree: nodes.Tree, place: Place) -> nodes.Value:
     return tree.math("MAXIMUM", bare, tree.math("MAXIMUM", cliff, high * 0.9))
 
 
-def _unburned(tree: nodes.Tree, place: Place, rock: nodes.Value) -> tuple[nodes.Value, nodes.Value]:
+def _unburned(
+    tree: nodes.Tree, place: Place, rock: nodes.Value, stone: tuple[nodes.Value, nodes.Value]
+) -> tuple[nodes.Value, nodes.Value]:
     """Colour, and height of the canopy (m) for the bump."""
     fine = tree.noise(place.position, 24.0, 4.0, 0.65)
     patch = tree.noise(place.position, 420.0, 4.0, 0.6)
@@ -146,10 +155,11 @@ def _unburned(tree: nodes.Tree, place: Place, rock: nodes.Value) -> tuple[nodes.
     )
     close = tree.mix_colour(floor, open_ground, scrub)
     colour = tree.mix_colour(place.near, far, close)
-    relief = cover * (1.0 - place.near) * (1.0 - crown) * 9.0 + fine * 2.0
-    boulders = tree.noise(place.position, 9.0, 4.0, 0.6) * 3.0
-    stone = tree.mix_colour(alone * (1.0 - place.near) * 0.8, _granite(tree, place), canopy)
-    return tree.mix_colour(rock, colour, stone), tree.mix(rock, relief, boulders)
+    colour = tree.mix_colour(1.0, colour, _grain(tree, place), "MULTIPLY")
+    relief = cover * (1.0 - place.near) * (1.0 - crown) * 9.0 + fine * 2.0 + place.duff * 0.12
+    boulders = tree.noise(place.position, 9.0, 4.0, 0.6) * 3.0 + stone[1]
+    faces = tree.mix_colour(alone * (1.0 - place.near) * 0.8, stone[0], canopy)
+    return tree.mix_colour(rock, colour, faces), tree.mix(rock, relief, boulders)
 
 
 def _photographed(
@@ -169,16 +179,35 @@ def _photographed(
     return tree.mix_colour(counts, colour, tree.pick(shown, "Color")), bump * (1.0 - counts)
 
 
-def _granite(tree: nodes.Tree, place: Place) -> nodes.Value:
-    grain = tree.noise(place.position, 40.0, 6.0, 0.72)
-    crack = tree.noise(place.position, 34.0, 5.0, 0.62) - 0.5
-    joints = tree.math("ABSOLUTE", crack).smoothstep(0.016, 0.0)
+def _grain(tree: nodes.Tree, place: Place) -> nodes.Value:
+    """Factor on the colour of the floor: needles, soil and shadows between them, 1 on average."""
+    return tree.mix_colour(place.duff.ramp(-0.5, 0.5), (0.22, 0.20, 0.18), (1.78, 1.80, 1.82))
+
+
+def _granite(tree: nodes.Tree, place: Place) -> tuple[nodes.Value, nodes.Value]:
+    """Colour and height (m): slabs with joints, blocks of talus below them, sand and brush in the hollows."""
+    stone, height = granite.face(tree, place.position, place.pixel)
+    broad = tree.noise(place.position, 64.0, 6.0, 0.68)
+    stone = tree.mix_colour(
+        1.0,
+        stone,
+        tree.mix_colour(broad.smoothstep(0.3, 0.7), (0.60, 0.60, 0.62), (1.12, 1.08, 1.0)),
+        "MULTIPLY",
+    )
     stain = tree.noise(tree.vector("MULTIPLY", place.position, (1.0, 1.0, 0.25)), 90.0, 3.0)
-    stone = tree.mix_colour(grain.smoothstep(0.3, 0.7), (0.060, 0.057, 0.053), (0.165, 0.158, 0.148))
-    stone = tree.mix_colour(joints * 0.55, stone, (0.030, 0.029, 0.024))
-    shrubs = tree.noise(place.position, 14.0, 4.0, 0.65).smoothstep(0.53, 0.60)
-    stone = tree.mix_colour(stain.smoothstep(0.5, 0.75) * 0.6, stone, (0.070, 0.062, 0.052))
-    return tree.mix_colour(shrubs * 0.8, stone, (0.030, 0.038, 0.018))
+    stone = tree.mix_colour(stain.smoothstep(0.5, 0.75) * 0.6, stone, (0.060, 0.050, 0.040))
+    joints = granite.joints(tree, place.position, broad - 0.5, place.pixel)
+    stone = tree.mix_colour(joints * 0.75, stone, (0.024, 0.022, 0.018))
+    block = tree.cells(place.position, 2.4, "Color")
+    bright = place.pixel.ramp(0.6, 2.4, tree.separate(block)[0], 0.5)
+    debris = tree.mix_colour(bright, (0.055, 0.053, 0.050), (0.205, 0.195, 0.180))
+    talus = place.slope.smoothstep(0.03, 0.10) * broad.smoothstep(0.49, 0.56)
+    stone = tree.mix_colour(talus, stone, debris)
+    hollow = tree.noise(place.position, 26.0, 5.0, 0.68)
+    sand = tree.mix_colour(broad, (0.105, 0.086, 0.060), (0.165, 0.140, 0.104))
+    stone = tree.mix_colour((hollow - broad * 0.25).smoothstep(0.40, 0.47) * 0.85, stone, sand)
+    brush = (hollow + joints * 0.07).smoothstep(0.555, 0.60)
+    return tree.mix_colour(brush * 0.88, stone, (0.030, 0.038, 0.018)), height * (1.0 - brush)
 
 
 def _water(tree: nodes.Tree, place: Place) -> nodes.Value:
@@ -190,7 +219,7 @@ def _water(tree: nodes.Tree, place: Place) -> nodes.Value:
     return tree.mix_shader(tree.output("ShaderNodeFresnel", {"IOR": 1.33}), deep, mirror)
 
 
-def _charred(tree: nodes.Tree, place: Place, rock: nodes.Value) -> nodes.Value:
+def _charred(tree: nodes.Tree, place: Place, rock: nodes.Value, stone: nodes.Value) -> nodes.Value:
     """Char, white ash in streaks, brown scorched crowns where it burned mildly, and rock as it was."""
     tone = tree.noise(place.position, 90.0, 4.0, 0.62)
     char = tree.mix_colour(tone.smoothstep(0.3, 0.72), (0.009, 0.008, 0.008), (0.052, 0.046, 0.041))
@@ -202,7 +231,8 @@ def _charred(tree: nodes.Tree, place: Place, rock: nodes.Value) -> nodes.Value:
     )
     scorched = tree.mix_colour(tone, (0.035, 0.022, 0.012), (0.085, 0.052, 0.026))
     char = tree.mix_colour(mild * 0.75, char, scorched)
-    stone = tree.mix_colour(0.45, _granite(tree, place), (0.045, 0.042, 0.040))
+    char = tree.mix_colour(1.0, char, _grain(tree, place), "MULTIPLY")
+    stone = tree.mix_colour(0.45, stone, (0.045, 0.042, 0.040))
     return tree.mix_colour(rock, char, stone)
 
 
@@ -216,4 +246,5 @@ def _glow(tree: nodes.Tree, place: Place, rock: nodes.Value) -> tuple[nodes.Valu
     speckles = tree.noise(place.position, 28.0, 4.0, 0.7).smoothstep(0.60, 0.72)
     clusters = tree.noise(place.position, 420.0, 2.0).smoothstep(0.42, 0.66)
     fading = (-(tree.math("MAXIMUM", place.age, 0.0) / EMBER_TIME)).exp()
-    return flaming, fuel * speckles * clusters * fading
+    sparks = tree.math("MAXIMUM", place.duff * 4.0 + 1.0, 0.0)
+    return flaming, fuel * speckles * clusters * fading * sparks

@@ -1,0 +1,280 @@
+"""The understorey: brush, logs, rocks, tufts of grass and twigs near the cameras, without Blender.
+
+Each kind has a lattice of its own over the scene, and at most one thing in each of its cells. What stands
+there hangs on the cell, so it is the same for every shot; which of it is drawn, on how large it is seen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...shot import noise
+from ...shot.ground import bilinear
+from ...shot.shot import Shot
+from . import models
+
+_PIXELS = 2.0  # least height of what is drawn, pixels; of half of what is as tall
+_BLOCK = 32.0  # m; blocks of the scene that are looked at together
+_FARTHEST = 600.0  # m
+_STEEPEST = 1.2  # slope on which things still lie
+_LYING = (*models.LOGS, *models.TWIGS)
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of thing. Numbers are assumed.
+
+    Attributes
+    ----------
+    models
+        Numbers of its models, and of what they are once the fire has passed, in the same order.
+    burned
+        The same after the fire.
+    cells
+        Cells of its lattice along a block's side.
+    height, spread, limits
+        Median height, standard deviation of its logarithm, and its least and largest, m.
+    width
+        Least and most times wider than its model.
+    density
+        Things per m2 from canopy fuel and surface fuel (kg/m2) and bare rock (0..1).
+    patches
+        Size of its patches, m; 0 is even.
+    """
+
+    models: tuple[int, ...]
+    burned: tuple[int, ...]
+    cells: int
+    height: float
+    spread: float
+    limits: tuple[float, float]
+    width: tuple[float, float]
+    density: Callable[[Array, Array, Array], Array]
+    patches: float = 0.0
+
+
+def _floor(surface: Array) -> Array:
+    return noise.smoothstep(0.05, 0.6, surface)
+
+
+KINDS = {
+    "brush": Kind(
+        models.BRUSH,
+        models.BURNED_BRUSH,
+        16,
+        0.85,
+        0.45,
+        (0.25, 2.4),
+        (0.8, 1.5),
+        lambda canopy, surface, bare: _floor(surface) * (0.03 + 0.12 * np.exp(-canopy / 0.4)) + 0.006 * bare,
+        patches=22.0,
+    ),
+    "log": Kind(
+        models.LOGS,
+        models.LOGS,
+        5,
+        0.32,
+        0.40,
+        (0.15, 0.95),
+        (0.8, 1.2),
+        lambda canopy, surface, bare: 0.010 * noise.smoothstep(0.1, 1.2, canopy),
+    ),
+    "rock": Kind(
+        models.ROCKS,
+        models.ROCKS,
+        16,
+        0.28,
+        0.75,
+        (0.08, 3.0),
+        (1.0, 1.7),
+        lambda canopy, surface, bare: 0.025 + 0.20 * bare,
+        patches=30.0,
+    ),
+    "tuft": Kind(
+        models.TUFTS,
+        models.STUBBLE,
+        32,
+        0.30,
+        0.35,
+        (0.12, 0.65),
+        (0.7, 1.3),
+        lambda canopy, surface, bare: _floor(surface) * (0.12 + 0.8 * np.exp(-canopy / 0.5)) + 0.05 * bare,
+        patches=9.0,
+    ),
+    "twigs": Kind(
+        models.TWIGS,
+        models.TWIGS,
+        32,
+        0.13,
+        0.35,
+        (0.06, 0.28),
+        (0.8, 1.3),
+        lambda canopy, surface, bare: 0.7 * noise.smoothstep(0.05, 1.0, canopy),
+        patches=6.0,
+    ),
+}
+
+
+@dataclass(frozen=True)
+class Things:
+    """Things of the understorey, n of them.
+
+    Attributes
+    ----------
+    position
+        (n, 3) metres in the scene, on the ground.
+    height, width, rotation
+        (n,) m; times wider than its model; radians.
+    pitch, roll
+        (n,) radians about their own y and x: along the slope, for what lies.
+    model, burned
+        (n,) numbers of its models in `models`, before the fire and after it.
+    key
+        (n, 2) integers that random choices for a thing hang on.
+    size
+        (n,) how many times taller than the least that is drawn they are seen.
+    """
+
+    position: Array
+    height: Array
+    width: Array
+    rotation: Array
+    pitch: Array
+    roll: Array
+    model: NDArray[np.int64]
+    burned: NDArray[np.int64]
+    key: NDArray[np.int64]
+    size: Array
+
+    def take(self, chosen: NDArray) -> Things:
+        """Some of them."""
+        return Things(*(getattr(self, field.name)[chosen] for field in fields(self)))
+
+
+def grow(shot: Shot) -> Things:
+    """What the cameras see of the understorey: at most `forest.understorey` things, the largest in view."""
+    budget = shot.settings.forest.understorey
+    pixel, _ = shot.pixel
+    if budget == 0 or not np.isfinite(pixel):
+        return _nothing()
+    parts = [_scattered(shot, number, pixel, budget) for number in range(len(KINDS))]
+    every = Things(*(np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(Things)))
+    if len(every.size) > budget:
+        every = every.take(np.sort(np.argsort(-every.size, kind="stable")[:budget]))
+    return _settled(shot, every)
+
+
+def _nothing() -> Things:
+    empty, whole = np.empty(0), np.empty(0, np.int64)
+    return Things(
+        np.empty((0, 3)), *(empty for _ in range(5)), whole, whole, np.empty((0, 2), np.int64), empty
+    )
+
+
+def _scattered(shot: Shot, number: int, pixel: float, budget: int) -> Things:
+    """Things of a kind, level as they are."""
+    kind, seed = list(KINDS.values())[number], shot.settings.seed + 600 + 20 * number
+    reach = min(2.0 * kind.limits[1] / (_PIXELS * pixel), _FARTHEST)
+    cells, least = _cells(shot, kind.cells, reach, budget)
+    width = _BLOCK / kind.cells
+
+    def lot(use: int, cells: NDArray = cells) -> Array:
+        return noise.uniform(*cells.T, seed + use)
+
+    height = kind.height * np.exp(kind.spread * noise.normal(lot(3), lot(4)))
+    height = np.clip(height, *kind.limits)
+    # Half of what is twice as tall as the least is drawn, so that nothing begins at once.
+    tall = height / (pixel * _PIXELS) / (0.5 + lot(5))
+    near = np.flatnonzero(tall > least)
+    cells, height, tall = cells[near], height[near], tall[near]
+    place = (cells + 0.5 + 0.9 * (np.stack([lot(0, cells), lot(1, cells)], axis=-1) - 0.5)) * width
+    canopy, surface, bare, water = _ground(shot, place)
+    density = np.asarray(kind.density(canopy, surface, bare)) * (water < 0.5)
+    if kind.patches:
+        waves = noise.fractal(place[:, 0], place[:, 1], kind.patches, 2, seed + 9)
+        density = density * 2.0 * noise.smoothstep(-0.45, 0.45, waves)
+    stands = np.flatnonzero(lot(2, cells) < density * width**2)
+    cells, place, height, tall = cells[stands], place[stands], height[stands], tall[stands]
+    position = np.column_stack([place, shot.ground.up(*place.T)]) if len(place) else np.empty((0, 3))
+    distance = shot.sights.distance(position)
+    size = tall / np.maximum(distance, 0.1)
+    kept = np.flatnonzero((size > 1.0) & (distance > 0.5 + 1.2 * height) & (distance < _FARTHEST))
+    cells, height = cells[kept], height[kept]
+    which = (lot(6, cells) * len(kind.models)).astype(np.int64)
+    narrow, wide = kind.width
+    return Things(
+        position[kept],
+        height,
+        narrow + (wide - narrow) * lot(7, cells),
+        2.0 * np.pi * lot(8, cells),
+        np.zeros(len(kept)),
+        np.zeros(len(kept)),
+        np.array(kind.models)[which],
+        np.array(kind.burned)[which],
+        cells,
+        size[kept],
+    )
+
+
+def _cells(shot: Shot, count: int, reach: float, budget: int) -> tuple[NDArray[np.int64], Array]:
+    """Cells (n, 2) of a lattice, east and north, in the blocks that cameras see within `reach` m.
+
+    With them comes how near (n,) a camera may be to each, m. A block has `count` along its side. Where they
+    are more than 40 for each thing of the budget, those farther away are left out.
+    """
+    eyes = np.concatenate([path.position[shot.filmed(path)] for path in shot.near] or [np.empty((0, 3))])
+    low = eyes[:, 2] - shot.ground.up(*eyes[:, :2].T) < reach if len(eyes) else np.empty(0, bool)
+    if not low.any():
+        return np.empty((0, 2), np.int64), np.empty(0)
+    blocks = np.unique(np.floor(eyes[low, :2] / _BLOCK).astype(np.int64), axis=0)
+    around = int(np.ceil(reach / _BLOCK)) + 1
+    ring = np.mgrid[-around : around + 1, -around : around + 1].reshape(2, -1).T
+    ring = ring[np.hypot(*ring.T) * _BLOCK < reach + 1.5 * _BLOCK]
+    blocks = np.unique((blocks[:, None] + ring).reshape(-1, 2), axis=0)
+    middle = (blocks + 0.5) * _BLOCK
+    middle = np.column_stack([middle, shot.ground.up(*middle.T)])
+    distance = shot.sights.distance(middle)
+    near = distance < reach + _BLOCK
+    near[near] = shot.sights.seen(middle[near], np.full(near.sum(), 1.5 * _BLOCK), shadows=True)
+    most = max(40 * budget // count**2, 1)
+    chosen = np.flatnonzero(near)
+    chosen = np.sort(chosen[np.argsort(distance[chosen], kind="stable")[:most]])
+    inside = np.indices((count, count)).reshape(2, -1).T
+    cells = (blocks[chosen, None] * count + inside).reshape(-1, 2)
+    return cells, np.repeat(distance[chosen] - 0.85 * _BLOCK, count**2)
+
+
+def _ground(shot: Shot, place: Array) -> tuple[Array, Array, Array, Array]:
+    """Canopy fuel, surface fuel, bare rock and water at places (n, 2) in the scene, m."""
+    ground = shot.ground
+    index = ground.indices(*ground.geodetic(*place.T)) if len(place) else (np.empty(0), np.empty(0))
+    known = ground.fields.canopy_fuel, ground.fields.surface_fuel, ground.bare, ground.water
+    return tuple(bilinear(field, *index) for field in known)
+
+
+def _settled(shot: Shot, things: Things) -> Things:
+    """The same, what lies turned along the slope; nothing where it is too steep to lie."""
+    lies = np.flatnonzero(np.isin(things.model, _LYING))
+    if len(lies) == 0:
+        return things
+    x, y = things.position[lies, :2].T
+    reach, turn = 3.0 * things.height[lies], things.rotation[lies]
+    east, north = reach * np.cos(turn), reach * np.sin(turn)
+
+    def ends(dx: Array, dy: Array) -> tuple[Array, Array]:
+        return shot.ground.up(x + dx, y + dy), shot.ground.up(x - dx, y - dy)
+
+    (ahead, behind), (left, right) = ends(east, north), ends(-north, east)
+    pitch, roll, position = things.pitch.copy(), things.roll.copy(), things.position.copy()
+    pitch[lies] = -np.arctan((ahead - behind) / (2.0 * reach))
+    roll[lies] = np.arctan((left - right) / (2.0 * reach))
+    position[lies, 2] = np.minimum(0.5 * (ahead + behind), position[lies, 2])
+    steep = np.maximum(np.abs(np.tan(pitch)), np.abs(np.tan(roll)))
+    made = replace(things, position=position, pitch=pitch, roll=roll)
+    return made.take(np.flatnonzero(steep < _STEEPEST))

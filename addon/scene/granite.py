@@ -1,0 +1,67 @@
+"""Granite of the Sierra: its faces from centimetres up, and the joints that cross a whole outcrop.
+
+Reflectances are a picture's, chosen by eye against photographs. What is smaller than a pixel is not computed:
+octaves of noise end there, and lines fade into what they would be on average.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..blender import nodes
+from ..shot.shot import Shot
+
+_LIGHT, _GREY = (0.205, 0.196, 0.180), (0.090, 0.087, 0.082)
+_DARK = (0.026, 0.025, 0.022)  # joints, and streaks of water and black lichen
+_LICHEN = (0.095, 0.098, 0.062)
+_SETS = ((0.36, 13.0), (1.83, 21.0))  # of joints: direction (rad) and distance (m)
+
+
+def pixel(tree: nodes.Tree, shot: Shot, distance: nodes.Value) -> nodes.Value:
+    """Size of a pixel (m) of the sharpest camera at a `distance` (m) from the camera."""
+    near, parallel = shot.pixel
+    least = min(parallel, 1.0e4)
+    return distance * near if np.isfinite(near) else distance * 0.0 + least
+
+
+def fine(
+    tree: nodes.Tree, position: Any, size: float, octaves: float, pixel: nodes.Value, roughness: float = 0.6
+) -> nodes.Value:
+    """Noise -1..1 of `size` m whose octaves end with the pixel, as strong as what is left of them; 0 afar.
+
+    A sum of octaves comes divided by the sum of their weights; it is multiplied by that again, over the sum
+    of all of them.
+    """
+    left = tree.math("LOGARITHM", size / (pixel * 2.0), 2.0)
+    detail = tree.math("MINIMUM", tree.math("MAXIMUM", left, 0.0), octaves)
+    noise = tree.noise(position, size, detail, roughness)
+    part = 1.0 - tree.math("POWER", roughness, detail + 1.0)
+    fade = left.ramp(-1.0, 0.0, 0.0, 2.0 / (1.0 - roughness ** (octaves + 1.0)))
+    return (noise - 0.5) * part * fade
+
+
+def face(tree: nodes.Tree, position: Any, pixel: nodes.Value) -> tuple[nodes.Value, nodes.Value]:
+    """Colour and height (m) of a face of granite: grain, stains and lichen."""
+    grain = fine(tree, position, 0.7, 5.0, pixel, 0.7)
+    patches = fine(tree, position, 3.2, 3.0, pixel)
+    stone = tree.mix_colour((grain * 1.1 + patches * 0.6).ramp(-0.5, 0.5), _GREY, _LIGHT)
+    lichen = (patches + grain * 0.7).smoothstep(0.16, 0.30)
+    stone = tree.mix_colour(lichen * 0.55, stone, _LICHEN)
+    black = (grain * 0.8 - patches).smoothstep(0.22, 0.34)
+    return tree.mix_colour(black * 0.6, stone, _DARK), grain * 0.10 + patches * 0.35
+
+
+def joints(tree: nodes.Tree, position: Any, warp: nodes.Value, pixel: nodes.Value) -> nodes.Value:
+    """Joints 0..1: two sets of nearly parallel cracks a third of a metre wide, bent by `warp` (-1..1)."""
+    x, y, z = tree.separate(position)
+    wide = tree.math("MAXIMUM", pixel * 0.7, 0.3)
+    strength = 0.3 / wide
+    both = None
+    for angle, apart in _SETS:
+        along = x * float(np.cos(angle)) + y * float(np.sin(angle)) + z * 0.4
+        off = tree.math("PINGPONG", along + warp * (1.3 * apart), 0.5 * apart)  # m from a joint
+        line = off.smoothstep(wide * 1.6, wide * 0.3)
+        both = line if both is None else tree.math("MAXIMUM", both, line)
+    return both * tree.math("POWER", strength, 0.5)
