@@ -5,10 +5,16 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace firetwin::forest {
+
+/// A rectangle of the plane, m; its left and low edges are in it.
+struct Area {
+  double left, right, low, high;
+};
 
 /// Where trees stand that keep their distance: Matern's second hard-core process (B. Matern 1960,
 /// "Spatial variation", Meddelanden fran Statens Skogsforskningsinstitut 49:5).
@@ -22,8 +28,8 @@ namespace firetwin::forest {
 ///
 /// Births are hashes: of a seed, and of the square of the plane that they are in,
 /// with larger squares for earlier times. Whoever asks for a place gets the same births, whatever
-/// was asked before, and sparse stands cost as little as they hold. One object per thread: it
-/// remembers squares.
+/// was asked before, and sparse stands cost as little as they hold. One object per thread: it holds
+/// the births of the area that was gathered last.
 class Births {
 public:
   static constexpr double latest = 3.0 * most_stems; ///< 1/m2
@@ -45,77 +51,79 @@ public:
   /// Which part of all that are left at this density (1/m2) are older than a birth.
   static double older(double time, double density);
 
-  /// Calls visit(birth) for each before `time` in a rectangle (its lower and left edges included),
-  /// always in the same order.
-  template <class Visit>
-  void visit(double left, double right, double low, double high, double time, const Visit& visit) {
-    for (int octave = octaves - 1; octave >= 0; --octave) {
-      const auto k = static_cast<std::size_t>(octave);
-      if (begin_[k] >= time) {
+  /// Works out the births before `time` (1/m2) in an area and `margin` (m) round it.
+  void gather(const Area& area, double margin, double time);
+
+  /// Calls visit(birth) for each before `time` in a part of what was gathered, always in the same
+  /// order.
+  template <class Visit> void visit(const Area& area, double time, const Visit& visit) const {
+    for (std::size_t k = octaves; k-- > 0;) {
+      const Octave& octave = octaves_[k];
+      if (octave.begin >= time) {
         break;
       }
-      for (auto row = number(low, k); row <= number(high, k); ++row) {
-        for (auto column = number(left, k); column <= number(right, k); ++column) {
-          const Square square = at(octave, column, row); // a copy: visits remember others
-          for (int i = 0; i < square.count; ++i) {
-            const Birth b = birth(octave, square, i);
-            if (b.time < time && b.x >= left && b.x < right && b.y >= low && b.y < high) {
-              visit(b);
-            }
+      const Squares& known = known_[k];
+      const std::int64_t top = octave.number(area.high);
+      const std::int64_t left = octave.number(area.left), right = octave.number(area.right);
+      for (auto row = octave.number(area.low); row <= top; ++row) {
+        const std::size_t end = known.end(row, right);
+        for (std::size_t i = known.begin(row, left); i < end; ++i) {
+          const Birth b{known.x[i], known.y[i], known.time[i], known.bits[i]};
+          if ((b.time < time) & (b.x >= area.left) & (b.x < area.right) & (b.y >= area.low) &
+              (b.y < area.high)) {
+            visit(b);
           }
         }
       }
     }
   }
 
-  /// Whether nothing older is within this round area (m2) of a birth.
-  bool stands(const Birth& birth, double reach);
+  /// Whether nothing older is within this round area (m2) of one of the births gathered.
+  bool stands(const Birth& birth, double reach) const;
 
 private:
-  static constexpr int octaves = 7, most = 7, remembered = 64;
+  static constexpr std::size_t octaves = 7, most = 7;
 
-  struct Square {
-    std::int64_t column = 0, row = 0;
-    int count = -1;
-    std::array<std::uint64_t, most> bits{}; ///< place and time of each birth
+  /// Births between two times, one on average in each square.
+  struct Octave {
+    std::uint64_t seed;
+    double begin, end;      ///< of the times
+    double side, per_metre; ///< of the squares, m, 1/m
+
+    /// Of the square that a place is in along an axis.
+    std::int64_t number(double place) const {
+      const double squares = place * per_metre;
+      const auto whole = static_cast<std::int64_t>(squares);
+      return whole - (squares < static_cast<double>(whole));
+    }
+
+    /// Calls visit(birth) for each in a square.
+    template <class Visit>
+    void births(std::int64_t column, std::int64_t row, const Visit& visit) const;
   };
 
-  /// Of the square that a place is in along an axis.
-  std::int64_t number(double place, std::size_t octave) const {
-    const double squares = place * per_metre_[octave];
-    const auto whole = static_cast<std::int64_t>(squares);
-    return whole - (squares < static_cast<double>(whole));
-  }
+  /// The births of an octave in a rectangle of squares, row by row.
+  struct Squares {
+    std::int64_t column = 0, row = 0; ///< of the first
+    std::int64_t columns = 0, rows = 0;
+    std::vector<std::uint32_t> first; ///< of each square's births, and the end
+    std::vector<double> x, y, time;
+    std::vector<std::uint64_t> bits;
 
-  const Square& at(int octave, std::int64_t column, std::int64_t row) {
-    constexpr std::int64_t last = remembered - 1;
-    const auto line = static_cast<std::size_t>(octave * remembered + (row & last));
-    Square& square = known_[line * remembered + static_cast<std::size_t>(column & last)];
-    if (square.count < 0 || square.column != column || square.row != row) {
-      square.column = column;
-      square.row = row;
-      fill(square, octave);
+    std::size_t begin(std::int64_t at_row, std::int64_t at_column) const {
+      return first[static_cast<std::size_t>((at_row - row) * columns + at_column - column)];
     }
-    return square;
-  }
-  void fill(Square& square, int octave) const;
-  Birth birth(int octave, const Square& square, int i) const {
-    const std::uint64_t bits = square.bits[static_cast<std::size_t>(i)];
-    const auto k = static_cast<std::size_t>(octave);
-    const auto part =
-        [](std::uint64_t number) { // 21 bits, by way of what processors convert at once
-          return static_cast<double>(static_cast<std::int32_t>(number & 0x1FFFFF)) * 0x1p-21;
-        };
-    return {(static_cast<double>(square.column) + part(bits >> 43)) * side_[k],
-            (static_cast<double>(square.row) + part(bits >> 22)) * side_[k],
-            begin_[k] + (end_[k] - begin_[k]) * part(bits >> 1), bits};
-  }
+    std::size_t end(std::int64_t at_row, std::int64_t at_column) const {
+      return begin(at_row, at_column + 1);
+    }
+    bool hold(std::int64_t left, std::int64_t right, std::int64_t low, std::int64_t high) const {
+      return left >= column && right < column + columns && low >= row && high < row + rows;
+    }
+    void clear();
+  };
 
-  std::array<std::uint64_t, octaves> seed_;
-  std::array<double, octaves> begin_, end_; ///< of the times of an octave's births
-  std::array<double, octaves> side_;        ///< of its squares, m: a birth in each on average
-  std::array<double, octaves> per_metre_;   ///< squares
-  std::vector<Square> known_;
+  std::array<Octave, octaves> octaves_; ///< the latest first
+  std::array<Squares, octaves> known_;
 };
 
 } // namespace firetwin::forest

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
+#include <optional>
 #include <vector>
 
 namespace firetwin::forest {
@@ -54,7 +54,11 @@ public:
     }
   }
 
-  double largest() const { return *std::max_element(value_.begin(), value_.end()); }
+  /// Of the four values round a quarter.
+  double largest(std::size_t quarter) const {
+    const std::size_t first = 3 * (quarter / 2) + quarter % 2;
+    return std::max({value_[first], value_[first + 1], value_[first + 3], value_[first + 4]});
+  }
 
   /// Bilinear between the middle and the neighbours that v and u (-1/2 to 1/2) lie towards. What is
   /// not finite is left out, and the others' weights grow.
@@ -87,6 +91,20 @@ double towards(double d, double before, double after) {
   return d * after > d * before ? d * after : -d * before;
 }
 
+/// A cell that trees can stand in.
+struct Cell {
+  Patch fuel, ground, kept;
+  geo::SineCosine parallel; ///< of its middle
+  double stretch;           ///< of the plane
+  /// When the last tree can be born in each quarter: low left, low right, high left, high right.
+  std::array<double, 4> latest;
+};
+
+/// The quarter of a cell that is so far towards its neighbours.
+std::size_t quarter_of(double v, double u) {
+  return 2 * static_cast<std::size_t>(v > 0.0) + static_cast<std::size_t>(u > 0.0);
+}
+
 /// Grows the trees of cells. Immutable; what is remembered comes with each call.
 class Grower {
 public:
@@ -102,59 +120,61 @@ public:
     east_ = degree * radii.normal * cosine_;
   }
 
-  /// Appends the trees of a cell.
-  void grow(std::size_t y, std::size_t x, Births& births, std::vector<Stem>& out) const {
+  /// The cell, unless nothing can stand in it.
+  std::optional<Cell> cell(std::size_t y, std::size_t x) const {
     const std::size_t rows = site_.latitude.size(), columns = site_.longitude.size();
-    const std::size_t cell = y * columns + x;
-    if (!(double{fuel_[cell]} > least_canopy_fuel) || !std::isfinite(fuel_[cell]) ||
-        !std::isfinite(site_.elevation[cell])) {
-      return;
+    const std::size_t number = y * columns + x;
+    if (!(site_.mask.empty() || site_.mask[number]) ||
+        !(double{fuel_[number]} > least_canopy_fuel) || !std::isfinite(fuel_[number]) ||
+        !std::isfinite(site_.elevation[number])) {
+      return std::nullopt;
     }
-    Patch fuel(fuel_, rows, columns, y, x);
-    fuel.unknown_is_zero();
-    const Patch ground(site_.elevation, rows, columns, y, x);
     const geo::SineCosine parallel = geo::parallel(latitude_.value[y]);
-    const double stretch = parallel.cosine / cosine_; // of the plane
-    const auto part = [&] {
-      Patch patch(kept_.empty() ? fuel_ : kept_, rows, columns, y, x);
-      patch.unknown_is_zero();
-      return patch;
-    }();
-    const auto kept = [&](double v, double u) {
-      return kept_.empty() ? 1.0 : std::clamp(part.at(v, u), 0.0, 1.0);
-    };
-    const double most = stems(fuel.largest()) * stretch *
-                        (kept_.empty() ? 1.0 : std::clamp(part.largest(), 0.0, 1.0));
-    const Extent plane = extent(y, x);
-    births.visit(plane.left, plane.right, plane.low, plane.high, Births::last_chance * most,
-                 [&](const Births::Birth& birth) {
-                   const double dx = birth.x / east_ - (longitude_.value[x] - longitude_.value[0]);
-                   const double dy = birth.y / north_ - (latitude_.value[y] - latitude_.value[0]);
-                   const double u = towards(dx, longitude_.before[x], longitude_.after[x]);
-                   const double v = towards(dy, latitude_.before[y], latitude_.after[y]);
-                   const double here = fuel.at(v, u), left = kept(v, u);
-                   const double all = std::min(stems(here) * stretch, most_stems);
-                   const double density = all * left;
-                   if (!(birth.time < Births::last_chance * density) ||
-                       !births.stands(birth, Births::reach(density))) {
-                     return;
-                   }
-                   const double rank = Births::older(birth.time, all);
-                   const auto at = geo::turned(parallel, dy);
-                   out.push_back({origin_.to_local(at, geo::radii(at.sine),
-                                                   geo::turned(meridian_[x], dx), ground.at(v, u)),
-                                  height(here, std::max(rank, 1.0e-9)), widening(here, left),
-                                  birth.bits});
-                 });
+    Cell cell{Patch(fuel_, rows, columns, y, x),
+              Patch(site_.elevation, rows, columns, y, x),
+              Patch(kept_.empty() ? fuel_ : kept_, rows, columns, y, x),
+              parallel,
+              parallel.cosine / cosine_,
+              {}};
+    cell.fuel.unknown_is_zero();
+    cell.kept.unknown_is_zero();
+    for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+      const double left = kept_.empty() ? 1.0 : std::clamp(cell.kept.largest(quarter), 0.0, 1.0);
+      cell.latest[quarter] = rounding * Births::last_chance *
+                             stems_of(cell.fuel.largest(quarter), cell.stretch) * left;
+    }
+    return cell;
   }
 
-private:
-  struct Extent {
-    double left, right, low, high;
-  };
+  /// Appends the trees of a cell whose births are gathered.
+  void grow(const Cell& cell, std::size_t y, std::size_t x, const Births& births,
+            std::vector<Stem>& out) const {
+    const double latest = *std::max_element(cell.latest.begin(), cell.latest.end());
+    births.visit(area(y, x), latest, [&](const Births::Birth& birth) {
+      const double dx = birth.x / east_ - (longitude_.value[x] - longitude_.value[0]);
+      const double dy = birth.y / north_ - (latitude_.value[y] - latitude_.value[0]);
+      const double u = towards(dx, longitude_.before[x], longitude_.after[x]);
+      const double v = towards(dy, latitude_.before[y], latitude_.after[y]);
+      if (!(birth.time < cell.latest[quarter_of(v, u)])) {
+        return;
+      }
+      const double here = cell.fuel.at(v, u);
+      const double left = kept_.empty() ? 1.0 : std::clamp(cell.kept.at(v, u), 0.0, 1.0);
+      const double all = stems_of(here, cell.stretch), density = all * left;
+      if (!(birth.time < Births::last_chance * density) ||
+          !births.stands(birth, Births::reach(density))) {
+        return;
+      }
+      const double rank = Births::older(birth.time, all);
+      const auto at = geo::turned(cell.parallel, dy);
+      out.push_back({origin_.to_local(at, geo::radii(at.sine), geo::turned(meridian_[x], dx),
+                                      cell.ground.at(v, u)),
+                     height(here, std::max(rank, 1.0e-9)), widening(here, left), birth.bits});
+    });
+  }
 
   /// Of a cell on the plane, m from the grid's first node.
-  Extent extent(std::size_t y, std::size_t x) const {
+  Area area(std::size_t y, std::size_t x) const {
     const auto ends = [](const Axis& axis, std::size_t i, double scale) {
       const double a = (axis.first[i] - axis.value[0]) * scale, b = a + axis.width[i] * scale;
       return std::array{std::min(a, b), std::max(a, b)};
@@ -164,12 +184,101 @@ private:
     return {left, right, low, high};
   }
 
+private:
+  /// So much above 1 that rounding in a patch lets no tree in that its corners would not.
+  static constexpr double rounding = 1.0 + 1.0e-9;
+
+  static double stems_of(double fuel, double stretch) {
+    return std::min(stems(fuel) * stretch, most_stems);
+  }
+
   std::span<const float> fuel_, kept_;
   const Site& site_;
   geo::Origin origin_;
   Axis latitude_, longitude_;
   std::vector<geo::SineCosine> meridian_;
   double north_, east_, cosine_; ///< m per degree; of the middle latitude
+};
+
+/// Trees row by row, and where those of each cell end.
+struct RowOf {
+  std::vector<Stem> stems;
+  std::vector<std::size_t> last;
+};
+
+/// A block of cells: births are gathered for as many of them at once as fit near the processor.
+class Block {
+public:
+  Block(const Grower& grower, Births& births, std::span<RowOf> rows, std::size_t y, std::size_t x,
+        std::size_t height, std::size_t width)
+      : grower_(grower), births_(births), rows_(rows), y_(y), x_(x), height_(height),
+        width_(width) {
+    for (std::size_t j = 0; j < height; ++j) {
+      for (std::size_t i = 0; i < width; ++i) {
+        cells_.push_back(grower.cell(y + j, x + i));
+      }
+    }
+  }
+
+  void grow() { grow(0, height_, 0, width_); }
+
+private:
+  static constexpr double at_once = 8192.0; ///< births
+  static constexpr double margin = 2.0;     ///< reaches of the densest place
+
+  /// Rows from low to high - 1, columns from left to right - 1; those to the left first.
+  void grow(std::size_t low, std::size_t high, std::size_t left, std::size_t right) {
+    double latest = 0.0;
+    Area all{};
+    for (std::size_t j = low; j < high; ++j) {
+      for (std::size_t i = left; i < right; ++i) {
+        if (const auto& cell = at(j, i)) {
+          const Area one = grower_.area(y_ + j, x_ + i);
+          all = latest > 0.0 ? join(all, one) : one;
+          latest = std::max(latest, *std::max_element(cell->latest.begin(), cell->latest.end()));
+        }
+      }
+    }
+    if (latest * (all.right - all.left) * (all.high - all.low) > at_once) {
+      if (const std::size_t half = (right - left) / 2; half > 0 && right - left >= high - low) {
+        grow(low, high, left, left + half);
+        grow(low, high, left + half, right);
+        return;
+      } else if (high - low > 1) {
+        const std::size_t middle = low + (high - low) / 2;
+        grow(low, middle, left, right);
+        grow(middle, high, left, right);
+        return;
+      }
+    }
+    if (latest > 0.0) {
+      const double reach = Births::reach(std::min(latest / Births::last_chance, most_stems));
+      births_.gather(all, margin * std::sqrt(reach / std::numbers::pi), latest);
+    }
+    for (std::size_t j = low; j < high; ++j) {
+      RowOf& row = rows_[y_ + j];
+      for (std::size_t i = left; i < right; ++i) {
+        if (const auto& cell = at(j, i)) {
+          grower_.grow(*cell, y_ + j, x_ + i, births_, row.stems);
+        }
+        row.last[x_ + i] = row.stems.size();
+      }
+    }
+  }
+
+  const std::optional<Cell>& at(std::size_t j, std::size_t i) const {
+    return cells_[j * width_ + i];
+  }
+  static Area join(const Area& a, const Area& b) {
+    return {std::min(a.left, b.left), std::max(a.right, b.right), std::min(a.low, b.low),
+            std::max(a.high, b.high)};
+  }
+
+  const Grower& grower_;
+  Births& births_;
+  std::span<RowOf> rows_;
+  std::size_t y_, x_, height_, width_;
+  std::vector<std::optional<Cell>> cells_;
 };
 
 Stems make_stems(std::size_t n) {
@@ -201,25 +310,17 @@ Stems stand(std::span<const float> canopy_fuel, const Site& site, std::span<cons
     return make_stems(0);
   }
   const Grower grower(canopy_fuel, site, kept);
-  struct RowOf {
-    std::vector<Stem> stems;
-    std::vector<std::size_t> last; ///< of each cell's stems
-  };
   std::vector<RowOf> grown(rows);
   tbb::enumerable_thread_specific<Births> births(site.seed);
-  tbb::parallel_for(Range(0, rows, block), [&](const Range& range) {
+  tbb::parallel_for(Range(0, (rows + block - 1) / block), [&](const Range& range) {
     Births& mine = births.local();
-    for (std::size_t y = range.begin(); y < range.end(); ++y) {
-      grown[y].last.resize(columns);
-    }
-    for (std::size_t first = 0; first < columns; first += block) { // squares in reach are shared
-      for (std::size_t y = range.begin(); y < range.end(); ++y) {
-        for (std::size_t x = first; x < std::min(first + block, columns); ++x) {
-          if (site.mask.empty() || site.mask[y * columns + x]) {
-            grower.grow(y, x, mine, grown[y].stems);
-          }
-          grown[y].last[x] = grown[y].stems.size();
-        }
+    for (std::size_t line = range.begin(); line < range.end(); ++line) {
+      const std::size_t y = line * block, height = std::min(block, rows - y);
+      for (std::size_t j = y; j < y + height; ++j) {
+        grown[j].last.resize(columns);
+      }
+      for (std::size_t x = 0; x < columns; x += block) {
+        Block(grower, mine, grown, y, x, height, std::min(block, columns - x)).grow();
       }
     }
   });
