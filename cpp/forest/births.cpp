@@ -41,62 +41,88 @@ double Births::older(double time, double density) {
   return std::expm1(-time * area) / std::expm1(-std::min(latest, last_chance * density) * area);
 }
 
-template <class Visit>
-void Births::Octave::births(std::int64_t column, std::int64_t row, const Visit& visit) const {
+std::size_t Births::Octave::keys(std::uint64_t line, std::int64_t column,
+                                 std::span<std::uint64_t, most> out) const {
   // Chance of at most 0, 1, .. births where there is one on average; more than 7 come once in
   // 100,000 squares and are left out.
   constexpr std::array<double, most> at_most = {0.367879441, 0.735758882, 0.919698603, 0.981011843,
                                                 0.996340153, 0.999405815, 0.999916759};
-  const std::uint64_t line = mix(seed, static_cast<std::uint64_t>(row));
   const std::uint64_t key = mix(line ^ static_cast<std::uint64_t>(column));
   const double chance = unit(key);
-  std::uint64_t count = 0;
-  for (const double each : at_most) {
-    count += chance >= each;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < most; ++i) {
+    out[i] = key + i;
+    count += chance >= at_most[i];
   }
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const std::uint64_t bits = mix(key + i);
-    visit(Birth{(static_cast<double>(column) + part(bits >> 43)) * side,
-                (static_cast<double>(row) + part(bits >> 22)) * side,
-                begin + (end - begin) * part(bits >> 1), bits});
+  return count;
+}
+
+Births::Birth Births::Octave::birth(double column, double row, std::uint64_t key) const {
+  const std::uint64_t bits = mix(key);
+  return {(column + part(bits >> 43)) * side, (row + part(bits >> 22)) * side,
+          begin + (end - begin) * part(bits >> 1), bits};
+}
+
+/// Nothing here branches on what is random: more is written than counts, and written over.
+void Births::Squares::add(const Octave& octave, std::int64_t at_row, double before, Row& work) {
+  const auto width = static_cast<std::size_t>(columns);
+  const std::uint64_t line = octave.line(at_row);
+  std::size_t births = 0;
+  work.resize((width + 1) * most);
+  for (std::size_t i = 0; i < width; ++i) {
+    const std::int64_t at = column + static_cast<std::int64_t>(i);
+    std::fill_n(&work.column[births], most, static_cast<double>(at));
+    work.begin[i] = births;
+    births += octave.keys(line, at, std::span<std::uint64_t, most>(&work.key[births], most));
+  }
+  if (x.size() < size + births + 1) {
+    resize(2 * (size + births + 1));
+  }
+  for (std::size_t i = 0; i < births; ++i) {
+    const Birth b = octave.birth(work.column[i], static_cast<double>(at_row), work.key[i]);
+    x[size] = b.x;
+    y[size] = b.y;
+    time[size] = b.time;
+    bits[size] = b.bits;
+    work.place[i] = static_cast<std::uint32_t>(size);
+    size += b.time < before;
+  }
+  work.place[births] = static_cast<std::uint32_t>(size);
+  for (std::size_t i = 0; i < width; ++i) {
+    first.push_back(work.place[work.begin[i]]);
   }
 }
 
-void Births::Squares::clear() {
-  column = row = columns = rows = 0;
-  first.clear();
-  x.clear();
-  y.clear();
-  time.clear();
-  bits.clear();
+void Births::Row::resize(std::size_t births) {
+  if (key.size() < births) {
+    key.resize(births);
+    column.resize(births);
+    place.resize(births);
+    begin.resize(births);
+  }
 }
 
-void Births::gather(const Area& area, double margin, double time) {
+void Births::Squares::resize(std::size_t births) {
+  x.resize(births);
+  y.resize(births);
+  time.resize(births);
+  bits.resize(births);
+}
+
+void Births::gather(const Area& area, double margin, double before) {
   for (std::size_t k = 0; k < octaves; ++k) {
     const Octave& octave = octaves_[k];
     Squares& known = known_[k];
-    known.clear();
-    if (octave.begin >= time) {
-      continue;
-    }
+    known.first.clear();
+    known.size = 0;
     known.column = octave.number(area.left - margin);
     known.row = octave.number(area.low - margin);
     known.columns = octave.number(area.right + margin) - known.column + 1;
-    known.rows = octave.number(area.high + margin) - known.row + 1;
+    known.rows = octave.begin < before ? octave.number(area.high + margin) - known.row + 1 : 0;
     for (auto row = known.row; row < known.row + known.rows; ++row) {
-      for (auto column = known.column; column < known.column + known.columns; ++column) {
-        known.first.push_back(static_cast<std::uint32_t>(known.x.size()));
-        octave.births(column, row, [&](const Birth& b) {
-          if (b.time < time) {
-            known.x.push_back(b.x);
-            known.y.push_back(b.y);
-            known.time.push_back(b.time);
-            known.bits.push_back(b.bits);
-          }
-        });
-      }
+      known.add(octave, row, before, row_);
     }
-    known.first.push_back(static_cast<std::uint32_t>(known.x.size()));
+    known.first.push_back(static_cast<std::uint32_t>(known.size));
   }
 }
 
@@ -127,7 +153,13 @@ bool Births::stands(const Birth& birth, double reach) const {
     } else { // it reaches farther than the margin
       for (auto row = low; row <= high; ++row) {
         for (auto column = left; column <= right; ++column) {
-          octave.births(column, row, [&](const Birth& b) { crowded |= crowds(b.x, b.y, b.time); });
+          std::array<std::uint64_t, most> keys;
+          const std::size_t count = octave.keys(octave.line(row), column, keys);
+          for (std::size_t i = 0; i < count; ++i) {
+            const Birth b =
+                octave.birth(static_cast<double>(column), static_cast<double>(row), keys[i]);
+            crowded |= crowds(b.x, b.y, b.time);
+          }
         }
       }
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace firetwin::forest {
@@ -51,8 +52,8 @@ public:
   /// Which part of all that are left at this density (1/m2) are older than a birth.
   static double older(double time, double density);
 
-  /// Works out the births before `time` (1/m2) in an area and `margin` (m) round it.
-  void gather(const Area& area, double margin, double time);
+  /// Works out the births before a time (1/m2) in an area and `margin` (m) round it.
+  void gather(const Area& area, double margin, double before);
 
   /// Calls visit(birth) for each before `time` in a part of what was gathered, always in the same
   /// order.
@@ -97,9 +98,22 @@ private:
       return whole - (squares < static_cast<double>(whole));
     }
 
-    /// Calls visit(birth) for each in a square.
-    template <class Visit>
-    void births(std::int64_t column, std::int64_t row, const Visit& visit) const;
+    std::uint64_t line(std::int64_t row) const {
+      return mix(seed, static_cast<std::uint64_t>(row));
+    }
+    /// The keys of the births in a square; how many of those written count.
+    std::size_t keys(std::uint64_t line, std::int64_t column,
+                     std::span<std::uint64_t, most> out) const;
+    Birth birth(double column, double row, std::uint64_t key) const;
+  };
+
+  /// What is needed while a row of squares is worked out; kept for its memory alone.
+  struct Row {
+    std::vector<std::uint64_t> key;
+    std::vector<double> column;
+    std::vector<std::uint32_t> place; ///< of each birth among those kept
+    std::vector<std::size_t> begin;   ///< of each square's births
+    void resize(std::size_t births);
   };
 
   /// The births of an octave in a rectangle of squares, row by row.
@@ -107,7 +121,8 @@ private:
     std::int64_t column = 0, row = 0; ///< of the first
     std::int64_t columns = 0, rows = 0;
     std::vector<std::uint32_t> first; ///< of each square's births, and the end
-    std::vector<double> x, y, time;
+    std::size_t size = 0;             ///< of the births
+    std::vector<double> x, y, time;   ///< longer than that
     std::vector<std::uint64_t> bits;
 
     std::size_t begin(std::int64_t at_row, std::int64_t at_column) const {
@@ -119,11 +134,14 @@ private:
     bool hold(std::int64_t left, std::int64_t right, std::int64_t low, std::int64_t high) const {
       return left >= column && right < column + columns && low >= row && high < row + rows;
     }
-    void clear();
+    /// Those of a row of squares that are born before a time.
+    void add(const Octave& octave, std::int64_t at_row, double before, Row& work);
+    void resize(std::size_t births);
   };
 
   std::array<Octave, octaves> octaves_; ///< the latest first
   std::array<Squares, octaves> known_;
+  Row row_;
 };
 
 } // namespace firetwin::forest

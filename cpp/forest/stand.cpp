@@ -98,6 +98,8 @@ struct Cell {
   double stretch;           ///< of the plane
   /// When the last tree can be born in each quarter: low left, low right, high left, high right.
   std::array<double, 4> latest;
+  /// The square of that time where all stems are kept is at most `steady` + `rising` fuel.
+  std::array<double, 4> steady, rising;
 };
 
 /// The quarter of a cell that is so far towards its neighbours.
@@ -135,13 +137,20 @@ public:
               Patch(kept_.empty() ? fuel_ : kept_, rows, columns, y, x),
               parallel,
               parallel.cosine / cosine_,
+              {},
+              {},
               {}};
     cell.fuel.unknown_is_zero();
     cell.kept.unknown_is_zero();
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
       const double left = kept_.empty() ? 1.0 : std::clamp(cell.kept.largest(quarter), 0.0, 1.0);
-      cell.latest[quarter] = rounding * Births::last_chance *
-                             stems_of(cell.fuel.largest(quarter), cell.stretch) * left;
+      const double most = cell.fuel.largest(quarter), all = stems_of(most, cell.stretch);
+      const double latest = rounding * Births::last_chance * all;
+      cell.latest[quarter] = latest * left;
+      // Stems grow with more than the square root of the fuel, up to where they grow no more.
+      const bool grow = all * std::max(1.0 / cell.stretch, 1.0) < 0.999 * most_stems;
+      cell.steady[quarter] = grow ? 0.0 : latest * latest;
+      cell.rising[quarter] = grow ? latest * latest / most : 0.0;
     }
     return cell;
   }
@@ -155,11 +164,16 @@ public:
       const double dy = birth.y / north_ - (latitude_.value[y] - latitude_.value[0]);
       const double u = towards(dx, longitude_.before[x], longitude_.after[x]);
       const double v = towards(dy, latitude_.before[y], latitude_.after[y]);
-      if (!(birth.time < cell.latest[quarter_of(v, u)])) {
+      const std::size_t quarter = quarter_of(v, u);
+      if (!(birth.time < cell.latest[quarter])) {
         return;
       }
       const double here = cell.fuel.at(v, u);
       const double left = kept_.empty() ? 1.0 : std::clamp(cell.kept.at(v, u), 0.0, 1.0);
+      if (!(birth.time * birth.time <
+            (cell.steady[quarter] + cell.rising[quarter] * here) * (left * left))) {
+        return;
+      }
       const double all = stems_of(here, cell.stretch), density = all * left;
       if (!(birth.time < Births::last_chance * density) ||
           !births.stands(birth, Births::reach(density))) {
