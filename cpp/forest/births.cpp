@@ -1,10 +1,14 @@
 #include "forest/births.hpp"
 
+#include "base/clones.hpp"
+
 #include <algorithm>
 #include <numbers>
 
 namespace firetwin::forest {
 namespace {
+
+constexpr std::size_t at_once = 4; ///< births
 
 /// 21 bits as a number in [0, 1), by way of what processors convert at once.
 double part(std::uint64_t bits) {
@@ -109,7 +113,10 @@ void Births::Squares::resize(std::size_t births) {
   bits.resize(births);
 }
 
-void Births::gather(const Area& area, double margin, double before) {
+void Births::gather(const Area& area, double before) {
+  const double radius =
+      std::sqrt(reach(std::min(before / last_chance, most_stems)) / std::numbers::pi);
+  const double margin = 2.0 * radius; // thinner places round the densest reach farther
   for (std::size_t k = 0; k < octaves; ++k) {
     const Octave& octave = octaves_[k];
     Squares& known = known_[k];
@@ -124,47 +131,108 @@ void Births::gather(const Area& area, double margin, double before) {
     }
     known.first.push_back(static_cast<std::uint32_t>(known.size));
   }
+  crowd_.sort({area.left - margin, area.right + margin, area.low - margin, area.high + margin},
+              radius, known_);
 }
+
+void Births::Crowd::sort(const Area& gathered, double bucket,
+                         const std::array<Squares, octaves>& known) {
+  area = gathered;
+  per_metre = 1.0 / bucket;
+  columns = static_cast<std::size_t>((area.right - area.left) * per_metre) + 2;
+  const auto rows = static_cast<std::size_t>((area.high - area.low) * per_metre) + 2;
+  first.assign(rows * columns + 2, 0);
+  std::size_t size = 0;
+  for (const Squares& some : known) {
+    for (std::size_t i = 0; i < some.size; ++i) {
+      // those of squares that reach over the edge stay with the last bucket inside
+      const double u = std::min(std::max(some.x[i], area.left), area.right);
+      const double v = std::min(std::max(some.y[i], area.low), area.high);
+      ++first[number(u, v) + 2];
+    }
+    size += some.size;
+  }
+  for (std::size_t i = 2; i < first.size(); ++i) {
+    first[i] += first[i - 1];
+  }
+  if (x.size() < size + at_once) {
+    x.resize(2 * size + at_once);
+    y.resize(2 * size + at_once);
+    time.resize(2 * size + at_once);
+  }
+  for (const Squares& some : known) {
+    for (std::size_t i = 0; i < some.size; ++i) {
+      const double u = std::min(std::max(some.x[i], area.left), area.right);
+      const double v = std::min(std::max(some.y[i], area.low), area.high);
+      const std::size_t place = first[number(u, v) + 1]++;
+      x[place] = some.x[i];
+      y[place] = some.y[i];
+      time[place] = some.time[i];
+    }
+  }
+  std::fill_n(&time[size], at_once, latest); // none is later
+}
+
+namespace {
+
+/// Whether a birth among some is older and nearer; always asks whole groups of `at_once`, for what
+/// lies behind the end is a birth as well.
+FIRETWIN_CLONES("avx512f", "avx2")
+bool crowded(const double* x, const double* y, const double* time, const std::uint32_t* first,
+             std::size_t columns, std::size_t rows, std::size_t width, const Births::Birth& birth,
+             double square) {
+  for (std::size_t row = 0; row < rows; ++row, first += columns) {
+    for (std::size_t begin = first[0]; begin < first[width]; begin += at_once) {
+      std::int64_t found = 0;
+      for (std::size_t i = begin; i < begin + at_once; ++i) {
+        const double dx = x[i] - birth.x, dy = y[i] - birth.y;
+        found += (time[i] < birth.time) & (dx * dx + dy * dy < square);
+      }
+      if (found > 0) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+} // namespace
 
 bool Births::stands(const Birth& birth, double reach) const {
   const double square = reach / std::numbers::pi, radius = std::sqrt(square);
-  const auto crowds = [&](double x, double y, double time) {
-    const double dx = x - birth.x, dy = y - birth.y;
-    return (time < birth.time) & (dx * dx + dy * dy < square);
-  };
-  for (std::size_t k = 0; k < octaves; ++k) {
-    const Octave& octave = octaves_[k];
+  const Area round{birth.x - radius, birth.x + radius, birth.y - radius, birth.y + radius};
+  const Area& known = crowd_.area;
+  if (!((round.left >= known.left) & (round.right <= known.right) & (round.low >= known.low) &
+        (round.high <= known.high))) {
+    return stands_anywhere(birth, round, square);
+  }
+  const std::size_t begin = crowd_.number(round.left, round.low);
+  const std::size_t right = crowd_.number(round.right, round.low);
+  const std::size_t top = crowd_.number(round.left, round.high);
+  return !crowded(crowd_.x.data(), crowd_.y.data(), crowd_.time.data(), &crowd_.first[begin],
+                  crowd_.columns, (top - begin) / crowd_.columns + 1, right - begin + 1, birth,
+                  square);
+}
+
+bool Births::stands_anywhere(const Birth& birth, const Area& round, double square) const {
+  for (const Octave& octave : octaves_) {
     if (octave.begin >= birth.time) {
       continue;
     }
-    const Squares& known = known_[k];
-    const std::int64_t left = octave.number(birth.x - radius),
-                       right = octave.number(birth.x + radius),
-                       low = octave.number(birth.y - radius),
-                       high = octave.number(birth.y + radius);
-    bool crowded = false;
-    if (known.hold(left, right, low, high)) {
-      for (auto row = low; row <= high && !crowded; ++row) {
-        const std::size_t end = known.end(row, right);
-        for (std::size_t i = known.begin(row, left); i < end; ++i) {
-          crowded |= crowds(known.x[i], known.y[i], known.time[i]);
-        }
-      }
-    } else { // it reaches farther than the margin
-      for (auto row = low; row <= high; ++row) {
-        for (auto column = left; column <= right; ++column) {
-          std::array<std::uint64_t, most> keys;
-          const std::size_t count = octave.keys(octave.line(row), column, keys);
-          for (std::size_t i = 0; i < count; ++i) {
-            const Birth b =
-                octave.birth(static_cast<double>(column), static_cast<double>(row), keys[i]);
-            crowded |= crowds(b.x, b.y, b.time);
+    const std::int64_t right = octave.number(round.right), high = octave.number(round.high);
+    for (auto row = octave.number(round.low); row <= high; ++row) {
+      for (auto column = octave.number(round.left); column <= right; ++column) {
+        std::array<std::uint64_t, most> keys;
+        const std::size_t count = octave.keys(octave.line(row), column, keys);
+        for (std::size_t i = 0; i < count; ++i) {
+          const Birth other =
+              octave.birth(static_cast<double>(column), static_cast<double>(row), keys[i]);
+          const double dx = other.x - birth.x, dy = other.y - birth.y;
+          if ((other.time < birth.time) & (dx * dx + dy * dy < square)) {
+            return false;
           }
         }
       }
-    }
-    if (crowded) {
-      return false;
     }
   }
   return true;

@@ -52,8 +52,8 @@ public:
   /// Which part of all that are left at this density (1/m2) are older than a birth.
   static double older(double time, double density);
 
-  /// Works out the births before a time (1/m2) in an area and `margin` (m) round it.
-  void gather(const Area& area, double margin, double before);
+  /// Works out the births before a time (1/m2) in an area and round it.
+  void gather(const Area& area, double before);
 
   /// Calls visit(birth) for each before `time` in a part of what was gathered, always in the same
   /// order.
@@ -79,7 +79,7 @@ public:
     }
   }
 
-  /// Whether nothing older is within this round area (m2) of one of the births gathered.
+  /// Whether nothing older is within this round area (m2) of a birth; quick for those gathered.
   bool stands(const Birth& birth, double reach) const;
 
 private:
@@ -131,17 +131,34 @@ private:
     std::size_t end(std::int64_t at_row, std::int64_t at_column) const {
       return begin(at_row, at_column + 1);
     }
-    bool hold(std::int64_t left, std::int64_t right, std::int64_t low, std::int64_t high) const {
-      return left >= column && right < column + columns && low >= row && high < row + rows;
-    }
     /// Those of a row of squares that are born before a time.
     void add(const Octave& octave, std::int64_t at_row, double before, Row& work);
     void resize(std::size_t births);
   };
 
+  /// All births gathered by buckets about as large as their reach, row by row.
+  struct Crowd {
+    Area area{};
+    double per_metre = 0.0; ///< buckets
+    std::size_t columns = 0;
+    std::vector<std::uint32_t> first; ///< of each bucket's births, and the end
+    std::vector<double> x, y, time;
+
+    /// Of the bucket that a place in the area is in.
+    std::size_t number(double at_x, double at_y) const {
+      const auto column = static_cast<std::int32_t>((at_x - area.left) * per_metre);
+      const auto row = static_cast<std::int32_t>((at_y - area.low) * per_metre);
+      return static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
+    }
+    void sort(const Area& gathered, double bucket, const std::array<Squares, octaves>& known);
+  };
+
+  bool stands_anywhere(const Birth& birth, const Area& round, double square) const;
+
   std::array<Octave, octaves> octaves_; ///< the latest first
   std::array<Squares, octaves> known_;
   Row row_;
+  Crowd crowd_;
 };
 
 } // namespace firetwin::forest

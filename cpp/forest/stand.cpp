@@ -238,7 +238,6 @@ public:
 
 private:
   static constexpr double at_once = 8192.0; ///< births
-  static constexpr double margin = 2.0;     ///< reaches of the densest place
 
   /// Rows from low to high - 1, columns from left to right - 1; those to the left first.
   void grow(std::size_t low, std::size_t high, std::size_t left, std::size_t right) {
@@ -266,8 +265,7 @@ private:
       }
     }
     if (latest > 0.0) {
-      const double reach = Births::reach(std::min(latest / Births::last_chance, most_stems));
-      births_.gather(all, margin * std::sqrt(reach / std::numbers::pi), latest);
+      births_.gather(all, latest);
     }
     for (std::size_t j = low; j < high; ++j) {
       RowOf& row = rows_[y_ + j];
