@@ -72,11 +72,10 @@ def _places(shot: Shot) -> NDArray[np.float32]:
     return place
 
 
-def _blocks(
-    place: NDArray[np.float32], size: int
-) -> tuple[NDArray, NDArray, NDArray, tuple[int, int]]:
-    """Middles (n, 3) of blocks of `size` cells, radii (n,) that hold all of each, how far the ground of each is
-    above and below its middle (n,), and how many there are.
+def _blocks(place: NDArray[np.float32], size: int) -> tuple[NDArray, NDArray, NDArray, tuple[int, int]]:
+    """Blocks of `size` cells: middles (n, 3), radii (n,) that hold all of each, m, and how many there are.
+
+    Third, how far the ground of each is above and below its middle (n,), m.
     """
     rows, columns = (np.arange(0, count - 1, size) for count in place.shape[:2])
     low, high = place[rows][:, columns], place
@@ -97,7 +96,10 @@ def _blocks(
     across = np.hypot(*(0.5 * np.abs(high[..., k] - low[..., k]) for k in (0, 1)))
     radius = np.hypot(1.05 * across, 0.5 * (most - least)) + 4.0 * RELIEF
     rise = 0.5 * (most - least) + 4.0 * RELIEF
-    return (*(v.astype(np.float64) for v in (centre.reshape(-1, 3), radius.ravel(), rise.ravel())), least.shape)
+    return (
+        *(v.astype(np.float64) for v in (centre.reshape(-1, 3), radius.ravel(), rise.ravel())),
+        least.shape,
+    )
 
 
 def most(shot: Shot, distance: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -129,7 +131,8 @@ def _tolerance(
     if angle is not None:
         seen = shown(0.0)
         distance[seen] = np.maximum(shot.sights.distance(centre[seen]) - radius[seen], _NEAREST)
-        tolerance[seen] = np.minimum(angle * distance[seen], UNSEEN)
+        drawn = np.maximum(shot.sights.drawn_from(centre[seen]) - radius[seen], _NEAREST)
+        tolerance[seen] = np.minimum(angle * drawn, UNSEEN)
     if pixel is not None:
         seen = shown(np.inf)
         tolerance[seen] = np.minimum(tolerance[seen], pixel)

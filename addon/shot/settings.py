@@ -264,6 +264,11 @@ class Render:
     seed: int = key(
         0, "another number gives other grain", at_least=0, at_most=_LARGEST_SEED, shows=("grain",)
     )
+    skip: bool = key(
+        True,
+        "leave out what no camera sees, and draw what is far more coarsely; false is for comparison",
+        shows=("ground", "forest", "fire", "smoke"),
+    )
     thermal_low: float = key(
         320.0,
         "where colour begins in the thermal picture; ground in the sun has less",

@@ -114,8 +114,10 @@ void Births::Squares::resize(std::size_t births) {
 }
 
 void Births::gather(const Area& area, double before) {
+  // Where next to nothing stands reaches have no end; then what is farther is asked one by one.
   const double radius =
-      std::sqrt(reach(std::min(before / last_chance, most_stems)) / std::numbers::pi);
+      std::min(std::sqrt(reach(std::min(before / last_chance, most_stems)) / std::numbers::pi),
+               4.0 * octaves_.back().side);
   const double margin = 2.0 * radius; // thinner places round the densest reach farther
   for (std::size_t k = 0; k < octaves; ++k) {
     const Octave& octave = octaves_[k];

@@ -115,7 +115,7 @@ def _kept(shot: Shot, mask: NDArray[np.bool_]) -> NDArray[np.float32]:
     """
     run, budget = shot.run, shot.settings.forest.budget
     kept = np.ones(mask.shape, np.float32)
-    if not mask.any():
+    if shot.sights.whole or not mask.any():
         return kept
     # Neighbours as well: what is kept is bilinear between the cells' middles.
     beside = np.lib.stride_tricks.sliding_window_view(np.pad(mask, 1), (3, 3)).any((2, 3))
