@@ -28,7 +28,7 @@ SCENE = """run = "{run}"
 cache = "{work}/cache"
 [time]
 start = 2014-09-17T16:12:00-07:00
-end = 2014-09-17T16:12:00-07:00
+end = 2014-09-17T16:12:01-07:00
 frames = 1
 [ground]
 error = {error}
@@ -93,8 +93,8 @@ def one(scene: Path, picture: Path) -> None:
                 "build": built - begun,
                 "render": time.process_time() - built,
                 "MB": _held() - held,
-                "trees": meshes.get("Trees", 0),
-                "ground": meshes.get("Ground", 0),
+                "trees": meshes.get("Firetwin Trees", 0),
+                "ground": meshes.get("Firetwin Ground", 0),
             }
         )
     )

@@ -65,6 +65,16 @@ def test_satellites_count_by_their_pixels_and_are_near_to_nothing(film):
     assert np.isinf(shot.sights.distance(edge)).all()
 
 
+def test_what_is_under_a_place_is_found_along_its_vertical(film):
+    ground = film(Camera("a", ORBIT)).ground
+    rows, columns = ground.shape
+    rng = np.random.default_rng(8)
+    row, column = rng.uniform(0, rows - 1, 500), rng.uniform(0, columns - 1, 500)
+    for above in (0.0, 300.0):
+        found = ground.under(ground.point(*ground.places(row, column), above))
+        np.testing.assert_allclose(found, (row, column), rtol=0, atol=1e-6)
+
+
 def test_without_skipping_all_counts_as_seen_and_is_drawn_as_from_near_by(film):
     place = np.random.default_rng(5).uniform(-3000.0, 3000.0, (200, 3))
     place[-1] = np.nan

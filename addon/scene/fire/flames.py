@@ -151,7 +151,7 @@ def torches(shot: Shot, grown: Stand) -> Points:
     """
     ground, first, last = shot.ground, shot.frames.first, shot.frames.last
     near = np.flatnonzero((grown.distance < _TORCH_SIGHT) & (grown.height > 6.0))
-    row, column = ground.indices(*ground.geodetic(*grown.position[near, :2].T))
+    row, column = ground.under(grown.position[near])
     arrival = ground.arrival_at(row, column)
     canopy = bilinear(ground.fields.canopy_fuel, row, column)
     key = grown.key[near].T
