@@ -106,7 +106,7 @@ void Births::Row::resize(std::size_t births) {
   }
 }
 
-void Births::Squares::resize(std::size_t births) {
+void Births::Many::resize(std::size_t births) {
   x.resize(births);
   y.resize(births);
   time.resize(births);
@@ -135,6 +135,33 @@ void Births::gather(const Area& area, double before) {
   }
   crowd_.sort({area.left - margin, area.right + margin, area.low - margin, area.high + margin},
               radius, known_);
+}
+
+void Births::find(const Area& area, double before, Many& out) const {
+  out.size = 0;
+  for (std::size_t k = octaves; k-- > 0;) {
+    const Octave& octave = octaves_[k];
+    if (octave.begin >= before) {
+      break;
+    }
+    const Squares& known = known_[k];
+    if (out.x.size() < out.size + known.size + 1) {
+      out.resize(2 * (out.size + known.size + 1));
+    }
+    const std::int64_t top = octave.number(area.high);
+    const std::int64_t left = octave.number(area.left), right = octave.number(area.right);
+    for (auto row = octave.number(area.low); row <= top; ++row) {
+      const std::size_t end = known.end(row, right);
+      for (std::size_t i = known.begin(row, left); i < end; ++i) { // as in `Squares::add`
+        out.x[out.size] = known.x[i];
+        out.y[out.size] = known.y[i];
+        out.time[out.size] = known.time[i];
+        out.bits[out.size] = known.bits[i];
+        out.size += (known.time[i] < before) & (known.x[i] >= area.left) &
+                    (known.x[i] < area.right) & (known.y[i] >= area.low) & (known.y[i] < area.high);
+      }
+    }
+  }
 }
 
 void Births::Crowd::sort(const Area& gathered, double bucket,

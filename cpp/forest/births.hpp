@@ -55,29 +55,16 @@ public:
   /// Works out the births before a time (1/m2) in an area and round it.
   void gather(const Area& area, double before);
 
-  /// Calls visit(birth) for each before `time` in a part of what was gathered, always in the same
-  /// order.
-  template <class Visit> void visit(const Area& area, double time, const Visit& visit) const {
-    for (std::size_t k = octaves; k-- > 0;) {
-      const Octave& octave = octaves_[k];
-      if (octave.begin >= time) {
-        break;
-      }
-      const Squares& known = known_[k];
-      const std::int64_t top = octave.number(area.high);
-      const std::int64_t left = octave.number(area.left), right = octave.number(area.right);
-      for (auto row = octave.number(area.low); row <= top; ++row) {
-        const std::size_t end = known.end(row, right);
-        for (std::size_t i = known.begin(row, left); i < end; ++i) {
-          const Birth b{known.x[i], known.y[i], known.time[i], known.bits[i]};
-          if ((b.time < time) & (b.x >= area.left) & (b.x < area.right) & (b.y >= area.low) &
-              (b.y < area.high)) {
-            visit(b);
-          }
-        }
-      }
-    }
-  }
+  /// Births side by side, the first `size` of what the arrays hold.
+  struct Many {
+    std::size_t size = 0;
+    std::vector<double> x, y, time;
+    std::vector<std::uint64_t> bits;
+    void resize(std::size_t births);
+  };
+
+  /// Those before a time in a part of what was gathered, always in the same order.
+  void find(const Area& area, double before, Many& out) const;
 
   /// Whether nothing older is within this round area (m2) of a birth; quick for those gathered.
   bool stands(const Birth& birth, double reach) const;
@@ -117,13 +104,10 @@ private:
   };
 
   /// The births of an octave in a rectangle of squares, row by row.
-  struct Squares {
+  struct Squares : Many {
     std::int64_t column = 0, row = 0; ///< of the first
     std::int64_t columns = 0, rows = 0;
     std::vector<std::uint32_t> first; ///< of each square's births, and the end
-    std::size_t size = 0;             ///< of the births
-    std::vector<double> x, y, time;   ///< longer than that
-    std::vector<std::uint64_t> bits;
 
     std::size_t begin(std::int64_t at_row, std::int64_t at_column) const {
       return first[static_cast<std::size_t>((at_row - row) * columns + at_column - column)];
@@ -133,7 +117,6 @@ private:
     }
     /// Those of a row of squares that are born before a time.
     void add(const Octave& octave, std::int64_t at_row, double before, Row& work);
-    void resize(std::size_t births);
   };
 
   /// All births gathered by buckets about as large as their reach, row by row.

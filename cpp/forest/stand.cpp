@@ -1,5 +1,6 @@
 #include "forest/stand.hpp"
 
+#include "base/clones.hpp"
 #include "forest/allometry.hpp"
 #include "forest/births.hpp"
 #include "forest/placement.hpp"
@@ -48,6 +49,8 @@ public:
     }
   }
 
+  explicit Patch(double everywhere) { value_.fill(everywhere); }
+
   void unknown_is_zero() {
     for (double& v : value_) {
       v = std::isfinite(v) ? v : 0.0;
@@ -81,15 +84,20 @@ public:
     return sum / weight;
   }
 
+  /// The same, quickly, where all are finite.
+  double known(double v, double u) const {
+    const double below = u > 0.0 ? value_[2] : value_[0], above = u > 0.0 ? value_[8] : value_[6];
+    const double beside = u > 0.0 ? value_[5] : value_[3];
+    const double next = v > 0.0 ? value_[7] : value_[1], across = v > 0.0 ? above : below;
+    v = std::abs(v);
+    u = std::abs(u);
+    const double w = (1.0 - v) * (1.0 - u), w_u = (1.0 - v) * u, w_v = v * (1.0 - u), w_uv = v * u;
+    return (w * value_[4] + w_u * beside + w_v * next + w_uv * across) / (w + w_u + w_v + w_uv);
+  }
+
 private:
   std::array<double, 9> value_;
 };
-
-/// How far towards its neighbour, 0 to 1/2, a place `d` degrees from a node is; negative towards
-/// the one before.
-double towards(double d, double before, double after) {
-  return d * after > d * before ? d * after : -d * before;
-}
 
 /// A cell that trees can stand in.
 struct Cell {
@@ -102,9 +110,70 @@ struct Cell {
   std::array<double, 4> steady, rising;
 };
 
-/// The quarter of a cell that is so far towards its neighbours.
-std::size_t quarter_of(double v, double u) {
-  return 2 * static_cast<std::size_t>(v > 0.0) + static_cast<std::size_t>(u > 0.0);
+/// So much above 1 that a bound stays one, however sums are rounded.
+constexpr double rounding = 1.0 + 1.0e-9;
+
+/// A cell along an axis.
+struct Across {
+  double scale;         ///< m of the plane per degree
+  double middle;        ///< degrees from the grid's first node
+  double before, after; ///< as in `Axis`
+
+  /// Of a place on the plane (m) from the middle.
+  double degrees(double place) const { return place / scale - middle; }
+  /// How far towards its neighbour, 0 to 1/2, a place `d` degrees from the middle is; negative
+  /// towards the one before.
+  double towards(double d) const { return d * after > d * before ? d * after : -d * before; }
+};
+
+/// What decides about births in a cell.
+struct Rule {
+  const Cell& cell;
+  Across x, y;
+};
+
+/// Births of a cell with what is known where they are.
+struct Judged : Births::Many {
+  std::vector<double> fuel, kept;
+  std::vector<double> latest; ///< when trees can be born there at the latest; 0 where too late
+
+  void judge(const Rule& rule) {
+    if (fuel.size() < size) {
+      fuel.resize(2 * size);
+      kept.resize(2 * size);
+      latest.resize(2 * size);
+    }
+    judge(rule, size, x.data(), y.data(), time.data(), fuel.data(), kept.data(), latest.data());
+  }
+
+private:
+  static void judge(const Rule& rule, std::size_t n, const double* x, const double* y,
+                    const double* time, double* fuel, double* kept, double* latest);
+};
+
+/// Without branches, for many at once.
+FIRETWIN_CLONES("avx512f", "avx2")
+void Judged::judge(const Rule& rule, std::size_t n, const double* x, const double* y,
+                   const double* time, double* fuel, double* kept, double* latest) {
+  const Patch fuels = rule.cell.fuel, parts = rule.cell.kept;
+  const std::array<double, 4> end = rule.cell.latest, steady = rule.cell.steady,
+                              rising = rule.cell.rising;
+  const Across east = rule.x, north = rule.y;
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < n; ++i) {
+    const double u = east.towards(east.degrees(x[i])), v = north.towards(north.degrees(y[i]));
+    const auto quarter = [&](const std::array<double, 4>& of) {
+      const double low = u > 0.0 ? of[1] : of[0], high = u > 0.0 ? of[3] : of[2];
+      return v > 0.0 ? high : low;
+    };
+    const double here = fuels.known(v, u);
+    const double left = std::min(std::max(parts.known(v, u), 0.0), 1.0);
+    const double square = (quarter(steady) + quarter(rising) * here) * (left * left);
+    const bool can = (time[i] < quarter(end)) & (time[i] * time[i] < square);
+    fuel[i] = here;
+    kept[i] = left;
+    latest[i] = can ? std::sqrt(square) * rounding : 0.0;
+  }
 }
 
 /// Grows the trees of cells. Immutable; what is remembered comes with each call.
@@ -134,7 +203,7 @@ public:
     const geo::SineCosine parallel = geo::parallel(latitude_.value[y]);
     Cell cell{Patch(fuel_, rows, columns, y, x),
               Patch(site_.elevation, rows, columns, y, x),
-              Patch(kept_.empty() ? fuel_ : kept_, rows, columns, y, x),
+              kept_.empty() ? Patch(1.0) : Patch(kept_, rows, columns, y, x),
               parallel,
               parallel.cosine / cosine_,
               {},
@@ -143,7 +212,7 @@ public:
     cell.fuel.unknown_is_zero();
     cell.kept.unknown_is_zero();
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-      const double left = kept_.empty() ? 1.0 : std::clamp(cell.kept.largest(quarter), 0.0, 1.0);
+      const double left = std::clamp(cell.kept.largest(quarter), 0.0, 1.0);
       const double most = cell.fuel.largest(quarter), all = stems_of(most, cell.stretch);
       const double latest = rounding * Births::last_chance * all;
       cell.latest[quarter] = latest * left;
@@ -156,35 +225,35 @@ public:
   }
 
   /// Appends the trees of a cell whose births are gathered.
-  void grow(const Cell& cell, std::size_t y, std::size_t x, const Births& births,
+  void grow(const Cell& cell, std::size_t y, std::size_t x, const Births& births, Judged& work,
             std::vector<Stem>& out) const {
     const double latest = *std::max_element(cell.latest.begin(), cell.latest.end());
-    births.visit(area(y, x), latest, [&](const Births::Birth& birth) {
-      const double dx = birth.x / east_ - (longitude_.value[x] - longitude_.value[0]);
-      const double dy = birth.y / north_ - (latitude_.value[y] - latitude_.value[0]);
-      const double u = towards(dx, longitude_.before[x], longitude_.after[x]);
-      const double v = towards(dy, latitude_.before[y], latitude_.after[y]);
-      const std::size_t quarter = quarter_of(v, u);
-      if (!(birth.time < cell.latest[quarter])) {
-        return;
+    births.find(area(y, x), latest, work);
+    const Rule rule{cell, across(longitude_, x, east_), across(latitude_, y, north_)};
+    work.judge(rule);
+    for (std::size_t i = 0; i < work.size; ++i) {
+      if (!(work.time[i] < work.latest[i])) {
+        continue;
       }
-      const double here = cell.fuel.at(v, u);
-      const double left = kept_.empty() ? 1.0 : std::clamp(cell.kept.at(v, u), 0.0, 1.0);
-      if (!(birth.time * birth.time <
-            (cell.steady[quarter] + cell.rising[quarter] * here) * (left * left))) {
-        return;
+      const Births::Birth birth{work.x[i], work.y[i], work.time[i], work.bits[i]};
+      // Stems are at most so dense here, which is quicker to say than how dense.
+      if (!births.stands(
+              birth, Births::reach(std::min(work.latest[i] / Births::last_chance, most_stems)))) {
+        continue;
       }
+      const double here = work.fuel[i], left = work.kept[i];
       const double all = stems_of(here, cell.stretch), density = all * left;
       if (!(birth.time < Births::last_chance * density) ||
           !births.stands(birth, Births::reach(density))) {
-        return;
+        continue;
       }
+      const double dx = rule.x.degrees(birth.x), dy = rule.y.degrees(birth.y);
       const double rank = Births::older(birth.time, all);
       const auto at = geo::turned(cell.parallel, dy);
       out.push_back({origin_.to_local(at, geo::radii(at.sine), geo::turned(meridian_[x], dx),
-                                      cell.ground.at(v, u)),
+                                      cell.ground.at(rule.y.towards(dy), rule.x.towards(dx))),
                      height(here, std::max(rank, 1.0e-9)), widening(here, left), birth.bits});
-    });
+    }
   }
 
   /// Of a cell on the plane, m from the grid's first node.
@@ -199,8 +268,9 @@ public:
   }
 
 private:
-  /// So much above 1 that rounding in a patch lets no tree in that its corners would not.
-  static constexpr double rounding = 1.0 + 1.0e-9;
+  static Across across(const Axis& axis, std::size_t i, double scale) {
+    return {scale, axis.value[i] - axis.value[0], axis.before[i], axis.after[i]};
+  }
 
   static double stems_of(double fuel, double stretch) {
     return std::min(stems(fuel) * stretch, most_stems);
@@ -220,12 +290,19 @@ struct RowOf {
   std::vector<std::size_t> last;
 };
 
+/// What a thread works with.
+struct Worker {
+  explicit Worker(std::uint64_t seed) : births(seed) {}
+  Births births;
+  Judged judged;
+};
+
 /// A block of cells: births are gathered for as many of them at once as fit near the processor.
 class Block {
 public:
-  Block(const Grower& grower, Births& births, std::span<RowOf> rows, std::size_t y, std::size_t x,
+  Block(const Grower& grower, Worker& worker, std::span<RowOf> rows, std::size_t y, std::size_t x,
         std::size_t height, std::size_t width)
-      : grower_(grower), births_(births), rows_(rows), y_(y), x_(x), height_(height),
+      : grower_(grower), worker_(worker), rows_(rows), y_(y), x_(x), height_(height),
         width_(width) {
     for (std::size_t j = 0; j < height; ++j) {
       for (std::size_t i = 0; i < width; ++i) {
@@ -265,13 +342,13 @@ private:
       }
     }
     if (latest > 0.0) {
-      births_.gather(all, latest);
+      worker_.births.gather(all, latest);
     }
     for (std::size_t j = low; j < high; ++j) {
       RowOf& row = rows_[y_ + j];
       for (std::size_t i = left; i < right; ++i) {
         if (const auto& cell = at(j, i)) {
-          grower_.grow(*cell, y_ + j, x_ + i, births_, row.stems);
+          grower_.grow(*cell, y_ + j, x_ + i, worker_.births, worker_.judged, row.stems);
         }
         row.last[x_ + i] = row.stems.size();
       }
@@ -287,7 +364,7 @@ private:
   }
 
   const Grower& grower_;
-  Births& births_;
+  Worker& worker_;
   std::span<RowOf> rows_;
   std::size_t y_, x_, height_, width_;
   std::vector<std::optional<Cell>> cells_;
@@ -323,9 +400,9 @@ Stems stand(std::span<const float> canopy_fuel, const Site& site, std::span<cons
   }
   const Grower grower(canopy_fuel, site, kept);
   std::vector<RowOf> grown(rows);
-  tbb::enumerable_thread_specific<Births> births(site.seed);
+  tbb::enumerable_thread_specific<Worker> workers(site.seed);
   tbb::parallel_for(Range(0, (rows + block - 1) / block), [&](const Range& range) {
-    Births& mine = births.local();
+    Worker& mine = workers.local();
     for (std::size_t line = range.begin(); line < range.end(); ++line) {
       const std::size_t y = line * block, height = std::min(block, rows - y);
       for (std::size_t j = y; j < y + height; ++j) {
