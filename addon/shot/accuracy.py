@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from . import shade
+
 if TYPE_CHECKING:
     from .shot import Shot
 
@@ -45,8 +47,8 @@ def wanted(shot: Shot) -> Accuracy:
     ground = shot.ground
     place = _places(shot)
     size = max(round(_BLOCK / max(ground.cell)), 1)
-    centre, radius, shape = _blocks(place, size, 4.0 * ground.rough)
-    tolerance, distance = _tolerance(shot, centre, radius)
+    centre, radius, rise, shape = _blocks(place, size, 4.0 * ground.rough)
+    tolerance, distance = _tolerance(shot, centre, radius, rise, shape)
     fine = _halvings(shot, tolerance, distance)
     tolerance, fine = (
         np.repeat(np.repeat(v.reshape(shape), size, axis=0), size, axis=1) for v in (tolerance, fine)
@@ -66,8 +68,13 @@ def _places(shot: Shot) -> NDArray[np.float32]:
     return place
 
 
-def _blocks(place: NDArray[np.float32], size: int, more: float) -> tuple[NDArray, NDArray, tuple[int, int]]:
-    """Middles (n, 3) of blocks of `size` cells, radii (n,) that hold each, `more` added, and how many."""
+def _blocks(
+    place: NDArray[np.float32], size: int, more: float
+) -> tuple[NDArray, NDArray, NDArray, tuple[int, int]]:
+    """Blocks of `size` cells: middles (n, 3), radii (n,) that hold all of each, m, and how many there are.
+
+    Third, how far the ground of each is above and below its middle (n,), m; `more` is added to both.
+    """
     rows, columns = (np.arange(0, count - 1, size) for count in place.shape[:2])
     low, high = place[rows][:, columns], place
     ends = [
@@ -86,7 +93,11 @@ def _blocks(place: NDArray[np.float32], size: int, more: float) -> tuple[NDArray
     centre = np.stack([*(0.5 * (low[..., k] + high[..., k]) for k in (0, 1)), 0.5 * (least + most)], axis=-1)
     across = np.hypot(*(0.5 * np.abs(high[..., k] - low[..., k]) for k in (0, 1)))
     radius = np.hypot(1.05 * across, 0.5 * (most - least)) + more
-    return centre.reshape(-1, 3).astype(np.float64), radius.ravel().astype(np.float64), least.shape
+    rise = 0.5 * (most - least) + more
+    return (
+        *(v.astype(np.float64) for v in (centre.reshape(-1, 3), radius.ravel(), rise.ravel())),
+        least.shape,
+    )
 
 
 def most(shot: Shot, distance: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -104,16 +115,24 @@ def _views(shot: Shot) -> tuple[float | None, float | None]:
     return angle, None if pixel is None else _SHADED * pixel
 
 
-def _tolerance(shot: Shot, centre: NDArray, radius: NDArray) -> tuple[NDArray, NDArray]:
+def _tolerance(
+    shot: Shot, centre: NDArray, radius: NDArray, rise: NDArray, shape: tuple[int, int]
+) -> tuple[NDArray, NDArray]:
     """Largest vertical error (n,) of blocks, m, and how near cameras come that see them; infinite if none."""
     tolerance, distance = np.full(len(centre), UNSEEN), np.full(len(centre), np.inf)
     angle, pixel = _views(shot)
+
+    def shown(pixel: float) -> NDArray[np.bool_]:
+        seen = shot.sights.seen(centre, radius, margin=_MARGIN, pixel=pixel).reshape(shape)
+        return shade.with_shade(shot, centre.reshape(*shape, 3), rise.reshape(shape), seen).ravel()
+
     if angle is not None:
-        seen = shot.sights.seen(centre, radius, margin=_MARGIN, shadows=True)
+        seen = shown(0.0)
         distance[seen] = np.maximum(shot.sights.distance(centre[seen]) - radius[seen], _NEAREST)
-        tolerance[seen] = np.minimum(angle * distance[seen], UNSEEN)
+        drawn = np.maximum(shot.sights.drawn_from(centre[seen]) - radius[seen], _NEAREST)
+        tolerance[seen] = np.minimum(angle * drawn, UNSEEN)
     if pixel is not None:
-        seen = shot.sights.seen(centre, radius, margin=_MARGIN, shadows=True, pixel=np.inf)
+        seen = shown(np.inf)
         tolerance[seen] = np.minimum(tolerance[seen], pixel)
     return tolerance, distance
 

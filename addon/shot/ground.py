@@ -243,6 +243,11 @@ class Ground:
             up = self.frame.forward(latitude, longitude, self.height(row, column))[:, 2]
         return latitude, longitude
 
+    def under(self, position: NDArray[np.float64]) -> tuple[Array, Array]:
+        """Fractional row and column of scene points (n, 3) m, along the vertical there."""
+        latitude, longitude, _height = self.frame.reverse(position)
+        return self.indices(latitude, longitude)
+
     def up(self, east: ArrayLike, north: ArrayLike) -> Array:
         """Scene z (n,) of the ground at scene coordinates (m)."""
         return self.point(*self.geodetic(east, north))[:, 2]

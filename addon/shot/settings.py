@@ -331,6 +331,11 @@ class Render:
     seed: int = key(
         0, "another number gives other grain", at_least=0, at_most=_LARGEST_SEED, shows=("grain",)
     )
+    skip: bool = key(
+        True,
+        "leave out what no camera sees, and draw what is far more coarsely; false is for comparison",
+        shows=("ground", "forest", "fire", "smoke"),
+    )
     thermal_low: float | None = key(
         None,
         "where the thermal picture's palette begins; left out, the coldest air of the shot",

@@ -17,10 +17,16 @@ if TYPE_CHECKING:
 
 
 class Sights:
-    """Sights of a shot's cameras, each made when it is first asked for."""
+    """Sights of a shot's cameras, each made when it is first asked for.
+
+    Attributes
+    ----------
+    whole
+        Nothing is skipped: all counts as seen, and from as near as can be.
+    """
 
     def __init__(self, shot: Shot) -> None:
-        self.shot = shot
+        self.shot, self.whole = shot, not shot.settings.render.skip
         self._known: dict[tuple[int, ...], lod.Sight] = {}
         self._ground: lod.Occluder | None = None
         self._floor = 0.0
@@ -50,19 +56,29 @@ class Sights:
         pixel
             Cameras with parallel lines of sight count if their pixels are smaller than this, m.
         """
-        sight = self._of(self._showing(pixel))
+        showing = self._showing(pixel)
+        if self.whole:
+            flat = any(not self.shot.paths[number].perspective for number in showing)
+            return (self.distance(position) - radius <= reach) | flat
+        sight = self._of(showing)
         return lod.seen(position, radius, sight, reach=reach, margin=margin, shadows=shadows)
 
     def distance(self, position: ArrayLike) -> NDArray[np.float64]:
         """Least distance (n,) of places (n, 3) from cameras in perspective, m; infinite without any."""
         return lod.distance(position, self._of(self._showing(0.0)))
 
+    def drawn_from(self, position: ArrayLike) -> NDArray[np.float64]:
+        """Distance (n,) that things at places (n, 3) are drawn for, m: 0 where nothing is skipped."""
+        return np.zeros(len(position)) if self.whole else self.distance(position)
+
     def distance_from(self, path: Path, position: ArrayLike) -> NDArray[np.float64]:
         """Least distance (n,) of places (n, 3) from one camera in perspective, m."""
         return lod.distance(position, self._made([path]))
 
     def at(self, frame: int) -> lod.Sight | None:
-        """What all cameras that film this frame see in it; None where none does."""
+        """What all cameras that film this frame see in it; None where none does, or nothing is skipped."""
+        if self.whole:
+            return None
         paths = [path for path in self.shot.paths if frame - 1 in self.shot.filmed(path)]
         return self._made(paths, frame - 1) if paths else None
 

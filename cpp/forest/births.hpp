@@ -5,10 +5,17 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace firetwin::forest {
+
+/// A rectangle of the plane, m; its left and low edges are in it.
+struct Area {
+  double left, right, low, high;
+};
 
 /// Where trees stand that keep their distance: Matern's second hard-core process (B. Matern 1960,
 /// "Spatial variation", Meddelanden fran Statens Skogsforskningsinstitut 49:5).
@@ -22,8 +29,8 @@ namespace firetwin::forest {
 ///
 /// Births are hashes: of a seed, and of the square of the plane that they are in,
 /// with larger squares for earlier times. Whoever asks for a place gets the same births, whatever
-/// was asked before, and sparse stands cost as little as they hold. One object per thread: it
-/// remembers squares.
+/// was asked before, and sparse stands cost as little as they hold. One object per thread: it holds
+/// the births of the area that was gathered last.
 class Births {
 public:
   static constexpr double latest = 3.0 * most_stems; ///< 1/m2
@@ -45,77 +52,96 @@ public:
   /// Which part of all that are left at this density (1/m2) are older than a birth.
   static double older(double time, double density);
 
-  /// Calls visit(birth) for each before `time` in a rectangle (its lower and left edges included),
-  /// always in the same order.
-  template <class Visit>
-  void visit(double left, double right, double low, double high, double time, const Visit& visit) {
-    for (int octave = octaves - 1; octave >= 0; --octave) {
-      const auto k = static_cast<std::size_t>(octave);
-      if (begin_[k] >= time) {
-        break;
-      }
-      for (auto row = number(low, k); row <= number(high, k); ++row) {
-        for (auto column = number(left, k); column <= number(right, k); ++column) {
-          const Square square = at(octave, column, row); // a copy: visits remember others
-          for (int i = 0; i < square.count; ++i) {
-            const Birth b = birth(octave, square, i);
-            if (b.time < time && b.x >= left && b.x < right && b.y >= low && b.y < high) {
-              visit(b);
-            }
-          }
-        }
-      }
-    }
-  }
+  /// Works out the births before a time (1/m2) in an area and round it.
+  void gather(const Area& area, double before);
 
-  /// Whether nothing older is within this round area (m2) of a birth.
-  bool stands(const Birth& birth, double reach);
-
-private:
-  static constexpr int octaves = 7, most = 7, remembered = 64;
-
-  struct Square {
-    std::int64_t column = 0, row = 0;
-    int count = -1;
-    std::array<std::uint64_t, most> bits{}; ///< place and time of each birth
+  /// Births side by side, the first `size` of what the arrays hold.
+  struct Many {
+    std::size_t size = 0;
+    std::vector<double> x, y, time;
+    std::vector<std::uint64_t> bits;
+    void resize(std::size_t births);
   };
 
-  /// Of the square that a place is in along an axis.
-  std::int64_t number(double place, std::size_t octave) const {
-    const double squares = place * per_metre_[octave];
-    const auto whole = static_cast<std::int64_t>(squares);
-    return whole - (squares < static_cast<double>(whole));
-  }
+  /// Those before a time in a part of what was gathered, always in the same order.
+  void find(const Area& area, double before, Many& out) const;
 
-  const Square& at(int octave, std::int64_t column, std::int64_t row) {
-    constexpr std::int64_t last = remembered - 1;
-    const auto line = static_cast<std::size_t>(octave * remembered + (row & last));
-    Square& square = known_[line * remembered + static_cast<std::size_t>(column & last)];
-    if (square.count < 0 || square.column != column || square.row != row) {
-      square.column = column;
-      square.row = row;
-      fill(square, octave);
+  /// Whether nothing older is within this round area (m2) of a birth; quick for those gathered.
+  bool stands(const Birth& birth, double reach) const;
+
+private:
+  static constexpr std::size_t octaves = 7, most = 7;
+
+  /// Births between two times, one on average in each square.
+  struct Octave {
+    std::uint64_t seed;
+    double begin, end;      ///< of the times
+    double side, per_metre; ///< of the squares, m, 1/m
+
+    /// Of the square that a place is in along an axis.
+    std::int64_t number(double place) const {
+      const double squares = place * per_metre;
+      const auto whole = static_cast<std::int64_t>(squares);
+      return whole - (squares < static_cast<double>(whole));
     }
-    return square;
-  }
-  void fill(Square& square, int octave) const;
-  Birth birth(int octave, const Square& square, int i) const {
-    const std::uint64_t bits = square.bits[static_cast<std::size_t>(i)];
-    const auto k = static_cast<std::size_t>(octave);
-    const auto part =
-        [](std::uint64_t number) { // 21 bits, by way of what processors convert at once
-          return static_cast<double>(static_cast<std::int32_t>(number & 0x1FFFFF)) * 0x1p-21;
-        };
-    return {(static_cast<double>(square.column) + part(bits >> 43)) * side_[k],
-            (static_cast<double>(square.row) + part(bits >> 22)) * side_[k],
-            begin_[k] + (end_[k] - begin_[k]) * part(bits >> 1), bits};
-  }
 
-  std::array<std::uint64_t, octaves> seed_;
-  std::array<double, octaves> begin_, end_; ///< of the times of an octave's births
-  std::array<double, octaves> side_;        ///< of its squares, m: a birth in each on average
-  std::array<double, octaves> per_metre_;   ///< squares
-  std::vector<Square> known_;
+    std::uint64_t line(std::int64_t row) const {
+      return mix(seed, static_cast<std::uint64_t>(row));
+    }
+    /// The keys of the births in a square; how many of those written count.
+    std::size_t keys(std::uint64_t line, std::int64_t column,
+                     std::span<std::uint64_t, most> out) const;
+    Birth birth(double column, double row, std::uint64_t key) const;
+  };
+
+  /// What is needed while a row of squares is worked out; kept for its memory alone.
+  struct Row {
+    std::vector<std::uint64_t> key;
+    std::vector<double> column;
+    std::vector<std::uint32_t> place; ///< of each birth among those kept
+    std::vector<std::size_t> begin;   ///< of each square's births
+    void resize(std::size_t births);
+  };
+
+  /// The births of an octave in a rectangle of squares, row by row.
+  struct Squares : Many {
+    std::int64_t column = 0, row = 0; ///< of the first
+    std::int64_t columns = 0, rows = 0;
+    std::vector<std::uint32_t> first; ///< of each square's births, and the end
+
+    std::size_t begin(std::int64_t at_row, std::int64_t at_column) const {
+      return first[static_cast<std::size_t>((at_row - row) * columns + at_column - column)];
+    }
+    std::size_t end(std::int64_t at_row, std::int64_t at_column) const {
+      return begin(at_row, at_column + 1);
+    }
+    /// Those of a row of squares that are born before a time.
+    void add(const Octave& octave, std::int64_t at_row, double before, Row& work);
+  };
+
+  /// All births gathered by buckets about as large as their reach, row by row.
+  struct Crowd {
+    Area area{};
+    double per_metre = 0.0; ///< buckets
+    std::size_t columns = 0;
+    std::vector<std::uint32_t> first; ///< of each bucket's births, and the end
+    std::vector<double> x, y, time;
+
+    /// Of the bucket that a place in the area is in.
+    std::size_t number(double at_x, double at_y) const {
+      const auto column = static_cast<std::int32_t>((at_x - area.left) * per_metre);
+      const auto row = static_cast<std::int32_t>((at_y - area.low) * per_metre);
+      return static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
+    }
+    void sort(const Area& gathered, double bucket, const std::array<Squares, octaves>& known);
+  };
+
+  bool stands_anywhere(const Birth& birth, const Area& round, double square) const;
+
+  std::array<Octave, octaves> octaves_; ///< the latest first
+  std::array<Squares, octaves> known_;
+  Row row_;
+  Crowd crowd_;
 };
 
 } // namespace firetwin::forest

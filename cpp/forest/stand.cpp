@@ -1,5 +1,6 @@
 #include "forest/stand.hpp"
 
+#include "base/clones.hpp"
 #include "forest/allometry.hpp"
 #include "forest/births.hpp"
 #include "forest/placement.hpp"
@@ -13,7 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
+#include <optional>
 #include <vector>
 
 namespace firetwin::forest {
@@ -48,13 +49,19 @@ public:
     }
   }
 
+  explicit Patch(double everywhere) { value_.fill(everywhere); }
+
   void unknown_is_zero() {
     for (double& v : value_) {
       v = std::isfinite(v) ? v : 0.0;
     }
   }
 
-  double largest() const { return *std::max_element(value_.begin(), value_.end()); }
+  /// Of the four values round a quarter.
+  double largest(std::size_t quarter) const {
+    const std::size_t first = 3 * (quarter / 2) + quarter % 2;
+    return std::max({value_[first], value_[first + 1], value_[first + 3], value_[first + 4]});
+  }
 
   /// Bilinear between the middle and the neighbours that v and u (-1/2 to 1/2) lie towards. What is
   /// not finite is left out, and the others' weights grow.
@@ -77,14 +84,96 @@ public:
     return sum / weight;
   }
 
+  /// The same, quickly, where all are finite.
+  double known(double v, double u) const {
+    const double below = u > 0.0 ? value_[2] : value_[0], above = u > 0.0 ? value_[8] : value_[6];
+    const double beside = u > 0.0 ? value_[5] : value_[3];
+    const double next = v > 0.0 ? value_[7] : value_[1], across = v > 0.0 ? above : below;
+    v = std::abs(v);
+    u = std::abs(u);
+    const double w = (1.0 - v) * (1.0 - u), w_u = (1.0 - v) * u, w_v = v * (1.0 - u), w_uv = v * u;
+    return (w * value_[4] + w_u * beside + w_v * next + w_uv * across) / (w + w_u + w_v + w_uv);
+  }
+
 private:
   std::array<double, 9> value_;
 };
 
-/// How far towards its neighbour, 0 to 1/2, a place `d` degrees from a node is; negative towards
-/// the one before.
-double towards(double d, double before, double after) {
-  return d * after > d * before ? d * after : -d * before;
+/// A cell that trees can stand in.
+struct Cell {
+  Patch fuel, ground, kept;
+  geo::SineCosine parallel; ///< of its middle
+  double stretch;           ///< of the plane
+  /// When the last tree can be born in each quarter: low left, low right, high left, high right.
+  std::array<double, 4> latest;
+  /// The square of that time where all stems are kept is at most `steady` + `rising` fuel.
+  std::array<double, 4> steady, rising;
+};
+
+/// So much above 1 that a bound stays one, however sums are rounded.
+constexpr double rounding = 1.0 + 1.0e-9;
+
+/// A cell along an axis.
+struct Across {
+  double scale;         ///< m of the plane per degree
+  double middle;        ///< degrees from the grid's first node
+  double before, after; ///< as in `Axis`
+
+  /// Of a place on the plane (m) from the middle.
+  double degrees(double place) const { return place / scale - middle; }
+  /// How far towards its neighbour, 0 to 1/2, a place `d` degrees from the middle is; negative
+  /// towards the one before.
+  double towards(double d) const { return d * after > d * before ? d * after : -d * before; }
+};
+
+/// What decides about births in a cell.
+struct Rule {
+  const Cell& cell;
+  Across x, y;
+};
+
+/// Births of a cell with what is known where they are.
+struct Judged : Births::Many {
+  std::vector<double> fuel, kept;
+  std::vector<double> latest; ///< when trees can be born there at the latest; 0 where too late
+
+  void judge(const Rule& rule) {
+    if (fuel.size() < size) {
+      fuel.resize(2 * size);
+      kept.resize(2 * size);
+      latest.resize(2 * size);
+    }
+    judge(rule, size, x.data(), y.data(), time.data(), fuel.data(), kept.data(), latest.data());
+  }
+
+private:
+  static void judge(const Rule& rule, std::size_t n, const double* x, const double* y,
+                    const double* time, double* fuel, double* kept, double* latest);
+};
+
+/// Without branches, for many at once.
+FIRETWIN_CLONES("avx512f", "avx2")
+void Judged::judge(const Rule& rule, std::size_t n, const double* x, const double* y,
+                   const double* time, double* fuel, double* kept, double* latest) {
+  const Patch fuels = rule.cell.fuel, parts = rule.cell.kept;
+  const std::array<double, 4> end = rule.cell.latest, steady = rule.cell.steady,
+                              rising = rule.cell.rising;
+  const Across east = rule.x, north = rule.y;
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < n; ++i) {
+    const double u = east.towards(east.degrees(x[i])), v = north.towards(north.degrees(y[i]));
+    const auto quarter = [&](const std::array<double, 4>& of) {
+      const double low = u > 0.0 ? of[1] : of[0], high = u > 0.0 ? of[3] : of[2];
+      return v > 0.0 ? high : low;
+    };
+    const double here = fuels.known(v, u);
+    const double left = std::min(std::max(parts.known(v, u), 0.0), 1.0);
+    const double square = (quarter(steady) + quarter(rising) * here) * (left * left);
+    const bool can = (time[i] < quarter(end)) & (time[i] * time[i] < square);
+    fuel[i] = here;
+    kept[i] = left;
+    latest[i] = can ? std::sqrt(square) * rounding : 0.0;
+  }
 }
 
 /// Grows the trees of cells. Immutable; what is remembered comes with each call.
@@ -102,59 +191,73 @@ public:
     east_ = degree * radii.normal * cosine_;
   }
 
-  /// Appends the trees of a cell.
-  void grow(std::size_t y, std::size_t x, Births& births, std::vector<Stem>& out) const {
+  /// The cell, unless nothing can stand in it.
+  std::optional<Cell> cell(std::size_t y, std::size_t x) const {
     const std::size_t rows = site_.latitude.size(), columns = site_.longitude.size();
-    const std::size_t cell = y * columns + x;
-    if (!(double{fuel_[cell]} > least_canopy_fuel) || !std::isfinite(fuel_[cell]) ||
-        !std::isfinite(site_.elevation[cell])) {
-      return;
+    const std::size_t number = y * columns + x;
+    if (!(site_.mask.empty() || site_.mask[number]) ||
+        !(double{fuel_[number]} > least_canopy_fuel) || !std::isfinite(fuel_[number]) ||
+        !std::isfinite(site_.elevation[number])) {
+      return std::nullopt;
     }
-    Patch fuel(fuel_, rows, columns, y, x);
-    fuel.unknown_is_zero();
-    const Patch ground(site_.elevation, rows, columns, y, x);
     const geo::SineCosine parallel = geo::parallel(latitude_.value[y]);
-    const double stretch = parallel.cosine / cosine_; // of the plane
-    const auto part = [&] {
-      Patch patch(kept_.empty() ? fuel_ : kept_, rows, columns, y, x);
-      patch.unknown_is_zero();
-      return patch;
-    }();
-    const auto kept = [&](double v, double u) {
-      return kept_.empty() ? 1.0 : std::clamp(part.at(v, u), 0.0, 1.0);
-    };
-    const double most = stems(fuel.largest()) * stretch *
-                        (kept_.empty() ? 1.0 : std::clamp(part.largest(), 0.0, 1.0));
-    const Extent plane = extent(y, x);
-    births.visit(plane.left, plane.right, plane.low, plane.high, Births::last_chance * most,
-                 [&](const Births::Birth& birth) {
-                   const double dx = birth.x / east_ - (longitude_.value[x] - longitude_.value[0]);
-                   const double dy = birth.y / north_ - (latitude_.value[y] - latitude_.value[0]);
-                   const double u = towards(dx, longitude_.before[x], longitude_.after[x]);
-                   const double v = towards(dy, latitude_.before[y], latitude_.after[y]);
-                   const double here = fuel.at(v, u), left = kept(v, u);
-                   const double all = std::min(stems(here) * stretch, most_stems);
-                   const double density = all * left;
-                   if (!(birth.time < Births::last_chance * density) ||
-                       !births.stands(birth, Births::reach(density))) {
-                     return;
-                   }
-                   const double rank = Births::older(birth.time, all);
-                   const auto at = geo::turned(parallel, dy);
-                   out.push_back({origin_.to_local(at, geo::radii(at.sine),
-                                                   geo::turned(meridian_[x], dx), ground.at(v, u)),
-                                  height(here, std::max(rank, 1.0e-9)), widening(here, left),
-                                  birth.bits});
-                 });
+    Cell cell{Patch(fuel_, rows, columns, y, x),
+              Patch(site_.elevation, rows, columns, y, x),
+              kept_.empty() ? Patch(1.0) : Patch(kept_, rows, columns, y, x),
+              parallel,
+              parallel.cosine / cosine_,
+              {},
+              {},
+              {}};
+    cell.fuel.unknown_is_zero();
+    cell.kept.unknown_is_zero();
+    for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+      const double left = std::clamp(cell.kept.largest(quarter), 0.0, 1.0);
+      const double most = cell.fuel.largest(quarter), all = stems_of(most, cell.stretch);
+      const double latest = rounding * Births::last_chance * all;
+      cell.latest[quarter] = latest * left;
+      // Stems grow with more than the square root of the fuel, up to where they grow no more.
+      const bool grow = all * std::max(1.0 / cell.stretch, 1.0) < 0.999 * most_stems;
+      cell.steady[quarter] = grow ? 0.0 : latest * latest;
+      cell.rising[quarter] = grow ? latest * latest / most : 0.0;
+    }
+    return cell;
   }
 
-private:
-  struct Extent {
-    double left, right, low, high;
-  };
+  /// Appends the trees of a cell whose births are gathered.
+  void grow(const Cell& cell, std::size_t y, std::size_t x, const Births& births, Judged& work,
+            std::vector<Stem>& out) const {
+    const double latest = *std::max_element(cell.latest.begin(), cell.latest.end());
+    births.find(area(y, x), latest, work);
+    const Rule rule{cell, across(longitude_, x, east_), across(latitude_, y, north_)};
+    work.judge(rule);
+    for (std::size_t i = 0; i < work.size; ++i) {
+      if (!(work.time[i] < work.latest[i])) {
+        continue;
+      }
+      const Births::Birth birth{work.x[i], work.y[i], work.time[i], work.bits[i]};
+      // Stems are at most so dense here, which is quicker to say than how dense.
+      if (!births.stands(
+              birth, Births::reach(std::min(work.latest[i] / Births::last_chance, most_stems)))) {
+        continue;
+      }
+      const double here = work.fuel[i], left = work.kept[i];
+      const double all = stems_of(here, cell.stretch), density = all * left;
+      if (!(birth.time < Births::last_chance * density) ||
+          !births.stands(birth, Births::reach(density))) {
+        continue;
+      }
+      const double dx = rule.x.degrees(birth.x), dy = rule.y.degrees(birth.y);
+      const double rank = Births::older(birth.time, all);
+      const auto at = geo::turned(cell.parallel, dy);
+      out.push_back({origin_.to_local(at, geo::radii(at.sine), geo::turned(meridian_[x], dx),
+                                      cell.ground.at(rule.y.towards(dy), rule.x.towards(dx))),
+                     height(here, std::max(rank, 1.0e-9)), widening(here, left), birth.bits});
+    }
+  }
 
   /// Of a cell on the plane, m from the grid's first node.
-  Extent extent(std::size_t y, std::size_t x) const {
+  Area area(std::size_t y, std::size_t x) const {
     const auto ends = [](const Axis& axis, std::size_t i, double scale) {
       const double a = (axis.first[i] - axis.value[0]) * scale, b = a + axis.width[i] * scale;
       return std::array{std::min(a, b), std::max(a, b)};
@@ -164,12 +267,107 @@ private:
     return {left, right, low, high};
   }
 
+private:
+  static Across across(const Axis& axis, std::size_t i, double scale) {
+    return {scale, axis.value[i] - axis.value[0], axis.before[i], axis.after[i]};
+  }
+
+  static double stems_of(double fuel, double stretch) {
+    return std::min(stems(fuel) * stretch, most_stems);
+  }
+
   std::span<const float> fuel_, kept_;
   const Site& site_;
   geo::Origin origin_;
   Axis latitude_, longitude_;
   std::vector<geo::SineCosine> meridian_;
   double north_, east_, cosine_; ///< m per degree; of the middle latitude
+};
+
+/// Trees row by row, and where those of each cell end.
+struct RowOf {
+  std::vector<Stem> stems;
+  std::vector<std::size_t> last;
+};
+
+/// What a thread works with.
+struct Worker {
+  explicit Worker(std::uint64_t seed) : births(seed) {}
+  Births births;
+  Judged judged;
+};
+
+/// A block of cells: births are gathered for as many of them at once as fit near the processor.
+class Block {
+public:
+  Block(const Grower& grower, Worker& worker, std::span<RowOf> rows, std::size_t y, std::size_t x,
+        std::size_t height, std::size_t width)
+      : grower_(grower), worker_(worker), rows_(rows), y_(y), x_(x), height_(height),
+        width_(width) {
+    for (std::size_t j = 0; j < height; ++j) {
+      for (std::size_t i = 0; i < width; ++i) {
+        cells_.push_back(grower.cell(y + j, x + i));
+      }
+    }
+  }
+
+  void grow() { grow(0, height_, 0, width_); }
+
+private:
+  static constexpr double at_once = 8192.0; ///< births
+
+  /// Rows from low to high - 1, columns from left to right - 1; those to the left first.
+  void grow(std::size_t low, std::size_t high, std::size_t left, std::size_t right) {
+    double latest = 0.0;
+    Area all{};
+    for (std::size_t j = low; j < high; ++j) {
+      for (std::size_t i = left; i < right; ++i) {
+        if (const auto& cell = at(j, i)) {
+          const Area one = grower_.area(y_ + j, x_ + i);
+          all = latest > 0.0 ? join(all, one) : one;
+          latest = std::max(latest, *std::max_element(cell->latest.begin(), cell->latest.end()));
+        }
+      }
+    }
+    if (latest * (all.right - all.left) * (all.high - all.low) > at_once) {
+      if (const std::size_t half = (right - left) / 2; half > 0 && right - left >= high - low) {
+        grow(low, high, left, left + half);
+        grow(low, high, left + half, right);
+        return;
+      } else if (high - low > 1) {
+        const std::size_t middle = low + (high - low) / 2;
+        grow(low, middle, left, right);
+        grow(middle, high, left, right);
+        return;
+      }
+    }
+    if (latest > 0.0) {
+      worker_.births.gather(all, latest);
+    }
+    for (std::size_t j = low; j < high; ++j) {
+      RowOf& row = rows_[y_ + j];
+      for (std::size_t i = left; i < right; ++i) {
+        if (const auto& cell = at(j, i)) {
+          grower_.grow(*cell, y_ + j, x_ + i, worker_.births, worker_.judged, row.stems);
+        }
+        row.last[x_ + i] = row.stems.size();
+      }
+    }
+  }
+
+  const std::optional<Cell>& at(std::size_t j, std::size_t i) const {
+    return cells_[j * width_ + i];
+  }
+  static Area join(const Area& a, const Area& b) {
+    return {std::min(a.left, b.left), std::max(a.right, b.right), std::min(a.low, b.low),
+            std::max(a.high, b.high)};
+  }
+
+  const Grower& grower_;
+  Worker& worker_;
+  std::span<RowOf> rows_;
+  std::size_t y_, x_, height_, width_;
+  std::vector<std::optional<Cell>> cells_;
 };
 
 Stems make_stems(std::size_t n) {
@@ -201,25 +399,17 @@ Stems stand(std::span<const float> canopy_fuel, const Site& site, std::span<cons
     return make_stems(0);
   }
   const Grower grower(canopy_fuel, site, kept);
-  struct RowOf {
-    std::vector<Stem> stems;
-    std::vector<std::size_t> last; ///< of each cell's stems
-  };
   std::vector<RowOf> grown(rows);
-  tbb::enumerable_thread_specific<Births> births(site.seed);
-  tbb::parallel_for(Range(0, rows, block), [&](const Range& range) {
-    Births& mine = births.local();
-    for (std::size_t y = range.begin(); y < range.end(); ++y) {
-      grown[y].last.resize(columns);
-    }
-    for (std::size_t first = 0; first < columns; first += block) { // squares in reach are shared
-      for (std::size_t y = range.begin(); y < range.end(); ++y) {
-        for (std::size_t x = first; x < std::min(first + block, columns); ++x) {
-          if (site.mask.empty() || site.mask[y * columns + x]) {
-            grower.grow(y, x, mine, grown[y].stems);
-          }
-          grown[y].last[x] = grown[y].stems.size();
-        }
+  tbb::enumerable_thread_specific<Worker> workers(site.seed);
+  tbb::parallel_for(Range(0, (rows + block - 1) / block), [&](const Range& range) {
+    Worker& mine = workers.local();
+    for (std::size_t line = range.begin(); line < range.end(); ++line) {
+      const std::size_t y = line * block, height = std::min(block, rows - y);
+      for (std::size_t j = y; j < y + height; ++j) {
+        grown[j].last.resize(columns);
+      }
+      for (std::size_t x = 0; x < columns; x += block) {
+        Block(grower, mine, grown, y, x, height, std::min(block, columns - x)).grow();
       }
     }
   });

@@ -99,7 +99,9 @@ def test_what_a_product_depends_on_is_chosen_by_aspect():
     assert found["render"] == {"thermal_low": None, "thermal_high": 800.0}
     assert found["thermal"]["band"] == "lwir"
     for aspect in ("ground", "forest", "fire", "smoke"):
-        assert set(schema.chosen(SETTINGS, {aspect})) == {"seed", aspect}
+        found = schema.chosen(SETTINGS, {aspect})
+        assert set(found) == {"seed", aspect, "render"}
+        assert found["render"] == {"skip": True}
     assert set(schema.chosen(SETTINGS, {"light"})) == {"light"}
     assert schema.chosen(SETTINGS, set()) == {}
 

@@ -5,9 +5,10 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
+from firetwin.shot import accuracy, shade
 from firetwin.shot.rigs.orbit import Orbit
 from firetwin.shot.rigs.satellite import Satellite
-from firetwin.shot.settings import Camera, Forest, Ground, Settings, Time
+from firetwin.shot.settings import Camera, Forest, Ground, Render, Settings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import lod
 from firetwin_core import run as runs
@@ -62,6 +63,60 @@ def test_satellites_count_by_their_pixels_and_are_near_to_nothing(film):
     assert shot.sights.seen(edge, 0.0, pixel=1.01 * 640.0 / width).tolist() == [True, False]
     assert not shot.sights.seen(edge, 0.0, pixel=640.0 / width).any()
     assert np.isinf(shot.sights.distance(edge)).all()
+
+
+def test_what_is_under_a_place_is_found_along_its_vertical(film):
+    ground = film(Camera("a", ORBIT)).ground
+    rows, columns = ground.shape
+    rng = np.random.default_rng(8)
+    row, column = rng.uniform(0, rows - 1, 500), rng.uniform(0, columns - 1, 500)
+    for above in (0.0, 300.0):
+        found = ground.under(ground.point(*ground.places(row, column), above))
+        np.testing.assert_allclose(found, (row, column), rtol=0, atol=1e-6)
+
+
+def test_without_skipping_all_counts_as_seen_and_is_drawn_as_from_near_by(film):
+    place = np.random.default_rng(5).uniform(-3000.0, 3000.0, (200, 3))
+    place[-1] = np.nan
+    some, whole = (film(Camera("a", ORBIT), render=Render(skip=skip)) for skip in (True, False))
+    seen = some.sights.seen(place, 5.0)
+    assert 0 < seen.sum() < 150
+    assert whole.sights.seen(place, 5.0).tolist() == [True] * 199 + [False]
+    near = whole.sights.distance(place) <= 505.0
+    assert whole.sights.seen(place, 5.0, reach=500.0).tolist() == near.tolist()
+    np.testing.assert_array_equal(some.sights.distance(place), whole.sights.distance(place))
+    np.testing.assert_array_equal(some.sights.drawn_from(place), some.sights.distance(place))
+    assert not whole.sights.drawn_from(place).any()
+    assert some.sights.at(1) is not None
+    assert whole.sights.at(1) is None
+    tolerance = [accuracy.wanted(shot).tolerance for shot in (some, whole)]
+    assert np.all(tolerance[1] <= tolerance[0] + 1e-6)
+    assert tolerance[1].max() < 0.2 < tolerance[0].max()
+
+
+@pytest.mark.parametrize("bearing", [0.0, 90.0, 225.0])
+def test_ground_that_shades_what_is_seen_counts(bearing):
+    """A wall throws its shadow away from the sun; it counts as far as that is long."""
+    side, block, wall, height = 41, 100.0, 300.0, 30.0
+    place = block * (np.arange(side) - side // 2)
+    centre = np.stack([*np.meshgrid(place, place), np.zeros((side, side))], axis=-1)
+    toward = np.array([np.sin(np.radians(bearing)), np.cos(np.radians(bearing))])
+    long = wall / np.tan(np.radians(height))
+    for away in (0.5, 0.9, 2.2):
+        centre[..., 2] = 0.0
+        column, row = np.round(toward * away * long / block).astype(int) + side // 2
+        centre[row, column, 2] = wall
+        seen = np.zeros((side, side), bool)
+        seen[side // 2, side // 2] = True
+        low = shade._widest(-centre[..., 2]) * -1.0
+        rest = np.flatnonzero(~seen)
+        found = np.zeros((side, side), bool)
+        found.ravel()[rest] = shade._reaches(
+            centre, np.full((side, side), 1.0), low, shade._widest(seen), rest, bearing, height
+        )
+        assert found[row, column] == (away < 1.0), away
+        found[row, column] = False
+        assert found.sum() < 60  # a few blocks round what is seen, for all count as wider than they are
 
 
 def test_no_drawn_ground_is_under_its_floor(film):

@@ -120,7 +120,7 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
     )
     random = random[:, lit]
     place = ground.point(*ground.places(row, column)) if len(row) else np.empty((0, 3))
-    distance = shot.sights.distance(place) if near else np.zeros(len(row))
+    distance = shot.sights.drawn_from(place) if near else np.zeros(len(row))
     intensity = burning.HEAT / 1000.0 * fuel * speed
     uneven = np.exp(_SIZES * noise.normal(random[0], random[1]))
     length = np.clip(flame_length(intensity, settings.fire.flame_length) * uneven, *_LENGTHS)
@@ -151,7 +151,7 @@ def torches(shot: Shot, grown: Stand) -> Points:
     """
     ground, first, last = shot.ground, shot.frames.first, shot.frames.last
     near = np.flatnonzero((grown.distance < _TORCH_SIGHT) & (grown.height > 6.0))
-    row, column = ground.indices(*ground.geodetic(*grown.position[near, :2].T))
+    row, column = ground.under(grown.position[near])
     arrival = ground.arrival_at(row, column)
     canopy = bilinear(ground.fields.canopy_fuel, row, column)
     key = grown.key[near].T
@@ -228,7 +228,7 @@ def _candidates(shot: Shot) -> tuple[Array, Array, Array, NDArray[np.int64]]:
     if len(cells_lit) == 0 or not near:
         return empty, empty, empty, np.empty((0, 2), np.int64)
     centre = ground.point(*ground.places(cells_lit[:, 0].astype(float), cells_lit[:, 1].astype(float)))
-    distance = shot.sights.distance(centre)
+    distance = shot.sights.drawn_from(centre)
     seen = shot.sights.seen(centre, max(ground.cell) + _AROUND, reach=SIGHT)
     parts = []
     before = 0.0
@@ -260,7 +260,9 @@ def _candidates(shot: Shot) -> tuple[Array, Array, Array, NDArray[np.int64]]:
 
 
 def _within_budget(points: Points, shot: Shot, views: list[Path]) -> Points:
-    """Drop the farthest flames until no frame lights more than `fire.budget`."""
+    """Drop the farthest flames until no frame lights more than `fire.budget`, unless nothing is skipped."""
+    if shot.sights.whole:
+        return points
     budget = max(shot.settings.fire.budget, 0)
     keep = np.ones(len(points.arrival_time), bool)
     for index, time in enumerate(shot.frames.times):

@@ -113,7 +113,7 @@ def _points(
 ) -> dict[str, NDArray]:
     """All attributes of n trees; random ones hang on two integers per tree."""
     ground, seed = shot.ground, shot.settings.seed
-    row, column = ground.indices(*ground.geodetic(position[:, 0], position[:, 1]))
+    row, column = ground.under(position)
     tint, dead = (noise.uniform(key, second, seed + 300 + k) for k in range(2))
     burned = fate.of(shot, row, column, scale, np.stack([key, second], axis=-1))
     size = np.select([scale > 20.0, scale > 12.0], [0, 1], 2)

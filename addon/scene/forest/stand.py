@@ -131,6 +131,8 @@ def _kept(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
     Pixels at a place are those of the sharpest camera at the distance of the nearest. All trees are kept
     where a pixel is smaller than a crown, or smaller than lets all be about `forest.budget`.
     """
+    if shot.sights.whole:
+        return [np.ones(each.mask.shape, np.float32) for each in plots]
     budget, reach = shot.settings.forest.budget, shot.settings.forest.draw_distance
     near, parallel = shot.pixel
     # Neighbours as well: what is kept is bilinear between the cells' middles.
@@ -167,9 +169,7 @@ def _with_oaks(
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Models and heights with oaks among the trees of the foothills, half as tall."""
     ground, seed = shot.ground, shot.settings.seed
-    elevation = bilinear(
-        ground.fields.elevation, *ground.indices(*ground.geodetic(position[:, 0], position[:, 1]))
-    )
+    elevation = bilinear(ground.fields.elevation, *ground.under(position))
     lot, kind = (noise.uniform(*key.T, seed + 220 + use) for use in range(2))
     oak = lot < 0.75 * noise.smoothstep(1100.0, 600.0, elevation)
     return np.where(oak, models.OAKS[0] + (kind < 0.5), model), np.where(oak, 0.5 * height, height)

@@ -1,0 +1,164 @@
+"""Run time and memory against error of what a shot leaves out, for a drone, a lookout and a satellite.
+
+    python tests/benchmarks/skipping.py RUN --work DIR [--reach 1500] [--samples 16] [--views drone,lookout]
+
+Every scene is rendered once in a process of its own with `render.skip = false`, which builds all that there
+is, and at three settings with skipping. Seconds are of the processor, memory the most that the process held,
+both less what starting Blender takes. The error is the mean FLIP (Andersson and others 2020, package
+flip-evaluator, its own 67 pixels per degree) against the picture of all, whose own noise the row "all, other
+grain" shows; without that package it is the root of the mean square, of 0 to 1. Trees stand within `--reach`
+metres of the cameras in all of the rows, and the satellite sees those of Algorithm 2: as many as there are
+within the example's 12 km, or in all of the domain, would not fit into memory.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import resource
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+SCENE = """run = "{run}"
+cache = "{work}/cache"
+[time]
+start = 2014-09-17T16:12:00-07:00
+end = 2014-09-17T16:12:01-07:00
+frames = 1
+[ground]
+error = {error}
+[forest]
+density = "{density}"
+budget = {budget}
+draw_distance = {reach}
+[smoke]
+enabled = false
+[render]
+resolution = [320, 180]
+samples = {samples}
+seed = {seed}
+skip = {skip}
+passes = ["rgb"]
+[[cameras]]
+name = "view"
+{camera}
+"""
+KEY = """kind = "drone"
+[[cameras.keys]]
+latitude = {0}
+longitude = {1}
+height = {2}
+target = "head"
+"""
+CAMERAS = {
+    "drone": KEY.format(38.977, -120.572, 400.0),
+    "lookout": KEY.format(38.9741, -120.5777, 25.0),
+    "satellite": 'kind = "satellite"\nswath = 6000.0\n[[cameras.keys]]\nlatitude = 38.99\nlongitude = -120.56\n',
+}
+ALL = {"error": 0.5, "budget": 200_000, "skip": "false", "seed": 0}
+"""Every tree, and the ground as fine as half a pixel at 60 m wherever it is."""
+ROWS = {
+    "all": ALL,
+    "all, other grain": ALL | {"seed": 1},
+    "fine": {"error": 0.25, "budget": 1_000_000, "skip": "true", "seed": 1},
+    "as it comes": {"error": 0.5, "budget": 200_000, "skip": "true", "seed": 1},
+    "coarse": {"error": 2.0, "budget": 30_000, "skip": "true", "seed": 1},
+}
+
+
+def one(scene: Path, picture: Path) -> None:
+    """Build and render a scene in this process; print seconds, MB, and how much there is in the scene."""
+    import bpy
+    from firetwin.jobs import setting
+    from firetwin.shot.choice import Choice
+
+    held = _held()
+    begun = time.process_time()
+    stage = setting.build_scene(Choice(str(scene)).shot(), lambda *_: None, lambda _: None)
+    built = time.process_time()
+    stage.scene.camera = stage.camera("view")
+    stage.scene.frame_set(1)
+    stage.scene.render.filepath = str(picture)
+    bpy.ops.render.render(write_still=True, scene=stage.scene.name)
+    meshes = {thing.name: len(thing.data.vertices) for thing in stage.scene.objects if thing.type == "MESH"}
+    print(
+        "FOUND "
+        + json.dumps(
+            {
+                "build": built - begun,
+                "render": time.process_time() - built,
+                "MB": _held() - held,
+                "trees": meshes.get("Firetwin Trees", 0),
+                "ground": meshes.get("Firetwin Ground", 0),
+            }
+        )
+    )
+
+
+def _held() -> float:
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+def measure(folder: Path, row: dict, camera: str, given: argparse.Namespace) -> tuple[dict, NDArray]:
+    """What one row took, and its picture (height, width, 3), 0 to 1."""
+    import matplotlib.image
+
+    folder.mkdir(parents=True, exist_ok=True)
+    scene, picture = folder / "scene.toml", folder / "picture.png"
+    density = "paper" if "satellite" in camera else "stand"
+    values = {
+        "density": density,
+        "run": given.run.absolute(),
+        "work": given.work,
+        "reach": given.reach,
+        "samples": given.samples,
+    }
+    scene.write_text(SCENE.format(camera=camera, **values, **row))
+    command = [sys.executable, __file__, "--one", str(scene), str(picture)]
+    told = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+    found = next(line for line in told.splitlines() if line.startswith("FOUND "))
+    return json.loads(found[6:]), matplotlib.image.imread(picture)[..., :3]
+
+
+def error(reference: NDArray, picture: NDArray) -> float:
+    """Mean FLIP, or the root of the mean square where that is not installed."""
+    try:
+        import flip_evaluator
+    except ImportError:
+        return float(np.sqrt(np.mean((reference - picture) ** 2)))
+    return float(flip_evaluator.evaluate(reference, picture, "LDR")[1])
+
+
+def main() -> None:
+    """Measure all rows of all views and print them as a table."""
+    if "--one" in sys.argv:
+        one(*map(Path, sys.argv[-2:]))
+        return
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("run", type=Path)
+    parser.add_argument("--work", type=Path, required=True)
+    parser.add_argument("--reach", type=float, default=1500.0)
+    parser.add_argument("--samples", type=int, default=16)
+    parser.add_argument("--views", default=",".join(CAMERAS))
+    given = parser.parse_args()
+    print(
+        "| view | setting | build s | render s | MB | trees | ground | error |\n|---|---|---|---|---|---|---|---|"
+    )
+    for view in given.views.split(","):
+        reference = None
+        for name, row in ROWS.items():
+            place = given.work / view / name.replace(", ", "_").replace(" ", "_")
+            found, picture = measure(place, row, CAMERAS[view], given)
+            reference = picture if reference is None else reference
+            numbers = f"{found['build']:.1f} | {found['render']:.1f} | {found['MB']:.0f}"
+            numbers += f" | {found['trees']:,} | {found['ground']:,}"
+            print(f"| {view} | {name} | {numbers} | {error(reference, picture):.4f} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
