@@ -8,8 +8,8 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-CELLS = 1 << 17
-"""Of a block, about: 1 MB of float64."""
+CELLS = 1 << 18
+"""Of a block, about: 2 MB of float64."""
 
 
 def rows(run: Run) -> Iterator[tuple[int, int]]:

@@ -73,7 +73,7 @@ def burned(run: Run, moments: Sequence[float]) -> list[float]:
     since = np.zeros(len(ordered) + 1)  # by the first moment that is not earlier
     for first, end in blocks.rows(run):
         time = arrival(first, end)
-        row, column = np.nonzero(time <= ordered[-1])
+        row, column = np.divmod(np.flatnonzero(time <= ordered[-1]), time.shape[1])
         index = np.searchsorted(ordered, time[row, column].astype(np.float64))
         since += np.bincount(index, strip[first + row] * width[column], len(since))
     found = np.empty(len(ordered))
@@ -105,8 +105,9 @@ def _fuel(run: Run, field: str, above: float) -> dict[str, float]:
     """Share of the finite values that are above `above`, their mean and their range."""
     count, more, total, low, high = 0, 0, 0.0, np.inf, -np.inf
     for first, end in blocks.rows(run):
-        values = run.fuel_rows(field, first, end)
-        finite = values[np.isfinite(values)]
+        finite = run.fuel_rows(field, first, end)
+        known = np.isfinite(finite)
+        finite = finite if known.all() else finite[known]
         if finite.size:
             count, more = count + finite.size, more + int(np.count_nonzero(finite > above))
             total += float(finite.sum(dtype=np.float64))

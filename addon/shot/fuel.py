@@ -98,7 +98,12 @@ def _of_rows(
     edge = max(top - 1, 0)
     time = arrival(edge, min(end + 1, len(run.fuel_latitude)))  # with a row on each side for its slope
     inner = time[top - edge : end - edge]
-    row, column = np.nonzero(inner < last + burning.CROSSING[1])
+    came = inner < last + burning.CROSSING[1]
+    if came.any():  # the slowest fuel of these rows tells what may still burn
+        most = np.fmax.reduce(run.fuel_rows("surface_fuel", top, end), axis=None, initial=0.0)
+        longest = burning.CROSSING[1] + _OVER * max(float(_slow(most)), BURN_OUT_CANOPY)
+        came &= inner > first - max(longest, before)
+    row, column = np.divmod(np.flatnonzero(came), inner.shape[1])
     surface = np.nan_to_num(_at(partial(run.fuel_rows, "surface_fuel"), top, row, column))
     burning_out = np.maximum(_slow(surface), BURN_OUT_CANOPY)
     near = inner[row, column] > first - np.maximum(burning.CROSSING[1] + _OVER * burning_out, before)

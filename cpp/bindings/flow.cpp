@@ -6,7 +6,9 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <memory>
+#include <utility>
 
 namespace firetwin::bindings {
 namespace py = pybind11;
@@ -111,25 +113,27 @@ Array<float> velocity(const Solver& solver) {
   return result;
 }
 
+py::dict named(std::initializer_list<std::pair<const char*, double>> numbers) {
+  py::dict result;
+  for (const auto& [name, number] : numbers) {
+    result[name] = number;
+  }
+  return result;
+}
+
 py::dict mass(const Solver& solver) {
   const flow::Mass m = solver.mass();
-  py::dict result;
-  result["initial"] = m.initial;
-  result["emitted"] = m.emitted;
-  result["entered"] = m.entered;
-  result["left"] = m.left;
-  result["airborne"] = m.airborne;
-  result["rounding"] = m.rounding;
-  return result;
+  return named({{"initial", m.initial},
+                {"emitted", m.emitted},
+                {"entered", m.entered},
+                {"left", m.left},
+                {"airborne", m.airborne},
+                {"rounding", m.rounding}});
 }
 
 py::dict heat(const Solver& solver) {
   const flow::Heat h = solver.heat();
-  py::dict result;
-  result["given"] = h.given;
-  result["warmed"] = h.warmed;
-  result["held"] = h.held;
-  return result;
+  return named({{"given", h.given}, {"warmed", h.warmed}, {"held", h.held}});
 }
 
 /// The fields that a state is made of: f(name, field, levels, rows, columns).

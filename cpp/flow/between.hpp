@@ -7,6 +7,11 @@
 
 namespace firetwin::flow {
 
+/// `part` of the way from `a` to `b`.
+inline float mix(float a, float b, float part) {
+  return a + (b - a) * part;
+}
+
 /// Values [nz][ny][nx][parts] between the middles of cells: linear, and constant outside.
 template <std::size_t parts> class Between {
 public:
@@ -43,8 +48,6 @@ private:
     Index low, step;
     float part;
   };
-
-  static float mix(float a, float b, float part) { return a + (b - a) * part; }
 
   Index nx_, ny_, nz_;
   const float* values_;

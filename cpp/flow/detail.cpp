@@ -1,5 +1,6 @@
 #include "flow/detail.hpp"
 
+#include "base/catmull_rom.hpp"
 #include "base/smoothstep.hpp"
 #include "flow/between.hpp"
 #include "flow/noise.hpp"
@@ -38,15 +39,6 @@ constexpr float terrain_fade = 1000.0F; // m over which levels forget ground fin
 
 float ramp(float low, float high, float x) {
   return std::clamp((x - low) / (high - low), 0.0F, 1.0F);
-}
-
-float mix(float a, float b, float part) {
-  return a + (b - a) * part;
-}
-
-std::array<float, 4> catmull_rom(float t) {
-  return {t * (-0.5F + t * (1.0F - 0.5F * t)), 1.0F + t * t * (-2.5F + 1.5F * t),
-          t * (0.5F + t * (2.0F - 1.5F * t)), t * t * (-0.5F + 0.5F * t)};
 }
 
 /// Cubic (Catmull and Rom 1974) between the middles of cells, constant outside.

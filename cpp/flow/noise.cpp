@@ -1,5 +1,8 @@
 #include "flow/noise.hpp"
 
+#include "base/noise.hpp"
+#include "flow/between.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,14 +19,11 @@ struct Place {
   float part;
 };
 
-/// Mixes a cell's three numbers into 32 even bits (the finisher is MurmurHash3's).
+/// Mixes a cell's three numbers into 32 even bits.
 std::uint32_t bits(std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t seed) {
-  std::uint32_t h = static_cast<std::uint32_t>(i) * 0x9E3779B1U ^
-                    static_cast<std::uint32_t>(j) * 0x85EBCA77U ^
-                    static_cast<std::uint32_t>(k) * 0xC2B2AE3DU ^ seed * 0x27D4EB2FU;
-  h = (h ^ h >> 16) * 0x85EBCA6BU;
-  h = (h ^ h >> 13) * 0xC2B2AE35U;
-  return h ^ h >> 16;
+  return finished(static_cast<std::uint32_t>(i) * 0x9E3779B1U ^
+                  static_cast<std::uint32_t>(j) * 0x85EBCA77U ^
+                  static_cast<std::uint32_t>(k) * 0xC2B2AE3DU ^ seed * 0x27D4EB2FU);
 }
 
 /// Slope times place, of one of twelve slopes along the diagonals of a cube's faces.
@@ -32,14 +32,6 @@ float slope(std::uint32_t h, float x, float y, float z) {
   const float u = which < 8 ? x : y;
   const float v = which < 4 ? y : which == 12 || which == 14 ? x : z;
   return ((which & 1U) != 0 ? -u : u) + ((which & 2U) != 0 ? -v : v);
-}
-
-float fade(float t) {
-  return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F);
-}
-
-float mix(float a, float b, float part) {
-  return a + (b - a) * part;
 }
 
 float share(std::uint32_t h, int shift) {

@@ -2,8 +2,8 @@
 
 #include "flux/arrival.hpp"
 #include "geo/axis.hpp"
+#include "run/not_zero.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -47,17 +47,14 @@ Frame Interpolator::read(std::size_t index) const {
   run_->heat_flux().read(index, values_);
   const double time = run_->times()[index];
   Frame result;
-  const auto is_not_0 = [](float flux) { return flux != 0.0F; };
-  for (auto it = values_.begin(); (it = std::find_if(it, values_.end(), is_not_0)) != values_.end();
-       ++it) {
-    const auto i = static_cast<std::size_t>(it - values_.begin());
+  run::each_not_zero(values_, [&](std::size_t i) {
     const float flux = values_[i];
     const bool trace = flux > 0.0F && flux < run::least_fire && !(begin_[i] <= time);
     if (!trace) {
       result.cell.push_back(static_cast<std::int64_t>(i));
       result.flux.push_back(flux);
     }
-  }
+  });
   return result;
 }
 

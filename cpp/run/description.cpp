@@ -11,11 +11,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 namespace firetwin::run {
 namespace {
 
 constexpr std::uint64_t largest_description = 16U << 20;
+/// s from start, 12 days: times farther from it are told less finely than to 1/16 s by 32-bit
+/// floats.
+constexpr double far_from_start = 1.0e6;
+constexpr double longest = 5.0e11; ///< s, more than there are in the years that a date may have
 constexpr std::array<std::string_view, 10> known_keys = {
     "name",     "start", "interval_s", "times_s",   "mean_s",
     "vertical", "units", "no_data",    "synthetic", "event"};
@@ -143,6 +149,23 @@ private:
         fail(node.source(), form + "; sort the times and the frames, and remove duplicates");
       }
       m.times_s.push_back(time);
+    }
+    count_from_near(m);
+  }
+
+  /// Moves the start to a whole second by the first time where that is far from it.
+  static void count_from_near(Description& m) {
+    const double zero = std::floor(m.times_s.front());
+    const auto start = parse_iso(m.start);
+    if (std::abs(zero) < far_from_start || std::abs(zero) > longest || !start) {
+      return;
+    }
+    if (auto later = utc_text(*start, static_cast<std::int64_t>(zero))) {
+      m.start = std::move(*later);
+      m.zero_s = zero;
+      for (double& time : m.times_s) {
+        time -= zero;
+      }
     }
   }
 

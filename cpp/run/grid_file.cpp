@@ -47,8 +47,9 @@ template <class T> Grid<T> read_any(const std::filesystem::path& path) {
   return read_text<T>(path);
 }
 
+template <class T>
 [[noreturn]] void wrong_size(const std::filesystem::path& path, std::size_t rows,
-                             std::size_t columns, const Grid<float>& found) {
+                             std::size_t columns, const Grid<T>& found) {
   std::string reason = "expected " + size_text(rows, columns) +
                        " (latitudes by longitudes), found " + size_text(found.rows, found.columns);
   if (found.rows == rows && found.columns == 2 * columns) {
@@ -59,6 +60,15 @@ template <class T> Grid<T> read_any(const std::filesystem::path& path) {
     reason += "; make the field fit the axes";
   }
   io::fail(path, reason);
+}
+
+template <class T>
+Grid<T> read_sized(const std::filesystem::path& path, std::size_t rows, std::size_t columns) {
+  Grid<T> grid = read_any<T>(path);
+  if (grid.rows != rows || grid.columns != columns) {
+    wrong_size(path, rows, columns, grid);
+  }
+  return grid;
 }
 
 } // namespace
@@ -73,12 +83,14 @@ Grid<double> read_double_grid(const std::filesystem::path& path) {
 
 void read_grid(const std::filesystem::path& path, std::size_t rows, std::size_t columns,
                std::optional<float> no_data, std::span<float> out) {
-  const Grid<float> grid = read_grid(path);
-  if (grid.rows != rows || grid.columns != columns) {
-    wrong_size(path, rows, columns, grid);
-  }
+  const Grid<float> grid = read_sized<float>(path, rows, columns);
   std::copy(grid.values.begin(), grid.values.end(), out.begin());
   blank(out, no_data);
+}
+
+Grid<double> read_double_grid(const std::filesystem::path& path, std::size_t rows,
+                              std::size_t columns) {
+  return read_sized<double>(path, rows, columns);
 }
 
 void blank(std::span<float> values, std::optional<float> no_data) {

@@ -17,6 +17,9 @@ Grid<double> read_double_grid(const std::filesystem::path& path);
 /// Reads a grid that must be rows x columns, with no_data as NaN. @throws InputError
 void read_grid(const std::filesystem::path& path, std::size_t rows, std::size_t columns,
                std::optional<float> no_data, std::span<float> out);
+/// The same with every digit and no_data as it is.
+Grid<double> read_double_grid(const std::filesystem::path& path, std::size_t rows,
+                              std::size_t columns);
 
 /// Replaces the value that stands for "no value" by NaN.
 void blank(std::span<float> values, std::optional<float> no_data);

@@ -126,11 +126,11 @@ std::optional<Moment> parse_iso(std::string_view text) {
   return moment;
 }
 
-std::optional<std::string> utc_text(const Moment& moment) {
+std::optional<std::string> utc_text(const Moment& moment, std::int64_t later) {
   using namespace std::chrono;
   const auto utc = sys_days(date_of(moment)) + hours(moment.hour) +
                    minutes(static_cast<int>(moment.minute) - moment.offset) +
-                   seconds(moment.second);
+                   seconds(moment.second) + seconds(later);
   const sys_days day = floor<days>(utc);
   const year_month_day date(day);
   const hh_mm_ss clock(utc - day);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,8 +20,8 @@ struct Moment {
 /// a fraction nine digits count. Nothing for anything else, or for a day or time that there is not.
 std::optional<Moment> parse_iso(std::string_view text);
 
-/// The same moment in UTC, "2014-09-17T04:45:00Z", with nine digits of a fraction where there is
-/// one. Nothing before the year 1 or after 9999.
-std::optional<std::string> utc_text(const Moment& moment);
+/// The same moment in UTC, or so many seconds later, "2014-09-17T04:45:00Z", with nine digits of a
+/// fraction where there is one. Nothing before the year 1 or after 9999.
+std::optional<std::string> utc_text(const Moment& moment, std::int64_t later = 0);
 
 } // namespace firetwin::run

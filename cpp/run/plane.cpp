@@ -3,6 +3,7 @@
 #include "run/grid_file.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -15,8 +16,8 @@ constexpr std::size_t part = 1U << 16U; ///< values that stay in a processor's c
 } // namespace
 
 Plane::Plane(const std::filesystem::path& path, std::size_t rows, std::size_t columns,
-             std::optional<float> no_data)
-    : rows_(rows), columns_(columns), no_data_(no_data) {
+             std::optional<float> no_data, double zero)
+    : rows_(rows), columns_(columns), no_data_(no_data), zero_(zero) {
   if (path.extension() == ".npy") {
     file_.emplace(path);
     if (!file_->scattered() && file_->shape() == std::vector<std::size_t>{rows, columns}) {
@@ -25,7 +26,11 @@ Plane::Plane(const std::filesystem::path& path, std::size_t rows, std::size_t co
     file_.reset();
   }
   values_.resize(rows * columns);
-  read_grid(path, rows, columns, no_data, values_);
+  if (zero_ == 0.0) {
+    read_grid(path, rows, columns, no_data, values_);
+  } else {
+    narrow(read_double_grid(path, rows, columns).values, values_);
+  }
 }
 
 Plane::Plane(Make make, std::size_t rows, std::size_t columns)
@@ -40,9 +45,26 @@ std::vector<float> Plane::read_all() const {
     return make_();
   }
   std::vector<float> values(rows_ * columns_);
-  file_->read(0, values);
-  blank(values, no_data_);
+  read_file(0, values);
   return values;
+}
+
+void Plane::read_file(std::size_t first, std::span<float> out) const {
+  if (zero_ == 0.0) {
+    file_->read(first, out);
+    blank(out, no_data_);
+    return;
+  }
+  std::vector<double> values(out.size());
+  file_->read(first, values);
+  narrow(values, out);
+}
+
+void Plane::narrow(std::span<const double> values, std::span<float> out) const {
+  std::transform(values.begin(), values.end(), out.begin(), [this](double value) {
+    const bool none = no_data_ && static_cast<float>(value) == *no_data_;
+    return none ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(value - zero_);
+  });
 }
 
 const std::vector<float>& Plane::values() const {
@@ -58,8 +80,7 @@ void Plane::read(std::size_t first, std::span<float> out) const {
                             std::to_string(rows_) + " rows");
   }
   if (file_) {
-    file_->read(first, out);
-    blank(out, no_data_);
+    read_file(first, out);
     return;
   }
   const auto begin = values().begin() + static_cast<std::ptrdiff_t>(first * columns_);

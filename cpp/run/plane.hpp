@@ -21,8 +21,9 @@ public:
   using Make = std::function<std::vector<float>()>;
 
   /// @throws InputError for what the file's header or text is refused for, and for another shape.
+  /// @param zero what is taken from every value before it is narrowed to a float
   Plane(const std::filesystem::path& path, std::size_t rows, std::size_t columns,
-        std::optional<float> no_data);
+        std::optional<float> no_data, double zero = 0.0);
   /// Values that are made when they are first asked for.
   Plane(Make make, std::size_t rows, std::size_t columns);
 
@@ -47,9 +48,12 @@ public:
 private:
   std::size_t rows_at_once() const;
   std::vector<float> read_all() const;
+  void read_file(std::size_t first, std::span<float> out) const;
+  void narrow(std::span<const double> values, std::span<float> out) const;
 
   std::size_t rows_, columns_;
   std::optional<float> no_data_;
+  double zero_ = 0.0;
   std::optional<NpyFile> file_;
   Make make_;
   mutable std::once_flag once_;

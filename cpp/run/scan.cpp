@@ -1,5 +1,6 @@
 #include "run/scan.hpp"
 
+#include "run/not_zero.hpp"
 #include "run/read_ahead.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -15,7 +16,6 @@ namespace firetwin::run {
 namespace {
 
 constexpr std::size_t chunk = 1U << 15U;
-constexpr std::size_t together = 64; ///< cells looked at at once whether any is not 0
 
 /// A frame and what its place in the run says.
 struct Frame {
@@ -37,7 +37,6 @@ struct Part {
   void add(std::span<Scan::Cell> cells, const Frame& frame);
 
 private:
-  bool add(std::span<Scan::Cell> cells, std::size_t begin, std::size_t end, const Frame& frame);
   void add(std::span<Scan::Cell> cells, std::size_t i, const Frame& frame);
 };
 
@@ -46,37 +45,18 @@ void Part::add(std::span<Scan::Cell> cells, const Frame& frame) {
     cells[i].next = frame.flux[i];
   }
   begun.clear();
-  bool zeros = false;
-  for (std::size_t i = 0; i < frame.flux.size(); i += together) {
-    const std::size_t end = std::min(i + together, frame.flux.size());
-    zeros = add(cells, i, end, frame) || zeros;
-  }
-  if (zeros) {
+  const std::size_t others =
+      each_not_zero(frame.flux, [&](std::size_t i) { add(cells, i, frame); });
+  if (others < frame.flux.size()) {
     smallest = std::min(smallest, 0.0F);
     largest = std::max(largest, 0.0F);
   }
 }
 
-/// Cells `begin` to `end`; whether some of them are 0, as most are, which need no look.
-bool Part::add(std::span<Scan::Cell> cells, std::size_t begin, std::size_t end,
-               const Frame& frame) {
-  std::uint32_t others = 0;
-  for (std::size_t i = begin; i < end; ++i) {
-    others += frame.flux[i] != 0.0F ? 1U : 0U;
-  }
-  for (std::size_t i = begin; others > 0 && i < end; ++i) {
-    if (std::isfinite(frame.flux[i])) {
-      add(cells, i, frame);
-    } else {
-      ++not_finite;
-    }
-  }
-  return others < end - begin;
-}
-
 void Part::add(std::span<Scan::Cell> cells, std::size_t i, const Frame& frame) {
   const float flux = frame.flux[i];
-  if (flux == 0.0F) {
+  if (!std::isfinite(flux)) {
+    ++not_finite;
     return;
   }
   smallest = std::min(smallest, flux);

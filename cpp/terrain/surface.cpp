@@ -1,6 +1,8 @@
 #include "terrain/surface.hpp"
 
+#include "base/catmull_rom.hpp"
 #include "base/check.hpp"
+#include "base/noise.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,24 +14,12 @@
 namespace firetwin::terrain {
 namespace {
 
-/// Mixes lattice coordinates into 32 bits (the finaliser of MurmurHash3).
+/// Mixes lattice coordinates into 32 bits.
 std::uint32_t hash(std::int64_t x, std::int64_t y, std::int64_t seed) {
   std::uint32_t h =
       static_cast<std::uint32_t>(x) * 0x9E3779B1U ^ static_cast<std::uint32_t>(y) * 0x85EBCA77U;
   h ^= static_cast<std::uint32_t>(seed) * 0x27D4EB2FU + 0x165667B1U;
-  h = (h ^ (h >> 16)) * 0x85EBCA6BU;
-  h = (h ^ (h >> 13)) * 0xC2B2AE35U;
-  return h ^ (h >> 16);
-}
-
-double fade(double t) {
-  return t * t * t * (t * (6.0 * t - 15.0) + 10.0);
-}
-
-/// Catmull-Rom weights of the four neighbours at a fraction.
-std::array<double, 4> weights(double t) {
-  return {0.5 * t * (-1.0 + t * (2.0 - t)), 1.0 + 0.5 * t * t * (-5.0 + 3.0 * t),
-          0.5 * t * (1.0 + t * (4.0 - 3.0 * t)), 0.5 * t * t * (t - 1.0)};
+  return finished(h);
 }
 
 } // namespace
@@ -95,7 +85,7 @@ Surface::Place Surface::place(double row, double column, std::size_t rows, std::
 }
 
 double Surface::smooth(const Place& at) const {
-  const auto down = weights(at.v), across = weights(at.u);
+  const auto down = catmull_rom(at.v), across = catmull_rom(at.u);
   const auto held = [](std::size_t index, std::size_t offset, std::size_t count) {
     const std::size_t shifted = index + offset; // one too many
     return std::min(shifted > 0 ? shifted - 1 : 0, count - 1);

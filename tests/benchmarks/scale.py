@@ -3,9 +3,9 @@
     python tests/benchmarks/scale.py SAMPLE [--work DIR] [--minutes 240]
 
 SAMPLE is the run of `firetwin sample`. Made of it, in DIR: `sample`, its minutes from `FIRST` on; `split`,
-the same fire with each cell in 4 x 4; and `large`, a round fire on 2000 x 2000 cells of 30 m. Each step runs
-in a process of its own; its memory is the most that it held, less what importing takes. The shot lasts
-`SHOT` s.
+the same fire with each cell in 4 x 4; and `large`, round fires on 2000 and on 2880 cells of 30 m a side. Each
+step runs in a process of its own; its memory is the most that it held, less what importing takes. The shot
+lasts `SHOT` s.
 
 Then the front, from fluxes alone, of the sample each minute and each quarter of an hour: how far it is off
 the sample's own arrival times, in the mean and outwards, and how much too large the burned area is.
@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 
 FIRST, SPLIT = 1000, 4  # minute of the sample's long run up the canyon; cells for each, along both axes
 SHOT, EVERY = 3600.0, 30.0  # s
-CELLS, FRAMES = 2000, 12
+SIDES, FRAMES = (2000, 2880), 12
 CELL = 74.0  # m, of the sample's fuel
 SERIES = ("heat_flux", "temperature", "wind_east", "wind_north")
 
@@ -165,21 +165,21 @@ def _finer(axis: NDArray, split: int) -> NDArray:
     return (axis[:, None] + part * (axis[-1] - axis[0]) / (len(axis) - 1)).ravel()
 
 
-def large(out: Path) -> Path:
-    """A round fire on 2000 x 2000 cells, an output each ten minutes, without arrival times of its own."""
+def large(out: Path, side: int) -> Path:
+    """A round fire on side x side cells, an output each ten minutes, without arrival times of its own."""
     out.mkdir()
     (out / "run.toml").write_text(
         'start = 2014-09-17T04:45:00Z\ninterval_s = 600.0\nvertical = "orthometric"\n'
         '[units]\nelevation = "m"\nheat_flux = "W/m2"\nsurface_fuel = "kg/m2"\ncanopy_fuel = "kg/m2"\n'
     )
-    place = np.arange(CELLS) - CELLS / 2
+    place = np.arange(side) - side / 2
     arrival = np.hypot(place[:, None], place[None]) * 30.0  # s: 1 m/s
     for prefix in ("", "fuel_"):
         np.save(out / f"{prefix}latitude.npy", 38.9 + place * 30.0 / 111_000.0)
         np.save(out / f"{prefix}longitude.npy", -120.6 + place * 30.0 / 86_600.0)
     for name, value in (("elevation", 1000.0), ("surface_fuel", 1.0), ("canopy_fuel", 1.0)):
-        np.save(out / f"{name}.npy", np.full((CELLS, CELLS), value, np.float32))
-    flux = np.lib.format.open_memmap(out / "heat_flux.npy", "w+", np.float32, (FRAMES, CELLS, CELLS))
+        np.save(out / f"{name}.npy", np.full((side, side), value, np.float32))
+    flux = np.lib.format.open_memmap(out / "heat_flux.npy", "w+", np.float32, (FRAMES, side, side))
     for index in range(FRAMES):
         age = index * 600.0 - arrival
         flux[index] = np.where(
@@ -224,12 +224,12 @@ def main() -> None:
         folders = [
             cut(given.sample, work / "sample", minutes),
             cut(given.sample, work / "split", minutes, SPLIT),
-            large(work / "large"),
+            *(large(work / f"large{side}", side) for side in SIDES),
         ]
         for folder in folders:
             for step in STEPS:
                 found = min((measure(step, folder) for _ in range(3)), key=lambda each: each["seconds"])
-                print(f"{folder.name:8}{step:16}" + "".join(f"{v:10.3f} {k}" for k, v in found.items()))
+                print(f"{folder.name:10}{step:16}" + "".join(f"{v:10.3f} {k}" for k, v in found.items()))
             shutil.rmtree(folder)
         for minutes_apart in (1, 15):
             thinned = slice(None, None, minutes_apart)

@@ -4,6 +4,7 @@
 #   tests/fuzz/run.sh                   200,000 executions of each
 #   tests/fuzz/run.sh --runs 10000000   as many of each
 #   tests/fuzz/run.sh --seconds 60      a minute of each
+#   tests/fuzz/run.sh --jobs 2 ...      in so many processes at once, which share the runs and what they find
 #   tests/fuzz/run.sh ... text npy      these only
 #
 # An input that breaks a reader is left in build/fuzz/findings; exit status 1.
@@ -12,17 +13,19 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 say() { echo "fuzz: $*" >&2; }
 usage() {
-  echo "usage: tests/fuzz/run.sh [--runs N | --seconds N] [text|npy|toml|run ...]" >&2
+  echo "usage: tests/fuzz/run.sh [--runs N | --seconds N] [--jobs N] [text|npy|toml|run ...]" >&2
   exit 2
 }
 
-limit=(-runs=200000)
+runs=200000
+seconds=
+jobs=1
 readers=()
 while (($#)); do
   case $1 in
-    --runs | --seconds)
-      [[ ${2-} =~ ^[0-9]+$ ]] || usage
-      if [[ $1 == --runs ]]; then limit=("-runs=$2"); else limit=("-max_total_time=$2"); fi
+    --runs | --seconds | --jobs)
+      [[ ${2-} =~ ^[1-9][0-9]*$ ]] || usage
+      printf -v "${1#--}" %s "$2"
       shift 2
       ;;
     text | npy | toml | run)
@@ -69,18 +72,36 @@ cmake -S tests/fuzz -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAK
 cmake --build "$build" -j 2 --target "${readers[@]/#/fuzz_}" >&2
 python3 tests/fuzz/seeds.py "$build/seeds"
 
-for reader in "${readers[@]}"; do
-  say "$reader: ${limit[*]}"
-  corpus=$build/corpus/$reader
-  mkdir -p "$corpus" "$build/findings"
+limit=-runs=$(((runs + jobs - 1) / jobs))
+[[ -z $seconds ]] || limit=-max_total_time=$seconds
+
+# Becomes a fuzzer, with a log of its own for each job.
+fuzz() {
   # Short stacks of allocations and no weights of rare features, which cost more than the readers do.
-  if ! ASAN_OPTIONS=quarantine_size_mb=16:malloc_context_size=4 "$build/fuzz_$reader" "${limit[@]}" \
+  export ASAN_OPTIONS=quarantine_size_mb=16:malloc_context_size=4
+  exec "$build/fuzz_$1" "$limit" \
     -max_len=1024 -timeout=60 -rss_limit_mb=1024 -entropic=0 -print_final_stats=1 \
-    -dict="tests/fuzz/$reader.dict" -artifact_prefix="$build/findings/$reader-" \
-    "$corpus" "$build/seeds/$reader" >"$build/$reader.log" 2>&1; then
-    tail -n 40 "$build/$reader.log" >&2
-    say "$reader: a finding; the input is in $build/findings"
-    exit 1
-  fi
-  grep -a number_of_executed_units "$build/$reader.log" | sed "s/.*units:/fuzz: $reader: no finding, executions:/"
+    -dict="tests/fuzz/$1.dict" -artifact_prefix="$build/findings/$1-" \
+    "$build/corpus/$1" "$build/seeds/$1" >"$build/$1.$2.log" 2>&1
+}
+
+for reader in "${readers[@]}"; do
+  say "$reader: $limit in each of $jobs"
+  mkdir -p "$build/corpus/$reader" "$build/findings"
+  processes=()
+  for ((job = 1; job <= jobs; job++)); do
+    fuzz "$reader" "$job" &
+    processes+=($!)
+  done
+  for ((job = 1; job <= jobs; job++)); do
+    if ! wait "${processes[job - 1]}"; then
+      kill "${processes[@]}" 2>/dev/null || true
+      tail -n 40 "$build/$reader.$job.log" >&2
+      say "$reader: a finding; the input is in $build/findings"
+      exit 1
+    fi
+  done
+  for ((job = 1; job <= jobs; job++)); do
+    grep -a number_of_executed_units "$build/$reader.$job.log"
+  done | awk -v reader="$reader" '{ sum += $2 } END { print "fuzz: " reader ": no finding, executions: " sum }'
 done

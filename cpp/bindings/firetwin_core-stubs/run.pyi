@@ -49,7 +49,8 @@ class Run:
         """Name of the known fire that the run depicts ("king_fire"), empty when run.toml names none."""
     @property
     def start(self) -> str:
-        """Start of the run, ISO 8601 UTC."""
+        """What times count from, ISO 8601 UTC: that of run.toml, or a second by the first time if farther from it
+        than a million seconds, as of times since 1970; 32-bit floats would lose their fractions."""
     @property
     def vertical(self) -> str:
         """Either "orthometric" or "ellipsoidal"."""
