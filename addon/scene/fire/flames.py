@@ -27,7 +27,7 @@ _SIZES = 0.45  # standard deviation of the logarithm of flame lengths
 _LENGTHS = (1.0, 75.0)  # m
 _KELVIN = (1000.0, 1500.0)  # flames (Frankman et al. 2008)
 _TORCH_SIGHT = 2500.0  # m
-_TORCHES = 1.0  # part of the burning crowns that flare up where the canopy is dense
+_TORCHES = 0.8  # part of the burning crowns that flare up where the canopy is dense
 _AROUND = 250.0  # m round a cell to where its flames, and the firebrands that they throw up, reach
 _CELL_FLAME = 40.0  # m; flame of a cell's emitter at scale 100
 
@@ -156,7 +156,7 @@ def torches(shot: Shot, grown: Stand) -> Points:
     canopy = bilinear(ground.fields.canopy_fuel, row, column)
     key = grown.key[near].T
     luck, size, late, seed = (noise.uniform(*key, shot.settings.seed + 400 + k) for k in range(4))
-    lit = (luck < _TORCHES * canopy / (canopy + 0.5)) & (arrival <= last)
+    lit = (luck < _TORCHES * canopy / (canopy + 1.0)) & (arrival <= last)
     lit &= fate.of(shot, row, column, grown.height[near], grown.key[near]).torched
     residence = 30.0 + 30.0 * size
     arrival = arrival + 20.0 * late

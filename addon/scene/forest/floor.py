@@ -12,7 +12,7 @@ from .growth import grown
 from .habit import Habit
 from .shape import BARK, FOLIAGE, Array, Shape
 
-_DEAD_WOOD = (0.120, 0.098, 0.076)  # weathered
+_DEAD_WOOD = (0.085, 0.068, 0.052)  # weathered
 _STRAW = (0.150, 0.118, 0.058)
 _STONE = (0.16, 0.155, 0.145)
 _TURNS = (4, 3, 2, 1)  # of level 0 to 3: how often a rock's faces are split

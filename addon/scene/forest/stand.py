@@ -19,7 +19,7 @@ from . import models, plot, seen
 from .plot import Plot
 
 TALLEST = 42.0  # m; the core's largest tree
-CLEARING = 10.0  # m round the cameras where no tree stands, and none in their way
+CLEARING = 25.0  # m round the cameras where no tree stands, so that there is light and a view
 _CROWN = 5.0  # m, width of a middling tree; where a pixel is wider, fewer trees show as much
 
 

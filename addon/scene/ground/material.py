@@ -150,9 +150,11 @@ def _unburned(
     open_ground = tree.mix_colour(brush.smoothstep(0.36, 0.52) * 0.92, open_ground, shrub)
     far = tree.mix_colour(cover, open_ground, canopy)
     litter = tree.mix_colour(fine.smoothstep(0.3, 0.7), (0.019, 0.017, 0.010), (0.062, 0.050, 0.030))
-    scrub = tree.mix_colour(
-        tree.noise(place.position, 5.0, 4.0, 0.65).smoothstep(0.47, 0.60), litter, (0.024, 0.033, 0.014)
-    )
+    needles = tree.mix_colour(fine, (0.036, 0.025, 0.015), (0.078, 0.054, 0.033))
+    beside = place.pixel.ramp(0.02, 0.20, 1.0, 0.0)  # brush is a colour but where it stands one by one
+    litter = tree.mix_colour(beside, litter, needles)
+    green = tree.noise(place.position, 5.0, 4.0, 0.65).smoothstep(0.47, 0.60) * (1.0 - beside * 0.85)
+    scrub = tree.mix_colour(green, litter, (0.024, 0.033, 0.014))
     close = tree.mix_colour(floor, open_ground, scrub)
     colour = tree.mix_colour(place.near, far, close)
     colour = tree.mix_colour(1.0, colour, _grain(tree, place), "MULTIPLY")
