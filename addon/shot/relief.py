@@ -13,7 +13,6 @@ from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ..run import areas
-from . import noise
 from .raster import Array, Raster, extent, said
 from .settings import Settings
 
@@ -171,7 +170,8 @@ def ramp(known: NDArray[np.bool_], width: int) -> NDArray[np.float32]:
             return np.ones(known.shape, np.float32)
         total += kept
         kept = _eroded(kept)
-    return noise.smoothstep(0.0, width, total).astype(np.float32)
+    total /= np.float32(width)
+    return total * total * (np.float32(3.0) - np.float32(2.0) * total)
 
 
 def _eroded(known: NDArray[np.bool_]) -> NDArray[np.bool_]:

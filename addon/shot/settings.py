@@ -103,7 +103,11 @@ class Ground:
         shows=(),
     )
     photo_extent: tuple[float, ...] = key(
-        (), "west, south, east and north of a PNG or JPEG without a world file", unit="degrees", check=_box
+        (),
+        "west, south, east and north of a PNG or JPEG without a world file",
+        unit="degrees",
+        check=_box,
+        shows=(),
     )
     apron: float = key(
         110_000.0,

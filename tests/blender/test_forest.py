@@ -3,11 +3,13 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
+from firetwin.blender import owned
 from firetwin.scene import build
 from firetwin.scene.forest import build as forest
 from firetwin.scene.forest import models, plot, seen, stand
 from firetwin.shot.ground import NEVER
 from firetwin.shot.rigs.satellite import Satellite
+from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import forest as core
 
@@ -150,3 +152,20 @@ def test_skipping_what_no_camera_sees_does_not_change_the_picture(shot, stage, s
     assert len(bpy.data.objects["Firetwin Trees"].data.vertices) > 1.5 * count
     assert np.abs(full - skipped).mean() < 0.01 * full.mean()
     assert np.quantile(np.abs(full - skipped), 0.98) < 0.05 * full.mean()
+
+
+def test_a_satellite_that_sees_no_tree_sees_no_patch_of_them(near_settings, run, scene):
+    """Trees drawn for another camera of the scene are hidden from it; one that sees trees sees all."""
+    for swath, hidden in ((8000.0, True), (800.0, False)):
+        above = Camera("above", Satellite(swath=swath))
+        shot = Shot(replace(near_settings, cameras=(*near_settings.cameras, above)), run)
+        stage = owned.stage(build.build(shot, scene, ("forest", "cameras")))
+        counts = []
+        for name in ("drone", "above", "drone"):
+            scene.camera = stage.camera(name)
+            graph = bpy.context.evaluated_depsgraph_get()
+            graph.update()
+            counts.append(sum(thing.is_instance for thing in graph.object_instances))
+        assert counts[0] > 100
+        assert counts[2] == counts[0]
+        assert (counts[1] == 0) is hidden

@@ -171,7 +171,7 @@ def test_colours_of_sixteen_bits_are_refused(make, tmp_path):
 def test_the_world_file_is_part_of_the_photo(make, tmp_path):
     choice = make(place(tmp_path, "world file"))
     before = photo.inputs(choice.shot().settings)
-    assert len(before) == 2
+    assert len(before) == 3
     world = (tmp_path / "photo.pgw").read_text()
     (tmp_path / "photo.pgw").write_text(world.replace("-120.59", "-120.58"))
     assert photo.inputs(choice.shot().settings) != before

@@ -17,6 +17,7 @@ from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
 from ...shot import noise
 from ...shot.ground import NEVER, bilinear
+from ...shot.rigs.satellite import HEIGHT
 from ...shot.shot import Shot
 from .. import clock
 from . import fate, models, seen, understorey
@@ -158,6 +159,18 @@ def _instances(
     return thing
 
 
+def _drawn(tree: nodes.Tree, shot: Shot) -> nodes.Value | bool:
+    """Whether plants are drawn: not for a satellite that sees none, or those for others would be a patch.
+
+    To it the ground's colour is the forest, as everywhere else in its picture.
+    """
+    if not seen.too_far(shot):
+        return True
+    camera = tree.output("GeometryNodeInputActiveCamera")
+    place = tree.output("GeometryNodeObjectInfo", {"Object": camera}, "Location")
+    return tree.separate(place)[2] < 0.75 * HEIGHT
+
+
 def _node_group(
     shot: Shot, name: str, library: bpy.types.Collection, bare_after: float
 ) -> bpy.types.NodeTree:
@@ -182,6 +195,7 @@ def _node_group(
         "GeometryNodeInstanceOnPoints",
         {
             "Points": tree.pick(given, "Geometry"),
+            "Selection": _drawn(tree, shot),
             "Instance": collection,
             "Pick Instance": True,
             "Instance Index": tree.output("GeometryNodeSwitch", model, input_type="INT"),

@@ -29,6 +29,13 @@ def visible(
     return shot.sights.seen(middle, radius, reach=reach, margin=_AROUND, shadows=True, pixel=PIXEL)
 
 
+def too_far(shot: Shot) -> bool:
+    """Whether there are satellites, and none whose pixels are small enough for trees."""
+    width = shot.settings.render.resolution[0]
+    pixels = [2.0 * view.half[0] / width for view in shot.paths if not view.perspective]
+    return bool(pixels) and min(pixels) >= PIXEL
+
+
 def cells(
     shot: Shot,
     height: float,
