@@ -16,7 +16,7 @@ from .timing import Runner
 BAND = (8.0, 14.0)
 SHAPE = (360, 640)
 KNOTS = (16, 64, 512)
-LOW, HIGH, POWER = 290.0, 1000.0, 0.4
+LOW, HIGH, KNEE = 290.0, 1000.0, 5.0
 
 
 def picture() -> NDArray[np.float32]:
@@ -37,13 +37,14 @@ def with_numpy(radiance: NDArray[np.float32]) -> NDArray[np.float64]:
 def ours_on_files(exr: Path, png: Path, table: sensor.PlanckTable) -> None:
     """Radiance in, white-hot picture out."""
     kelvin = table.brightness_temperature(sensor.read_image(exr)[..., 0])
-    sensor.write_image(png, sensor.colour(kelvin, LOW, HIGH, "ironbow", POWER))
+    sensor.write_image(png, sensor.colour(kelvin, LOW, HIGH, "ironbow", KNEE))
 
 
 def numpy_on_files(exr: Path, png: Path, stops: NDArray[np.float32]) -> None:
     """The same with NumPy between the same reader and writer."""
     kelvin = with_numpy(sensor.read_image(exr)[..., 0])
-    place = np.clip((kelvin - LOW) / (HIGH - LOW), 0.0, 1.0) ** POWER
+    above = np.clip(kelvin - LOW, 0.0, HIGH - LOW)
+    place = np.log1p(above / KNEE) / np.log1p((HIGH - LOW) / KNEE)
     at = np.linspace(0.0, 1.0, len(stops))
     colour = np.stack([np.interp(place, at, stops[:, channel]) for channel in range(3)], axis=-1)
     sensor.write_image(png, colour)

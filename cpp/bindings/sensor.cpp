@@ -115,15 +115,15 @@ template <class Work> void in_pieces(std::size_t pixels, Work work) {
 }
 
 Array<float> colour(const py::object& kelvin, double low, double high, const std::string& name,
-                    double power) {
+                    double knee) {
   const auto k = to_array<float>(kelvin, "kelvin", {-1, -1});
   const sensor::Palette& palette = sensor::palette(name);
   auto result = new_array<float>({k.shape(0), k.shape(1), 3});
   const auto in = view(k);
   const auto out = writable(result);
-  sensor::colour({}, low, high, power, palette, {}); // says what is wrong where there are no pixels
+  sensor::colour({}, low, high, knee, palette, {}); // says what is wrong where there are no pixels
   in_pieces(in.size(), [&](std::size_t first, std::size_t count) {
-    sensor::colour(in.subspan(first, count), low, high, power, palette,
+    sensor::colour(in.subspan(first, count), low, high, knee, palette,
                    out.subspan(3 * first, 3 * count));
   });
   return result;
@@ -206,7 +206,7 @@ void init_sensor(Module module) {
            py::arg("key") = 0);
   module.def("palettes", &sensor::palettes);
   module.def("colour", &colour, py::arg("kelvin"), py::arg("low"), py::arg("high"),
-             py::arg("palette") = "white-hot", py::arg("power") = 1.0);
+             py::arg("palette") = "white-hot", py::arg("knee") = 0.0);
   module.def("thermal_composite", &thermal_composite, py::arg("rgb"), py::arg("kelvin"),
              py::arg("low"), py::arg("high"), py::arg("strength") = 1.0);
   module.def("eye_dome", &eye_dome, py::arg("depth"), py::arg("strength") = 4.0,

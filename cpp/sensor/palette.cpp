@@ -77,18 +77,20 @@ std::vector<std::string> palettes() {
   return names;
 }
 
-void colour(std::span<const float> kelvin, double low, double high, double power,
+void colour(std::span<const float> kelvin, double low, double high, double knee,
             const Palette& palette, std::span<float> colour) {
   if (!std::isfinite(low) || !std::isfinite(high) || !(low < high)) {
     throw std::invalid_argument("low and high must be finite temperatures in K, low below high");
   }
-  if (!(power > 0.0) || !std::isfinite(power)) {
-    throw std::invalid_argument("power must be above 0");
+  if (!(knee >= 0.0) || !std::isfinite(knee)) {
+    throw std::invalid_argument("knee must be 0 or more");
   }
+  const double range = high - low;
+  const double scale = knee > 0.0 ? 1.0 / std::log1p(range / knee) : 1.0 / range;
   for (std::size_t i = 0; i < kelvin.size(); ++i) {
-    const double part = (static_cast<double>(kelvin[i]) - low) / (high - low);
-    const double place = part > 0.0 ? std::pow(std::min(part, 1.0), power) : 0.0; // NaN: cold
-    const Colour shown = palette.at(place);
+    const double above = static_cast<double>(kelvin[i]) - low;
+    const double held = above > 0.0 ? std::min(above, range) : 0.0; // NaN: cold
+    const Colour shown = palette.at(scale * (knee > 0.0 ? std::log1p(held / knee) : held));
     for (std::size_t c = 0; c < 3; ++c) {
       colour[3 * i + c] = static_cast<float>(shown[c]);
     }

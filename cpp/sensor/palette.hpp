@@ -28,11 +28,13 @@ const Palette& palette(std::string_view name);
 /// Names of the palettes.
 std::vector<std::string> palettes();
 
-/// Colours of temperatures: each is `palette` at ((kelvin - low) / (high - low))^power; beyond the
-/// ends as at the nearer one, NaN as at low.
+/// Colours of temperatures: each is `palette` at (kelvin - low) / (high - low), and with a `knee`
+/// above 0 (K) at log(1 + (kelvin - low) / knee) / log(1 + (high - low) / knee), which gives what
+/// is within some knees of low more of the palette. Beyond the ends as at the nearer one, NaN as at
+/// low.
 /// @param kelvin [n] @param colour [3 n] result
-/// @throws std::invalid_argument unless low < high are finite and power is above 0.
-void colour(std::span<const float> kelvin, double low, double high, double power,
+/// @throws std::invalid_argument unless low < high are finite and knee is 0 or more.
+void colour(std::span<const float> kelvin, double low, double high, double knee,
             const Palette& palette, std::span<float> colour);
 
 } // namespace firetwin::sensor

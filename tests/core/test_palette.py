@@ -37,8 +37,9 @@ def test_beyond_the_ends_and_nan():
     assert np.array_equal(found[2], found[3])
 
 
-def test_a_power_spreads_the_cold_end():
-    np.testing.assert_allclose(colour([[425.0]], 300, 800, power=0.5)[0, 0], [0.5] * 3, atol=1e-6)
+def test_a_knee_spreads_the_cold_end():
+    shown = colour([[300.0, 310.0, 330.0, 800.0]], 300, 800, knee=10.0)[0, :, 0]
+    np.testing.assert_allclose(shown, np.log([1.0, 2.0, 4.0, 51.0]) / np.log(51.0), atol=1e-6)
 
 
 @pytest.mark.parametrize("wrong", [(800, 300), (np.nan, 800), (300, 300)])
@@ -47,5 +48,5 @@ def test_impossible_ends(wrong):
         colour(RAMP, *wrong)
     with pytest.raises(ValueError, match="palette"):
         colour(RAMP, 300, 800, "blue")
-    with pytest.raises(ValueError, match="power"):
-        colour(RAMP, 300, 800, power=0.0)
+    with pytest.raises(ValueError, match="knee"):
+        colour(RAMP, 300, 800, knee=-1.0)

@@ -105,7 +105,7 @@ def test_the_thermal_pass_holds_brightness_temperature_and_radiance(tmp_path):
     half = sensor.brightness_temperature(0.5 * sensor.radiance([300.0, 1000.0]).sum())
     assert kelvin[25] == pytest.approx(float(half), abs=1e-3)
     assert half > 700.0
-    expected = sensor.colour(kelvin, 290.0, 1000.0, "white-hot", 0.4)
+    expected = sensor.colour(kelvin, 290.0, 1000.0, "white-hot", 5.0)
     assert np.abs(picture - expected).max() < 0.51 / 255
 
 
@@ -130,11 +130,11 @@ def test_the_detector_of_the_settings_measures(tmp_path):
 
 
 def test_a_bar_of_round_temperatures_stands_at_the_right(tmp_path):
-    assert _bar.marks(290.0, 1000.0, 0.4, 20.0)[-1] == 1000.0
-    assert all(kelvin % 10 == 0 for kelvin in _bar.marks(290.0, 1000.0, 0.4, 20.0))
-    assert len(_bar.marks(299.0, 301.0, 1.0, 20.0)) >= 3
+    assert _bar.marks(290.0, 1000.0, 5.0, 20.0)[-1] == 1000.0
+    assert all(kelvin % 10 == 0 for kelvin in _bar.marks(290.0, 1000.0, 5.0, 20.0))
+    assert len(_bar.marks(299.0, 301.0, 5.0, 20.0)) >= 3
     _, picture = thermal(tmp_path, scene(180, 320), palette="inferno")
-    bare = sensor.colour(np.full((180, 320), 300.0), 290.0, 1000.0, "inferno", 0.4)
+    bare = sensor.colour(np.full((180, 320), 300.0), 290.0, 1000.0, "inferno", 5.0)
     bar = picture[20:160, 312:316].mean(axis=(1, 2))
     assert bar[0] > bar[-1] + 0.5
     assert np.all(np.diff(bar) < 0.02)

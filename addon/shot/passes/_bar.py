@@ -24,7 +24,7 @@ _STEPS = (1000, 500, 100, 50, 10, 5, 2, 1)
 _ENOUGH = 5  # marks; steps under 10 K are for scales that have fewer
 
 
-def draw(picture: NDArray[np.float32], low: float, high: float, palette: str, power: float) -> None:
+def draw(picture: NDArray[np.float32], low: float, high: float, palette: str, knee: float) -> None:
     """Draw into a picture (h, w, 3): the palette as `sensor.colour` uses it, hot at the top, and marks.
 
     Pictures too small for it stay as they are.
@@ -36,28 +36,32 @@ def draw(picture: NDArray[np.float32], low: float, high: float, palette: str, po
     top, bottom = int(0.08 * height), int(0.92 * height)
     right = width - 3 * size
     left = right - 6 * size
-    part = np.linspace(1.0, 0.0, bottom - top)[:, None]
-    bar = sensor.colour(low + (high - low) * part ** (1.0 / power), low, high, palette, power)
+    bar = sensor.colour(np.linspace(high, low, bottom - top)[:, None], low, high, palette)
     picture[top - size : bottom + size, left - size : right + size] = 1.0
     picture[top:bottom, left:right] = bar
-    for kelvin in marks(low, high, power, (bottom - top) / (9.0 * size)):
-        at = bottom - 1 - round((bottom - 1 - top) * ((kelvin - low) / (high - low)) ** power)
+    for kelvin in marks(low, high, knee, (bottom - top) / (9.0 * size)):
+        at = bottom - 1 - round((bottom - 1 - top) * _place(kelvin, low, high, knee))
         picture[at : at + 1, left - 3 * size : left] = 1.0
         _write(picture, f"{kelvin:.0f}", left - 4 * size, at, size)
     _write(picture, "K", right + size, top - 5 * size, size)
 
 
-def marks(low: float, high: float, power: float, most: float) -> list[float]:
+def marks(low: float, high: float, knee: float, most: float) -> list[float]:
     """Round temperatures (K) between the ends, at most about so many, none too near another on the scale."""
     found: list[float] = []
     for step in _STEPS:
         if step < 10 and len(found) >= _ENOUGH:
             break
         for kelvin in np.arange(np.ceil(low / step) * step, high + 1e-9, step):
-            places = [((each - low) / (high - low)) ** power for each in (*found, kelvin)]
+            places = [_place(each, low, high, knee) for each in (*found, kelvin)]
             if all(abs(place - places[-1]) >= 1.0 / most for place in places[:-1]):
                 found.append(float(kelvin))
     return sorted(found)
+
+
+def _place(kelvin: float, low: float, high: float, knee: float) -> float:
+    """Where a temperature is on the scale, 0..1."""
+    return float(np.log1p((kelvin - low) / knee) / np.log1p((high - low) / knee))
 
 
 def _write(picture: NDArray[np.float32], text: str, right: int, middle: int, size: int) -> None:

@@ -23,7 +23,7 @@ from . import Pass, _bar
 if TYPE_CHECKING:
     from ..shot import Shot
 
-POWER = 0.4  # of the palette's scale: what is cold gets more of its colours
+KNEE = 5.0  # K; the palette's scale is logarithmic above this, so that cold ground shows its relief
 
 
 def finish(
@@ -55,8 +55,8 @@ def finish(
     low, high = shot.settings.render.thermal_low, shot.settings.render.thermal_high
     if low is None:
         low = min(temperature.coldest(shot.run, shot.frames.middle), high - 1.0)
-    shown = sensor.colour(channels["kelvin"], low, high, settings.palette, POWER)
-    _bar.draw(shown, low, high, settings.palette, POWER)
+    shown = sensor.colour(channels["kelvin"], low, high, settings.palette, KNEE)
+    _bar.draw(shown, low, high, settings.palette, KNEE)
     sensor.write_image(files["png"], shown)
 
 

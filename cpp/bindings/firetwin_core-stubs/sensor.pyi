@@ -62,12 +62,13 @@ def palettes() -> list[str]:
     """Names of the palettes that `colour` knows."""
 
 def colour(
-    kelvin: ArrayLike, low: float, high: float, palette: str = "white-hot", power: float = 1.0
+    kelvin: ArrayLike, low: float, high: float, palette: str = "white-hot", knee: float = 0.0
 ) -> NDArray[np.float32]:
     """Display colours (h, w, 3) of temperatures (h, w) K.
 
-    Each is the palette at ((kelvin - low) / (high - low)) ** power; beyond the ends as at the nearer one, NaN
-    as at `low`. "inferno" is matplotlib's by 17 stops, within 0.03.
+    Each is the palette at (kelvin - low) / (high - low); with a `knee` (K) at
+    log(1 + (kelvin - low) / knee) / log(1 + (high - low) / knee), which gives what is within some knees of `low`
+    more of the palette. Beyond the ends as at the nearer one, NaN as at `low`. "inferno" is matplotlib's by 17 stops, within 0.03.
     """
 
 def thermal_composite(
