@@ -108,7 +108,9 @@ def test_what_a_product_depends_on_is_chosen_by_aspect():
 
 def test_moving_one_camera_leaves_what_another_shows():
     one, two = (schema.chosen(SETTINGS, {"camera"}, name)["cameras"] for name in ("one", "two"))
-    assert two == [{"kind": "satellite", "swath": 56000.0, "frames": ""}]
+    assert two == [
+        {"kind": "satellite", "swath": 56000.0, "geostationary": None, "frames": "", "resolution": None}
+    ]
     assert [table["kind"] for table in one] == ["drone"]
     assert [key["latitude"] for key in one[0]["keys"]] == [38.9, 39.0]
     assert schema.chosen(SETTINGS, {"camera"})["cameras"] == one + two
