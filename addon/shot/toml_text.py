@@ -19,7 +19,7 @@ _SAMPLES = {  # for a key that has no value
     datetime: "2014-09-17T21:30:00Z",
     float: "0.0",
     tuple[int, int]: "[1280, 720]",
-    Path: '"file"',
+    Path: '"file.tif"',
 }
 
 

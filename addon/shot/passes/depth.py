@@ -9,9 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from . import Files, Pass, _view
+from . import Files, Pass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -21,7 +19,10 @@ if TYPE_CHECKING:
 
 def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, _frame: int) -> None:
     """Add the range to the depth that was rendered."""
+    import numpy as np
     from firetwin_core import sensor
+
+    from . import _view
 
     planar = sensor.read_image(files["exr"])[..., 0]
     both = np.stack([planar, _view.ranges(_view.of(shot, camera), planar)], axis=-1)

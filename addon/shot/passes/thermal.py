@@ -16,9 +16,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from . import Pass, _bar
+from . import Pass
 
 if TYPE_CHECKING:
     from ..shot import Shot
@@ -30,10 +28,12 @@ def finish(
     files: Mapping[str, Path], _needed: Mapping[str, Mapping[str, Path]], shot: Shot, camera: str, frame: int
 ) -> None:
     """Let the detector measure the radiance, write what it found, and the picture."""
+    import numpy as np
     from firetwin_core import sensor
 
     from .. import temperature
     from ..settings import BANDS
+    from . import _bar
 
     settings = shot.settings.thermal
     table = sensor.PlanckTable(BANDS[settings.band])

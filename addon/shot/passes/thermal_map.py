@@ -10,9 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from . import Files, Pass, _view
+from . import Files, Pass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -24,10 +22,12 @@ LEAST = 600.0  # s
 
 def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
     """Add the gradient of the model's temperature to the picture."""
+    import numpy as np
     from firetwin_core import sensor
 
     from .. import temperature
     from ..ground import bilinear
+    from . import _view
 
     span = max(LEAST, shot.frames.step)
 
