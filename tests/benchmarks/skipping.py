@@ -153,9 +153,8 @@ def main() -> None:
     parser.add_argument("--samples", type=int, default=16)
     parser.add_argument("--views", default=",".join(CAMERAS))
     given = parser.parse_args()
-    print(
-        "| view | setting | build s | render s | MB | trees | ground | error |\n|---|---|---|---|---|---|---|---|"
-    )
+    print("| view | setting | build s | render s | MB | trees | ground | error |")
+    print(f"|{8 * '---|'}")
     for view in given.views.split(","):
         reference = None
         for name, row in ROWS.items():
