@@ -49,14 +49,14 @@ def _reaches(
     Blocks are taken to be a block wider on all sides.
     """
     north, east = centre[:, centre.shape[1] // 2, 1], centre[centre.shape[0] // 2, :, 0]
-    step = min(np.diff(north).min(), np.diff(east).min())
+    step = min(np.diff(axis).min(initial=np.inf) for axis in (north, east))
     ends = [0.5 * (axis[1:] + axis[:-1]) for axis in (north, east)]
     row, column = np.unravel_index(rest, lit.shape)
     y, x, top = north[row], east[column], (centre[..., 2] + rise).ravel()[rest]
     toward_north, toward_east = -np.cos(np.radians(bearing)), -np.sin(np.radians(bearing))
     found, going = np.zeros(len(rest), bool), np.arange(len(rest))
     way = 0.0
-    while len(going):
+    while len(going) and np.isfinite(step):  # a block alone has nothing to shade
         way += step
         row = np.searchsorted(ends[0], y[going] + way * toward_north)
         column = np.searchsorted(ends[1], x[going] + way * toward_east)

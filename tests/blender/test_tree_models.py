@@ -197,7 +197,7 @@ def test_coarser_levels_cover_as_much_and_look_as_bright(looks):
 
 
 def test_smaller_trees_are_drawn_in_coarser_levels():
-    assert levels.level(np.array([1e9, 180.0, 179.9, 50.0, 49.9, 14.0, 13.9, 0.0])).tolist() == [
+    assert levels.level(np.array([1e9, 40.0, 39.9, 12.0, 11.9, 4.0, 3.9, 0.0])).tolist() == [
         0,
         0,
         1,

@@ -82,8 +82,8 @@ def test_without_skipping_all_counts_as_seen_and_is_drawn_as_from_near_by(film):
     seen = some.sights.seen(place, 5.0)
     assert 0 < seen.sum() < 150
     assert whole.sights.seen(place, 5.0).tolist() == [True] * 199 + [False]
-    near = whole.sights.distance(place) <= 505.0
-    assert whole.sights.seen(place, 5.0, reach=500.0).tolist() == near.tolist()
+    near = whole.sights.distance(place) <= 1400.0
+    assert whole.sights.seen(place, 600.0, reach=800.0).tolist() == near.tolist()
     np.testing.assert_array_equal(some.sights.distance(place), whole.sights.distance(place))
     np.testing.assert_array_equal(some.sights.drawn_from(place), some.sights.distance(place))
     assert not whole.sights.drawn_from(place).any()
@@ -92,6 +92,18 @@ def test_without_skipping_all_counts_as_seen_and_is_drawn_as_from_near_by(film):
     tolerance = [accuracy.wanted(shot).tolerance for shot in (some, whole)]
     assert np.all(tolerance[1] <= tolerance[0] + 1e-6)
     assert tolerance[1].max() < 0.2 < tolerance[0].max()
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 4), (4, 1)])
+def test_few_blocks_may_shade_each_other(film, shape):
+    place = np.stack(
+        [*np.meshgrid(*(100.0 * np.arange(count) for count in shape[::-1])), np.zeros(shape)], -1
+    )
+    seen = np.zeros(shape, bool)
+    shot = film(Camera("a", ORBIT))
+    assert not shade.with_shade(shot, place, np.zeros(shape), seen).any()
+    seen[0, 0] = True
+    assert shade.with_shade(shot, place, np.zeros(shape), seen)[0, 0]
 
 
 @pytest.mark.parametrize("bearing", [0.0, 90.0, 225.0])

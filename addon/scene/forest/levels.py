@@ -10,7 +10,7 @@ from .habit import Fit
 from .shape import Array, Shape
 
 LEVELS = 4
-PIXELS = (180.0, 50.0, 14.0)  # a tree is drawn in level 0 if taller, in 1, in 2, and in 3 if smaller
+PIXELS = (40.0, 12.0, 4.0)  # a tree is drawn in level 0 if taller, in 1, in 2, and in 3 if smaller
 
 
 def level(pixels: ArrayLike) -> NDArray[np.int64]:
