@@ -129,11 +129,12 @@ def test_temperatures_change_with_the_time_of_the_shot(settings, run_folder, tmp
     folder = shutil.copytree(run_folder, tmp_path / "run")
     field = np.repeat(np.linspace(290.0, 310.0, 11, dtype=np.float32), 24 * 24).reshape(11, 24, 24)
     np.save(folder / "temperature.npy", field)
+    np.save(folder / "fuel_arrival_time.npy", np.full((120, 120), np.nan, np.float32))  # nothing burns
     shot = Shot(replace(settings, run=folder, thermal=Thermal(vapour=0.0)), runs.open(folder))
     build.build(shot, scene, ["ground", "cameras"])
     found = []
     for frame in (1, 2, 3):
         scene.frame_set(frame)
         kelvin = shoot(scene, "thermal")[-8:, :, 0]
-        found.append(float(np.quantile(kelvin, 0.1)))
+        found.append(float(np.median(kelvin)))
     assert np.diff(found) == pytest.approx([10.0, 10.0], abs=3.0)

@@ -62,6 +62,6 @@ def _rasterio() -> ModuleType:
     try:
         import rasterio
     except ModuleNotFoundError:
-        reason = "GeoTIFF needs rasterio; install it with: pip install 'firetwin[rasterio]'"
+        reason = "GeoTIFF needs rasterio; install it with: pip install 'firetwin[raster]'"
         raise Error(reason) from None
     return rasterio
