@@ -137,8 +137,8 @@ class _Reader:
         """The value of one key of a table."""
         if part.name in values:
             return self.value(part.type, values[part.name], (*where, part.name))
-        whole = part.type is Path and part.default is not None
-        return self.path.parent / part.default if whole else part.default
+        own = part.type is Path and part.default is not None
+        return self.path.parent / part.default if own else part.default
 
     def value(self, kind: Any, value: Any, where: Where) -> Any:
         """A value of the file as the type that its dataclass field declares."""
