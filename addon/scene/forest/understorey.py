@@ -92,7 +92,7 @@ KINDS = {
         0.28,
         0.75,
         (0.08, 3.0),
-        (1.0, 1.7),
+        (0.75, 1.25),
         lambda canopy, surface, bare: 0.025 + 0.20 * bare,
         patches=30.0,
     ),

@@ -203,12 +203,13 @@ def _granite(tree: nodes.Tree, place: Place) -> tuple[nodes.Value, nodes.Value]:
     block = tree.cells(place.position, 2.4, "Color")
     bright = place.pixel.ramp(0.6, 2.4, tree.separate(block)[0], 0.5)
     debris = tree.mix_colour(bright, (0.055, 0.053, 0.050), (0.205, 0.195, 0.180))
-    talus = place.slope.smoothstep(0.03, 0.10) * broad.smoothstep(0.49, 0.56)
+    afar = place.pixel.ramp(0.05, 0.40)  # near by blocks and brush stand there one by one
+    talus = place.slope.smoothstep(0.03, 0.10) * broad.smoothstep(0.49, 0.56) * afar
     stone = tree.mix_colour(talus, stone, debris)
     hollow = tree.noise(place.position, 26.0, 5.0, 0.68)
     sand = tree.mix_colour(broad, (0.105, 0.086, 0.060), (0.165, 0.140, 0.104))
     stone = tree.mix_colour((hollow - broad * 0.25).smoothstep(0.40, 0.47) * 0.85, stone, sand)
-    brush = (hollow + joints * 0.07).smoothstep(0.555, 0.60)
+    brush = (hollow + joints * 0.07).smoothstep(0.555, 0.60) * (0.2 + afar * 0.8)
     return tree.mix_colour(brush * 0.88, stone, (0.030, 0.038, 0.018)), height * (1.0 - brush)
 
 
