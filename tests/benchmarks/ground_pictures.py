@@ -3,7 +3,8 @@
     python tests/benchmarks/ground_pictures.py RUN OUT [--size 320] [--samples 8] [--errors 0.5 2 8] [--json]
 
 A drone's picture and a satellite's of bare ground, without forest, smoke and fire, whose meshes may be off by
-`ground.error` pixels, against those with FINEST. Needs flip-evaluator (Andersson et al. 2020, doi
+`ground.error` pixels, against those with FINEST; and one with FINEST and other grain: less than that is not to
+be told from grain, of which more samples leave less. Needs flip-evaluator (Andersson et al. 2020, doi
 10.1145/3406183: 0 the same, 1 as different as black and white).
 """
 
