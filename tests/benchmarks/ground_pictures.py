@@ -112,8 +112,8 @@ def main() -> None:
         return
     for row in rows:
         print(
-            f"{row['camera']:10} {row['error']:5g} px, grain {row['grain']} {row['vertices']:9,} vertices {row['s']:6.2f} s "
-            f"FLIP {row['flip']:.4f}"
+            f"{row['camera']:10} {row['error']:5g} px, grain {row['grain']} {row['vertices']:9,} vertices "
+            f"{row['s']:6.2f} s FLIP {row['flip']:.4f}"
         )
 
 
