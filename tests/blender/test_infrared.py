@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.blender import nodes
-from firetwin.scene import build, infrared, temperature
+from firetwin.scene import build, clock, infrared, temperature
 from firetwin.shot import temperature as airs
 from firetwin.shot.settings import Thermal
 from firetwin.shot.shot import Shot
@@ -125,16 +125,21 @@ def test_unburned_ground_follows_the_temperature_of_the_run(
     assert np.median((warm - cold)[unburned]) == pytest.approx(10.0, abs=0.5)
 
 
-def test_temperatures_change_with_the_time_of_the_shot(settings, run_folder, tmp_path, scene, stage, shoot):
+def test_the_air_changes_with_the_time_of_the_shot(
+    settings, run_folder, tmp_path, scene, stage, plates, shoot
+):
     folder = shutil.copytree(run_folder, tmp_path / "run")
     field = np.repeat(np.linspace(290.0, 310.0, 11, dtype=np.float32), 24 * 24).reshape(11, 24, 24)
     np.save(folder / "temperature.npy", field)
-    np.save(folder / "fuel_arrival_time.npy", np.full((120, 120), np.nan, np.float32))  # nothing burns
-    shot = Shot(replace(settings, run=folder, thermal=Thermal(vapour=0.0)), runs.open(folder))
-    build.build(shot, scene, ["ground", "cameras"])
+    shot = Shot(replace(settings, run=folder), runs.open(folder))
+    clock.build(shot, stage)
+    plates(lambda *all: infrared.emitted(*all, temperature.air(*all)), by=shot)
     found = []
     for frame in (1, 2, 3):
         scene.frame_set(frame)
-        kelvin = shoot(scene, "thermal")[-8:, :, 0]
-        found.append(float(np.median(kelvin)))
-    assert np.diff(found) == pytest.approx([10.0, 10.0], abs=3.0)
+        found.append(float(shoot(scene, "thermal").mean()))
+    assert np.diff(found) == pytest.approx([10.0, 10.0], abs=0.01)
+    height = float(
+        np.mean(shot.run.elevation[11:13, 11:13])
+    )  # of the model's ground; the plates lie at sea level
+    assert found[0] == pytest.approx(290.0 + airs.LAPSE * height, abs=0.5)
