@@ -1,4 +1,4 @@
-"""The command line: ``firetwin sample | info | maps | satellite | build | bake | render | track | ...``.
+"""The command line: ``firetwin sample | info | maps | imager | build | bake | render | track | ...``.
 
 Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage,
 130: Ctrl-C. Nothing heavy is imported before it is needed, so that help and mistakes answer at once.
@@ -108,7 +108,7 @@ def _parser() -> argparse.ArgumentParser:
     maps.add_argument("run", metavar="RUN", type=Path, help="run folder")
     maps.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the PNG files")
 
-    seen = command("satellite", "what a satellite's imager would have measured of a run", SATELLITE)
+    seen = command("imager", "what a satellite's imager would have measured of a run", IMAGER)
     seen.add_argument("run", metavar="RUN", type=Path, help="run folder")
     seen.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the GeoTIFF files")
     seen.add_argument("--instrument", choices=("abi", "viirs"), default="abi", help="which imager (abi)")
@@ -215,7 +215,7 @@ MAPS = """\
 DIR/fuel.png        fuel load, greener is denser
 DIR/intensity.png   strongest heat flux of the whole run, light yellow to red, over the relief"""
 
-SATELLITE = """\
+IMAGER = """\
 Brightness temperatures (K) at 3.9 and 11.2 um (3.74 and 11.45 for viirs), fire radiative power (W) and a mask
 of fire (10) and saturated (11) pixels, as DIR/abi_20140917T2200Z.tif: abi in its geostationary projection
 with 2 km pixels, viirs at 375 m by latitude and longitude. Fire counts by its area in a pixel. Hypothetical:

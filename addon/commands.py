@@ -52,24 +52,25 @@ def maps(arguments: argparse.Namespace) -> None:
         print(path)
 
 
-def satellite(arguments: argparse.Namespace) -> None:
+def imager(arguments: argparse.Namespace) -> None:
     """Write what a satellite's imager would have measured."""
     from .errors import UsageError
     from .run import times
-    from .shot.satellites import geotiff, imager
+    from .shot.satellites import geotiff
+    from .shot.satellites import imager as seen
 
     run = _open(arguments.run)
-    instrument = imager.INSTRUMENTS[arguments.instrument]
-    moments = imager.times(run, arguments.every)
+    instrument = seen.INSTRUMENTS[arguments.instrument]
+    moments = seen.times(run, arguments.every)
     report = Reporter("pictures")
     try:
-        for done, (time, picture) in enumerate(imager.film(instrument, run, arguments.longitude, moments)):
+        for done, (time, picture) in enumerate(seen.film(instrument, run, arguments.longitude, moments)):
             report(done, len(moments))
             moment = times.moment(run, time)
             path = arguments.out / f"{instrument.name}_{moment:%Y%m%dT%H%M}Z.tif"
             geotiff.write(path, picture, instrument, run.name, moment)
             print(path)
-    except imager.NothingSeenError as error:
+    except seen.NothingSeenError as error:
         raise UsageError(f"--longitude: {error}") from None
     report(len(moments), len(moments))
 

@@ -161,9 +161,9 @@ def test_a_geotiff_lies_where_its_pixels_are(burning, tmp_path):
 def test_the_command_writes_a_picture_for_each_moment(burning, tmp_path, capsys):
     pytest.importorskip("rasterio")
     run = burning()
-    assert main(["satellite", str(run.path), "--out", str(tmp_path / "out"), "--every", "1000000"]) == 0
+    assert main(["imager", str(run.path), "--out", str(tmp_path / "out"), "--every", "1000000"]) == 0
     written = capsys.readouterr().out.split()
     assert len(written) == 1
     assert written[0].endswith("Z.tif")
-    assert main(["satellite", str(run.path), "--out", str(tmp_path / "o"), "--longitude", "60"]) == 2
+    assert main(["imager", str(run.path), "--out", str(tmp_path / "o"), "--longitude", "60"]) == 2
     assert "horizon" in capsys.readouterr().err

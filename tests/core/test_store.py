@@ -264,7 +264,7 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
         return {name for name in passes.known() if key(changed, name) != key(SETTINGS, name)}
 
     everything = set(passes.known())
-    lit = {"rgb", "thermal"}
+    lit = {"rgb", "thermal", "thermal_map", "edl"}  # the last two are made from the first
     assert changes() == set()
     assert changes(seed=2) == everything
     assert changes(time=replace(SETTINGS.time, frames=5)) == everything
@@ -397,8 +397,9 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
         after = keys()
         return {name for name in before if before[name] != after[name]}
 
-    assert changed("scene/smoke/material.py") == {"rgb", "thermal"}
-    assert changed("scene/fire/flames.py") == {"rgb", "thermal"}
+    lit = {"rgb", "thermal", "thermal_map", "edl"}
+    assert changed("scene/smoke/material.py") == lit
+    assert changed("scene/fire/flames.py") == lit
     assert changed("scene/ground/build.py") == set(passes.known())
     assert changed("scene/haze.py") == set(passes.known())
     assert changed("shot/fire.py") == set(passes.known())
