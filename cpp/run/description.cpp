@@ -12,7 +12,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <utility>
+#include <vector>
 
 namespace firetwin::run {
 namespace {
@@ -160,12 +162,17 @@ private:
     if (std::abs(zero) < far_from_start || std::abs(zero) > longest || !start) {
       return;
     }
-    if (auto later = utc_text(*start, static_cast<std::int64_t>(zero))) {
+    std::vector<double> times = m.times_s;
+    for (double& time : times) {
+      time -= zero;
+    }
+    const bool ascend = std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) ==
+                        times.end(); // not where they are so large that they round alike
+    auto later = utc_text(*start, static_cast<std::int64_t>(zero));
+    if (ascend && later) {
       m.start = std::move(*later);
       m.zero_s = zero;
-      for (double& time : m.times_s) {
-        time -= zero;
-      }
+      m.times_s = std::move(times);
     }
   }
 
