@@ -109,17 +109,18 @@ def test_the_paper_mode_has_no_stand(settings, run, stage):
     assert grown.coverage(np.array([0.0, 100.0])).tolist() == [0.0, 0.0]
 
 
-def test_burned_trees_become_snags_a_quarter_of_an_hour_later(shot, stage, scene):
+def test_trees_whose_crowns_burn_become_snags_a_quarter_of_an_hour_later(shot, stage, scene):
     made = _planted(shot, stage)[0]
-    arrival = np.empty(len(made.data.vertices), np.float32)
+    arrival, torched = np.empty((2, len(made.data.vertices)), np.float32)
     made.data.attributes["arrival_time"].data.foreach_get("value", arrival)
+    made.data.attributes["torched"].data.foreach_get("value", torched)
     for frame, time in ((1, 0.0), (3, 3600.0)):
         scene.frame_set(frame)
         model = np.array([_number(name) for name in _instances("Firetwin Trees")[2]])
         snag = np.isin(model, models.SNAGS)
         old = time - arrival > forest.BARE_AFTER
         assert not snag[~old].any()
-        assert old.sum() == 0 or snag[old].mean() == pytest.approx(0.85, abs=0.08)
+        assert np.array_equal(snag[old], torched[old] == 1.0)
     assert old.sum() > 30
     assert np.any(arrival == NEVER)
 
