@@ -1,5 +1,6 @@
 """Image files: round trips, OpenImageIO's own tool as a second reader, and what is refused."""
 
+import re
 import shutil
 import subprocess
 import zlib
@@ -94,6 +95,13 @@ def test_a_png_that_claims_a_million_by_a_million_pixels(tmp_path):
     (tmp_path / "a.png").write_bytes(content)
     with pytest.raises(core.InputError, match="1000000 x 1000000 pixels"):
         read_image(tmp_path / "a.png")
+
+
+def test_the_file_of_a_picture_does_not_tell_when_it_was_written(tmp_path):
+    write_image(tmp_path / "a.exr", np.zeros((2, 2)))
+    assert re.findall(rb"\d{4}:\d\d:\d\d \d\d:\d\d:\d\d", (tmp_path / "a.exr").read_bytes()) == [
+        b"1970:01:01 00:00:00"
+    ]
 
 
 def test_writing_leaves_no_temporary_file(tmp_path):
