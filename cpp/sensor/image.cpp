@@ -59,7 +59,8 @@ OIIO::ImageSpec make_spec(std::size_t height, std::size_t width, std::size_t cha
                        exr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
   if (exr) {
     spec.attribute("compression", "zip");
-    spec.attribute("DateTime", "1970:01:01 00:00:00"); // else now: one picture would have many files
+    spec.attribute("DateTime",
+                   "1970:01:01 00:00:00"); // else now: one picture would have many files
   }
   if (exr && !names.empty()) {
     spec.channelnames = names;
