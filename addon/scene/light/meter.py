@@ -166,14 +166,14 @@ def _lit_smoke(light: sky.State, along: Array) -> Array:
 
 
 def _shine(smoke: Smoke, start: Array, along: Array, ends: Array) -> Array:
-    """Most light (n,) of flames on smoke on a ray: sum of P / 1 GW exp(-r / 1100 m) / (1 + (r / 250 m)^2)."""
+    """Most light (n,) of flames on smoke on a ray: sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2)."""
     places, power = smoke.light
     most = np.zeros(len(start))
     for place in places:
         far = np.maximum(((place - start) * along).sum(axis=1), 0.0)
         nearest = start + np.minimum(far, ends)[:, None] * along
         square = ((nearest[:, None] - places[None]) ** 2).sum(axis=2)
-        light = np.exp(-np.sqrt(square) / 1100.0) / (1.0 + square / 250.0**2)
+        light = np.exp(-np.sqrt(square) / 600.0) / (1.0 + square / 250.0**2)
         most = np.maximum(most, light @ power / 1.0e9)
     return most
 

@@ -11,7 +11,7 @@ from ...shot import noise, sun
 
 _SUN = 11.1  # W/m2 over the air
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
-_MOON = 0.06  # W/m2, for the exposure of the night: shows ridges and the tops of smoke
+_MOON = 0.1  # W/m2, for the exposure of the night: shows ridges and the tops of smoke
 _MOON_COLOUR = (0.65, 0.78, 1.0)
 NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.07  # radiance
 _DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.02

@@ -2,7 +2,7 @@
 
 A frame is one file, or two: the nest's part, and the rest with larger voxels; where they meet, one fades into
 the other. Grids: `density`, the extinction in 1/m; `fresh`, 1 where smoke is young and 0 where it is old; and
-`glow`, the light of flames as `firetwin_core.volume.write_smoke` has it, in the dark.
+`glow`, the light of flames, 1 amid 1 GW of them, in the dark.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ _THINNING = 6  # power of the fade at the far end: what is thick hides as much u
 _SEEN = 1e-9  # kg/m3; thinner smoke is not looked at
 THIN = 5.0e-5  # 1/m; thinner smoke is left out
 _BLOCK, _ROUND = 16, 300.0  # voxels; m round a block that count as it: of light that smoke passes on
-_GLOW_REACH, _GLOW_CORE, _GLOW_EVERY = 1100.0, 250.0, 3  # m, m, cells
+_GLOW_REACH, _GLOW_CORE, _GLOW_EVERY = 600.0, 250.0, 3  # m, m, cells
 
 Array = NDArray[np.float64]
 
@@ -209,7 +209,7 @@ def _sampled(values: Array, step: float, corner: tuple[float, float], x: Array, 
 def _glow(
     lights: tuple[Array, Array], heights: Array, spacing: float, corner: tuple[float, float]
 ) -> NDArray[np.float32]:
-    """Sum of P / 1 GW exp(-r / 1100 m) / (1 + (r / 250 m)^2) in cells; every third one, linear between."""
+    """Sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2) in cells; every third one, linear between."""
     places, power = lights
     every = [np.unique(np.append(np.arange(0, count, _GLOW_EVERY), count - 1)) for count in heights.shape]
     z = heights[np.ix_(*every)].astype(np.float32)
