@@ -134,6 +134,12 @@ def test_all_that_a_satellite_sees_is_ground(filmed, run):
     assert np.ptp(found) < 0.02  # haze over hills and valleys; the sky would be brighter than all ground
 
 
+def test_from_over_the_equator_there_is_light_too(filmed, run):
+    cameras = (scene_settings.Camera("satellite", Satellite(swath=20_000.0, geostationary=-137.0)),)
+    settings = replace(filmed(4.0, moment=DAY, enabled=False), cameras=cameras)
+    assert stops(settings, run)[0] == pytest.approx(0.5, abs=0.8)
+
+
 def test_flames_are_drawn_brighter_where_the_exposure_is_shorter(filmed, night_run):
     far, close = (glow.brightness(Shot(filmed(away), night_run)) for away in (14.0, 1.5))
     assert close > 1.5 * far

@@ -21,6 +21,7 @@ from . import sky
 _RAYS = 16, 9
 _REACH = np.geomspace(40.0, 60_000.0, 72)  # m where the ground is looked for, from where it may begin
 _HIGHEST = 4500.0  # m over the scene's zero; no ground is higher
+_AIR = 50_000.0  # m over the scene's zero; a ten-thousandth of the haze is higher
 _GROUND = 0.06  # reflectance of forest, brush and ash, luminance: `ground.material`, in the mean
 _CLOUD = 0.3  # of lit smoke: a deep ball of it has 0.27, the sun behind the camera, to 0.46, at its side
 _BLOCK, _FIRES = 600.0, 80  # m, heat this close is one fire; and how many there are at most
@@ -109,6 +110,8 @@ def _ends(shot: Shot, start: Array, along: Array) -> Array:
 
 def _haze_depth(height: Array, up: Array, far: Array) -> Array:
     """Optical depth (n,) of haze along rays from heights (m) with sines of slope `up`, as `haze` has it."""
+    above = np.maximum((height - _AIR) / np.maximum(-up, 1.0e-3), 0.0)
+    height, far = np.minimum(height, _AIR), np.maximum(far - above, 0.0)
     rise = up * far / sky.HAZE_HEIGHT
     rise = np.where(np.abs(rise) < 1.0e-3, 1.0e-3, rise)
     return sky.HAZE * far * np.exp(-height / sky.HAZE_HEIGHT) * (1.0 - np.exp(-rise)) / rise
