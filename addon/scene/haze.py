@@ -32,17 +32,21 @@ def _group(stage: Stage) -> bpy.types.NodeTree:
     extinction.outputs[0].default_value = sky.HAZE
     colour = tree.node("ShaderNodeRGB")
     colour.name = "Colour"
-    distance = tree.output("ShaderNodeCameraData", name="View Distance")
-    geometry = tree.node("ShaderNodeNewGeometry")
-    low = tree.separate(tree.pick(geometry, "Position"))[2] / sky.HAZE_HEIGHT
-    rise = tree.separate(tree.pick(geometry, "Incoming"))[2] * distance / sky.HAZE_HEIGHT
-    rise = rise + 2.0e-3 * (tree.math("ABSOLUTE", rise) < 1.0e-3)  # never 0, where the mean below is 1
-    mean = (1.0 - (-rise).exp()) / rise
-    depth = distance * extinction * (-low).exp() * mean
+    depth = way(tree, sky.HAZE_HEIGHT) * extinction
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     fraction = (1.0 - (-depth).exp()) * camera
     tree.node("NodeGroupOutput", {"Fraction": fraction, "Colour": colour})
     return group
+
+
+def way(tree: nodes.Tree, height: float) -> nodes.Value:
+    """Metres from here to the camera, each counted as exp(-z / `height`)."""
+    distance = tree.output("ShaderNodeCameraData", name="View Distance")
+    geometry = tree.node("ShaderNodeNewGeometry")
+    low = tree.separate(tree.pick(geometry, "Position"))[2] / height
+    rise = tree.separate(tree.pick(geometry, "Incoming"))[2] * distance / height
+    rise = rise + 2.0e-3 * (tree.math("ABSOLUTE", rise) < 1.0e-3)  # never 0, where the mean below is 1
+    return distance * (-low).exp() * ((1.0 - (-rise).exp()) / rise)
 
 
 def settings(stage: Stage, amount: float, colour: tuple[float, float, float]) -> None:

@@ -28,7 +28,7 @@ from ..blender import nodes, owned
 from ..blender.owned import Stage
 from ..shot.settings import BANDS
 from ..shot.shot import Shot
-from . import temperature
+from . import haze, temperature
 
 SKY = 250.0  # K, brightness temperature of a clear sky (assumed, the same all over)
 GREEN = 0.55  # um
@@ -41,11 +41,6 @@ _HALF = 2000.0  # m in which vapour thins to 1/e
 _GROUP, _NODES = "infrared", 5
 _FIRST = 2.0 * 6.62607015e-34 * 299792458.0**2 * 1e24  # W m-2 sr-1 um4
 _SECOND = 14387.768775  # um K
-
-
-def switch(tree: nodes.Tree, shader: Any, radiance: Any) -> nodes.Value:
-    """`shader`, but the radiance in data layers."""
-    return nodes.thermal_switch(tree, shader, radiance)
 
 
 def emitted(tree: nodes.Tree, shot: Shot, stage: Stage, kelvin: Any, emissivity: Any = 1.0) -> nodes.Value:
@@ -105,13 +100,7 @@ def _group(shot: Shot, stage: Stage) -> bpy.types.NodeTree:
 
 def _clear(tree: nodes.Tree) -> nodes.Value:
     """Part of the radiance that air between here and the camera lets through."""
-    distance = tree.output("ShaderNodeCameraData", name="View Distance")
-    geometry = tree.node("ShaderNodeNewGeometry")
-    low = tree.separate(tree.pick(geometry, "Position"))[2] / _HALF
-    rise = tree.separate(tree.pick(geometry, "Incoming"))[2] * distance / _HALF
-    rise = rise + 2.0e-3 * (tree.math("ABSOLUTE", rise) < 1.0e-3)  # never 0, where the mean below is 1
-    mean = (1.0 - (-rise).exp()) / rise
-    path = distance * 1.0e-3 * (-low).exp() * mean
+    path = haze.way(tree, _HALF) * 1.0e-3
     return (-(path.power(_BEND) * _value(tree, "Dim"))).exp()
 
 

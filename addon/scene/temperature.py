@@ -25,6 +25,7 @@ from ..blender.owned import Stage
 from ..shot import sun, temperature
 from ..shot.ground import bilinear
 from ..shot.shot import Shot
+from .light import sky
 
 FLAME_LOW, FLAME_HIGH = 1000.0, 1200.0  # K
 EMBER = 850.0  # K, ground full of glowing embers (assumed)
@@ -69,8 +70,7 @@ def sunlight(height: float) -> float:
     """Direct sunlight (W/m2) square to a sun at this height (degrees); 0 below the horizon."""
     if height <= 0.0:
         return 0.0
-    mass = 1.0 / (np.sin(np.radians(height)) + 0.50572 * (height + 6.07995) ** -1.6364)  # Kasten, Young 1989
-    return float(1353.0 * 0.7 ** (mass**0.678))
+    return float(1353.0 * 0.7 ** (sky.air_mass(height) ** 0.678))
 
 
 def _group(shot: Shot, stage: Stage, fill: bool = True) -> bpy.types.NodeTree:

@@ -26,7 +26,7 @@ def plates(scene, shot, stage):
             corners = [(edges[0], -3, 0), (edges[1], -3, 0), (edges[1], 3, 0), (edges[0], 3, 0)]
             mesh.from_pydata(corners, [], [(0, 1, 2, 3)])
             material, tree = nodes.material(f"plate {index}")
-            tree.surface(infrared.switch(tree, tree.emission((0, 0, 0)), radiance(tree, by, stage)))
+            tree.surface(nodes.thermal_switch(tree, tree.emission((0, 0, 0)), radiance(tree, by, stage)))
             mesh.materials.append(material)
             scene.collection.objects.link(bpy.data.objects.new(mesh.name, mesh))
         data = bpy.data.cameras.new("above")

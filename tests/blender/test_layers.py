@@ -56,7 +56,7 @@ def plain(settings, stage, scene, shot):
 def _surface(name, kelvin, shot, stage):
     material, tree = nodes.material(f"Firetwin {name}")
     shader = tree.output("ShaderNodeBsdfDiffuse", {"Color": (0.2, 0.3, 0.1)})
-    tree.surface(infrared.switch(tree, shader, infrared.emitted(tree, shot, stage, kelvin)))
+    tree.surface(nodes.thermal_switch(tree, shader, infrared.emitted(tree, shot, stage, kelvin)))
     return material
 
 

@@ -158,10 +158,19 @@ def test_points_of_a_depth_are_where_the_ground_is(perspective):
     assert np.abs(found[1:, :, 2]).max() < 1e-9
     assert found[10, 20, :2] == pytest.approx([10.0 - 12.5, 20.0 - 12.5])  # half a pixel right and down
     assert found[19, 39, :2] == pytest.approx([10.0 - 250.0 + 12.5, 20.0 - 500.0 + 12.5])
-    ranges = _view.ranges(view(perspective), planar)
+    ranges = _view.ranges(view(perspective), 1, planar)
     expected = np.linalg.norm(found - view(True).position[0], axis=-1) if perspective else planar
     np.testing.assert_allclose(ranges[1:], expected[1:], rtol=1e-6)
     assert np.all(ranges[0] == np.float32(1e10))
+
+
+def test_a_camera_that_zooms_sees_by_its_lens_of_that_frame():
+    zoomed = dataclasses.replace(view(True), wider=np.array([2.0]))
+    planar = np.full((20, 40), 1000.0, np.float32)
+    near, far = (_view.points(each, 1, planar) - each.position[0] for each in (view(True), zoomed))
+    np.testing.assert_allclose(far[..., :2], 2.0 * near[..., :2])
+    expected = np.linalg.norm(far, axis=-1)
+    np.testing.assert_allclose(_view.ranges(zoomed, 1, planar), expected, rtol=1e-6)
 
 
 class Seen:

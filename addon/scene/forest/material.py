@@ -188,4 +188,4 @@ def _switch(
 ) -> nodes.Value:
     """`shader` through the haze, or the infrared radiance through the air."""
     seen = infrared.through_air(tree, shot, stage, warmth)
-    return infrared.switch(tree, haze.apply(tree, shader, stage), seen)
+    return nodes.thermal_switch(tree, haze.apply(tree, shader, stage), seen)

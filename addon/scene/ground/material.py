@@ -15,7 +15,7 @@ from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot import photo
 from ...shot.shot import Shot
-from .. import granite, haze, infrared
+from .. import granite, haze
 from ..glow import CLOSE, EMBER, FLAME
 from . import fields, heat
 
@@ -76,7 +76,7 @@ def build(
     seen = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     shader = haze.apply(tree, tree.add_shader(matt, tree.emission(light, power * seen)), stage)
     warmth = heat.radiance(tree, shot, stage, place, rock, lake, normal, (flaming, embers))
-    tree.surface(infrared.switch(tree, shader, warmth))
+    tree.surface(nodes.thermal_switch(tree, shader, warmth))
     material.cycles.emission_sampling = "NONE"  # as lamps, its small lights would be noise
     return material
 

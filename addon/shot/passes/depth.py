@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..shot import Shot
 
 
-def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, _frame: int) -> None:
+def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
     """Add the range to the depth that was rendered."""
     import numpy as np
     from firetwin_core import sensor
@@ -25,7 +25,7 @@ def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, 
     from . import _view
 
     planar = sensor.read_image(files["exr"])[..., 0]
-    both = np.stack([planar, _view.ranges(_view.of(shot, camera), planar)], axis=-1)
+    both = np.stack([planar, _view.ranges(_view.of(shot, camera), frame, planar)], axis=-1)
     about = {"Comment": "m; planar: along the camera's axis, range: along the line of sight"}
     sensor.write_image(files["exr"], both, about, ["planar", "range"])
 
