@@ -109,9 +109,8 @@ def most(shot: Shot, distance: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _views(shot: Shot) -> tuple[float | None, float | None]:
     """Errors that may be seen: of cameras in perspective, m for each m of distance; of others, m."""
-    width, error = shot.settings.render.resolution[0], shot.settings.ground.error
-    halves = ([view.half[0] for view in shot.paths if view.perspective == kind] for kind in (True, False))
-    angle, pixel = (2.0 * error / width * min(half) if half else None for half in halves)
+    error = shot.settings.ground.error
+    angle, pixel = (error * size if np.isfinite(size) else None for size in shot.pixel)
     return angle, None if pixel is None else _SHADED * pixel
 
 

@@ -72,11 +72,7 @@ def levelled(shot: Shot, points: dict[str, NDArray]) -> dict[str, NDArray]:
 
     One level for the whole shot: nothing changes its shape while it is seen.
     """
-    width = shot.settings.render.resolution[0]
-    lens, plain = (
-        max((0.5 * width / path.half[0] for path in shot.paths if path.perspective == near), default=0.0)
-        for near in (True, False)
-    )
+    lens, plain = (1.0 / size for size in shot.pixel)
     near = lens / np.maximum(shot.sights.drawn_from(points["position"]), 1.0)
     level = levels.level(points["scale"] * np.maximum(near, plain))
     return {**points, **{key: models.instance(points[key], level) for key in ("model", "snag_model")}}

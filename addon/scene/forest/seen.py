@@ -31,9 +31,7 @@ def visible(
 
 def too_far(shot: Shot) -> bool:
     """Whether there are satellites, and none whose pixels are small enough for trees."""
-    width = shot.settings.render.resolution[0]
-    pixels = [2.0 * view.half[0] / width for view in shot.paths if not view.perspective]
-    return bool(pixels) and min(pixels) >= PIXEL
+    return PIXEL <= shot.pixel[1] < np.inf
 
 
 def cells(
