@@ -154,7 +154,7 @@ class Shot:
     @cached_property
     def ground(self) -> Ground:
         """The ground, with detail along the cameras' paths."""
-        rough = self._paths(self.bare_ground)
+        rough = self._paths(self.bare_ground) if self.whole is self else self.paths
         near = [view.position[self.filmed(view)] for view in rough if view.perspective]
         return self.bare_ground.seen_from(path.eyes(near, self.settings.ground.near_radius))
 
