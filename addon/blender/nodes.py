@@ -9,6 +9,7 @@ tree.surface(nodes.thermal_switch(tree, tree.emission(colour, embers), radiance)
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import bpy
@@ -172,6 +173,17 @@ class Tree:
         """A glowing surface or volume."""
         return self.output("ShaderNodeEmission", {"Color": colour, "Strength": strength})
 
+    def colours(self, place: Any, stops: Sequence[Sequence[float]]) -> Value:
+        """A Color Ramp with stops at equal steps of `place` from 0 to 1, linear between and held outside."""
+        node = self.node("ShaderNodeValToRGB", {"Fac": place})
+        elements = node.color_ramp.elements
+        while len(elements) < len(stops):
+            elements.new(1.0)
+        for index, stop in enumerate(stops):
+            elements[index].position = index / (len(stops) - 1)
+            elements[index].color = (*stop, 1.0)
+        return self.pick(node)
+
     def attribute(self, name: str, kind: str = "GEOMETRY", output: str = "Fac") -> Value:
         """A named attribute: of the GEOMETRY, the INSTANCER, the OBJECT or the VIEW_LAYER."""
         return self.output("ShaderNodeAttribute", (), output, attribute_name=name, attribute_type=kind)
@@ -232,6 +244,59 @@ def geometry(name: str, inputs: Mapping[str, str] | None = None) -> tuple[Tree, 
     group.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
     tree = Tree(group)
     return tree, tree.node("NodeGroupInput")
+
+
+@dataclass(frozen=True)
+class Input:
+    """An input of a node group.
+
+    Attributes
+    ----------
+    name, help
+        What it is called, and a line on it.
+    default
+        Its kind follows from it: a whole number, a number, or a colour (red, green, blue, alpha).
+    panel
+        Heading that it stands under; empty: none.
+    low, high
+        Bounds of numbers.
+    """
+
+    name: str
+    help: str
+    default: Any = 0.0
+    panel: str = ""
+    low: float | None = None
+    high: float | None = None
+
+
+_SOCKETS = {int: "NodeSocketInt", float: "NodeSocketFloat", tuple: "NodeSocketColor"}
+
+
+def compositor(name: str, help: str, inputs: Sequence[Input], outputs: Mapping[str, str]) -> Tree:
+    """A new compositor node group of ours, for people to use: what its inputs mean shows under the pointer.
+
+    Parameters
+    ----------
+    outputs
+        name -> socket type such as "NodeSocketColor".
+    """
+    group = owned.mark(bpy.data.node_groups.new(name, "CompositorNodeTree"))
+    group.description = help
+    for label, kind in outputs.items():
+        group.interface.new_socket(label, in_out="OUTPUT", socket_type=kind)
+    panels = {each.panel: group.interface.new_panel(each.panel) for each in inputs if each.panel}
+    for each in inputs:
+        kind = _SOCKETS[type(each.default)]
+        socket = group.interface.new_socket(
+            each.name, description=each.help, socket_type=kind, parent=panels.get(each.panel)
+        )
+        if each.low is not None:
+            socket.min_value = each.low
+        if each.high is not None:
+            socket.max_value = each.high
+        socket.default_value = each.default
+    return Tree(group)
 
 
 def model_time(tree: Tree) -> Value:
