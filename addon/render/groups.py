@@ -114,8 +114,8 @@ def eye_dome() -> bpy.types.NodeTree:
     for down, across in ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1)):
         moved = {"Image": near, "X": get("Radius") * float(across), "Y": get("Radius") * float(down)}
         there = tree.output("CompositorNodeTranslate", moved)
-        total = total + tree.math("MAXIMUM", there - near, 0.0)
-    shade = (total * get("Strength") * -0.125).exp()
+        total = total + tree.math("MINIMUM", near - there, 0.0)  # a node's first input says where its picture lies
+    shade = (total * get("Strength") * 0.125).exp()
     shaded = _times(tree, get("Image"), shade)
     tree.node("NodeGroupOutput", {"Image": shaded, "Shade": shade})
     return tree.node_tree

@@ -86,7 +86,7 @@ def test_a_thermal_camera_reads_temperatures_off_radiance(composite, band):
     assert np.abs(made[..., 0] / warm - 1.0).max() < 5e-6
 
 
-@pytest.mark.parametrize("number, name", enumerate(sensor.palettes(), 1))
+@pytest.mark.parametrize(("number", "name"), list(enumerate(sensor.palettes(), 1)))
 def test_a_thermal_camera_shows_the_palettes(composite, number, name):
     radiance = sensor.radiance(kelvin()).astype(np.float32)
     made = composite("Thermal Camera", Radiance=radiance, Low=290.0, High=900.0, Knee=8.0, Palette=number)
