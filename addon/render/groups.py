@@ -1,9 +1,9 @@
 """Compositor node groups: what the passes make of files, for an artist's own compositor.
 
 They are in every scene that is built (Add > Group in the compositor) and give what `firetwin_core.sensor`
-gives from files, within 1e-5. Colours are those of the display, 0..1, as in a PNG: an Image node reads them as
-Non-Color, and the scene's view transform is Raw. Depth and radiance are those of the view layers "depth" and
-"thermal", and of their EXR files.
+gives from files, within 1e-5. Colours are those of the display, 0..1, as in a PNG: an Image node reads them
+as Non-Color, and the scene's view transform is Raw. Depth and radiance are those of the view layers "depth"
+and "thermal", and of their EXR files.
 
 `Thermal Camera` reads temperatures off a polynomial of the band's radiance, within 3e-6 of the integral's
 inverse from 180 to 1800 K (`RANGE`); it knows the band of the scene's settings.
@@ -77,7 +77,13 @@ def thermal_camera() -> bpy.types.NodeTree:
             Input("Radiance", "Of the band, W m-2 sr-1: the image of the view layer thermal", 55.0),
             Input("Low", "K at the cold end of the palette", 290.0, "Temperatures", 0.0),
             Input("High", "K at its hot end", 1000.0, "Temperatures", 0.0),
-            Input("Knee", "K above the cold end where the scale begins to close up", thermal.KNEE, "Temperatures", 0.01),
+            Input(
+                "Knee",
+                "K above the cold end where the scale begins to close up",
+                thermal.KNEE,
+                "Temperatures",
+                0.01,
+            ),
             Input("Palette", listed, 1, "Look", 1, len(names)),
         ],
         {"Image": _COLOUR, "Kelvin": _NUMBER},
@@ -108,13 +114,15 @@ def eye_dome() -> bpy.types.NodeTree:
         {"Image": _COLOUR, "Shade": _NUMBER},
     )
     depth = tree.math("MINIMUM", tree.math("MAXIMUM", get("Depth"), _NEAREST), _DEEPEST)
-    # Nearness: where a neighbour is beyond the edge, Translate gives 0, the deepest there is, which adds nothing.
+    # Nearness: beyond the edge Translate gives 0, the deepest there is, which adds nothing.
     near = tree.math("LOGARITHM", _DEEPEST / depth, 2.0)
     total: Any = 0.0
     for down, across in ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1)):
         moved = {"Image": near, "X": get("Radius") * float(across), "Y": get("Radius") * float(down)}
         there = tree.output("CompositorNodeTranslate", moved)
-        total = total + tree.math("MINIMUM", near - there, 0.0)  # a node's first input says where its picture lies
+        total = total + tree.math(
+            "MINIMUM", near - there, 0.0
+        )  # a node's first input says where its picture lies
     shade = (total * get("Strength") * 0.125).exp()
     shaded = _times(tree, get("Image"), shade)
     tree.node("NodeGroupOutput", {"Image": shaded, "Shade": shade})

@@ -191,7 +191,7 @@ class Shot:
 
     @cached_property
     def warmest(self) -> tuple[float, float]:
-        """K over unburned air that the fire's mean warmth begins at and comes to, of 25 moments of the shot."""
+        """K that the air the fire warms is over unburned air, least and most, in 25 moments of the shot."""
         times = np.linspace(self.frames.first, self.frames.last, min(25, self.frames.count))
         found = [temperature.warmth(self.run, time - self.averaged, time) for time in times]
         low, high = max(noise for _, noise in found), max(float(above.max()) for above, _ in found)

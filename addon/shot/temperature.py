@@ -45,11 +45,11 @@ def mean(run: Run, start: float, end: float) -> Array:
 
 
 def warmth(run: Run, start: float, end: float) -> tuple[Array, float]:
-    """(ny, nx) K that the mean air from `start` to `end` (s) is warmer than unburned air as high, and the noise.
+    """(ny, nx) K that mean air from `start` to `end` (s) is warmer than unburned air as high, and the noise.
 
-    Unburned air is a straight line through temperature against the model's elevation, by least squares over the
-    cells without heat flux in that time: height and time of day are not warmth. A hundredth of those cells lie
-    above the noise (K), as beside the fire and where wind and slope make other air.
+    Unburned air is a straight line through temperature against the model's elevation, by least squares over
+    the cells without heat flux in that time: height and time of day are not warmth. A hundredth of those
+    cells lie above the noise (K), as beside the fire and where wind and slope make other air.
     """
     kelvin = mean(run, start, end)
     inside = np.flatnonzero((run.times >= start) & (run.times <= end))

@@ -1,4 +1,4 @@
-"""Compositor node groups against what the core makes of the same pictures: float within 1e-5, 8 bits within 1."""
+"""Compositor node groups against what the core makes of the same pictures: within 1e-5, in 8 bits a step."""
 
 from dataclasses import replace
 
@@ -82,7 +82,9 @@ def test_thermal_blend_is_the_papers_sum(composite):
 def test_a_thermal_camera_reads_temperatures_off_radiance(composite, band):
     warm = kelvin(185.0, 1750.0)
     limits = scene_settings.BANDS[band]
-    made = composite("Thermal Camera", band, "Kelvin", Radiance=sensor.radiance(warm, limits).astype(np.float32))
+    made = composite(
+        "Thermal Camera", band, "Kelvin", Radiance=sensor.radiance(warm, limits).astype(np.float32)
+    )
     assert np.abs(made[..., 0] / warm - 1.0).max() < 5e-6
 
 

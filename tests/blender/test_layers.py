@@ -11,7 +11,7 @@ from firetwin.render.picture import Picture
 from firetwin.render.sharing import making
 from firetwin.scene import infrared
 from firetwin.scene.build import PARTS
-from firetwin.shot import passes, temperature
+from firetwin.shot import passes
 from firetwin.shot.passes import thermal
 from firetwin_core import sensor
 

@@ -56,7 +56,7 @@ class Pass:
     needs
         Other passes whose files its own are made from.
     sources
-        Files and folders of the package, beside its own module and what all are made with, that decide its files.
+        Files and folders of the package that decide its files, beside its own module and what all depend on.
     finish
         Makes the files that Blender does not, or goes on with those that it made. Called with the pass's
         files by suffix; those of the passes that it needs, by pass and suffix; the shot; the camera's name;

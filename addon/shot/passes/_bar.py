@@ -1,4 +1,4 @@
-"""A bar of temperatures at the right edge of a picture, with its numbers in K, and lines of text at its top."""
+"""A bar of temperatures at the right edge of a picture, with its numbers in K; lines of text at its top."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """What a satellite's imager measures, in register with a camera's picture: pixels as large as the imager's.
 
 A camera over the equator stands for GOES-R's ABI at its longitude, any other for VIIRS (see
-`shot.satellites.imager`). Each point of the ground that the camera sees, by the depth, shows the imager's pixel
-that it lies in; what lies in no whole pixel within the run's domain is grey.
+`shot.satellites.imager`). Each point of the ground that the camera sees, by the depth, shows the imager's
+pixel that it lies in; what lies in no whole pixel within the run's domain is grey.
 """
 
 from __future__ import annotations

@@ -6,10 +6,10 @@ doi 10.1029/2005JD006318: 14 +- 3 %), so f is the area that gives off this part 
 1000 K. The background is the run's air, and ground that cools since the fire passed. Air, smoke, clouds and
 mirrored sunlight (some kelvin at 3.9 um by day) are left out, and pixels are even boxes beside one another.
 
-The hottest black bodies that ABI measures, 400 K in band 7 and 330 K in band 14, are those of C. C. Schmidt et
-al. 2020, "GOES-R ABI Algorithm Theoretical Basis Document for Fire / Hot Spot Characterization" 2.7, table 2.3.
-For VIIRS they are 367 K (I4) and 380 K (I5), at which users of its fire product take these bands to be
-saturated; no document of the instrument's makers was found that states them.
+The hottest black bodies that ABI measures, 400 K in band 7 and 330 K in band 14, are those of C. C. Schmidt
+et al. 2020, "GOES-R ABI Algorithm Theoretical Basis Document for Fire / Hot Spot Characterization" 2.7, table
+2.3. Users of VIIRS's fire product take I4 to be saturated from 367 K; neither for that nor for the 380 K of
+I5 was a document of the instrument's makers found.
 
 Fire radiative power by the radiance in the middle infrared is A sigma / a (L - L(background)), with
 a = 3.0e-9 W m-2 sr-1 um-1 K-4 (Wooster et al. 2003, 2005): at 3.9 um and 1000 K that is 1.13 of the power
