@@ -8,6 +8,7 @@ tree.surface(nodes.thermal_switch(tree, tree.emission(colour, embers), radiance)
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -174,15 +175,23 @@ class Tree:
         return self.output("ShaderNodeEmission", {"Color": colour, "Strength": strength})
 
     def colours(self, place: Any, stops: Sequence[Sequence[float]]) -> Value:
-        """A Color Ramp with stops at equal steps of `place` from 0 to 1, linear between and held outside."""
-        node = self.node("ShaderNodeValToRGB", {"Fac": place})
-        elements = node.color_ramp.elements
-        while len(elements) < len(stops):
-            elements.new(1.0)
-        for index, stop in enumerate(stops):
-            elements[index].position = index / (len(stops) - 1)
-            elements[index].color = (*stop, 1.0)
-        return self.pick(node)
+        """Colours at equal steps of `place` from 0 to 1, linear between and held outside.
+
+        A Color Ramp looks them up in 257 steps in some releases, off by 0.003 at its stops.
+        """
+        pieces = len(stops) - 1
+        total: Any = tuple(stops[0])
+        for index, (start, end) in enumerate(itertools.pairwise(stops)):
+            inputs = {
+                "Vector": place,
+                "From Min": 3 * (index / pieces,),
+                "From Max": 3 * ((index + 1) / pieces,),
+                "To Min": (0.0, 0.0, 0.0),
+                "To Max": tuple(after - before for before, after in zip(start, end, strict=True)),
+            }
+            more = self.output("ShaderNodeMapRange", inputs, "Vector", data_type="FLOAT_VECTOR", clamp=True)
+            total = self.vector("ADD", more, total)
+        return total
 
     def attribute(self, name: str, kind: str = "GEOMETRY", output: str = "Fac") -> Value:
         """A named attribute: of the GEOMETRY, the INSTANCER, the OBJECT or the VIEW_LAYER."""

@@ -17,7 +17,7 @@ import bpy
 import numpy as np
 from firetwin_core import sensor
 
-from ..blender import nodes
+from ..blender import compat, nodes
 from ..blender.nodes import Input, Tree, Value
 from ..blender.owned import Stage
 from ..shot.passes import edl, overlay, thermal
@@ -119,7 +119,7 @@ def eye_dome() -> bpy.types.NodeTree:
     total: Any = 0.0
     for down, across in ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1)):
         moved = {"Image": near, "X": get("Radius") * float(across), "Y": get("Radius") * float(down)}
-        there = tree.output("CompositorNodeTranslate", moved)
+        there = tree.pick(compat.whole_pixels(tree.node("CompositorNodeTranslate", moved)))
         total = total + tree.math(
             "MINIMUM", near - there, 0.0
         )  # a node's first input says where its picture lies
