@@ -190,12 +190,20 @@ class Shot:
         return temperature.coldest(self.run, self.frames.middle)
 
     @cached_property
+    def coldest_moment(self) -> float:
+        """The same in the coldest of 25 moments of the shot."""
+        return min(temperature.coldest(self.run, float(time)) for time in self._moments)
+
+    @cached_property
     def warmest(self) -> tuple[float, float]:
         """K that the air the fire warms is over unburned air, least and most, in 25 moments of the shot."""
-        times = np.linspace(self.frames.first, self.frames.last, min(25, self.frames.count))
-        found = [temperature.warmth(self.run, time - self.averaged, time) for time in times]
+        found = [temperature.warmth(self.run, time - self.averaged, time) for time in self._moments]
         low, high = max(noise for _, noise in found), max(float(above.max()) for above, _ in found)
         return low, max(high, low + 1.0)
+
+    @property
+    def _moments(self) -> NDArray[np.float64]:
+        return np.linspace(self.frames.first, self.frames.last, min(25, self.frames.count))
 
     @property
     def averaged(self) -> float:

@@ -40,7 +40,7 @@ def draw(png: Path, depth: Path, shot: Shot, camera: str, frame: int, long: bool
     if seen is not None:
         kelvin = _register(shot, _view.points(view, frame, planar), seen, seen.long if long else seen.short)
     most = instrument.saturation[long]
-    low = min(shot.coldest, most - 1.0)
+    low = min(shot.coldest_moment, most - 1.0)
     shown = sensor.colour(kelvin, low, most, PALETTE, KNEE)
     shown[np.isnan(kelvin)] = _GREY
     _bar.draw(shown, low, most, PALETTE, KNEE)
