@@ -49,7 +49,7 @@ def _passes() -> str:
     """A line about each pass."""
     from .shot import passes
 
-    return "\n".join(f"  {name:<9}{text}" for name, text in passes.helps().items())
+    return "\n".join(f"  {name:<13}{text}" for name, text in passes.helps().items())
 
 
 def _report(error: Exception) -> int:

@@ -210,6 +210,15 @@ def bloom(tree: bpy.types.NodeTree, image: bpy.types.NodeSocket, **settings: flo
     return find_socket(glare.outputs, "Image")
 
 
+def whole_pixels(translate: bpy.types.Node) -> bpy.types.Node:
+    """Make a Translate node of the compositor move whole pixels, without blending neighbours by rounding."""
+    if hasattr(translate, "interpolation"):
+        translate.interpolation = "NEAREST"
+    else:
+        find_socket(translate.inputs, "Interpolation").default_value = "Nearest"
+    return translate
+
+
 def exr_output(
     tree: bpy.types.NodeTree, name: str, image: bpy.types.NodeSocket, grey: bool, bits: int
 ) -> bpy.types.Node:

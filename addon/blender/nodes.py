@@ -8,7 +8,9 @@ tree.surface(nodes.thermal_switch(tree, tree.emission(colour, embers), radiance)
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import bpy
@@ -172,6 +174,25 @@ class Tree:
         """A glowing surface or volume."""
         return self.output("ShaderNodeEmission", {"Color": colour, "Strength": strength})
 
+    def colours(self, place: Any, stops: Sequence[Sequence[float]]) -> Value:
+        """Colours at equal steps of `place` from 0 to 1, linear between and held outside.
+
+        A Color Ramp looks them up in 257 steps in some releases, off by 0.003 at its stops.
+        """
+        pieces = len(stops) - 1
+        total: Any = tuple(stops[0])
+        for index, (start, end) in enumerate(itertools.pairwise(stops)):
+            inputs = {
+                "Vector": place,
+                "From Min": 3 * (index / pieces,),
+                "From Max": 3 * ((index + 1) / pieces,),
+                "To Min": (0.0, 0.0, 0.0),
+                "To Max": tuple(after - before for before, after in zip(start, end, strict=True)),
+            }
+            more = self.output("ShaderNodeMapRange", inputs, "Vector", data_type="FLOAT_VECTOR", clamp=True)
+            total = self.vector("ADD", more, total)
+        return total
+
     def attribute(self, name: str, kind: str = "GEOMETRY", output: str = "Fac") -> Value:
         """A named attribute: of the GEOMETRY, the INSTANCER, the OBJECT or the VIEW_LAYER."""
         return self.output("ShaderNodeAttribute", (), output, attribute_name=name, attribute_type=kind)
@@ -232,6 +253,59 @@ def geometry(name: str, inputs: Mapping[str, str] | None = None) -> tuple[Tree, 
     group.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
     tree = Tree(group)
     return tree, tree.node("NodeGroupInput")
+
+
+@dataclass(frozen=True)
+class Input:
+    """An input of a node group.
+
+    Attributes
+    ----------
+    name, help
+        What it is called, and a line on it.
+    default
+        Its kind follows from it: a whole number, a number, or a colour (red, green, blue, alpha).
+    panel
+        Heading that it stands under; empty: none.
+    low, high
+        Bounds of numbers.
+    """
+
+    name: str
+    help: str
+    default: Any = 0.0
+    panel: str = ""
+    low: float | None = None
+    high: float | None = None
+
+
+_SOCKETS = {int: "NodeSocketInt", float: "NodeSocketFloat", tuple: "NodeSocketColor"}
+
+
+def compositor(name: str, help: str, inputs: Sequence[Input], outputs: Mapping[str, str]) -> Tree:
+    """A new compositor node group of ours, for people to use: what its inputs mean shows under the pointer.
+
+    Parameters
+    ----------
+    outputs
+        name -> socket type such as "NodeSocketColor".
+    """
+    group = owned.mark(bpy.data.node_groups.new(name, "CompositorNodeTree"))
+    group.description = help
+    for label, kind in outputs.items():
+        group.interface.new_socket(label, in_out="OUTPUT", socket_type=kind)
+    panels = {each.panel: group.interface.new_panel(each.panel) for each in inputs if each.panel}
+    for each in inputs:
+        kind = _SOCKETS[type(each.default)]
+        socket = group.interface.new_socket(
+            each.name, description=each.help, socket_type=kind, parent=panels.get(each.panel)
+        )
+        if each.low is not None:
+            socket.min_value = each.low
+        if each.high is not None:
+            socket.max_value = each.high
+        socket.default_value = each.default
+    return Tree(group)
 
 
 def model_time(tree: Tree) -> Value:

@@ -46,8 +46,8 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
 
 def _modules(name: str) -> list[str]:
     """Files of a pass and of those that it is made from."""
-    file = inspect.getfile(sys.modules[f"{passes.__name__}.{name}"])
-    return [file, *(each for need in passes.known()[name].needs for each in _modules(need))]
+    file, each = inspect.getfile(sys.modules[f"{passes.__name__}.{name}"]), passes.known()[name]
+    return [file, *each.sources, *(module for need in each.needs for module in _modules(need))]
 
 
 @functools.cache

@@ -19,6 +19,7 @@ namespace {
 
 constexpr int largest_megabytes = 1024;
 constexpr int most_channels = 64;
+constexpr int png_level = 1; // of zlib: 3 times as quick as its usual 6, files 6 to 11 % larger
 constexpr OIIO::imagesize_t most_values = 256'000'000; // 1 GB of floats
 
 /// OpenImageIO's name of a format, by the first bytes.
@@ -61,6 +62,9 @@ OIIO::ImageSpec make_spec(std::size_t height, std::size_t width, std::size_t cha
     spec.attribute("compression", "zip");
     spec.attribute("DateTime",
                    "1970:01:01 00:00:00"); // else now: one picture would have many files
+  }
+  if (!exr) {
+    spec.attribute("png:compressionLevel", png_level);
   }
   if (exr && !names.empty()) {
     spec.channelnames = names;

@@ -264,7 +264,7 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
         return {name for name in passes.known() if key(changed, name) != key(SETTINGS, name)}
 
     everything = set(passes.known())
-    lit = {"rgb", "thermal", "thermal_map", "edl"}  # the last two are made from the first
+    lit = {"rgb", "thermal", "thermal_map", "edl", "overlay"}  # the last three are made from the first
     assert changes() == set()
     assert changes(seed=2) == everything
     assert changes(time=replace(SETTINGS.time, frames=5)) == everything
@@ -274,7 +274,7 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
     assert changes(render=s.Render(samples=7)) == lit
     assert changes(light=s.Light(haze=0.5)) == lit
     assert changes(smoke=s.Smoke(max_age=9.0)) == lit
-    assert changes(render=s.Render(thermal_high=900.0)) == {"thermal"}
+    assert changes(render=s.Render(thermal_high=900.0)) == {"thermal", "overlay"}
     assert changes(render=s.Render(passes=("rgb",), video=False, device="cpu")) == set()
     # What is built, and how finely, depends on what is filmed of it.
     assert changes(cameras=(replace(CAMERAS[0], frames="1"), CAMERAS[1])) == everything
@@ -397,7 +397,7 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
         after = keys()
         return {name for name in before if before[name] != after[name]}
 
-    lit = {"rgb", "thermal", "thermal_map", "edl"}
+    lit = {"rgb", "thermal", "thermal_map", "edl", "overlay"}
     assert changed("scene/smoke/material.py") == lit
     assert changed("scene/fire/flames.py") == lit
     assert changed("scene/ground/build.py") == set(passes.known())

@@ -55,6 +55,8 @@ class Pass:
         Aspects that its own rendering shows (see `schema.chosen`).
     needs
         Other passes whose files its own are made from.
+    sources
+        Files and folders of the package that decide its files, beside its own module and what all depend on.
     finish
         Makes the files that Blender does not, or goes on with those that it made. Called with the pass's
         files by suffix; those of the passes that it needs, by pass and suffix; the shot; the camera's name;
@@ -76,6 +78,7 @@ class Pass:
     pixel_centres: bool = False
     filmed: bool = False
     needs: tuple[str, ...] = ()
+    sources: tuple[str, ...] = ()
     finish: Finish | None = None
 
     @property
