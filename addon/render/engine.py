@@ -36,10 +36,21 @@ def apply(settings: Settings, scene: bpy.types.Scene) -> None:
     render.image_settings.color_mode, render.image_settings.color_depth = "RGB", "8"
     render.image_settings.compression = 15
     render.dither_intensity = 0.0
+    _eyes(settings, scene)
     if settings.render.engine == "eevee":
         _eevee(settings, scene)
     else:
         _cycles(settings, scene)
+
+
+def _eyes(settings: Settings, scene: bpy.types.Scene) -> None:
+    """Render a picture for each eye where all cameras see all round; files hold both."""
+    render = scene.render
+    render.use_multiview = bool(settings.cameras) and all(each.rig.around for each in settings.cameras)
+    if render.use_multiview:
+        render.resolution_y //= 2
+        render.views_format = "STEREO_3D"
+        compat.over_under(render.image_settings)
 
 
 def _cycles(settings: Settings, scene: bpy.types.Scene) -> None:

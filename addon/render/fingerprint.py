@@ -19,7 +19,13 @@ from .picture import Picture
 Fingerprints = dict[tuple[str, str], dict[str, Any]]
 """By camera and pass."""
 
-_RENDERING = ("render/engine.py", "render/layers.py", "render/pictures.py", "render/png.py")
+_RENDERING = (
+    "render/engine.py",
+    "render/layers.py",
+    "render/pictures.py",
+    "render/png.py",
+    "render/spherical.py",
+)
 
 
 def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) -> dict[str, Any]:

@@ -399,7 +399,22 @@ class Settings:
                 frame_list.parse(camera.frames, self.time.frames)
             except ValueError as error:
                 return ("cameras", i, "frames"), f"cameras.frames: {error}"
-        return self._leaderless()
+        return self._leaderless() or self._around()
+
+    def _around(self) -> tuple[Where, str] | None:
+        """What is asked of cameras that see all round and cannot be."""
+        for i, camera in enumerate(self.cameras):
+            width, height = camera.resolution or self.render.resolution
+            if camera.rig.around and self.render.engine != "cycles":
+                reason = f'camera "{camera.name}" sees all round, which EEVEE cannot; render it with Cycles'
+                return ("cameras", i, "kind"), reason
+            if camera.rig.around and width != height:
+                reason = (
+                    f'camera "{camera.name}" needs a square resolution, such as [2048, 2048]: two pictures '
+                    f"one above the other, each twice as wide as high; it has {width} x {height}"
+                )
+                return ("cameras", i, "resolution"), reason
+        return None
 
     def _leaderless(self) -> tuple[Where, str] | None:
         for i, camera in enumerate(self.cameras):

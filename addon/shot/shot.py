@@ -166,10 +166,13 @@ class Shot:
     @cached_property
     def pixel(self) -> tuple[float, float]:
         """Sizes of the smallest pixels: in perspective m per m of distance, with parallel lines m."""
-        return path.finest(self.paths, self.settings.render.resolution[0])
+        return path.finest(self.paths)
 
     def _paths(self, ground: Ground) -> list[Path]:
-        return [camera.rig.path(camera, self, ground) for camera in self.settings.cameras]
+        return [
+            replace(camera.rig.path(camera, self, ground), width=self.resolution(camera)[0])
+            for camera in self.settings.cameras
+        ]
 
     def warnings(self) -> list[str]:
         """What an artist should know of the cameras' paths."""

@@ -39,8 +39,10 @@ def _camera(view: Path, collection: bpy.types.Collection, shot: Shot) -> bpy.typ
     data = bpy.data.cameras.new(f"Firetwin {name}")
     data.clip_start, data.clip_end = clip(view, shot.ground)
     data.sensor_fit, data.sensor_width = "HORIZONTAL", view.sensor
-    pixel = 2.0 * view.half[0] / shot.resolution(view.camera)[0]  # m for each m of distance, or m
-    if view.perspective or view.meet:
+    pixel = view.pixel
+    if view.around:
+        _see_around(data, view.apart)
+    elif view.perspective or view.meet:
         lens = 0.5 * view.sensor * (view.meet or 1.0) / view.halves[:, :1]
         _animate(data, "lens", lens, _PIXELS * pixel / view.halves.max() * lens.min())
     else:
@@ -55,6 +57,14 @@ def _camera(view: Path, collection: bpy.types.Collection, shot: Shot) -> bpy.typ
     _animate(thing, "location", view.position, max(_PIXELS * pixel * near, _LEAST))
     _animate(thing, "rotation_quaternion", quaternions, 0.5 * _PIXELS * turn)  # half the angle is in them
     return thing
+
+
+def _see_around(data: bpy.types.Camera, apart: float) -> None:
+    """Equirectangular, with eyes on a circle (spherical stereo) that come together towards the poles."""
+    data.type, data.panorama_type = "PANO", "EQUIRECTANGULAR"
+    stereo = data.stereo
+    stereo.use_spherical_stereo = stereo.use_pole_merge = True
+    stereo.interocular_distance, stereo.convergence_mode, stereo.pivot = apart, "PARALLEL", "CENTER"
 
 
 def _animate(block: bpy.types.ID, what: str, values: NDArray[np.float64], tolerance: float) -> None:
