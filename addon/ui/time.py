@@ -115,31 +115,32 @@ class FIRETWIN_MT_moments(bpy.types.Menu):
             self.layout.operator(FIRETWIN_OT_jump.bl_idname, text=text).moment = moment
 
 
-class _Ends(bpy.types.Menu):
-    key = ""
-
-    def draw(self, context: bpy.types.Context) -> None:
-        settings = context.scene.firetwin
-        for moment, words in moments(settings):
-            text = f"{_local(datetime.fromisoformat(moment), settings.time.zone)}, {words}"
-            button = self.layout.operator(FIRETWIN_OT_window.bl_idname, text=text)
-            button.moment, button.key = moment, self.key
-
-
-class FIRETWIN_MT_start(_Ends):
+class FIRETWIN_MT_start(bpy.types.Menu):
     """The first frame at a dated moment of the run"""
 
     bl_idname = "FIRETWIN_MT_start"
     bl_label = "Begin at"
-    key = "start"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        _ends(self.layout, context.scene.firetwin, "start")
 
 
-class FIRETWIN_MT_end(_Ends):
+class FIRETWIN_MT_end(bpy.types.Menu):
     """The last frame at a dated moment of the run"""
 
     bl_idname = "FIRETWIN_MT_end"
     bl_label = "End at"
-    key = "end"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        _ends(self.layout, context.scene.firetwin, "end")
+
+
+def _ends(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, key: str) -> None:
+    """Dated moments, each as a button that lets the window begin or end there."""
+    for moment, words in moments(settings):
+        text = f"{_local(datetime.fromisoformat(moment), settings.time.zone)}, {words}"
+        button = layout.operator(FIRETWIN_OT_window.bl_idname, text=text)
+        button.moment, button.key = moment, key
 
 
 def _local(moment: datetime, zone: str) -> str:
