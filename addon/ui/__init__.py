@@ -2,16 +2,38 @@
 
 import bpy
 
-from . import build, command, preferences, properties, render, run, time, working
+from . import (
+    build,
+    cameras_panel,
+    command,
+    maps,
+    open,
+    preferences,
+    properties,
+    quality,
+    render,
+    report,
+    rows,
+    run,
+    section_panels,
+    time,
+    working,
+)
 
 classes = (
     *preferences.classes,
     *properties.classes,
     *working.classes,
+    *rows.classes,
     *run.classes,
+    *open.classes,
+    *quality.classes,
     *build.classes,
     *time.classes,
+    *cameras_panel.classes,
     *render.classes,
+    *section_panels.classes,
+    *report.classes,
 )
 
 
@@ -21,11 +43,14 @@ def register() -> None:
         bpy.utils.register_class(cls)
     bpy.types.Scene.firetwin = bpy.props.PointerProperty(type=properties.FIRETWIN_PG_scene)
     command.register()
+    open.register()
 
 
 def unregister() -> None:
     """Undo `register` in reverse order; work that still goes on is ended."""
     working.abandon()
+    maps.forget()
+    open.unregister()
     command.unregister()
     del bpy.types.Scene.firetwin
     for cls in reversed(classes):
