@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from ..schema import Where
     from ..settings import Camera
     from ..shot import Shot
+    from ._view import View
 
     Place = tuple[Where, float, float]
 
@@ -32,6 +33,11 @@ USUAL = "drone"  # where a camera names no kind
 
 class Rig:
     """How a camera is set up and moved: what is particular to its kind."""
+
+    @classmethod
+    def seeing(cls, view: View) -> Rig:
+        """One that shows about what is seen in a view; a usual one where its kind cannot."""
+        return cls()
 
     def wrong(self) -> tuple[Where, str] | None:
         """What no single key can say: where in its table, and words that follow the camera's name."""
