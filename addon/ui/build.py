@@ -12,7 +12,6 @@ from ..scene.build import PARTS
 from ..shot.shot import Shot
 from . import job, keys, run, stage, time, view, working
 from .job import Away, Steps, Told
-from .text import labelled
 from .working import Working
 
 ALL = "all"
@@ -58,7 +57,7 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
         uid, settings = context.scene.session_uid, context.scene.firetwin
         part = self.part
         parts = tuple(PARTS) if part == ALL else (part,)
-        chosen, smoke = run.choice(settings), settings.smoke and "smoke" in parts
+        chosen, smoke = run.choice(settings), settings.bake_smoke and "smoke" in parts
         shot = yield Away("reading the run", lambda **_: chosen.shot())
         if smoke and shot.settings.smoke.enabled:
             yield Away("smoke", functools.partial(bake.run, chosen, together=True))
@@ -159,8 +158,7 @@ class FIRETWIN_PT_build(bpy.types.Panel):
             row.menu(FIRETWIN_MT_parts.bl_idname, text="", icon="DOWNARROW_HLT")
         column = layout.column()
         column.enabled = job.Job.current is None
-        labelled(column, "Smoke").prop(settings, "method", text="")
-        column.prop(settings, "smoke")
+        column.prop(settings, "bake_smoke")
         row = layout.row(align=True)
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Through camera", icon="CAMERA_DATA").whole = False
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Whole run", icon="WORLD_DATA").whole = True

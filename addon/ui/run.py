@@ -1,4 +1,4 @@
-"""Choose a run and a scene file, and see what is in them."""
+"""Choose a run or a scene file, and see what is in it."""
 
 from __future__ import annotations
 
@@ -10,20 +10,32 @@ from typing import Any
 import bpy
 
 from ..blender import owned
+from ..shot import file
 from ..shot.choice import Choice
-from . import job, preferences, working
+from . import camera_list, job, preferences, scene_file, working
 from .job import Away, Steps
 from .text import labelled, paragraph
 from .working import Working
 
 
 def chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """Another run folder or scene file: look into it."""
+    """Another run folder: look into it."""
     if job.Job.current is not None:
         return
     settings.facts = settings.problem = ""
-    if source(settings):
+    if settings.run:
         _inspect(settings)
+    working.redraw()
+
+
+def imported(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    """Another scene file: fill the panel from it."""
+    if job.Job.current is not None or not settings.scene_file:
+        return
+    try:
+        scene_file.fill(settings.id_data, file.read(bpy.path.abspath(settings.scene_file)))
+    except Exception as error:
+        settings.facts, settings.problem = "", job.words(error)
     working.redraw()
 
 
@@ -36,55 +48,25 @@ def _inspect(settings: bpy.types.PropertyGroup) -> None:
         settings.problem = settings.problem or str(error)
 
 
-def source(settings: bpy.types.PropertyGroup) -> str:
-    """The scene file, else the run folder that is chosen."""
-    return settings.scene_file or settings.run
-
-
-def shown_run(settings: bpy.types.PropertyGroup) -> str:
-    """The run of the scene file, once that is read."""
-    return read(settings.facts)["run"] if settings.scene_file and settings.facts else ""
-
-
-def absolute(path: str) -> str:
-    """A path of the panel as one for the system."""
-    return bpy.path.abspath(path) if path else ""
-
-
-def output(settings: bpy.types.PropertyGroup) -> str:
-    """The output folder; empty while it hangs on a .blend file that is not saved."""
-    if settings.output.startswith("//") and not bpy.data.filepath:
-        return ""
-    return absolute(settings.output)
-
-
 def choice(settings: bpy.types.PropertyGroup) -> Choice:
-    """What the panel and the preferences choose; a scene file's run and cache are its own."""
-    scene_file, folder = absolute(settings.scene_file), output(settings)
-    own = {
-        name: "" if chosen == preferences.AS_FILE[0] else chosen
-        for name, chosen in (("engine", settings.engine), ("smoke", settings.method))
-    }
-    if scene_file:
-        return Choice(scene_file, device=preferences.device(), **own)
-    cache = str(Path(folder) / "cache") if folder else ""
-    return Choice(run=absolute(settings.run), cache=cache, device=preferences.device(), **own)
+    """What the panel and the preferences choose."""
+    return Choice(str(scene_file.written(settings.id_data)), device=preferences.device())
 
 
 def ready(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Whether there is a run and nothing else goes on; says what is missing."""
     settings = context.scene.firetwin
-    if not source(settings):
-        cls.poll_message_set("Choose a run folder or a scene file first")
+    if not settings.run:
+        cls.poll_message_set("Open a run or a scene file first")
         return False
-    if not settings.scene_file and not output(settings):
+    if not settings.cache and not scene_file.output(settings):
         cls.poll_message_set("Save the .blend file or choose an output folder first: the smoke is kept there")
         return False
     return working.free(cls)
 
 
 class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
-    """Look into scene file and run again: grids, extent, times, burned area, warnings"""
+    """Look into the run again: grids, extent, times, burned area, warnings"""
 
     bl_idname = "firetwin.inspect"
     bl_label = "Read run"
@@ -92,38 +74,52 @@ class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not source(context.scene.firetwin):
-            cls.poll_message_set("Choose a run folder or a scene file first")
+        if not context.scene.firetwin.run:
+            cls.poll_message_set("Open a run or a scene file first")
             return False
         return working.free(cls)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Gather in a thread; then write down."""
+        """Gather in a thread; then write down, and see whether the settings fit the run."""
         uid, settings = context.scene.session_uid, context.scene.firetwin
         settings.problem = settings.facts = ""
-        chosen = choice(settings)
+        folder, zone = Path(bpy.path.abspath(settings.run)), settings.time.zone
         try:
-            found = yield Away("reading the run", lambda **_: facts(chosen))
+            found = yield Away("reading the run", lambda **_: facts(folder, zone))
+            _write_down(owned.scene(uid).firetwin, found)
+            chosen = choice(owned.scene(uid).firetwin)
+            yield Away("reading the run", lambda **_: chosen.shot())
         except Exception as error:
             owned.scene(uid).firetwin.problem = job.words(error)
             raise
-        owned.scene(uid).firetwin.facts = json.dumps(found)
         return f"Read {found['name']}"
 
 
-def facts(chosen: Choice) -> dict[str, Any]:
-    """What the panel shows of a choice: name, folder, rows of label and text, warnings and cameras."""
-    from ..run import info
+def _write_down(settings: bpy.types.PropertyGroup, found: dict[str, Any]) -> None:
+    """Keep the facts; cameras that nobody chose go, and those for this run come."""
+    here = camera_list.text(camera_list.cameras(settings))
+    settings.facts = json.dumps(found)
+    if here in ("", settings.usual_cameras) and here != found["cameras"]:
+        camera_list.fill(settings, camera_list.listed(found["cameras"]))
+        settings.usual_cameras = found["cameras"]
 
-    shot = chosen.shot()
-    found = info.gather(shot.run, shot.settings.time.zone)
+
+def facts(folder: Path, zone: str) -> dict[str, Any]:
+    """What the panel shows of a run: name, rows of label and text, warnings, dated moments; its cameras."""
+    from ..run import info, readers
+    from ..shot import overview
+
+    run = readers.open(folder)
+    found = info.gather(run, zone)
     return {
         "name": found["name"],
-        "run": str(shot.settings.run),
         "synthetic": found["synthetic"],
         "rows": info.brief(found),
         "warnings": found["warnings"],
-        "cameras": [camera.name for camera in shot.settings.cameras],
+        "first": found["times"]["first"],
+        "last": found["times"]["last"],
+        "reported": found["reported"],
+        "cameras": camera_list.text(overview.cameras(run)),
     }
 
 
@@ -147,16 +143,11 @@ class FIRETWIN_PT_run(bpy.types.Panel):
         settings, layout = context.scene.firetwin, self.layout
         column = layout.column()
         column.enabled = job.Job.current is None
+        row = labelled(column, "Run")
+        row.prop(settings, "run", text="")
+        row.operator(FIRETWIN_OT_inspect.bl_idname, text="", icon="FILE_REFRESH")
         row = labelled(column, "Scene file")
         row.prop(settings, "scene_file", text="", placeholder="Optional")
-        row = labelled(column, "Run")
-        if settings.scene_file:
-            line = row.row(align=True)
-            line.enabled = False
-            line.prop(settings, "shown_run", text="")
-        else:
-            row.prop(settings, "run", text="")
-        row.operator(FIRETWIN_OT_inspect.bl_idname, text="", icon="FILE_REFRESH")
         if settings.problem:
             box = layout.box().column(align=True)
             paragraph(context, box, settings.problem, "ERROR")
