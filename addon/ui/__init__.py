@@ -2,7 +2,7 @@
 
 import bpy
 
-from . import build, command, preferences, properties, render, run, time, working
+from . import aims, build, command, flying, go, preferences, properties, render, run, time, working
 
 classes = (
     *preferences.classes,
@@ -11,6 +11,9 @@ classes = (
     *run.classes,
     *build.classes,
     *time.classes,
+    *flying.classes,
+    *aims.classes,
+    *go.classes,
     *render.classes,
 )
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import bpy
 import numpy as np
 from mathutils import Vector, geometry
@@ -107,7 +109,7 @@ class FIRETWIN_OT_camera_path(bpy.types.Operator):
         if not flying.flown(cls, context) or thing is None:
             return False
         if thing.constraints.get(PATH):
-            cls.poll_message_set(f"{thing.name} flies along {thing.constraints[PATH].target.name} already: edit it")
+            cls.poll_message_set("It flies along a curve already: edit that, or take the constraint away")
             return False
         return True
 
@@ -156,9 +158,9 @@ def _drawn(
     scene.collection.objects.link(curve)
     scene.view_layers[0].update()  # so that handles are where "AUTO" puts them
     points, length = spline.bezier_points, [0.0]
-    for a, b in zip(points, points[1:], strict=False):
+    for a, b in itertools.pairwise(points):
         steps = geometry.interpolate_bezier(a.co, a.handle_right, b.handle_left, b.co, 65)
-        length.append(length[-1] + sum((q - p).length for p, q in zip(steps, steps[1:], strict=False)))
+        length.append(length[-1] + sum((q - p).length for p, q in itertools.pairwise(steps)))
     return curve, {frame: at / (length[-1] or 1.0) for frame, at in zip(keyed, length, strict=True)}
 
 

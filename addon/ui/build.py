@@ -10,7 +10,7 @@ from ..blender import owned
 from ..errors import Error
 from ..scene.build import PARTS
 from ..shot.shot import Shot
-from . import job, keys, run, stage, time, view, working
+from . import by_hand, job, keys, run, stage, time, view, working
 from .job import Away, Steps, Told
 from .working import Working
 
@@ -57,6 +57,8 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
         uid, settings = context.scene.session_uid, context.scene.firetwin
         part = self.part
         parts = tuple(PARTS) if part == ALL else (part,)
+        for text in by_hand.pull(context.scene):
+            yield Told(text, "WARNING")
         chosen, smoke = run.choice(settings), settings.bake_smoke and "smoke" in parts
         shot = yield Away("reading the run", lambda **_: chosen.shot())
         if smoke and shot.settings.smoke.enabled:

@@ -12,7 +12,7 @@ from ..shot import rigs, turning
 from ..shot.lenses import LENSES
 from ..shot.rigs._view import View
 from ..shot.settings import Camera
-from . import camera_list, job, keys, run, working
+from . import by_hand, camera_list, job, keys, run, working
 from .job import Away, Steps, Told
 from .working import Working
 
@@ -20,20 +20,6 @@ _AHEAD = 2000.0  # m, where a view looks that meets no ground
 _SENSOR = 36.0  # mm, of the lens that stands in for a view
 
 _kinds: list[tuple[str, str, str]] = []  # Blender keeps no reference of its own to these texts
-
-
-def pull(scene: bpy.types.Scene) -> list[str]:
-    """Take over what was done to camera objects by hand; sentences about what settings cannot say."""
-    panel, told = scene.firetwin, []
-    if not panel.frames:
-        return told
-    before = camera_list.cameras(panel)
-    size = tuple(panel.render.resolution)
-    found = hand.pull(scene, before, size, panel.frames, told.append)
-    for item, old, new in zip(panel.cameras, before, found, strict=True):
-        if new != old:
-            camera_list.put(item, new)
-    return told
 
 
 def eye(context: bpy.types.Context) -> tuple[Matrix, float, float]:
@@ -110,7 +96,7 @@ class FIRETWIN_OT_camera_add(Working, bpy.types.Operator):
 
         scene, kind = context.scene, self.kind
         uid, stage = scene.session_uid, owned.stage(scene)
-        for text in pull(scene):
+        for text in by_hand.pull(scene):
             yield Told(text, "WARNING")
         rig = rigs.kinds()[kind].seeing(view(stage, *eye(context)))
         taken = {item.name for item in scene.firetwin.cameras}
@@ -140,7 +126,11 @@ class FIRETWIN_OT_camera_key(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     clearance: bpy.props.FloatProperty(
-        name="Clearance", description="Never nearer to the ground than this", default=10.0, min=0.0, unit="LENGTH"
+        name="Clearance",
+        description="Never nearer to the ground than this",
+        default=10.0,
+        min=0.0,
+        unit="LENGTH",
     )
     lens: bpy.props.BoolProperty(name="Lens too", description="Key the focal length too", default=False)
 
@@ -152,8 +142,8 @@ class FIRETWIN_OT_camera_key(bpy.types.Operator):
         if thing is None or thing.type != "CAMERA":
             cls.poll_message_set("Add a camera first")
             return False
-        if hand.rigged(thing):
-            cls.poll_message_set(f"{thing.name} hangs on a path, an aim or something else; take that away first")
+        if any(each.type == "FOLLOW_PATH" for each in thing.constraints) or thing.parent:
+            cls.poll_message_set("It flies along a curve or hangs on something: move that instead")
             return False
         return True
 
@@ -169,7 +159,8 @@ class FIRETWIN_OT_camera_key(bpy.types.Operator):
             thing.rotation_mode = "QUATERNION"
         thing.location = matrix.translation + Vector((0.0, 0.0, lifted))
         thing.rotation_quaternion = turn
-        for name in ("location", "rotation_quaternion"):
+        turned = () if thing.constraints else ("rotation_quaternion",)  # an aim turns it
+        for name in ("location", *turned):
             thing.keyframe_insert(name, frame=scene.frame_current)
         if self.lens:
             thing.data.keyframe_insert("lens", frame=scene.frame_current)
@@ -268,7 +259,7 @@ class FIRETWIN_PT_flying(bpy.types.Panel):
         row.operator("firetwin.camera_path", text="Draw path", icon="CON_FOLLOWPATH")
         column.menu(FIRETWIN_MT_lenses.bl_idname, icon="CAMERA_DATA")
         row = column.row(align=True)
-        row.prop(scene.firetwin, "go_to_place", text="", icon="VIEWZOOM", placeholder="38.82 -120.55, a name, a time")
+        row.prop(scene.firetwin, "go_to", text="", icon="VIEWZOOM", placeholder="38.82 -120.55")
         row.operator("firetwin.go", text="", icon="FORWARD")
 
 
