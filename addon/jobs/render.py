@@ -106,11 +106,11 @@ def in_blender(
     todo = [Picture(*picture) for picture in pictures]
     if todo:
         _check_device(shot)
-    frames = _frames(todo)
+    frames = frames_of(todo)
     made_with = fingerprint.of_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
     with sharing.making(Path(out), made_with, owner, after) as making:
         while free := making.free(todo, tell):
-            done = frames - _frames(free)
+            done = frames - frames_of(free)
             for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
                 wanted = list(group)
 
@@ -118,7 +118,7 @@ def in_blender(
                     progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
 
                 _camera(shot.of(camera), making, wanted, counted, tell)
-                done += _frames(wanted)
+                done += frames_of(wanted)
         video.make(shot, making, progress)
 
 
@@ -141,7 +141,8 @@ def _check_device(shot: Shot) -> None:
         raise
 
 
-def _frames(pictures: list[Any]) -> int:
+def frames_of(pictures: list[Any]) -> int:
+    """How many frames pictures are of."""
     return len({(picture.camera, picture.frame) for picture in pictures})
 
 
@@ -157,11 +158,11 @@ def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell
     stage = setting.build_scene(shot, progress, tell)
     if shot.settings.render.engine == "cycles":
         tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
-    with bake.ahead(shot, _smoky(shot, wanted), progress, tell) as ready:
+    with bake.ahead(shot, smoky(shot, wanted), progress, tell) as ready:
         pictures.render(shot, stage, making, wanted, progress, ready)
 
 
-def _smoky(shot: Shot, wanted: list[Any]) -> list[int]:
+def smoky(shot: Shot, wanted: list[Any]) -> list[int]:
     """Frames of pictures that show smoke, ascending."""
     from ..shot import passes
 

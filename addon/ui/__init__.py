@@ -2,7 +2,21 @@
 
 import bpy
 
-from . import aims, build, command, flying, go, preferences, properties, render, run, time, working
+from . import (
+    aims,
+    background,
+    build,
+    command,
+    flying,
+    go,
+    preferences,
+    properties,
+    queue,
+    render,
+    run,
+    time,
+    working,
+)
 
 classes = (
     *preferences.classes,
@@ -15,6 +29,7 @@ classes = (
     *aims.classes,
     *go.classes,
     *render.classes,
+    *background.classes,
 )
 
 
@@ -29,6 +44,7 @@ def register() -> None:
 def unregister() -> None:
     """Undo `register` in reverse order; work that still goes on is ended."""
     working.abandon()
+    queue.clear()
     command.unregister()
     del bpy.types.Scene.firetwin
     for cls in reversed(classes):

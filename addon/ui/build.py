@@ -87,6 +87,7 @@ def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: boo
     if here.own and (new or len(parts) == len(PARTS)):
         layers.build(shot.settings, here)
         engine.apply(shot.settings, scene)
+        engine.label(shot.run, scene)
         devices.follow(shot.settings.render.device, scene)
     else:
         layers.complete(shot.settings, here, parts)
