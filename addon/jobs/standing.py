@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import itertools
 from dataclasses import replace
 from pathlib import Path
@@ -10,7 +11,6 @@ from typing import Any
 
 from ..errors import Error
 from ..progress import Progress, Tell, count, silent, untold
-from ..run import content
 from ..shot.choice import Choice
 from ..shot.shot import Shot
 from . import worker
@@ -44,7 +44,9 @@ def run(
 
     shot = choice.shot()
     wanted = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
-    made_with = _made_with(blend, content.of_file(blend, shot.settings.cache, silent), wanted)
+    with blend.open("rb") as file:
+        digest = hashlib.file_digest(file, "sha256").hexdigest()
+    made_with = _made_with(digest, wanted)
     with Store(asked.out, create=True) as store:
         before = 0 if asked.resume else store.number()
         undone = plan.missing(store, wanted, made_with, before)
@@ -69,7 +71,7 @@ def run(
     return len(undone)
 
 
-def _made_with(blend: Path, digest: str, wanted: list[Any]) -> dict[tuple[str, str], dict[str, Any]]:
+def _made_with(digest: str, wanted: list[Any]) -> dict[tuple[str, str], dict[str, Any]]:
     """What says of a picture that it is of this .blend file, by camera and pass."""
     from ..render.fingerprint import versions
     from ..shot import passes

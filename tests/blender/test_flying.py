@@ -1,4 +1,4 @@
-"""Cameras in the window: from what is seen, keyed there, aimed, on curves; and going to places and moments."""
+"""Cameras in the window: from what is seen, keyed there, aimed, on curves; going to places and moments."""
 
 import bpy
 import firetwin
