@@ -16,19 +16,15 @@ from numpy.typing import NDArray
 
 from .. import files
 from ..data import history
-from . import areas, times
+from . import areas, thumbnails, times
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run
     from matplotlib.axes import Axes
     from matplotlib.collections import QuadMesh
 
-FUEL = LinearSegmentedColormap.from_list(
-    "fuel", ["#f4efe1", "#dfe5b4", "#b4d184", "#7cb45c", "#438f45", "#1f6a36", "#0c4426"]
-)
-INTENSITY = LinearSegmentedColormap.from_list(
-    "intensity", ["#fff7b0", "#ffe566", "#ffc81e", "#ff9a0a", "#f4560b", "#cf1710", "#8b0010"]
-)
+FUEL = LinearSegmentedColormap.from_list("fuel", thumbnails.FUEL)
+INTENSITY = LinearSegmentedColormap.from_list("intensity", thumbnails.INTENSITY)
 DPI = 160
 
 
@@ -53,10 +49,7 @@ def fuel_map(run: Run) -> Figure:
 
 def intensity_map(run: Run, zone: str) -> Figure:
     """Largest heat flux (kW/m2) of each model cell over the whole run, over the relief."""
-    flux = run.heat_flux(0).copy()
-    for index in range(1, len(run.times)):
-        np.fmax(flux, run.heat_flux(index), out=flux)
-    flux = np.ma.masked_less_equal(np.nan_to_num(flux) / 1e3, 0)
+    flux = np.ma.masked_less_equal(thumbnails.strongest(run) / 1e3, 0)
     first, last = (times.text(times.moment(run, float(run.times[i])), zone) for i in (0, -1))
     figure, axes = _page(run, "Fire intensity", f"strongest heat flux, {first} to {last}")
     _relief(axes, run, 1.0)

@@ -10,8 +10,9 @@ from ..blender import owned
 from ..errors import Error
 from ..scene.build import PARTS
 from ..shot.shot import Shot
-from . import by_hand, job, keys, run, stage, time, view, working
+from . import by_hand, job, keys, quality, run, stage, time, view, working
 from .job import Away, Steps, Told
+from .text import labelled
 from .working import Working
 
 ALL = "all"
@@ -142,6 +143,14 @@ class FIRETWIN_MT_parts(bpy.types.Menu):
         layout.operator(FIRETWIN_OT_remove.bl_idname, text="Remove all", icon="TRASH")
 
 
+def again(layout: bpy.types.UILayout, part: str) -> None:
+    """A button, for the head of a panel, that builds a part again."""
+    row = layout.row(align=True)
+    row.enabled = job.Job.current is None
+    row.operator(FIRETWIN_OT_build.bl_idname, text="", icon="FILE_REFRESH", emboss=False).part = part
+    row.label(text="", icon="BLANK1")
+
+
 class FIRETWIN_PT_build(bpy.types.Panel):
     """The scene made from the run"""
 
@@ -161,7 +170,9 @@ class FIRETWIN_PT_build(bpy.types.Panel):
             row.menu(FIRETWIN_MT_parts.bl_idname, text="", icon="DOWNARROW_HLT")
         column = layout.column()
         column.enabled = job.Job.current is None
+        quality.draw(column, settings)
         column.prop(settings, "bake_smoke")
+        labelled(column, "Seed").prop(settings, "seed", text="")
         row = layout.row(align=True)
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Through camera", icon="CAMERA_DATA").whole = False
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Whole run", icon="WORLD_DATA").whole = True

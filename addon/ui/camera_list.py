@@ -11,7 +11,8 @@ without loss::
 
 The name of the item counts, so that a list in a panel renames a camera. What is built, rendered and exported
 has these cameras and no others (see `scene_file.settings`); the object of a built camera is
-`owned.stage(scene).camera(item.name)`. `scene.firetwin.camera_index` is the item chosen in the list.
+`owned.stage(scene).camera(item.name)`. `scene.firetwin.camera_index` is the item chosen in the list, which
+the panel FIRETWIN_PT_cameras shows (see `cameras_panel`): panels of a camera name it as their `bl_parent_id`.
 """
 
 from __future__ import annotations
@@ -62,6 +63,17 @@ def add(panel: bpy.types.PropertyGroup, camera: Camera) -> FIRETWIN_PG_camera:
     put(item, camera)
     panel.camera_index = len(panel.cameras) - 1
     return item
+
+
+def renamed(panel: bpy.types.PropertyGroup, camera: Camera) -> Camera:
+    """A camera under a name that no other of the list has: ``drone``, ``drone-2``."""
+    taken = {item.name for item in panel.cameras}
+    name = next(
+        name
+        for number in range(1, len(taken) + 2)
+        if (name := camera.name if number == 1 else f"{camera.name}-{number}") not in taken
+    )
+    return replace(camera, name=name)
 
 
 def cameras(panel: bpy.types.PropertyGroup) -> tuple[Camera, ...]:

@@ -232,11 +232,11 @@ class FIRETWIN_PT_flying(bpy.types.Panel):
     """Cameras by hand: where this view looks from"""
 
     bl_idname = "FIRETWIN_PT_flying"
-    bl_label = "Camera by Hand"
+    bl_label = "By Hand"
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Firetwin"
-    bl_order = 2
+    bl_parent_id = "FIRETWIN_PT_cameras"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -178,6 +178,10 @@ def _label(step: str | Away) -> str:
     return step.what if isinstance(step, Away) else step
 
 
+unexpected: list[str] = []
+"""The traceback of the last error that nobody foresaw."""
+
+
 def words(error: BaseException) -> str:
     """What to tell about an error: where it is and what to do, never a traceback."""
     if isinstance(error, UsageError):
@@ -189,5 +193,6 @@ def words(error: BaseException) -> str:
         return str(error)
     if isinstance(error, OSError) and error.filename:
         return f"{error.filename}: {error.strerror}"
+    unexpected[:] = traceback.format_exception(error)
     traceback.print_exception(error)
-    return f"Unexpected {type(error).__name__}: {error} (details are in the system console)"
+    return f"Unexpected {type(error).__name__}: {error} (Copy details has more)"

@@ -27,6 +27,7 @@ USE = "use_"
 _SHORT = {"cpu", "gpu", "rgb", "eevee"}  # names that are written in capitals
 _LARGEST = 2**31 - 1  # what Blender keeps as a whole number
 _NUMBERS = (int, float)
+_UNITS = {"m": "LENGTH", "s": "TIME_ABSOLUTE", "K": "TEMPERATURE"}  # those that Blender shows itself
 _RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
 
 
@@ -69,6 +70,12 @@ def label(name: str) -> str:
     return name.upper() if name in _SHORT else sentence(name.replace("_", " "))
 
 
+def heading(part: Part) -> str:
+    """The label of a key in a panel, with the unit where Blender does not show it behind the number."""
+    unit = "UTC" if part.type is datetime else part.key.unit
+    return f"{label(part.name)} ({unit})" if unit and unit not in _UNITS else label(part.name)
+
+
 def sentence(text: str) -> str:
     """Text with a capital first letter; Blender wants no period at its end."""
     return text[:1].upper() + text[1:]
@@ -98,9 +105,14 @@ def take(group: bpy.types.PropertyGroup, part: Part, exact: dict[str, Any] | Non
     return kept if same else _value(group, part)
 
 
+def shows(group: bpy.types.PropertyGroup, part: Part, value: Any) -> bool:
+    """Whether a property shows this value."""
+    return _shown(group, part) == _as_shown(part, value)
+
+
 def differs(group: bpy.types.PropertyGroup, part: Part) -> bool:
     """Whether a property shows something else than the default."""
-    return _shown(group, part) != _as_shown(part, part.default)
+    return not shows(group, part, part.default)
 
 
 _ABSENT = object()
@@ -146,7 +158,8 @@ def _as_shown(part: Part, value: Any) -> tuple[bool, Any]:
     if value is None:
         return (False, None) if switched(part) else (True, "")
     if isinstance(value, datetime):
-        return True, f"{value.astimezone(UTC):%Y-%m-%d %H:%M}"
+        utc = value.astimezone(UTC).replace(tzinfo=None)
+        return True, utc.isoformat(sep=" ", timespec="minutes")
     if isinstance(value, Path):
         return True, str(value)
     if isinstance(value, tuple):
@@ -242,6 +255,8 @@ def _plain(part: Part) -> tuple[Any, dict[str, Any]]:
         return bpy.props.StringProperty, {"default": default or ""}
     low, high = _bounds(part)
     options = {name: at for name, at in (("min", low), ("max", high), ("default", default)) if at is not None}
+    if kind is float and part.key.unit in _UNITS:
+        options["unit"] = _UNITS[part.key.unit]
     if inner:
         make = {int: bpy.props.IntVectorProperty, float: bpy.props.FloatVectorProperty}[inner[0]]
         return make, options | {"size": len(inner)}

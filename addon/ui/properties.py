@@ -31,7 +31,8 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annota
     cache: keys.prop(
         Settings,
         "cache",
-        description="Smoke volumes are kept here and used again; empty: in the output folder",
+        description="Smoke volumes are kept here and used again; empty: in the output folder, or "
+        "with Firetwin's own files while the .blend file is not saved",
         default="",
         options=_BLEND_RELATIVE,
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ import bpy
 from ..blender import owned
 from ..shot import file
 from ..shot.choice import Choice
-from . import by_hand, camera_list, job, preferences, scene_file, working
+from . import by_hand, camera_list, job, maps, preferences, scene_file, working
 from .job import Away, Steps
 from .text import labelled, paragraph
 from .working import Working
@@ -60,9 +61,6 @@ def ready(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     if not settings.run:
         cls.poll_message_set("Open a run or a scene file first")
         return False
-    if not settings.cache and not scene_file.output(settings):
-        cls.poll_message_set("Save the .blend file or choose an output folder first: the smoke is kept there")
-        return False
     return working.free(cls)
 
 
@@ -81,47 +79,86 @@ class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
         return working.free(cls)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Gather in a thread; then write down, and see whether the settings fit the run."""
-        uid, settings = context.scene.session_uid, context.scene.firetwin
-        settings.problem = settings.facts = ""
-        folder, zone = Path(bpy.path.abspath(settings.run)), settings.time.zone
-        try:
-            found = yield Away("reading the run", lambda **_: facts(folder, zone))
-            _write_down(owned.scene(uid).firetwin, found)
-            chosen = choice(owned.scene(uid).firetwin)
-            yield Away("reading the run", lambda **_: chosen.shot())
-        except Exception as error:
-            owned.scene(uid).firetwin.problem = job.words(error)
-            raise
-        return f"Read {found['name']}"
+        """Gather, and see whether the settings fit the run."""
+        return (yield from look(context.scene.session_uid))
+
+
+def look(uid: int) -> Steps:
+    """Gather in a thread, then write down in the scene with this `session_uid`."""
+    settings = owned.scene(uid).firetwin
+    settings.problem = settings.facts = ""
+    folder, zone = Path(bpy.path.abspath(settings.run)), settings.time.zone
+    try:
+        found, images = yield Away("reading the run", lambda **_: facts(folder, zone))
+        _write_down(owned.scene(uid).firetwin, found)
+        maps.show(owned.scene(uid).firetwin.run, images)
+        chosen = choice(owned.scene(uid).firetwin)
+        yield Away("reading the run", lambda **_: chosen.shot())
+    except Exception as error:
+        owned.scene(uid).firetwin.problem = job.words(error)
+        raise
+    return f"Read {found['name']}"
 
 
 def _write_down(settings: bpy.types.PropertyGroup, found: dict[str, Any]) -> None:
     """Keep the facts; cameras that nobody chose go, and those for this run come."""
     here = camera_list.text(camera_list.cameras(settings))
     settings.facts = json.dumps(found)
-    if here in ("", settings.usual_cameras) and here != found["cameras"]:
-        camera_list.fill(settings, camera_list.listed(found["cameras"]))
-        settings.usual_cameras = found["cameras"]
+    if here not in ("", settings.usual_cameras):
+        return
+    if not here and not settings.scene_file:
+        settings.smoke.method = "puffs"  # to solve the air of a whole run can take a night
+    camera_list.fill(settings, camera_list.listed(found["cameras"]))
+    settings.usual_cameras = found["cameras"]
 
 
-def facts(folder: Path, zone: str) -> dict[str, Any]:
-    """What the panel shows of a run: name, rows of label and text, warnings, dated moments; its cameras."""
-    from ..run import info, readers
+def facts(folder: Path, zone: str) -> tuple[dict[str, Any], maps.Images]:
+    """What the panel shows of a run: name, rows, warnings, dated moments and cameras; and its maps."""
+    from ..run import info, readers, thumbnails
     from ..shot import overview
 
     run = readers.open(folder)
     found = info.gather(run, zone)
-    return {
+    told = {
         "name": found["name"],
         "synthetic": found["synthetic"],
         "rows": info.brief(found),
         "warnings": found["warnings"],
         "first": found["times"]["first"],
         "last": found["times"]["last"],
-        "reported": found["reported"],
+        "moments": _moments(found),
+        "burned": _burned(found),
         "cameras": camera_list.text(overview.cameras(run)),
     }
+    return told, thumbnails.draw(run)
+
+
+def _moments(found: dict[str, Any]) -> list[tuple[str, str]]:
+    """Dated moments: where the run begins and ends, and what was reported between."""
+    from ..run import info
+
+    reports = (
+        (each["time"], f"{each['reported'] / info.ACRE:,.0f} acres reported")
+        for each in found["reported"]
+        if each["run"] is not None
+    )
+    times = found["times"]
+    return [(times["first"], "the run begins"), *reports, (times["last"], "the run ends")]
+
+
+def _burned(found: dict[str, Any]) -> list[tuple[str, str, str]]:
+    """Burned areas: when, what was reported, and the run's with its difference."""
+    from ..run import info, times
+
+    return [
+        (
+            times.text(datetime.fromisoformat(each["time"]), found["zone"]),
+            f"{each['reported'] / info.ACRE:,.0f} acres",
+            f"{each['run'] / info.ACRE:,.0f} acres ({each['difference']:+.0%})",
+        )
+        for each in found["reported"]
+        if each["run"] is not None
+    ]
 
 
 @functools.lru_cache(maxsize=8)
@@ -144,14 +181,29 @@ class FIRETWIN_PT_run(bpy.types.Panel):
         settings, layout = context.scene.firetwin, self.layout
         column = layout.column()
         column.enabled = job.Job.current is None
+        if not settings.run:
+            _hint(context, column)
         row = labelled(column, "Run")
         row.prop(settings, "run", text="")
         row.operator(FIRETWIN_OT_inspect.bl_idname, text="", icon="FILE_REFRESH")
         row = labelled(column, "Scene file")
         row.prop(settings, "scene_file", text="", placeholder="Optional")
+        row.operator("firetwin.export", text="", icon="EXPORT")
         if settings.problem:
             box = layout.box().column(align=True)
             paragraph(context, box, settings.problem, "ERROR")
+            working.copy_button(box, settings.problem)
+        maps.draw(layout, settings.run)
+
+
+def _hint(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
+    """What to do first."""
+    paragraph(
+        context, layout.column(align=True), "Open a fire model's run, or try the made-up King Fire.", "INFO"
+    )
+    row = layout.column(align=True)
+    row.operator("firetwin.open", text="Open run...", icon="FILEBROWSER")
+    row.operator("firetwin.sample", icon="LIGHT_SUN")
 
 
 class FIRETWIN_PT_facts(bpy.types.Panel):

@@ -28,7 +28,8 @@ def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Setting
         Says what is wrong, in the panel's words.
     """
     panel = scene.firetwin
-    run, cache = (Path(bpy.path.abspath(text)) for text in (panel.run, panel.cache or output(panel, "cache")))
+    cache = panel.cache or output(panel, "cache") or own_folder() / "cache"
+    run, cache = (Path(bpy.path.abspath(str(path))) for path in (panel.run, cache))
     whole = Settings(path=path, run=run, cache=cache, cameras=camera_list.cameras(panel))
     whole = sections.take(panel, sections.single() + sections.sections(), whole)
     if found := wrong(whole):
@@ -50,6 +51,14 @@ def output(panel: bpy.types.PropertyGroup, *inside: str) -> str:
     if panel.output.startswith("//") and not bpy.data.filepath:
         return ""
     return str(Path(bpy.path.abspath(panel.output), *inside)) if panel.output else ""
+
+
+def own_folder() -> Path:
+    """Where Firetwin keeps files of its own on this computer; they go with the extension."""
+    try:
+        return Path(bpy.utils.extension_path_user(__package__.rpartition(".")[0]))
+    except ValueError:  # not installed as an extension
+        return Path(bpy.utils.user_resource("DATAFILES", path="firetwin"))
 
 
 def export(scene: bpy.types.Scene, path: Path) -> None:

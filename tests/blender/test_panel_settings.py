@@ -63,11 +63,11 @@ def test_what_an_artist_changes_is_what_comes_out(panel):
         0.3,
     )
     panel.render.thermal_low = 290.5
-    panel.time.start, panel.ground.photo_extent = "2014-09-17T16:30-07:00", "-121, 38.6, -120.2, 39.1"
+    panel.time.start, panel.ground.photo_extent = "2014-09-17T16:10-07:00", "-121, 38.6, -120.2, 39.1"
     panel.cameras[0].name = "mine"
     found = scene_file.settings(panel.id_data)
     assert found.render.thermal_low == 290.5
-    assert f"{found.time.start:%H:%M %Z}" == "23:30 UTC"
+    assert f"{found.time.start:%H:%M %Z}" == "23:10 UTC"
     assert found.ground.photo_extent == (-121.0, 38.6, -120.2, 39.1)
     assert found.cameras[0] == replace(whole.cameras[0], name="mine")
     panel.render.use_thermal_low, panel.time.start = False, ""
