@@ -17,7 +17,7 @@ from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from mathutils import Euler
 
-FRAMES = 24
+FRAMES = 96
 SIZE = (640, 360)
 
 
@@ -58,7 +58,7 @@ def _fly(thing):
     places = ((0, 0, 3500), (800, 300, 3200), (1500, 1500, 2900), (900, 2600, 3000))
     thing.animation_data_clear()
     thing.rotation_mode = "XYZ"
-    for k, (frame, place) in enumerate(zip((1, 9, 16, FRAMES), places, strict=True)):
+    for k, (frame, place) in enumerate(zip((1, 33, 64, FRAMES), places, strict=True)):
         thing.location, thing.rotation_euler = place, Euler((0.9 + 0.1 * k, 0.05 * k, 0.4 * k))
         thing.data.lens = 24.0 + 8.0 * k
         thing.keyframe_insert("location", frame=frame)
@@ -71,7 +71,7 @@ def test_what_is_untouched_stays_as_the_file_says(film, stage, drone):
 
 
 def test_a_camera_flown_by_hand_comes_back_from_the_file(film, stage, drone, tmp_path):
-    """Within 0.05 pixels: measured place and angle are printed."""
+    """Within a quarter of a pixel (0.034 degrees): measured place and angle are printed."""
     _fly(drone)
     ground.build(film, stage, None)
     before, lenses = _matrices(stage.scene, drone), []
@@ -91,8 +91,8 @@ def test_a_camera_flown_by_hand_comes_back_from_the_file(film, stage, drone, tmp
     turned = np.degrees(apart / np.sqrt(2.0))  # of small angles
     print(f"{len(found[0].rig.keys)} poses, {moved:.5f} m, {turned:.6f} degrees off")
     assert moved < 0.5
-    assert turned < 0.01
-    for frame in (1, 16, FRAMES):
+    assert turned < 0.034
+    for frame in (1, 64, FRAMES):
         stage.scene.frame_set(frame)
         lenses.append(drone.data.lens)
     assert lenses == pytest.approx([24.0, 40.0, 48.0], rel=1e-4)

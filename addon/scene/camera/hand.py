@@ -26,8 +26,8 @@ POSE = ("location", "rotation_quaternion", "rotation_euler", "rotation_axis_angl
 LENS = ("lens", "sensor_width", "sensor_height", "ortho_scale")
 _MADE = "firetwin_made"  # of an object: what it was like when it was made
 _PLACE = "firetwin_place"  # of the root: latitude and longitude of the scene's origin
-_PIXEL = 0.05  # how far a picture may be off between poses
-_LEAST = 0.005  # m that a camera may be off in any case
+_PIXEL = 0.25  # how far a picture may be off between poses; at keys that people set it is not
+_LEAST = 0.02  # m that a camera may be off in any case
 _PREFIX = f"{owned.ROOT} Camera "
 
 

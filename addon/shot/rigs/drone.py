@@ -60,8 +60,8 @@ class Drone(Lens):
     @classmethod
     def seeing(cls, view: View) -> Drone:
         """It hovers there and looks at what is in the middle of the view."""
-        key = CameraKey(0.0, view.latitude, view.longitude, view.above, "point", *view.aim)
-        return cls(**view.lens, keys=(key,))
+        place = view.latitude, view.longitude, max(view.height, 1.0)
+        return cls(**view.lens, keys=(CameraKey(0.0, *place, "point", *view.aim, above="sea"),))
 
     def wrong(self) -> tuple[Where, str] | None:
         """A drone is somewhere, and its moments rise."""
