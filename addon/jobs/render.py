@@ -107,11 +107,11 @@ def in_blender(
     todo = [Picture(*picture) for picture in pictures]
     if todo:
         _check_device(shot)
-    frames = _frames(todo)
+    frames = frames_of(todo)
     made_with = fingerprint.of_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
     with sharing.making(Path(out), made_with, owner, after) as making:
         while free := making.free(todo, tell):
-            done = frames - _frames(free)
+            done = frames - frames_of(free)
             for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
                 wanted = list(group)
 
@@ -119,7 +119,7 @@ def in_blender(
                     progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
 
                 _camera(shot.of(camera), making, wanted, counted, tell)
-                done += _frames(wanted)
+                done += frames_of(wanted)
         video.make(shot, making, progress)
 
 
@@ -142,7 +142,8 @@ def _check_device(shot: Shot) -> None:
         raise
 
 
-def _frames(pictures: list[Any]) -> int:
+def frames_of(pictures: list[Any]) -> int:
+    """How many frames pictures are of."""
     return len({(picture.camera, picture.frame) for picture in pictures})
 
 
@@ -156,7 +157,7 @@ def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell
     for text in shot.warnings():
         tell(text)
     frames, done = _frames(wanted), 0
-    with bake.ahead(shot, _smoky(shot, wanted), progress, tell) as ready:
+    with bake.ahead(shot, smoky(shot, wanted), progress, tell) as ready:
         for part, group in _parts(shot, wanted):
 
             def counted(here: int, of: int, what: str = "", before: int = done) -> None:
@@ -185,7 +186,7 @@ def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:
         yield shot if len(own) == 1 else shot.part(own[k]), list(group)
 
 
-def _smoky(shot: Shot, wanted: list[Any]) -> list[int]:
+def smoky(shot: Shot, wanted: list[Any]) -> list[int]:
     """Frames of pictures that show smoke, ascending."""
     from ..shot import passes
 

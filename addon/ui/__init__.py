@@ -3,14 +3,19 @@
 import bpy
 
 from . import (
+    aims,
+    background,
     build,
     cameras_panel,
     command,
+    flying,
+    go,
     maps,
     open,
     preferences,
     properties,
     quality,
+    queue,
     render,
     report,
     rows,
@@ -31,7 +36,11 @@ classes = (
     *build.classes,
     *time.classes,
     *cameras_panel.classes,
+    *flying.classes,
+    *aims.classes,
+    *go.classes,
     *render.classes,
+    *background.classes,
     *section_panels.classes,
     *report.classes,
 )
@@ -49,6 +58,7 @@ def register() -> None:
 def unregister() -> None:
     """Undo `register` in reverse order; work that still goes on is ended."""
     working.abandon()
+    queue.clear()
     maps.forget()
     open.unregister()
     command.unregister()

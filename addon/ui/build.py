@@ -10,7 +10,7 @@ from ..blender import owned
 from ..errors import Error
 from ..scene.build import PARTS
 from ..shot.shot import Shot
-from . import job, keys, quality, run, stage, time, view, working
+from . import by_hand, job, keys, quality, run, stage, time, view, working
 from .job import Away, Steps, Told
 from .text import labelled
 from .working import Working
@@ -58,6 +58,8 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
         uid, settings = context.scene.session_uid, context.scene.firetwin
         part = self.part
         parts = tuple(PARTS) if part == ALL else (part,)
+        for text in by_hand.pull(context.scene):
+            yield Told(text, "WARNING")
         chosen, smoke = run.choice(settings), settings.bake_smoke and "smoke" in parts
         shot = yield Away("reading the run", lambda **_: chosen.shot())
         if smoke and shot.settings.smoke.enabled:
@@ -86,6 +88,7 @@ def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: boo
     if here.own and (new or len(parts) == len(PARTS)):
         layers.build(shot.settings, here)
         engine.apply(shot.settings, scene)
+        engine.label(shot.run, scene)
         devices.follow(shot.settings.render.device, scene)
     else:
         layers.complete(shot.settings, here, parts)

@@ -70,6 +70,12 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annota
         set=time.go_to,
         options=set(),
     )
+    go_to: bpy.props.StringProperty(
+        name="Go to",
+        description="Latitude and longitude (38.82 -120.55), the name of an object or a place, a date and "
+        "time (2014-09-17 15:30, in the zone of the film), or part of what is reported of a moment",
+        options={"SKIP_SAVE"},
+    )
     camera: bpy.props.EnumProperty(name="Camera", description="Cameras that film", items=render.camera_items)
     which: bpy.props.EnumProperty(
         name="Frames",

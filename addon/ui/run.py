@@ -13,7 +13,7 @@ import bpy
 from ..blender import owned
 from ..shot import file
 from ..shot.choice import Choice
-from . import camera_list, job, maps, preferences, scene_file, working
+from . import by_hand, camera_list, job, maps, preferences, scene_file, working
 from .job import Away, Steps
 from .text import labelled, paragraph
 from .working import Working
@@ -50,7 +50,8 @@ def _inspect(settings: bpy.types.PropertyGroup) -> None:
 
 
 def choice(settings: bpy.types.PropertyGroup) -> Choice:
-    """What the panel and the preferences choose."""
+    """What the panel and the preferences choose, with what was done to cameras by hand."""
+    by_hand.pull(settings.id_data)
     return Choice(str(scene_file.written(settings.id_data)), device=preferences.device())
 
 

@@ -16,7 +16,7 @@ from ..errors import Error
 from ..shot import file
 from ..shot.schema import wrong
 from ..shot.settings import Settings
-from . import camera_list, keys, sections
+from . import by_hand, camera_list, keys, sections
 
 
 def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Settings:
@@ -62,7 +62,7 @@ def own_folder() -> Path:
 
 
 def export(scene: bpy.types.Scene, path: Path) -> None:
-    """Write what the panel says as a scene file.
+    """Write what the panel says, with what was done to cameras by hand, as a scene file.
 
     Raises
     ------
@@ -71,6 +71,7 @@ def export(scene: bpy.types.Scene, path: Path) -> None:
     InputError
         It cannot be written.
     """
+    by_hand.pull(scene)
     text = file.text(settings(scene, path))
     files.write(path, lambda part: part.write_text(text, encoding="utf-8"))
 

@@ -349,6 +349,56 @@ def mean_difference(one: Path, other: Path) -> float:
     return float(np.abs(pixels[0] - pixels[1]).mean())
 
 
+def by_hand() -> Iterator[object]:
+    """A camera from the view, keyed by flying, kept by a rebuild, and rendered beside the window."""
+    region, queue = view().spaces.active.region_3d, sys.modules[f"{MODULE}.ui.queue"]
+    call(bpy.ops.firetwin.view, whole=False)
+    yield 2
+    region.view_perspective = "PERSP"
+    call(bpy.ops.firetwin.camera_add, kind="poses")
+    yield 1
+    yield idle
+    yield 2
+    thing = bpy.context.scene.camera
+    check(thing.name == "Firetwin Camera poses", f"a camera from the view: {thing.name}")
+    call(bpy.ops.firetwin.camera_key)
+    with bpy.context.temp_override(**here()):
+        bpy.ops.firetwin.go("EXEC_DEFAULT", text="camera drone", smooth=False)
+    bpy.context.scene.frame_set(bpy.context.scene.frame_end)
+    yield 2
+    call(bpy.ops.firetwin.camera_key)
+    yield 1
+    picture("20-keyed-by-hand")
+    thing.name = "My flight"
+    call(bpy.ops.firetwin.build, part="cameras")
+    yield 1
+    yield idle
+    yield 2
+    check(bpy.context.scene.objects.get("My flight") == thing, "a renamed and keyed camera stays itself")
+    settings().output, settings().which = str(FOLDER / "beside"), "frame"
+    settings().camera = "My-flight"
+    for name in [panel for panel in dir(bpy.types) if panel.startswith("FIRETWIN_PT_")]:
+        if name not in ("FIRETWIN_PT_flying", "FIRETWIN_PT_render", "FIRETWIN_PT_queue"):
+            bpy.utils.unregister_class(getattr(bpy.types, name))
+    call(bpy.ops.firetwin.render_background)
+    yield 8
+    check(queue.current() is not None, "a render goes on beside the window")
+    call(bpy.ops.firetwin.render_background)
+    yield 2
+    picture("21-queue")
+    keys("Escape")
+    yield 2
+    check(not queue.items[0].stop.asked, "Esc over the 3D view belongs to something else")
+    keys("Escape", over="UI")
+    yield soon(lambda: queue.items[0].state == "paused")
+    check(queue.items[0].state == "paused", "Esc over the sidebar pauses it")
+    call(bpy.ops.firetwin.queue, index=0, what="go_on")
+    yield soon(lambda: all(item.state in ("done", "failed") for item in queue.items), 900.0)
+    yield 2
+    check([item.state for item in queue.items] == ["done", "done"], str([item.text for item in queue.items]))
+    picture("22-queue-done")
+
+
 def undo() -> Iterator[object]:
     for _ in range(20):
         if not built():
@@ -450,7 +500,7 @@ def session() -> Iterator[object]:
     before = inventory.take(USER)
     picture("01-start")
     yield from install()
-    for step in (panel, quality, build, sections, parts, scrub, render, undo, beside, file):
+    for step in (panel, quality, build, sections, parts, scrub, render, by_hand, undo, beside, file):
         if step.__name__ in STEPS:
             yield from step()
     yield from leave(before)

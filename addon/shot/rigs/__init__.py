@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from ..schema import Where
     from ..settings import Camera
     from ..shot import Shot
+    from ._view import View
 
     Place = tuple[Where, float, float]
 
@@ -40,6 +41,11 @@ class Rig:
     """
 
     around: ClassVar[bool] = False
+
+    @classmethod
+    def seeing(cls, view: View) -> Rig:
+        """One that shows about what is seen in a view; a usual one where its kind cannot."""
+        return cls()
 
     def wrong(self) -> tuple[Where, str] | None:
         """What no single key can say: where in its table, and words that follow the camera's name."""

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from ..ground import Ground
     from ..settings import Camera
     from ..shot import Shot
+    from ._view import View
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,11 @@ class Minimap(Rig):
 
     follows: str = key("", "name of that camera; empty: the first that is no minimap")
     swath: float = key(6000.0, "width of the picture on the ground", unit="m", above=0)
+
+    @classmethod
+    def seeing(cls, view: View) -> Minimap:
+        """As wide as the view."""
+        return cls(swath=view.width)
 
     def leader(self, cameras: Sequence[Camera]) -> Camera | None:
         """The camera that it follows; None where there is none of that name, or none at all."""
