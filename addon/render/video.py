@@ -12,6 +12,7 @@ from ..blender import compat
 from ..errors import writing
 from ..progress import Progress, silent
 from ..run import times
+from ..shot import passes
 from ..shot.shot import Shot
 from . import engine, films, picture, whole
 from .picture import Picture
@@ -87,9 +88,11 @@ def _strips(
     for position, number in enumerate(numbers, start=1):
         shown = str((out / Picture(camera, number, name).file("png")).resolve())
         editor.strips.new_image(f"picture {number}", shown, 1, position, fit_method="ORIGINAL")
+        if not passes.known()[name].captions:
+            continue
         label = times.text(shot.moment(number), shot.settings.time.zone)
         _text(editor, label, position, 1, 2, height / 20, (0.025, 0.035), "LEFT")
-    if shot.run.synthetic:
+    if shot.run.synthetic and passes.known()[name].captions:
         _text(editor, "synthetic sample run", 1, len(numbers), 3, height / 30, (0.975, 0.035), "RIGHT")
 
 
