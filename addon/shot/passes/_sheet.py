@@ -19,7 +19,7 @@ from .thermal import KNEE
 
 PAPER, INK, QUIET = "#14171b", "#f2f3f4", "#9aa3ad"
 NEAREST, FARTHEST = 50.0, 50_000.0  # m, ends of the scale of distances
-_SIDE, _GAP, _BAR = 33.0, 1.5, 1.6  # beside the panels, between them, a colour bar
+_SIDE, _GAP, _BAR = 30.5, 1.5, 1.6  # beside the panels, between them, a colour bar
 _DPI = 100.0
 _DEPTHS = matplotlib.colormaps["viridis_r"]
 
@@ -45,14 +45,14 @@ class Sheet:
         self.text(_GAP, middle, title, 3.0, va="center", weight="bold")
         self.text(right, middle - 0.3, local, 3.4, ha="right", va="bottom", weight="bold")
         self.text(right, middle + 0.3, utc, 2.3, QUIET, ha="right", va="top")
-        at = right - 19.5
+        at = right - 17.5
         down = self.top
         for name, lines in others:
             self.text(at, down, name, 1.9, QUIET, va="top")
             down += 2.7
             for line in lines:
-                self.text(at, down, line, 2.6, va="top", weight="bold" if line is lines[0] else "normal")
-                down += 3.6
+                self.text(at, down, line, 2.3, va="top", weight="bold" if line is lines[0] else "normal")
+                down += 3.4
             down += 2.6
 
     def panel(self, place: int, name: str) -> Axes:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from ..shot import Shot
 
+_ABOVE = {"orthometric": "MSL", "ellipsoidal": "WGS84"}
 _POINTS = ("N", "NE", "E", "SE", "S", "SW", "W", "NW")
 
 
@@ -59,16 +60,14 @@ def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
     here = pose.pose(shot, view, frame)
     places = (("latitude", "NS"), ("longitude", "EW"))
     degrees = [f"{abs(here[name]):.5f}° {signs[here[name] < 0.0]}" for name, signs in places]
-    heading, pitch = here["heading"], here["pitch"]
+    heading, height = here["heading"], f"{here['height']:,.0f} m {_ABOVE[shot.run.vertical]}"
+    pitch = f"pitch {here['pitch']:+.0f}°".replace("-", "\N{MINUS SIGN}")
     acres = info.burned(shot.run, [shot.frames.time(frame)])[0] / info.ACRE
     found = [
         ("TIME", [times.text(moment, shot.settings.time.zone), f"{moment:%Y-%m-%d %H:%M:%S} UTC"]),
         ("POSITION", degrees),
-        ("HEIGHT", [f"{here['height_above_ground']:,.0f} m AGL", f"{here['height']:,.0f} m MSL"]),
-        (
-            "HEADING",
-            [f"{heading:03.0f}° {_POINTS[round(heading / 45.0) % 8]}", f"pitch {pitch:.0f}°"],
-        ),
+        ("HEIGHT", [f"{here['height_above_ground']:,.0f} m AGL", height]),
+        ("HEADING", [f"{heading:03.0f}° {_POINTS[round(heading / 45.0) % 8]}", pitch]),
         ("BURNED", [f"{acres:,.0f} acres"]),
     ]
     if view.perspective:
