@@ -40,8 +40,11 @@ def write(store: Store) -> None:
 
 
 def _frame(folder: Path, shown: str, passes: dict[str, list[str]]) -> dict[str, Any] | None:
-    """One frame of an index; None where its projection is parallel."""
-    sidecar = json.loads((folder / passes["pose"][0]).read_text(encoding="utf-8"))
+    """One frame of an index; None where its projection is parallel or its sidecar has gone."""
+    try:
+        sidecar = json.loads((folder / passes["pose"][0]).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
     lens = sidecar["intrinsics"]
     if lens["projection"] != "perspective":
         return None

@@ -8,7 +8,9 @@ import pytest
 from firetwin.errors import InputError
 from firetwin.render import dataset, fingerprint, whole
 from firetwin.render.store import Store, describe
+from firetwin.run import info
 from firetwin.shot import file, passes
+from firetwin.shot.passes import fused as fused_pass
 from firetwin.shot.passes import masks, pose
 from firetwin.shot.rigs.drone import CameraKey, Drone
 from firetwin.shot.rigs.lookout import Lookout, LookoutKey
@@ -222,3 +224,59 @@ def test_the_index_lists_frames_that_have_picture_and_sidecar(shot, tmp_path):
     assert np.array(frame["transform_matrix"])[:3, 3] == pytest.approx(made.paths[0].position[0])
     assert set(frame["passes"]) == {"rgb", "pose", "masks"}
     assert (tmp_path / "drone" / frame["passes"]["masks"][0]).exists()
+    (tmp_path / passes.file_of("drone", "pose", 1, "json")).unlink()
+    with Store(tmp_path) as store:
+        dataset.write(store)  # what people removed is no reason to fail
+
+
+@pytest.fixture
+def fused(shot, tmp_path):
+    """The fused picture of a red picture, 300 K with a hot half, and ground at 500 m under a sky."""
+
+    def make(resolution):
+        made = shot(replace(DRONE, resolution=resolution))
+        needed = {
+            "rgb": {"png": tmp_path / "rgb.png"},
+            "thermal": {"exr": tmp_path / "thermal.exr"},
+            "depth": {"exr": tmp_path / "depth.exr"},
+        }
+        kelvin, depth = np.full((18, 32, 2), 300.0), np.full((18, 32, 2), 500.0)
+        kelvin[:, 16:], depth[:9] = 800.0, 1e10
+        sensor.write_image(needed["rgb"]["png"], np.full((18, 32, 3), (1.0, 0.0, 0.0)))
+        sensor.write_image(needed["thermal"]["exr"], kelvin)
+        sensor.write_image(needed["depth"]["exr"], depth)
+        passes.known()["fused"].finish({"png": tmp_path / "fused.png"}, needed, made, "drone", 3)
+        return sensor.read_image(tmp_path / "fused.png")[..., :3]
+
+    return make
+
+
+@pytest.mark.parametrize("resolution", [(320, 180), (400, 400)])
+def test_panels_lie_where_they_belong_in_any_size(fused, resolution):
+    picture = fused(resolution)
+    assert picture.shape == (*resolution[::-1], 3)
+    red = np.all(np.abs(picture - [1.0, 0.0, 0.0]) < 0.02, axis=-1)
+    rows, columns = (np.flatnonzero(red.any(axis=axis)) for axis in (1, 0))
+    high, wide = np.ptp(rows) + 1, np.ptp(columns) + 1
+    assert wide / high == pytest.approx(resolution[0] / resolution[1], rel=0.05)
+    assert wide > 0.35 * resolution[0]
+    gap = round(1.5 * min(resolution[0] / 178.0, resolution[1] / 100.0))
+    left = columns[-1] + gap
+    thermal = picture[rows[-1] - high // 2, left + 3 : left + wide - 2].mean(axis=-1)
+    assert thermal[-5] > thermal[5] + 0.4, "the hot half is at the right"
+    depth = picture[rows[-1] + gap + 4 : rows[-1] + gap + high - 4, left + wide // 2]
+    assert np.ptp(depth[0]) < 0.02, "the sky is grey"
+    assert np.ptp(depth[-1]) > 0.2
+
+
+def test_what_is_told_beside_the_panels_is_true(shot):
+    made = shot(DRONE)
+    facts = dict(fused_pass.facts(made, "drone", 3))
+    assert facts["TIME"][1] == f"{made.moment(3):%Y-%m-%d %H:%M:%S} UTC"
+    assert facts["TIME"][0].endswith("PDT")
+    latitude, longitude, height = (float(v[0]) for v in made.local_frame.reverse(made.paths[0].position[2:3]))
+    assert facts["POSITION"] == [f"{latitude:.5f}° N", f"{-longitude:.5f}° W"]
+    assert facts["HEIGHT"][1].startswith(f"{height:,.0f} m ")
+    assert facts["VIEW"] == ["65° wide"]
+    acres = info.burned(made.run, [made.frames.time(3)])[0] / 4046.8564224
+    assert facts["BURNED"] == [f"{acres:,.0f} acres"]
