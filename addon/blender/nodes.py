@@ -19,6 +19,7 @@ from . import compat, owned
 
 TIME = "firetwin_time"
 THERMAL = "firetwin_thermal"
+MASKS = "firetwin_masks"
 
 
 class Value:
@@ -319,3 +320,22 @@ def model_time(tree: Tree) -> Value:
 def thermal_switch(tree: Tree, shader: Any, value: Any) -> Value:
     """`shader`, but a number as pixel value in view layers with `firetwin_thermal` = 1."""
     return tree.mix_shader(tree.attribute(THERMAL, "VIEW_LAYER"), shader, tree.emission(value, 1.0))
+
+
+def mask_switch(tree: Tree, shader: Any, kind: Any, number: Any = 0.0) -> Value:
+    """`shader`, but its class and the number of its instance in view layers with `firetwin_masks` = 1.
+
+    A pixel is then (number mod 4096, 1, class + 8 floor(number / 4096)), all times what smoke before it lets
+    through: the ratios are whole numbers that 32 bits hold exactly. What has none is (0, 1, class).
+    """
+    if isinstance(number, Value):
+        low = tree.math("MODULO", number, 4096.0)
+        kind = (number - low) * (8.0 / 4096.0) + kind
+    else:
+        low = number
+    return masked(tree, shader, tree.emission(tree.combine(low, 1.0, kind), 1.0))
+
+
+def masked(tree: Tree, shader: Any, other: Any) -> Value:
+    """`shader`, but `other` in view layers with `firetwin_masks` = 1."""
+    return tree.mix_shader(tree.attribute(MASKS, "VIEW_LAYER"), shader, other)

@@ -87,17 +87,23 @@ def _eevee(settings: Settings, scene: bpy.types.Scene) -> None:
 
 @contextmanager
 def pixel_centres(scene: bpy.types.Scene, wanted: bool = True) -> Iterator[None]:
-    """Within, if wanted, Cycles sends its rays through the middles of pixels, as data of surfaces need it."""
+    """Within, if wanted, Cycles sends its rays through the middles of pixels, as data of surfaces need it.
+
+    None is given up by chance on its way through smoke and between flames.
+    """
     if not wanted:
         yield
         return
     before = scene.cycles.pixel_filter_type, scene.cycles.filter_width, scene.render.filter_size
+    chance = scene.cycles.min_transparent_bounces
     scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", DEPTH_FILTER
+    scene.cycles.min_transparent_bounces = _TRANSPARENT
     scene.render.filter_size = 0.0
     try:
         yield
     finally:
         scene.cycles.pixel_filter_type, scene.cycles.filter_width, scene.render.filter_size = before
+        scene.cycles.min_transparent_bounces = chance
 
 
 def label(run: Run, scene: bpy.types.Scene) -> None:

@@ -6,6 +6,7 @@ import functools
 import inspect
 import sys
 from importlib import metadata
+from pathlib import Path
 from typing import Any
 
 import firetwin_core
@@ -51,9 +52,15 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
 
 
 def _modules(name: str) -> list[str]:
-    """Files of a pass and of those that it is made from."""
+    """Files of a pass, of what passes are finished with, and of those that it is made from."""
     file, each = inspect.getfile(sys.modules[f"{passes.__name__}.{name}"]), passes.known()[name]
-    return [file, *each.sources, *(module for need in each.needs for module in _modules(need))]
+    helpers = map(str, sorted(Path(passes.__file__).parent.glob("_[a-z]*.py")))
+    return [
+        file,
+        *each.sources,
+        *(helpers if each.finish else ()),
+        *(module for need in each.needs for module in _modules(need)),
+    ]
 
 
 @functools.cache

@@ -31,6 +31,7 @@ def build(settings: Settings, stage: Stage) -> None:
     for each in _rendered():
         layer = _layer(stage.scene, each)
         layer[nodes.THERMAL] = 1.0 if each.data else 0.0
+        layer[nodes.MASKS] = 1.0 if each.masks else 0.0
         layer.cycles.use_denoising = not each.data and settings.render.denoise
         if each.enable:
             setattr(layer, each.enable, True)

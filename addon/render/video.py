@@ -12,6 +12,7 @@ from ..blender import compat
 from ..errors import writing
 from ..progress import Progress, silent
 from ..run import times
+from ..shot import passes
 from ..shot.shot import Shot
 from . import engine, films, picture, spherical, whole
 from .picture import Picture
@@ -91,10 +92,12 @@ def _strips(
     for position, number in enumerate(numbers, start=1):
         shown = str((out / Picture(camera, number, name).file("png")).resolve())
         editor.strips.new_image(f"picture {number}", shown, 1, position, fit_method="ORIGINAL")
+        if not passes.known()[name].captions:
+            continue
         label = times.text(shot.moment(number), shot.settings.time.zone)
         for eye, up in enumerate(low):
             _text(editor, label, position, 1, 2 + eye, size, (left, up), "LEFT")
-    if shot.run.synthetic:
+    if shot.run.synthetic and passes.known()[name].captions:
         for eye, up in enumerate(low):
             place = right, up - 0.03 * around
             _text(editor, "synthetic sample run", 1, len(numbers), 4 + eye, size / 1.5, place, "RIGHT")

@@ -267,7 +267,7 @@ class Camera:
     name: str = key("drone", "names its folder and files", check=_file_name, shows=())
     rig: Any = one_of(rigs.kinds, "kind of camera", tag="kind", usual=rigs.USUAL)
     passes: tuple[str, ...] = key(
-        (), 'such as ["rgb"]; empty: those of [render]', choices=passes.helps, shows=()
+        (), 'such as ["rgb"]; empty: those of [render]', choices=passes.helps, shows=("passes",)
     )
     frames: str = key("", 'such as "24" or "1-48:4"; empty: all')
     resolution: tuple[int, int] | None = key(
@@ -329,7 +329,7 @@ class Render:
         "what cameras record",
         choices=passes.helps,
         check=_at_least_one,
-        shows=(),
+        shows=("passes",),
     )
     video: bool = key(True, "a film of every camera with more than one frame, rgb and thermal", shows=())
     seed: int = key(

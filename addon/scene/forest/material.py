@@ -12,6 +12,7 @@ import bpy
 
 from ...blender import nodes
 from ...blender.owned import Stage
+from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import granite, haze, infrared, temperature
 from ..glow import CLOSE, EMBER, FLAME, brightness
@@ -68,7 +69,7 @@ def bark(shot: Shot, stage: Stage, *, charred: bool) -> bpy.types.Material:
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
     normal = tree.output("ShaderNodeNewGeometry", name="Normal")
     warmth = _warmth(tree, shot, stage, normal, age, age > 0.0)
-    tree.surface(_switch(tree, shot, stage, matt, warmth))
+    _finish(tree, shot, stage, matt, warmth)
     return material
 
 
@@ -89,7 +90,7 @@ def rock(shot: Shot, stage: Stage) -> bpy.types.Material:
     elevation = tree.attribute("elevation", "INSTANCER")
     ambient = temperature.ambient(tree, shot, stage, elevation, normal, 1.0)
     warmth = infrared.emitted(tree, shot, stage, ambient, infrared.STONE)
-    tree.surface(_switch(tree, shot, stage, matt, warmth))
+    _finish(tree, shot, stage, matt, warmth)
     material.cycles.emission_sampling = "NONE"
     return material
 
@@ -165,7 +166,7 @@ def _leaves(
     hot = flaming.ramp(0.0, 1.0, temperature.FLAME_LOW, temperature.FLAME_HIGH)
     hot = infrared.emitted(tree, shot, stage, hot)
     warmth = tree.mix(flaming.smoothstep(0.0, 0.5), warmth, hot)
-    tree.surface(_switch(tree, shot, stage, burning, warmth))
+    _finish(tree, shot, stage, burning, warmth, flaming)
 
 
 def _warmth(
@@ -183,9 +184,23 @@ def _warmth(
     return infrared.emitted(tree, shot, stage, kelvin, infrared.NEEDLES)
 
 
-def _switch(
-    tree: nodes.Tree, shot: Shot, stage: Stage, shader: nodes.Value, warmth: nodes.Value
-) -> nodes.Value:
-    """`shader` through the haze, or the infrared radiance through the air."""
+def _finish(
+    tree: nodes.Tree,
+    shot: Shot,
+    stage: Stage,
+    shader: nodes.Value,
+    warmth: nodes.Value,
+    flaming: nodes.Value | float = 0.0,
+) -> None:
+    """Make the surface: `shader` through the haze, its infrared radiance, or its class and number.
+
+    Trees have a number and are alight where `flaming`; what is under them counts as ground.
+    """
     seen = infrared.through_air(tree, shot, stage, warmth)
-    return nodes.thermal_switch(tree, haze.apply(tree, shader, stage), seen)
+    shader = nodes.thermal_switch(tree, haze.apply(tree, shader, stage), seen)
+    number = tree.attribute("number", "INSTANCER")
+    below = (_age(tree) > 0.0) * (masks.BURNED - masks.GROUND) + masks.GROUND
+    kind = tree.mix(number > 0.0, below, float(masks.TREE))
+    if isinstance(flaming, nodes.Value):
+        kind = tree.mix(flaming > masks.ALIGHT, kind, float(masks.FIRE))
+    tree.surface(nodes.mask_switch(tree, shader, kind, number))

@@ -69,7 +69,7 @@ def draw(picture: NDArray[np.float32], low: float, high: float, palette: str, kn
     picture[top - size : bottom + size, left - size : right + size] = 1.0
     picture[top:bottom, left:right] = bar
     for kelvin in marks(low, high, knee, (bottom - top) / (9.0 * size)):
-        at = bottom - 1 - round((bottom - 1 - top) * _place(kelvin, low, high, knee))
+        at = bottom - 1 - round((bottom - 1 - top) * place(kelvin, low, high, knee))
         picture[at : at + 1, left - 3 * size : left] = 1.0
         _write(picture, f"{kelvin:.0f}", left - 4 * size, at, size)
     _write(picture, "K", right + size, top - 5 * size, size)
@@ -92,13 +92,13 @@ def marks(low: float, high: float, knee: float, most: float) -> list[float]:
         if step < 10 and len(found) >= _ENOUGH:
             break
         for kelvin in np.arange(np.ceil(low / step) * step, high + 1e-9, step):
-            places = [_place(each, low, high, knee) for each in (*found, kelvin)]
+            places = [place(each, low, high, knee) for each in (*found, kelvin)]
             if all(abs(place - places[-1]) >= 1.0 / most for place in places[:-1]):
                 found.append(float(kelvin))
     return sorted(found)
 
 
-def _place(kelvin: float, low: float, high: float, knee: float) -> float:
+def place(kelvin: float, low: float, high: float, knee: float) -> float:
     """Where a temperature is on the scale, 0..1."""
     return float(np.log1p((kelvin - low) / knee) / np.log1p((high - low) / knee))
 
