@@ -157,7 +157,7 @@ def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell
 
     for text in shot.warnings():
         tell(text)
-    frames, done = _frames(wanted), 0
+    frames, done = frames_of(wanted), 0
     with bake.ahead(shot, smoky(shot, wanted), progress, tell) as ready:
         for part, group in _parts(shot, wanted):
 
@@ -168,7 +168,7 @@ def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell
             if shot.settings.render.engine == "cycles" and not done:
                 tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
             pictures.render(shot, stage, making, group, counted, ready)
-            done += _frames(group)
+            done += frames_of(group)
 
 
 def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:

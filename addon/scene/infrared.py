@@ -98,7 +98,7 @@ def _group(shot: Shot, stage: Stage) -> bpy.types.NodeTree:
         weight, exponent = (_value(tree, f"{name} {index}") for name in ("Weight", "Exponent"))
         own = own + weight / ((inverse * exponent).exp() - 1.0)
     radiance = tree.mix(tree.pick(entry, "Emissivity"), _value(tree, "Sky"), own)
-    tree.node("NodeGroupOutput", {"Radiance": radiance, "Clear": _clear(tree)})
+    tree.finish({"Radiance": radiance, "Clear": _clear(tree)})
     _fill(group, shot)
     return group
 

@@ -68,6 +68,8 @@ def _see_around(data: bpy.types.Camera, apart: float) -> None:
     stereo = data.stereo
     stereo.use_spherical_stereo = stereo.use_pole_merge = True
     stereo.interocular_distance, stereo.convergence_mode, stereo.pivot = apart, "PARALLEL", "CENTER"
+
+
 def _set(view: Path, shot: Shot, thing: bpy.types.Object) -> None:
     """Give an object the way and the lens of a path."""
     data = thing.data
