@@ -19,6 +19,7 @@ from ..areas import metres_per_degree
 Array = NDArray[np.float64]
 _ROWS = 256  # of the new grid that are looked up at once
 _LARGEST = 1 << 28  # cells
+_WIDE = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,8 +80,8 @@ class Grid:
         """Cosine and sine (ny, nx) of the angle from east to the direction of rows; None: rows run east."""
         if self.latitude.ndim == 1:
             return None
-        east = np.gradient(self.longitude, axis=1) * np.cos(np.radians(self.latitude))
-        north = np.gradient(self.latitude, axis=1)
+        east = _slope(self.longitude, 1) * np.cos(np.radians(self.latitude))
+        north = _slope(self.latitude, 1)
         size = np.hypot(east, north)
         return (east / size).astype(np.float32), (north / size).astype(np.float32)
 
@@ -185,7 +186,7 @@ class _Nearest:
 
     def __init__(self, latitude: Array, longitude: Array) -> None:
         self.place = latitude, longitude
-        (a, b), (c, d) = np.gradient(latitude), np.gradient(longitude)
+        a, b, c, d = (_slope(each, axis) for each in (latitude, longitude) for axis in (0, 1))
         with np.errstate(divide="ignore", invalid="ignore"):
             scale = 1.0 / (a * d - b * c)
             self.inverse = d * scale, -b * scale, -c * scale, a * scale
@@ -210,6 +211,15 @@ class _Nearest:
                 break
             i, j = i_next, j_next
         return i, j, outside
+
+
+def _slope(values: Array, axis: int) -> Array:
+    """Change per cell, over some each way: 32-bit longitudes are 0.65 m coarse, and cells may be small."""
+    count = values.shape[axis]
+    at = np.arange(count)
+    low, high = np.maximum(at - _WIDE, 0), np.minimum(at + _WIDE, count - 1)
+    width = (high - low).reshape((-1, 1) if axis == 0 else (1, -1))
+    return (np.take(values, high, axis) - np.take(values, low, axis)) / width
 
 
 def _orderly(axis: Array) -> bool:

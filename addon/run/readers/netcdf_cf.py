@@ -1,6 +1,6 @@
 """Any netCDF file that follows the CF conventions, by a mapping in TOML of fields to its variables.
 
-``[fields]`` has a line for each field: ``heat_flux = "hfx"``, or a table with `variable`, `scale` and `offset`
+``[fields]`` has a line per field: ``heat_flux = "hfx"``, or a table with `variable`, `scale` and `offset`
 (the field is scale x variable + offset). Variables of a field's own name need no line. Coordinates are
 found by their units and standard names; ``[axes]`` names them where they say neither.
 """
