@@ -104,6 +104,20 @@ def _parser() -> argparse.ArgumentParser:
     info.add_argument("run", metavar="RUN", type=Path, help="run folder")
     info.add_argument("--json", action="store_true", help="write JSON for programs")
 
+    made = command("convert", "make a run of a fire model's own output", CONVERT)
+    made.add_argument(
+        "paths", metavar="IN", nargs="+", type=Path, help="the model's files, or folders of them"
+    )
+    made.add_argument("--out", metavar="RUN", type=Path, required=True, help="run folder to write")
+    made.add_argument(
+        "--start", metavar="TIME", default="", help="when times count from, if files do not say it"
+    )
+    made.add_argument("--at", metavar="LAT,LON", default="", help="middle of a grid that lies nowhere")
+    made.add_argument("--projection", metavar="CRS", default="", help="of grids in metres, such as EPSG:5070")
+    made.add_argument(
+        "--interval", metavar="SECONDS", type=_count, default=0, help="between times that are made (chosen)"
+    )
+
     maps = command("maps", "draw the fuel map and the fire intensity map", MAPS)
     maps.add_argument("run", metavar="RUN", type=Path, help="run folder")
     maps.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the PNG files")
@@ -210,6 +224,14 @@ and spread follow what is published about the fire, and everything made from it 
 INFO = """\
 Grid and extent, fuels, times, heat flux, energy, burned area (beside the reported acreages where the run
 depicts a known fire), and warnings."""
+
+CONVERT = """\
+Reads, found by content: WRF-SFIRE (wrfout*), NCAR's Community Fire Behavior Model (fire_output_*.nc),
+ForeFire (arrival times, fronts, landscape), ELMFIRE (GeoTIFF), FARSITE and FlamMap (ASCII or GeoTIFF, LCP),
+pyretechnics (.npz), and any CF netCDF by a mapping in a TOML file: [fields] heat_flux = "NAME". Fuels may
+come from an LCP or LANDFIRE's rasters among the files. What a model does not say is assumed, said, and
+written to run.toml. A conversion that was stopped goes on when the command is given again.
+Needs packages that are not installed by themselves: pip install 'firetwin[models]'."""
 
 MAPS = """\
 DIR/fuel.png        fuel load, greener is denser

@@ -75,6 +75,22 @@ def imager(arguments: argparse.Namespace) -> None:
     report(len(moments), len(moments))
 
 
+def convert(arguments: argparse.Namespace) -> None:
+    """Make a run of a fire model's own files."""
+    from .jobs import convert
+
+    reporter = Reporter("times")
+    try:
+        print(
+            convert.run(
+                arguments.paths, arguments.out, arguments.start, arguments.at, arguments.projection,
+                arguments.interval, reporter, say,
+            )
+        )  # fmt: skip
+    finally:
+        reporter.close()
+
+
 def build(arguments: argparse.Namespace) -> None:
     """Build the scene and save it."""
     from .errors import UsageError
