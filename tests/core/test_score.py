@@ -1,9 +1,12 @@
 """Scores: closed forms, properties, and oracles that we did not write."""
 
+import base64
+import io
 import json
 import subprocess
 import sys
 from datetime import UTC, datetime, timedelta
+from html.parser import HTMLParser
 
 import numpy as np
 import pytest
@@ -12,11 +15,13 @@ from firetwin.errors import UsageError
 from firetwin.run import observations, readers
 from firetwin.run import score as scores
 from firetwin.run.observations import Perimeter
-from firetwin.run.score import arrival, page, shapes
+from firetwin.run.score import arrival, page, plots, report, shapes
 from firetwin.run.score.grid import Grid
 from firetwin.run.score.overlap import Overlap
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from matplotlib import image
+from matplotlib.colors import to_rgb
 
 shapely = pytest.importorskip("shapely")
 SPEED = 0.5  # m/s
@@ -297,3 +302,76 @@ def test_without_shapely_the_command_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "shapely", None)
     with pytest.raises(UsageError, match=r"pip install 'firetwin\[score\]'"):
         shapes.needed()
+
+
+class _Page(HTMLParser):
+    """Tags that open and close, pictures, and whatever is asked for from elsewhere."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.pictures, self.elsewhere, self.drawn = [], [], [], 0
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        known = dict(attributes)
+        if tag not in ("meta", "img", "br", "path", "use", "i"):
+            self.open.append(tag)
+        self.drawn += tag == "svg"
+        self.pictures += [known["src"]] if tag == "img" else []
+        links = (known.get(name) or "" for name in ("src", "href", "xlink:href", "data"))
+        self.elsewhere += [
+            each for each in links if each and each[:1] != "#" and not each.startswith("data:")
+        ]
+
+    def handle_endtag(self, tag):
+        if self.open and tag == self.open[-1]:
+            self.open.pop()
+
+
+@pytest.mark.parametrize("against", ["perimeters", "run"])
+def test_the_report_is_one_page_with_its_pictures_inside(round_run, against):
+    run = round_run()
+    when = [START + timedelta(seconds=s) for s in (900, 1800)]
+    circles = tuple(
+        seen(each, circle(radius, 200.0)) for each, radius in zip(when, (700.0, 1100.0), strict=True)
+    )
+    seen_too = observations.Observations(circles if against == "perimeters" else ())
+    others = [] if against == "perimeters" else [run]
+    text = report.html(run, scores.score(run, seen_too, *others), seen_too, *others)
+    made = _Page(text)
+    assert made.elsewhere == []
+    assert made.drawn == 1
+    assert len(made.pictures) == (2 if against == "perimeters" else scores.SAMPLES)
+    for picture in made.pictures:
+        head, data = picture.split(",")
+        assert head == "data:image/png;base64"
+        assert base64.b64decode(data).startswith(b"\x89PNG")
+    assert "main" not in made.open
+    assert "synthetic" not in text
+
+
+def test_maps_show_what_was_hit_missed_and_invented(round_run):
+    """One pixel of each: the run's circle and one 500 m to the east of it."""
+    run = round_run()
+    grid = Grid.of(run)
+    here, there = grid.polygon(1400.0), grid.projection.project(shapely.Polygon(circle(1000.0, 500.0)))
+    data = plots.overlap(run, grid, here, there, here.union(there)).partition(",")[2]
+    pixels = image.imread(io.BytesIO(base64.b64decode(data)))[..., :3]
+    row = pixels[pixels.shape[0] // 2 - 20]
+    order = [_nearest_of(row[int(x * len(row))]) for x in (0.2, 0.5, 0.85)]
+    assert order == [plots.FALSE_ALARMS, plots.HITS, plots.MISSES]
+
+
+def _nearest_of(pixel):
+    colours = (plots.HITS, plots.FALSE_ALARMS, plots.MISSES)
+    return min(colours, key=lambda each: np.abs(np.array(to_rgb(each)) - pixel).sum())
+
+
+def test_the_king_fires_own_score_says_what_it_cannot_show(make_run):
+    """The small run depicts the King Fire and is synthetic: reported areas, no overlap, and both are said."""
+    found = scores.score(readers.open(make_run()), observations.Observations())
+    assert [row["time"] for row in found["reported"]][1] == "2014-09-17T04:45:00Z"
+    text = page.page(found)
+    assert "not where" in text
+    assert "SYNTHETIC" in text
+    assert "proves nothing of a model" in text

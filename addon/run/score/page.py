@@ -42,7 +42,7 @@ def against(found: dict[str, Any]) -> list[str]:
 def _dates(found: dict[str, Any]) -> Iterator[str]:
     for key, title in (
         ("all", "All that had burned"),
-        ("without_start", "Without what had burned at the start"),
+        ("without_start", "Without the run's start"),
     ):
         rows = [row for row in found["dates"] if key in row]
         if not rows:

@@ -88,6 +88,13 @@ def clean(shape: BaseGeometry) -> BaseGeometry:
     return shapely.union_all(parts) if len(parts) != 1 else parts[0]
 
 
+def collected(found: Iterable[BaseGeometry]) -> BaseGeometry:
+    """Shapes as one, whether or not they overlap: what spans them all."""
+    import shapely
+
+    return shapely.GeometryCollection(list(found))
+
+
 def outline(x: NDArray[np.float64], y: NDArray[np.float64]) -> BaseGeometry:
     """A rectangle in degrees with a corner at every edge of a cell, as parallels bend when projected."""
     import shapely
