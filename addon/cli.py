@@ -1,4 +1,4 @@
-"""The command line: ``firetwin sample | info | maps | imager | build | bake | render | track | ...``.
+"""The command line: ``firetwin sample | info | maps | score | imager | build | bake | render | track | ...``.
 
 Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage,
 130: Ctrl-C. Nothing heavy is imported before it is needed, so that help and mistakes answer at once.
@@ -122,6 +122,20 @@ def _parser() -> argparse.ArgumentParser:
     maps.add_argument("run", metavar="RUN", type=Path, help="run folder")
     maps.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the PNG files")
 
+    score = command("score", "how well a run matches what was seen of its fire", SCORE)
+    score.add_argument("run", metavar="RUN", type=Path, help="run folder")
+    score.add_argument(
+        "--against",
+        metavar="FILE|RUN",
+        nargs="+",
+        default=[],
+        help="perimeters, detections, or one other run (RUN/observations)",
+    )
+    score.add_argument(
+        "--report", metavar="X.html", type=Path, help="write a page with maps and curves (none)"
+    )
+    score.add_argument("--json", action="store_true", help="write JSON for programs")
+
     seen = command("imager", "what a satellite's imager would have measured of a run", IMAGER)
     seen.add_argument("run", metavar="RUN", type=Path, help="run folder")
     seen.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the GeoTIFF files")
@@ -236,6 +250,14 @@ Needs packages that are not installed by themselves: pip install 'firetwin[model
 MAPS = """\
 DIR/fuel.png        fuel load, greener is denser
 DIR/intensity.png   strongest heat flux of the whole run, light yellow to red, over the relief"""
+
+SCORE = """\
+FILE holds dated perimeters (.geojson, .shp, .kml, .kmz, .gpkg) or FIRMS detections of VIIRS and MODIS (.csv);
+one without dates is written FILE@2014-09-18T04:00-07:00. By date: areas, Sorensen, Jaccard, kappa, precision,
+recall, shape deviation and area difference indices, distances of the perimeters, with and without what had
+burned when the run began; then errors of arrival times, and detections with their lag. Each is found on
+polygons and on cells: the difference of the two is its error. Needs shapely and pyproj
+(pip install 'firetwin[score]')."""
 
 IMAGER = """\
 Brightness temperatures (K) at 3.9 and 11.2 um (3.74 and 11.45 for viirs), fire radiative power (W) and a mask

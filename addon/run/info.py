@@ -81,6 +81,13 @@ def burned(run: Run, moments: Sequence[float]) -> list[float]:
     return found.tolist()
 
 
+def reported(run: Run) -> list[dict[str, Any]]:
+    """The dated acreages (m2) of the fire that the run depicts, beside the run's own."""
+    if not (reports := _reports(run)):
+        return []
+    return _reported(run, reports, burned(run, [times.seconds(run, each.time) for each in reports]))
+
+
 def energy(run: Run) -> float:
     """Heat released over the run (J): flux times cell area, integrated over time by the trapezoidal rule."""
     return float(np.sum(run.heat_released() * areas.cell_areas(run.latitude, run.longitude)))
@@ -127,6 +134,7 @@ def _reported(run: Run, reports: list[history.Acreage], areas_then: list[float])
     rows = []
     for report, area in zip(reports, areas_then, strict=True):
         row = {"time": _iso(report.time), "reported": report.acres * ACRE, "source": report.source}
+        row["note"] = report.note
         covered = run.times[0] <= times.seconds(run, report.time) <= run.times[-1]
         row["run"] = area if covered else None
         row["difference"] = area / row["reported"] - 1 if covered else None
