@@ -8,9 +8,6 @@ from ..scene.build import PARTS
 from ..shot.schema import Part, parts
 from . import build, job, keys, rows, sections
 
-FIRST, CAMERAS, SENSORS, RENDER, REPORT = 3, 30, 31, 40, 50
-"""Places in the order of work, after Run, Scene and Time."""
-
 _OWN = ("time",)  # drawn by a panel of its own
 _TITLES = {"thermal": "Sensors"}
 _BELOW = {"render": "FIRETWIN_PT_render"}  # sections that stand in another panel
@@ -61,8 +58,11 @@ def _panels() -> tuple[type[bpy.types.Panel], ...]:
     late = (*_LATE, *_BELOW)
     early = [part for part in shown if part.name not in late]
     return (
-        *(_panel(part, FIRST + order) for order, part in enumerate(early)),
-        *(_panel(part, SENSORS + order) for order, part in enumerate(p for p in shown if p not in early)),
+        *(_panel(part, sections.FIRST + order) for order, part in enumerate(early)),
+        *(
+            _panel(part, sections.SENSORS + order)
+            for order, part in enumerate(p for p in shown if p not in early)
+        ),
     )
 
 

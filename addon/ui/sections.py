@@ -20,6 +20,9 @@ from .tables import from_text, to_text
 NOT_HERE = ("path", "run", "cache", "cameras")
 """Of `Settings`, what is no section: the panel keeps it in its own way."""
 
+FIRST, CAMERAS, SENSORS, RENDER, REPORT = 3, 30, 31, 40, 50
+"""Places of the panels in the order of work, after Run, Scene and Time."""
+
 
 def sections() -> tuple[Part, ...]:
     """The sections of a scene file in their order."""

@@ -84,7 +84,7 @@ def mesh(data):
 
 
 def everything(scene):
-    """At the first frame: objects with places and arrays, and all node trees of materials, groups and world."""
+    """At the first frame: objects with places and arrays, node trees of materials, groups and world."""
     scene.frame_set(1)
     objects = {
         thing.name: (

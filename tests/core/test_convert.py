@@ -1,4 +1,4 @@
-"""Conversion as a user meets it: damaged files, stops, what is there already, and a run that is whole or not there."""
+"""Conversion as a user meets it: damaged files, stops, what is there already, and runs whole or not there."""
 
 import io
 import sys
