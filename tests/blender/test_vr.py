@@ -103,8 +103,13 @@ passes = ["rgb"]
 [[cameras]]
 kind = "vr"
 name = "headset"
-keys = [{{latitude = 38.825, longitude = -120.56, height = 400, target = "point",
-          target_latitude = 38.825, target_longitude = -120.50}}]
+[[cameras.keys]]
+latitude = 38.825
+longitude = -120.56
+height = 400
+target = "point"
+target_latitude = 38.825
+target_longitude = -120.51
 """
 
 
