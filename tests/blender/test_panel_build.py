@@ -8,6 +8,7 @@ import bpy
 import firetwin
 import numpy as np
 import pytest
+from firetwin.blender import owned
 from firetwin.jobs import sample, setting
 from firetwin.shot import file
 from firetwin.shot.choice import Choice
@@ -84,7 +85,7 @@ def mesh(data):
 
 
 def everything(scene):
-    """At the first frame: objects with their places and arrays, and all node trees of materials, groups and world."""
+    """At the first frame: objects with their places and arrays, and our node trees."""
     scene.frame_set(1)
     objects = {
         thing.name: (
@@ -101,7 +102,7 @@ def everything(scene):
             ("world", bpy.data.worlds),
         )
         for block in blocks
-        if block.users and (kind == "group" or block.node_tree)
+        if block.users and owned.ours(block) and (kind == "group" or block.node_tree)
     }
     return objects, trees
 
