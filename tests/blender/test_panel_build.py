@@ -1,6 +1,7 @@
 """What panels build: the same as the exported scene file, part by part, with hand edits kept."""
 
 import hashlib
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -178,9 +179,14 @@ def test_a_run_and_a_scene_file_are_opened_by_their_file(panel, run_folder, sett
     (tmp_path / "shot.toml").write_text(file.text(replace(settings, path=tmp_path / "shot.toml")))
     bpy.ops.firetwin.open(filepath=str(tmp_path / "shot.toml"))
     assert (panel.cameras.keys(), panel.time.frames) == (["drone"], 3)
+    bpy.ops.firetwin.open(filepath=str(run_folder))
+    assert panel.cameras.keys() == ["drone"]  # the same run
+    shutil.copytree(run_folder, tmp_path / "other")
+    bpy.ops.firetwin.open(filepath=str(tmp_path / "other"))
+    assert (panel.cameras.keys(), panel.scene_file) == (["overview", "satellite"], "")
     with pytest.raises(RuntimeError, match="no such scene file"):
         bpy.ops.firetwin.open(filepath=str(tmp_path / "none.toml"))
-    assert panel.cameras.keys() == ["drone"]
+    assert panel.cameras.keys() == ["overview", "satellite"]
 
 
 def test_the_king_fire_is_made_here_and_opened(panel, run_folder, tmp_path, monkeypatch):
