@@ -6,6 +6,7 @@ kept as the text of its tables.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
@@ -20,10 +21,8 @@ from .tables import from_text, to_text
 NOT_HERE = ("path", "run", "cache", "cameras")
 """Of `Settings`, what is no section: the panel keeps it in its own way."""
 
-FIRST, CAMERAS, SENSORS, RENDER, REPORT = 3, 30, 31, 40, 50
-"""Places of the panels in the order of work, after Run, Scene and Time."""
 
-
+@functools.cache
 def sections() -> tuple[Part, ...]:
     """The sections of a scene file in their order."""
     return tuple(part for part in parts(Settings) if part.table and not part.tables)

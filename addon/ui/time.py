@@ -181,8 +181,9 @@ class FIRETWIN_PT_time(bpy.types.Panel):
             ends.append(moment)
             column = layout.column(align=True)
             column.enabled = job.Job.current is None
-            told = _local(moment, settings.time.zone) if moment else "no date and time"
-            column.label(text=f"{keys.label(name)}: {told}")
+            typed = bool(getattr(settings.time, name))
+            told = _local(moment, settings.time.zone) if moment else "no date and time" if typed else ""
+            column.label(text=f"{keys.label(name)}: {told}" if told else keys.label(name))
             row = column.row(align=True)
             row.prop(settings.time, name, text="", placeholder=f"The run's {other} (UTC)")
             row.menu(menu.bl_idname, text="", icon="DOWNARROW_HLT")
@@ -192,7 +193,7 @@ class FIRETWIN_PT_time(bpy.types.Panel):
         if None not in ends and settings.time.frames > 1:
             step = (ends[1] - ends[0]).total_seconds() / (settings.time.frames - 1)
             speed = step * settings.time.fps
-            layout.label(text=f"{step:,.4g} s a frame, {speed:,.4g} times as fast")
+            layout.label(text=f"{step:,.7g} s a frame, {speed:,.0f} times as fast")
 
 
 def _clock(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:

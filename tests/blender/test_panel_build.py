@@ -1,6 +1,7 @@
 """What panels build: the same as the exported scene file, part by part, with hand edits kept."""
 
 import hashlib
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -8,6 +9,7 @@ import bpy
 import firetwin
 import numpy as np
 import pytest
+from firetwin.blender import owned
 from firetwin.jobs import sample, setting
 from firetwin.shot import file
 from firetwin.shot.choice import Choice
@@ -84,7 +86,7 @@ def mesh(data):
 
 
 def everything(scene):
-    """At the first frame: objects with places and arrays, node trees of materials, groups and world."""
+    """At the first frame: objects with their places and arrays, and our node trees."""
     scene.frame_set(1)
     objects = {
         thing.name: (
@@ -101,7 +103,7 @@ def everything(scene):
             ("world", bpy.data.worlds),
         )
         for block in blocks
-        if block.users and (kind == "group" or block.node_tree)
+        if block.users and owned.ours(block) and (kind == "group" or block.node_tree)
     }
     return objects, trees
 
@@ -177,9 +179,14 @@ def test_a_run_and_a_scene_file_are_opened_by_their_file(panel, run_folder, sett
     (tmp_path / "shot.toml").write_text(file.text(replace(settings, path=tmp_path / "shot.toml")))
     bpy.ops.firetwin.open(filepath=str(tmp_path / "shot.toml"))
     assert (panel.cameras.keys(), panel.time.frames) == (["drone"], 3)
+    bpy.ops.firetwin.open(filepath=str(run_folder))
+    assert panel.cameras.keys() == ["drone"]  # the same run
+    shutil.copytree(run_folder, tmp_path / "other")
+    bpy.ops.firetwin.open(filepath=str(tmp_path / "other"))
+    assert (panel.cameras.keys(), panel.scene_file) == (["overview", "satellite"], "")
     with pytest.raises(RuntimeError, match="no such scene file"):
         bpy.ops.firetwin.open(filepath=str(tmp_path / "none.toml"))
-    assert panel.cameras.keys() == ["drone"]
+    assert panel.cameras.keys() == ["overview", "satellite"]
 
 
 def test_the_king_fire_is_made_here_and_opened(panel, run_folder, tmp_path, monkeypatch):

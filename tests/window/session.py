@@ -151,38 +151,39 @@ def panel() -> Iterator[object]:
     picture("05-run")
 
 
-def panels(cls: type) -> list[type]:
-    """A panel of the sidebar and those below it, or all of them."""
-    known = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
-    return [each for each in known if each is cls or getattr(each, "bl_parent_id", "") == cls.bl_idname]
-
-
 def ui() -> object:
     return sys.modules[f"{MODULE}.ui"]
+
+
+def opened(cls: type) -> type:
+    """A panel like another one, but open: Blender keeps which are closed by their names."""
+    own = {name: value for name, value in vars(cls).items() if name[:2] != "__" and name != "bl_rna"}
+    own |= {"bl_idname": f"{cls.bl_idname}_open", "bl_options": set()}
+    if "bl_parent_id" in own:
+        own["bl_parent_id"] += "_open"
+    return type(own["bl_idname"], (bpy.types.Panel,), own)
+
+
+def parent(cls: type, known: list[type]) -> type | None:
+    return next((each for each in known if each.bl_idname == getattr(cls, "bl_parent_id", "")), None)
 
 
 def sections() -> Iterator[object]:
     """Every panel by itself and open, and the menus."""
     known = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
-    closed = {each: getattr(each, "bl_options", None) for each in known}
     for each in reversed(known):
         bpy.utils.unregister_class(each)
     for top in (each for each in known if not hasattr(each, "bl_parent_id")):
-        here_now = panels(top)
-        for each in here_now:
-            each.bl_options = set()
+        shown = [opened(each) for each in known if top in (each, parent(each, known))]
+        for each in shown:
             bpy.utils.register_class(each)
         yield 0.5
         tab()
         yield 1.5
         picture(f"20-panel-{top.bl_label.lower().replace(' ', '-')}")
-        for each in reversed(here_now):
+        for each in reversed(shown):
             bpy.utils.unregister_class(each)
     for each in known:
-        if closed[each] is None:
-            del each.bl_options
-        else:
-            each.bl_options = closed[each]
         bpy.utils.register_class(each)
     yield 1
     tab()
