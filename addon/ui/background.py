@@ -66,7 +66,7 @@ class FIRETWIN_OT_render_background(bpy.types.Operator):
 
 
 class FIRETWIN_OT_f12_files(bpy.types.Operator):
-    """Let F12 and Ctrl-F12 write pictures of the scene's camera (PNG, EXR) into the output folder, named as ours.
+    """Let F12 and Ctrl-F12 write pictures (PNG, EXR) into the output folder, named as ours.
 
     Depth, normals and thermal pictures need more than one render: Render in background makes them
     """
