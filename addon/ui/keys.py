@@ -24,7 +24,7 @@ Items = tuple[tuple[str, str, str], ...]
 USE = "use_"
 """Before the name of a property, that of the switch of a number that may be left out."""
 
-_SHORT = {"cpu", "gpu", "rgb", "eevee"}  # names that are written in capitals
+_SHORT = {"cpu", "gpu", "rgb", "eevee", "fps"}  # names that are written in capitals
 _LARGEST = 2**31 - 1  # what Blender keeps as a whole number
 _NUMBERS = (int, float)
 _UNITS = {"m": "LENGTH", "s": "TIME_ABSOLUTE", "K": "TEMPERATURE"}  # those that Blender shows itself

@@ -22,6 +22,10 @@ class FIRETWIN_OT_open(bpy.types.Operator, ImportHelper):
 
     bl_idname = "firetwin.open"
     bl_label = "Open run"
+    bl_description = (
+        "Open a model run (its run.toml or its folder) or a scene file. Another run brings its own "
+        "time window and cameras; the field Run keeps those that are there"
+    )
     bl_options = {"UNDO"}
 
     filename_ext = ".toml"
@@ -41,10 +45,18 @@ class FIRETWIN_OT_open(bpy.types.Operator, ImportHelper):
         if path.suffix == ".toml" and path.name != _RUN and not path.is_dir():
             panel.scene_file = str(path)
         else:
-            panel.run = str(path.parent if path.name == _RUN else path)
+            _begin(panel, str(path.parent if path.name == _RUN else path))
         if panel.problem:
             self.report({"ERROR"}, panel.problem)
         return {"FINISHED"}
+
+
+def _begin(panel: bpy.types.PropertyGroup, folder: str) -> None:
+    """Choose a run; where it is another one, time window and cameras of the one before go."""
+    if bpy.path.abspath(panel.run) != folder:
+        panel.scene_file = panel.time.start = panel.time.end = ""
+        panel.cameras.clear()
+    panel.run = folder
 
 
 class FIRETWIN_OT_export(bpy.types.Operator, ExportHelper):
@@ -105,8 +117,7 @@ class FIRETWIN_OT_sample(Working, bpy.types.Operator):
         uid = context.scene.session_uid
         folder = Path(bpy.path.abspath(self.folder)) if self.folder else scene_file.own_folder() / "king_fire"
         yield Away("writing the sample run", functools.partial(sample.run, folder))
-        panel = owned.scene(uid).firetwin
-        panel.run = str(folder)
+        _begin(owned.scene(uid).firetwin, str(folder))
         return (yield from run.look(uid))
 
 

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+import functools
 from typing import Any
 
 import bpy
 from bl_operators.presets import AddPresetBase
 
-from ..shot.schema import parts
-from ..shot.settings import Settings
+from ..shot.schema import Part, parts
 from . import job, keys, sections
 
-_DEFAULTS = (
+_MOVED = (
     ("ground", "near_radius"),
     ("ground", "error"),
     ("forest", "budget"),
@@ -23,7 +23,7 @@ _DEFAULTS = (
     ("render", "resolution"),
     ("render", "samples"),
 )
-_CHANGED: dict[str, tuple[str, tuple[Any, ...]]] = {
+_STEPS: dict[str, tuple[str, tuple[Any, ...]]] = {
     "preview": (
         "A look in a minute: coarse ground, fewer trees, smoke as puffs, small pictures",
         (1500.0, 1.5, 40_000, 5000, 6000.0, 500, "puffs", 12, (480, 270), 2),
@@ -37,10 +37,10 @@ _CHANGED: dict[str, tuple[str, tuple[Any, ...]]] = {
         (6000.0, 0.35, 400_000, 80_000, 16_000.0, 6000, "flow", 96, (1920, 1080), 24),
     ),
 }
-LEVELS = {name: dict(zip(_DEFAULTS, values, strict=True)) for name, (_, values) in _CHANGED.items()}
+LEVELS = {name: dict(zip(_MOVED, values, strict=True)) for name, (_, values) in _STEPS.items()}
 """Settings by section and key, of each step of quality."""
 
-_ITEMS = [(name, keys.label(name), words) for name, (words, _) in _CHANGED.items()]
+_ITEMS = [(name, keys.label(name), words) for name, (words, _) in _STEPS.items()]
 
 _NOT_SAVED = {"time": ("start", "end"), "ground": ("elevation", "photo", "photo_extent")}
 """What belongs to a run, and so into no preset."""
@@ -61,9 +61,14 @@ def level(panel: bpy.types.PropertyGroup) -> str:
     return ""
 
 
-def _found(panel: bpy.types.PropertyGroup, section: str, name: str) -> tuple[bpy.types.PropertyGroup, Any]:
-    kind = type(getattr(Settings(), section))
-    return getattr(panel, section), next(part for part in parts(kind) if part.name == name)
+def _found(panel: bpy.types.PropertyGroup, section: str, name: str) -> tuple[bpy.types.PropertyGroup, Part]:
+    return getattr(panel, section), _part(section, name)
+
+
+@functools.cache
+def _part(section: str, name: str) -> Part:
+    kind = next(part.table for part in sections.sections() if part.name == section)
+    return next(part for part in parts(kind) if part.name == name)
 
 
 class FIRETWIN_OT_quality(bpy.types.Operator):
@@ -78,7 +83,7 @@ class FIRETWIN_OT_quality(bpy.types.Operator):
     @classmethod
     def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
         """The tooltip."""
-        return f"{_CHANGED[properties.level][0]}. What is built changes when it is built again"
+        return f"{_STEPS[properties.level][0]}. What is built changes when it is built again"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         apply(context.scene.firetwin, self.level)

@@ -77,6 +77,7 @@ class FIRETWIN_PT_render(bpy.types.Panel):
         column = layout.column()
         column.enabled = job.Job.current is None
         column.prop(settings, "output")
+        column.prop(settings, "cache", placeholder="In the output")
         column.prop(settings, "camera")
         column.prop(settings, "resume")
         row = column.row(align=True)

@@ -52,7 +52,7 @@ def _value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Part) 
 
 def _long(part: Part) -> bool:
     """Whether a value wants the width of the sidebar: paths, moments and lists."""
-    return part.type not in (int, float, str)
+    return part.type not in (int, float) and (part.type is not str or part.key.choices is None)
 
 
 class FIRETWIN_OT_reset(bpy.types.Operator):

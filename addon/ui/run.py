@@ -183,10 +183,10 @@ class FIRETWIN_PT_run(bpy.types.Panel):
         column.enabled = job.Job.current is None
         if not settings.run:
             _hint(context, column)
-        row = labelled(column, "Run")
+        row = labelled(column, "Run", 0.2)
         row.prop(settings, "run", text="")
         row.operator(FIRETWIN_OT_inspect.bl_idname, text="", icon="FILE_REFRESH")
-        row = labelled(column, "Scene file")
+        row = labelled(column, "Scene", 0.2)
         row.prop(settings, "scene_file", text="", placeholder="Optional")
         row.operator("firetwin.export", text="", icon="EXPORT")
         if settings.problem:

@@ -6,6 +6,7 @@ kept as the text of its tables.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
@@ -21,6 +22,7 @@ NOT_HERE = ("path", "run", "cache", "cameras")
 """Of `Settings`, what is no section: the panel keeps it in its own way."""
 
 
+@functools.cache
 def sections() -> tuple[Part, ...]:
     """The sections of a scene file in their order."""
     return tuple(part for part in parts(Settings) if part.table and not part.tables)

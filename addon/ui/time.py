@@ -115,31 +115,32 @@ class FIRETWIN_MT_moments(bpy.types.Menu):
             self.layout.operator(FIRETWIN_OT_jump.bl_idname, text=text).moment = moment
 
 
-class _Ends(bpy.types.Menu):
-    key = ""
-
-    def draw(self, context: bpy.types.Context) -> None:
-        settings = context.scene.firetwin
-        for moment, words in moments(settings):
-            text = f"{_local(datetime.fromisoformat(moment), settings.time.zone)}, {words}"
-            button = self.layout.operator(FIRETWIN_OT_window.bl_idname, text=text)
-            button.moment, button.key = moment, self.key
-
-
-class FIRETWIN_MT_start(_Ends):
+class FIRETWIN_MT_start(bpy.types.Menu):
     """The first frame at a dated moment of the run"""
 
     bl_idname = "FIRETWIN_MT_start"
     bl_label = "Begin at"
-    key = "start"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        _ends(self.layout, context.scene.firetwin, "start")
 
 
-class FIRETWIN_MT_end(_Ends):
+class FIRETWIN_MT_end(bpy.types.Menu):
     """The last frame at a dated moment of the run"""
 
     bl_idname = "FIRETWIN_MT_end"
     bl_label = "End at"
-    key = "end"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        _ends(self.layout, context.scene.firetwin, "end")
+
+
+def _ends(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, key: str) -> None:
+    """Dated moments, each as a button that lets the window begin or end there."""
+    for moment, words in moments(settings):
+        text = f"{_local(datetime.fromisoformat(moment), settings.time.zone)}, {words}"
+        button = layout.operator(FIRETWIN_OT_window.bl_idname, text=text)
+        button.moment, button.key = moment, key
 
 
 def _local(moment: datetime, zone: str) -> str:
@@ -180,8 +181,9 @@ class FIRETWIN_PT_time(bpy.types.Panel):
             ends.append(moment)
             column = layout.column(align=True)
             column.enabled = job.Job.current is None
-            told = _local(moment, settings.time.zone) if moment else "no date and time"
-            column.label(text=f"{keys.label(name)}: {told}")
+            typed = bool(getattr(settings.time, name))
+            told = _local(moment, settings.time.zone) if moment else "no date and time" if typed else ""
+            column.label(text=f"{keys.label(name)}: {told}" if told else keys.label(name))
             row = column.row(align=True)
             row.prop(settings.time, name, text="", placeholder=f"The run's {other} (UTC)")
             row.menu(menu.bl_idname, text="", icon="DOWNARROW_HLT")
@@ -191,7 +193,7 @@ class FIRETWIN_PT_time(bpy.types.Panel):
         if None not in ends and settings.time.frames > 1:
             step = (ends[1] - ends[0]).total_seconds() / (settings.time.frames - 1)
             speed = step * settings.time.fps
-            layout.label(text=f"{step:,.4g} s a frame, {speed:,.4g} times as fast")
+            layout.label(text=f"{step:,.7g} s a frame, {speed:,.0f} times as fast")
 
 
 def _clock(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:

@@ -136,8 +136,8 @@ def test_a_run_is_known_as_soon_as_it_is_chosen(settings, run_folder):
     assert rows["Burned"].endswith("acres")
     assert settings.cameras.keys() == ["overview", "satellite"]
     assert [words for _, words in found["moments"]] == ["the run begins", "the run ends"]
-    assert maps.icon(settings.run, "fuel")
-    assert not maps.icon("elsewhere", "fuel")
+    kept = maps._kept[settings.run]  # without a window they have no icons
+    assert kept["fuel"].image_size[:] == kept["intensity"].image_size[:] == (192, 192)
     assert [item[0] for item in render.camera_items(settings, None)] == ["*", "overview", "satellite"]
 
 
@@ -165,7 +165,7 @@ def test_cameras_that_nobody_chose_follow_the_run(settings, run_folder, tmp_path
     before = camera_list.get(settings.cameras[0])
     settings.run = str(tmp_path / "other")
     after = camera_list.get(settings.cameras[0])
-    assert after.rig.keys[0].latitude == pytest.approx(before.rig.keys[0].latitude + 1.0)
+    assert after.rig.keys[0].latitude == pytest.approx(before.rig.keys[0].latitude + 1.0, abs=0.01)
     settings.cameras[0].name = "mine"
     settings.run = str(run_folder)
     assert camera_list.get(settings.cameras[0]).rig == after.rig
@@ -772,6 +772,38 @@ def test_every_panel_can_be_drawn_at_any_time(settings, scene_file):
         assert "Esc with the pointer here" in drawn(build.FIRETWIN_PT_build, bpy.context.scene)
     finally:
         job.Job.current = None
+
+
+class Paper:
+    """A layout that takes everything and does nothing, which costs next to nothing."""
+
+    def __getattr__(self, name):
+        return self
+
+    def __call__(self, *_, **__):
+        return self
+
+
+def test_drawing_the_sidebar_costs_little(settings, scene_file, capsys):
+    """Below a millisecond is wanted; the figure is in the log, for a busy machine proves nothing."""
+    settings.scene_file = str(scene_file)
+    system = SimpleNamespace(ui_scale=1.0)
+    context = SimpleNamespace(
+        scene=bpy.context.scene,
+        preferences=SimpleNamespace(system=system),
+        region=SimpleNamespace(width=300),
+    )
+    took = {}
+    for kind in (cls for cls in firetwin.ui.classes if issubclass(cls, bpy.types.Panel)):
+        times = []
+        for _ in range(20):
+            began = time.perf_counter()
+            kind.draw(SimpleNamespace(layout=Paper()), context)
+            times.append(1e3 * (time.perf_counter() - began))
+        took[kind.bl_label] = round(sorted(times)[10], 3)
+    with capsys.disabled():
+        print("\nms to draw, median of 20, Blender's own layout left out:", took)
+    assert len(took) >= 12
 
 
 def test_unregister_ends_what_goes_on(settings):

@@ -147,8 +147,73 @@ def panel() -> Iterator[object]:
     yield idle
     yield 3
     check(settings().facts != "", "the run is known")
-    check(settings().shown_run.endswith("sample"), f"the scene file's run is shown: {settings().shown_run}")
+    check(settings().run.endswith("sample"), f"the scene file's run is shown: {settings().run}")
     picture("05-run")
+
+
+def ui() -> object:
+    return sys.modules[f"{MODULE}.ui"]
+
+
+def opened(cls: type) -> type:
+    """A panel like another one, but open: Blender keeps which are closed by their names."""
+    own = {name: value for name, value in vars(cls).items() if name[:2] != "__" and name != "bl_rna"}
+    own |= {"bl_idname": f"{cls.bl_idname}_open", "bl_options": set()}
+    if "bl_parent_id" in own:
+        own["bl_parent_id"] += "_open"
+    return type(own["bl_idname"], (bpy.types.Panel,), own)
+
+
+def parent(cls: type, known: list[type]) -> type | None:
+    return next((each for each in known if each.bl_idname == getattr(cls, "bl_parent_id", "")), None)
+
+
+def sections() -> Iterator[object]:
+    """Every panel by itself and open, and the menus."""
+    known = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
+    for each in reversed(known):
+        bpy.utils.unregister_class(each)
+    for top in (each for each in known if not hasattr(each, "bl_parent_id")):
+        shown = [opened(each) for each in known if top in (each, parent(each, known))]
+        for each in shown:
+            bpy.utils.register_class(each)
+        yield 0.5
+        tab()
+        yield 1.5
+        picture(f"20-panel-{top.bl_label.lower().replace(' ', '-')}")
+        for each in reversed(shown):
+            bpy.utils.unregister_class(each)
+    for each in known:
+        bpy.utils.register_class(each)
+    yield 1
+    tab()
+    for name in ("TOPBAR_MT_file_import", "VIEW3D_MT_add", "FIRETWIN_MT_start", "FIRETWIN_MT_parts"):
+        with bpy.context.temp_override(**here()):
+            bpy.ops.wm.call_menu(name=name)
+        yield 1
+        picture(f"21-menu-{name.lower()}")
+        keys("Escape")
+        yield 1
+
+
+def quality() -> Iterator[object]:
+    """A step of quality, a setting and its mark; the exported file brings the same back."""
+    before = settings().render.samples
+    call(bpy.ops.firetwin.quality, level="final")
+    yield 1
+    check(settings().render.samples == 24, f"samples {before} -> {settings().render.samples}")
+    with bpy.context.temp_override(**here()):
+        bpy.ops.firetwin.export("EXEC_DEFAULT", filepath=str(FOLDER / "exported.toml"))
+    call(bpy.ops.firetwin.reset, section="render", key="samples")
+    yield 1
+    call(bpy.ops.firetwin.open, filepath=str(FOLDER / "exported.toml"))
+    yield 1
+    yield idle
+    check(settings().render.samples == 24, "the exported scene file brings it back")
+    settings().scene_file = str(FOLDER / "scene.toml")
+    yield 1
+    yield idle
+    yield 1
 
 
 def build() -> Iterator[object]:
@@ -230,8 +295,8 @@ def scrub() -> Iterator[object]:
 
 def render() -> Iterator[object]:
     """Debian builds Cycles without NanoVDB: it draws no volume grid, not even Blender's own. EEVEE does."""
-    settings().engine, settings().output = "eevee", str(FOLDER / "pictures")
-    settings().scene_passes, settings().passes = False, {"rgb"}
+    settings().output = str(FOLDER / "pictures")
+    settings().render.engine, settings().render.passes = "eevee", {"rgb"}
     call(bpy.ops.firetwin.render)
     yield 5
     picture("10-rendering")
@@ -244,6 +309,7 @@ def render() -> Iterator[object]:
     settings().scene_file, settings().output = str(FOLDER / "plain.toml"), str(FOLDER / "plain")
     yield 0.5
     yield idle
+    settings().render.engine, settings().render.passes = "eevee", {"rgb"}
     call(bpy.ops.firetwin.render)
     yield 1
     yield idle
@@ -253,6 +319,7 @@ def render() -> Iterator[object]:
     settings().scene_file, settings().output = str(FOLDER / "scene.toml"), str(FOLDER / "stopped")
     yield 0.5
     yield idle
+    settings().render.engine = "eevee"
     call(bpy.ops.firetwin.render)
     yield 8
     check(busy(), "rendering again")
@@ -434,7 +501,7 @@ def session() -> Iterator[object]:
     before = inventory.take(USER)
     picture("01-start")
     yield from install()
-    for step in (panel, build, parts, scrub, render, by_hand, undo, beside, file):
+    for step in (panel, quality, build, sections, parts, scrub, render, by_hand, undo, beside, file):
         if step.__name__ in STEPS:
             yield from step()
     yield from leave(before)
