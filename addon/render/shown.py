@@ -14,8 +14,9 @@ from .picture import Picture
 
 
 def exact() -> tuple[str, ...]:
-    """Passes that one render of Blender's gives as ours do; others need rays of their own, or other files."""
-    return tuple(name for name, each in passes.known().items() if each.output and not each.pixel_centres)
+    """Passes whose files Blender's own render makes as ours: others need rays of their own, or more work."""
+    known = passes.known().items()
+    return tuple(name for name, each in known if each.output and not each.pixel_centres and not each.finish)
 
 
 def to_files(stage: Stage, out: Path, camera: str, names: tuple[str, ...]) -> None:

@@ -66,14 +66,13 @@ class FIRETWIN_OT_render_background(bpy.types.Operator):
 
 
 class FIRETWIN_OT_f12_files(bpy.types.Operator):
-    """Let F12 and Ctrl-F12 write the passes rgb and thermal of the scene's camera into the output folder.
+    """Let F12 and Ctrl-F12 write pictures (PNG, EXR) into the output folder, named as ours.
 
-    Files are named as Render names them. Depth and normals need rays of their own: Render in background
-    makes them
+    Depth, normals and thermal pictures need more than one render: Render in background makes them
     """
 
     bl_idname = "firetwin.f12_files"
-    bl_label = "F12 writes passes"
+    bl_label = "F12 writes files"
     bl_options = {"REGISTER", "UNDO"}
 
     on: bpy.props.BoolProperty(name="On", description="Write them, or no longer", default=True)
