@@ -12,10 +12,10 @@ fire   5     flames in the air, on the ground and in crowns, and firebrands
 ====== ===== ==================================================================================
 
 The EXR holds `class`; `clear`, the part 0..1 of what is behind smoke that comes through it; and `instance`,
-the number of the tree from 1 on (0: none), the same in all frames of a camera. The PNG shows each class in
-one colour. One ray goes through the middle of each pixel and nothing is filtered, so numbers are whole. Where
-smoke lets nothing through, what is behind is not known: instance 0. EEVEE's pixels hold fewer digits: its
-classes are right and its instances are not.
+the number of the tree from 1 on (0: none), the same in all frames of a camera that are built together (see
+[render] chunk). The PNG shows each class in one colour. One ray goes through the middle of each pixel and
+nothing is filtered, so numbers are whole. Where smoke lets nothing through, what is behind is not known:
+instance 0. EEVEE's pixels hold fewer digits: its classes are right and its instances are not.
 """
 
 from __future__ import annotations
