@@ -2,7 +2,7 @@
 
 import bpy
 
-from . import build, command, preferences, properties, render, run, time, working
+from . import assets, build, command, preferences, properties, render, run, time, working
 
 classes = (
     *preferences.classes,
@@ -12,6 +12,7 @@ classes = (
     *build.classes,
     *time.classes,
     *render.classes,
+    *assets.classes,
 )
 
 
