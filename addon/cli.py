@@ -185,6 +185,10 @@ def _parser() -> argparse.ArgumentParser:
     )
     cache.add_argument("--dry-run", action="store_true", help="say what --prune would remove, remove nothing")
 
+    assets = command("assets", "write trees, materials and node groups as an asset library", ASSETS)
+    assets.add_argument("scene", metavar="SCENE.toml", nargs="?", type=Path, help="scene file (the sample's)")
+    assets.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder of the library")
+
     command("schema", "print the JSON Schema of scene files, for TOML editors", SCHEMA)
 
     bench = command("bench", "measure run time against error, beside the alternatives", BENCH)
@@ -234,6 +238,10 @@ class _Version(argparse.Action):
 SAMPLE = """\
 No output of the fire-atmosphere model for the King Fire is public. This run is made up: its terrain, fuels
 and spread follow what is published about the fire, and everything made from it says that it is synthetic."""
+
+ASSETS = """\
+DIR/firetwin_assets.blend and DIR/blender_assets.cats.txt, as Blender's asset browser reads them: choose DIR
+under Edit > Preferences > File Paths > Asset Libraries. Lit, hazy and as warm as the scene file's shot is."""
 
 INFO = """\
 Grid and extent, fuels, times, heat flux, energy, burned area (beside the reported acreages where the run

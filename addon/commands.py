@@ -196,6 +196,27 @@ def _volumes(volumes: Iterable[Kept]) -> None:
         print(f"{each.folder}  {size(each.bytes)}  {ago}")
 
 
+def assets(arguments: argparse.Namespace) -> None:
+    """Write the asset library."""
+    import tempfile
+
+    from .jobs import assets
+    from .shot.choice import Choice
+
+    with tempfile.TemporaryDirectory() as folder:
+        scene = arguments.scene
+        if scene is None:
+            from .data import sample
+
+            say("writing a small sample run, which the assets are made for")
+            sample.write(Path(folder) / "sample", 13)
+            scene = Path(folder) / "scene.toml"
+            scene.write_text(assets.SCENE, encoding="utf-8")
+        number = assets.run(Choice(scene=str(scene)), arguments.out, Reporter(), say)
+    say(f"{count(number, 'asset')} in {arguments.out}")
+    print(arguments.out / assets.BLEND)
+
+
 def schema(arguments: argparse.Namespace) -> None:
     """Print the JSON Schema of scene files."""
     from .shot.json_schema import json_schema

@@ -30,7 +30,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Obj
     points = flames.cells(shot) if shot.settings.fire.emitters == "cells" else flames.front(shot, grown)
     thing = owned.add(collection, "Flames", _mesh(points))
     modifier = thing.modifiers.new("Firetwin Flames", "NODES")
-    modifier.node_group = _node_group(shot, _cards(material.build(shot, stage)))
+    modifier.node_group = node_group(shot, cards(shot, stage))
     thing.color = SHOWN
     _light_only(thing)
     firebrand_nodes.build(shot, stage, points, collection)
@@ -56,9 +56,9 @@ def _light_only(thing: bpy.types.Object) -> None:
     thing.visible_shadow = thing.visible_diffuse = thing.visible_volume_scatter = False
 
 
-def _cards(flame: bpy.types.Material) -> bpy.types.Collection:
+def cards(shot: Shot, stage: Stage) -> bpy.types.Collection:
     """Cards one metre high and wide on z = 0: flat, bowed either way and crossed; linked to no scene."""
-    collection = owned.library("Flame Cards")
+    collection, flame = owned.library("Flame Cards"), material.build(shot, stage)
     for index in range(CARDS):
         mesh = bpy.data.meshes.new(f"Firetwin Flame Card {index}")
         vertices, faces, cards = _card(index)
@@ -96,7 +96,7 @@ def _card(index: int) -> tuple[list, list, list]:
     return vertices, faces, cards
 
 
-def _node_group(shot: Shot, cards: bpy.types.Collection) -> bpy.types.NodeTree:
+def node_group(shot: Shot, shapes: bpy.types.Collection) -> bpy.types.NodeTree:
     """Points that are lit -> cards facing the camera, leaning downwind, growing and dying away."""
     tree, entry = nodes.geometry("Firetwin Flames")
 
@@ -125,16 +125,16 @@ def _node_group(shot: Shot, cards: bpy.types.Collection) -> bpy.types.NodeTree:
     longer = tree.input("Length", 1.0, "Factor on how long flames are", "Size")
     width = named("flame_width") * life * wider
     scale = tree.combine(width, width, named("flame_length") * life * longer)
-    shapes = tree.output(
+    several = tree.output(
         "GeometryNodeCollectionInfo",
-        {"Collection": cards, "Separate Children": True, "Reset Children": True},
+        {"Collection": shapes, "Separate Children": True, "Reset Children": True},
     )
     shape = tree.math("FLOOR", tree.math("FRACT", seed * 977.0) * (CARDS - 0.001))
     placed = tree.output(
         "GeometryNodeInstanceOnPoints",
         {
             "Points": alive,
-            "Instance": shapes,
+            "Instance": several,
             "Pick Instance": True,
             "Instance Index": shape,
             "Rotation": turned,

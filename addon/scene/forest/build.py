@@ -145,12 +145,12 @@ def _instances(
     bare_after: float = BARE_AFTER,
 ) -> bpy.types.Object:
     """Make an object of plants, and those that stand in for it in the viewport."""
-    group = _node_group(shot, f"Firetwin {name}", library, bare_after)
+    group = node_group(shot, f"Firetwin {name}", library, bare_after)
     full = _object(collection, name, points, group)
     shown = []
     for part, some, follows in preview.parts(shot, points, bare_after, name != "Grass"):
         title = f"{part} {name} in Viewport".strip()
-        group = _node_group(shot, f"Firetwin {title}", library, bare_after if follows else None)
+        group = node_group(shot, f"Firetwin {title}", library, bare_after if follows else None)
         shown.append(_object(collection, title, some, group))
     preview.stand_in(full, shown)
     return full
@@ -187,7 +187,7 @@ def _drawn(tree: nodes.Tree, shot: Shot) -> nodes.Value | bool:
     return tree.separate(place)[2] < 0.75 * HEIGHT
 
 
-def _node_group(
+def node_group(
     shot: Shot, name: str, library: bpy.types.Collection, bare_after: float | None
 ) -> bpy.types.NodeTree:
     """A model on every point, which becomes a snag `bare_after` s after the fire came; None: never."""
