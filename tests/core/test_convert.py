@@ -1,4 +1,4 @@
-"""Conversion as a user meets it: damaged files, stops, what is there already, and a run that is whole or not there."""
+"""Conversion as a user meets it: damaged files, stops, what is there already; a run is whole or not there."""
 
 import io
 import sys
@@ -215,7 +215,7 @@ def test_a_missing_package_is_one_line(tmp_path, monkeypatch):
     [
         (np.full((5, 5), -9999.0), "nothing burns"),
         (np.full((5, 5), np.nan), "nothing burns"),
-        (np.full((5, 5), 1e300), "makes no sense|times would be made|later than"),
+        (np.full((5, 5), 1e300), "its times make no sense"),
     ],
 )
 def test_absurd_arrivals(tmp_path, values, reason):
