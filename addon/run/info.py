@@ -28,7 +28,10 @@ def gather(run: Run, zone: str) -> dict[str, Any]:
 
 def _source(folder: Path) -> dict[str, Any]:
     """What run.toml says that the run was made from: model, version, projection, files and assumptions."""
-    return tomllib.loads((folder / "run.toml").read_text(encoding="utf-8")).get("source", {})
+    try:
+        return tomllib.loads((folder / "run.toml").read_text(encoding="utf-8-sig")).get("source", {})
+    except (OSError, ValueError):  # the core reads what it needs, and says what is wrong
+        return {}
 
 
 def _find(run: Run, zone: str) -> dict[str, Any]:
@@ -155,7 +158,7 @@ def page(info: dict[str, Any]) -> str:
             "",
             *_rows(_facts(info)),
             *_acreages(info),
-            *_made_of(info["source"]),
+            *_made_of(info.get("source", {})),
             *(["", "Warnings", *(f"  - {text}" for text in info["warnings"])] if info["warnings"] else []),
         ]
     )

@@ -139,6 +139,10 @@ def test_the_command(tmp_path, capfd):
     assert result.out.strip() == str(out)
     assert "Community Fire Behavior Model" in result.err
     assert runs.open(out).heat_flux(1).max() > 1e4
+    assert cli.main(["info", str(out)]) == 0
+    assert (
+        "Made from Community Fire Behavior Model\n  - times are those of the files" in capfd.readouterr().out
+    )
     assert cli.main(["convert", *map(str, paths), "--out", str(out)]) == 1
     assert "is there already" in capfd.readouterr().err
     assert cli.main(["convert", str(paths[0]), "--out", str(tmp_path / "b"), "--at", "north"]) == 2
