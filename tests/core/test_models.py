@@ -1,5 +1,6 @@
 """Fire models' files become runs: each model's structure and its traps, exact numbers, places and totals."""
 
+import re
 import tomllib
 from datetime import UTC, datetime
 from pathlib import Path
@@ -299,6 +300,10 @@ def test_elmfire(tmp_path, converted):
     assert np.unique(run.canopy_fuel).max() == pytest.approx(0.12 * 10.0)
     assert set(np.unique(run.surface_fuel)) <= {np.float32(0), np.float32(0.247), np.float32(3.138)}
     assert run.elevation.max() == 900
+    burns = np.isfinite(arrival)
+    joules = (fuels.loads(number) + 1.2)[burns].mean() * fuels.HEAT  # a m2
+    factor = float(re.search(r"times ([\d.e+]+):", said(run))[1])
+    assert factor == pytest.approx(joules / (500e3 / 0.5), rel=5e-3)  # kW/m over ft/min
     cell = areas.cell_areas(run.latitude, run.longitude)
     burned = np.isfinite(run.fuel_arrival_time())
     fuel = (np.asarray(run.surface_fuel) + np.asarray(run.canopy_fuel)) * burned * cell

@@ -264,7 +264,7 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
         return {name for name in passes.known() if key(changed, name) != key(SETTINGS, name)}
 
     everything = set(passes.known())
-    lit = {"rgb", "thermal", "thermal_map", "edl", "overlay", "fused"}  # the last four are made from the first two
+    lit = {"rgb", "thermal", "thermal_map", "edl", "overlay", "fused"}  # four are made from two
     assert changes() == set()
     assert changes(seed=2) == everything
     assert changes(time=replace(SETTINGS.time, frames=5)) == everything

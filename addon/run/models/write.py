@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ... import files
 from ...errors import input_error, writing
 from ...progress import Progress, size
-from .model import Model
+from .model import LONGEST, Model
 
 JOURNAL = "journal.json"
 _OFTEN = 1 << 29  # bytes between two entries in the journal
@@ -66,6 +66,11 @@ def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
     InputError
         The disk is full, or what the model says makes no run.
     """
+    times = model.times
+    if not np.isfinite(times).all() or (np.diff(times) <= 0).any() or np.ptp(times) > LONGEST:
+        raise input_error(
+            model.files[0], 0, 0, "its times make no sense: they do not ascend, or end centuries later"
+        )
     part = part_of(out)
     placed = model.grid.placed
     shapes = {

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from datetime import UTC, datetime
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -51,6 +52,7 @@ def read(paths: list[Path], options: Options) -> Model:
         values = get("fgrnhfx", i)
         return np.where(get("fire_area", i) > 0, values, np.float32(0)) if i == 0 else values
 
+    @lru_cache(1)  # both of its fields are asked for in turn
     def wind(i: int) -> tuple[NDArray, NDArray]:
         return grid.east_north(get("uf", i), get("vf", i))
 

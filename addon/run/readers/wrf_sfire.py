@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -202,8 +203,8 @@ def _near_ground(wrf: _Wrf, model: Model, told: list[str]) -> None:
         told.append("wind is that of the lowest level, turned from the grid's axes to east and north")
         winds = lambda i: (wrf.read("U", i, stag=2)[0], wrf.read("V", i, stag=1)[0])  # noqa: E731
     if winds:
-        model.moving["wind_east"] = lambda i: model.grid.east_north(*winds(i))[0]
-        model.moving["wind_north"] = lambda i: model.grid.east_north(*winds(i))[1]
+        turned = lru_cache(1)(lambda i: model.grid.east_north(*winds(i)))  # both are asked for in turn
+        model.moving |= {"wind_east": lambda i: turned(i)[0], "wind_north": lambda i: turned(i)[1]}
     if wrf.has("T2"):
         model.moving["temperature"] = lambda i: wrf.read("T2", i)
     elif wrf.has("T", "P", "PB"):
@@ -224,8 +225,8 @@ def _on_levels(wrf: _Wrf, model: Model, told: list[str]) -> None:
     if wrf.has("T", "P", "PB"):
         found["temperature_3d"] = lambda i: _kelvin(wrf, i)
     if wrf.has("U", "V", "W"):
-        found["wind_east_3d"] = lambda i: _winds(wrf, model, i)[0]
-        found["wind_north_3d"] = lambda i: _winds(wrf, model, i)[1]
+        winds = lru_cache(1)(lambda i: _winds(wrf, model, i))
+        found |= {"wind_east_3d": lambda i: winds(i)[0], "wind_north_3d": lambda i: winds(i)[1]}
         found["wind_up_3d"] = lambda i: wrf.read("W", i, stag=0)
     if found:
         found["height_3d"] = lambda i: (
