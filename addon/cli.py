@@ -271,7 +271,8 @@ IMAGER = """\
 Brightness temperatures (K) at 3.9 and 11.2 um (3.74 and 11.45 for viirs), fire radiative power (W) and a mask
 of fire (10) and saturated (11) pixels, as DIR/abi_20140917T2200Z.tif: abi in its geostationary projection
 with 2 km pixels, viirs at 375 m by latitude and longitude. Fire counts by its area in a pixel. Hypothetical:
-neither saw the fires of 2014 so. Needs rasterio (pip install 'firetwin[raster]')."""
+neither saw the fires of 2014 so. Needs rasterio (pip install 'firetwin[raster]'). Passes imager_short and
+imager_long of a satellite's camera are pictures and films of them."""
 
 BUILD = """\
 The file needs no add-on to be opened, scrubbed and rendered; its smoke volumes stay in the cache folder."""

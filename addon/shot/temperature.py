@@ -12,7 +12,7 @@ PULSE = 120.0  # s that the front heats the ground (assumed)
 COOLING = 2.0 * 20_000.0 / (600.0 * np.sqrt(np.pi))
 """K s-1/2: q = 20 kW/m2, and the thermal effusivity e = 600 J m-2 K-1 s-1/2 of dry soil (assumed)."""
 
-_FIRE = 1.0  # W/m2, the least flux of a fire, as in cpp/run
+_FIRE = 1.0  # W/m2; less is no fire (see `firetwin_core.flux.at_time`)
 LAPSE = 6.5e-3  # K/m, the standard atmosphere
 _DAY, _NIGHT = 304.0, 292.0  # K at sea level under a sun 20 degrees high, and without one (assumed)
 
