@@ -27,7 +27,7 @@ _XMP = """\
  GPano:CroppedAreaImageWidthPixels="{width}" GPano:CroppedAreaImageHeightPixels="{height}"
  GPano:FullPanoWidthPixels="{width}" GPano:FullPanoHeightPixels="{height}"
  GPano:CroppedAreaLeftPixels="0" GPano:CroppedAreaTopPixels="0"
- GSpherical:Spherical="true" GSpherical:Stitched="true" GSpherical:StitchingSoftware="Firetwin"
+ GSpherical:Spherical="True" GSpherical:Stitched="True" GSpherical:StitchingSoftware="Firetwin"
  GSpherical:ProjectionType="equirectangular" GSpherical:StereoMode="top-bottom"/>
 </rdf:RDF></x:xmpmeta>
 <?xpacket end="r"?>"""

@@ -74,7 +74,7 @@ def test_depth_pose_and_terrain_agree_in_both_eyes_and_near_things_shift_the_rig
         angle = np.linalg.norm(np.cross(a, b), axis=-1) / np.sum(a * b, axis=-1)
         off = (angle / PIXEL)[here]
         print(f"99 of 100 within {np.percentile(off, 99):.3f} pixels, all within {off.max():.3f}")
-        assert np.percentile(off, 99) < 1.0
+        assert np.percentile(off, 99) < 0.4  # 0.5 without eyes, 0.8 with the wrong ones
         local = a @ turn  # each line of sight ends where its pixel is
         across = np.arctan2(local[..., 0], -local[..., 2]) - bearing
         assert np.abs((across + np.pi) % (2.0 * np.pi) - np.pi)[here].max() < 0.01 * PIXEL
