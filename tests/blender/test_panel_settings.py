@@ -34,7 +34,7 @@ def key(kind, name):
     return next(part for part in schema.parts(kind) if part.name == name)
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(any_table(Settings, path=st.just(Path("/scenes/scene.toml"))))
 def test_any_settings_come_back_from_the_blend_file(panel, whole):
     scene_file.fill(panel.id_data, whole)
