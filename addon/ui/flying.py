@@ -260,6 +260,7 @@ class FIRETWIN_PT_flying(bpy.types.Panel):
         )
         column.prop(scene, "camera", text="")
         row = column.row(align=True)
+        row.operator_context = "INVOKE_REGION_WIN"  # the sidebar is no view
         row.operator("view3d.walk", text="Walk", icon="VIEW_PAN")
         row.operator("view3d.fly", text="Fly", icon="ORIENTATION_GIMBAL")
         column.operator(FIRETWIN_OT_camera_key.bl_idname, icon="KEY_HLT")
