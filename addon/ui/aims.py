@@ -123,6 +123,7 @@ class FIRETWIN_OT_camera_path(bpy.types.Operator):
                 self.report({"WARNING"}, "Set two keys of the camera, or choose a curve, first")
                 return {"CANCELLED"}
             curve, factors = _drawn(scene, thing, keyed)
+        curve.data.use_path = True
         compat.remove_fcurves(thing, ("location",))
         thing.location = (0.0, 0.0, 0.0)
         hook = thing.constraints.new("FOLLOW_PATH")

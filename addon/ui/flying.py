@@ -22,15 +22,24 @@ _SENSOR = 36.0  # mm, of the lens that stands in for a view
 _kinds: list[tuple[str, str, str]] = []  # Blender keeps no reference of its own to these texts
 
 
+def space(context: bpy.types.Context) -> bpy.types.SpaceView3D | None:
+    """The 3D view whose sidebar was clicked, or one of the window; None without any."""
+    if context.space_data is not None and context.space_data.type == "VIEW_3D":
+        return context.space_data
+    areas = context.window.screen.areas if context.window is not None else ()
+    return next((area.spaces.active for area in areas if area.type == "VIEW_3D"), None)
+
+
 def eye(context: bpy.types.Context) -> tuple[Matrix, float, float]:
     """Where the 3D view looks from, as a camera's matrix, and a lens and a chip (mm) that show as much."""
-    region, camera = context.region_data, context.scene.camera
+    shown, camera = space(context), context.scene.camera
+    region = shown.region_3d if shown is not None else None  # the sidebar's own region has none
     if region is None or (region.view_perspective == "CAMERA" and camera is not None):
         return camera.matrix_world.copy(), camera.data.lens, camera.data.sensor_width
     matrix = region.view_matrix.inverted()
     if region.view_perspective == "ORTHO":
         matrix.translation = region.view_location + matrix.col[2].to_3d() * region.view_distance
-        return matrix, context.space_data.lens, 2.0 * _SENSOR
+        return matrix, shown.lens, 2.0 * _SENSOR
     return matrix, 0.5 * _SENSOR * region.window_matrix[0][0], _SENSOR
 
 
@@ -251,6 +260,7 @@ class FIRETWIN_PT_flying(bpy.types.Panel):
         )
         column.prop(scene, "camera", text="")
         row = column.row(align=True)
+        row.operator_context = "INVOKE_REGION_WIN"  # the sidebar is no view
         row.operator("view3d.walk", text="Walk", icon="VIEW_PAN")
         row.operator("view3d.fly", text="Fly", icon="ORIENTATION_GIMBAL")
         column.operator(FIRETWIN_OT_camera_key.bl_idname, icon="KEY_HLT")

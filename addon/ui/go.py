@@ -12,7 +12,7 @@ from mathutils import Euler, Quaternion, Vector
 from ..blender import owned
 from ..scene.camera import below, hand
 from . import run
-from .flying import flown
+from .flying import flown, space
 
 _NUMBER = r"\s*(-?\d+(?:\.\d*)?)\s*°?\s*"
 _PAIR = re.compile(rf"{_NUMBER}([NS]?)[\s,;]*(?<=[\sNSns,;]){_NUMBER}([EW]?)\s*", re.IGNORECASE)
@@ -91,14 +91,20 @@ class FIRETWIN_OT_go(bpy.types.Operator):
         if where is None:
             self.report({"WARNING"}, f'Nothing here is called "{text}", and no ground lies there')
             return {"CANCELLED"}
-        if context.region_data is not None:
-            _fly(context, where, self.distance, self.smooth and not bpy.app.background)
+        shown = space(context)
+        if shown is not None:
+            _fly(context, shown.region_3d, where, self.distance, self.smooth and not bpy.app.background)
         return {"FINISHED"}
 
 
-def _fly(context: bpy.types.Context, where: Vector, distance: float, smooth: bool) -> None:
+def _fly(
+    context: bpy.types.Context,
+    region: bpy.types.RegionView3D,
+    where: Vector,
+    distance: float,
+    smooth: bool,
+) -> None:
     """Turn the view to a place, from as far and from the side that it looks from."""
-    region, area = context.region_data, context.area
     if region.view_perspective == "CAMERA":
         camera = context.scene.camera.matrix_world
         region.view_perspective, region.view_distance = "PERSP", distance
@@ -118,7 +124,6 @@ def _fly(context: bpy.types.Context, where: Vector, distance: float, smooth: boo
         part = min(passed / _SECONDS, 1.0)
         try:
             _stand(region, start, end, part * part * (3.0 - 2.0 * part))
-            area.tag_redraw()
         except ReferenceError:  # the window or the file is another one
             return None
         return _STEP if part < 1.0 else None

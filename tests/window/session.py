@@ -384,6 +384,27 @@ def mean_difference(one: Path, other: Path) -> float:
     return float(np.abs(pixels[0] - pixels[1]).mean())
 
 
+def alone(name: str, top: str) -> Iterator[object]:
+    """A picture of one panel and those in it, open."""
+    known = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
+    shown = [opened(each) for each in known if top in (each.bl_idname, getattr(each, "bl_parent_id", ""))]
+    for each in reversed(known):
+        bpy.utils.unregister_class(each)
+    for each in shown:
+        bpy.utils.register_class(each)
+    yield 0.5
+    tab()
+    yield 2
+    picture(name)
+    for each in reversed(shown):
+        bpy.utils.unregister_class(each)
+    for each in known:
+        bpy.utils.register_class(each)
+    yield 0.5
+    tab()
+    yield 1
+
+
 def by_hand() -> Iterator[object]:
     """A camera from the view, keyed by flying, kept by a rebuild, and rendered beside the window."""
     region, queue = view().spaces.active.region_3d, sys.modules[f"{MODULE}.ui.queue"]
@@ -403,7 +424,7 @@ def by_hand() -> Iterator[object]:
     yield 2
     call(bpy.ops.firetwin.camera_key)
     yield 1
-    picture("20-keyed-by-hand")
+    yield from alone("30-keyed-by-hand", "FIRETWIN_PT_cameras")
     thing.name = "My flight"
     call(bpy.ops.firetwin.build, part="cameras")
     yield 1
@@ -412,15 +433,12 @@ def by_hand() -> Iterator[object]:
     check(bpy.context.scene.objects.get("My flight") == thing, "a renamed and keyed camera stays itself")
     settings().output, settings().which = str(FOLDER / "beside"), "frame"
     settings().camera = "My-flight"
-    for name in [panel for panel in dir(bpy.types) if panel.startswith("FIRETWIN_PT_")]:
-        if name not in ("FIRETWIN_PT_flying", "FIRETWIN_PT_render", "FIRETWIN_PT_queue"):
-            bpy.utils.unregister_class(getattr(bpy.types, name))
     call(bpy.ops.firetwin.render_background)
     yield 8
     check(queue.current() is not None, "a render goes on beside the window")
     call(bpy.ops.firetwin.render_background)
     yield 2
-    picture("21-queue")
+    yield from alone("31-queue", "FIRETWIN_PT_render")
     keys("Escape")
     yield 2
     check(not queue.items[0].stop.asked, "Esc over the 3D view belongs to something else")
@@ -431,7 +449,7 @@ def by_hand() -> Iterator[object]:
     yield soon(lambda: all(item.state in ("done", "failed") for item in queue.items), 900.0)
     yield 2
     check([item.state for item in queue.items] == ["done", "done"], str([item.text for item in queue.items]))
-    picture("22-queue-done")
+    yield from alone("32-queue-done", "FIRETWIN_PT_render")
 
 
 def undo() -> Iterator[object]:
