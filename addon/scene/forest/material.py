@@ -190,8 +190,8 @@ def _finish(
 ) -> None:
     """Make the surface: `shader` through the haze, its infrared radiance, or its class and number.
 
-    Trees have a number; where they are `alight` they are fire, also between the tongues of their flames, which
-    from afar are smaller than pixels. What is under them counts as ground.
+    Trees have a number; where they are `alight` they are fire, also between the tongues of their flames: from
+    afar these are smaller than pixels. What is under them counts as ground.
     """
     seen = infrared.through_air(tree, shot, stage, warmth)
     shader = nodes.thermal_switch(tree, haze.apply(tree, shader, stage), seen)
