@@ -170,12 +170,8 @@ def _leaves(
     leaf = tree.mix_shader(clear, matt, through)
     position = tree.output("ShaderNodeNewGeometry", name="Position")
     flicker = tree.noise(tree.vector("ADD", position, tree.combine(0.0, 0.0, age * -6.0)), 4.0, 2.0)
-    flaming = (
-        age.smoothstep(0.0, 40.0)
-        * age.smoothstep(TORCHING, 0.4 * TORCHING)
-        * flicker.smoothstep(0.47, 0.69)
-        * torched
-    )
+    alight = age.smoothstep(0.0, 40.0) * age.smoothstep(TORCHING, 0.4 * TORCHING) * torched
+    flaming = alight * flicker.smoothstep(0.47, 0.69)
     afar = tree.output("ShaderNodeCameraData", name="View Distance").ramp(*CLOSE, *_TORCH)
     ember = tree.input("Ember Colour", EMBER, "Light of a crown that glows", "Fire")
     flame = tree.input("Flame Colour", FLAME, "Light of a crown in flames", "Fire")
@@ -186,7 +182,7 @@ def _leaves(
     hot = flaming.ramp(0.0, 1.0, temperature.FLAME_LOW, temperature.FLAME_HIGH)
     hot = infrared.emitted(tree, shot, stage, hot)
     warmth = tree.mix(flaming.smoothstep(0.0, 0.5), warmth, hot)
-    _finish(tree, shot, stage, burning, warmth, flaming)
+    _finish(tree, shot, stage, burning, warmth, alight)
 
 
 def _warmth(
@@ -210,17 +206,18 @@ def _finish(
     stage: Stage,
     shader: nodes.Value,
     warmth: nodes.Value,
-    flaming: nodes.Value | float = 0.0,
+    alight: nodes.Value | float = 0.0,
 ) -> None:
     """Make the surface: `shader` through the haze, its infrared radiance, or its class and number.
 
-    Trees have a number and are alight where `flaming`; what is under them counts as ground.
+    Trees have a number; where they are `alight` they are fire, also between the tongues of their flames: from
+    afar these are smaller than pixels. What is under them counts as ground.
     """
     seen = infrared.through_air(tree, shot, stage, warmth)
     shader = nodes.thermal_switch(tree, haze.apply(tree, shader, stage), seen)
     number = tree.attribute("number", "INSTANCER")
     below = (_age(tree) > 0.0) * (masks.BURNED - masks.GROUND) + masks.GROUND
     kind = tree.mix(number > 0.0, below, float(masks.TREE))
-    if isinstance(flaming, nodes.Value):
-        kind = tree.mix(flaming > masks.ALIGHT, kind, float(masks.FIRE))
+    if isinstance(alight, nodes.Value):
+        kind = tree.mix(alight > masks.ALIGHT, kind, float(masks.FIRE))
     tree.surface(nodes.mask_switch(tree, shader, kind, number))
