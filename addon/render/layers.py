@@ -122,7 +122,7 @@ def _leave_out(layer: bpy.types.ViewLayer, each: Pass, parts: Collection[str] | 
         if owned.ours(child.collection):
             part = str(child.collection[owned.MARK]).lower()
             if parts is None or part in parts:
-                child.exclude = part in each.leaves_out
+                child.exclude = part in each.leaves_out or (each.data and part == "places")
         if not child.exclude:
             pending += child.children
 

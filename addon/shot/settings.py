@@ -228,6 +228,20 @@ class Light:
 
 
 @dataclass(frozen=True)
+class Places:
+    """Labels of towns, lakes and summits, in the visible picture alone."""
+
+    enabled: bool = key(False, "draw the labels")
+    file: Path | None = key(
+        None,
+        "places to label, a GeoJSON or a CSV with name, latitude and longitude; left out, the fire's own",
+        shows=(),
+    )
+    size: float = key(0.035, "height of the letters", unit="heights of the picture", above=0, at_most=0.5)
+    distance: float = key(60_000.0, "from the camera to where labels have faded out", unit="m", above=0)
+
+
+@dataclass(frozen=True)
 class Thermal:
     """The infrared camera of the thermal view, ideal unless it is given flaws."""
 
@@ -383,6 +397,7 @@ class Settings:
     fire: Fire = key(default_factory=Fire, help="flames, firebrands and the glowing ground")
     smoke: Smoke = key(default_factory=Smoke, help="the smoke volume")
     light: Light = key(default_factory=Light, help="sun, haze, exposure and the light of the flames")
+    places: Places = key(default_factory=Places, help="labels of towns, lakes and summits in the picture")
     thermal: Thermal = key(default_factory=Thermal, help="the infrared camera of the thermal view")
     render: Render = key(default_factory=Render, help="how frames are made")
     cameras: tuple[Camera, ...] = key((), "a camera and what it records", shows=("camera",))
