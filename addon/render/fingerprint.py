@@ -11,7 +11,7 @@ from typing import Any
 import firetwin_core
 
 from ..progress import Progress, silent
-from ..shot import passes, photo, schema, sources
+from ..shot import observed, passes, photo, schema, sources
 from ..shot.settings import Settings
 from ..shot.shot import Shot
 from .picture import Picture
@@ -73,4 +73,5 @@ def of_pictures(shot: Shot, pictures: list[Picture], progress: Progress = silent
 def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silent) -> Fingerprints:
     """Those of each (camera, pass); what of the run was never read is read now."""
     run = shot.inputs(progress=progress) | photo.inputs(shot.settings, progress)
+    run |= observed.inputs(shot.settings, progress)
     return {pair: of_picture(shot.settings, run, *pair) for pair in sorted(pairs)}
