@@ -122,6 +122,10 @@ def _parser() -> argparse.ArgumentParser:
     maps.add_argument("run", metavar="RUN", type=Path, help="run folder")
     maps.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the PNG files")
 
+    maps.add_argument(
+        "--against", metavar="FILE", nargs="+", default=[], help="perimeters to draw (RUN/observations)"
+    )
+
     score = command("score", "how well a run matches what was seen of its fire", SCORE)
     score.add_argument("run", metavar="RUN", type=Path, help="run folder")
     score.add_argument(

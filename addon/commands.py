@@ -45,10 +45,11 @@ def maps(arguments: argparse.Namespace) -> None:
     """Draw the maps of a run."""
     run = _open(arguments.run)
     say("drawing the fuel map and the fire intensity map")
-    from .run import maps
+    from .run import maps, observations
     from .shot.settings import Time
 
-    for path in maps.draw(run, arguments.out, Time().zone):
+    seen = observations.read(arguments.against or observations.beside(arguments.run)).perimeters
+    for path in maps.draw(run, arguments.out, Time().zone, seen):
         print(path)
 
 

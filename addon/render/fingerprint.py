@@ -12,7 +12,7 @@ from typing import Any
 import firetwin_core
 
 from ..progress import Progress, silent
-from ..shot import labels, passes, photo, schema, sources
+from ..shot import labels, observed, passes, photo, schema, sources
 from ..shot.settings import Settings
 from ..shot.shot import Shot
 from .picture import Picture
@@ -85,7 +85,6 @@ def of_pictures(shot: Shot, pictures: list[Picture], progress: Progress = silent
 
 def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silent) -> Fingerprints:
     """Those of each (camera, pass); what of the run was never read is read now."""
-    run = (
-        shot.inputs(progress=progress) | photo.inputs(shot.settings, progress) | labels.inputs(shot.settings)
-    )
+    run = shot.inputs(progress=progress) | photo.inputs(shot.settings, progress)
+    run |= labels.inputs(shot.settings) | observed.inputs(shot.settings, progress)
     return {pair: of_picture(shot.settings, run, *pair) for pair in sorted(pairs)}

@@ -172,6 +172,12 @@ class Fire:
         at_most=100_000,
     )
     torches: bool = key(True, "crowns near the cameras that flare up as the front reaches them")
+    observed: Path | None = key(
+        None,
+        "perimeters or detections to draw by date, a .geojson, .shp, .kml, .gpkg, .csv or a folder of them",
+        shows=(),
+    )
+    observed_width: float = key(40.0, "of these lines", unit="m", above=0, at_most=5000)
 
 
 @dataclass(frozen=True)

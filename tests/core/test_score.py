@@ -1,12 +1,14 @@
 """Scores: closed forms, properties, and oracles that we did not write."""
 
 import base64
+import importlib.util
 import io
 import json
 import subprocess
 import sys
 from datetime import UTC, datetime, timedelta
 from html.parser import HTMLParser
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -375,3 +377,44 @@ def test_the_king_fires_own_score_says_what_it_cannot_show(make_run):
     assert "not where" in text
     assert "SYNTHETIC" in text
     assert "proves nothing of a model" in text
+
+
+def _firebench(part):
+    """A module of firebench by its file: the whole package loads forty others."""
+    found = importlib.util.find_spec("firebench")
+    if found is None:
+        pytest.skip("firebench is not installed")
+    path = Path(found.submodule_search_locations[0]) / part
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_masks_and_arrival_times_by_firebench():
+    rng = np.random.default_rng(7)
+    run, there = rng.random((2, 30, 30)) < 0.4
+    found = Overlap.of_cells(run, there, np.ones((30, 30))).scores()
+    matrix = _firebench("metrics/confusion_matrix/utils.py").binary_cm(there, run)
+    binary = _firebench("metrics/confusion_matrix/binary_performance.py")
+    assert found["precision"] == pytest.approx(binary.binary_precision(matrix))
+    assert found["recall"] == pytest.approx(binary.binary_recall_rate(matrix))
+    assert found["sorensen"] == pytest.approx(binary.binary_f_score(matrix))
+    one, two = rng.uniform(1.0, 100.0, (2, 30, 30))
+    errors = arrival.between(one, two, (0.0, 1000.0))
+    stats = _firebench("metrics/stats/dataset_1D.py")
+    assert errors["rmse"] == pytest.approx(stats.rmse(one, two))
+    assert errors["mae"] == pytest.approx(stats.mae(one, two))
+    assert abs(errors["bias"]) == pytest.approx(abs(stats.bias(one, two)))
+
+
+def test_polygons_by_firebench():
+    geopandas = pytest.importorskip("geopandas")
+    index = _firebench("metrics/perimeter/shape_index.py")
+    rings = circle(900.0), circle(700.0, 400.0)
+    projection = shapes.Projection(LATITUDE, LONGITUDE)
+    one, two = (projection.project(shapely.Polygon(ring)) for ring in rings)
+    found = Overlap.of_polygons(one, two, one.union(two)).scores()
+    frames = [geopandas.GeoDataFrame(geometry=[shapely.Polygon(ring)], crs="EPSG:4326") for ring in rings]
+    assert found["jaccard"] == pytest.approx(index.jaccard_polygon(*frames), rel=1e-5)
+    assert found["sorensen"] == pytest.approx(index.sorensen_dice_polygon(*frames), rel=1e-5)

@@ -91,8 +91,12 @@ class Observations:
 
 def beside(folder: str | Path) -> list[Path]:
     """Files of observations in a run's folder."""
-    inside = Path(folder) / FOLDER
-    found = sorted(inside.iterdir()) if inside.is_dir() else []
+    return inside(Path(folder) / FOLDER)
+
+
+def inside(folder: Path) -> list[Path]:
+    """Files of observations in a folder; none where there is no such folder."""
+    found = sorted(folder.iterdir()) if folder.is_dir() else []
     return [path for path in found if path.suffix.lower() in _READERS and path.name[0] != "."]
 
 
