@@ -3,7 +3,7 @@
 The file, its check, the panels, the schema for editors and the fingerprints of products come from here.
 Times are UTC, lengths metres and angles degrees. What a key changes is named by aspects: that of its section
 unless it says otherwise, "camera" for all of a camera, and of [render] "picture" (all pictures), "grain"
-(what is not data) and "thermal". "film" is what only films show.
+(what is not data) and "thermal". "film" is what only films show, "passes" what sidecars list.
 """
 
 # ruff: noqa: RUF009 (`key` makes a field)
