@@ -35,7 +35,7 @@ class Pose:
         0.0, "where the camera is; west is negative", unit="degrees east", at_least=-180, at_most=180
     )
     height: float = key(2000.0, "above the sea", unit="m")
-    heading: float = key(0.0, "bearing, clockwise from north", unit="degrees")
+    heading: float = key(0.0, "where it looks, clockwise from north", unit="degrees")
     tilt: float = key(0.0, "under the horizon; negative is up", unit="degrees", at_least=-90, at_most=90)
     roll: float = key(0.0, "lean to the right", unit="degrees")
     lens: float | None = key(None, "focal length; left out, the camera's", **FOCAL_LENGTH)
