@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import build, camera_list, job, section_panels
+from . import build, camera_list, job, order
 
 
 class FIRETWIN_UL_cameras(bpy.types.UIList):
@@ -74,7 +74,7 @@ class FIRETWIN_PT_cameras(bpy.types.Panel):
     bl_region_type = "UI"
     bl_category = "Firetwin"
     bl_options = {"DEFAULT_CLOSED"}
-    bl_order = section_panels.CAMERAS
+    bl_order = order.CAMERAS
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
         build.again(self.layout, "cameras")

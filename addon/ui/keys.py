@@ -24,10 +24,10 @@ Items = tuple[tuple[str, str, str], ...]
 USE = "use_"
 """Before the name of a property, that of the switch of a number that may be left out."""
 
-_SHORT = {"cpu", "gpu", "rgb", "eevee", "fps"}  # names that are written in capitals
+_SHORT = {"cpu", "edl", "eevee", "fps", "gpu", "lwir", "mwir", "rgb"}  # names that are written in capitals
 _LARGEST = 2**31 - 1  # what Blender keeps as a whole number
 _NUMBERS = (int, float)
-_UNITS = {"m": "LENGTH", "s": "TIME_ABSOLUTE", "K": "TEMPERATURE"}  # those that Blender shows itself
+_UNITS = {"m": "LENGTH", "s": "TIME_ABSOLUTE"}  # those that Blender shows itself
 _RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
 
 
@@ -255,8 +255,8 @@ def _plain(part: Part) -> tuple[Any, dict[str, Any]]:
         return bpy.props.StringProperty, {"default": default or ""}
     low, high = _bounds(part)
     options = {name: at for name, at in (("min", low), ("max", high), ("default", default)) if at is not None}
-    if kind is float and part.key.unit in _UNITS:
-        options["unit"] = _UNITS[part.key.unit]
+    if kind is float:
+        options |= {"precision": 3, "unit": _UNITS.get(part.key.unit, "NONE")}
     if inner:
         make = {int: bpy.props.IntVectorProperty, float: bpy.props.FloatVectorProperty}[inner[0]]
         return make, options | {"size": len(inner)}

@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 
 from ..progress import count
-from . import job, run, scene_file, section_panels, working
+from . import job, order, run, scene_file, working
 from .job import Away, Steps
 from .text import paragraph
 from .working import Working
@@ -68,7 +68,7 @@ class FIRETWIN_PT_render(bpy.types.Panel):
     bl_region_type = "UI"
     bl_category = "Firetwin"
     bl_options = {"DEFAULT_CLOSED"}
-    bl_order = section_panels.RENDER
+    bl_order = order.RENDER
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.firetwin

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import run, section_panels, working
+from . import order, run, working
 from .job import Job
 from .text import labelled, paragraph
 
@@ -18,7 +18,7 @@ class FIRETWIN_PT_report(bpy.types.Panel):
     bl_region_type = "UI"
     bl_category = "Firetwin"
     bl_options = {"DEFAULT_CLOSED"}
-    bl_order = section_panels.REPORT
+    bl_order = order.REPORT
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.firetwin

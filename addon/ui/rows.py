@@ -37,7 +37,7 @@ def _value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Part) 
         if part.key.choices is None:
             line.prop(group, part.name, text="")
         else:
-            line.column_flow(columns=3, align=True).prop(group, part.name)
+            line.column_flow(columns=2, align=True).prop(group, part.name)
         return line
     line = labelled(row, text, _LABEL)
     if keys.switched(part):

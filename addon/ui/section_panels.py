@@ -6,10 +6,7 @@ import bpy
 
 from ..scene.build import PARTS
 from ..shot.schema import Part, parts
-from . import build, job, keys, rows, sections
-
-FIRST, CAMERAS, SENSORS, RENDER, REPORT = 3, 30, 31, 40, 50
-"""Places in the order of work, after Run, Scene and Time."""
+from . import build, job, keys, order, rows, sections
 
 _OWN = ("time",)  # drawn by a panel of its own
 _TITLES = {"thermal": "Sensors"}
@@ -28,7 +25,7 @@ def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup, name: str) 
             rows.key(column, group, part, name)
 
 
-def _panel(section: Part, order: int) -> type[bpy.types.Panel]:
+def _panel(section: Part, place: int) -> type[bpy.types.Panel]:
     """The panel of a section; that of a part that can be built alone has a button for it in its head."""
     name = section.name
 
@@ -46,7 +43,7 @@ def _panel(section: Part, order: int) -> type[bpy.types.Panel]:
         "bl_region_type": "UI",
         "bl_category": "Firetwin",
         "bl_options": {"DEFAULT_CLOSED"},
-        "bl_order": order,
+        "bl_order": place,
         "draw": drawn,
     }
     if name in PARTS:
@@ -61,8 +58,11 @@ def _panels() -> tuple[type[bpy.types.Panel], ...]:
     late = (*_LATE, *_BELOW)
     early = [part for part in shown if part.name not in late]
     return (
-        *(_panel(part, FIRST + order) for order, part in enumerate(early)),
-        *(_panel(part, SENSORS + order) for order, part in enumerate(p for p in shown if p not in early)),
+        *(_panel(part, order.SECTIONS + place) for place, part in enumerate(early)),
+        *(
+            _panel(part, order.SENSORS + place)
+            for place, part in enumerate(p for p in shown if p not in early)
+        ),
     )
 
 
