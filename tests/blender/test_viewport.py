@@ -63,14 +63,14 @@ def test_a_small_forest_stays_as_it_is(near_shot, scene):
     assert not trees()[0].hide_viewport
 
 
-def test_renders_do_not_know_of_the_viewport(near_settings, run, scene, shoot, monkeypatch):
+def test_renders_do_not_know_of_the_viewport(near_settings, run, stage, scene, shoot, monkeypatch):
     """The same pixels with what is for the viewport and without, in the picture and in the thermal view."""
     pictures = []
     for most in (200, 10**9):
         monkeypatch.setattr(preview, "MOST", most)
         shot = Shot(near_settings, run)
         build.build(shot, scene)
-        layers.build(near_settings, build.owned.stage(scene))
+        layers.build(near_settings, stage)
         scene.frame_set(2)
         if most > 200:
             data = bpy.data.objects["Firetwin Ground"].data
