@@ -12,8 +12,10 @@ A material is one group node with named, explained inputs; what is in the group 
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import Any
 
 import bpy
@@ -22,6 +24,7 @@ from . import compat, layout, owned
 
 TIME = "firetwin_time"
 THERMAL = "firetwin_thermal"
+MASKS = "firetwin_masks"
 
 
 class Value:
@@ -226,6 +229,25 @@ class Tree:
         """A glowing surface or volume."""
         return self.output("ShaderNodeEmission", {"Color": colour, "Strength": strength})
 
+    def colours(self, place: Any, stops: Sequence[Sequence[float]]) -> Value:
+        """Colours at equal steps of `place` from 0 to 1, linear between and held outside.
+
+        A Color Ramp looks them up in 257 steps in some releases, off by 0.003 at its stops.
+        """
+        pieces = len(stops) - 1
+        total: Any = tuple(stops[0])
+        for index, (start, end) in enumerate(itertools.pairwise(stops)):
+            inputs = {
+                "Vector": place,
+                "From Min": 3 * (index / pieces,),
+                "From Max": 3 * ((index + 1) / pieces,),
+                "To Min": (0.0, 0.0, 0.0),
+                "To Max": tuple(after - before for before, after in zip(start, end, strict=True)),
+            }
+            more = self.output("ShaderNodeMapRange", inputs, "Vector", data_type="FLOAT_VECTOR", clamp=True)
+            total = self.vector("ADD", more, total)
+        return total
+
     def attribute(self, name: str, kind: str = "GEOMETRY", output: str = "Fac") -> Value:
         """A named attribute: of the GEOMETRY, the INSTANCER, the OBJECT or the VIEW_LAYER."""
         return self.output("ShaderNodeAttribute", (), output, attribute_name=name, attribute_type=kind)
@@ -310,6 +332,59 @@ def geometry(name: str) -> tuple[Tree, bpy.types.Node]:
     return tree, tree.node("NodeGroupInput")
 
 
+@dataclass(frozen=True)
+class Input:
+    """An input of a node group.
+
+    Attributes
+    ----------
+    name, help
+        What it is called, and a line on it.
+    default
+        Its kind follows from it: a whole number, a number, or a colour (red, green, blue, alpha).
+    panel
+        Heading that it stands under; empty: none.
+    low, high
+        Bounds of numbers.
+    """
+
+    name: str
+    help: str
+    default: Any = 0.0
+    panel: str = ""
+    low: float | None = None
+    high: float | None = None
+
+
+_SOCKETS = {int: "NodeSocketInt", float: "NodeSocketFloat", tuple: "NodeSocketColor"}
+
+
+def compositor(name: str, help: str, inputs: Sequence[Input], outputs: Mapping[str, str]) -> Tree:
+    """A new compositor node group of ours, for people to use: what its inputs mean shows under the pointer.
+
+    Parameters
+    ----------
+    outputs
+        name -> socket type such as "NodeSocketColor".
+    """
+    group = owned.mark(bpy.data.node_groups.new(name, "CompositorNodeTree"))
+    group.description = help
+    for label, kind in outputs.items():
+        group.interface.new_socket(label, in_out="OUTPUT", socket_type=kind)
+    panels = {each.panel: group.interface.new_panel(each.panel) for each in inputs if each.panel}
+    for each in inputs:
+        kind = _SOCKETS[type(each.default)]
+        socket = group.interface.new_socket(
+            each.name, description=each.help, socket_type=kind, parent=panels.get(each.panel)
+        )
+        if each.low is not None:
+            socket.min_value = each.low
+        if each.high is not None:
+            socket.max_value = each.high
+        socket.default_value = each.default
+    return Tree(group)
+
+
 def model_time(tree: Tree) -> Value:
     """Current model time (s since run start) in a shader.
 
@@ -321,3 +396,22 @@ def model_time(tree: Tree) -> Value:
 def thermal_switch(tree: Tree, shader: Any, value: Any) -> Value:
     """`shader`, but a number as pixel value in view layers with `firetwin_thermal` = 1."""
     return tree.mix_shader(tree.attribute(THERMAL, "VIEW_LAYER"), shader, tree.emission(value, 1.0))
+
+
+def mask_switch(tree: Tree, shader: Any, kind: Any, number: Any = 0.0) -> Value:
+    """`shader`, but its class and the number of its instance in view layers with `firetwin_masks` = 1.
+
+    A pixel is then (number mod 4096, 1, class + 8 floor(number / 4096)), all times what smoke before it lets
+    through: the ratios are whole numbers that 32 bits hold exactly. What has none is (0, 1, class).
+    """
+    if isinstance(number, Value):
+        low = tree.math("MODULO", number, 4096.0)
+        kind = (number - low) * (8.0 / 4096.0) + kind
+    else:
+        low = number
+    return masked(tree, shader, tree.emission(tree.combine(low, 1.0, kind), 1.0))
+
+
+def masked(tree: Tree, shader: Any, other: Any) -> Value:
+    """`shader`, but `other` in view layers with `firetwin_masks` = 1."""
+    return tree.mix_shader(tree.attribute(MASKS, "VIEW_LAYER"), shader, other)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import itertools
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -39,7 +40,7 @@ def run(
     -------
     How many pictures were made.
     """
-    from ..render import claims, films, fingerprint, plan
+    from ..render import claims, dataset, films, fingerprint, plan
     from ..render.store import Store
 
     out = asked.out
@@ -82,6 +83,7 @@ def run(
             raise
         claims.leave(store, task["owner"])
         store.export()
+        dataset.write(store)
     return len(undone)
 
 
@@ -106,11 +108,11 @@ def in_blender(
     todo = [Picture(*picture) for picture in pictures]
     if todo:
         _check_device(shot)
-    frames = _frames(todo)
+    frames = frames_of(todo)
     made_with = fingerprint.of_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
     with sharing.making(Path(out), made_with, owner, after) as making:
         while free := making.free(todo, tell):
-            done = frames - _frames(free)
+            done = frames - frames_of(free)
             for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
                 wanted = list(group)
 
@@ -118,7 +120,7 @@ def in_blender(
                     progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
 
                 _camera(shot.of(camera), making, wanted, counted, tell)
-                done += _frames(wanted)
+                done += frames_of(wanted)
         video.make(shot, making, progress)
 
 
@@ -141,7 +143,8 @@ def _check_device(shot: Shot) -> None:
         raise
 
 
-def _frames(pictures: list[Any]) -> int:
+def frames_of(pictures: list[Any]) -> int:
+    """How many frames pictures are of."""
     return len({(picture.camera, picture.frame) for picture in pictures})
 
 
@@ -154,14 +157,37 @@ def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell
 
     for text in shot.warnings():
         tell(text)
-    stage = setting.build_scene(shot, progress, tell)
-    if shot.settings.render.engine == "cycles":
-        tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
-    with bake.ahead(shot, _smoky(shot, wanted), progress, tell) as ready:
-        pictures.render(shot, stage, making, wanted, progress, ready)
+    frames, done = frames_of(wanted), 0
+    with bake.ahead(shot, smoky(shot, wanted), progress, tell) as ready:
+        for part, group in _parts(shot, wanted):
+
+            def counted(here: int, of: int, what: str = "", before: int = done) -> None:
+                progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
+
+            stage = setting.build_scene(part, progress, tell)
+            if shot.settings.render.engine == "cycles" and not done:
+                tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
+            pictures.render(shot, stage, making, group, counted, ready)
+            done += frames_of(group)
 
 
-def _smoky(shot: Shot, wanted: list[Any]) -> list[int]:
+def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:
+    """What is built at a time, `render.chunk` frames of the camera, with the pictures of these frames.
+
+    Which frames are built together does not hang on which of them are wanted.
+    """
+    (camera,) = shot.settings.cameras
+    chunk = shot.settings.render.chunk or shot.frames.count
+
+    def number(frame: int) -> int:
+        return (frame - 1) // chunk
+
+    own = {k: list(part) for k, part in itertools.groupby(shot.frames_of(camera), number)}
+    for k, group in itertools.groupby(wanted, lambda picture: number(picture.frame)):
+        yield shot if len(own) == 1 else shot.part(own[k]), list(group)
+
+
+def smoky(shot: Shot, wanted: list[Any]) -> list[int]:
     """Frames of pictures that show smoke, ascending."""
     from ..shot import passes
 

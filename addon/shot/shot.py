@@ -16,7 +16,7 @@ from ..errors import UsageError
 from ..progress import Progress, silent
 from ..run import content, times
 from ..run.frame import local_frame
-from . import burning, frame_list, frames, path, relief, sun
+from . import burning, frame_list, frames, path, relief, sun, temperature
 from .fire import Fire
 from .frames import Frames
 from .ground import Ground
@@ -49,10 +49,12 @@ class Shot:
         What burns from the first frame to the last; it is there for all cameras.
     cameras
         All of the scene file's, also those that are not filmed here: others may follow them.
+    whole
+        The shot that this is a part of; else itself.
     """
 
     def __init__(self, settings: Settings, run: Run) -> None:
-        self.settings, self.run, self.cameras = settings, run, settings.cameras
+        self.settings, self.run, self.cameras, self.whole = settings, run, settings.cameras, self
         self.frames: Frames = frames.of(settings.time, run)
         self._filmed: dict[str, NDArray[np.int64]] = {}
         smoke = settings.smoke
@@ -77,6 +79,19 @@ class Shot:
         shot = Shot(replace(self.settings, cameras=(camera,), render=render), self.run)
         shot.relief, shot.fire, shot.bare_ground = self.relief, self.fire, self.bare_ground
         shot.cameras = self.cameras
+        return shot
+
+    def part(self, listed: list[int]) -> Shot:
+        """The same shot of one camera, for some of the frames that it films, ascending.
+
+        Paths, smoke and light stay those of the whole; ground, plants and flames are what these frames show.
+        """
+        (camera,) = self.settings.cameras
+        camera = replace(camera, frames=",".join(map(str, listed)))
+        shot = Shot(replace(self.settings, cameras=(camera,)), self.run)
+        shot.relief, shot.fire, shot.bare_ground = self.relief, self.fire, self.bare_ground
+        shot.cameras, shot.whole = self.cameras, self
+        shot.paths = [replace(self.paths[0], camera=camera)]
         return shot
 
     def camera(self, name: str) -> Camera:
@@ -117,6 +132,16 @@ class Shot:
         return sun.at(self.run, time)
 
     @cached_property
+    def built(self) -> NDArray[np.int64]:
+        """Frames, from 0, that ground, plants and flames are built for: all, or those that a part films."""
+        return np.arange(self.frames.count) if self.whole is self else self.filmed(self.paths[0])
+
+    @property
+    def moments(self) -> NDArray[np.float64]:
+        """Model times (s) of the frames that are built."""
+        return self.frames.times[self.built]
+
+    @cached_property
     def local_frame(self) -> geo.LocalFrame:
         """The scene's east, north and up."""
         return local_frame(self.run)
@@ -129,7 +154,7 @@ class Shot:
     @cached_property
     def ground(self) -> Ground:
         """The ground, with detail along the cameras' paths."""
-        rough = self._paths(self.bare_ground)
+        rough = self._paths(self.bare_ground) if self.whole is self else self.paths
         near = [view.position[self.filmed(view)] for view in rough if view.perspective]
         return self.bare_ground.seen_from(path.eyes(near, self.settings.ground.near_radius))
 
@@ -141,10 +166,13 @@ class Shot:
     @cached_property
     def pixel(self) -> tuple[float, float]:
         """Sizes of the smallest pixels: in perspective m per m of distance, with parallel lines m."""
-        return path.finest(self.paths, self.settings.render.resolution[0])
+        return path.finest(self.paths)
 
     def _paths(self, ground: Ground) -> list[Path]:
-        return [camera.rig.path(camera, self, ground) for camera in self.settings.cameras]
+        return [
+            replace(camera.rig.path(camera, self, ground), width=self.resolution(camera)[0])
+            for camera in self.settings.cameras
+        ]
 
     def warnings(self) -> list[str]:
         """What an artist should know of the cameras' paths."""
@@ -183,6 +211,32 @@ class Shot:
         """Mean wind (m/s, east and north) where it burns in the middle of the shot."""
         east, north = burning.wind_at(self.run, np.array([self.frames.middle]), self.fire.surroundings)[0]
         return float(east), float(north)
+
+    @cached_property
+    def coldest(self) -> float:
+        """K that a tenth of the run's air is colder than in the middle of the shot."""
+        return temperature.coldest(self.run, self.frames.middle)
+
+    @cached_property
+    def coldest_moment(self) -> float:
+        """The same in the coldest of 25 moments of the shot."""
+        return min(temperature.coldest(self.run, float(time)) for time in self._moments)
+
+    @cached_property
+    def warmest(self) -> tuple[float, float]:
+        """K that the air the fire warms is over unburned air, least and most, in 25 moments of the shot."""
+        found = [temperature.warmth(self.run, time - self.averaged, time) for time in self._moments]
+        low, high = max(noise for _, noise in found), max(float(above.max()) for above, _ in found)
+        return low, max(high, low + 1.0)
+
+    @property
+    def _moments(self) -> NDArray[np.float64]:
+        return np.linspace(self.frames.first, self.frames.last, min(25, self.frames.count))
+
+    @property
+    def averaged(self) -> float:
+        """Seconds over which the model's temperature is averaged: ten minutes, or from frame to frame."""
+        return max(600.0, self.frames.step)
 
     @cached_property
     def fire_distance(self) -> float:

@@ -6,6 +6,7 @@ import bpy
 
 from ...blender import nodes
 from ...blender.owned import Stage
+from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import glow, haze, infrared
 
@@ -31,6 +32,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     glowing = tree.add_shader(tree.emission(colour, strength), clear)
     warmth = infrared.through_air(tree, shot, stage, infrared.emitted(tree, shot, stage, kelvin))
     warm = tree.mix_shader(cover, clear, tree.emission(warmth, 1.0))
-    tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), glowing, warm))
+    shader = tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), glowing, warm)
+    tree.surface(nodes.mask_switch(tree, shader, masks.FIRE))
     material.cycles.emission_sampling = "NONE"
     return material

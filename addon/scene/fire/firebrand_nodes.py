@@ -38,8 +38,7 @@ def build(
     mesh.update()
     thing = owned.add(collection, "Firebrands", mesh)
     modifier = thing.modifiers.new("Firetwin Firebrands", "NODES")
-    pixel = min(2.0 * view.half[0] for view in shot.near) / shot.settings.render.resolution[0]
-    modifier.node_group = _node_group(shot, stage, found, pixel)
+    modifier.node_group = _node_group(shot, stage, found, shot.pixel[0])
     _seen_only(thing)
     return thing
 

@@ -2,8 +2,8 @@
 
 All are instances on points. A point has float attributes `scale` (height, m), `width` (how much wider than
 its model it is), `rotation`, `pitch` and `roll` (radians), `arrival_time`, `elevation`, `canopy_fuel`,
-`tint`, `dead`, `scorch`, `torched`, and the numbers of its models, `model` and `snag_model`. Only what a
-camera can see is made.
+`tint`, `dead`, `scorch`, `torched`, and the numbers of its models, `model` and `snag_model`; trees also have
+a `number` of their own from 1 on. Only what a camera can see is made.
 """
 
 from __future__ import annotations
@@ -38,6 +38,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Objec
         library = tree_models(shot, stage)
     if grown is not None:
         points = algorithm2(shot) if shot.settings.forest.density == "paper" else _stand(shot, grown)
+        points["number"] = 1.0 + np.arange(len(points["position"]))
         made.append(_instances(shot, collection, "Trees", levelled(shot, points), library))
     if len(below.size):
         points = levelled(shot, _below(shot, below))

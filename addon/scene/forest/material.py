@@ -12,6 +12,7 @@ import bpy
 
 from ...blender import nodes
 from ...blender.owned import Stage
+from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import granite, haze, infrared, temperature
 from ..glow import CLOSE, EMBER, FLAME, brightness
@@ -73,7 +74,7 @@ def bark(shot: Shot, stage: Stage, *, charred: bool) -> bpy.types.Material:
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
     normal = tree.output("ShaderNodeNewGeometry", name="Normal")
     warmth = _warmth(tree, shot, stage, normal, age, age > 0.0)
-    tree.surface(_switch(tree, shot, stage, matt, warmth))
+    _finish(tree, shot, stage, matt, warmth)
     return material
 
 
@@ -94,7 +95,7 @@ def rock(shot: Shot, stage: Stage) -> bpy.types.Material:
     elevation = tree.attribute("elevation", "INSTANCER")
     ambient = temperature.ambient(tree, shot, stage, elevation, normal, 1.0)
     warmth = infrared.emitted(tree, shot, stage, ambient, infrared.STONE)
-    tree.surface(_switch(tree, shot, stage, matt, warmth))
+    _finish(tree, shot, stage, matt, warmth)
     material.cycles.emission_sampling = "NONE"
     return material
 
@@ -169,12 +170,8 @@ def _leaves(
     leaf = tree.mix_shader(clear, matt, through)
     position = tree.output("ShaderNodeNewGeometry", name="Position")
     flicker = tree.noise(tree.vector("ADD", position, tree.combine(0.0, 0.0, age * -6.0)), 4.0, 2.0)
-    flaming = (
-        age.smoothstep(0.0, 40.0)
-        * age.smoothstep(TORCHING, 0.4 * TORCHING)
-        * flicker.smoothstep(0.47, 0.69)
-        * torched
-    )
+    alight = age.smoothstep(0.0, 40.0) * age.smoothstep(TORCHING, 0.4 * TORCHING) * torched
+    flaming = alight * flicker.smoothstep(0.47, 0.69)
     afar = tree.output("ShaderNodeCameraData", name="View Distance").ramp(*CLOSE, *_TORCH)
     ember = tree.input("Ember Colour", EMBER, "Light of a crown that glows", "Fire")
     flame = tree.input("Flame Colour", FLAME, "Light of a crown in flames", "Fire")
@@ -185,7 +182,7 @@ def _leaves(
     hot = flaming.ramp(0.0, 1.0, temperature.FLAME_LOW, temperature.FLAME_HIGH)
     hot = infrared.emitted(tree, shot, stage, hot)
     warmth = tree.mix(flaming.smoothstep(0.0, 0.5), warmth, hot)
-    tree.surface(_switch(tree, shot, stage, burning, warmth))
+    _finish(tree, shot, stage, burning, warmth, alight)
 
 
 def _warmth(
@@ -203,9 +200,24 @@ def _warmth(
     return infrared.emitted(tree, shot, stage, kelvin, infrared.NEEDLES)
 
 
-def _switch(
-    tree: nodes.Tree, shot: Shot, stage: Stage, shader: nodes.Value, warmth: nodes.Value
-) -> nodes.Value:
-    """`shader` through the haze, or the infrared radiance through the air."""
+def _finish(
+    tree: nodes.Tree,
+    shot: Shot,
+    stage: Stage,
+    shader: nodes.Value,
+    warmth: nodes.Value,
+    alight: nodes.Value | float = 0.0,
+) -> None:
+    """Make the surface: `shader` through the haze, its infrared radiance, or its class and number.
+
+    Trees have a number; where they are `alight` they are fire, also between the tongues of their flames: from
+    afar these are smaller than pixels. What is under them counts as ground.
+    """
     seen = infrared.through_air(tree, shot, stage, warmth)
-    return nodes.thermal_switch(tree, haze.apply(tree, shader, stage), seen)
+    shader = nodes.thermal_switch(tree, haze.apply(tree, shader, stage), seen)
+    number = tree.attribute("number", "INSTANCER")
+    below = (_age(tree) > 0.0) * (masks.BURNED - masks.GROUND) + masks.GROUND
+    kind = tree.mix(number > 0.0, below, float(masks.TREE))
+    if isinstance(alight, nodes.Value):
+        kind = tree.mix(alight > masks.ALIGHT, kind, float(masks.FIRE))
+    tree.surface(nodes.mask_switch(tree, shader, kind, number))

@@ -14,6 +14,7 @@ import bpy
 from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot import photo
+from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import granite, haze
 from ..glow import CLOSE, EMBER, FLAME
@@ -79,7 +80,10 @@ def build(
         shader = haze.apply(tree, tree.add_shader(matt, light), stage)
     with tree.frame("Infrared"):
         warmth = heat.radiance(tree, shot, stage, place, rock, lake, normal, (flaming, embers))
-    tree.surface(nodes.thermal_switch(tree, shader, warmth))
+    with tree.frame("Masks"):
+        alight = (flaming > masks.ALIGHT) * (masks.FIRE - masks.BURNED)
+        kind = place.burned * (alight + (masks.BURNED - masks.GROUND)) + masks.GROUND
+    tree.surface(nodes.mask_switch(tree, nodes.thermal_switch(tree, shader, warmth), kind))
     material.cycles.emission_sampling = "NONE"  # as lamps, its small lights would be noise
     return material
 
