@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import itertools
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -154,11 +155,34 @@ def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell
 
     for text in shot.warnings():
         tell(text)
-    stage = setting.build_scene(shot, progress, tell)
-    if shot.settings.render.engine == "cycles":
-        tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
+    frames, done = _frames(wanted), 0
     with bake.ahead(shot, _smoky(shot, wanted), progress, tell) as ready:
-        pictures.render(shot, stage, making, wanted, progress, ready)
+        for part, group in _parts(shot, wanted):
+
+            def counted(here: int, of: int, what: str = "", before: int = done) -> None:
+                progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
+
+            stage = setting.build_scene(part, progress, tell)
+            if shot.settings.render.engine == "cycles" and not done:
+                tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
+            pictures.render(shot, stage, making, group, counted, ready)
+            done += _frames(group)
+
+
+def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:
+    """What is built at a time, `render.chunk` frames of the camera, with the pictures of these frames.
+
+    Which frames are built together does not hang on which of them are wanted.
+    """
+    (camera,) = shot.settings.cameras
+    chunk = shot.settings.render.chunk or shot.frames.count
+
+    def number(frame: int) -> int:
+        return (frame - 1) // chunk
+
+    own = {k: list(part) for k, part in itertools.groupby(shot.frames_of(camera), number)}
+    for k, group in itertools.groupby(wanted, lambda picture: number(picture.frame)):
+        yield shot if len(own) == 1 else shot.part(own[k]), list(group)
 
 
 def _smoky(shot: Shot, wanted: list[Any]) -> list[int]:

@@ -81,8 +81,8 @@ def steps(
         "ground": lambda: ground.build(shot, stage(), grown),
         "forest": lambda: forest.build(shot, stage(), grown),
         "fire": lambda: fire.build(shot, stage(), grown),
-        "smoke": lambda: smoke.build(shot, stage()),
-        "light": lambda: [tell(text) for text in light.build(shot, stage())],
+        "smoke": lambda: smoke.build(shot.whole, stage()),
+        "light": lambda: [tell(text) for text in light.build(shot.whole, stage())],
         "cameras": lambda: camera.build(shot, stage()),
     }
     for part, text in PARTS.items():

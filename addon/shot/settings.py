@@ -340,6 +340,13 @@ class Render:
         "leave out what no camera sees, and draw what is far more coarsely; false is for comparison",
         shows=("ground", "forest", "fire", "smoke"),
     )
+    chunk: int = key(
+        480,
+        "films are built so many frames at a time, which bounds memory; 0: all at once",
+        at_least=0,
+        at_most=_LARGEST_SEED,
+        shows=("ground", "forest", "fire"),
+    )
     thermal_low: float | None = key(
         None,
         "where the thermal picture's palette begins; left out, the coldest air of the shot",

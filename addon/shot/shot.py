@@ -49,10 +49,12 @@ class Shot:
         What burns from the first frame to the last; it is there for all cameras.
     cameras
         All of the scene file's, also those that are not filmed here: others may follow them.
+    whole
+        The shot that this is a part of; else itself.
     """
 
     def __init__(self, settings: Settings, run: Run) -> None:
-        self.settings, self.run, self.cameras = settings, run, settings.cameras
+        self.settings, self.run, self.cameras, self.whole = settings, run, settings.cameras, self
         self.frames: Frames = frames.of(settings.time, run)
         self._filmed: dict[str, NDArray[np.int64]] = {}
         smoke = settings.smoke
@@ -77,6 +79,19 @@ class Shot:
         shot = Shot(replace(self.settings, cameras=(camera,), render=render), self.run)
         shot.relief, shot.fire, shot.bare_ground = self.relief, self.fire, self.bare_ground
         shot.cameras = self.cameras
+        return shot
+
+    def part(self, listed: list[int]) -> Shot:
+        """The same shot of one camera, for some of the frames that it films, ascending.
+
+        Paths, smoke and light stay those of the whole; ground, plants and flames are what these frames show.
+        """
+        (camera,) = self.settings.cameras
+        camera = replace(camera, frames=",".join(map(str, listed)))
+        shot = Shot(replace(self.settings, cameras=(camera,)), self.run)
+        shot.relief, shot.fire, shot.bare_ground = self.relief, self.fire, self.bare_ground
+        shot.cameras, shot.whole = self.cameras, self
+        shot.paths = [replace(self.paths[0], camera=camera)]
         return shot
 
     def camera(self, name: str) -> Camera:
@@ -117,6 +132,16 @@ class Shot:
         return sun.at(self.run, time)
 
     @cached_property
+    def built(self) -> NDArray[np.int64]:
+        """Frames, from 0, that ground, plants and flames are built for: all, or those that a part films."""
+        return np.arange(self.frames.count) if self.whole is self else self.filmed(self.paths[0])
+
+    @property
+    def moments(self) -> NDArray[np.float64]:
+        """Model times (s) of the frames that are built."""
+        return self.frames.times[self.built]
+
+    @cached_property
     def local_frame(self) -> geo.LocalFrame:
         """The scene's east, north and up."""
         return local_frame(self.run)
@@ -129,7 +154,7 @@ class Shot:
     @cached_property
     def ground(self) -> Ground:
         """The ground, with detail along the cameras' paths."""
-        rough = self._paths(self.bare_ground)
+        rough = self._paths(self.bare_ground) if self.whole is self else self.paths
         near = [view.position[self.filmed(view)] for view in rough if view.perspective]
         return self.bare_ground.seen_from(path.eyes(near, self.settings.ground.near_radius))
 

@@ -143,3 +143,17 @@ def test_from_over_the_equator_there_is_light_too(filmed, run):
 def test_flames_are_drawn_brighter_where_the_exposure_is_shorter(filmed, night_run):
     far, close = (glow.brightness(Shot(filmed(away), night_run)) for away in (14.0, 1.5))
     assert close > 1.5 * far
+
+
+def test_under_crowns_a_picture_is_exposed_longer_and_over_them_it_is_not(filmed, run):
+    day = filmed(3.0, moment=DAY, enabled=False)
+    (camera,) = day.cameras
+
+    def stops(height, trees):
+        keys = tuple(replace(key, height=height) for key in camera.rig.keys)
+        settings = replace(day, cameras=(replace(camera, rig=replace(camera.rig, keys=keys)),))
+        shot = Shot(replace(settings, forest=replace(settings.forest, trees=trees)), run)
+        return float(exposure.at(shot, np.array([1.0]))[0])
+
+    assert stops(3.0, True) > stops(3.0, False) + 0.5
+    assert stops(300.0, True) == stops(300.0, False)

@@ -182,3 +182,12 @@ def test_flames_smoke_and_flux_agree_on_the_front(settings, quarters):
         assert np.abs(roots).max() < 1.0
         burning = shot.fire.flux.at(time) > 0.0
         assert (np.abs(middle - front)[burning != (middle < front)] < 1.0).all()
+
+
+def test_flames_of_a_part_are_those_of_the_whole_that_burn_in_its_frames(settings, run):
+    shot = Shot(replace(settings, render=replace(settings.render, skip=False)), run)  # near or far alike
+    whole, part = flames.front(shot), flames.front(shot.part([2]))
+    burning = whole.take(whole.lit(float(shot.frames.times[1])))
+    assert 0 < len(part.position) < len(whole.position)
+    assert np.array_equal(part.position, burning.position)
+    assert np.array_equal(part.arrival_time, burning.arrival_time)

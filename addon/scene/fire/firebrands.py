@@ -99,7 +99,7 @@ def fly(shot: Shot, points: flames.Points) -> Flights | None:
     distance = shot.sights.distance(points.position)
     fade = np.clip((REACH - distance) / (0.3 * REACH), 0.0, 1.0)
     rate = PER_MEGAJOULE * points.intensity * points.width / 1000.0 * fade
-    times = shot.frames.times
+    times, zero = shot.moments, shot.frames.first
     most = max(float(rate[points.lit(float(t))].sum()) for t in times) * _MEAN_LIFE
     rate *= min(1.3 * most_shown / max(most, 1.0), 1.0)
     lapse = shot.frames.step > _LIFE[1] or len(times) == 1
@@ -114,7 +114,7 @@ def fly(shot: Shot, points: flames.Points) -> Flights | None:
         launched = _fewer(launched, times[number : number + 1] if lapse else times, most_shown)
         if len(launched.time):
             path = _paths(launched, winds[number], floor)
-            parts.append(_flights(launched, path, times[0], span[1] if lapse else None))
+            parts.append(_flights(launched, path, zero, span[1] if lapse else None))
     if not parts:
         return None
     return Flights(

@@ -105,7 +105,7 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
     of the arrival time. Crowns of the stand flare up besides, where it is given.
     """
     settings, ground, near = shot.settings, shot.ground, shot.near
-    first, last = shot.frames.first, shot.frames.last
+    first, last = shot.moments[[0, -1]]
     row, column, spacing, key = _candidates(shot)
     arrival = ground.arrival_at(row, column)
     keep = (arrival <= last) & (arrival > first - _RESIDENCE[1])
@@ -149,7 +149,7 @@ def torches(shot: Shot, grown: Stand) -> Points:
     Of the crowns that burn (`fate`) the denser the canopy the more flare up, for half a minute to a minute
     and up to twice the tree's height (assumed).
     """
-    ground, first, last = shot.ground, shot.frames.first, shot.frames.last
+    ground, (first, last) = shot.ground, shot.moments[[0, -1]]
     near = np.flatnonzero((grown.distance < _TORCH_SIGHT) & (grown.height > 6.0))
     row, column = ground.under(grown.position[near])
     arrival = ground.arrival_at(row, column)
@@ -189,7 +189,7 @@ def cells(shot: Shot) -> Points:
     step = shot.frames.step or 1.0
     width = float(np.sqrt(burning.cell_area(run) * run.surface_fuel.size / run.elevation.size))
     parts = []
-    for time in shot.frames.times:
+    for time in shot.moments:
         found = flux.emitters(shot.fire.flux.at(float(time)), position, low, high)
         count = len(found.cell)
         length = found.scale / 100.0 * _CELL_FLAME
@@ -221,7 +221,7 @@ def _candidates(shot: Shot) -> tuple[Array, Array, Array, NDArray[np.int64]]:
     With them come integers (n, 2) that random choices for a point hang on: cell and number in it. So a point
     is the same whatever else is seen.
     """
-    ground, near, first, last = shot.ground, shot.near, shot.frames.first, shot.frames.last
+    ground, near, (first, last) = shot.ground, shot.near, shot.moments[[0, -1]]
     arrival = ground.arrival
     cells_lit = np.argwhere((arrival >= first - _RESIDENCE[1] - 300.0) & (arrival <= last + 300.0))
     empty = np.empty(0)
@@ -265,7 +265,7 @@ def _within_budget(points: Points, shot: Shot, views: list[Path]) -> Points:
         return points
     budget = max(shot.settings.fire.budget, 0)
     keep = np.ones(len(points.arrival_time), bool)
-    for index, time in enumerate(shot.frames.times):
+    for index, time in zip(shot.built, shot.moments, strict=True):
         lit = points.lit(float(time))
         lit = lit[keep[lit]]
         if len(lit) > budget:

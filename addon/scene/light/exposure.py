@@ -60,6 +60,7 @@ def darkness(shot: Shot, times: NDArray) -> Array:
 
 
 def _metered(shot: Shot) -> _Metered:
+    shot = shot.whole
     if shot not in _known:
         count = min(shot.frames.count, _KEYS)
         frames = np.unique(np.linspace(1, shot.frames.count, count).round())

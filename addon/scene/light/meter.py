@@ -13,7 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...shot import heat
+from ...shot import heat, noise
+from ...shot.ground import bilinear
 from ...shot.path import Path
 from ...shot.shot import Shot
 from . import sky
@@ -23,6 +24,9 @@ _REACH = np.geomspace(40.0, 60_000.0, 72)  # m where the ground is looked for, f
 _HIGHEST = 4500.0  # m over the scene's zero; no ground is higher
 _AIR = 50_000.0  # m over the scene's zero; a ten-thousandth of the haze is higher
 _GROUND = 0.06  # reflectance of forest, brush and ash, luminance: `ground.material`, in the mean
+_SHADE = 0.1  # of that light under trees: a fleck of sun here and there, and what sky shows; by eye
+_CROWNS = 6.0, 25.0  # m above the ground: lower than crowns, and over most of them
+_CLOSED, _BARE = 0.6, 0.4  # kg/m2 of canopy that shades 1 - 1/e of the ground; of that burned trees; by eye
 _CLOUD = 0.3  # of lit smoke: a deep ball of it has 0.27, the sun behind the camera, to 0.46, at its side
 _BLOCK, _FIRES = 600.0, 80  # m, heat this close is one fire; and how many there are at most
 _TIMES = np.array([30.0, 90.0, 180.0, 300.0, 480.0, 720.0, 1080.0, 1600.0])  # s since smoke left its fire
@@ -70,6 +74,7 @@ def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array]:
     place = start + far[:, None] * along
     lit = _GROUND / np.pi * light.power * light.direction[2] * _sunlit(smoke, place, light, 1.0)
     behind = np.where(ground, lit + _GROUND * light.sky_mean, light.sky_mean * _gradation(along[:, 2]))
+    behind *= 1.0 - (1.0 - _SHADE) * _crowns(shot, view.position[frame - 1], shot.frames.time(frame))
     clear = np.exp(-shot.settings.light.haze * _haze_depth(start[:, 2], along[:, 2], far))
     behind = np.where(ground, behind * clear + luminance(light.haze) * (1.0 - clear), behind)
     depth, met = _depth(smoke, start, along, ends)
@@ -77,6 +82,21 @@ def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array]:
     shade = _sunlit(smoke, start + met[:, None] * along, light, _THROUGH)
     found = (1.0 - hidden) * behind + hidden * _lit_smoke(light, along) * shade
     return found, hidden * _shine(smoke, start, along, ends)
+
+
+def _crowns(shot: Shot, eye: Array, time: float) -> float:
+    """How much of the picture of a camera at (3,) are trees and ground in the shade of crowns, 0 to 1.
+
+    That of a camera no higher than crowns, amid canopy fuel that has not burned; burned, a part.
+    """
+    ground = shot.bare_ground
+    if not shot.settings.forest.trees:
+        return 0.0
+    row, column = ground.under(eye[None])
+    low = 1.0 - noise.smoothstep(*_CROWNS, float(eye[2] - ground.up(eye[:1], eye[1:2])[0]))
+    canopy = float(bilinear(ground.fields.canopy_fuel, row, column)[0])
+    burned = float(ground.arrival_at(row, column)[0]) < time
+    return low * (1.0 - np.exp(-canopy / _CLOSED)) * (_BARE if burned else 1.0)
 
 
 def _sunlit(smoke: Smoke, place: Array, light: sky.State, through: float) -> Array:
