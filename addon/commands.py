@@ -103,6 +103,22 @@ def imager(arguments: argparse.Namespace) -> None:
     report(len(moments), len(moments))
 
 
+def convert(arguments: argparse.Namespace) -> None:
+    """Make a run of a fire model's own files."""
+    from .jobs import convert
+
+    reporter = Reporter("times")
+    try:
+        print(
+            convert.run(
+                arguments.paths, arguments.out, arguments.start, arguments.at, arguments.projection,
+                arguments.interval, reporter, say,
+            )
+        )  # fmt: skip
+    finally:
+        reporter.close()
+
+
 def build(arguments: argparse.Namespace) -> None:
     """Build the scene and save it."""
     from .errors import UsageError
@@ -179,6 +195,27 @@ def _volumes(volumes: Iterable[Kept]) -> None:
     for each in volumes:
         ago = "in use" if each.in_use else f"used {duration(time.time() - each.used)} ago"
         print(f"{each.folder}  {size(each.bytes)}  {ago}")
+
+
+def assets(arguments: argparse.Namespace) -> None:
+    """Write the asset library."""
+    import tempfile
+
+    from .jobs import assets
+    from .shot.choice import Choice
+
+    with tempfile.TemporaryDirectory() as folder:
+        scene = arguments.scene
+        if scene is None:
+            from .data import sample
+
+            say("writing a small sample run, which the assets are made for")
+            sample.write(Path(folder) / "sample", 13)
+            scene = Path(folder) / "scene.toml"
+            scene.write_text(assets.SCENE, encoding="utf-8")
+        number = assets.run(Choice(scene=str(scene)), arguments.out, Reporter(), say)
+    say(f"{count(number, 'asset')} in {arguments.out}")
+    print(arguments.out / assets.BLEND)
 
 
 def schema(arguments: argparse.Namespace) -> None:

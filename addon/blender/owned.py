@@ -7,7 +7,7 @@ that is our own.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -54,11 +54,11 @@ class Stage:
         """Whether the whole scene is ours."""
         return ours(self.scene)
 
-    def part(self, name: str) -> bpy.types.Collection:
-        """The collection "Firetwin <name>" without anything of ours in it; what is not ours stays."""
+    def part(self, name: str, keep: Collection[bpy.types.Object] = ()) -> bpy.types.Collection:
+        """The collection "Firetwin <name>" with nothing of ours but what to keep; what is not ours stays."""
         found = next((child for child in self.root.children if ours(child, name)), None)
         if found is not None:
-            _clear(found)
+            _clear(found, keep)
             purge()
             return found
         return child(self.root, name)
@@ -169,17 +169,17 @@ def _others(scene: bpy.types.Scene) -> list[bpy.types.Scene]:
     return [other for other in bpy.data.scenes if other != scene]
 
 
-def _clear(collection: bpy.types.Collection) -> None:
-    """Delete our things in a collection, and our collections in it that are empty then."""
+def _clear(collection: bpy.types.Collection, keep: Collection[bpy.types.Object] = ()) -> None:
+    """Delete our things in a collection but some, and our collections in it that are empty then."""
     for inner in list(collection.children):
         if ours(inner):
-            _clear(inner)
+            _clear(inner, keep)
             _drop(inner)
     originals: dict[str, bpy.types.Object] = {}
     for thing in sorted(filter(ours, collection.objects), key=_originality):
         if originals.setdefault(thing.get(NAME), thing) != thing:
             unmark(thing)  # an artist's copy
-    bpy.data.batch_remove(originals.values())
+    bpy.data.batch_remove([thing for thing in originals.values() if thing not in keep])
 
 
 def _originality(thing: bpy.types.Object) -> tuple[bool, int]:

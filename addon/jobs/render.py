@@ -40,7 +40,7 @@ def run(
     -------
     How many pictures were made.
     """
-    from ..render import claims, films, fingerprint, plan
+    from ..render import claims, dataset, films, fingerprint, plan
     from ..render.store import Store
 
     out = asked.out
@@ -83,6 +83,7 @@ def run(
             raise
         claims.leave(store, task["owner"])
         store.export()
+        dataset.write(store)
     return len(undone)
 
 
@@ -107,11 +108,11 @@ def in_blender(
     todo = [Picture(*picture) for picture in pictures]
     if todo:
         _check_device(shot)
-    frames = _frames(todo)
+    frames = frames_of(todo)
     made_with = fingerprint.of_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
     with sharing.making(Path(out), made_with, owner, after) as making:
         while free := making.free(todo, tell):
-            done = frames - _frames(free)
+            done = frames - frames_of(free)
             for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
                 wanted = list(group)
 
@@ -119,7 +120,7 @@ def in_blender(
                     progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
 
                 _camera(shot.of(camera), making, wanted, counted, tell)
-                done += _frames(wanted)
+                done += frames_of(wanted)
         video.make(shot, making, progress)
 
 
@@ -142,7 +143,8 @@ def _check_device(shot: Shot) -> None:
         raise
 
 
-def _frames(pictures: list[Any]) -> int:
+def frames_of(pictures: list[Any]) -> int:
+    """How many frames pictures are of."""
     return len({(picture.camera, picture.frame) for picture in pictures})
 
 
@@ -155,8 +157,8 @@ def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell
 
     for text in shot.warnings():
         tell(text)
-    frames, done = _frames(wanted), 0
-    with bake.ahead(shot, _smoky(shot, wanted), progress, tell) as ready:
+    frames, done = frames_of(wanted), 0
+    with bake.ahead(shot, smoky(shot, wanted), progress, tell) as ready:
         for part, group in _parts(shot, wanted):
 
             def counted(here: int, of: int, what: str = "", before: int = done) -> None:
@@ -166,7 +168,7 @@ def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell
             if shot.settings.render.engine == "cycles" and not done:
                 tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
             pictures.render(shot, stage, making, group, counted, ready)
-            done += _frames(group)
+            done += frames_of(group)
 
 
 def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:
@@ -185,7 +187,7 @@ def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:
         yield shot if len(own) == 1 else shot.part(own[k]), list(group)
 
 
-def _smoky(shot: Shot, wanted: list[Any]) -> list[int]:
+def smoky(shot: Shot, wanted: list[Any]) -> list[int]:
     """Frames of pictures that show smoke, ascending."""
     from ..shot import passes
 

@@ -22,6 +22,7 @@ def build_scene(shot: Shot, progress: Progress, tell: Tell) -> Stage:
         progress(done, total, "building the scene")
     layers.build(shot.settings, stage)
     engine.apply(shot.settings, stage.scene)
+    engine.label(shot.run, stage.scene)
     devices.follow(shot.settings.render.device, stage.scene)
     progress(total, total, "building the scene")
     return stage

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Sequence
 from datetime import datetime
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,7 +22,16 @@ def gather(run: Run, zone: str) -> dict[str, Any]:
 
     What was found once is remembered in the run's folder.
     """
-    return remembered.facts(run, zone, lambda: _find(run, zone)) | {"path": run.path}
+    found = remembered.facts(run, zone, lambda: _find(run, zone))
+    return found | {"path": run.path, "source": _source(Path(run.path))}
+
+
+def _source(folder: Path) -> dict[str, Any]:
+    """What run.toml says that the run was made from: model, version, projection, files and assumptions."""
+    try:
+        return tomllib.loads((folder / "run.toml").read_text(encoding="utf-8-sig")).get("source", {})
+    except (OSError, ValueError):  # the core reads what it needs, and says what is wrong
+        return {}
 
 
 def _find(run: Run, zone: str) -> dict[str, Any]:
@@ -155,9 +166,20 @@ def page(info: dict[str, Any]) -> str:
             "",
             *_rows(_facts(info)),
             *_acreages(info),
+            *_made_of(info.get("source", {})),
             *(["", "Warnings", *(f"  - {text}" for text in info["warnings"])] if info["warnings"] else []),
         ]
     )
+
+
+def _made_of(source: dict[str, Any]) -> list[str]:
+    if not source:
+        return []
+    return [
+        "",
+        f"Made from {source.get('model')}",
+        *(f"  - {text}" for text in source.get("assumptions", [])),
+    ]
 
 
 def brief(info: dict[str, Any]) -> list[tuple[str, str]]:

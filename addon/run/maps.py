@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from .. import files
 from ..data import history
-from . import areas, times
+from . import areas, thumbnails, times
 from .observations import Perimeter
 
 if TYPE_CHECKING:
@@ -25,12 +25,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.collections import QuadMesh
 
-FUEL = LinearSegmentedColormap.from_list(
-    "fuel", ["#f4efe1", "#dfe5b4", "#b4d184", "#7cb45c", "#438f45", "#1f6a36", "#0c4426"]
-)
-INTENSITY = LinearSegmentedColormap.from_list(
-    "intensity", ["#fff7b0", "#ffe566", "#ffc81e", "#ff9a0a", "#f4560b", "#cf1710", "#8b0010"]
-)
+FUEL = LinearSegmentedColormap.from_list("fuel", thumbnails.FUEL)
+INTENSITY = LinearSegmentedColormap.from_list("intensity", thumbnails.INTENSITY)
 SEEN = LinearSegmentedColormap.from_list("seen", ["#d4e6f7", "#5aa2dd", "#0b3d75"])
 DPI = 160
 
@@ -62,10 +58,7 @@ def fuel_map(run: Run) -> Figure:
 
 def intensity_map(run: Run, zone: str, seen: Sequence[Perimeter] = ()) -> Figure:
     """Largest heat flux (kW/m2) of each model cell of the whole run, over the relief; perimeters as lines."""
-    flux = run.heat_flux(0).copy()
-    for index in range(1, len(run.times)):
-        np.fmax(flux, run.heat_flux(index), out=flux)
-    flux = np.ma.masked_less_equal(np.nan_to_num(flux) / 1e3, 0)
+    flux = np.ma.masked_less_equal(thumbnails.strongest(run) / 1e3, 0)
     first, last = (times.text(times.moment(run, float(run.times[i])), zone) for i in (0, -1))
     figure, axes = _page(run, "Fire intensity", f"strongest heat flux, {first} to {last}")
     _relief(axes, run, 1.0)

@@ -19,7 +19,7 @@ from .schema import Key, Part, Where, either, items, parts, wrong
 from .settings import Settings
 from .toml_text import quoted, text
 
-__all__ = ["error_at", "read", "text"]
+__all__ = ["error_at", "parse", "read", "text"]
 
 _OTHER_NAMES = {"terrain": "ground"}
 
@@ -34,15 +34,25 @@ def read(path: str | Path) -> Settings:
     """
     path = Path(path)
     text = _load(path)
+    settings = parse(text, path)
+    if found := wrong(settings):
+        raise _Reader(path, text).error(*found)
+    return settings
+
+
+def parse(text: str, path: Path) -> Settings:
+    """The settings in a text as if it were the file `path`: types are checked, values are not.
+
+    Raises
+    ------
+    InputError
+        As `read`.
+    """
     try:
         values = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise _syntax_error(path, text, str(error)) from None
-    reader = _Reader(path, text)
-    settings = reader.table(Settings, values, ())
-    if found := wrong(settings):
-        raise reader.error(*found)
-    return settings
+    return _Reader(path, text).table(Settings, values, ())
 
 
 def error_at(path: Path, where: Where, reason: str) -> InputError:

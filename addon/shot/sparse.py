@@ -32,12 +32,48 @@ def keys(values: Array, tolerance: float) -> tuple[NDArray[np.int64], Array]:
         kept = np.sort(np.append(kept, more))
 
 
+def fit(values: Array, tolerance: float, first: tuple[int, ...] = ()) -> NDArray[np.int64]:
+    """Frames (k,) from 0 to keep of values (frames, channels) for `through` to go through the rest too.
+
+    Parameters
+    ----------
+    tolerance
+        How far `through` may be off in any frame, as the length of the difference of all channels.
+    first
+        Frames that are kept in any case.
+    """
+    last, moments = len(values) - 1, np.arange(len(values), dtype=np.float64)
+    kept = np.unique([0, last, *(frame for frame in first if 0 <= frame <= last)])
+    while True:
+        error = np.linalg.norm(through(kept.astype(np.float64), values[kept], moments) - values, axis=1)
+        error[kept] = 0.0
+        worst = [a + int(np.argmax(error[a:b])) for a, b in itertools.pairwise(kept)]
+        more = [frame for frame in worst if error[frame] > tolerance]
+        if not more:
+            return kept
+        kept = np.sort(np.append(kept, more))
+
+
+def through(at: Array, values: Array, moments: Array) -> Array:
+    """Cubics through values (k, channels) at rising moments `at` (k,), held outside: (moments, channels).
+
+    The slope at a key is that of the parabola through it and its neighbours.
+    """
+    if len(at) == 1:
+        return np.repeat(values, len(moments), axis=0)
+    slopes = np.gradient(values, at, axis=0, edge_order=min(len(at) - 1, 2))
+    return _cubics(at, values, slopes, np.clip(moments, at[0], at[-1]))
+
+
 def curve(kept: NDArray[np.int64], values: Array, slopes: Array, frames: int) -> Array:
     """What cubics (Hermite) through values and slopes (k, channels) at frames (k,) give in all frames."""
-    t = np.arange(frames)
-    i = np.clip(np.searchsorted(kept, t, "right") - 1, 0, len(kept) - 2)
-    gap = (kept[i + 1] - kept[i]).astype(np.float64)[:, None]
-    s = (t - kept[i])[:, None] / gap
+    return _cubics(kept, values, slopes, np.arange(frames))
+
+
+def _cubics(at: NDArray, values: Array, slopes: Array, t: NDArray) -> Array:
+    i = np.clip(np.searchsorted(at, t, "right") - 1, 0, len(at) - 2)
+    gap = (at[i + 1] - at[i]).astype(np.float64)[:, None]
+    s = (t - at[i])[:, None] / gap
     a, b = values[i], values[i + 1]
     bend = (1.0 - s) * (slopes[i] * gap - (b - a)) + s * ((b - a) - slopes[i + 1] * gap)
     return a + s * (b - a) + s * (1.0 - s) * bend

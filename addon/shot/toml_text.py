@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import zoneinfo
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime, tzinfo
 from pathlib import Path
 from typing import Any
@@ -32,6 +32,13 @@ def text(settings: Settings) -> str:
     return "\n".join(_aligned(block) for block in blocks)
 
 
+def tables(name: str, tables: Iterable[Any]) -> str:
+    """A list of tables as lines of a scene file, without a word about them; paths are absolute."""
+    writer = _Writer(Settings(), here=False)
+    blocks = (block for each in tables for block in writer.table(each, (name,), [(f"[[{name}]]", "")]))
+    return "".join(f"{line}\n" for block in blocks for line, _ in block if not line.startswith("#"))
+
+
 def _aligned(block: list[Line]) -> str:
     """Lines of a table with their comments in one column."""
     width = max(len(written) for written, comment in block if comment) if any(c for _, c in block) else 0
@@ -41,8 +48,8 @@ def _aligned(block: list[Line]) -> str:
 
 
 class _Writer:
-    def __init__(self, settings: Settings) -> None:
-        self.folder = settings.path.parent
+    def __init__(self, settings: Settings, here: bool = True) -> None:
+        self.folder = settings.path.parent if here else None
         self.zone = _zone(settings.time.zone)
         self.explained: set[int] = set()
 
@@ -116,8 +123,10 @@ def _comment(key: Key) -> str:
     return f"{key.described()}: {', '.join(most)} or {last}"
 
 
-def _relative(path: Path, folder: Path) -> str:
-    """A path as one that starts at `folder` reads it."""
+def _relative(path: Path, folder: Path | None) -> str:
+    """A path as one that starts at `folder` reads it; absolute without one."""
+    if folder is None:
+        return path.absolute().as_posix()
     try:
         text = path.relative_to(folder).as_posix()
     except ValueError:

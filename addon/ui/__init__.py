@@ -2,16 +2,49 @@
 
 import bpy
 
-from . import build, command, preferences, properties, render, run, time, working
+from . import (
+    aims,
+    assets,
+    background,
+    build,
+    cameras_panel,
+    command,
+    flying,
+    go,
+    maps,
+    open,
+    preferences,
+    properties,
+    quality,
+    queue,
+    render,
+    report,
+    rows,
+    run,
+    section_panels,
+    time,
+    working,
+)
 
 classes = (
     *preferences.classes,
     *properties.classes,
     *working.classes,
+    *rows.classes,
     *run.classes,
+    *open.classes,
+    *quality.classes,
     *build.classes,
     *time.classes,
+    *cameras_panel.classes,
+    *flying.classes,
+    *aims.classes,
+    *go.classes,
     *render.classes,
+    *background.classes,
+    *section_panels.classes,
+    *report.classes,
+    *assets.classes,
 )
 
 
@@ -21,11 +54,15 @@ def register() -> None:
         bpy.utils.register_class(cls)
     bpy.types.Scene.firetwin = bpy.props.PointerProperty(type=properties.FIRETWIN_PG_scene)
     command.register()
+    open.register()
 
 
 def unregister() -> None:
     """Undo `register` in reverse order; work that still goes on is ended."""
     working.abandon()
+    queue.clear()
+    maps.forget()
+    open.unregister()
     command.unregister()
     del bpy.types.Scene.firetwin
     for cls in reversed(classes):

@@ -10,7 +10,7 @@ from ..blender import owned
 from ..errors import Error
 from ..scene.build import PARTS
 from ..shot.shot import Shot
-from . import job, keys, run, stage, time, view, working
+from . import by_hand, job, keys, quality, run, stage, time, view, working
 from .job import Away, Steps, Told
 from .text import labelled
 from .working import Working
@@ -58,7 +58,9 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
         uid, settings = context.scene.session_uid, context.scene.firetwin
         part = self.part
         parts = tuple(PARTS) if part == ALL else (part,)
-        chosen, smoke = run.choice(settings), settings.smoke and "smoke" in parts
+        for text in by_hand.pull(context.scene):
+            yield Told(text, "WARNING")
+        chosen, smoke = run.choice(settings), settings.bake_smoke and "smoke" in parts
         shot = yield Away("reading the run", lambda **_: chosen.shot())
         if smoke and shot.settings.smoke.enabled:
             yield Away("smoke", functools.partial(bake.run, chosen, together=True))
@@ -86,6 +88,7 @@ def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: boo
     if here.own and (new or len(parts) == len(PARTS)):
         layers.build(shot.settings, here)
         engine.apply(shot.settings, scene)
+        engine.label(shot.run, scene)
         devices.follow(shot.settings.render.device, scene)
     else:
         layers.complete(shot.settings, here, parts)
@@ -140,6 +143,14 @@ class FIRETWIN_MT_parts(bpy.types.Menu):
         layout.operator(FIRETWIN_OT_remove.bl_idname, text="Remove all", icon="TRASH")
 
 
+def again(layout: bpy.types.UILayout, part: str) -> None:
+    """A button, for the head of a panel, that builds a part again."""
+    row = layout.row(align=True)
+    row.enabled = job.Job.current is None
+    row.operator(FIRETWIN_OT_build.bl_idname, text="", icon="FILE_REFRESH", emboss=False).part = part
+    row.label(text="", icon="BLANK1")
+
+
 class FIRETWIN_PT_build(bpy.types.Panel):
     """The scene made from the run"""
 
@@ -159,8 +170,9 @@ class FIRETWIN_PT_build(bpy.types.Panel):
             row.menu(FIRETWIN_MT_parts.bl_idname, text="", icon="DOWNARROW_HLT")
         column = layout.column()
         column.enabled = job.Job.current is None
-        labelled(column, "Smoke").prop(settings, "method", text="")
-        column.prop(settings, "smoke")
+        quality.draw(column, settings)
+        column.prop(settings, "bake_smoke")
+        labelled(column, "Seed").prop(settings, "seed", text="")
         row = layout.row(align=True)
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Through camera", icon="CAMERA_DATA").whole = False
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Whole run", icon="WORLD_DATA").whole = True

@@ -15,11 +15,13 @@ import time
 import traceback
 from collections.abc import Callable, Generator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, ClassVar
 
-from ..errors import Error, UsageError
+from ..errors import Error, InputError, UsageError
 from ..jobs.worker import Stop, StoppedError
 from ..progress import duration
+from . import keys, scene_file
 
 _UNDONE = "undo was used while the scene was being built, so it is not complete; build it again"
 
@@ -176,14 +178,21 @@ def _label(step: str | Away) -> str:
     return step.what if isinstance(step, Away) else step
 
 
+unexpected: list[str] = []
+"""The traceback of the last error that nobody foresaw."""
+
+
 def words(error: BaseException) -> str:
     """What to tell about an error: where it is and what to do, never a traceback."""
     if isinstance(error, UsageError):
         option, _, rest = str(error).partition(": ")
         return f"{option[2:].capitalize()}: {rest}" if option.startswith("--") else str(error)
+    if isinstance(error, InputError) and Path(error.path).parent == scene_file.folder():
+        return keys.sentence(error.reason)  # nobody has seen this file
     if isinstance(error, Error):
         return str(error)
     if isinstance(error, OSError) and error.filename:
         return f"{error.filename}: {error.strerror}"
+    unexpected[:] = traceback.format_exception(error)
     traceback.print_exception(error)
-    return f"Unexpected {type(error).__name__}: {error} (details are in the system console)"
+    return f"Unexpected {type(error).__name__}: {error} (Copy details has more)"

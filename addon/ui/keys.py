@@ -1,18 +1,34 @@
-"""Blender properties made from the settings' schema, which says all that there is to say of a key."""
+"""Blender properties made from the settings' schema, which says all that there is to say of a key.
+
+Blender keeps numbers in single precision, lists of choices without order, and no property that is "left
+out". `put` and `take` carry a value there and back: what does not come back as it went is remembered by the
+group's `exact` text, for as long as the panel shows what it was shown as.
+"""
 
 from __future__ import annotations
 
+import json
 import typing
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 import bpy
+import numpy as np
 
-from ..shot.schema import Key, Part, parts
+from ..errors import Error
+from ..shot.schema import Key, Part, parts, plain
 
 Items = tuple[tuple[str, str, str], ...]
 
-_SHORT = {"cpu", "gpu", "rgb", "eevee"}  # names that are written in capitals
+USE = "use_"
+"""Before the name of a property, that of the switch of a number that may be left out."""
+
+_SHORT = {"cpu", "edl", "eevee", "fps", "gpu", "lwir", "mwir", "rgb"}  # names that are written in capitals
+_LARGEST = 2**31 - 1  # what Blender keeps as a whole number
+_NUMBERS = (int, float)
+_UNITS = {"m": "LENGTH", "s": "TIME_ABSOLUTE"}  # those that Blender shows itself
+_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
 
 
 def prop(kind: type, name: str, first: tuple[str, str, str] | None = None, **options: Any) -> Any:
@@ -33,6 +49,17 @@ def prop(kind: type, name: str, first: tuple[str, str, str] | None = None, **opt
     return make(**{**about, **more, **options})
 
 
+def switch(part: Part) -> Any:
+    """The Blender property that says whether a number stands at all."""
+    text = f"Choose it: {part.key.described()}"
+    return bpy.props.BoolProperty(name=label(part.name), description=text, default=False)
+
+
+def switched(part: Part) -> bool:
+    """Whether a number may be left out; empty texts say so themselves."""
+    return part.default is None and (part.type in _NUMBERS or typing.get_origin(part.type) is tuple)
+
+
 def items(key: Key) -> Items:
     """The choices of a key as those of an enumeration."""
     return tuple((name, label(name), sentence(words)) for name, words in key.names().items())
@@ -43,9 +70,162 @@ def label(name: str) -> str:
     return name.upper() if name in _SHORT else sentence(name.replace("_", " "))
 
 
+def heading(part: Part) -> str:
+    """The label of a key in a panel, with the unit where Blender does not show it behind the number."""
+    unit = "UTC" if part.type is datetime else part.key.unit
+    return f"{label(part.name)} ({unit})" if unit and unit not in _UNITS else label(part.name)
+
+
 def sentence(text: str) -> str:
     """Text with a capital first letter; Blender wants no period at its end."""
     return text[:1].upper() + text[1:]
+
+
+def put(group: bpy.types.PropertyGroup, part: Part, value: Any) -> None:
+    """Let a group's property show a value of the key."""
+    exact = json.loads(group.exact or "{}")
+    exact.pop(part.name, None)
+    _show(group, part, value)
+    if take(group, part, {}) != value:
+        exact[part.name] = _stored(value)
+    group.exact = json.dumps(exact) if exact else ""
+
+
+def take(group: bpy.types.PropertyGroup, part: Part, exact: dict[str, Any] | None = None) -> Any:
+    """The value of the key that a group's property shows.
+
+    Raises
+    ------
+    Error
+        A text that is typed in is no such value.
+    """
+    exact = json.loads(group.exact or "{}") if exact is None else exact
+    kept = _restored(part, exact[part.name]) if part.name in exact else _ABSENT
+    same = kept is not _ABSENT and _shown(group, part) == _as_shown(part, kept)
+    return kept if same else _value(group, part)
+
+
+def shows(group: bpy.types.PropertyGroup, part: Part, value: Any) -> bool:
+    """Whether a property shows this value."""
+    return _shown(group, part) == _as_shown(part, value)
+
+
+def differs(group: bpy.types.PropertyGroup, part: Part) -> bool:
+    """Whether a property shows something else than the default."""
+    return not shows(group, part, part.default)
+
+
+_ABSENT = object()
+
+
+def _stored(value: Any) -> Any:
+    """A value as JSON keeps it whole."""
+    if isinstance(value, datetime):
+        return value.isoformat()
+    return list(value) if isinstance(value, tuple) else str(value) if isinstance(value, Path) else value
+
+
+def _restored(part: Part, stored: Any) -> Any:
+    """The value that `_stored` has kept, if the key still has its type."""
+    try:
+        if part.type is datetime:
+            return datetime.fromisoformat(stored)
+        if part.type is Path:
+            return Path(stored)
+        return tuple(stored) if isinstance(stored, list) else stored
+    except (TypeError, ValueError):
+        return _ABSENT
+
+
+def _show(group: bpy.types.PropertyGroup, part: Part, value: Any) -> None:
+    use, shown = _as_shown(part, value)
+    if switched(part):
+        setattr(group, USE + part.name, use)
+    if use:
+        setattr(group, part.name, shown)
+
+
+def _shown(group: bpy.types.PropertyGroup, part: Part) -> tuple[bool, Any]:
+    """What the panel shows: whether the value stands, and the value as Blender keeps it."""
+    if switched(part) and not getattr(group, USE + part.name):
+        return False, None
+    value = getattr(group, part.name)
+    return True, tuple(value) if isinstance(value, bpy.types.bpy_prop_array) else value
+
+
+def _as_shown(part: Part, value: Any) -> tuple[bool, Any]:
+    """What `_shown` says where the property shows `value`."""
+    if value is None:
+        return (False, None) if switched(part) else (True, "")
+    if isinstance(value, datetime):
+        utc = value.astimezone(UTC).replace(tzinfo=None)
+        return True, utc.isoformat(sep=" ", timespec="minutes")
+    if isinstance(value, Path):
+        return True, str(value)
+    if isinstance(value, tuple):
+        if part.key.choices is not None:
+            return True, set(value)
+        if typing.get_args(part.type)[-1] is Ellipsis:
+            return True, json.dumps(plain(part.type, value))[1:-1]
+        return True, tuple(_number(part, each) for each in value)
+    if type(value) in _NUMBERS:
+        return True, _number(part, value)
+    return True, value
+
+
+def _number(part: Part, value: float) -> float:
+    """A number as Blender keeps it: within bounds, of 32 bits."""
+    low, high = _bounds(part)
+    if isinstance(value, int):
+        return min(max(value, low if low is not None else -_LARGEST - 1), min(high or _LARGEST, _LARGEST))
+    limit = float(np.finfo(np.float32).max)
+    value = min(max(value, np.float32(-limit if low is None else low)), limit if high is None else high)
+    return float(np.float32(value))
+
+
+def _value(group: bpy.types.PropertyGroup, part: Part) -> Any:
+    """The value of the key as a property alone tells it: of numbers the shortest that looks the same."""
+    use, shown = _shown(group, part)
+    if not use:
+        return None
+    inner = typing.get_args(part.type)
+    if inner and part.key.choices is not None:
+        return tuple(name for name in part.key.names() if name in shown)
+    if inner and inner[-1] is Ellipsis:
+        return _listed(part, shown)
+    if inner:
+        return tuple(_shortest(each) for each in shown)
+    if part.type in (Path, datetime):
+        if not shown.strip():
+            return None
+        return Path(bpy.path.abspath(shown)) if part.type is Path else _moment(part, shown)
+    return _shortest(shown)
+
+
+def _shortest(value: Any) -> Any:
+    return float(str(np.float32(value))) if isinstance(value, float) else value
+
+
+def _listed(part: Part, text: str) -> tuple[Any, ...]:
+    """A list that is typed in as ``1, 2.5``."""
+    try:
+        found = json.loads(f"[{text}]")
+    except ValueError:
+        raise Error(f'{label(part.name)}: "{text}" is no list; write numbers with commas') from None
+    kind = typing.get_args(part.type)[0]
+    if not all(type(each) in ((int, float) if kind is float else (kind,)) for each in found):
+        raise Error(f'{label(part.name)}: "{text}" does not list what it should: {part.key.described()}')
+    return tuple(kind(each) for each in found)
+
+
+def _moment(part: Part, text: str) -> datetime:
+    """A time that is typed in, in UTC where it names no zone."""
+    try:
+        found = datetime.fromisoformat(text.strip())
+    except ValueError:
+        reason = f'"{text}" is no date and time; write it as 2014-09-17 21:30'
+        raise Error(f"{label(part.name)}: {reason}") from None
+    return found.astimezone(UTC) if found.tzinfo else found.replace(tzinfo=UTC)
 
 
 def _choice(part: Part, first: tuple[str, str, str] | None) -> dict[str, Any]:
@@ -55,15 +235,29 @@ def _choice(part: Part, first: tuple[str, str, str] | None) -> dict[str, Any]:
     return {"items": (first, *known) if first else known, "default": first[0] if first else part.default}
 
 
+def _bounds(part: Part) -> tuple[float | None, float | None]:
+    """The least and the largest number that the property takes; what must be above 0 begins close by."""
+    key = part.key
+    above = None if key.above is None else key.above + (1 if part.type is int else 1.0e-4)
+    return key.at_least if key.at_least is not None else above, key.at_most
+
+
 def _plain(part: Part) -> tuple[Any, dict[str, Any]]:
     """What makes the property of a key without choices, and what it is given."""
-    if part.type is str:
-        return bpy.props.StringProperty, {"default": part.default}
-    if part.type is Path:
-        return bpy.props.StringProperty, {"default": str(part.default), "subtype": "DIR_PATH"}
-    if part.type is bool:
-        return bpy.props.BoolProperty, {"default": part.default}
-    make = {int: bpy.props.IntProperty, float: bpy.props.FloatProperty}[part.type]
-    low = part.key.at_least if part.key.at_least is not None else part.key.above
-    bounds = {"min": low, "max": part.key.at_most}
-    return make, {"default": part.default} | {name: at for name, at in bounds.items() if at is not None}
+    kind, inner = part.type, typing.get_args(part.type)
+    default = None if part.default is None else _as_shown(part, part.default)[1]
+    if kind is bool:
+        return bpy.props.BoolProperty, {"default": default}
+    if kind is Path:
+        subtype = "FILE_PATH" if part.default is None else "DIR_PATH"
+        return bpy.props.StringProperty, {"default": default or "", "subtype": subtype, "options": _RELATIVE}
+    if kind in (str, datetime) or (inner and inner[-1] is Ellipsis):
+        return bpy.props.StringProperty, {"default": default or ""}
+    low, high = _bounds(part)
+    options = {name: at for name, at in (("min", low), ("max", high), ("default", default)) if at is not None}
+    if kind is float:
+        options |= {"precision": 3, "unit": _UNITS.get(part.key.unit, "NONE")}
+    if inner:
+        make = {int: bpy.props.IntVectorProperty, float: bpy.props.FloatVectorProperty}[inner[0]]
+        return make, options | {"size": len(inner)}
+    return {int: bpy.props.IntProperty, float: bpy.props.FloatProperty}[kind], options

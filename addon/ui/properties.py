@@ -1,17 +1,18 @@
-"""What the panel remembers in the .blend file."""
+"""What the panel remembers in the .blend file: the settings of a scene file, and what is its own."""
 
 from __future__ import annotations
 
 import bpy
 
-from ..shot.settings import Render, Smoke
-from . import keys, preferences, render, run, time
+from ..shot.settings import Settings
+from . import camera_list, keys, render, run, scene_file, sections, time
 
 _BLEND_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
+_SETTINGS = sections.properties(sections.single() + sections.sections(), Settings)
 
 
-class FIRETWIN_PG_scene(bpy.types.PropertyGroup):
-    """Choices of the panel, and what is known about the run"""
+class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annotations__": _SETTINGS})):
+    """The settings of the scene, choices of the panel, and what is known about the run"""
 
     run: bpy.props.StringProperty(
         name="Run",
@@ -22,36 +23,36 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup):
     )
     scene_file: bpy.props.StringProperty(
         name="Scene file",
-        description="TOML file with the time window, the cameras and the settings. "
-        "Without one the whole run is shown by two cameras that see all of the fire",
+        description="TOML file that the settings came from. Choosing one fills the whole panel",
         subtype="FILE_PATH",
         options=_BLEND_RELATIVE,
-        update=run.chosen,
+        update=run.imported,
     )
-    shown_run: bpy.props.StringProperty(
-        name="Run", description="The run that the scene file names", get=run.shown_run, options=set()
+    cache: keys.prop(
+        Settings,
+        "cache",
+        description="Smoke volumes are kept here and used again; empty: in the output folder, or "
+        "with Firetwin's own files while the .blend file is not saved",
+        default="",
+        options=_BLEND_RELATIVE,
     )
+    cameras: bpy.props.CollectionProperty(type=camera_list.FIRETWIN_PG_camera, name="Cameras")
+    camera_index: bpy.props.IntProperty(name="Camera", description="The camera chosen in the list")
     output: bpy.props.StringProperty(
         name="Output",
-        description="Folder for pictures and films. "
-        "Without a scene file the smoke volumes are kept here too, in cache",
+        description="Folder for pictures and films",
         subtype="DIR_PATH",
         default="//firetwin",
         options=_BLEND_RELATIVE,
     )
+    usual_cameras: bpy.props.StringProperty(options={"HIDDEN"})
     facts: bpy.props.StringProperty(options={"HIDDEN"})
     problem: bpy.props.StringProperty(options={"HIDDEN"})
-    smoke: bpy.props.BoolProperty(
+    bake_smoke: bpy.props.BoolProperty(
         name="Smoke of every frame",
         description="Write the smoke of all frames first, which can take minutes. "
         "Without it the scene is there sooner, and Render writes the smoke that it needs",
         default=True,
-    )
-    method: keys.prop(
-        Smoke,
-        "method",
-        (*preferences.AS_FILE[:2], "As the scene file says; a quick preview where there is none"),
-        description="How smoke is made where the run has none of its own",
     )
     first_time: bpy.props.StringProperty(options={"HIDDEN"})
     seconds_per_frame: bpy.props.FloatProperty(options={"HIDDEN"})
@@ -69,14 +70,13 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup):
         set=time.go_to,
         options=set(),
     )
-    engine: keys.prop(Render, "engine", preferences.AS_FILE)
-    camera: bpy.props.EnumProperty(name="Camera", description="Cameras that film", items=render.camera_items)
-    scene_passes: bpy.props.BoolProperty(
-        name="Scene file's passes",
-        description="Record what the scene file says for each camera, instead of the passes chosen here",
-        default=True,
+    go_to: bpy.props.StringProperty(
+        name="Go to",
+        description="Latitude and longitude (38.82 -120.55), the name of an object or a place, a date and "
+        "time (2014-09-17 15:30, in the zone of the film), or part of what is reported of a moment",
+        options={"SKIP_SAVE"},
     )
-    passes: keys.prop(Render, "passes", default={"rgb"})
+    camera: bpy.props.EnumProperty(name="Camera", description="Cameras that film", items=render.camera_items)
     which: bpy.props.EnumProperty(
         name="Frames",
         description="Which frames to render",
@@ -96,11 +96,12 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup):
     )
 
 
-def copy(source: FIRETWIN_PG_scene, target: FIRETWIN_PG_scene) -> None:
-    """Give another scene's panel the same choices and facts, while a work goes on."""
-    for prop in source.bl_rna.properties:
-        if not prop.is_readonly and prop.identifier not in ("name", "model_time"):
-            setattr(target, prop.identifier, getattr(source, prop.identifier))
+def copy(source: bpy.types.Scene, target: bpy.types.Scene) -> None:
+    """Give another scene's panel the same settings, choices and facts, while a work goes on."""
+    scene_file.fill(target, scene_file.settings(source))
+    own = (name for name in FIRETWIN_PG_scene.__annotations__ if name not in ("cameras", "model_time"))
+    for name in own:
+        setattr(target.firetwin, name, getattr(source.firetwin, name))
 
 
-classes = (FIRETWIN_PG_scene,)
+classes = (*sections.groups(), *camera_list.classes, FIRETWIN_PG_scene)

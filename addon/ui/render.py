@@ -8,8 +8,7 @@ from pathlib import Path
 import bpy
 
 from ..progress import count
-from ..shot import passes
-from . import job, run, working
+from . import job, order, run, scene_file, working
 from .job import Away, Steps
 from .text import paragraph
 from .working import Working
@@ -19,20 +18,12 @@ _items: list[tuple[str, str, str]] = []  # Blender keeps no reference of its own
 
 
 def camera_items(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> list[tuple[str, str, str]]:
-    """All cameras, or one that the run's facts name."""
-    cameras = run.read(settings.facts)["cameras"] if settings.facts else []
+    """All cameras, or one of the list."""
     _items[:] = [
         ("*", "All cameras", "Every camera of the scene"),
-        *((name, name, f"The camera {name}") for name in cameras),
+        *((item.name, item.name, f"The camera {item.name}") for item in settings.cameras),
     ]
     return _items
-
-
-def asked_passes(settings: bpy.types.PropertyGroup) -> str | None:
-    """Names of the chosen passes; None: those of the scene file."""
-    if settings.scene_file and settings.scene_passes:
-        return None
-    return ",".join(name for name in passes.known() if name in settings.passes)
 
 
 class FIRETWIN_OT_render(Working, bpy.types.Operator):
@@ -42,18 +33,15 @@ class FIRETWIN_OT_render(Working, bpy.types.Operator):
     bl_label = "Render"
     bl_description = (
         "Render pictures, and films of what is finished, into the output folder, as the command line does: "
-        "from the run and the scene file, not from what was changed by hand in this window"
+        "from the run and the settings here, not from what was changed by hand in this window"
     )
     bl_options = {"REGISTER"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         settings = context.scene.firetwin
-        if run.source(settings) and not run.output(settings):
+        if settings.run and not scene_file.output(settings):
             cls.poll_message_set(NO_OUTPUT)
-            return False
-        if run.source(settings) and asked_passes(settings) == "":
-            cls.poll_message_set("Choose at least one pass")
             return False
         return run.ready(cls, context)
 
@@ -63,9 +51,9 @@ class FIRETWIN_OT_render(Working, bpy.types.Operator):
 
         settings = context.scene.firetwin
         frames = {"frame": str(context.scene.frame_current), "list": settings.frame_list, "all": None}
-        out = Path(run.output(settings))
+        out = Path(scene_file.output(settings))
         camera = None if settings.camera == "*" else settings.camera
-        asked = render.Asked(out, frames[settings.which], camera, asked_passes(settings), settings.resume)
+        asked = render.Asked(out, frames[settings.which], camera, resume=settings.resume)
         chosen = run.choice(settings)
         made = yield Away("starting Blender", functools.partial(render.run, chosen, asked))
         return f"Rendered {count(made, 'picture')} to {out}" if made else f"All is finished in {out}"
@@ -79,7 +67,8 @@ class FIRETWIN_PT_render(bpy.types.Panel):
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Firetwin"
-    bl_order = 3
+    bl_options = {"DEFAULT_CLOSED"}
+    bl_order = order.RENDER
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.firetwin
@@ -88,15 +77,9 @@ class FIRETWIN_PT_render(bpy.types.Panel):
         column = layout.column()
         column.enabled = job.Job.current is None
         column.prop(settings, "output")
-        column.prop(settings, "engine")
+        column.prop(settings, "cache", placeholder="In the output")
         column.prop(settings, "camera")
         column.prop(settings, "resume")
-        if settings.scene_file:
-            column.prop(settings, "scene_passes")
-        chosen = column.row(align=True)
-        chosen.use_property_split = False
-        chosen.enabled = not (settings.scene_file and settings.scene_passes)
-        chosen.prop(settings, "passes", expand=True)
         row = column.row(align=True)
         row.use_property_split = False
         row.prop(settings, "which", expand=True)
@@ -105,7 +88,7 @@ class FIRETWIN_PT_render(bpy.types.Panel):
         row = layout.row(align=True)
         row.scale_y = 1.3
         working.button(row, FIRETWIN_OT_render, "RENDER_STILL")
-        out = run.output(settings)
+        out = scene_file.output(settings)
         folder = row.row(align=True)
         folder.enabled = bool(out)
         folder.operator("wm.path_open", text="", icon="FILE_FOLDER").filepath = out

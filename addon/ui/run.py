@@ -1,29 +1,42 @@
-"""Choose a run and a scene file, and see what is in them."""
+"""Choose a run or a scene file, and see what is in it."""
 
 from __future__ import annotations
 
 import functools
 import json
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
 import bpy
 
 from ..blender import owned
+from ..shot import file
 from ..shot.choice import Choice
-from . import job, preferences, working
+from . import by_hand, camera_list, job, maps, preferences, scene_file, working
 from .job import Away, Steps
 from .text import labelled, paragraph
 from .working import Working
 
 
 def chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """Another run folder or scene file: look into it."""
+    """Another run folder: look into it."""
     if job.Job.current is not None:
         return
     settings.facts = settings.problem = ""
-    if source(settings):
+    if settings.run:
         _inspect(settings)
+    working.redraw()
+
+
+def imported(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+    """Another scene file: fill the panel from it."""
+    if job.Job.current is not None or not settings.scene_file:
+        return
+    try:
+        scene_file.fill(settings.id_data, file.read(bpy.path.abspath(settings.scene_file)))
+    except Exception as error:
+        settings.facts, settings.problem = "", job.words(error)
     working.redraw()
 
 
@@ -36,55 +49,23 @@ def _inspect(settings: bpy.types.PropertyGroup) -> None:
         settings.problem = settings.problem or str(error)
 
 
-def source(settings: bpy.types.PropertyGroup) -> str:
-    """The scene file, else the run folder that is chosen."""
-    return settings.scene_file or settings.run
-
-
-def shown_run(settings: bpy.types.PropertyGroup) -> str:
-    """The run of the scene file, once that is read."""
-    return read(settings.facts)["run"] if settings.scene_file and settings.facts else ""
-
-
-def absolute(path: str) -> str:
-    """A path of the panel as one for the system."""
-    return bpy.path.abspath(path) if path else ""
-
-
-def output(settings: bpy.types.PropertyGroup) -> str:
-    """The output folder; empty while it hangs on a .blend file that is not saved."""
-    if settings.output.startswith("//") and not bpy.data.filepath:
-        return ""
-    return absolute(settings.output)
-
-
 def choice(settings: bpy.types.PropertyGroup) -> Choice:
-    """What the panel and the preferences choose; a scene file's run and cache are its own."""
-    scene_file, folder = absolute(settings.scene_file), output(settings)
-    own = {
-        name: "" if chosen == preferences.AS_FILE[0] else chosen
-        for name, chosen in (("engine", settings.engine), ("smoke", settings.method))
-    }
-    if scene_file:
-        return Choice(scene_file, device=preferences.device(), **own)
-    cache = str(Path(folder) / "cache") if folder else ""
-    return Choice(run=absolute(settings.run), cache=cache, device=preferences.device(), **own)
+    """What the panel and the preferences choose, with what was done to cameras by hand."""
+    by_hand.pull(settings.id_data)
+    return Choice(str(scene_file.written(settings.id_data)), device=preferences.device())
 
 
 def ready(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Whether there is a run and nothing else goes on; says what is missing."""
     settings = context.scene.firetwin
-    if not source(settings):
-        cls.poll_message_set("Choose a run folder or a scene file first")
-        return False
-    if not settings.scene_file and not output(settings):
-        cls.poll_message_set("Save the .blend file or choose an output folder first: the smoke is kept there")
+    if not settings.run:
+        cls.poll_message_set("Open a run or a scene file first")
         return False
     return working.free(cls)
 
 
 class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
-    """Look into scene file and run again: grids, extent, times, burned area, warnings"""
+    """Look into the run again: grids, extent, times, burned area, warnings"""
 
     bl_idname = "firetwin.inspect"
     bl_label = "Read run"
@@ -92,39 +73,92 @@ class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not source(context.scene.firetwin):
-            cls.poll_message_set("Choose a run folder or a scene file first")
+        if not context.scene.firetwin.run:
+            cls.poll_message_set("Open a run or a scene file first")
             return False
         return working.free(cls)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Gather in a thread; then write down."""
-        uid, settings = context.scene.session_uid, context.scene.firetwin
-        settings.problem = settings.facts = ""
-        chosen = choice(settings)
-        try:
-            found = yield Away("reading the run", lambda **_: facts(chosen))
-        except Exception as error:
-            owned.scene(uid).firetwin.problem = job.words(error)
-            raise
-        owned.scene(uid).firetwin.facts = json.dumps(found)
-        return f"Read {found['name']}"
+        """Gather, and see whether the settings fit the run."""
+        return (yield from look(context.scene.session_uid))
 
 
-def facts(chosen: Choice) -> dict[str, Any]:
-    """What the panel shows of a choice: name, folder, rows of label and text, warnings and cameras."""
-    from ..run import info
+def look(uid: int) -> Steps:
+    """Gather in a thread, then write down in the scene with this `session_uid`."""
+    settings = owned.scene(uid).firetwin
+    settings.problem = settings.facts = ""
+    folder, zone = Path(bpy.path.abspath(settings.run)), settings.time.zone
+    try:
+        found, images = yield Away("reading the run", lambda **_: facts(folder, zone))
+        _write_down(owned.scene(uid).firetwin, found)
+        maps.show(owned.scene(uid).firetwin.run, images)
+        chosen = choice(owned.scene(uid).firetwin)
+        yield Away("reading the run", lambda **_: chosen.shot())
+    except Exception as error:
+        owned.scene(uid).firetwin.problem = job.words(error)
+        raise
+    return f"Read {found['name']}"
 
-    shot = chosen.shot()
-    found = info.gather(shot.run, shot.settings.time.zone)
-    return {
+
+def _write_down(settings: bpy.types.PropertyGroup, found: dict[str, Any]) -> None:
+    """Keep the facts; cameras that nobody chose go, and those for this run come."""
+    here = camera_list.text(camera_list.cameras(settings))
+    settings.facts = json.dumps(found)
+    if here not in ("", settings.usual_cameras):
+        return
+    if not here and not settings.scene_file:
+        settings.smoke.method = "puffs"  # to solve the air of a whole run can take a night
+    camera_list.fill(settings, camera_list.listed(found["cameras"]))
+    settings.usual_cameras = found["cameras"]
+
+
+def facts(folder: Path, zone: str) -> tuple[dict[str, Any], maps.Images]:
+    """What the panel shows of a run: name, rows, warnings, dated moments and cameras; and its maps."""
+    from ..run import info, readers, thumbnails
+    from ..shot import overview
+
+    run = readers.open(folder)
+    found = info.gather(run, zone)
+    told = {
         "name": found["name"],
-        "run": str(shot.settings.run),
         "synthetic": found["synthetic"],
         "rows": info.brief(found),
         "warnings": found["warnings"],
-        "cameras": [camera.name for camera in shot.settings.cameras],
+        "first": found["times"]["first"],
+        "last": found["times"]["last"],
+        "moments": _moments(found),
+        "burned": _burned(found),
+        "cameras": camera_list.text(overview.cameras(run)),
     }
+    return told, thumbnails.draw(run)
+
+
+def _moments(found: dict[str, Any]) -> list[tuple[str, str]]:
+    """Dated moments: where the run begins and ends, and what was reported between."""
+    from ..run import info
+
+    reports = (
+        (each["time"], f"{each['reported'] / info.ACRE:,.0f} acres reported")
+        for each in found["reported"]
+        if each["run"] is not None
+    )
+    times = found["times"]
+    return [(times["first"], "the run begins"), *reports, (times["last"], "the run ends")]
+
+
+def _burned(found: dict[str, Any]) -> list[tuple[str, str, str]]:
+    """Burned areas: when, what was reported, and the run's with its difference."""
+    from ..run import info, times
+
+    return [
+        (
+            times.text(datetime.fromisoformat(each["time"]), found["zone"]),
+            f"{each['reported'] / info.ACRE:,.0f} acres",
+            f"{each['run'] / info.ACRE:,.0f} acres ({each['difference']:+.1%})",
+        )
+        for each in found["reported"]
+        if each["run"] is not None
+    ]
 
 
 @functools.lru_cache(maxsize=8)
@@ -147,19 +181,29 @@ class FIRETWIN_PT_run(bpy.types.Panel):
         settings, layout = context.scene.firetwin, self.layout
         column = layout.column()
         column.enabled = job.Job.current is None
-        row = labelled(column, "Scene file")
-        row.prop(settings, "scene_file", text="", placeholder="Optional")
-        row = labelled(column, "Run")
-        if settings.scene_file:
-            line = row.row(align=True)
-            line.enabled = False
-            line.prop(settings, "shown_run", text="")
-        else:
-            row.prop(settings, "run", text="")
+        if not settings.run:
+            _hint(context, column)
+        row = labelled(column, "Run", 0.2)
+        row.prop(settings, "run", text="")
         row.operator(FIRETWIN_OT_inspect.bl_idname, text="", icon="FILE_REFRESH")
+        row = labelled(column, "Scene", 0.2)
+        row.prop(settings, "scene_file", text="", placeholder="Optional")
+        row.operator("firetwin.export", text="", icon="EXPORT")
         if settings.problem:
             box = layout.box().column(align=True)
             paragraph(context, box, settings.problem, "ERROR")
+            working.copy_button(box, settings.problem)
+        maps.draw(layout, settings.run)
+
+
+def _hint(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
+    """What to do first."""
+    paragraph(
+        context, layout.column(align=True), "Open a fire model's run, or try the made-up King Fire.", "INFO"
+    )
+    row = layout.column(align=True)
+    row.operator("firetwin.open", text="Open run...", icon="FILEBROWSER")
+    row.operator("firetwin.sample", icon="LIGHT_SUN")
 
 
 class FIRETWIN_PT_facts(bpy.types.Panel):

@@ -29,7 +29,7 @@ def prepare(scene: bpy.types.Scene, part: bool) -> tuple[int, str]:
         return scene.session_uid, ""
     if not vacant(scene):
         made = owned.new_scene()
-        properties.copy(scene.firetwin, made.firetwin)
+        properties.copy(scene, made)
         _show(scene, made)
         return made.session_uid, f"in a new scene, {made.name}; {scene.name} stays as it is"
     gone = _clear(scene)

@@ -7,9 +7,9 @@ import textwrap
 import bpy
 
 
-def labelled(layout: bpy.types.UILayout, label: str) -> bpy.types.UILayout:
-    """A row after a label that takes less room than Blender's own."""
-    line = layout.split(factor=0.3)
+def labelled(layout: bpy.types.UILayout, label: str, share: float = 0.3) -> bpy.types.UILayout:
+    """A row after a label that takes this share of the width, most often less than Blender's own."""
+    line = layout.split(factor=share)
     line.label(text=label)
     return line.row(align=True)
 

@@ -1,13 +1,18 @@
-"""The model time of the frame that is shown."""
+"""Which moments of the run the frames show, and the one that is shown now."""
 
 from __future__ import annotations
 
-from datetime import datetime, timedelta
+import functools
+import zoneinfo
+from datetime import UTC, datetime, timedelta
 
 import bpy
 
 from ..run import times
+from ..shot.schema import parts
+from ..shot.settings import Time
 from ..shot.shot import Shot
+from . import job, keys, rows, run
 from .text import labelled
 
 
@@ -43,32 +48,174 @@ def moment(settings: bpy.types.PropertyGroup) -> datetime:
     )
 
 
+class FIRETWIN_OT_jump(bpy.types.Operator):
+    """Show the frame nearest to this moment"""
+
+    bl_idname = "firetwin.jump"
+    bl_label = "Jump to a moment"
+    bl_options = {"INTERNAL"}
+
+    moment: bpy.props.StringProperty(options={"SKIP_SAVE"})
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not context.scene.firetwin.first_time:
+            cls.poll_message_set("Build the scene first")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        settings = context.scene.firetwin
+        frame = frame_of(settings, datetime.fromisoformat(self.moment))
+        if not 1 <= round(frame) <= settings.frames:
+            self.report(
+                {"WARNING"}, "The frames do not reach that moment; widen Start and End, then build again"
+            )
+        context.scene.frame_current = min(max(round(frame), 1), settings.frames)
+        return {"FINISHED"}
+
+
+class FIRETWIN_OT_window(bpy.types.Operator):
+    """Let the frames begin or end at this moment of the run"""
+
+    bl_idname = "firetwin.window"
+    bl_label = "Begin or end here"
+    bl_options = {"UNDO", "INTERNAL"}
+
+    moment: bpy.props.StringProperty(options={"SKIP_SAVE"})
+    key: bpy.props.StringProperty(options={"SKIP_SAVE"})
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        part = next(part for part in parts(Time) if part.name == self.key)
+        keys.put(context.scene.firetwin.time, part, datetime.fromisoformat(self.moment).astimezone(UTC))
+        return {"FINISHED"}
+
+
+def frame_of(settings: bpy.types.PropertyGroup, moment: datetime) -> float:
+    """Frame that shows a moment, also before the first and after the last."""
+    since = (moment - datetime.fromisoformat(settings.first_time)).total_seconds()
+    return 1 + since / (settings.seconds_per_frame or 1.0)
+
+
+def moments(settings: bpy.types.PropertyGroup) -> list[list[str]]:
+    """Dated moments of the run: each as ISO text and as what it is."""
+    return run.read(settings.facts)["moments"] if settings.facts else []
+
+
+class FIRETWIN_MT_moments(bpy.types.Menu):
+    """Dated moments of the run"""
+
+    bl_idname = "FIRETWIN_MT_moments"
+    bl_label = "Jump to"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = context.scene.firetwin
+        for moment, words in moments(settings):
+            text = f"{_local(datetime.fromisoformat(moment), settings.time.zone)}, {words}"
+            self.layout.operator(FIRETWIN_OT_jump.bl_idname, text=text).moment = moment
+
+
+class FIRETWIN_MT_start(bpy.types.Menu):
+    """The first frame at a dated moment of the run"""
+
+    bl_idname = "FIRETWIN_MT_start"
+    bl_label = "Begin at"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        _ends(self.layout, context.scene.firetwin, "start")
+
+
+class FIRETWIN_MT_end(bpy.types.Menu):
+    """The last frame at a dated moment of the run"""
+
+    bl_idname = "FIRETWIN_MT_end"
+    bl_label = "End at"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        _ends(self.layout, context.scene.firetwin, "end")
+
+
+def _ends(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, key: str) -> None:
+    """Dated moments, each as a button that lets the window begin or end there."""
+    for moment, words in moments(settings):
+        text = f"{_local(datetime.fromisoformat(moment), settings.time.zone)}, {words}"
+        button = layout.operator(FIRETWIN_OT_window.bl_idname, text=text)
+        button.moment, button.key = moment, key
+
+
+def _local(moment: datetime, zone: str) -> str:
+    try:
+        return times.text(moment, zone)
+    except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):  # typed in, and not yet right
+        return f"{moment.day} {moment:%b %Y %H:%M} UTC"
+
+
+@functools.lru_cache(maxsize=32)
+def _end(text: str, other: str) -> datetime | None:
+    """A moment of the window: what is typed in, else the run's own; None where neither is one."""
+    try:
+        found = datetime.fromisoformat((text or other).strip())
+    except ValueError:
+        return None
+    return found if found.tzinfo else found.replace(tzinfo=UTC)
+
+
 class FIRETWIN_PT_time(bpy.types.Panel):
-    """The model time of the frame that is shown"""
+    """Which moments of the run the frames show, and which one is shown now"""
 
     bl_idname = "FIRETWIN_PT_time"
-    bl_label = "Model Time"
+    bl_label = "Time"
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Firetwin"
     bl_order = 2
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return bool(context.scene.firetwin.first_time)
-
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.firetwin, self.layout
-        now = moment(settings)
-        local = times.text(now, settings.zone)
-        layout.prop(settings, "model_time", text=local.split(maxsplit=3)[-1], slider=True)
-        column = layout.column(align=True)
-        for label, text in (
-            ("Local", local),
-            ("UTC", f"{now.day} {now:%b %Y %H:%M}"),
-            ("Frame", f"{context.scene.frame_current} of {settings.frames}"),
-        ):
-            labelled(column, label).label(text=text)
+        if settings.first_time:
+            _clock(layout, settings)
+        facts = run.read(settings.facts) if settings.facts else {"first": "", "last": ""}
+        ends = []
+        for name, other, menu in (("start", "first", FIRETWIN_MT_start), ("end", "last", FIRETWIN_MT_end)):
+            moment = _end(getattr(settings.time, name), facts[other])
+            ends.append(moment)
+            column = layout.column(align=True)
+            column.enabled = job.Job.current is None
+            typed = bool(getattr(settings.time, name))
+            told = _local(moment, settings.time.zone) if moment else "no date and time" if typed else ""
+            column.label(text=f"{keys.label(name)}: {told}" if told else keys.label(name))
+            row = column.row(align=True)
+            row.prop(settings.time, name, text="", placeholder=f"The run's {other} (UTC)")
+            row.menu(menu.bl_idname, text="", icon="DOWNARROW_HLT")
+        for part in parts(Time):
+            if part.name not in ("start", "end"):
+                rows.key(layout, settings.time, part, "time")
+        if None not in ends and settings.time.frames > 1:
+            step = (ends[1] - ends[0]).total_seconds() / (settings.time.frames - 1)
+            speed = step * settings.time.fps
+            layout.label(text=f"{step:,.7g} s a frame, {speed:,.0f} times as fast")
 
 
-classes = (FIRETWIN_PT_time,)
+def _clock(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
+    """The moment that is shown, in local time and UTC, and where to go from it."""
+    now = moment(settings)
+    local = times.text(now, settings.zone)
+    layout.prop(settings, "model_time", text=local.split(maxsplit=3)[-1], slider=True)
+    column = layout.column(align=True)
+    for label, text in (
+        ("Local", local),
+        ("UTC", f"{now.day} {now:%b %Y %H:%M}"),
+        ("Frame", f"{settings.id_data.frame_current} of {settings.frames}"),
+    ):
+        labelled(column, label).label(text=text)
+    layout.menu(FIRETWIN_MT_moments.bl_idname)
+
+
+classes = (
+    FIRETWIN_OT_jump,
+    FIRETWIN_OT_window,
+    FIRETWIN_MT_moments,
+    FIRETWIN_MT_start,
+    FIRETWIN_MT_end,
+    FIRETWIN_PT_time,
+)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import bpy
 
 from ..jobs.worker import StoppedError
-from . import text
+from . import job, text
 from .job import Ended, Job, Steps, Told, words
 
 _TICK = 0.1  # s
@@ -189,6 +189,13 @@ def message(
     elif Job.current is None:
         for each in told(operator):
             text.paragraph(context, column, each.text, _ICONS[each.level])
+        if wrong := [each.text for each in told(operator) if each.level == "ERROR"]:
+            copy_button(column, "\n".join(wrong))
+
+
+def copy_button(layout: bpy.types.UILayout, message: str) -> None:
+    """A button that copies what went wrong, with what a helper has to know."""
+    layout.operator(FIRETWIN_OT_copy.bl_idname, icon="COPYDOWN").message = message
 
 
 def told(operator: type[bpy.types.Operator]) -> tuple[Told, ...]:
@@ -216,4 +223,35 @@ class FIRETWIN_OT_stop(bpy.types.Operator):
         return {"FINISHED"}
 
 
-classes = (FIRETWIN_OT_stop,)
+class FIRETWIN_OT_copy(bpy.types.Operator):
+    """Copy the message with the versions of Firetwin, Blender and the system, for asking for help"""
+
+    bl_idname = "firetwin.copy"
+    bl_label = "Copy details"
+    bl_options = {"INTERNAL"}
+
+    message: bpy.props.StringProperty(options={"SKIP_SAVE"})
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        context.window_manager.clipboard = details(self.message)
+        self.report({"INFO"}, "Copied the details")
+        return {"FINISHED"}
+
+
+def details(message: str) -> str:
+    """A message with the versions of what runs here, and the traceback of what was not expected."""
+    import platform
+
+    import firetwin_core
+
+    return "\n".join(
+        (
+            message,
+            f"Firetwin {firetwin_core.__version__}, Blender {bpy.app.version_string}, "
+            f"Python {platform.python_version()}, {platform.platform()}",
+            *job.unexpected,
+        )
+    )
+
+
+classes = (FIRETWIN_OT_stop, FIRETWIN_OT_copy)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from firetwin.run import areas, blocks, content, info, maps, remembered
+from firetwin.run import areas, blocks, content, info, maps, remembered, thumbnails
 from firetwin_core import run as runs
 from PIL import Image
 from small_run import FX, FY, small_fields
@@ -116,6 +116,26 @@ def test_denser_fuel_is_greener_and_stronger_fire_redder():
     assert (np.diff(fire[:, 1]) < 0).all()  # less and less green in the yellow, down to red
     assert fire[0].min() > 0.6
     assert fire[-1][0] > 4 * fire[-1][1]
+
+
+def test_thumbnails_are_north_up_and_in_proportion(make_run):
+    wide = runs.open(make_run())
+    squares = thumbnails.draw(wide)
+    assert {picture.shape for picture in squares.values()} == {(thumbnails.SIDE, thumbnails.SIDE, 4)}
+    flux = thumbnails.strongest(wide)
+    hottest = np.unravel_index(flux.argmax(), flux.shape)
+    colours, covered = squares["intensity"][..., :3], squares["intensity"][..., 3]
+    most = thumbnails.coloured(np.ones(1), thumbnails.INTENSITY)
+    row, column = np.isclose(colours, most).all(-1).nonzero()
+    assert row.size
+    rows, columns = (np.ptp(np.nonzero(covered.any(axis))[0]) + 1 for axis in (1, 0))
+    north = np.sort(wide.latitude).searchsorted(wide.latitude[hottest[0]])
+    east = np.sort(wide.longitude).searchsorted(wide.longitude[hottest[1]])
+    first_row, first_column = (covered.any(axis).argmax() for axis in (1, 0))
+    assert ((row - first_row) * len(wide.latitude) // rows == north).all()
+    assert ((column - first_column) * len(wide.longitude) // columns == east).all()
+    shape = np.ptp(wide.latitude), np.ptp(wide.longitude) * np.cos(np.radians(wide.latitude.mean()))
+    assert rows / columns == pytest.approx(shape[0] / shape[1], rel=0.02)
 
 
 def test_maps_of_a_single_cell(make_run, tmp_path):

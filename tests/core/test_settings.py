@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[2]
 DRONE, SATELLITE = kinds()["drone"], kinds()["satellite"]
 ASPECTS = {
     *("time", "ground", "forest", "fire", "smoke", "light", "camera"),
-    *("picture", "grain", "thermal", "film"),
+    *("picture", "grain", "thermal", "film", "passes"),
 }
 
 SETTINGS = Settings(

@@ -56,6 +56,8 @@ def _drawn() -> list[str]:
     for name in dir(bpy.types):
         functions = getattr(getattr(getattr(bpy.types, name), "draw", None), "_draw_funcs", [])
         for function in functions:
+            if function.__module__.startswith("bl_ui"):  # Blender's own, first in a list once one is added
+                continue
             yield f"{name}: {function.__module__}.{getattr(function, '__qualname__', '?')}"
 
 

@@ -147,8 +147,73 @@ def panel() -> Iterator[object]:
     yield idle
     yield 3
     check(settings().facts != "", "the run is known")
-    check(settings().shown_run.endswith("sample"), f"the scene file's run is shown: {settings().shown_run}")
+    check(settings().run.endswith("sample"), f"the scene file's run is shown: {settings().run}")
     picture("05-run")
+
+
+def ui() -> object:
+    return sys.modules[f"{MODULE}.ui"]
+
+
+def opened(cls: type) -> type:
+    """A panel like another one, but open: Blender keeps which are closed by their names."""
+    own = {name: value for name, value in vars(cls).items() if name[:2] != "__" and name != "bl_rna"}
+    own |= {"bl_idname": f"{cls.bl_idname}_open", "bl_options": set()}
+    if "bl_parent_id" in own:
+        own["bl_parent_id"] += "_open"
+    return type(own["bl_idname"], (bpy.types.Panel,), own)
+
+
+def parent(cls: type, known: list[type]) -> type | None:
+    return next((each for each in known if each.bl_idname == getattr(cls, "bl_parent_id", "")), None)
+
+
+def sections() -> Iterator[object]:
+    """Every panel by itself and open, and the menus."""
+    known = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
+    for each in reversed(known):
+        bpy.utils.unregister_class(each)
+    for top in (each for each in known if not hasattr(each, "bl_parent_id")):
+        shown = [opened(each) for each in known if top in (each, parent(each, known))]
+        for each in shown:
+            bpy.utils.register_class(each)
+        yield 0.5
+        tab()
+        yield 1.5
+        picture(f"20-panel-{top.bl_label.lower().replace(' ', '-')}")
+        for each in reversed(shown):
+            bpy.utils.unregister_class(each)
+    for each in known:
+        bpy.utils.register_class(each)
+    yield 1
+    tab()
+    for name in ("TOPBAR_MT_file_import", "VIEW3D_MT_add", "FIRETWIN_MT_start", "FIRETWIN_MT_parts"):
+        with bpy.context.temp_override(**here()):
+            bpy.ops.wm.call_menu(name=name)
+        yield 1
+        picture(f"21-menu-{name.lower()}")
+        keys("Escape")
+        yield 1
+
+
+def quality() -> Iterator[object]:
+    """A step of quality, a setting and its mark; the exported file brings the same back."""
+    before = settings().render.samples
+    call(bpy.ops.firetwin.quality, level="final")
+    yield 1
+    check(settings().render.samples == 24, f"samples {before} -> {settings().render.samples}")
+    with bpy.context.temp_override(**here()):
+        bpy.ops.firetwin.export("EXEC_DEFAULT", filepath=str(FOLDER / "exported.toml"))
+    call(bpy.ops.firetwin.reset, section="render", key="samples")
+    yield 1
+    call(bpy.ops.firetwin.open, filepath=str(FOLDER / "exported.toml"))
+    yield 1
+    yield idle
+    check(settings().render.samples == 24, "the exported scene file brings it back")
+    settings().scene_file = str(FOLDER / "scene.toml")
+    yield 1
+    yield idle
+    yield 1
 
 
 def build() -> Iterator[object]:
@@ -215,6 +280,40 @@ def parts() -> Iterator[object]:
     yield 2
 
 
+def look() -> Iterator[object]:
+    """Solid view, material preview and the ground's nodes."""
+    shading = view().spaces.active.shading
+    check(shading.color_type == "VERTEX", f"the solid view shows the colours of meshes: {shading.color_type}")
+    for name, whole, kind, seconds in (
+        ("whole", True, "SOLID", 4),
+        ("camera", False, "SOLID", 4),
+        ("camera", False, "MATERIAL", 90),  # without a GPU, compiling the shaders takes this long
+    ):
+        call(bpy.ops.firetwin.view, whole=whole)
+        shading.type = kind
+        yield seconds
+        picture(f"19-{name}-{kind.lower()}")
+    shading.type = "SOLID"
+    ground = bpy.context.scene.objects["Firetwin Ground"]
+    bpy.context.view_layer.objects.active = ground
+    area = view()
+    area.ui_type = "ShaderNodeTree"
+    yield 2
+    picture("19-material-nodes")
+    group = next(node for node in ground.active_material.node_tree.nodes if node.type == "GROUP")
+    area.spaces.active.path.append(group.node_tree, node=group)
+    yield 2
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    window = bpy.context.window_manager.windows[0]
+    with bpy.context.temp_override(window=window, area=area, region=region):
+        bpy.ops.node.view_all()
+    yield 2
+    picture("19-ground-nodes")
+    area.ui_type = "VIEW_3D"
+    call(bpy.ops.firetwin.view, whole=False)
+    yield 2
+
+
 def scrub() -> Iterator[object]:
     settings().model_time = 1.0
     yield 4
@@ -230,8 +329,8 @@ def scrub() -> Iterator[object]:
 
 def render() -> Iterator[object]:
     """Debian builds Cycles without NanoVDB: it draws no volume grid, not even Blender's own. EEVEE does."""
-    settings().engine, settings().output = "eevee", str(FOLDER / "pictures")
-    settings().scene_passes, settings().passes = False, {"rgb"}
+    settings().output = str(FOLDER / "pictures")
+    settings().render.engine, settings().render.passes = "eevee", {"rgb"}
     call(bpy.ops.firetwin.render)
     yield 5
     picture("10-rendering")
@@ -244,6 +343,7 @@ def render() -> Iterator[object]:
     settings().scene_file, settings().output = str(FOLDER / "plain.toml"), str(FOLDER / "plain")
     yield 0.5
     yield idle
+    settings().render.engine, settings().render.passes = "eevee", {"rgb"}
     call(bpy.ops.firetwin.render)
     yield 1
     yield idle
@@ -253,6 +353,7 @@ def render() -> Iterator[object]:
     settings().scene_file, settings().output = str(FOLDER / "scene.toml"), str(FOLDER / "stopped")
     yield 0.5
     yield idle
+    settings().render.engine = "eevee"
     call(bpy.ops.firetwin.render)
     yield 8
     check(busy(), "rendering again")
@@ -281,6 +382,74 @@ def mean_difference(one: Path, other: Path) -> float:
         pixels.append(np.array(image.pixels[:]))
         bpy.data.images.remove(image)
     return float(np.abs(pixels[0] - pixels[1]).mean())
+
+
+def alone(name: str, top: str) -> Iterator[object]:
+    """A picture of one panel and those in it, open."""
+    known = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
+    shown = [opened(each) for each in known if top in (each.bl_idname, getattr(each, "bl_parent_id", ""))]
+    for each in reversed(known):
+        bpy.utils.unregister_class(each)
+    for each in shown:
+        bpy.utils.register_class(each)
+    yield 0.5
+    tab()
+    yield 2
+    picture(name)
+    for each in reversed(shown):
+        bpy.utils.unregister_class(each)
+    for each in known:
+        bpy.utils.register_class(each)
+    yield 0.5
+    tab()
+    yield 1
+
+
+def by_hand() -> Iterator[object]:
+    """A camera from the view, keyed by flying, kept by a rebuild, and rendered beside the window."""
+    region, queue = view().spaces.active.region_3d, sys.modules[f"{MODULE}.ui.queue"]
+    call(bpy.ops.firetwin.view, whole=False)
+    yield 2
+    region.view_perspective = "PERSP"
+    call(bpy.ops.firetwin.camera_add, kind="poses")
+    yield 1
+    yield idle
+    yield 2
+    thing = bpy.context.scene.camera
+    check(thing.name == "Firetwin Camera poses", f"a camera from the view: {thing.name}")
+    call(bpy.ops.firetwin.camera_key)
+    with bpy.context.temp_override(**here()):
+        bpy.ops.firetwin.go("EXEC_DEFAULT", text="camera drone", smooth=False)
+    bpy.context.scene.frame_set(bpy.context.scene.frame_end)
+    yield 2
+    call(bpy.ops.firetwin.camera_key)
+    yield 1
+    yield from alone("30-keyed-by-hand", "FIRETWIN_PT_cameras")
+    thing.name = "My flight"
+    call(bpy.ops.firetwin.build, part="cameras")
+    yield 1
+    yield idle
+    yield 2
+    check(bpy.context.scene.objects.get("My flight") == thing, "a renamed and keyed camera stays itself")
+    settings().output, settings().which = str(FOLDER / "beside"), "frame"
+    settings().camera = "My-flight"
+    call(bpy.ops.firetwin.render_background)
+    yield 8
+    check(queue.current() is not None, "a render goes on beside the window")
+    call(bpy.ops.firetwin.render_background)
+    yield 2
+    yield from alone("31-queue", "FIRETWIN_PT_render")
+    keys("Escape")
+    yield 2
+    check(not queue.items[0].stop.asked, "Esc over the 3D view belongs to something else")
+    keys("Escape", over="UI")
+    yield soon(lambda: queue.items[0].state == "paused")
+    check(queue.items[0].state == "paused", "Esc over the sidebar pauses it")
+    call(bpy.ops.firetwin.queue, index=0, what="go_on")
+    yield soon(lambda: all(item.state in ("done", "failed") for item in queue.items), 900.0)
+    yield 2
+    check([item.state for item in queue.items] == ["done", "done"], str([item.text for item in queue.items]))
+    yield from alone("32-queue-done", "FIRETWIN_PT_render")
 
 
 def undo() -> Iterator[object]:
@@ -384,7 +553,7 @@ def session() -> Iterator[object]:
     before = inventory.take(USER)
     picture("01-start")
     yield from install()
-    for step in (panel, build, parts, scrub, render, undo, beside, file):
+    for step in (panel, quality, build, sections, look, parts, scrub, render, by_hand, undo, beside, file):
         if step.__name__ in STEPS:
             yield from step()
     yield from leave(before)

@@ -7,7 +7,7 @@ cd "${1:?usage: tests/window/use.sh OUT [STEP ...]}"
 shift
 steps=("$@")
 if ((${#steps[@]} == 0)); then
-  steps=(commands panel build parts scrub render undo beside file)
+  steps=(commands panel quality build sections parts scrub render undo beside file)
 fi
 here=/firetwin/tests/window
 export LIBGL_ALWAYS_SOFTWARE=1 BLENDER_USER_RESOURCES=$PWD/user

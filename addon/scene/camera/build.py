@@ -1,19 +1,21 @@
-"""Camera objects with as few keyframes as their paths allow, each with handles that people can move."""
+"""Camera objects with as few keyframes as their paths allow, each with handles that people can move.
+
+An object that is there already is set anew and stays itself: what it is called, what hangs on it, and what an
+artist gave it beside what is set here (depth of field, say) is kept.
+"""
 
 from __future__ import annotations
 
-import itertools
-
 import bpy
 import numpy as np
-from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ...blender import compat, owned
 from ...blender.owned import Stage
-from ...shot import sparse
+from ...shot import sparse, turning
 from ...shot.path import Path, clip
 from ...shot.shot import Shot
+from . import hand
 
 # How far a picture may be off between keys: turned, zoomed, or moved as the nearest ground sees it, pixels.
 _PIXELS = 0.05
@@ -25,36 +27,68 @@ def build(shot: Shot, stage: Stage) -> list[bpy.types.Object]:
 
     Blender may cut the name short: `stage.camera(name)` finds the object.
     """
-    before = stage.scene.camera
-    chosen = before[owned.MARK] if before is not None and owned.ours(before) else ""
-    collection = stage.part("Cameras")
-    built = [_camera(view, collection, shot) for view in shot.paths]
+    names = [view.camera.name for view in shot.paths]
+    there = {name: thing for name in names if (thing := stage.camera(name)) is not None}
+    collection = stage.part("Cameras", keep=there.values())
+    hand.place(stage, shot.local_frame)
+    built = [_camera(view, collection, shot, there.get(view.camera.name)) for view in shot.paths]
     if stage.scene.camera is None and built:
-        stage.scene.camera = next((thing for thing in built if owned.ours(thing, chosen)), built[0])
+        stage.scene.camera = built[0]
     return built
 
 
-def _camera(view: Path, collection: bpy.types.Collection, shot: Shot) -> bpy.types.Object:
-    name = f"Camera {view.camera.name}"
-    data = bpy.data.cameras.new(f"Firetwin {name}")
-    data.clip_start, data.clip_end = clip(view, shot.ground)
-    data.sensor_fit, data.sensor_width = "HORIZONTAL", view.sensor
-    pixel = 2.0 * view.half[0] / shot.resolution(view.camera)[0]  # m for each m of distance, or m
-    if view.perspective or view.meet:
-        lens = 0.5 * view.sensor * (view.meet or 1.0) / view.halves[:, :1]
-        _animate(data, "lens", lens, _PIXELS * pixel / view.halves.max() * lens.min())
-    else:
-        data.type, data.ortho_scale = "ORTHO", 2.0 * view.half[0]
-    thing = owned.add(collection, name, data, what=f"camera {view.camera.name}")
-    thing.rotation_mode = "QUATERNION"
-    quaternions = _quaternions(view.rotation)
+def tolerance(view: Path, shot: Shot) -> tuple[float, float, float]:
+    """How far a camera may be off its path: m, radians, and parts of its focal length."""
+    pixel = view.pixel
     near = 1.0
     if view.perspective:
         near = 0.5 * float(np.min(view.position[:, 2] - shot.ground.up(*view.position[:, :2].T)))
     turn = pixel / (view.meet or 1.0) if view.perspective or view.meet else 1.0
-    _animate(thing, "location", view.position, max(_PIXELS * pixel * near, _LEAST))
-    _animate(thing, "rotation_quaternion", quaternions, 0.5 * _PIXELS * turn)  # half the angle is in them
+    zoom = _PIXELS * pixel / view.halves.max()
+    return max(_PIXELS * pixel * near, _LEAST), _PIXELS * turn, zoom
+
+
+def _camera(
+    view: Path, collection: bpy.types.Collection, shot: Shot, thing: bpy.types.Object | None
+) -> bpy.types.Object:
+    name = f"Camera {view.camera.name}"
+    data = bpy.data.cameras.new(f"{owned.ROOT} {name}") if thing is None else thing.data
+    if thing is None:
+        thing = owned.add(collection, name, data, what=f"camera {view.camera.name}")
+    data.clip_start, data.clip_end = clip(view, shot.ground)
+    if not hand.rigged(thing):
+        _set(view, shot, thing)
+    hand.remember(thing)
     return thing
+
+
+def _see_around(data: bpy.types.Camera, apart: float) -> None:
+    """Equirectangular, with eyes on a circle (spherical stereo) that come together towards the poles."""
+    data.type, data.panorama_type = "PANO", "EQUIRECTANGULAR"
+    stereo = data.stereo
+    stereo.use_spherical_stereo = stereo.use_pole_merge = True
+    stereo.interocular_distance, stereo.convergence_mode, stereo.pivot = apart, "PARALLEL", "CENTER"
+
+
+def _set(view: Path, shot: Shot, thing: bpy.types.Object) -> None:
+    """Give an object the way and the lens of a path."""
+    data = thing.data
+    moved, turned, zoomed = tolerance(view, shot)
+    compat.remove_fcurves(data, hand.LENS)
+    compat.remove_fcurves(thing, hand.POSE)
+    data.sensor_fit, data.sensor_width = "HORIZONTAL", view.sensor
+    if view.around:
+        _see_around(data, view.apart)
+    elif view.perspective or view.meet:
+        data.type = "PERSP"
+        lens = 0.5 * view.sensor * (view.meet or 1.0) / view.halves[:, :1]
+        _animate(data, "lens", lens, zoomed * lens.min())
+    else:
+        data.type, data.ortho_scale = "ORTHO", 2.0 * view.half[0]
+    thing.rotation_mode, thing.scale = "QUATERNION", (1.0, 1.0, 1.0)
+    _animate(thing, "location", view.position, moved)
+    quaternions = turning.quaternions(view.rotation)
+    _animate(thing, "rotation_quaternion", quaternions, 0.5 * turned)  # half the angle is in them
 
 
 def _animate(block: bpy.types.ID, what: str, values: NDArray[np.float64], tolerance: float) -> None:
@@ -64,11 +98,3 @@ def _animate(block: bpy.types.ID, what: str, values: NDArray[np.float64], tolera
         kept, slopes = sparse.keys(values, tolerance)
         for axis in range(values.shape[1]):
             compat.animate_smoothly(block, what, axis, kept + 1, values[kept, axis], slopes[:, axis])
-
-
-def _quaternions(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 4) quaternions of rotation matrices (n, 3, 3), without jumps in sign."""
-    turned = [Matrix(matrix.tolist()).to_quaternion() for matrix in rotation]
-    for before, after in itertools.pairwise(turned):
-        after.make_compatible(before)
-    return np.array([tuple(q) for q in turned])

@@ -10,7 +10,7 @@ from __future__ import annotations
 import functools
 import importlib
 import pkgutil
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from ..schema import Where
     from ..settings import Camera
     from ..shot import Shot
+    from ._view import View
 
     Place = tuple[Where, float, float]
 
@@ -31,7 +32,20 @@ USUAL = "drone"  # where a camera names no kind
 
 
 class Rig:
-    """How a camera is set up and moved: what is particular to its kind."""
+    """How a camera is set up and moved: what is particular to its kind.
+
+    Attributes
+    ----------
+    around
+        It sees all round with two eyes, which Cycles alone renders, in pictures that are square.
+    """
+
+    around: ClassVar[bool] = False
+
+    @classmethod
+    def seeing(cls, view: View) -> Rig:
+        """One that shows about what is seen in a view; a usual one where its kind cannot."""
+        return cls()
 
     def wrong(self) -> tuple[Where, str] | None:
         """What no single key can say: where in its table, and words that follow the camera's name."""

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from ..ground import Ground
     from ..settings import Camera
     from ..shot import Shot
+    from ._view import View
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,11 @@ class Chase(Lens):
     target_height: float = key(100.0, "height above the ground of what it looks at", unit="m")
     clearance: float = key(50.0, "never nearer to the ground than this", unit="m", above=0)
     over_ridges: bool = key(True, "rise until it sees the head over the ridges")
+
+    @classmethod
+    def seeing(cls, view: View) -> Chase:
+        """As far from the head, and as high above the ground, as the eye is from the middle of the view."""
+        return cls(**view.lens, distance=max(view.away, 1.0), height=view.above)
 
     def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
         """Beside the head, whose place and course are smooth over a fifth of the shot, and looking at it."""

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from ..settings import Camera
     from ..shot import Shot
     from . import Place
+    from ._view import View
 
 _CLEARANCE = 0.35  # of the height asked for above the ground that stays over hills between keys
 
@@ -55,6 +56,12 @@ class Drone(Lens):
     )
     track_times: str = key("own", "when a track with times is flown", choices=MOMENTS)
     keys: tuple[CameraKey, ...] = key((), "where it is at one moment")
+
+    @classmethod
+    def seeing(cls, view: View) -> Drone:
+        """It hovers there and looks at what is in the middle of the view."""
+        place = view.latitude, view.longitude, max(view.height, 1.0)
+        return cls(**view.lens, keys=(CameraKey(0.0, *place, "point", *view.aim, above="sea"),))
 
     def wrong(self) -> tuple[Where, str] | None:
         """A drone is somewhere, and its moments rise."""

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ..settings import Camera
     from ..shot import Shot
     from . import Place
+    from ._view import View
 
 _FAR = 5000.0  # m, of the points that it counts as looking at
 
@@ -42,6 +43,14 @@ class Lookout(Lens):
     )
     height: float = key(20.0, "of the mast above the ground", unit="m", above=0)
     keys: tuple[LookoutKey, ...] = key((), "where it looks at one moment; without one to the north")
+
+    @classmethod
+    def seeing(cls, view: View) -> Lookout:
+        """A mast as high as the eye."""
+        keys = (LookoutKey(0.0, view.heading, float(np.clip(view.tilt, -89.0, 89.0))),)
+        return cls(
+            **view.lens, latitude=view.latitude, longitude=view.longitude, height=view.above, keys=keys
+        )
 
     def wrong(self) -> tuple[Where, str] | None:
         """Its moments rise."""

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from ..settings import Camera
     from ..shot import Shot
     from . import Place
+    from ._view import View
 
 
 @dataclass(frozen=True)
@@ -44,6 +45,19 @@ class Orbit(Lens):
     speed: float = key(15.0, "along the circle in model time; negative is counter-clockwise", unit="m/s")
     bearing: float = key(180.0, "of the camera from the point in the first frame", unit="degrees")
     clearance: float = key(50.0, "kept above hills under the circle", unit="m", at_least=0)
+
+    @classmethod
+    def seeing(cls, view: View) -> Orbit:
+        """Round what is in the middle of the view, beginning at the eye."""
+        latitude, longitude = view.aim
+        return cls(
+            **view.lens,
+            latitude=latitude,
+            longitude=longitude,
+            radius=max(view.away, 1.0),
+            height=max(view.rise, 1.0),
+            bearing=(view.heading + 180.0) % 360.0,
+        )
 
     def places(self) -> list[Place]:
         """The point that it circles."""

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from ..settings import Camera
     from ..shot import Shot
     from . import Place
+    from ._view import View
 
 HEIGHT = 60_000.0  # m above the ground, over any smoke
 ORBIT = 35_786_023.0  # m above the equator: 42,164.160 km from the middle of the Earth, less 6,378.137 km
@@ -45,6 +46,11 @@ class Satellite(Rig):
         at_most=180,
     )
     keys: tuple[CameraKey, ...] = key((), "the first places it; without one it is over the middle of the run")
+
+    @classmethod
+    def seeing(cls, view: View) -> Satellite:
+        """Straight over the middle of the view, and as wide."""
+        return cls(swath=view.width, keys=(CameraKey(0.0, *view.aim),))
 
     def wrong(self) -> tuple[Where, str] | None:
         """Its moments rise."""

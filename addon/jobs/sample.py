@@ -1,0 +1,34 @@
+"""Write the sample run."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+from ..progress import Progress, Tell, silent, untold
+from . import worker
+
+
+def run(
+    out: Path,
+    progress: Progress = silent,
+    tell: Tell = untold,
+    stop: worker.Stop | None = None,
+) -> None:
+    """Write the sample run as the folder `out`, unless it is there: it gets its name when it is whole."""
+    if (out / "run.toml").is_file():
+        return
+    part = out.with_name(f".{out.name}.part")
+    shutil.rmtree(part, ignore_errors=True)
+    try:
+        worker.run(f"{__name__}:in_blender", {"out": str(part)}, progress, stop=stop, tell=tell)
+        part.rename(out)
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
+
+
+def in_blender(out: str, progress: Progress, tell: Tell) -> None:
+    """Write it."""
+    from ..data import sample
+
+    sample.write(Path(out), None, "npy", lambda done, total: progress(done, total, "writing the sample run"))

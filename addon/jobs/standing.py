@@ -1,0 +1,139 @@
+"""Render a .blend file as it stands, with all that was changed by hand, as `render` renders settings."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import itertools
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ..errors import Error
+from ..progress import Progress, Tell, count, silent, untold
+from ..shot.choice import Choice
+from ..shot.shot import Shot
+from . import worker
+from .render import Asked, frames_of, smoky
+
+
+def run(
+    choice: Choice,
+    blend: Path,
+    scene: str,
+    asked: Asked,
+    progress: Progress = silent,
+    tell: Tell = untold,
+    stop: worker.Stop | None = None,
+) -> int:
+    """Render what is asked for of a scene in a .blend file, then the films.
+
+    Parameters
+    ----------
+    choice
+        What the scene was built from: frames, passes, colours of thermal pictures and films are its.
+    asked
+        With `resume`, what was made of this very file is kept.
+
+    Returns
+    -------
+    How many pictures were made.
+    """
+    from ..render import claims, plan
+    from ..render.store import Store
+
+    shot = choice.shot()
+    wanted = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
+    with blend.open("rb") as file:
+        digest = hashlib.file_digest(file, "sha256").hexdigest()
+    made_with = _made_with(digest, wanted)
+    with Store(asked.out, create=True) as store:
+        before = 0 if asked.resume else store.number()
+        undone = plan.missing(store, wanted, made_with, before)
+        task = {
+            "choice": choice.plain(),
+            "blend": str(blend),
+            "scene": scene,
+            "out": str(asked.out.absolute()),
+            "pictures": [[picture.camera, picture.frame, picture.name] for picture in undone],
+            "made_with": [[*pair, values] for pair, values in made_with.items()],
+            "owner": claims.new_owner(),
+            "after": before,
+        }
+        tell(f"rendering {count(len(undone), 'picture')} of {blend.name} as it stands")
+        try:
+            eevee = shot.settings.render.engine == "eevee"
+            worker.run(f"{__name__}:in_blender", task, progress, eevee=eevee, stop=stop, tell=tell)
+        finally:
+            with contextlib.suppress(Error):  # what stopped the work is what to tell
+                claims.leave(store, task["owner"])
+                store.export()
+    return len(undone)
+
+
+def _made_with(digest: str, wanted: list[Any]) -> dict[tuple[str, str], dict[str, Any]]:
+    """What says of a picture that it is of this .blend file, by camera and pass."""
+    from ..render.fingerprint import versions
+    from ..shot import passes
+
+    pairs = {(p.camera, p.name) for p in wanted}
+    pairs |= {(camera, need) for camera, name in pairs for need in passes.known()[name].needs}
+    about = {"versions": versions(), "blend": digest}
+    return {(camera, name): {**about, "camera": camera, "pass": name} for camera, name in sorted(pairs)}
+
+
+def in_blender(
+    choice: dict[str, str],
+    blend: str,
+    scene: str,
+    out: str,
+    pictures: list[list[Any]],
+    made_with: list[list[Any]],
+    owner: str,
+    after: int,
+    progress: Progress,
+    tell: Tell,
+) -> None:
+    """Open the file and render these pictures of it, then films of these cameras and passes."""
+    import bpy
+
+    from ..blender import devices, owned
+    from ..render import pictures as making_pictures
+    from ..render import sharing, video
+    from ..render.picture import Picture
+    from ..scene.smoke import bake
+
+    bpy.ops.wm.open_mainfile(filepath=blend, load_ui=False)
+    stage = owned.stage(bpy.data.scenes[scene])
+    shot = _as_it_stands(Choice(**choice).shot(), stage.scene)
+    todo = [Picture(*picture) for picture in pictures]
+    if stage.scene.render.engine == "CYCLES":
+        tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
+    known = {(camera, name): values for camera, name, values in made_with}
+    frames, done = frames_of(todo), 0
+    with (
+        sharing.making(Path(out), known, owner, after) as making,
+        bake.ahead(shot, smoky(shot, todo), progress, tell) as ready,
+    ):
+        for camera, group in itertools.groupby(todo, key=lambda picture: picture.camera):
+            if stage.camera(camera) is None:
+                raise Error(f'the camera "{camera}" is not in the scene {scene}; build the cameras again')
+            wanted, alone = list(group), shot.of(camera)
+            render = stage.scene.render
+            render.resolution_x, render.resolution_y = alone.settings.render.resolution
+            render.resolution_percentage = 100
+
+            def counted(here: int, of: int, what: str = "", before: int = done) -> None:
+                progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
+
+            making_pictures.render(alone, stage, making, wanted, counted, ready)
+            done += frames_of(wanted)
+        video.make(shot, making, progress)
+
+
+def _as_it_stands(shot: Shot, scene: Any) -> Shot:
+    """The shot with the size of pictures that the scene has."""
+    render, part = scene.render, scene.render.resolution_percentage / 100.0
+    size = tuple(2 * max(round(side * part / 2), 8) for side in (render.resolution_x, render.resolution_y))
+    settings = shot.settings
+    return Shot(replace(settings, render=replace(settings.render, resolution=size)), shot.run)

@@ -1,0 +1,56 @@
+"""Blender's own render (F12, Ctrl-F12) of a built scene, and the files that it writes: named as ours are."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+
+from ..blender import compat, owned
+from ..blender.owned import Stage
+from ..shot import passes
+from . import layers
+from .picture import Picture
+
+
+def exact() -> tuple[str, ...]:
+    """Passes whose files Blender's own render makes as ours: others need rays of their own, or more work."""
+    known = passes.known().items()
+    return tuple(name for name, each in known if each.output and not each.pixel_centres and not each.finish)
+
+
+def to_files(stage: Stage, out: Path, camera: str, names: tuple[str, ...]) -> None:
+    """Have Blender's own renders write these passes of a camera into an output folder.
+
+    Parameters
+    ----------
+    names
+        Those that are not `exact` count for nothing.
+    """
+    chosen = [name for name in exact() if name in names]
+    layers.select(stage.scene, chosen)
+    pictures = {name: Picture(camera, 1, name) for name in chosen}
+    for node in compat.compositor(stage.scene).nodes:
+        what = str(node.get(owned.MARK, ""))
+        if what.startswith("exr "):
+            picture = pictures.get(what.removeprefix("exr "))
+            node.mute = picture is None
+            if picture is not None:
+                compat.exr_output_path(node, str(out / camera / picture.name), picture.stem())
+    still = next((name for name in chosen if layers.still(passes.known()[name])), None)
+    if still is not None:
+        stage.scene.render.filepath = str(out / camera / still / f"{pictures[still].stem()}######")
+
+
+def to_none(stage: Stage) -> None:
+    """Have Blender's own renders write no files of passes."""
+    for node in compat.compositor(stage.scene).nodes:
+        if str(node.get(owned.MARK, "")).startswith("exr "):
+            node.mute = True
+
+
+def writes(scene: bpy.types.Scene) -> bool:
+    """Whether they do."""
+    tree = compat.compositor(scene)
+    nodes = tree.nodes if tree is not None else ()
+    return any(str(node.get(owned.MARK, "")).startswith("exr ") and not node.mute for node in nodes)

@@ -1,0 +1,81 @@
+"""Turned cameras: matrices, quaternions, and bearing, tilt and roll, in double precision."""
+
+from __future__ import annotations
+
+import numpy as np
+from firetwin_core import geo
+
+from .path import Array, compass
+
+_UPRIGHT = 1.0e-9  # sine of the angle from the vertical under which a bearing says nothing
+
+
+def quaternions(rotation: Array) -> Array:
+    """(n, 4) unit quaternions (w, x, y, z) of matrices (n, 3, 3), without jumps in sign.
+
+    The largest component is worked out first, and so loses no digits (Shepperd 1978).
+    """
+    r = np.asarray(rotation, np.float64)
+    trace = np.einsum("nii->n", r)
+    whole = np.empty((len(r), 4, 4))  # four times the products of the components
+    whole[:, 0, 0] = 1.0 + trace
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        whole[:, i + 1, i + 1] = 1.0 + 2.0 * r[:, i, i] - trace
+        whole[:, 0, i + 1] = whole[:, i + 1, 0] = r[:, k, j] - r[:, j, k]
+        whole[:, i + 1, j + 1] = whole[:, j + 1, i + 1] = r[:, i, j] + r[:, j, i]
+    largest = np.argmax(np.einsum("nii->ni", whole), axis=1)
+    found = whole[np.arange(len(r)), largest]
+    found /= np.linalg.norm(found, axis=1, keepdims=True)
+    flipped = np.sum(found[1:] * found[:-1], axis=1) < 0.0
+    found[1:] *= np.where(np.cumsum(flipped) % 2, -1.0, 1.0)[:, None]
+    return found
+
+
+def matrices(quaternion: Array) -> Array:
+    """(n, 3, 3) matrices of quaternions (n, 4) of any length."""
+    w, x, y, z = (quaternion / np.linalg.norm(quaternion, axis=1, keepdims=True)).T
+    rows = (
+        (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)),
+        (2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)),
+        (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)),
+    )
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def turned(frame: geo.LocalFrame, place: Array, heading: float, tilt: float, roll: float) -> Array:
+    """The matrix (3, 3), columns right, up and back, of a camera at a place (3,) in the scene.
+
+    Parameters
+    ----------
+    heading, tilt, roll
+        Bearing clockwise from north, angle under the horizon and lean to the right, degrees; north and
+        horizon are those of the place.
+    """
+    right, above, back = _level(frame, place, np.radians(heading), np.radians(tilt))
+    c, s = np.cos(np.radians(roll)), np.sin(np.radians(roll))
+    return np.stack([c * right - s * above, s * right + c * above, back], axis=-1)
+
+
+def angles(frame: geo.LocalFrame, place: Array, rotation: Array) -> tuple[float, float, float]:
+    """Heading, tilt and roll, degrees, of a camera's matrix (3, 3): what `turned` makes it of.
+
+    What looks straight up or down has the bearing of its upper edge, or lower one, and no roll.
+    """
+    east, north, up = compass(frame, place)
+    ahead = -rotation[:, 2]
+    tilt = np.arctan2(-ahead @ up, np.hypot(ahead @ east, ahead @ north))
+    edge = ahead if np.cos(tilt) > _UPRIGHT else rotation[:, 1] * np.sign(tilt)
+    heading = np.arctan2(edge @ east, edge @ north)
+    right, above, _ = _level(frame, place, heading, tilt)
+    roll = np.arctan2(-rotation[:, 0] @ above, rotation[:, 0] @ right)
+    return float(np.degrees(heading)) % 360.0, float(np.degrees(tilt)), float(np.degrees(roll))
+
+
+def _level(frame: geo.LocalFrame, place: Array, heading: float, tilt: float) -> tuple[Array, Array, Array]:
+    """Right, up and back (3,) of a camera whose horizon is level; angles in radians."""
+    east, north, up = compass(frame, place)
+    flat = np.sin(heading) * east + np.cos(heading) * north
+    right = np.cos(heading) * east - np.sin(heading) * north
+    back = -np.cos(tilt) * flat + np.sin(tilt) * up
+    return right, np.cross(back, right), back

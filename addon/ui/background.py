@@ -1,0 +1,216 @@
+"""The queue of renders beside the window: buttons, panel, and Esc over it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+
+from ..blender import owned
+from . import queue, render, run, scene_file, working
+from .text import paragraph
+
+_ICONS = {
+    queue.WAITING: "TIME",
+    queue.RENDERING: "RENDER_ANIMATION",
+    queue.PAUSED: "PAUSE",
+    queue.DONE: "CHECKMARK",
+    queue.FAILED: "ERROR",
+}
+
+
+class FIRETWIN_OT_render_background(bpy.types.Operator):
+    """Render this file as it stands, with all that you changed by hand, beside the window.
+
+    What you change from now on does not matter to it. Further ones wait for their turn
+    """
+
+    bl_idname = "firetwin.render_background"
+    bl_label = "Render in background"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        settings = context.scene.firetwin
+        if not settings.first_time:
+            cls.poll_message_set("Build the scene first")
+            return False
+        if not scene_file.output(settings):
+            cls.poll_message_set(render.NO_OUTPUT)
+            return False
+        return run.ready(cls, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        from ..jobs import standing
+        from ..jobs.render import Asked
+
+        scene, settings = context.scene, context.scene.firetwin
+        frames = {"frame": str(scene.frame_current), "list": settings.frame_list, "all": None}
+        camera = None if settings.camera == "*" else settings.camera
+        asked = Asked(Path(scene_file.output(settings)), frames[settings.which], camera)
+        which = {
+            "frame": f"frame {scene.frame_current}",
+            "list": f"frames {settings.frame_list}",
+            "all": "all",
+        }
+        title = f"{camera or 'All cameras'}, {which[settings.which]}"
+        try:
+            queue.add(title, scene, run.choice(settings), asked, standing.run)
+        except (RuntimeError, OSError) as error:
+            self.report({"ERROR"}, f"The file cannot be copied: {' '.join(str(error).split())}")
+            return {"CANCELLED"}
+        queue.advance()
+        if not bpy.app.background and not FIRETWIN_OT_queue_esc.on:
+            bpy.ops.firetwin.queue_esc("INVOKE_DEFAULT")
+        return {"FINISHED"}
+
+
+class FIRETWIN_OT_f12_files(bpy.types.Operator):
+    """Let F12 and Ctrl-F12 write pictures (PNG, EXR) into the output folder, named as ours.
+
+    Depth, normals and thermal pictures need more than one render: Render in background makes them
+    """
+
+    bl_idname = "firetwin.f12_files"
+    bl_label = "F12 writes files"
+    bl_options = {"REGISTER", "UNDO"}
+
+    on: bpy.props.BoolProperty(name="On", description="Write them, or no longer", default=True)
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not owned.ours(context.scene) or not context.scene.firetwin.first_time:
+            cls.poll_message_set("Build a scene of Firetwin's own first")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        from ..render import shown
+
+        scene, settings = context.scene, context.scene.firetwin
+        stage, out = owned.stage(scene), scene_file.output(settings)
+        names = [item.name for item in settings.cameras if stage.camera(item.name) == scene.camera]
+        if not self.on:
+            shown.to_none(stage)
+        elif not out or not names:
+            self.report({"WARNING"}, render.NO_OUTPUT if names else "The scene's camera is not in the list")
+            return {"CANCELLED"}
+        else:
+            shown.to_files(stage, Path(out), names[0], tuple(settings.render.passes))
+            self.report({"INFO"}, f"F12 and Ctrl-F12 write into {Path(out) / names[0]}")
+        return {"FINISHED"}
+
+
+class FIRETWIN_OT_queue_esc(bpy.types.Operator):
+    """Pause what is rendered beside the window when Esc is pressed over this sidebar"""
+
+    bl_idname = "firetwin.queue_esc"
+    bl_label = "Esc pauses the queue"
+    bl_options = {"INTERNAL"}
+
+    on = False
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        type(self).on = True
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        busy = queue.current()
+        if busy is None and not any(item.state == queue.WAITING for item in queue.items):
+            type(self).on = False
+            return {"FINISHED", "PASS_THROUGH"}
+        pressed = event.type == "ESC" and event.value == "PRESS"
+        if pressed and busy is not None and working.over_sidebar(context.window, event):
+            queue.pause(busy)
+            return {"RUNNING_MODAL"}
+        return {"PASS_THROUGH"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Another file is opened."""
+        type(self).on = False
+
+
+class FIRETWIN_OT_queue(bpy.types.Operator):
+    """Pause, go on with or take away a render"""
+
+    bl_idname = "firetwin.queue"
+    bl_label = "Queue"
+    bl_options = {"INTERNAL"}
+
+    index: bpy.props.IntProperty(options={"SKIP_SAVE"})
+    what: bpy.props.EnumProperty(
+        items=(
+            ("pause", "Pause", "Stop now; what is finished is kept"),
+            ("go_on", "Go on", "Render what is missing"),
+            ("remove", "Remove", "Take it out of the queue; pictures stay"),
+        ),
+        options={"SKIP_SAVE"},
+    )
+
+    @classmethod
+    def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """The tooltip."""
+        items = properties.bl_rna.properties["what"].enum_items
+        return items[properties.what].description
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        if not 0 <= self.index < len(queue.items):
+            return {"CANCELLED"}
+        item = queue.items[self.index]
+        {"pause": queue.pause, "go_on": queue.go_on, "remove": queue.remove}[self.what](item)
+        queue.wake()
+        return {"FINISHED"}
+
+
+class FIRETWIN_PT_queue(bpy.types.Panel):
+    """What renders beside the window"""
+
+    bl_idname = "FIRETWIN_PT_queue"
+    bl_label = "Background"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Firetwin"
+    bl_parent_id = "FIRETWIN_PT_render"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        from ..render import shown
+
+        layout.operator(FIRETWIN_OT_render_background.bl_idname, icon="RENDER_ANIMATION")
+        built = owned.ours(context.scene) and context.scene.firetwin.first_time
+        on = bool(built) and shown.writes(context.scene)
+        row = layout.row()
+        row.operator(FIRETWIN_OT_f12_files.bl_idname, icon="OUTPUT", depress=on).on = not on
+        for index, item in enumerate(queue.items):
+            box = layout.box().column(align=True)
+            row = box.row(align=True)
+            row.label(text=item.title, icon=_ICONS[item.state])
+            if item.state in (queue.RENDERING, queue.WAITING):
+                self.button(row, index, "pause", "PAUSE")
+            elif item.state in (queue.PAUSED, queue.FAILED):
+                self.button(row, index, "go_on", "PLAY")
+            self.button(row, index, "remove", "X")
+            if item.state == queue.RENDERING:
+                box.progress(factor=item.factor, text=item.text)
+            else:
+                paragraph(context, box, item.text)
+            shown = queue.thumbnails(item)
+            if shown:
+                grid = box.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
+                for _name, icon in shown:
+                    grid.template_icon(icon, scale=4.0)
+
+    def button(self, row: bpy.types.UILayout, index: int, what: str, icon: str) -> None:
+        """A button of one render."""
+        pressed = row.operator(FIRETWIN_OT_queue.bl_idname, text="", icon=icon)
+        pressed.index, pressed.what = index, what
+
+
+classes = (
+    FIRETWIN_OT_render_background,
+    FIRETWIN_OT_f12_files,
+    FIRETWIN_OT_queue_esc,
+    FIRETWIN_OT_queue,
+    FIRETWIN_PT_queue,
+)

@@ -1,0 +1,111 @@
+"""The cameras of the scene file in the .blend file: `scene.firetwin.cameras`, an item for each.
+
+An item has a name and the camera's table as the text of a scene file (`[[cameras]]` with its keys, paths
+absolute). `get` makes the dataclass `shot.settings.Camera` of an item and `put` writes one into it, whole and
+without loss::
+
+    camera = camera_list.get(item)
+    camera_list.put(item, replace(camera, rig=replace(camera.rig, focal_length=50.0)))
+    camera_list.add(scene.firetwin, Camera("mine", Drone(keys=(...))))
+    camera_list.cameras(scene.firetwin)  # all of them, in their order
+
+The name of the item counts, so that a list in a panel renames a camera. What is built, rendered and exported
+has these cameras and no others (see `scene_file.settings`); the object of a built camera is
+`owned.stage(scene).camera(item.name)`. `scene.firetwin.camera_index` is the item chosen in the list, which
+the panel FIRETWIN_PT_cameras shows (see `cameras_panel`): panels of a camera name it as their `bl_parent_id`.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterable
+from dataclasses import replace
+
+import bpy
+
+from ..errors import Error, InputError
+from ..shot.schema import Part, parts
+from ..shot.settings import Camera, Settings
+from . import tables
+
+
+class FIRETWIN_PG_camera(bpy.types.PropertyGroup):
+    """A camera of the scene file"""
+
+    name: bpy.props.StringProperty(
+        name="Name", description="Names the camera's folder and files: letters, digits, - and _"
+    )
+    table: bpy.props.StringProperty(options={"HIDDEN"})
+
+
+def get(item: FIRETWIN_PG_camera) -> Camera:
+    """The camera of an item.
+
+    Raises
+    ------
+    Error
+        Its text is no camera of this version.
+    """
+    try:
+        return replace(_read(item.table), name=item.name)
+    except InputError as error:
+        raise Error(f'camera "{item.name}" cannot be read: {error.reason}') from None
+
+
+def put(item: FIRETWIN_PG_camera, camera: Camera) -> None:
+    """Let an item hold a camera."""
+    item.name, item.table = camera.name, tables.to_text(_part(), (camera,))
+
+
+def add(panel: bpy.types.PropertyGroup, camera: Camera) -> FIRETWIN_PG_camera:
+    """A new item at the end of the list, which is chosen in it."""
+    item = panel.cameras.add()
+    put(item, camera)
+    panel.camera_index = len(panel.cameras) - 1
+    return item
+
+
+def renamed(panel: bpy.types.PropertyGroup, camera: Camera) -> Camera:
+    """A camera under a name that no other of the list has: ``drone``, ``drone-2``."""
+    taken = {item.name for item in panel.cameras}
+    name = next(
+        name
+        for number in range(1, len(taken) + 2)
+        if (name := camera.name if number == 1 else f"{camera.name}-{number}") not in taken
+    )
+    return replace(camera, name=name)
+
+
+def cameras(panel: bpy.types.PropertyGroup) -> tuple[Camera, ...]:
+    """All cameras in their order."""
+    return tuple(get(item) for item in panel.cameras)
+
+
+def fill(panel: bpy.types.PropertyGroup, cameras: Iterable[Camera]) -> None:
+    """Let the list hold these cameras alone; the chosen one is the first."""
+    panel.cameras.clear()
+    for camera in cameras:
+        add(panel, camera)
+    panel.camera_index = 0
+
+
+def text(cameras: Iterable[Camera]) -> str:
+    """Cameras as one text, equal where they are."""
+    return tables.to_text(_part(), tuple(cameras))
+
+
+def listed(text: str) -> tuple[Camera, ...]:
+    """The cameras of `text`."""
+    return tables.from_text(_part(), text)
+
+
+@functools.lru_cache(maxsize=64)
+def _read(text: str) -> Camera:
+    return listed(text)[0]
+
+
+def _part() -> Part:
+    return next(part for part in parts(Settings) if part.name == "cameras")
+
+
+classes = (FIRETWIN_PG_camera,)

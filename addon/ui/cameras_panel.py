@@ -1,0 +1,98 @@
+"""The list of cameras in the sidebar; panels of single cameras stand below it."""
+
+from __future__ import annotations
+
+import bpy
+
+from . import build, camera_list, job, order
+
+
+class FIRETWIN_UL_cameras(bpy.types.UIList):
+    """Cameras of the scene, by name"""
+
+    bl_idname = "FIRETWIN_UL_cameras"
+
+    def draw_item(
+        self,
+        context: bpy.types.Context,
+        layout: bpy.types.UILayout,
+        data: bpy.types.PropertyGroup,
+        item: bpy.types.PropertyGroup,
+        icon: int,
+        active_data: bpy.types.PropertyGroup,
+        active_property: str,
+    ) -> None:
+        layout.prop(item, "name", text="", emboss=False, icon="CAMERA_DATA")
+
+
+class FIRETWIN_OT_camera_remove(bpy.types.Operator):
+    """Take the chosen camera out of the list; what is built of it goes when the cameras are built again"""
+
+    bl_idname = "firetwin.camera_remove"
+    bl_label = "Remove camera"
+    bl_options = {"UNDO", "INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        panel = context.scene.firetwin
+        if not 0 <= panel.camera_index < len(panel.cameras):
+            cls.poll_message_set("Choose a camera in the list first")
+            return False
+        return job.Job.current is None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        panel = context.scene.firetwin
+        panel.cameras.remove(panel.camera_index)
+        panel.camera_index = max(min(panel.camera_index, len(panel.cameras) - 1), 0)
+        return {"FINISHED"}
+
+
+class FIRETWIN_OT_camera_copy(bpy.types.Operator):
+    """Add a copy of the chosen camera"""
+
+    bl_idname = "firetwin.camera_copy"
+    bl_label = "Copy camera"
+    bl_options = {"UNDO", "INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return FIRETWIN_OT_camera_remove.poll(context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        panel = context.scene.firetwin
+        camera = camera_list.get(panel.cameras[panel.camera_index])
+        camera_list.add(panel, camera_list.renamed(panel, camera))
+        return {"FINISHED"}
+
+
+class FIRETWIN_PT_cameras(bpy.types.Panel):
+    """What films the scene"""
+
+    bl_idname = "FIRETWIN_PT_cameras"
+    bl_label = "Cameras"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Firetwin"
+    bl_options = {"DEFAULT_CLOSED"}
+    bl_order = order.CAMERAS
+
+    def draw_header_preset(self, context: bpy.types.Context) -> None:
+        build.again(self.layout, "cameras")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        panel, row = context.scene.firetwin, self.layout.row()
+        row.enabled = job.Job.current is None
+        row.template_list(FIRETWIN_UL_cameras.bl_idname, "", panel, "cameras", panel, "camera_index", rows=3)
+        column = row.column(align=True)
+        column.operator(FIRETWIN_OT_camera_copy.bl_idname, text="", icon="DUPLICATE")
+        column.operator(FIRETWIN_OT_camera_remove.bl_idname, text="", icon="REMOVE")
+        if not panel.cameras:
+            self.layout.label(text="Read run brings two", icon="INFO")
+
+
+classes = (
+    FIRETWIN_UL_cameras,
+    FIRETWIN_OT_camera_remove,
+    FIRETWIN_OT_camera_copy,
+    FIRETWIN_PT_cameras,
+)

@@ -1,0 +1,175 @@
+"""Ways to a first scene: open a run or a scene file, drop it on the view, or take the sample run."""
+
+from __future__ import annotations
+
+import functools
+from pathlib import Path
+
+import bpy
+from bpy_extras.io_utils import ExportHelper, ImportHelper
+
+from ..blender import owned
+from ..errors import Error
+from . import build, job, run, scene_file, working
+from .job import Away, Steps
+from .working import Working
+
+_RUN = "run.toml"
+
+
+class FIRETWIN_OT_open(bpy.types.Operator, ImportHelper):
+    """Open a model run (its run.toml or its folder) or a scene file"""
+
+    bl_idname = "firetwin.open"
+    bl_label = "Open run"
+    bl_description = (
+        "Open a model run (its run.toml or its folder) or a scene file. Another run brings its own "
+        "time window and cameras; the field Run keeps those that are there"
+    )
+    bl_options = {"UNDO"}
+
+    filename_ext = ".toml"
+    filter_glob: bpy.props.StringProperty(default="*.toml", options={"HIDDEN"})
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return working.free(cls)
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if self.filepath and Path(self.filepath).is_file():  # dropped on the view
+            return self.execute(context)
+        return ImportHelper.invoke(self, context, event)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        panel, path = context.scene.firetwin, Path(self.filepath)
+        if path.suffix == ".toml" and path.name != _RUN and not path.is_dir():
+            panel.scene_file = str(path)
+        else:
+            _begin(panel, str(path.parent if path.name == _RUN else path))
+        if panel.problem:
+            self.report({"ERROR"}, panel.problem)
+        return {"FINISHED"}
+
+
+def _begin(panel: bpy.types.PropertyGroup, folder: str) -> None:
+    """Choose a run; where it is another one, time window and cameras of the one before go."""
+    if bpy.path.abspath(panel.run) != folder:
+        panel.scene_file = panel.time.start = panel.time.end = ""
+        panel.cameras.clear()
+    panel.run = folder
+
+
+class FIRETWIN_OT_export(bpy.types.Operator, ExportHelper):
+    """Write the settings and cameras of this panel as a scene file for `firetwin render`"""
+
+    bl_idname = "firetwin.export"
+    bl_label = "Export scene file"
+
+    filename_ext = ".toml"
+    filter_glob: bpy.props.StringProperty(default="*.toml", options={"HIDDEN"})
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            scene_file.export(context.scene, Path(self.filepath))
+        except Error as error:
+            self.report({"ERROR"}, job.words(error))
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"Wrote {self.filepath}")
+        return {"FINISHED"}
+
+
+class FIRETWIN_FH_open(bpy.types.FileHandler):
+    """A run.toml or a scene file dropped on a 3D view"""
+
+    bl_idname = "FIRETWIN_FH_open"
+    bl_label = "Fire model run"
+    bl_import_operator = FIRETWIN_OT_open.bl_idname
+    bl_file_extensions = ".toml"
+
+    @classmethod
+    def poll_drop(cls, context: bpy.types.Context) -> bool:
+        """Whether the pointer is over a 3D view."""
+        return context.area is not None and context.area.type == "VIEW_3D"
+
+
+class FIRETWIN_OT_sample(Working, bpy.types.Operator):
+    """Write the sample run, a made-up King Fire, to this computer and open it; nothing is downloaded"""
+
+    bl_idname = "firetwin.sample"
+    bl_label = "Try the King Fire"
+    bl_options = {"UNDO"}
+
+    folder: bpy.props.StringProperty(
+        name="Folder",
+        description="Where the run is written; empty: among Firetwin's own files",
+        subtype="DIR_PATH",
+        options={"SKIP_SAVE"},
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return working.free(cls)
+
+    def steps(self, context: bpy.types.Context) -> Steps:
+        """Write it in a worker process, unless it is there; then look into it."""
+        from ..jobs import sample
+
+        uid = context.scene.session_uid
+        folder = Path(bpy.path.abspath(self.folder)) if self.folder else scene_file.own_folder() / "king_fire"
+        yield Away("writing the sample run", functools.partial(sample.run, folder))
+        _begin(owned.scene(uid).firetwin, str(folder))
+        return (yield from run.look(uid))
+
+
+class FIRETWIN_MT_add(bpy.types.Menu):
+    """A fire, from its model run"""
+
+    bl_idname = "FIRETWIN_MT_add"
+    bl_label = "Firetwin"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        entries(self.layout)
+        self.layout.operator(build.FIRETWIN_OT_build.bl_idname, icon="WORLD")
+
+
+def entries(layout: bpy.types.UILayout) -> None:
+    """Buttons that open a run."""
+    layout.operator_context = "INVOKE_DEFAULT"
+    layout.operator(FIRETWIN_OT_open.bl_idname, text="Open run...", icon="FILEBROWSER")
+    layout.operator(FIRETWIN_OT_sample.bl_idname, icon="LIGHT_SUN")
+
+
+def _import(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    self.layout.operator(FIRETWIN_OT_open.bl_idname, text="Fire model run (.toml)")
+
+
+def _export(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    self.layout.operator(FIRETWIN_OT_export.bl_idname, text="Firetwin scene file (.toml)")
+
+
+def _add(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+    self.layout.menu(FIRETWIN_MT_add.bl_idname, icon="WORLD")
+
+
+_MENUS = (("TOPBAR_MT_file_import", _import), ("TOPBAR_MT_file_export", _export), ("VIEW3D_MT_add", _add))
+
+
+def register() -> None:
+    """Put the entries into Blender's menus."""
+    for name, draw in _MENUS:
+        getattr(bpy.types, name).append(draw)
+
+
+def unregister() -> None:
+    """Take them out again."""
+    for name, draw in _MENUS:
+        getattr(bpy.types, name).remove(draw)
+
+
+classes = (
+    FIRETWIN_OT_open,
+    FIRETWIN_OT_export,
+    FIRETWIN_FH_open,
+    FIRETWIN_OT_sample,
+    FIRETWIN_MT_add,
+)

@@ -1,0 +1,143 @@
+"""How much work goes into a picture: many settings at once, by three steps or by presets that people save."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import bpy
+from bl_operators.presets import AddPresetBase
+
+from ..shot.schema import Part, parts
+from . import job, keys, sections
+
+_MOVED = (
+    ("ground", "near_radius"),
+    ("ground", "error"),
+    ("forest", "budget"),
+    ("forest", "understorey"),
+    ("forest", "draw_distance"),
+    ("fire", "firebrands"),
+    ("smoke", "method"),
+    ("light", "lamps"),
+    ("render", "resolution"),
+    ("render", "samples"),
+)
+_STEPS: dict[str, tuple[str, tuple[Any, ...]]] = {
+    "preview": (
+        "A look in a minute: coarse ground, fewer trees, smoke as puffs, small pictures",
+        (1500.0, 1.5, 40_000, 5000, 6000.0, 500, "puffs", 12, (480, 270), 2),
+    ),
+    "film": (
+        "Films and daily work: smoke as solved air, pictures of 1280 x 720",
+        (4000.0, 0.5, 200_000, 40_000, 12_000.0, 3000, "flow", 48, (1280, 720), 6),
+    ),
+    "final": (
+        "The finest: more trees and bushes, pictures of 1920 x 1080, little grain. Hours for a film",
+        (6000.0, 0.35, 400_000, 80_000, 16_000.0, 6000, "flow", 96, (1920, 1080), 24),
+    ),
+}
+LEVELS = {name: dict(zip(_MOVED, values, strict=True)) for name, (_, values) in _STEPS.items()}
+"""Settings by section and key, of each step of quality."""
+
+_ITEMS = [(name, keys.label(name), words) for name, (words, _) in _STEPS.items()]
+
+_NOT_SAVED = {"time": ("start", "end"), "ground": ("elevation", "photo", "photo_extent")}
+"""What belongs to a run, and so into no preset."""
+
+
+def apply(panel: bpy.types.PropertyGroup, level: str) -> None:
+    """Set everything that a step of quality names."""
+    for (section, name), value in LEVELS[level].items():
+        group, part = _found(panel, section, name)
+        keys.put(group, part, value)
+
+
+def level(panel: bpy.types.PropertyGroup) -> str:
+    """The step of quality that the panel has; empty: none."""
+    for each, values in LEVELS.items():
+        if all(keys.shows(*_found(panel, *place), value) for place, value in values.items()):
+            return each
+    return ""
+
+
+def _found(panel: bpy.types.PropertyGroup, section: str, name: str) -> tuple[bpy.types.PropertyGroup, Part]:
+    return getattr(panel, section), _part(section, name)
+
+
+@functools.cache
+def _part(section: str, name: str) -> Part:
+    kind = next(part.table for part in sections.sections() if part.name == section)
+    return next(part for part in parts(kind) if part.name == name)
+
+
+class FIRETWIN_OT_quality(bpy.types.Operator):
+    """Set trees, ground, smoke, size and samples together"""
+
+    bl_idname = "firetwin.quality"
+    bl_label = "Quality"
+    bl_options = {"UNDO", "INTERNAL"}
+
+    level: bpy.props.EnumProperty(name="Quality", items=_ITEMS)
+
+    @classmethod
+    def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """The tooltip."""
+        return f"{_STEPS[properties.level][0]}. What is built changes when it is built again"
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        apply(context.scene.firetwin, self.level)
+        return {"FINISHED"}
+
+
+class FIRETWIN_OT_preset(AddPresetBase, bpy.types.Operator):
+    """Keep these settings under a name, or forget those of a name"""
+
+    bl_idname = "firetwin.preset"
+    bl_label = "Save preset"
+    preset_menu = "FIRETWIN_MT_presets"
+    preset_subdir = "firetwin"
+    preset_defines = ["firetwin = bpy.context.scene.firetwin"]
+
+    @property
+    def preset_values(self) -> list[str]:
+        """What is saved: every setting but those that belong to a run."""
+        found = ["firetwin.seed"]
+        for section in sections.sections():
+            names = [
+                part.name
+                for part in parts(section.table)
+                if part.name not in _NOT_SAVED.get(section.name, ())
+            ]
+            switches = [
+                keys.USE + part.name
+                for part in parts(section.table)
+                if part.name in names and keys.switched(part)
+            ]
+            found += [f"firetwin.{section.name}.{name}" for name in (*switches, *names)]
+        return found
+
+
+class FIRETWIN_MT_presets(bpy.types.Menu):
+    """Settings that were kept under a name"""
+
+    bl_label = "Presets"
+    preset_subdir = "firetwin"
+    preset_operator = "script.execute_preset"
+    draw = bpy.types.Menu.draw_preset
+
+
+def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup) -> None:
+    """Steps of quality, the present one pressed, and the presets."""
+    row = layout.row(align=True)
+    row.enabled = job.Job.current is None
+    here = level(panel)
+    for name in LEVELS:
+        row.operator(FIRETWIN_OT_quality.bl_idname, text=keys.label(name), depress=name == here).level = name
+    row = layout.row(align=True)
+    row.menu(FIRETWIN_MT_presets.__name__, text=FIRETWIN_MT_presets.bl_label)
+    row.operator(FIRETWIN_OT_preset.bl_idname, text="", icon="ADD")
+    row.operator(FIRETWIN_OT_preset.bl_idname, text="", icon="REMOVE").remove_active = True
+
+
+classes = (FIRETWIN_OT_quality, FIRETWIN_OT_preset, FIRETWIN_MT_presets)

@@ -1,0 +1,236 @@
+"""What renders beside the window, one after the other: the file as it stood when each was asked for."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import bpy
+
+from ..jobs import worker
+from ..jobs.render import Asked
+from ..progress import duration
+from ..shot.choice import Choice
+from . import job
+
+WAITING, RENDERING, PAUSED, DONE, FAILED = "waiting", "rendering", "paused", "done", "failed"
+_TICK = 0.5  # s between two looks
+_SHOWN = 6  # thumbnails
+
+Run = Callable[..., int]
+"""What renders: `standing.run`."""
+
+
+@dataclass
+class Item:
+    """One .blend file to render.
+
+    Attributes
+    ----------
+    folder
+        Temporary, with the copy of the file in it.
+    resume
+        Whether something of it is finished already.
+    finished
+        Pictures to show, those finished last at the end.
+    """
+
+    title: str
+    folder: Path
+    scene: str
+    choice: Choice
+    asked: Asked
+    render: Run
+    state: str = WAITING
+    what: str = ""
+    done: int = 0
+    total: int = 0
+    told: str = ""
+    resume: bool = False
+    finished: list[Path] = field(default_factory=list)
+    stop: worker.Stop = field(default_factory=worker.Stop)
+    began: float = 0.0
+    _since: float = 0.0
+    _thread: threading.Thread | None = None
+
+    @property
+    def blend(self) -> Path:
+        """The copy of the file."""
+        return self.folder / "scene.blend"
+
+    @property
+    def factor(self) -> float:
+        """How much of it is done, 0 to 1."""
+        return self.done / self.total if self.total else float(self.state == DONE)
+
+    @property
+    def text(self) -> str:
+        """How far it is and how long it will take."""
+        if self.state != RENDERING:
+            return f"{self.state.capitalize()}{f': {self.told}' if self.told else ''}"
+        if not self.total:
+            return "Starting Blender"
+        words = f"{self.what.capitalize()} {self.done} of {self.total}"
+        if not 0 < self.done < self.total:
+            return words
+        left = (time.monotonic() - self._since) / self.done * (self.total - self.done)
+        return f"{words}, {duration(left)} left"
+
+    def start(self) -> None:
+        """Render in a thread of its own, which waits for the worker process."""
+        self.state, self.told, self.stop = RENDERING, "", worker.Stop()
+        self.began = self.began or time.time()
+        asked = Asked(**{**vars(self.asked), "resume": self.resume})
+        self.resume = True
+        self._thread = threading.Thread(target=self._work, args=(asked, self.stop), daemon=True)
+        self._thread.start()
+
+    def _work(self, asked: Asked, stop: worker.Stop) -> None:
+        try:
+            made = self.render(
+                self.choice,
+                self.blend,
+                self.scene,
+                asked,
+                progress=self._progress,
+                tell=self._tell,
+                stop=stop,
+            )
+        except worker.StoppedError:
+            self.state, self.told = PAUSED, "what is finished is kept"
+        except BaseException as error:
+            self.state, self.told = FAILED, job.words(error)
+        else:
+            self.state, self.told = DONE, f"{made} pictures in {asked.out}"
+
+    def _progress(self, done: int, total: int, what: str = "") -> None:
+        if what != self.what or done == 0:
+            self._since = time.monotonic()
+        self.done, self.total, self.what = done, total, what or self.what
+
+    def _tell(self, text: str) -> None:
+        self.told = text
+
+    def look(self) -> None:
+        """See which pictures have been finished."""
+        known = set(self.finished)
+        new = [
+            path
+            for path in self.asked.out.glob("*/*/*.png")
+            if path not in known and path.stat().st_mtime >= self.began - 1.0
+        ]
+        self.finished += sorted(new, key=lambda path: path.stat().st_mtime)
+
+    def drop(self) -> None:
+        """End it, and remove the copy of the file."""
+        self.stop.now()
+        if self._thread is not None:
+            self._thread.join(timeout=5.0)
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+items: list[Item] = []
+_pictures: dict[str, bpy.utils.previews.ImagePreviewCollection] = {}
+
+
+def add(title: str, scene: bpy.types.Scene, choice: Choice, asked: Asked, render: Run) -> Item:
+    """Save a copy of the open file as it is, and let it stand in line.
+
+    Raises
+    ------
+    RuntimeError
+        It cannot be saved.
+    """
+    folder = Path(tempfile.mkdtemp(prefix="firetwin-render-"))
+    item = Item(title, folder, scene.name, choice, asked, render)
+    try:
+        if choice.scene:  # written for this session alone
+            kept = folder / "scene.toml"
+            shutil.copyfile(choice.scene, kept)
+            item.choice = Choice(**{**choice.plain(), "scene": str(kept)})
+        bpy.ops.wm.save_as_mainfile(filepath=str(item.blend), copy=True, compress=False)
+    except BaseException:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
+    items.append(item)
+    wake()
+    return item
+
+
+def wake() -> None:
+    """Look after the queue again."""
+    if not bpy.app.timers.is_registered(_tick):
+        bpy.app.timers.register(_tick, first_interval=0.0, persistent=True)
+
+
+def current() -> Item | None:
+    """What is rendered now."""
+    return next((item for item in items if item.state == RENDERING), None)
+
+
+def advance() -> None:
+    """Begin with the next one where nothing is rendered."""
+    if current() is None and (waiting := next((item for item in items if item.state == WAITING), None)):
+        waiting.start()
+
+
+def pause(item: Item) -> None:
+    """Stop it; what is finished is kept, and `go_on` renders the rest."""
+    if item.state == RENDERING:
+        item.stop.now()
+    elif item.state == WAITING:
+        item.state = PAUSED
+
+
+def go_on(item: Item) -> None:
+    """Let it stand in line again."""
+    if item.state in (PAUSED, FAILED):
+        item.state = WAITING
+
+
+def remove(item: Item) -> None:
+    """Take it out of the line."""
+    items.remove(item)
+    item.drop()
+
+
+def clear() -> None:
+    """End everything."""
+    if bpy.app.timers.is_registered(_tick):
+        bpy.app.timers.unregister(_tick)
+    while items:
+        remove(items[0])
+    for each in _pictures.values():
+        bpy.utils.previews.remove(each)
+    _pictures.clear()
+
+
+def thumbnails(item: Item) -> list[tuple[str, int]]:
+    """Names and icons of the pictures finished last."""
+    from bpy.utils import previews
+
+    if "" not in _pictures:
+        _pictures[""] = previews.new()
+    shown = []
+    for path in item.finished[-_SHOWN:]:
+        key = f"{path} {path.stat().st_mtime_ns}" if path.exists() else ""
+        if key:
+            icon = _pictures[""].get(key) or _pictures[""].load(key, str(path), "IMAGE")
+            shown.append((path.stem, icon.icon_id))
+    return shown
+
+
+def _tick() -> float | None:
+    from . import working
+
+    advance()
+    busy = current()
+    if busy is not None:
+        busy.look()
+    working.redraw()
+    return _TICK if busy is not None or any(item.state == WAITING for item in items) else None

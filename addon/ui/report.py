@@ -1,0 +1,41 @@
+"""What there is to tell of the run and of the last work."""
+
+from __future__ import annotations
+
+import bpy
+
+from . import order, run, working
+from .job import Job
+from .text import labelled, paragraph
+
+
+class FIRETWIN_PT_report(bpy.types.Panel):
+    """The run's burned area beside what was reported, and what the last work had to tell"""
+
+    bl_idname = "FIRETWIN_PT_report"
+    bl_label = "Report"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Firetwin"
+    bl_options = {"DEFAULT_CLOSED"}
+    bl_order = order.REPORT
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, settings = self.layout, context.scene.firetwin
+        found = run.read(settings.facts) if settings.facts else None
+        if found is None:
+            layout.label(text="Open a run first", icon="INFO")
+        for time, reported, area in found["burned"] if found else ():
+            column = layout.column(align=True)
+            column.label(text=time)
+            labelled(column, "Reported", 0.4).label(text=reported)
+            labelled(column, "Run", 0.4).label(text=area)
+        if Job.last is not None:
+            column = layout.box().column(align=True)
+            lines = [each.text for each in Job.last.told]
+            for line in lines:
+                paragraph(context, column, line)
+            working.copy_button(column, "\n".join((Job.last.name, *lines)))
+
+
+classes = (FIRETWIN_PT_report,)

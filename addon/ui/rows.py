@@ -1,0 +1,75 @@
+"""A setting in the sidebar: its label, its value, and a mark where it differs from its default."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..shot.schema import Part, parts
+from . import keys, sections
+from .text import labelled
+
+_LABEL = 0.48  # of the width
+
+
+def key(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Part, section: str) -> None:
+    """A key on one line, or on two where its value is long."""
+    row = layout.row(align=True)
+    shown = _value(row, group, part)
+    mark = shown.row(align=True)
+    if keys.differs(group, part):
+        mark.operator_context = "EXEC_DEFAULT"
+        reset = mark.operator(FIRETWIN_OT_reset.bl_idname, text="", icon="LOOP_BACK", emboss=False)
+        reset.section, reset.key = section, part.name
+    else:
+        mark.label(text="", icon="BLANK1")
+
+
+def _value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Part) -> bpy.types.UILayout:
+    """Draw the label and the value; where its mark comes."""
+    text = keys.heading(part)
+    if part.type is bool:
+        row.prop(group, part.name, text=text)
+        return row
+    if _long(part):
+        column = row.column(align=True)
+        column.label(text=text)
+        line = column.row(align=True)
+        if part.key.choices is None:
+            line.prop(group, part.name, text="")
+        else:
+            line.column_flow(columns=2, align=True).prop(group, part.name)
+        return line
+    line = labelled(row, text, _LABEL)
+    if keys.switched(part):
+        line.prop(group, keys.USE + part.name, text="")
+        value = line.row(align=True)
+        value.active = getattr(group, keys.USE + part.name)
+        value.prop(group, part.name, text="")
+    else:
+        line.prop(group, part.name, text="")
+    return line
+
+
+def _long(part: Part) -> bool:
+    """Whether a value wants the width of the sidebar: paths, moments and lists."""
+    return part.type not in (int, float) and (part.type is not str or part.key.choices is None)
+
+
+class FIRETWIN_OT_reset(bpy.types.Operator):
+    """Give this setting its default again"""
+
+    bl_idname = "firetwin.reset"
+    bl_label = "Reset to default"
+    bl_options = {"UNDO", "INTERNAL"}
+
+    section: bpy.props.StringProperty(options={"SKIP_SAVE"})
+    key: bpy.props.StringProperty(options={"SKIP_SAVE"})
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        section = next(part for part in sections.sections() if part.name == self.section)
+        part = next(part for part in parts(section.table) if part.name == self.key)
+        keys.put(getattr(context.scene.firetwin, self.section), part, part.default)
+        return {"FINISHED"}
+
+
+classes = (FIRETWIN_OT_reset,)

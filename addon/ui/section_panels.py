@@ -1,0 +1,69 @@
+"""Panels of the sidebar made from the settings' schema, in the order of work: one for each section."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..scene.build import PARTS
+from ..shot.schema import Part, parts
+from . import build, job, keys, order, rows, sections
+
+_OWN = ("time",)  # drawn by a panel of its own
+_TITLES = {"thermal": "Sensors"}
+_BELOW = {"render": "FIRETWIN_PT_render"}  # sections that stand in another panel
+_LATE = ("thermal",)  # after the cameras
+
+
+def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup, name: str) -> None:
+    """Every key of a section, those that differ from their default marked by a button that resets them."""
+    section = next(part for part in sections.sections() if part.name == name)
+    group = getattr(panel, name)
+    column = layout.column(align=False)
+    column.enabled = job.Job.current is None
+    for part in parts(section.table):
+        if not part.table and not part.key.kinds:
+            rows.key(column, group, part, name)
+
+
+def _panel(section: Part, place: int) -> type[bpy.types.Panel]:
+    """The panel of a section; that of a part that can be built alone has a button for it in its head."""
+    name = section.name
+
+    def drawn(self: bpy.types.Panel, context: bpy.types.Context) -> None:
+        draw(self.layout, context.scene.firetwin, name)
+
+    def again(self: bpy.types.Panel, context: bpy.types.Context) -> None:
+        build.again(self.layout, name)
+
+    own = {
+        "__doc__": keys.sentence(section.key.help),
+        "bl_idname": f"FIRETWIN_PT_section_{name}",
+        "bl_label": "Settings" if name in _BELOW else _TITLES.get(name, keys.label(name)),
+        "bl_space_type": "VIEW_3D",
+        "bl_region_type": "UI",
+        "bl_category": "Firetwin",
+        "bl_options": {"DEFAULT_CLOSED"},
+        "bl_order": place,
+        "draw": drawn,
+    }
+    if name in PARTS:
+        own["draw_header_preset"] = again
+    if name in _BELOW:
+        own["bl_parent_id"] = _BELOW[name]
+    return type(own["bl_idname"], (bpy.types.Panel,), own)
+
+
+def _panels() -> tuple[type[bpy.types.Panel], ...]:
+    shown = [part for part in sections.sections() if part.name not in _OWN]
+    late = (*_LATE, *_BELOW)
+    early = [part for part in shown if part.name not in late]
+    return (
+        *(_panel(part, order.SECTIONS + place) for place, part in enumerate(early)),
+        *(
+            _panel(part, order.SENSORS + place)
+            for place, part in enumerate(p for p in shown if p not in early)
+        ),
+    )
+
+
+classes = _panels()

@@ -1,0 +1,108 @@
+"""The settings in the .blend file: a group of properties per section of a scene file, made of the schema.
+
+`scene.firetwin.forest.budget` is the key `budget` of [forest]. A list of tables other than the cameras is
+kept as the text of its tables.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import bpy
+
+from ..shot.schema import Part, parts, summary
+from ..shot.settings import Settings
+from . import keys
+from .tables import from_text, to_text
+
+NOT_HERE = ("path", "run", "cache", "cameras")
+"""Of `Settings`, what is no section: the panel keeps it in its own way."""
+
+
+@functools.cache
+def sections() -> tuple[Part, ...]:
+    """The sections of a scene file in their order."""
+    return tuple(part for part in parts(Settings) if part.table and not part.tables)
+
+
+def single() -> tuple[Part, ...]:
+    """Keys before all sections, and lists of tables, less those that the panel keeps otherwise."""
+    found = (part for part in parts(Settings) if not part.table or part.tables)
+    return tuple(part for part in found if part.name not in NOT_HERE)
+
+
+def properties(known: tuple[Part, ...], kind: type) -> dict[str, Any]:
+    """Annotations of a group for keys of a dataclass."""
+    found: dict[str, Any] = {"exact": bpy.props.StringProperty(options={"HIDDEN"})}
+    for part in known:
+        if part.tables:
+            found[part.name] = bpy.props.StringProperty(name=keys.label(part.name), options={"HIDDEN"})
+        elif part.table:
+            found[part.name] = bpy.props.PointerProperty(type=group(part.table))
+        else:
+            found[part.name] = keys.prop(kind, part.name)
+            if keys.switched(part):
+                found[keys.USE + part.name] = keys.switch(part)
+    return found
+
+
+_groups: dict[type, type[bpy.types.PropertyGroup]] = {}
+
+
+def group(kind: type) -> type[bpy.types.PropertyGroup]:
+    """The group of properties of a dataclass of settings; always the same one."""
+    if kind not in _groups:
+        _groups[kind] = type(
+            f"FIRETWIN_PG_{kind.__name__.lower()}",
+            (bpy.types.PropertyGroup,),
+            {"__doc__": keys.sentence(summary(kind)), "__annotations__": properties(parts(kind), kind)},
+        )
+    return _groups[kind]
+
+
+def groups() -> Iterator[type[bpy.types.PropertyGroup]]:
+    """All groups, those in others first, as Blender wants them registered."""
+
+    def inner(kind: type) -> Iterator[type[bpy.types.PropertyGroup]]:
+        for part in parts(kind):
+            if part.table and not part.tables:
+                yield from inner(part.table)
+        yield group(kind)
+
+    for section in sections():
+        yield from inner(section.table)
+
+
+def put(group: bpy.types.PropertyGroup, known: tuple[Part, ...], values: Any) -> None:
+    """Let a group show the values of a dataclass."""
+    for part in known:
+        value = getattr(values, part.name)
+        if part.tables:
+            setattr(group, part.name, to_text(part, value))
+        elif part.table:
+            put(getattr(group, part.name), parts(part.table), value)
+        else:
+            keys.put(group, part, value)
+
+
+def take(group: bpy.types.PropertyGroup, known: tuple[Part, ...], values: Any) -> Any:
+    """The values of a dataclass with those in it that a group shows.
+
+    Raises
+    ------
+    Error
+        A text that is typed in is not what it should be.
+    """
+    found: dict[str, Any] = {}
+    for part in known:
+        if part.tables:
+            found[part.name] = from_text(part, getattr(group, part.name))
+        elif part.table:
+            inner = getattr(values, part.name)
+            found[part.name] = take(getattr(group, part.name), parts(part.table), inner)
+        else:
+            found[part.name] = keys.take(group, part)
+    return replace(values, **found)
