@@ -51,12 +51,12 @@ def test_labels_beyond_their_distance_are_gone(labelled, run, scene):
     assert len(instances()) == 1
 
 
-def test_only_the_visible_picture_has_labels(labelled, run, scene, shoot):
+def test_only_the_visible_picture_has_labels(labelled, run, stage, scene, shoot):
     pictures = []
     for enabled in (True, False):
         settings = replace(labelled, places=replace(labelled.places, enabled=enabled))
         build.build(Shot(settings, run), scene)
-        layers.build(settings, build.owned.stage(scene))
+        layers.build(settings, stage)
         scene.frame_set(1)
         pictures.append((shoot(scene, "rgb"), shoot(scene, "thermal")))
     (shown, warm), (plain, cold) = pictures
