@@ -135,7 +135,7 @@ def test_hausdorff_and_areas_by_shapely_itself():
         assert found["jaccard"] == pytest.approx(one.intersection(two).area / one.union(two).area)
 
 
-@settings(deadline=None, max_examples=30)
+@settings(deadline=None, max_examples=12)
 @given(st.integers(0, 2**32 - 1), st.integers(1, 40))
 def test_cells_by_scikit_learn(seed, side):
     metrics = pytest.importorskip("sklearn.metrics")
