@@ -1,4 +1,4 @@
-"""The command line: ``firetwin sample | info | maps | imager | build | bake | render | track | ...``.
+"""The command line: ``firetwin sample | info | maps | score | imager | build | bake | render | track | ...``.
 
 Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage,
 130: Ctrl-C. Nothing heavy is imported before it is needed, so that help and mistakes answer at once.
@@ -49,7 +49,7 @@ def _passes() -> str:
     """A line about each pass."""
     from .shot import passes
 
-    return "\n".join(f"  {name:<9}{text}" for name, text in passes.helps().items())
+    return "\n".join(f"  {name:<13}{text}" for name, text in passes.helps().items())
 
 
 def _report(error: Exception) -> int:
@@ -104,9 +104,41 @@ def _parser() -> argparse.ArgumentParser:
     info.add_argument("run", metavar="RUN", type=Path, help="run folder")
     info.add_argument("--json", action="store_true", help="write JSON for programs")
 
+    made = command("convert", "make a run of a fire model's own output", CONVERT)
+    made.add_argument(
+        "paths", metavar="IN", nargs="+", type=Path, help="the model's files, or folders of them"
+    )
+    made.add_argument("--out", metavar="RUN", type=Path, required=True, help="run folder to write")
+    made.add_argument(
+        "--start", metavar="TIME", default="", help="when times count from, if files do not say it"
+    )
+    made.add_argument("--at", metavar="LAT,LON", default="", help="middle of a grid that lies nowhere")
+    made.add_argument("--projection", metavar="CRS", default="", help="of grids in metres, such as EPSG:5070")
+    made.add_argument(
+        "--interval", metavar="SECONDS", type=_count, default=0, help="between times that are made (chosen)"
+    )
+
     maps = command("maps", "draw the fuel map and the fire intensity map", MAPS)
     maps.add_argument("run", metavar="RUN", type=Path, help="run folder")
     maps.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the PNG files")
+
+    maps.add_argument(
+        "--against", metavar="FILE", nargs="+", default=[], help="perimeters to draw (RUN/observations)"
+    )
+
+    score = command("score", "how well a run matches what was seen of its fire", SCORE)
+    score.add_argument("run", metavar="RUN", type=Path, help="run folder")
+    score.add_argument(
+        "--against",
+        metavar="FILE|RUN",
+        nargs="+",
+        default=[],
+        help="perimeters, detections, or one other run (RUN/observations)",
+    )
+    score.add_argument(
+        "--report", metavar="X.html", type=Path, help="write a page with maps and curves (none)"
+    )
+    score.add_argument("--json", action="store_true", help="write JSON for programs")
 
     seen = command("imager", "what a satellite's imager would have measured of a run", IMAGER)
     seen.add_argument("run", metavar="RUN", type=Path, help="run folder")
@@ -156,6 +188,10 @@ def _parser() -> argparse.ArgumentParser:
         help="such as 500MB; keep as much (20GB)",
     )
     cache.add_argument("--dry-run", action="store_true", help="say what --prune would remove, remove nothing")
+
+    assets = command("assets", "write trees, materials and node groups as an asset library", ASSETS)
+    assets.add_argument("scene", metavar="SCENE.toml", nargs="?", type=Path, help="scene file (the sample's)")
+    assets.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder of the library")
 
     command("schema", "print the JSON Schema of scene files, for TOML editors", SCHEMA)
 
@@ -207,19 +243,40 @@ SAMPLE = """\
 No output of the fire-atmosphere model for the King Fire is public. This run is made up: its terrain, fuels
 and spread follow what is published about the fire, and everything made from it says that it is synthetic."""
 
+ASSETS = """\
+DIR/firetwin_assets.blend and DIR/blender_assets.cats.txt, as Blender's asset browser reads them: choose DIR
+under Edit > Preferences > File Paths > Asset Libraries. Lit, hazy and as warm as the scene file's shot is."""
+
 INFO = """\
 Grid and extent, fuels, times, heat flux, energy, burned area (beside the reported acreages where the run
 depicts a known fire), and warnings."""
+
+CONVERT = """\
+Reads, found by content: WRF-SFIRE (wrfout*), NCAR's Community Fire Behavior Model (fire_output_*.nc),
+ForeFire (arrival times, fronts, landscape), ELMFIRE (GeoTIFF), FARSITE and FlamMap (ASCII or GeoTIFF, LCP),
+pyretechnics (.npz), and any CF netCDF by a mapping in a TOML file: [fields] heat_flux = "NAME". Fuels may
+come from an LCP or LANDFIRE's rasters among the files. What a model does not say is assumed, said, and
+written to run.toml. A conversion that was stopped goes on when the command is given again.
+Needs packages that are not installed by themselves: pip install 'firetwin[models]'."""
 
 MAPS = """\
 DIR/fuel.png        fuel load, greener is denser
 DIR/intensity.png   strongest heat flux of the whole run, light yellow to red, over the relief"""
 
+SCORE = """\
+FILE holds dated perimeters (.geojson, .shp, .kml, .kmz, .gpkg) or FIRMS detections of VIIRS and MODIS (.csv);
+one without dates is written FILE@2014-09-18T04:00-07:00. By date: areas, Sorensen, Jaccard, kappa, precision,
+recall, shape deviation and area difference indices, distances of the perimeters, with and without what had
+burned when the run began; then errors of arrival times, and detections with their lag. Each is found on
+polygons and on cells: the difference of the two is its error. Needs shapely and pyproj
+(pip install 'firetwin[score]')."""
+
 IMAGER = """\
 Brightness temperatures (K) at 3.9 and 11.2 um (3.74 and 11.45 for viirs), fire radiative power (W) and a mask
 of fire (10) and saturated (11) pixels, as DIR/abi_20140917T2200Z.tif: abi in its geostationary projection
 with 2 km pixels, viirs at 375 m by latitude and longitude. Fire counts by its area in a pixel. Hypothetical:
-neither saw the fires of 2014 so. Needs rasterio (pip install 'firetwin[raster]')."""
+neither saw the fires of 2014 so. Needs rasterio (pip install 'firetwin[raster]'). Passes imager_short and
+imager_long of a satellite's camera are pictures and films of them."""
 
 BUILD = """\
 The file needs no add-on to be opened, scrubbed and rendered; its smoke volumes stay in the cache folder."""

@@ -45,11 +45,39 @@ def maps(arguments: argparse.Namespace) -> None:
     """Draw the maps of a run."""
     run = _open(arguments.run)
     say("drawing the fuel map and the fire intensity map")
-    from .run import maps
+    from .run import maps, observations
     from .shot.settings import Time
 
-    for path in maps.draw(run, arguments.out, Time().zone):
+    seen = observations.read(arguments.against or observations.beside(arguments.run)).perimeters
+    for path in maps.draw(run, arguments.out, Time().zone, seen):
         print(path)
+
+
+def score(arguments: argparse.Namespace) -> None:
+    """Compare a run with what was seen of its fire."""
+    from . import files
+    from .errors import UsageError
+    from .run import observations
+    from .run import score as scores
+    from .run.score import page
+    from .shot.settings import Time
+
+    run = _open(arguments.run)
+    named = arguments.against or observations.beside(arguments.run)
+    runs = [_open(Path(each)) for each in named if not observations.is_one(each)]
+    if len(runs) > 1:
+        raise UsageError("--against: one other run at a time")
+    if arguments.report and arguments.report.suffix.lower() != ".html":
+        raise UsageError(f"--report: {arguments.report} does not end in .html")
+    seen = observations.read(each for each in named if observations.is_one(each))
+    found = scores.score(run, seen, *runs, zone=Time().zone)
+    print(json.dumps(found, indent=1) if arguments.json else page.page(found))
+    if arguments.report:
+        from .run.score import report
+
+        text = report.html(run, found, seen, *runs)
+        files.write(arguments.report, lambda part: part.write_text(text, encoding="utf-8"))
+        say(f"wrote {arguments.report}")
 
 
 def imager(arguments: argparse.Namespace) -> None:
@@ -73,6 +101,22 @@ def imager(arguments: argparse.Namespace) -> None:
     except seen.NothingSeenError as error:
         raise UsageError(f"--longitude: {error}") from None
     report(len(moments), len(moments))
+
+
+def convert(arguments: argparse.Namespace) -> None:
+    """Make a run of a fire model's own files."""
+    from .jobs import convert
+
+    reporter = Reporter("times")
+    try:
+        print(
+            convert.run(
+                arguments.paths, arguments.out, arguments.start, arguments.at, arguments.projection,
+                arguments.interval, reporter, say,
+            )
+        )  # fmt: skip
+    finally:
+        reporter.close()
 
 
 def build(arguments: argparse.Namespace) -> None:
@@ -151,6 +195,27 @@ def _volumes(volumes: Iterable[Kept]) -> None:
     for each in volumes:
         ago = "in use" if each.in_use else f"used {duration(time.time() - each.used)} ago"
         print(f"{each.folder}  {size(each.bytes)}  {ago}")
+
+
+def assets(arguments: argparse.Namespace) -> None:
+    """Write the asset library."""
+    import tempfile
+
+    from .jobs import assets
+    from .shot.choice import Choice
+
+    with tempfile.TemporaryDirectory() as folder:
+        scene = arguments.scene
+        if scene is None:
+            from .data import sample
+
+            say("writing a small sample run, which the assets are made for")
+            sample.write(Path(folder) / "sample", 13)
+            scene = Path(folder) / "scene.toml"
+            scene.write_text(assets.SCENE, encoding="utf-8")
+        number = assets.run(Choice(scene=str(scene)), arguments.out, Reporter(), say)
+    say(f"{count(number, 'asset')} in {arguments.out}")
+    print(arguments.out / assets.BLEND)
 
 
 def schema(arguments: argparse.Namespace) -> None:

@@ -12,11 +12,12 @@ SQUARE_METRES_PER_ACRE = 4046.8564224  # international acre
 
 
 class Acreage(NamedTuple):
-    """A reported burned area: when (UTC), how many acres, and who said so."""
+    """A reported burned area: when (UTC), how many acres, who said so, and what was assumed."""
 
     time: datetime
     acres: float
     source: str
+    note: str = ""
 
 
 @dataclass(frozen=True)
@@ -93,7 +94,9 @@ def _parse(table: dict) -> Event:
             for entry in table["ignition"]
         ],
         acreages=sorted(
-            Acreage(entry["time"].astimezone(UTC), float(entry["acres"]), entry["source"])
+            Acreage(
+                entry["time"].astimezone(UTC), float(entry["acres"]), entry["source"], entry.get("note", "")
+            )
             for entry in table["acreage"]
         ),
         places=[

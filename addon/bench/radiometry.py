@@ -67,7 +67,7 @@ def run(bench: Bench) -> None:
     with tempfile.TemporaryDirectory() as folder:
         exr, png = Path(folder) / "in.exr", Path(folder) / "out.png"
         sensor.write_image(exr, radiance)
-        stops = sensor.colour(np.linspace(LOW, HIGH, 8)[None], LOW, HIGH, "ironbow")[0]
+        stops = sensor.palette("ironbow")
         files = [
             Runner(OURS, partial(ours_on_files, exr, png, sensor.PlanckTable(BAND)), threads=2),
             Runner("NumPy", partial(numpy_on_files, exr, png, stops)),

@@ -210,6 +210,15 @@ def bloom(tree: bpy.types.NodeTree, image: bpy.types.NodeSocket, **settings: flo
     return find_socket(glare.outputs, "Image")
 
 
+def whole_pixels(translate: bpy.types.Node) -> bpy.types.Node:
+    """Make a Translate node of the compositor move whole pixels, without blending neighbours by rounding."""
+    if hasattr(translate, "interpolation"):
+        translate.interpolation = "NEAREST"
+    else:
+        find_socket(translate.inputs, "Interpolation").default_value = "Nearest"
+    return translate
+
+
 def exr_output(
     tree: bpy.types.NodeTree, name: str, image: bpy.types.NodeSocket, grey: bool, bits: int
 ) -> bpy.types.Node:
@@ -222,8 +231,16 @@ def exr_output(
     node.format.file_format = "OPEN_EXR"
     node.format.color_mode, node.format.color_depth = "BW" if grey else "RGB", str(bits)
     node.format.exr_codec = "ZIP"
+    over_under(node.format)
     tree.links.new(image, node.inputs[0])
     return node
+
+
+def over_under(file: bpy.types.ImageFormatSettings) -> None:
+    """Where a scene has two eyes, put both into one file of twice the height, the left one above."""
+    file.views_format = "STEREO_3D"
+    file.stereo_3d_format.display_mode = "TOPBOTTOM"
+    file.stereo_3d_format.use_squeezed_frame = False
 
 
 def exr_output_path(node: bpy.types.Node, folder: str, stem: str) -> None:

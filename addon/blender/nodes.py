@@ -1,22 +1,30 @@
 """The one way node trees are made: formulas on sockets, looked up by name.
 
 ground, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
-age = nodes.model_time(tree) - tree.attribute("arrival_time")
-embers = (age / -3600.0).exp()
+colour = tree.input("Ember Colour", (1.0, 0.11, 0.012), "Of spots that glow in the ash", "Fire")
+with tree.frame("Embers"):
+    age = nodes.model_time(tree) - tree.attribute("arrival_time")
+    embers = (age / -3600.0).exp()
 tree.surface(nodes.thermal_switch(tree, tree.emission(colour, embers), radiance))
+
+A material is one group node with named, explained inputs; what is in the group is laid out in its frames.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import itertools
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import Any
 
 import bpy
 
-from . import compat, owned
+from . import compat, layout, owned
 
 TIME = "firetwin_time"
 THERMAL = "firetwin_thermal"
+MASKS = "firetwin_masks"
 
 
 class Value:
@@ -88,18 +96,67 @@ class Value:
 
 
 class Tree:
-    """A node tree being written; sockets, nodes, `Value`s and numbers may all be given as inputs."""
+    """A node tree being written; sockets, nodes, `Value`s and numbers may all be given as inputs.
 
-    def __init__(self, node_tree: bpy.types.NodeTree) -> None:
-        self.node_tree = node_tree
+    The tree of a material is the group that `material` shows.
+    """
+
+    def __init__(self, node_tree: bpy.types.NodeTree, material: bpy.types.Material | None = None) -> None:
+        self.node_tree, self.material = node_tree, material
+        self._frame: bpy.types.Node | None = None
+
+    @contextmanager
+    def frame(self, label: str) -> Iterator[None]:
+        """Nodes that are added within lie in a frame with this label; in a frame within, in that one."""
+        before, self._frame = self._frame, self.node_tree.nodes.new("NodeFrame")
+        self._frame.label = label
+        try:
+            yield
+        finally:
+            self._frame = before
+
+    def input(
+        self,
+        name: str,
+        default: float | Sequence[float],
+        help: str,
+        panel: str = "",
+        least: float | None = 0.0,
+        most: float | None = None,
+    ) -> Value:
+        """An input of this group, made with its first use: a number, or a colour where three are given.
+
+        Parameters
+        ----------
+        help
+            One line for the tooltip, without trailing period.
+        panel
+            The panel that it lies in.
+        least, most
+            Bounds of a number; None: none.
+        """
+        interface = self.node_tree.interface
+        if not any(item.item_type == "SOCKET" and item.name == name for item in interface.items_tree):
+            parent = next((item for item in interface.items_tree if _is_panel(item, panel)), None)
+            if panel and parent is None:
+                parent = interface.new_panel(panel)
+            colour = isinstance(default, Sequence)
+            kind = "NodeSocketColor" if colour else "NodeSocketFloat"
+            made = interface.new_socket(
+                name, description=help, in_out="INPUT", socket_type=kind, parent=parent
+            )
+            made.default_value = (*default, 1.0) if colour else default
+            for bound, value in (("min_value", least), ("max_value", most)):
+                if value is not None and not colour:
+                    setattr(made, bound, value)
+        return self.output("NodeGroupInput", name=name)
 
     def node(
         self, kind: str, inputs: Mapping[str | int, Any] | Sequence[Any] = (), **properties: Any
     ) -> bpy.types.Node:
         """Add a node: first its properties, then its inputs by name (or in order)."""
         node = self.node_tree.nodes.new(kind)
-        count = len(self.node_tree.nodes)
-        node.location = (200.0 * (count % 12), -260.0 * (count // 12))
+        node.parent = self._frame
         for name, value in properties.items():
             setattr(node, name, value)
         pairs = inputs.items() if isinstance(inputs, Mapping) else enumerate(inputs)
@@ -172,6 +229,25 @@ class Tree:
         """A glowing surface or volume."""
         return self.output("ShaderNodeEmission", {"Color": colour, "Strength": strength})
 
+    def colours(self, place: Any, stops: Sequence[Sequence[float]]) -> Value:
+        """Colours at equal steps of `place` from 0 to 1, linear between and held outside.
+
+        A Color Ramp looks them up in 257 steps in some releases, off by 0.003 at its stops.
+        """
+        pieces = len(stops) - 1
+        total: Any = tuple(stops[0])
+        for index, (start, end) in enumerate(itertools.pairwise(stops)):
+            inputs = {
+                "Vector": place,
+                "From Min": 3 * (index / pieces,),
+                "From Max": 3 * ((index + 1) / pieces,),
+                "To Min": (0.0, 0.0, 0.0),
+                "To Max": tuple(after - before for before, after in zip(start, end, strict=True)),
+            }
+            more = self.output("ShaderNodeMapRange", inputs, "Vector", data_type="FLOAT_VECTOR", clamp=True)
+            total = self.vector("ADD", more, total)
+        return total
+
     def attribute(self, name: str, kind: str = "GEOMETRY", output: str = "Fac") -> Value:
         """A named attribute: of the GEOMETRY, the INSTANCER, the OBJECT or the VIEW_LAYER."""
         return self.output("ShaderNodeAttribute", (), output, attribute_name=name, attribute_type=kind)
@@ -190,16 +266,45 @@ class Tree:
 
     def surface(self, shader: Any) -> None:
         """Make `shader` the surface of this material or world."""
-        world = any(tree.node_tree == self.node_tree for tree in bpy.data.worlds)
-        self.node("ShaderNodeOutputWorld" if world else "ShaderNodeOutputMaterial", {"Surface": shader})
+        if self.material is not None:
+            self._show("Surface", shader)
+            return
+        self.node("ShaderNodeOutputWorld", {"Surface": shader})
+        layout.arrange(self.node_tree)
 
     def volume(self, shader: Any) -> None:
         """Make `shader` the volume of this material."""
-        self.node("ShaderNodeOutputMaterial", {"Volume": shader})
+        self._show("Volume", shader)
+
+    def geometry(self, value: Any) -> None:
+        """Make this the geometry that comes out of a geometry node group."""
+        self.finish({"Geometry": value})
+
+    def _show(self, what: str, shader: Any) -> None:
+        self.node_tree.interface.new_socket(what, in_out="OUTPUT", socket_type="NodeSocketShader")
+        self.finish({what: shader})
+        around = Tree(compat.node_tree(self.material))
+        shown = around.output("ShaderNodeGroup", name=what, node_tree=self.node_tree)
+        shown.socket.node.width = 2.0 * layout.WIDE - layout.GAP
+        output = around.node("ShaderNodeOutputMaterial", {what: shown})
+        output.location = 2.0 * layout.WIDE, 0.0
+
+    def finish(self, outputs: Mapping[str, Any]) -> None:
+        """Make these the outputs of a group, by name, and lay out its nodes."""
+        self.node("NodeGroupOutput", outputs)
+        for node in self.node_tree.nodes:
+            if node.bl_idname == "NodeGroupInput":
+                for socket in node.outputs:
+                    socket.hide = not socket.is_linked
+        layout.arrange(self.node_tree)
+
+
+def _is_panel(item: bpy.types.NodeTreeInterfaceItem, name: str) -> bool:
+    return item.item_type == "PANEL" and item.name == name
 
 
 def material(name: str, colour: tuple[float, float, float] | None = None) -> tuple[bpy.types.Material, Tree]:
-    """A new material of ours called `name`, and its empty tree.
+    """A new material of ours called `name`, and the empty tree of the group that it will show.
 
     Parameters
     ----------
@@ -209,16 +314,11 @@ def material(name: str, colour: tuple[float, float, float] | None = None) -> tup
     new = owned.mark(bpy.data.materials.new(name))
     if colour is not None:
         new.diffuse_color, new.roughness = (*colour, 1.0), 1.0
-    return new, Tree(compat.node_tree(new))
+    return new, Tree(owned.mark(bpy.data.node_groups.new(f"{name} Shader", "ShaderNodeTree")), new)
 
 
-def geometry(name: str, inputs: Mapping[str, str] | None = None) -> tuple[Tree, bpy.types.Node]:
+def geometry(name: str) -> tuple[Tree, bpy.types.Node]:
     """A new geometry node group of ours (geometry in, geometry out).
-
-    Parameters
-    ----------
-    inputs
-        Further inputs, name -> socket type such as "NodeSocketMaterial".
 
     Returns
     -------
@@ -227,11 +327,62 @@ def geometry(name: str, inputs: Mapping[str, str] | None = None) -> tuple[Tree, 
     group = owned.mark(bpy.data.node_groups.new(name, "GeometryNodeTree"))
     group.is_modifier = True
     group.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
-    for label, kind in (inputs or {}).items():
-        group.interface.new_socket(label, in_out="INPUT", socket_type=kind)
     group.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
     tree = Tree(group)
     return tree, tree.node("NodeGroupInput")
+
+
+@dataclass(frozen=True)
+class Input:
+    """An input of a node group.
+
+    Attributes
+    ----------
+    name, help
+        What it is called, and a line on it.
+    default
+        Its kind follows from it: a whole number, a number, or a colour (red, green, blue, alpha).
+    panel
+        Heading that it stands under; empty: none.
+    low, high
+        Bounds of numbers.
+    """
+
+    name: str
+    help: str
+    default: Any = 0.0
+    panel: str = ""
+    low: float | None = None
+    high: float | None = None
+
+
+_SOCKETS = {int: "NodeSocketInt", float: "NodeSocketFloat", tuple: "NodeSocketColor"}
+
+
+def compositor(name: str, help: str, inputs: Sequence[Input], outputs: Mapping[str, str]) -> Tree:
+    """A new compositor node group of ours, for people to use: what its inputs mean shows under the pointer.
+
+    Parameters
+    ----------
+    outputs
+        name -> socket type such as "NodeSocketColor".
+    """
+    group = owned.mark(bpy.data.node_groups.new(name, "CompositorNodeTree"))
+    group.description = help
+    for label, kind in outputs.items():
+        group.interface.new_socket(label, in_out="OUTPUT", socket_type=kind)
+    panels = {each.panel: group.interface.new_panel(each.panel) for each in inputs if each.panel}
+    for each in inputs:
+        kind = _SOCKETS[type(each.default)]
+        socket = group.interface.new_socket(
+            each.name, description=each.help, socket_type=kind, parent=panels.get(each.panel)
+        )
+        if each.low is not None:
+            socket.min_value = each.low
+        if each.high is not None:
+            socket.max_value = each.high
+        socket.default_value = each.default
+    return Tree(group)
 
 
 def model_time(tree: Tree) -> Value:
@@ -245,3 +396,22 @@ def model_time(tree: Tree) -> Value:
 def thermal_switch(tree: Tree, shader: Any, value: Any) -> Value:
     """`shader`, but a number as pixel value in view layers with `firetwin_thermal` = 1."""
     return tree.mix_shader(tree.attribute(THERMAL, "VIEW_LAYER"), shader, tree.emission(value, 1.0))
+
+
+def mask_switch(tree: Tree, shader: Any, kind: Any, number: Any = 0.0) -> Value:
+    """`shader`, but its class and the number of its instance in view layers with `firetwin_masks` = 1.
+
+    A pixel is then (number mod 4096, 1, class + 8 floor(number / 4096)), all times what smoke before it lets
+    through: the ratios are whole numbers that 32 bits hold exactly. What has none is (0, 1, class).
+    """
+    if isinstance(number, Value):
+        low = tree.math("MODULO", number, 4096.0)
+        kind = (number - low) * (8.0 / 4096.0) + kind
+    else:
+        low = number
+    return masked(tree, shader, tree.emission(tree.combine(low, 1.0, kind), 1.0))
+
+
+def masked(tree: Tree, shader: Any, other: Any) -> Value:
+    """`shader`, but `other` in view layers with `firetwin_masks` = 1."""
+    return tree.mix_shader(tree.attribute(MASKS, "VIEW_LAYER"), shader, other)

@@ -55,6 +55,7 @@ def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell)
     """Build the scene and save it under a temporary name that it then loses."""
     import bpy
 
+    from ..blender import viewport
     from ..scene.smoke import bake
     from ..scene.smoke import build as smoke
     from . import setting
@@ -65,6 +66,7 @@ def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell)
     if shot.settings.smoke.enabled:
         bake.bake(shot, progress)
     setting.build_scene(shot, progress, tell)
+    viewport.prepare_file()
     smoke.relative(Path(out))
     part = files.part_of(Path(out))
     bpy.context.preferences.filepaths.save_version = 0

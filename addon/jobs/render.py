@@ -40,7 +40,7 @@ def run(
     -------
     How many pictures were made.
     """
-    from ..render import claims, films, fingerprint, plan
+    from ..render import claims, dataset, films, fingerprint, plan
     from ..render.store import Store
 
     out = asked.out
@@ -83,6 +83,7 @@ def run(
             raise
         claims.leave(store, task["owner"])
         store.export()
+        dataset.write(store)
     return len(undone)
 
 

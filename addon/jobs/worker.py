@@ -26,6 +26,10 @@ class StoppedError(Exception):
     """The work was ended by `Stop.now`."""
 
 
+class EndedError(Exception):
+    """A process without Blender ended before it answered; says how."""
+
+
 class Stop:
     """Ends a `run` from another thread."""
 
@@ -59,6 +63,7 @@ def run(
     eevee: bool = False,
     stop: Stop | None = None,
     tell: Tell = untold,
+    blender: bool = True,
 ) -> Any:
     """Call ``package.module:function`` in a child process: ``function(progress=..., tell=..., **arguments)``.
 
@@ -70,6 +75,8 @@ def run(
         The task draws with EEVEE, which needs OpenGL: without a display it gets one that needs no screen.
     stop
         What another thread can end it by.
+    blender
+        The task needs Blender; one that does not also runs where there is none.
 
     Returns
     -------
@@ -81,10 +88,12 @@ def run(
         What the function raised, or an Error that says how the process ended.
     StoppedError
         `stop` was used.
+    EndedError
+        The process of a task without Blender ended otherwise.
     """
     log = tempfile.NamedTemporaryFile(prefix="firetwin-", suffix=".log", delete=False)  # noqa: SIM115
     package = __package__ or "firetwin"
-    code = f"import importlib; importlib.import_module({package + '.worker'!r}).serve()"
+    code = f"import importlib; importlib.import_module({package + '.worker'!r}).serve({blender})"
     with log:
         child = subprocess.Popen(
             _command(code),
@@ -113,6 +122,11 @@ def run(
     if "input_error" in answer:
         os.unlink(log.name)
         raise input_error(*answer["input_error"])
+    if not blender:
+        os.unlink(log.name)
+        if "error" in answer:
+            raise Error(answer["error"])
+        raise EndedError(_stopped(child.returncode))
     if "error" in answer:
         raise Error(f"{answer['error']} (the log of Blender is {log.name})")
     raise Error(f"{_ending(child.returncode, eevee)} (the log of Blender is {log.name})")
@@ -182,9 +196,13 @@ def _environment(eevee: bool) -> dict[str, str]:
     return environment
 
 
-def _ending(code: int, eevee: bool) -> str:
+def _stopped(code: int) -> str:
     how = f"signal {-code} ({_signal(-code)})" if code < 0 else f"exit status {code}"
-    how = f"stopped {'on' if code < 0 else 'with'} {how}"
+    return f"stopped {'on' if code < 0 else 'with'} {how}"
+
+
+def _ending(code: int, eevee: bool) -> str:
+    how = _stopped(code)
     if eevee:
         need = "EEVEE needs OpenGL (on Debian: libegl1 libgl1-mesa-dri)"
         return f'Blender {how}; {need}, or set engine = "cycles" in [render]'
@@ -201,7 +219,7 @@ def _signal(number: int) -> str:
         return "of no name"
 
 
-def serve() -> None:
+def serve(blender: bool = True) -> None:
     """Do what the parent asks for: the child's side of `run`."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches both; the parent decides
     channel = os.fdopen(os.dup(1), "w", encoding="utf-8")
@@ -212,7 +230,8 @@ def serve() -> None:
     def answer(**message: Any) -> None:
         print(json.dumps(message), file=channel, flush=True)
 
-    import bpy  # noqa: F401 (before the core: the first of two libtbb.so.12 wins, and it must be Blender's)
+    if blender:
+        import bpy  # noqa: F401 (before the core: the first of two libtbb.so.12 wins, and it must be Blender's)
 
     from ..errors import Error, InputError
 

@@ -36,10 +36,21 @@ def apply(settings: Settings, scene: bpy.types.Scene) -> None:
     render.image_settings.color_mode, render.image_settings.color_depth = "RGB", "8"
     render.image_settings.compression = 15
     render.dither_intensity = 0.0
+    _eyes(settings, scene)
     if settings.render.engine == "eevee":
         _eevee(settings, scene)
     else:
         _cycles(settings, scene)
+
+
+def _eyes(settings: Settings, scene: bpy.types.Scene) -> None:
+    """Render a picture for each eye where all cameras see all round; files hold both."""
+    render = scene.render
+    render.use_multiview = bool(settings.cameras) and all(each.rig.around for each in settings.cameras)
+    if render.use_multiview:
+        render.resolution_y //= 2
+        render.views_format = "STEREO_3D"
+        compat.over_under(render.image_settings)
 
 
 def _cycles(settings: Settings, scene: bpy.types.Scene) -> None:
@@ -76,17 +87,23 @@ def _eevee(settings: Settings, scene: bpy.types.Scene) -> None:
 
 @contextmanager
 def pixel_centres(scene: bpy.types.Scene, wanted: bool = True) -> Iterator[None]:
-    """Within, if wanted, Cycles sends its rays through the middles of pixels, as data of surfaces need it."""
+    """Within, if wanted, Cycles sends its rays through the middles of pixels, as data of surfaces need it.
+
+    None is given up by chance on its way through smoke and between flames.
+    """
     if not wanted:
         yield
         return
     before = scene.cycles.pixel_filter_type, scene.cycles.filter_width, scene.render.filter_size
+    chance = scene.cycles.min_transparent_bounces
     scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", DEPTH_FILTER
+    scene.cycles.min_transparent_bounces = _TRANSPARENT
     scene.render.filter_size = 0.0
     try:
         yield
     finally:
         scene.cycles.pixel_filter_type, scene.cycles.filter_width, scene.render.filter_size = before
+        scene.cycles.min_transparent_bounces = chance
 
 
 def label(run: Run, scene: bpy.types.Scene) -> None:

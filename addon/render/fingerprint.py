@@ -6,12 +6,13 @@ import functools
 import inspect
 import sys
 from importlib import metadata
+from pathlib import Path
 from typing import Any
 
 import firetwin_core
 
 from ..progress import Progress, silent
-from ..shot import passes, photo, schema, sources
+from ..shot import labels, observed, passes, photo, schema, sources
 from ..shot.settings import Settings
 from ..shot.shot import Shot
 from .picture import Picture
@@ -19,7 +20,13 @@ from .picture import Picture
 Fingerprints = dict[tuple[str, str], dict[str, Any]]
 """By camera and pass."""
 
-_RENDERING = ("render/engine.py", "render/layers.py", "render/pictures.py", "render/png.py")
+_RENDERING = (
+    "render/engine.py",
+    "render/layers.py",
+    "render/pictures.py",
+    "render/png.py",
+    "render/spherical.py",
+)
 
 
 def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) -> dict[str, Any]:
@@ -45,9 +52,15 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
 
 
 def _modules(name: str) -> list[str]:
-    """Files of a pass and of those that it is made from."""
-    file = inspect.getfile(sys.modules[f"{passes.__name__}.{name}"])
-    return [file, *(each for need in passes.known()[name].needs for each in _modules(need))]
+    """Files of a pass, of what passes are finished with, and of those that it is made from."""
+    file, each = inspect.getfile(sys.modules[f"{passes.__name__}.{name}"]), passes.known()[name]
+    helpers = map(str, sorted(Path(passes.__file__).parent.glob("_[a-z]*.py")))
+    return [
+        file,
+        *each.sources,
+        *(helpers if each.finish else ()),
+        *(module for need in each.needs for module in _modules(need)),
+    ]
 
 
 @functools.cache
@@ -73,4 +86,5 @@ def of_pictures(shot: Shot, pictures: list[Picture], progress: Progress = silent
 def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silent) -> Fingerprints:
     """Those of each (camera, pass); what of the run was never read is read now."""
     run = shot.inputs(progress=progress) | photo.inputs(shot.settings, progress)
+    run |= labels.inputs(shot.settings) | observed.inputs(shot.settings, progress)
     return {pair: of_picture(shot.settings, run, *pair) for pair in sorted(pairs)}

@@ -16,6 +16,7 @@ from ..blender.owned import Stage
 from ..shot import passes
 from ..shot.passes import Pass
 from ..shot.settings import Settings
+from . import groups
 from .picture import Picture
 
 
@@ -24,11 +25,13 @@ def build(settings: Settings, stage: Stage) -> None:
 
     Last of all, for layers leave out what exists.
     """
+    groups.build(settings, stage)
     if not stage.own:
         return
     for each in _rendered():
         layer = _layer(stage.scene, each)
         layer[nodes.THERMAL] = 1.0 if each.data else 0.0
+        layer[nodes.MASKS] = 1.0 if each.masks else 0.0
         layer.cycles.use_denoising = not each.data and settings.render.denoise
         if each.enable:
             setattr(layer, each.enable, True)
@@ -43,6 +46,7 @@ def complete(settings: Settings, stage: Stage, parts: Collection[str]) -> None:
 
     Layers are made where they are missing.
     """
+    groups.build(settings, stage)
     if not stage.own:
         return
     there = {layer.get(owned.MARK) for layer in stage.scene.view_layers}
@@ -118,7 +122,7 @@ def _leave_out(layer: bpy.types.ViewLayer, each: Pass, parts: Collection[str] | 
         if owned.ours(child.collection):
             part = str(child.collection[owned.MARK]).lower()
             if parts is None or part in parts:
-                child.exclude = part in each.leaves_out
+                child.exclude = part in each.leaves_out or (each.data and part == "places")
         if not child.exclude:
             pending += child.children
 

@@ -22,9 +22,8 @@ class Picture:
 
     def files(self) -> tuple[str, ...]:
         """Its files, relative to the output folder."""
-        folder = PurePosixPath(self.camera, self.name)
         ends = passes.known()[self.name].files
-        return tuple(str(folder / f"{self.stem()}{self.frame:06d}.{end}") for end in ends)
+        return tuple(passes.file_of(self.camera, self.name, self.frame, end) for end in ends)
 
     def file(self, suffix: str) -> str:
         """Its file with this suffix."""

@@ -6,14 +6,17 @@ from collections.abc import Callable
 from pathlib import Path
 
 import bpy
+import numpy as np
 
 from .. import files
 from ..blender.owned import Stage
 from ..errors import writing
 from ..progress import Progress, silent
 from ..shot import passes
+from ..shot.passes import _view
+from ..shot.path import compass
 from ..shot.shot import Shot
-from . import engine, layers, plan, png, whole
+from . import engine, layers, plan, png, spherical, whole
 from .picture import Picture
 from .sharing import Making
 from .store import describe
@@ -121,6 +124,8 @@ def _publish(shot: Shot, making: Making, part: Path, pictures: list[Picture]) ->
         if path.suffix == ".png" and path.exists():
             with writing(path):
                 png.forget_times(path)
+                if shot.camera(pictures[0].camera).rig.around:
+                    spherical.still(path, shot.settings.render.resolution, _heading(shot, pictures[0]))
         whole.picture(path, shot.settings.render.resolution)
     for picture in pictures:
         entries = {}
@@ -133,3 +138,11 @@ def _publish(shot: Shot, making: Making, part: Path, pictures: list[Picture]) ->
             }
             files.publish(made[name], making.store.out / name)
         making.store.add(making.made_with[picture.camera, picture.name], entries)
+
+
+def _heading(shot: Shot, picture: Picture) -> float:
+    """Where the middle of a picture looks, degrees clockwise from north."""
+    view = _view.of(shot, picture.camera)
+    east, north, _ = compass(shot.local_frame, view.position[picture.frame - 1])
+    ahead = -view.rotation[picture.frame - 1][:, 2]
+    return float(np.degrees(np.arctan2(ahead @ east, ahead @ north)))

@@ -12,8 +12,9 @@ from ..blender import compat
 from ..errors import writing
 from ..progress import Progress, silent
 from ..run import times
+from ..shot import passes
 from ..shot.shot import Shot
-from . import engine, films, picture, whole
+from . import engine, films, picture, spherical, whole
 from .picture import Picture
 from .sharing import Making
 from .store import describe
@@ -48,6 +49,8 @@ def _film(shot: Shot, making: Making, camera: str, name: str, made_from: dict[st
             _strips(shot, scene, out, camera, name, frames)
             with writing(path):
                 bpy.ops.render.render(animation=True, scene=scene.name)
+            if shot.camera(camera).rig.around:
+                spherical.film(made)
             whole.film(made)
             entry = describe(made) | {"camera": camera, "pass": name}
             files.publish(made, path)
@@ -81,16 +84,23 @@ def _settings(shot: Shot, camera: str, scene: bpy.types.Scene, path: Path, count
 def _strips(
     shot: Shot, scene: bpy.types.Scene, out: Path, camera: str, name: str, numbers: list[int]
 ) -> None:
-    """One picture after the other, and over each the model time that it shows."""
+    """One picture after the other, and over each the model time that it shows; two eyes see it both."""
     editor = scene.sequence_editor_create()
-    height = shot.resolution(shot.camera(camera))[1]
+    height, around = shot.resolution(shot.camera(camera))[1], shot.camera(camera).rig.around
+    size, low = (height / 60, (0.17, 0.67)) if around else (height / 20, (0.035,))
+    left, right = (0.44, 0.56) if around else (0.025, 0.975)
     for position, number in enumerate(numbers, start=1):
         shown = str((out / Picture(camera, number, name).file("png")).resolve())
         editor.strips.new_image(f"picture {number}", shown, 1, position, fit_method="ORIGINAL")
+        if not passes.known()[name].captions:
+            continue
         label = times.text(shot.moment(number), shot.settings.time.zone)
-        _text(editor, label, position, 1, 2, height / 20, (0.025, 0.035), "LEFT")
-    if shot.run.synthetic:
-        _text(editor, "synthetic sample run", 1, len(numbers), 3, height / 30, (0.975, 0.035), "RIGHT")
+        for eye, up in enumerate(low):
+            _text(editor, label, position, 1, 2 + eye, size, (left, up), "LEFT")
+    if shot.run.synthetic and passes.known()[name].captions:
+        for eye, up in enumerate(low):
+            place = right, up - 0.03 * around
+            _text(editor, "synthetic sample run", 1, len(numbers), 4 + eye, size / 1.5, place, "RIGHT")
 
 
 def _text(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import struct
 from pathlib import Path
 
@@ -13,13 +14,15 @@ _PNG_END = b"\0\0\0\0IEND\xaeB`\x82"
 
 
 def picture(path: Path, size: tuple[int, int]) -> None:
-    """Open a picture of `size` (width, height) and read all of it.
+    """Open a picture of `size` (width, height), or a JSON file, and read all of it.
 
     Raises
     ------
     InputError
         It is missing, cut off or of another size.
     """
+    if path.suffix == ".json":
+        return _text(path)
     try:
         height, width = sensor.read_image(path).shape[:2]
         complete = path.suffix != ".png" or _end(path, len(_PNG_END)) == _PNG_END
@@ -29,6 +32,13 @@ def picture(path: Path, size: tuple[int, int]) -> None:
         raise _damaged(path, "is cut off")
     if (width, height) != tuple(size):
         raise _damaged(path, f"has {width} x {height} pixels instead of {size[0]} x {size[1]}")
+
+
+def _text(path: Path) -> None:
+    try:
+        json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise _damaged(path, f"is no JSON: {error}") from None
 
 
 def film(path: Path) -> None:

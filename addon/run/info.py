@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Sequence
 from datetime import datetime
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,7 +22,16 @@ def gather(run: Run, zone: str) -> dict[str, Any]:
 
     What was found once is remembered in the run's folder.
     """
-    return remembered.facts(run, zone, lambda: _find(run, zone)) | {"path": run.path}
+    found = remembered.facts(run, zone, lambda: _find(run, zone))
+    return found | {"path": run.path, "source": _source(Path(run.path))}
+
+
+def _source(folder: Path) -> dict[str, Any]:
+    """What run.toml says that the run was made from: model, version, projection, files and assumptions."""
+    try:
+        return tomllib.loads((folder / "run.toml").read_text(encoding="utf-8-sig")).get("source", {})
+    except (OSError, ValueError):  # the core reads what it needs, and says what is wrong
+        return {}
 
 
 def _find(run: Run, zone: str) -> dict[str, Any]:
@@ -81,6 +92,13 @@ def burned(run: Run, moments: Sequence[float]) -> list[float]:
     return found.tolist()
 
 
+def reported(run: Run) -> list[dict[str, Any]]:
+    """The dated acreages (m2) of the fire that the run depicts, beside the run's own."""
+    if not (reports := _reports(run)):
+        return []
+    return _reported(run, reports, burned(run, [times.seconds(run, each.time) for each in reports]))
+
+
 def energy(run: Run) -> float:
     """Heat released over the run (J): flux times cell area, integrated over time by the trapezoidal rule."""
     return float(np.sum(run.heat_released() * areas.cell_areas(run.latitude, run.longitude)))
@@ -127,6 +145,7 @@ def _reported(run: Run, reports: list[history.Acreage], areas_then: list[float])
     rows = []
     for report, area in zip(reports, areas_then, strict=True):
         row = {"time": _iso(report.time), "reported": report.acres * ACRE, "source": report.source}
+        row["note"] = report.note
         covered = run.times[0] <= times.seconds(run, report.time) <= run.times[-1]
         row["run"] = area if covered else None
         row["difference"] = area / row["reported"] - 1 if covered else None
@@ -147,9 +166,20 @@ def page(info: dict[str, Any]) -> str:
             "",
             *_rows(_facts(info)),
             *_acreages(info),
+            *_made_of(info.get("source", {})),
             *(["", "Warnings", *(f"  - {text}" for text in info["warnings"])] if info["warnings"] else []),
         ]
     )
+
+
+def _made_of(source: dict[str, Any]) -> list[str]:
+    if not source:
+        return []
+    return [
+        "",
+        f"Made from {source.get('model')}",
+        *(f"  - {text}" for text in source.get("assumptions", [])),
+    ]
 
 
 def brief(info: dict[str, Any]) -> list[tuple[str, str]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,6 +18,7 @@ from numpy.typing import NDArray
 from .. import files
 from ..data import history
 from . import areas, thumbnails, times
+from .observations import Perimeter
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run
@@ -25,14 +27,21 @@ if TYPE_CHECKING:
 
 FUEL = LinearSegmentedColormap.from_list("fuel", thumbnails.FUEL)
 INTENSITY = LinearSegmentedColormap.from_list("intensity", thumbnails.INTENSITY)
+SEEN = LinearSegmentedColormap.from_list("seen", ["#d4e6f7", "#5aa2dd", "#0b3d75"])
 DPI = 160
 
 
-def draw(run: Run, out: Path, zone: str) -> list[Path]:
-    """Write ``fuel.png`` and ``intensity.png`` into the folder `out` and return their paths."""
+def draw(run: Run, out: Path, zone: str, seen: Sequence[Perimeter] = ()) -> list[Path]:
+    """Write ``fuel.png`` and ``intensity.png``, with perimeters that were seen, into the folder `out`.
+
+    Returns
+    -------
+    list of Path
+        Both files.
+    """
     paths = [out / "fuel.png", out / "intensity.png"]
     _save(fuel_map(run), paths[0])
-    _save(intensity_map(run, zone), paths[1])
+    _save(intensity_map(run, zone, seen), paths[1])
     return paths
 
 
@@ -47,8 +56,8 @@ def fuel_map(run: Run) -> Figure:
     return figure
 
 
-def intensity_map(run: Run, zone: str) -> Figure:
-    """Largest heat flux (kW/m2) of each model cell over the whole run, over the relief."""
+def intensity_map(run: Run, zone: str, seen: Sequence[Perimeter] = ()) -> Figure:
+    """Largest heat flux (kW/m2) of each model cell of the whole run, over the relief; perimeters as lines."""
     flux = np.ma.masked_less_equal(thumbnails.strongest(run) / 1e3, 0)
     first, last = (times.text(times.moment(run, float(run.times[i])), zone) for i in (0, -1))
     figure, axes = _page(run, "Fire intensity", f"strongest heat flux, {first} to {last}")
@@ -58,8 +67,28 @@ def intensity_map(run: Run, zone: str) -> Figure:
     image = _show(axes, run.latitude, run.longitude, flux, INTENSITY, norm)
     _colour_bar(figure, axes, image, "heat flux, kW/m$^2$ (logarithmic)", "min")
     _burned_before(axes, run)
+    _perimeters(axes, run, zone, seen)
     _places(axes, run)
     return figure
+
+
+def _perimeters(axes: Axes, run: Run, zone: str, seen: Sequence[Perimeter]) -> None:
+    """Outline what was seen burned, each date in a blue of its own, the latest darkest."""
+    if not seen:
+        return
+    middle = float(run.longitude[0] + run.longitude[-1]) / 2
+    before, bounds, lines = axes.get_legend(), (axes.get_xlim(), axes.get_ylim()), []
+    for i, each in enumerate(seen):
+        style = {"facecolor": "none", "edgecolor": SEEN((i + 1) / len(seen)), "linewidth": 1.1, "zorder": 4}
+        rings = [ring for polygon in each.polygons for ring in polygon]
+        drawn = [axes.fill(areas.turned(x, middle), y, **style)[0] for x, y in (ring.T for ring in rings)]
+        drawn[0].set_label(times.text(each.time, zone))
+        lines.append(drawn[0])
+    axes.set(xlim=bounds[0], ylim=bounds[1])
+    box = {"framealpha": 0.78, "edgecolor": "none", "fontsize": 8, "title_fontsize": 8}
+    axes.legend(handles=lines, title="seen burned by", loc="upper left", **box)
+    if before:
+        axes.add_artist(before)
 
 
 def _burned_before(axes: Axes, run: Run) -> None:

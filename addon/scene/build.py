@@ -15,6 +15,7 @@ from .forest import build as forest
 from .forest import stand
 from .ground import build as ground
 from .light import build as light
+from .places import build as places
 from .smoke import build as smoke
 
 PARTS = {
@@ -24,6 +25,7 @@ PARTS = {
     "smoke": "hanging the smoke",
     "light": "setting the sun",
     "cameras": "setting the cameras",
+    "places": "naming the places",
 }
 """What can be built by itself, and what is told while it is."""
 
@@ -84,6 +86,7 @@ def steps(
         "smoke": lambda: smoke.build(shot.whole, stage()),
         "light": lambda: [tell(text) for text in light.build(shot.whole, stage())],
         "cameras": lambda: camera.build(shot, stage()),
+        "places": lambda: places.build(shot, stage()),
     }
     for part, text in PARTS.items():
         if part in parts:

@@ -35,7 +35,7 @@ def _group(stage: Stage) -> bpy.types.NodeTree:
     depth = way(tree, sky.HAZE_HEIGHT) * extinction
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     fraction = (1.0 - (-depth).exp()) * camera
-    tree.node("NodeGroupOutput", {"Fraction": fraction, "Colour": colour})
+    tree.finish({"Fraction": fraction, "Colour": colour})
     return group
 
 

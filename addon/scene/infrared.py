@@ -57,13 +57,18 @@ def through_air(tree: nodes.Tree, shot: Shot, stage: Stage, radiance: Any) -> no
 
 
 def smoke(tree: nodes.Tree, shot: Shot, stage: Stage, visible: Any, density: nodes.Value) -> nodes.Value:
-    """`visible`, the shader of smoke with this extinction (1/m) in green light; its warmth in data layers."""
+    """`visible`, the shader of smoke with this extinction (1/m) in green light; its warmth in data layers.
+
+    In masks it dims as it does in green light, and no more.
+    """
     low, high = BANDS[shot.settings.thermal.band]
     absorbed = density * (SOOT * 2.0 * GREEN / (low + high))
     black = tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": absorbed})
     own = emitted(tree, shot, stage, temperature.air(tree, shot, stage))
     warm = tree.add_shader(black, tree.emission((1.0, 1.0, 1.0), own * absorbed))
-    return tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), visible, warm)
+    shader = tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), visible, warm)
+    dims = tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": density})
+    return nodes.masked(tree, shader, dims)
 
 
 def build(shot: Shot, stage: Stage) -> None:
@@ -93,7 +98,7 @@ def _group(shot: Shot, stage: Stage) -> bpy.types.NodeTree:
         weight, exponent = (_value(tree, f"{name} {index}") for name in ("Weight", "Exponent"))
         own = own + weight / ((inverse * exponent).exp() - 1.0)
     radiance = tree.mix(tree.pick(entry, "Emissivity"), _value(tree, "Sky"), own)
-    tree.node("NodeGroupOutput", {"Radiance": radiance, "Clear": _clear(tree)})
+    tree.finish({"Radiance": radiance, "Clear": _clear(tree)})
     _fill(group, shot)
     return group
 

@@ -106,7 +106,7 @@ def _group(shot: Shot, stage: Stage, fill: bool = True) -> bpy.types.NodeTree:
     kelvin, model, _ = tree.separate(both)
     sunward = _named(tree, "ShaderNodeCombineXYZ", "Sun")
     kelvin = kelvin - (elevation - model) * temperature.LAPSE
-    tree.node("NodeGroupOutput", {"Kelvin": kelvin, "Sun": sunward})
+    tree.finish({"Kelvin": kelvin, "Sun": sunward})
     if fill:
         _fill(group, shot)
     return group

@@ -52,6 +52,12 @@ class Path:
     meet
         Where lines of sight meet so far away that they count as parallel: how far, m, from what it looks at;
         `half` is there. 0: never.
+    around
+        It sees all round, in a picture that holds every direction: `half` is half of its angles, radians.
+    apart
+        How far its eyes are apart, m; they stand right and left of `position` as seen in each direction.
+    width
+        Of its pictures (of one eye), pixels; the shot knows it.
     """
 
     camera: Camera
@@ -64,6 +70,14 @@ class Path:
     sensor: float = SENSOR
     wider: Array | None = None
     meet: float = 0.0
+    around: bool = False
+    apart: float = 0.0
+    width: int = 0
+
+    @property
+    def pixel(self) -> float:
+        """Size of its smallest pixels: in perspective m per m of distance, and with parallel lines m."""
+        return 2.0 * self.half[0] / self.width
 
     @property
     def halves(self) -> Array:
@@ -72,14 +86,11 @@ class Path:
         return wider[:, None] * np.array(self.half)
 
 
-def finest(paths: list[Path], width: int) -> tuple[float, float]:
-    """Sizes of the smallest pixels of pictures so many pixels wide, infinite without a camera of that kind.
-
-    In perspective m per m of distance, and with parallel lines m.
-    """
-    sizes = [(path.perspective, 2.0 * path.half[0] / width) for path in paths]
+def finest(paths: list[Path]) -> tuple[float, float]:
+    """Sizes of the smallest pixels of each kind (see `Path.pixel`), infinite without a camera of it."""
     return tuple(
-        min((size for kind, size in sizes if kind == near), default=np.inf) for near in (True, False)
+        min((path.pixel for path in paths if path.perspective == near), default=np.inf)
+        for near in (True, False)
     )
 
 

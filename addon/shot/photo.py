@@ -110,8 +110,7 @@ def pictures(shot: Shot) -> list[Picture]:
 
 def _pixel(shot: Shot) -> float:
     """Half of the smallest pixel (m) that shows ground, 200 m from cameras in perspective."""
-    width = shot.settings.render.resolution[0]
-    sizes = [2.0 * view.half[0] / width * (200.0 if view.perspective else 1.0) for view in shot.paths]
+    sizes = [view.pixel * (200.0 if view.perspective else 1.0) for view in shot.paths]
     return 0.5 * min(sizes, default=1.0)
 
 

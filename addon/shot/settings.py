@@ -172,6 +172,12 @@ class Fire:
         at_most=100_000,
     )
     torches: bool = key(True, "crowns near the cameras that flare up as the front reaches them")
+    observed: Path | None = key(
+        None,
+        "perimeters or detections to draw by date, a .geojson, .shp, .kml, .gpkg, .csv or a folder of them",
+        shows=(),
+    )
+    observed_width: float = key(40.0, "of these lines", unit="m", above=0, at_most=5000)
 
 
 @dataclass(frozen=True)
@@ -228,6 +234,20 @@ class Light:
 
 
 @dataclass(frozen=True)
+class Places:
+    """Labels of towns, lakes and summits, in the visible picture alone."""
+
+    enabled: bool = key(False, "draw the labels")
+    file: Path | None = key(
+        None,
+        "places to label, a GeoJSON or a CSV with name, latitude and longitude; left out, the fire's own",
+        shows=(),
+    )
+    size: float = key(0.035, "height of the letters", unit="heights of the picture", above=0, at_most=0.5)
+    distance: float = key(60_000.0, "from the camera to where labels have faded out", unit="m", above=0)
+
+
+@dataclass(frozen=True)
 class Thermal:
     """The infrared camera of the thermal view, ideal unless it is given flaws."""
 
@@ -267,7 +287,7 @@ class Camera:
     name: str = key("drone", "names its folder and files", check=_file_name, shows=())
     rig: Any = one_of(rigs.kinds, "kind of camera", tag="kind", usual=rigs.USUAL)
     passes: tuple[str, ...] = key(
-        (), 'such as ["rgb"]; empty: those of [render]', choices=passes.helps, shows=()
+        (), 'such as ["rgb"]; empty: those of [render]', choices=passes.helps, shows=("passes",)
     )
     frames: str = key("", 'such as "24" or "1-48:4"; empty: all')
     resolution: tuple[int, int] | None = key(
@@ -329,7 +349,7 @@ class Render:
         "what cameras record",
         choices=passes.helps,
         check=_at_least_one,
-        shows=(),
+        shows=("passes",),
     )
     video: bool = key(True, "a film of every camera with more than one frame, rgb and thermal", shows=())
     seed: int = key(
@@ -383,6 +403,7 @@ class Settings:
     fire: Fire = key(default_factory=Fire, help="flames, firebrands and the glowing ground")
     smoke: Smoke = key(default_factory=Smoke, help="the smoke volume")
     light: Light = key(default_factory=Light, help="sun, haze, exposure and the light of the flames")
+    places: Places = key(default_factory=Places, help="labels of towns, lakes and summits in the picture")
     thermal: Thermal = key(default_factory=Thermal, help="the infrared camera of the thermal view")
     render: Render = key(default_factory=Render, help="how frames are made")
     cameras: tuple[Camera, ...] = key((), "a camera and what it records", shows=("camera",))
@@ -399,7 +420,22 @@ class Settings:
                 frame_list.parse(camera.frames, self.time.frames)
             except ValueError as error:
                 return ("cameras", i, "frames"), f"cameras.frames: {error}"
-        return self._leaderless()
+        return self._leaderless() or self._around()
+
+    def _around(self) -> tuple[Where, str] | None:
+        """What is asked of cameras that see all round and cannot be."""
+        for i, camera in enumerate(self.cameras):
+            width, height = camera.resolution or self.render.resolution
+            if camera.rig.around and self.render.engine != "cycles":
+                reason = f'camera "{camera.name}" sees all round, which EEVEE cannot; render it with Cycles'
+                return ("cameras", i, "kind"), reason
+            if camera.rig.around and width != height:
+                reason = (
+                    f'camera "{camera.name}" needs a square resolution, such as [2048, 2048]: two pictures '
+                    f"one above the other, each twice as wide as high; it has {width} x {height}"
+                )
+                return ("cameras", i, "resolution"), reason
+        return None
 
     def _leaderless(self) -> tuple[Where, str] | None:
         for i, camera in enumerate(self.cameras):

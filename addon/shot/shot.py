@@ -16,7 +16,7 @@ from ..errors import UsageError
 from ..progress import Progress, silent
 from ..run import content, times
 from ..run.frame import local_frame
-from . import burning, frame_list, frames, path, relief, sun
+from . import burning, frame_list, frames, path, relief, sun, temperature
 from .fire import Fire
 from .frames import Frames
 from .ground import Ground
@@ -166,10 +166,13 @@ class Shot:
     @cached_property
     def pixel(self) -> tuple[float, float]:
         """Sizes of the smallest pixels: in perspective m per m of distance, with parallel lines m."""
-        return path.finest(self.paths, self.settings.render.resolution[0])
+        return path.finest(self.paths)
 
     def _paths(self, ground: Ground) -> list[Path]:
-        return [camera.rig.path(camera, self, ground) for camera in self.settings.cameras]
+        return [
+            replace(camera.rig.path(camera, self, ground), width=self.resolution(camera)[0])
+            for camera in self.settings.cameras
+        ]
 
     def warnings(self) -> list[str]:
         """What an artist should know of the cameras' paths."""
@@ -208,6 +211,32 @@ class Shot:
         """Mean wind (m/s, east and north) where it burns in the middle of the shot."""
         east, north = burning.wind_at(self.run, np.array([self.frames.middle]), self.fire.surroundings)[0]
         return float(east), float(north)
+
+    @cached_property
+    def coldest(self) -> float:
+        """K that a tenth of the run's air is colder than in the middle of the shot."""
+        return temperature.coldest(self.run, self.frames.middle)
+
+    @cached_property
+    def coldest_moment(self) -> float:
+        """The same in the coldest of 25 moments of the shot."""
+        return min(temperature.coldest(self.run, float(time)) for time in self._moments)
+
+    @cached_property
+    def warmest(self) -> tuple[float, float]:
+        """K that the air the fire warms is over unburned air, least and most, in 25 moments of the shot."""
+        found = [temperature.warmth(self.run, time - self.averaged, time) for time in self._moments]
+        low, high = max(noise for _, noise in found), max(float(above.max()) for above, _ in found)
+        return low, max(high, low + 1.0)
+
+    @property
+    def _moments(self) -> NDArray[np.float64]:
+        return np.linspace(self.frames.first, self.frames.last, min(25, self.frames.count))
+
+    @property
+    def averaged(self) -> float:
+        """Seconds over which the model's temperature is averaged: ten minutes, or from frame to frame."""
+        return max(600.0, self.frames.step)
 
     @cached_property
     def fire_distance(self) -> float:

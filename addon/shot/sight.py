@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from .shot import Shot
 
 
+_HALF_SPACE = 1.0e9  # tangent of half of 180 degrees
+_ONE_PLACE = 0.5  # m; to eyes farther apart the ground counts as hiding nothing: one may see past its edge
+
+
 class Sights:
     """Sights of a shot's cameras, each made when it is first asked for.
 
@@ -84,11 +88,8 @@ class Sights:
 
     def _showing(self, pixel: float) -> tuple[int, ...]:
         """Numbers of the cameras in perspective, and of the others whose pixels are small enough."""
-        width = self.shot.settings.render.resolution[0]
         return tuple(
-            number
-            for number, path in enumerate(self.shot.paths)
-            if path.perspective or 2.0 * path.half[0] / width < pixel
+            number for number, path in enumerate(self.shot.paths) if path.perspective or path.pixel < pixel
         )
 
     def _of(self, numbers: tuple[int, ...]) -> lod.Sight:
@@ -100,17 +101,23 @@ class Sights:
         """What these cameras see in all that they film, or in a frame (from 0)."""
         shot = self.shot
         filmed = [shot.filmed(path) if frame is None else np.array([frame]) for path in paths]
-        counts = [len(frames) for frames in filmed]
-        position = _joined([path.position[frames] for path, frames in zip(paths, filmed, strict=True)], (3,))
+        looks = [
+            (path, frames, *look)
+            for path, frames in zip(paths, filmed, strict=True)
+            for look in _looks(path, frames)
+        ]
+        counts = [len(frames) for _, frames, _, _ in looks]
+        position = _joined([path.position[frames] for path, frames, _, _ in looks], (3,))
+        one = np.repeat([path.apart <= _ONE_PLACE for path, *_ in looks], counts).astype(bool)
         if self._ground is None:
             self._ground, self._floor = _occluder(shot)
         return lod.Sight(
             position,
-            _joined([path.rotation[frames] for path, frames in zip(paths, filmed, strict=True)], (3, 3)),
-            _joined([path.halves[frames] for path, frames in zip(paths, filmed, strict=True)], (2,)),
-            sun=self._sun(_joined(filmed, ()).astype(np.int64)),
-            parallel=np.repeat([not path.perspective for path in paths], counts),
-            clear=_clear(shot.ground, position),
+            _joined([rotation for _, _, rotation, _ in looks], (3, 3)),
+            _joined([halves for _, _, _, halves in looks], (2,)),
+            sun=self._sun(_joined([frames for _, frames, _, _ in looks], ()).astype(np.int64)),
+            parallel=np.repeat([not path.perspective for path, *_ in looks], counts).astype(bool),
+            clear=_clear(shot.ground, position) & one,
             ground=self._ground,
             floor=self._floor,
         )
@@ -120,6 +127,15 @@ class Sights:
         each, number = np.unique(frames, return_inverse=True)
         times = self.shot.frames.times[each]
         return np.array([sun.light(*self.shot.sun(float(t))) for t in times]).reshape(-1, 3)[number]
+
+
+def _looks(path: Path, frames: NDArray[np.int64]) -> list[tuple[NDArray, NDArray]]:
+    """Rotations (n, 3, 3) and `half` (n, 2) of what a camera sees; all round is before it and behind."""
+    rotation = path.rotation[frames]
+    if not path.around:
+        return [(rotation, path.halves[frames])]
+    half = np.full((len(frames), 2), _HALF_SPACE)
+    return [(rotation, half), (rotation @ np.diag([-1.0, 1.0, -1.0]), half)]
 
 
 def _joined(parts: list[NDArray], shape: tuple[int, ...]) -> NDArray:

@@ -10,12 +10,14 @@ from __future__ import annotations
 import functools
 import hashlib
 import inspect
+import sys
 from collections.abc import Iterable
 from pathlib import Path
 
 import firetwin_core
 
 from ..run.content import sha256
+from . import rigs
 from .settings import Camera
 
 EVERYWHERE = ("scene", "blender", "run", "shot", "shot/rigs/_key.py", "shot/rigs/_lens.py")
@@ -32,10 +34,18 @@ def of(aspects: Iterable[str], cameras: Iterable[Camera], *more: str | Path) -> 
     """
     cameras = list(cameras)
     scene = [f"scene/{name}" for name in sorted(aspects) if (PACKAGE / "scene" / name).is_dir()]
-    rigs = {inspect.getfile(type(camera.rig)) for camera in cameras}
+    rigs = {file for camera in cameras for file in _modules(type(camera.rig))}
     places = [PACKAGE / place for place in (*EVERYWHERE, *scene, *rigs, *more)]
     read = {path.name: sha256(path)[:16] for camera in cameras for path in camera.rig.reads()}
     return {"core": _core()} | dict(sorted(map(_hash, places))) | read
+
+
+def _modules(rig: type) -> set[str]:
+    """Files of a rig and of the other rigs that its module names."""
+    mine = sys.modules[rig.__module__]
+    others = (getattr(thing, "__module__", None) or "" for thing in vars(mine).values())
+    names = {name for name in others if name.startswith(f"{rigs.__name__}.")}
+    return {inspect.getfile(sys.modules[name]) for name in {rig.__module__, *names}}
 
 
 @functools.cache

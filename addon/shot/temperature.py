@@ -12,6 +12,7 @@ PULSE = 120.0  # s that the front heats the ground (assumed)
 COOLING = 2.0 * 20_000.0 / (600.0 * np.sqrt(np.pi))
 """K s-1/2: q = 20 kW/m2, and the thermal effusivity e = 600 J m-2 K-1 s-1/2 of dry soil (assumed)."""
 
+_FIRE = 1.0  # W/m2; less is no fire (see `firetwin_core.flux.at_time`)
 LAPSE = 6.5e-3  # K/m, the standard atmosphere
 _DAY, _NIGHT = 304.0, 292.0  # K at sea level under a sun 20 degrees high, and without one (assumed)
 
@@ -41,6 +42,26 @@ def mean(run: Run, start: float, end: float) -> Array:
     for index in inside:
         total += _filled(run.temperature(int(index)))
     return total / len(inside)
+
+
+def warmth(run: Run, start: float, end: float) -> tuple[Array, float]:
+    """(ny, nx) K that mean air from `start` to `end` (s) is warmer than unburned air as high, and the noise.
+
+    Unburned air is a straight line through temperature against the model's elevation, by least squares over
+    the cells without heat flux in that time: height and time of day are not warmth. A hundredth of those
+    cells lie above the noise (K), as beside the fire and where wind and slope make other air.
+    """
+    kelvin = mean(run, start, end)
+    inside = np.flatnonzero((run.times >= start) & (run.times <= end))
+    calm = np.isfinite(run.elevation)
+    for index in inside if len(inside) else [int(np.abs(run.times - end).argmin())]:
+        calm &= ~(run.heat_flux(int(index)) >= _FIRE)
+    if not calm.any():
+        return np.zeros(kelvin.shape), 0.0
+    height = np.nan_to_num(run.elevation.astype(np.float64))
+    line = np.polynomial.Polynomial.fit(height[calm], kelvin[calm], 1 if np.ptp(height[calm]) > 1.0 else 0)
+    above = kelvin - line(height)
+    return above, float(np.percentile(above[calm], 99.0))
 
 
 def coldest(run: Run, time: float) -> float:

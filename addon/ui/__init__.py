@@ -4,6 +4,7 @@ import bpy
 
 from . import (
     aims,
+    assets,
     background,
     build,
     cameras_panel,
@@ -43,6 +44,7 @@ classes = (
     *background.classes,
     *section_panels.classes,
     *report.classes,
+    *assets.classes,
 )
 
 

@@ -9,11 +9,9 @@ import numpy as np
 from firetwin_core.run import Run
 from mathutils import Euler
 
+from ..blender import viewport
 from ..run import areas
 
-# m. Blender's own 1000 m show nothing of such a world; nearer than 20 m, depths are too coarse to tell far
-# smoke from the ground.
-NEAR, FAR = 20.0, 500_000.0
 _TILT = 0.9  # rad from straight down
 
 
@@ -28,23 +26,15 @@ def spaces(scene: bpy.types.Scene) -> Iterator[bpy.types.SpaceView3D]:
 
 def widen(scene: bpy.types.Scene) -> None:
     """Let the views of a scene see the whole distance, but those whose clipping an artist has set."""
-    _clip(scene, _usual(), (NEAR, FAR))
+    for space in spaces(scene):
+        viewport.clip(space, viewport.usual(), (viewport.NEAR, viewport.FAR))
+        viewport.coloured(space)
 
 
 def narrow(scene: bpy.types.Scene) -> None:
     """Give views that `widen` widened the clipping that they had."""
-    _clip(scene, (NEAR, FAR), _usual())
-
-
-def _usual() -> tuple[float, float]:
-    known = bpy.types.SpaceView3D.bl_rna.properties
-    return known["clip_start"].default, known["clip_end"].default
-
-
-def _clip(scene: bpy.types.Scene, before: tuple[float, float], after: tuple[float, float]) -> None:
     for space in spaces(scene):
-        if np.allclose((space.clip_start, space.clip_end), before, rtol=1.0e-6, atol=0.0):
-            space.clip_start, space.clip_end = after
+        viewport.clip(space, (viewport.NEAR, viewport.FAR), viewport.usual())
 
 
 def look(scene: bpy.types.Scene, whole: bool = False) -> None:

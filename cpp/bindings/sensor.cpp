@@ -147,6 +147,33 @@ Array<float> thermal_composite(const py::object& rgb, const py::object& kelvin, 
   return colour;
 }
 
+Array<float> overlay(const py::object& below, const py::object& above, const py::object& kelvin,
+                     double start, double full, double opacity) {
+  const auto k = to_array<float>(kelvin, "kelvin", {-1, -1});
+  const auto under = to_array<float>(below, "below", {k.shape(0), k.shape(1), 3});
+  const auto over = to_array<float>(above, "above", {k.shape(0), k.shape(1), 3});
+  auto colour = new_array<float>({k.shape(0), k.shape(1), 3});
+  const auto out = writable(colour);
+  const auto in = view(k);
+  sensor::overlay({}, {}, {}, start, full, opacity, {});
+  in_pieces(in.size(), [&](std::size_t first, std::size_t count) {
+    sensor::overlay(view(under).subspan(3 * first, 3 * count),
+                    view(over).subspan(3 * first, 3 * count), in.subspan(first, count), start, full,
+                    opacity, out.subspan(3 * first, 3 * count));
+  });
+  return colour;
+}
+
+Array<double> palette(const std::string& name) {
+  const auto stops = sensor::palette(name).stops;
+  auto result = new_array<double>({length(stops.size()), 3});
+  auto next = writable(result).begin();
+  for (const sensor::Colour& stop : stops) {
+    next = std::ranges::copy(stop, next).out;
+  }
+  return result;
+}
+
 Array<float> eye_dome(const py::object& depth, double strength, std::size_t radius) {
   const auto metres = to_array<float>(depth, "depth", {-1, -1});
   auto shade = new_array<float>({metres.shape(0), metres.shape(1)});
@@ -205,10 +232,13 @@ void init_sensor(Module module) {
            py::arg("noise") = 0.0, py::arg("saturation") = 0.0, py::arg("bits") = 0,
            py::arg("key") = 0);
   module.def("palettes", &sensor::palettes);
+  module.def("palette", &palette, py::arg("name"));
   module.def("colour", &colour, py::arg("kelvin"), py::arg("low"), py::arg("high"),
              py::arg("palette") = "white-hot", py::arg("knee") = 0.0);
   module.def("thermal_composite", &thermal_composite, py::arg("rgb"), py::arg("kelvin"),
              py::arg("low"), py::arg("high"), py::arg("strength") = 1.0);
+  module.def("overlay", &overlay, py::arg("below"), py::arg("above"), py::arg("kelvin"),
+             py::arg("start"), py::arg("full"), py::arg("opacity") = 1.0);
   module.def("eye_dome", &eye_dome, py::arg("depth"), py::arg("strength") = 4.0,
              py::arg("radius") = 1);
   module.def("read_image", &read_image, py::arg("path"));

@@ -24,9 +24,9 @@ constexpr std::uint64_t largest_description = 16U << 20;
 /// floats.
 constexpr double far_from_start = 1.0e6;
 constexpr double longest = 5.0e11; ///< s, more than there are in the years that a date may have
-constexpr std::array<std::string_view, 10> known_keys = {
-    "name",     "start", "interval_s", "times_s",   "mean_s",
-    "vertical", "units", "no_data",    "synthetic", "event"};
+constexpr std::array<std::string_view, 11> known_keys = {
+    "name",  "start",   "interval_s", "times_s", "mean_s", "vertical",
+    "units", "no_data", "synthetic",  "event",   "source"};
 
 Moment moment_of(const toml::date_time& t) {
   return {t.date.year,   t.date.month,  t.date.day,        t.time.hour,
@@ -50,6 +50,9 @@ public:
     }
     if (const toml::node* node = table_.get("no_data")) {
       m.no_data = number(*node, "no_data must be a number");
+    }
+    if (const toml::node* node = table_.get("source"); node && !node->is_table()) {
+      fail(node->source(), "source must be a table that says what the run was made from");
     }
     if (const toml::node* node = table_.get("mean_s")) {
       const std::string form = "mean_s must be a number of seconds, 0 for fluxes at their time";

@@ -19,6 +19,10 @@ namespace {
 
 constexpr int largest_megabytes = 1024;
 constexpr int most_channels = 64;
+// PNG files are 4 times as quick to write as with zlib's usual level 6 and no filter, and an eighth
+// larger.
+constexpr int png_level = 1;     // of zlib
+constexpr int png_filter = 0x10; // of libpng: differences from the pixel at the left
 constexpr OIIO::imagesize_t most_values = 256'000'000; // 1 GB of floats
 
 /// OpenImageIO's name of a format, by the first bytes.
@@ -61,6 +65,10 @@ OIIO::ImageSpec make_spec(std::size_t height, std::size_t width, std::size_t cha
     spec.attribute("compression", "zip");
     spec.attribute("DateTime",
                    "1970:01:01 00:00:00"); // else now: one picture would have many files
+  }
+  if (!exr) {
+    spec.attribute("png:compressionLevel", png_level);
+    spec.attribute("png:filter", png_filter);
   }
   if (exr && !names.empty()) {
     spec.channelnames = names;

@@ -28,4 +28,24 @@ void thermal_composite(std::span<const float> rgb, std::span<const float> kelvin
   }
 }
 
+void overlay(std::span<const float> below, std::span<const float> above,
+             std::span<const float> kelvin, double start, double full, double opacity,
+             std::span<float> colour) {
+  if (!std::isfinite(start) || !std::isfinite(full) || !(start < full)) {
+    throw std::invalid_argument(
+        "start and full must be finite temperatures in K, start below full");
+  }
+  if (!(opacity >= 0.0 && opacity <= 1.0)) {
+    throw std::invalid_argument("opacity must be from 0 to 1");
+  }
+  for (std::size_t i = 0; i < kelvin.size(); ++i) {
+    const double rise = (static_cast<double>(kelvin[i]) - start) / (full - start);
+    const double part = rise > 0.0 ? opacity * std::min(rise, 1.0) : 0.0; // NaN: none
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+      const auto under = static_cast<double>(below[c]);
+      colour[c] = static_cast<float>(under + part * (static_cast<double>(above[c]) - under));
+    }
+  }
+}
+
 } // namespace firetwin::sensor

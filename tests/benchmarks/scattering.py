@@ -47,8 +47,8 @@ class Bench:
         self.scene.frame_set(frame)
         self.folder, self.count = folder, 0
         nodes = bpy.data.materials["Firetwin Smoke"].node_tree.nodes
-        self.light = nodes["Light"].inputs[1]
-        self.scatter = [node.inputs["Anisotropy"] for node in nodes if "Anisotropy" in node.inputs]
+        shown = next(node for node in nodes if node.type == "GROUP")
+        self.light, self.scatter = shown.inputs["Light Density"], [shown.inputs["Anisotropy"]]
         self.usual = self.light.default_value, self.scatter[0].default_value
 
     def picture(self, samples: int, denoise: bool, tweak: Callable[[Bench], None]) -> tuple[Array, float]:

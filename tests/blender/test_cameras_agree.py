@@ -15,6 +15,7 @@ from firetwin.shot.rigs.chase import Chase
 from firetwin.shot.rigs.drone import CameraKey, Drone
 from firetwin.shot.rigs.lookout import Lookout, LookoutKey
 from firetwin.shot.rigs.minimap import Minimap
+from firetwin.shot.rigs.mounted import Mounted
 from firetwin.shot.rigs.orbit import Orbit
 from firetwin.shot.rigs.satellite import Satellite
 from firetwin.shot.settings import Camera
@@ -32,6 +33,7 @@ RIGS = {
     "lookout": Lookout(latitude=38.815, longitude=-120.59, height=400.0,
                        keys=(LookoutKey(0.0, 20.0, 15.0), LookoutKey(1.0, 70.0, 15.0, 3.0))),
     "chase": Chase(distance=2500.0, height=1200.0),
+    "mounted": Mounted(follows="drone", focal_length=20.0),
     "minimap": Minimap(follows="drone", swath=3000.0),
     "satellite": Satellite(swath=6000.0),
     "geostationary": Satellite(swath=6000.0, geostationary=-137.0),

@@ -60,12 +60,12 @@ def alone(scene, lamps):
     for node in scene.world.node_tree.nodes:
         if node.type == "BACKGROUND":
             node.inputs["Strength"].default_value = 0.0
-    for material in bpy.data.materials:
-        for node in material.node_tree.nodes if material.node_tree else ():
+    for tree in bpy.data.node_groups:
+        for node in tree.nodes:
             if node.type == "EMISSION":
                 strength = node.inputs["Strength"]
                 for link in strength.links:
-                    material.node_tree.links.remove(link)
+                    tree.links.remove(link)
                 strength.default_value = 0.0
     assert lamps
 

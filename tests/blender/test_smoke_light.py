@@ -40,12 +40,10 @@ def ball(shot, stage, scene, tmp_path):
 
     def render(bearing, bounces, light=None, anisotropy=None):
         sun.rotation_euler = (np.radians(90.0), 0.0, -np.radians(bearing))
-        made = data.materials[0].node_tree.nodes
-        if light is not None:
-            made["Light"].inputs[1].default_value = light
-        for node in made:
-            if anisotropy is not None and node.bl_idname == "ShaderNodeVolumeScatter":
-                node.inputs["Anisotropy"].default_value = anisotropy
+        shown = next(node for node in data.materials[0].node_tree.nodes if node.type == "GROUP")
+        for name, value in (("Light Density", light), ("Anisotropy", anisotropy)):
+            if value is not None:
+                shown.inputs[name].default_value = value
         scene.render.engine = "CYCLES"
         compat.march_through_volumes(scene.cycles)
         scene.cycles.samples, scene.cycles.use_adaptive_sampling = 64, False

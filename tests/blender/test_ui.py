@@ -9,7 +9,7 @@ import bpy
 import firetwin
 import numpy as np
 import pytest
-from firetwin.blender import devices, owned
+from firetwin.blender import devices, owned, viewport
 from firetwin.errors import Error, InputError, input_error
 from firetwin.jobs.worker import StoppedError
 from firetwin.shot import file, passes
@@ -454,7 +454,7 @@ def test_only_views_of_windows_that_show_the_scene_are_ours_to_set(monkeypatch):
     manager = SimpleNamespace(window_manager=SimpleNamespace(windows=windows))
     monkeypatch.setattr(view, "bpy", SimpleNamespace(context=manager, types=bpy.types))
     view.widen(shown)
-    assert here.spaces.active.clip_end == view.FAR
+    assert here.spaces.active.clip_end == viewport.FAR
     assert elsewhere.spaces.active.clip_end == 1000.0
 
 

@@ -4,9 +4,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 import firetwin_core as core
+import hypothesis
 import pytest
 from numpy.typing import NDArray
 from small_run import RUN_TOML, small_fields, write_field
+
+hypothesis.settings.register_profile("firetwin", deadline=None)  # how fast a machine is, is no test
+hypothesis.settings.load_profile("firetwin")
 
 
 @pytest.fixture

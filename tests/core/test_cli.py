@@ -28,7 +28,18 @@ def test_help_names_every_command():
     assert result.returncode == 0
     assert all(
         f"    {name}  " in result.stdout
-        for name in ("sample", "info", "maps", "imager", "build", "bake", "render", "schema", "bench")
+        for name in (
+            "sample",
+            "info",
+            "maps",
+            "score",
+            "imager",
+            "build",
+            "bake",
+            "render",
+            "schema",
+            "bench",
+        )
     )
     assert result.stderr == ""
 
@@ -81,7 +92,7 @@ sys.exit(main(["bench"]))
 
 
 @pytest.mark.parametrize(
-    "command", ["sample", "info", "maps", "imager", "build", "bake", "render", "schema", "bench"]
+    "command", ["sample", "info", "maps", "score", "imager", "build", "bake", "render", "schema", "bench"]
 )
 def test_every_command_explains_itself(command):
     result = firetwin(command, "--help")

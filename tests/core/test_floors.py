@@ -24,7 +24,7 @@ FLOORS: dict[str, set[str]] = {
     "shot": BASE | {"run"},
     "scene": BASE | {"run", "shot", "blender"},
     "render": BASE | {"run", "shot", "blender", "scene"},
-    "jobs": BASE | {"data", "shot", "blender", "scene", "render"},
+    "jobs": BASE | {"data", "run", "shot", "blender", "scene", "render"},
     "bench": BASE | {"data", "run", "shot", "blender", "scene", "render", "jobs"},
     "commands": BASE | {"data", "run", "shot", "render", "jobs", "bench"},
     "cli": BASE | {"commands", "shot"},

@@ -3,13 +3,28 @@
 import matplotlib
 import numpy as np
 import pytest
-from firetwin_core.sensor import colour, palettes
+from firetwin_core.sensor import colour, palette, palettes
 
 RAMP = np.linspace(300.0, 800.0, 511)[None]
 
 
 def test_palettes_are_these():
     assert palettes() == ["white-hot", "black-hot", "ironbow", "inferno", "paper"]
+
+
+@pytest.mark.parametrize("name", palettes())
+def test_stops_are_the_colours_at_equal_steps(name):
+    stops = palette(name)
+    np.testing.assert_allclose(
+        colour(np.linspace(300, 800, len(stops))[None], 300, 800, name)[0], stops, atol=1e-6
+    )
+    halfway = colour([[300.0 + 250.0 / (len(stops) - 1)]], 300, 800, name)[0, 0]
+    np.testing.assert_allclose(halfway, 0.5 * (stops[0] + stops[1]), atol=1e-6)
+
+
+def test_a_palette_that_is_not_there_is_named():
+    with pytest.raises(ValueError, match="sepia"):
+        palette("sepia")
 
 
 def test_white_hot_and_black_hot_are_grey_and_opposite():

@@ -6,11 +6,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from firetwin.run.frame import local_frame
-from firetwin.shot import passes
+from firetwin.shot import passes, temperature
 from firetwin.shot.passes import _bar, _view
 from firetwin.shot.path import Path
-from firetwin.shot.settings import Camera, Render, Settings, Thermal
+from firetwin.shot.settings import Camera, Render, Settings, Thermal, Time
+from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from firetwin_core import sensor
 
@@ -173,13 +173,12 @@ def test_a_camera_that_zooms_sees_by_its_lens_of_that_frame():
     np.testing.assert_allclose(_view.ranges(zoomed, 1, planar), expected, rtol=1e-6)
 
 
-class Seen:
-    """A shot of one camera over a run of 300 K with a warm quarter, as passes that only finish need it."""
+class Seen(Shot):
+    """A still of one camera that looks straight down at the middle of a run."""
 
     def __init__(self, run):
-        self.run, self.local_frame, self.paths = run, local_frame(run), [view(False)]
-        self.settings = Settings()
-        self.frames = SimpleNamespace(step=0.0, middle=0.0, time=lambda frame: 0.0)
+        super().__init__(Settings(time=Time(frames=1)), run)
+        self.paths = [view(False)]
 
 
 @pytest.fixture
@@ -201,15 +200,57 @@ def finished(tmp_path, make_run):
     return finish
 
 
-def test_the_papers_map_adds_the_gradient_of_the_models_temperature(finished):
-    field = np.full((3, 4, 5), 300.0, np.float32)
-    field[:, :, 3:] = 320.0  # the east, which is the picture's upper half
-    before, after = finished("thermal_map", temperature=field, elevation=np.zeros((4, 5), np.float32))
+def burning_east(warmer=20.0, **more):
+    """Fields of a run whose two eastern columns burn and are warmer by so many K, over valleys and ridges."""
+    elevation = 1000.0 + 300.0 * np.arange(20.0, dtype=np.float32).reshape(4, 5) % 700.0
+    kelvin = np.broadcast_to(310.0 - 0.0065 * elevation, (3, 4, 5)).astype(np.float32)
+    flux = np.full((3, 4, 5), 1e-30, np.float32)  # what models leave where nothing burns
+    kelvin[:, :, 3:] += warmer
+    flux[:, :, 3:] = 2e4
+    return {"temperature": kelvin, "heat_flux": flux, "elevation": elevation} | more
+
+
+def test_the_papers_map_adds_the_gradient_where_fire_warms_the_models_air(finished):
+    before, after = finished("thermal_map", **burning_east())
     assert np.array_equal(after[:5], before[:5])  # sky
-    assert np.abs(after[-2:] - before[-2:]).max() < 1 / 255 + 1e-6  # the lowest temperature is black
+    assert np.abs(after[-2:] - before[-2:]).max() < 1 / 255 + 1e-6  # air as cold as it must be so high up
     warm = (after - before)[5]
     assert warm.max() > 0.2
     assert np.all(after >= before - 1e-6)
+
+
+def test_the_papers_map_of_a_run_without_fire_is_the_picture(finished):
+    fields = burning_east(0.0)
+    before, after = finished("thermal_map", **fields | {"heat_flux": 0.0 * fields["heat_flux"]})
+    assert np.abs(after - before).max() < 0.51 / 255
+
+
+def test_ends_of_scales_are_those_of_the_shot_and_read_once(make_run, monkeypatch):
+    shot = Seen(runs.open(make_run(**burning_east(15.0))))
+    low, high = shot.warmest
+    assert low == pytest.approx(0.0, abs=0.01)
+    assert high == pytest.approx(15.0, abs=0.01)
+    assert shot.coldest < 306.0
+    monkeypatch.setattr(temperature, "at", None)
+    monkeypatch.setattr(temperature, "mean", None)
+    assert (shot.warmest, shot.coldest) == ((low, high), shot.coldest)
+
+
+def test_hot_spots_lie_over_the_picture(tmp_path):
+    rgb, kelvin = np.full((20, 30, 3), 0.4), np.full((20, 30), 320.0)
+    kelvin[5:10], kelvin[12] = 700.0, 400.0
+    needed = {"rgb": {"png": tmp_path / "rgb.png"}, "thermal": {"exr": tmp_path / "thermal.exr"}}
+    sensor.write_image(needed["rgb"]["png"], rgb)
+    both = np.stack([kelvin, kelvin], axis=-1)
+    sensor.write_image(needed["thermal"]["exr"], both, None, ["kelvin", "radiance"])
+    settings = Settings(render=Render(thermal_low=290.0, thermal_high=800.0))
+    path = tmp_path / "overlay.png"
+    KNOWN["overlay"].finish({"png": path}, needed, SimpleNamespace(settings=settings), "drone", 1)
+    found = sensor.read_image(path)
+    assert np.abs(found[:5] - 0.4).max() < 0.51 / 255
+    hot = sensor.colour([[700.0, 400.0]], 290.0, 800.0, "ironbow", 5.0)[0]
+    assert found[7, 7] == pytest.approx(0.04 + 0.9 * hot[0], abs=0.01)
+    assert found[12, 7] == pytest.approx(0.55 * 0.4 + 0.45 * hot[1], abs=0.01)
 
 
 def test_eye_dome_lighting_darkens_the_sky_behind_the_ground_alone(finished):

@@ -85,7 +85,7 @@ def test_a_kind_is_added_by_one_file(tower, tmp_path):
         ("mast = 0", 3, "cameras.mast must be above 0, not 0"),
         ("turns = 99", 3, 'camera "drone" turns faster than a short mast bears'),
         ("swath = 5.0", 3, 'swath belongs to kind "minimap" or "satellite"'),
-        ("keys = []", 3, 'keys belongs to kind "drone", "lookout", "poses" or "satellite"'),
+        ("keys = []", 3, 'keys belongs to kind "drone", "lookout", "poses", "satellite" or "vr"'),
         ("masts = 5.0", 3, 'did you mean "mast"?'),
     ],
 )

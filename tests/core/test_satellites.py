@@ -5,10 +5,13 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 from firetwin.cli import main
-from firetwin.shot import temperature
+from firetwin.shot import passes, temperature
 from firetwin.shot.fire import Fire
+from firetwin.shot.rigs.satellite import Satellite
 from firetwin.shot.satellites import geotiff, imager
 from firetwin.shot.satellites.grid import ORBIT, EvenGrid, FixedGrid, pixel_areas
+from firetwin.shot.settings import Camera, Render, Settings, Time
+from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from firetwin_core import sensor
 from hypothesis import given
@@ -167,3 +170,40 @@ def test_the_command_writes_a_picture_for_each_moment(burning, tmp_path, capsys)
     assert written[0].endswith("Z.tif")
     assert main(["imager", str(run.path), "--out", str(tmp_path / "o"), "--longitude", "60"]) == 2
     assert "horizon" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("longitude", "name"), [(None, "viirs"), (-137.0, "abi")])
+def test_a_pass_shows_the_imagers_pixels_where_they_lie_in_a_cameras_picture(
+    burning, tmp_path, longitude, name
+):
+    camera = Camera("satellite", Satellite(swath=30_000.0, geostationary=longitude))
+    settings = Settings(time=Time(frames=1), cameras=(camera,), render=Render(resolution=(120, 120)))
+    shot = Shot(settings, burning(2.0e3))
+    found, (path,) = seen(shot.run, name), shot.paths
+    depth = {"depth": {"exr": tmp_path / "depth.exr"}}
+    away = path.meet if longitude else path.position[0, 2]
+    sensor.write_image(depth["depth"]["exr"], np.full((120, 120), away, np.float32))
+    made = {}
+    for band in ("short", "long"):
+        png = tmp_path / f"{band}.png"
+        passes.known()[f"imager_{band}"].finish({"png": png}, depth, shot, "satellite", 1)
+        made[band] = sensor.read_image(png)[..., :3]
+    hot = np.unravel_index(found.short.argmax(), found.short.shape)
+    place = found.grid.reverse(found.row + hot[0] + 0.5, found.column + hot[1] + 0.5)
+    there = shot.local_frame.forward(*(np.atleast_1d(each) for each in place), np.zeros(1))[0]
+    local = path.rotation[0].T @ (there - path.position[0])
+    scale = 1.0 if not path.perspective else -1.0 / local[2]
+    x, y = (120 * (0.5 + 0.5 * np.array([1, -1]) * local[:2] * scale / path.half)).astype(int)
+    bands = zip(made, (found.short, found.long), imager.INSTRUMENTS[name].saturation, strict=True)
+    for band, kelvin, most in bands:
+        expected = sensor.colour([[kelvin[hot]]], shot.coldest_moment, most, "inferno", 20.0)[0, 0]
+        assert made[band][y, x] == pytest.approx(expected, abs=0.01)
+        assert made[band][119, 60] == pytest.approx(3 * [0.12], abs=0.01)  # beyond the run's domain
+    assert made["short"][y, x].sum() > made["short"][y, x - 25].sum() + 0.5
+    assert (made["short"][2:20, 2:60] > 0.99).any()  # a label
+
+
+def test_pictures_of_years_before_an_imager_say_so():
+    assert imager.ABI.label(2014) == "hypothetical for 2014"
+    assert "2014" not in imager.VIIRS.label(2014)
+    assert imager.ABI.label(2018) == "hypothetical pass"

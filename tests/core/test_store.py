@@ -264,18 +264,18 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
         return {name for name in passes.known() if key(changed, name) != key(SETTINGS, name)}
 
     everything = set(passes.known())
-    lit = {"rgb", "thermal", "thermal_map", "edl"}  # the last two are made from the first
+    lit = {"rgb", "thermal", "thermal_map", "edl", "overlay", "fused"}  # four are made from two
     assert changes() == set()
     assert changes(seed=2) == everything
     assert changes(time=replace(SETTINGS.time, frames=5)) == everything
-    assert changes(time=replace(SETTINGS.time, fps=5, zone="UTC")) == set()
+    assert changes(time=replace(SETTINGS.time, fps=5, zone="UTC")) == {"fused"}  # tells the time
     assert changes(ground=s.Ground(apron=1.0)) == everything
     assert changes(render=s.Render(resolution=(64, 36))) == everything
     assert changes(render=s.Render(samples=7)) == lit
     assert changes(light=s.Light(haze=0.5)) == lit
-    assert changes(smoke=s.Smoke(max_age=9.0)) == lit
-    assert changes(render=s.Render(thermal_high=900.0)) == {"thermal"}
-    assert changes(render=s.Render(passes=("rgb",), video=False, device="cpu")) == set()
+    assert changes(smoke=s.Smoke(max_age=9.0)) == lit | {"masks"}
+    assert changes(render=s.Render(thermal_high=900.0)) == {"thermal", "overlay", "fused"}
+    assert changes(render=s.Render(passes=("rgb",), video=False, device="cpu")) == {"pose"}
     # What is built, and how finely, depends on what is filmed of it.
     assert changes(cameras=(replace(CAMERAS[0], frames="1"), CAMERAS[1])) == everything
     assert changes(cameras=(CAMERAS[0], replace(CAMERAS[1], frames="1"))) == set()
@@ -397,9 +397,9 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
         after = keys()
         return {name for name in before if before[name] != after[name]}
 
-    lit = {"rgb", "thermal", "thermal_map", "edl"}
-    assert changed("scene/smoke/material.py") == lit
-    assert changed("scene/fire/flames.py") == lit
+    shown = {"rgb", "thermal", "thermal_map", "edl", "overlay", "fused", "masks"}
+    assert changed("scene/smoke/material.py") == shown
+    assert changed("scene/fire/flames.py") == shown
     assert changed("scene/ground/build.py") == set(passes.known())
     assert changed("scene/haze.py") == set(passes.known())
     assert changed("shot/fire.py") == set(passes.known())

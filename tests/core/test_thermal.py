@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from firetwin_core.sensor import thermal_composite
+from firetwin_core.sensor import overlay, thermal_composite
 
 
 def gradient(kelvin, low, high):
@@ -59,3 +59,18 @@ def test_wrong_shapes():
         gradient([300.0], 300, 800)
     with pytest.raises(ValueError, match="strength"):
         thermal_composite(np.zeros((1, 1, 3)), [[300.0]], 300, 800, np.nan)
+
+
+def test_overlay_equals_pixels_computed_by_hand():
+    below, above = [[[0.2, 0.4, 0.6]] * 4], [[[1.0, 0.0, 0.5]] * 4]
+    made = overlay(below, above, [[340.0, 400.0, 900.0, np.nan]], 350.0, 450.0, 0.8)
+    by_hand = [[[0.2, 0.4, 0.6], [0.52, 0.24, 0.56], [0.84, 0.08, 0.52], [0.2, 0.4, 0.6]]]
+    np.testing.assert_allclose(made, by_hand, atol=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("start", "full", "opacity", "reason"), [(2, 1, 1, "start and full"), (1, 2, 1.5, "opacity")]
+)
+def test_an_overlay_that_cannot_be(start, full, opacity, reason):
+    with pytest.raises(ValueError, match=reason):
+        overlay(np.zeros((1, 1, 3)), np.zeros((1, 1, 3)), [[300.0]], start, full, opacity)

@@ -280,6 +280,40 @@ def parts() -> Iterator[object]:
     yield 2
 
 
+def look() -> Iterator[object]:
+    """Solid view, material preview and the ground's nodes."""
+    shading = view().spaces.active.shading
+    check(shading.color_type == "VERTEX", f"the solid view shows the colours of meshes: {shading.color_type}")
+    for name, whole, kind, seconds in (
+        ("whole", True, "SOLID", 4),
+        ("camera", False, "SOLID", 4),
+        ("camera", False, "MATERIAL", 90),  # without a GPU, compiling the shaders takes this long
+    ):
+        call(bpy.ops.firetwin.view, whole=whole)
+        shading.type = kind
+        yield seconds
+        picture(f"19-{name}-{kind.lower()}")
+    shading.type = "SOLID"
+    ground = bpy.context.scene.objects["Firetwin Ground"]
+    bpy.context.view_layer.objects.active = ground
+    area = view()
+    area.ui_type = "ShaderNodeTree"
+    yield 2
+    picture("19-material-nodes")
+    group = next(node for node in ground.active_material.node_tree.nodes if node.type == "GROUP")
+    area.spaces.active.path.append(group.node_tree, node=group)
+    yield 2
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    window = bpy.context.window_manager.windows[0]
+    with bpy.context.temp_override(window=window, area=area, region=region):
+        bpy.ops.node.view_all()
+    yield 2
+    picture("19-ground-nodes")
+    area.ui_type = "VIEW_3D"
+    call(bpy.ops.firetwin.view, whole=False)
+    yield 2
+
+
 def scrub() -> Iterator[object]:
     settings().model_time = 1.0
     yield 4
@@ -524,7 +558,7 @@ def session() -> Iterator[object]:
     before = inventory.take(USER)
     picture("01-start")
     yield from install()
-    for step in (panel, quality, build, sections, parts, scrub, render, by_hand, undo, beside, file):
+    for step in (panel, quality, build, sections, look, parts, scrub, render, by_hand, undo, beside, file):
         if step.__name__ in STEPS:
             yield from step()
     yield from leave(before)

@@ -39,7 +39,7 @@ def build(shot: Shot, stage: Stage) -> list[bpy.types.Object]:
 
 def tolerance(view: Path, shot: Shot) -> tuple[float, float, float]:
     """How far a camera may be off its path: m, radians, and parts of its focal length."""
-    pixel = 2.0 * view.half[0] / shot.resolution(view.camera)[0]  # m for each m of distance, or m
+    pixel = view.pixel
     near = 1.0
     if view.perspective:
         near = 0.5 * float(np.min(view.position[:, 2] - shot.ground.up(*view.position[:, :2].T)))
@@ -62,6 +62,14 @@ def _camera(
     return thing
 
 
+def _see_around(data: bpy.types.Camera, apart: float) -> None:
+    """Equirectangular, with eyes on a circle (spherical stereo) that come together towards the poles."""
+    data.type, data.panorama_type = "PANO", "EQUIRECTANGULAR"
+    stereo = data.stereo
+    stereo.use_spherical_stereo = stereo.use_pole_merge = True
+    stereo.interocular_distance, stereo.convergence_mode, stereo.pivot = apart, "PARALLEL", "CENTER"
+
+
 def _set(view: Path, shot: Shot, thing: bpy.types.Object) -> None:
     """Give an object the way and the lens of a path."""
     data = thing.data
@@ -69,7 +77,9 @@ def _set(view: Path, shot: Shot, thing: bpy.types.Object) -> None:
     compat.remove_fcurves(data, hand.LENS)
     compat.remove_fcurves(thing, hand.POSE)
     data.sensor_fit, data.sensor_width = "HORIZONTAL", view.sensor
-    if view.perspective or view.meet:
+    if view.around:
+        _see_around(data, view.apart)
+    elif view.perspective or view.meet:
         data.type = "PERSP"
         lens = 0.5 * view.sensor * (view.meet or 1.0) / view.halves[:, :1]
         _animate(data, "lens", lens, zoomed * lens.min())

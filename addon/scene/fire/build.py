@@ -12,24 +12,27 @@ from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import clock
 from ..forest.stand import Stand
-from . import firebrand_nodes, flames, lamp_objects, material
+from . import firebrand_nodes, flames, lamp_objects, material, observed
 
 CARDS = 4
+SHOWN = 1.0, 0.25, 0.02, 1.0  # red, green, blue and alpha in the solid view
 _NAMES = {"length": "flame_length", "width": "flame_width"}
 
 
 def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Object | None:
-    """Build "Firetwin Flames", "Firetwin Firebrands" and the lamps; nothing where flames are off.
+    """Build "Firetwin Flames", "Firetwin Firebrands" and the lamps, where flames are on, and observed lines.
 
     The points carry the attributes of `flames.Points` (`length` as `flame_length`, `width` as `flame_width`).
     """
     collection = stage.part("Fire")
+    observed.build(shot, stage, collection)
     if not shot.settings.fire.flames:
         return None
     points = flames.cells(shot) if shot.settings.fire.emitters == "cells" else flames.front(shot, grown)
     thing = owned.add(collection, "Flames", _mesh(points))
     modifier = thing.modifiers.new("Firetwin Flames", "NODES")
-    modifier.node_group = _node_group(shot, _cards(material.build(shot, stage)))
+    modifier.node_group = node_group(shot, cards(shot, stage))
+    thing.color = SHOWN
     _light_only(thing)
     firebrand_nodes.build(shot, stage, points, collection)
     lamp_objects.build(shot, collection)
@@ -54,9 +57,9 @@ def _light_only(thing: bpy.types.Object) -> None:
     thing.visible_shadow = thing.visible_diffuse = thing.visible_volume_scatter = False
 
 
-def _cards(flame: bpy.types.Material) -> bpy.types.Collection:
+def cards(shot: Shot, stage: Stage) -> bpy.types.Collection:
     """Cards one metre high and wide on z = 0: flat, bowed either way and crossed; linked to no scene."""
-    collection = owned.library("Flame Cards")
+    collection, flame = owned.library("Flame Cards"), material.build(shot, stage)
     for index in range(CARDS):
         mesh = bpy.data.meshes.new(f"Firetwin Flame Card {index}")
         vertices, faces, cards = _card(index)
@@ -64,6 +67,7 @@ def _cards(flame: bpy.types.Material) -> bpy.types.Collection:
         mesh.attributes.new("card", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", np.ravel(cards))
         mesh.materials.append(flame)
         thing = owned.add(collection, f"Flame Card {index}", mesh)
+        thing.color = SHOWN
         _light_only(thing)
     return collection
 
@@ -93,7 +97,7 @@ def _card(index: int) -> tuple[list, list, list]:
     return vertices, faces, cards
 
 
-def _node_group(shot: Shot, cards: bpy.types.Collection) -> bpy.types.NodeTree:
+def node_group(shot: Shot, shapes: bpy.types.Collection) -> bpy.types.NodeTree:
     """Points that are lit -> cards facing the camera, leaning downwind, growing and dying away."""
     tree, entry = nodes.geometry("Firetwin Flames")
 
@@ -112,28 +116,31 @@ def _node_group(shot: Shot, cards: bpy.types.Collection) -> bpy.types.NodeTree:
     yaw = tree.math("ARCTAN2", north, east) + (np.pi / 2.0) + (seed - 0.5) * 0.9
     facing = tree.output("FunctionNodeEulerToRotation", {"Euler": tree.combine(0.0, 0.0, yaw)})
     east_wind, north_wind = shot.wind
+    leaning = tree.input("Lean", 1.0, "Factor on how far the wind bends flames", "Shape")
     axis = (-north_wind, east_wind, 0.0) if np.hypot(east_wind, north_wind) > 0.0 else (1.0, 0.0, 0.0)
-    lean = tree.output("FunctionNodeAxisAngleToRotation", {"Axis": axis, "Angle": named("tilt")})
+    lean = tree.output("FunctionNodeAxisAngleToRotation", {"Axis": axis, "Angle": named("tilt") * leaning})
     turned = tree.output(
         "FunctionNodeRotateRotation", {"Rotation": facing, "Rotate By": lean}, rotation_space="GLOBAL"
     )
-    width = named("flame_width") * life
-    scale = tree.combine(width, width, named("flame_length") * life)
-    shapes = tree.output(
+    wider = tree.input("Width", 1.0, "Factor on how wide flames are", "Size")
+    longer = tree.input("Length", 1.0, "Factor on how long flames are", "Size")
+    width = named("flame_width") * life * wider
+    scale = tree.combine(width, width, named("flame_length") * life * longer)
+    several = tree.output(
         "GeometryNodeCollectionInfo",
-        {"Collection": cards, "Separate Children": True, "Reset Children": True},
+        {"Collection": shapes, "Separate Children": True, "Reset Children": True},
     )
     shape = tree.math("FLOOR", tree.math("FRACT", seed * 977.0) * (CARDS - 0.001))
     placed = tree.output(
         "GeometryNodeInstanceOnPoints",
         {
             "Points": alive,
-            "Instance": shapes,
+            "Instance": several,
             "Pick Instance": True,
             "Instance Index": shape,
             "Rotation": turned,
             "Scale": scale,
         },
     )
-    tree.node("NodeGroupOutput", {"Geometry": placed})
+    tree.geometry(placed)
     return tree.node_tree

@@ -6,6 +6,7 @@ import bpy
 
 from ...blender import nodes
 from ...blender.owned import Stage
+from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import glow, haze, infrared
 
@@ -21,13 +22,17 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """
     material, tree = nodes.material("Firetwin Firebrand")
     kelvin, shine, cover = (tree.attribute(name, "INSTANCER") for name in ("kelvin", "shine", "cover"))
+    cool = tree.input("Cool Colour", _COOL, "Of a piece about to go out", "Colour")
+    fresh = tree.input("Hot Colour", _HOT, "Of a piece just torn off", "Colour")
+    bright = tree.input("Brightness", _LIGHT * glow.brightness(shot), "Radiance of a fresh piece", "Light")
     part, _air = haze.fraction(tree, stage)
-    colour = tree.mix_colour(kelvin.ramp(COLD, FRESH), _COOL, _HOT)
-    strength = shine * cover * (1.0 - part) * (_LIGHT * glow.brightness(shot))
+    colour = tree.mix_colour(kelvin.ramp(COLD, FRESH), cool, fresh)
+    strength = shine * cover * (1.0 - part) * bright
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": (1.0, 1.0, 1.0)})
     glowing = tree.add_shader(tree.emission(colour, strength), clear)
     warmth = infrared.through_air(tree, shot, stage, infrared.emitted(tree, shot, stage, kelvin))
     warm = tree.mix_shader(cover, clear, tree.emission(warmth, 1.0))
-    tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), glowing, warm))
+    shader = tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), glowing, warm)
+    tree.surface(nodes.mask_switch(tree, shader, masks.FIRE))
     material.cycles.emission_sampling = "NONE"
     return material

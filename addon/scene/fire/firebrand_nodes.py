@@ -38,8 +38,7 @@ def build(
     mesh.update()
     thing = owned.add(collection, "Firebrands", mesh)
     modifier = thing.modifiers.new("Firetwin Firebrands", "NODES")
-    pixel = min(2.0 * view.half[0] for view in shot.near) / shot.settings.render.resolution[0]
-    modifier.node_group = _node_group(shot, stage, found, pixel)
+    modifier.node_group = _node_group(shot, stage, found, shot.pixel[0])
     _seen_only(thing)
     return thing
 
@@ -81,9 +80,11 @@ def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: floa
     dead = distance > _FAR
     for out in (part < 0.0, part > 1.0, after < 0.0, after > each - 1.0):
         dead = tree.math("MAXIMUM", dead, out)
-    size = named("size")
+    larger = tree.input("Size", 1.0, "Factor on the size of the pieces", "Size")
+    shutter = tree.input("Shutter", _SHUTTER, "Time (s) of a piece's way that a streak shows", "Size")
+    size = named("size") * larger
     width = tree.math("MAXIMUM", size, distance * (_PIXELS * pixel))
-    length = width + tree.vector("LENGTH", way, name="Value") * (_SHUTTER / found.step)
+    length = width + tree.vector("LENGTH", way, name="Value") * (shutter / found.step)
     cover = (size * size / (width * length)).clamp()
     kelvin = part.ramp(0.0, 1.0, firebrand_material.FRESH, firebrand_material.COLD)
     turn = tree.output("FunctionNodeAlignRotationToVector", {"Vector": way}, axis="Z")
@@ -114,7 +115,7 @@ def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: floa
             "Scale": stored("stretch", "FLOAT_VECTOR"),
         },
     )
-    tree.node("NodeGroupOutput", {"Geometry": placed})
+    tree.geometry(placed)
     return tree.node_tree
 
 
@@ -133,5 +134,6 @@ def _streak(shot: Shot, stage: Stage) -> bpy.types.Object:
     mesh.from_pydata(ends + waist, [], [(b, a, 0) for a, b in sides] + [(a, b, 1) for a, b in sides])
     mesh.materials.append(firebrand_material.build(shot, stage))
     thing = owned.mark(bpy.data.objects.new(name, mesh))
+    thing.color = 1.0, 0.42, 0.10, 1.0  # in the solid view
     _seen_only(thing)
     return thing

@@ -6,6 +6,7 @@ import bpy
 
 from ...blender import nodes
 from ...blender.owned import Stage
+from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import glow, haze, infrared
 
@@ -17,11 +18,22 @@ _RISE = 9.0  # m/s at which the pattern rises
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Flame" for the cards of `fire`, whose attribute `card` runs over -1..1 and 0..1."""
     material, tree = nodes.material("Firetwin Flame", (1.00, 0.25, 0.02))
+    rim, middle, core = (
+        tree.input(f"{name} Colour", colour, help, "Colour")
+        for name, colour, help in (
+            ("Rim", _RIM, "Outermost, coolest part of a flame"),
+            ("Body", _BODY, "Most of a flame"),
+            ("Core", _CORE, "Hottest part of a flame"),
+        )
+    )
+    bright = tree.input("Brightness", glow.brightness(shot), "Radiance of the hottest part", "Light")
+    speed = tree.input("Rise", _RISE, "Speed (m/s) at which the pattern rises", "Motion")
+    ragged = tree.input("Raggedness", 2.6, "How much turbulence tears a flame", "Shape")
     across, up, _ = tree.separate(tree.attribute("card", output="Vector"))
     seed = tree.attribute("seed", "INSTANCER")
     length = tree.attribute("flame_length", "INSTANCER")
     time = nodes.model_time(tree)
-    rise = time * _RISE / tree.math("MAXIMUM", length, 4.0)
+    rise = time * speed / tree.math("MAXIMUM", length, 4.0)
     slim = length / tree.math("MAXIMUM", tree.attribute("flame_width", "INSTANCER"), 0.5)
     slow = tree.combine(across * 0.8 + seed * 917.0, up * slim * 0.6 - rise * 0.7, seed * 211.0 + time * 0.11)
     fast = tree.combine(across * 1.6 + seed * 431.0, up * slim * 1.1 - rise, seed * 97.0 + time * 0.23)
@@ -30,12 +42,12 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     centre = across + sway * up * 1.5
     narrow = (1.0 - up).power(0.65) * 0.95
     body = 1.0 - tree.math("ABSOLUTE", centre) / tree.math("MAXIMUM", narrow, 0.02)
-    torn = body + (tongue - 0.5) * 2.6 - up.power(1.5) * 0.75
+    torn = body + (tongue - 0.5) * ragged - up.power(1.5) * 0.75
     shape = torn.smoothstep(0.05, 0.75) * up.smoothstep(0.0, 0.06) * up.smoothstep(1.0, 0.85)
     hot = (torn - up * 0.4).smoothstep(0.5, 1.5)
-    colour = tree.mix_colour(shape.smoothstep(0.15, 0.8), _RIM, _BODY)
-    colour = tree.mix_colour(hot, colour, _CORE)
-    strength = shape.power(1.3) * (0.35 + hot * 0.65) * glow.brightness(shot)
+    colour = tree.mix_colour(shape.smoothstep(0.15, 0.8), rim, middle)
+    colour = tree.mix_colour(hot, colour, core)
+    strength = shape.power(1.3) * (0.35 + hot * 0.65) * bright
     strength = strength * tree.output("ShaderNodeCameraData", name="View Distance").ramp(
         *glow.CLOSE, _DIMMED, 1.0
     )
@@ -51,6 +63,8 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     warmth = infrared.through_air(tree, shot, stage, warmth)
     hot = tree.mix_shader(emissivity, gap, tree.emission(warmth, 1.0))
     light = tree.mix_shader(flame, clear, shader)
-    tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), light, hot))
+    shader = tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), light, hot)
+    whole = tree.mix_shader(flame, gap, tree.emission((0.0, 1.0, masks.FIRE), 1.0))
+    tree.surface(nodes.masked(tree, shader, whole))
     material.cycles.emission_sampling = "NONE"
     return material

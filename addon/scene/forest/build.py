@@ -2,8 +2,8 @@
 
 All are instances on points. A point has float attributes `scale` (height, m), `width` (how much wider than
 its model it is), `rotation`, `pitch` and `roll` (radians), `arrival_time`, `elevation`, `canopy_fuel`,
-`tint`, `dead`, `scorch`, `torched`, and the numbers of its models, `model` and `snag_model`. Only what a
-camera can see is made.
+`tint`, `dead`, `scorch`, `torched`, and the numbers of its models, `model` and `snag_model`; trees also have
+a `number` of their own from 1 on. Only what a camera can see is made.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ...shot.ground import NEVER, bilinear
 from ...shot.rigs.satellite import HEIGHT
 from ...shot.shot import Shot
 from .. import clock
-from . import fate, models, seen, understorey
+from . import fate, models, preview, seen, understorey
 from .library import grass_models, levelled, tree_models
 from .stand import Stand
 
@@ -38,6 +38,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Objec
         library = tree_models(shot, stage)
     if grown is not None:
         points = algorithm2(shot) if shot.settings.forest.density == "paper" else _stand(shot, grown)
+        points["number"] = 1.0 + np.arange(len(points["position"]))
         made.append(_instances(shot, collection, "Trees", levelled(shot, points), library))
     if len(below.size):
         points = levelled(shot, _below(shot, below))
@@ -143,6 +144,21 @@ def _instances(
     library: bpy.types.Collection,
     bare_after: float = BARE_AFTER,
 ) -> bpy.types.Object:
+    """Make an object of plants, and those that stand in for it in the viewport."""
+    group = node_group(shot, f"Firetwin {name}", library, bare_after)
+    full = _object(collection, name, points, group)
+    shown = []
+    for part, some, follows in preview.parts(shot, points, bare_after, name != "Grass"):
+        title = f"{part} {name} in Viewport".strip()
+        group = node_group(shot, f"Firetwin {title}", library, bare_after if follows else None)
+        shown.append(_object(collection, title, some, group))
+    preview.stand_in(full, shown)
+    return full
+
+
+def _object(
+    collection: bpy.types.Collection, name: str, points: dict[str, NDArray], group: bpy.types.NodeTree
+) -> bpy.types.Object:
     """Make an object of bare points with the node group that puts models on them."""
     data = bpy.data.meshes.new(f"Firetwin {name}")
     data.vertices.add(len(points["position"]))
@@ -155,7 +171,7 @@ def _instances(
     data.update()
     thing = owned.add(collection, name, data)
     modifier = thing.modifiers.new("Firetwin Instances", "NODES")
-    modifier.node_group = _node_group(shot, f"Firetwin {name}", library, bare_after)
+    modifier.node_group = group
     return thing
 
 
@@ -171,10 +187,10 @@ def _drawn(tree: nodes.Tree, shot: Shot) -> nodes.Value | bool:
     return tree.separate(place)[2] < 0.75 * HEIGHT
 
 
-def _node_group(
-    shot: Shot, name: str, library: bpy.types.Collection, bare_after: float
+def node_group(
+    shot: Shot, name: str, library: bpy.types.Collection, bare_after: float | None
 ) -> bpy.types.NodeTree:
-    """A model on every point, which becomes a snag `bare_after` s after the fire came."""
+    """A model on every point, which becomes a snag `bare_after` s after the fire came; None: never."""
     tree, given = nodes.geometry(name)
     collection = tree.node("GeometryNodeCollectionInfo", transform_space="ORIGINAL")
     compat.find_socket(collection.inputs, "Collection").default_value = library
@@ -184,24 +200,28 @@ def _node_group(
     def attribute(key: str, kind: str) -> nodes.Value:
         return tree.output("GeometryNodeInputNamedAttribute", {"Name": key}, data_type=kind)
 
-    age = clock.geometry_time(tree, shot) - attribute("arrival_time", "FLOAT")
-    burned = tree.output(
-        "FunctionNodeCompare", [age, bare_after], data_type="FLOAT", operation="GREATER_THAN"
-    )
-    model = {"Switch": burned, "False": attribute("model", "INT"), "True": attribute("snag_model", "INT")}
-    up = attribute("scale", "FLOAT")
-    across = up * attribute("width", "FLOAT")
+    model = attribute("model", "INT")
+    if bare_after is not None:
+        age = clock.geometry_time(tree, shot) - attribute("arrival_time", "FLOAT")
+        after = tree.input("Bare After", bare_after, "Time (s) from the fire to a bare plant", "Fire")
+        burned = tree.output("FunctionNodeCompare", [age, after], data_type="FLOAT", operation="GREATER_THAN")
+        choice = {"Switch": burned, "False": model, "True": attribute("snag_model", "INT")}
+        model = tree.output("GeometryNodeSwitch", choice, input_type="INT")
+    taller = tree.input("Height", 1.0, "Factor on the size of all plants", "Size")
+    wider = tree.input("Width", 1.0, "Factor on how wide plants are for their height", "Size")
+    up = attribute("scale", "FLOAT") * taller
+    across = up * attribute("width", "FLOAT") * wider
     instances = tree.output(
         "GeometryNodeInstanceOnPoints",
         {
             "Points": tree.pick(given, "Geometry"),
-            "Selection": _drawn(tree, shot),
+            "Selection": True if bare_after is None else _drawn(tree, shot),
             "Instance": collection,
             "Pick Instance": True,
-            "Instance Index": tree.output("GeometryNodeSwitch", model, input_type="INT"),
+            "Instance Index": model,
             "Rotation": tree.combine(*(attribute(turn, "FLOAT") for turn in ("roll", "pitch", "rotation"))),
             "Scale": tree.combine(across, across, up),
         },
     )
-    tree.node("NodeGroupOutput", {"Geometry": instances})
+    tree.geometry(instances)
     return tree.node_tree

@@ -12,6 +12,7 @@ import bpy
 
 from ...blender import nodes
 from ...blender.owned import Stage
+from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import granite, haze, infrared, temperature
 from ..glow import CLOSE, EMBER, FLAME, brightness
@@ -28,17 +29,21 @@ def foliage(shot: Shot, stage: Stage) -> bpy.types.Material:
     material, tree = nodes.material("Firetwin Foliage", (0.16, 0.32, 0.10))
     tint = tree.attribute("tint", "INSTANCER")
     leaf = tree.attribute("leaf", output="Color")
-    varied = tree.mix_colour(tint, (0.68, 0.76, 0.82), (1.36, 1.22, 1.05))
+    cool = tree.input("Cool Tint", (0.68, 0.76, 0.82), "Factor on the bluest trees' colour", "Variety")
+    warm = tree.input("Warm Tint", (1.36, 1.22, 1.05), "Factor on the yellowest trees' colour", "Variety")
+    lost = tree.input("Dead Share", _DEAD, "Part of the trees that was brown before", "Variety", most=1.0)
+    varied = tree.mix_colour(tint, cool, warm)
     green = tree.mix_colour(1.0, leaf, varied, "MULTIPLY")
-    brown = tree.mix_colour(tint, *_BROWN)
-    living = tree.mix_colour(tree.attribute("dead", "INSTANCER") < _DEAD, green, brown)
+    brown = tree.mix_colour(tint, *_two(tree, "Scorched", _BROWN, "needles killed by drought or heat"))
+    living = tree.mix_colour(tree.attribute("dead", "INSTANCER") < lost, green, brown)
     place = _place(tree)
     torched, age = tree.attribute("torched", "INSTANCER"), _age(tree)
     killed = age.smoothstep(20.0, 200.0)
     reach = tree.attribute("scorch", "INSTANCER") * 1.16 - 0.08  # over the whole crown where it is 1
     scorched = tree.separate(place)[2].smoothstep(reach + 0.08, reach - 0.08)
     spared = tree.mix_colour(scorched * killed, living, brown)
-    black = tree.mix_colour(tree.attribute("dead", "INSTANCER"), *_BLACK)
+    charred = _two(tree, "Charred", _BLACK, "needles that burned")
+    black = tree.mix_colour(tree.attribute("dead", "INSTANCER"), *charred)
     browned = tree.mix_colour(age.smoothstep(0.0, 60.0), living, brown)
     burned = tree.mix_colour(age.smoothstep(40.0, 240.0), browned, black)
     colour = tree.mix_colour(torched, spared, burned)
@@ -53,7 +58,8 @@ def bark(shot: Shot, stage: Stage, *, charred: bool) -> bpy.types.Material:
     material, tree = nodes.material(f"Firetwin {name}", shown)
     material.cycles.emission_sampling = "NONE"
     tint = tree.attribute("tint", "INSTANCER")
-    black = tree.mix_colour(tint, (0.010, 0.009, 0.009), (0.045, 0.040, 0.036))
+    char = ((0.010, 0.009, 0.009), (0.045, 0.040, 0.036))
+    black = tree.mix_colour(tint, *_two(tree, "Charred", char, "charred bark"))
     age = _age(tree)
     if charred:
         colour = black
@@ -68,7 +74,7 @@ def bark(shot: Shot, stage: Stage, *, charred: bool) -> bpy.types.Material:
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
     normal = tree.output("ShaderNodeNewGeometry", name="Normal")
     warmth = _warmth(tree, shot, stage, normal, age, age > 0.0)
-    tree.surface(_switch(tree, shot, stage, matt, warmth))
+    _finish(tree, shot, stage, matt, warmth)
     return material
 
 
@@ -89,7 +95,7 @@ def rock(shot: Shot, stage: Stage) -> bpy.types.Material:
     elevation = tree.attribute("elevation", "INSTANCER")
     ambient = temperature.ambient(tree, shot, stage, elevation, normal, 1.0)
     warmth = infrared.emitted(tree, shot, stage, ambient, infrared.STONE)
-    tree.surface(_switch(tree, shot, stage, matt, warmth))
+    _finish(tree, shot, stage, matt, warmth)
     material.cycles.emission_sampling = "NONE"
     return material
 
@@ -98,12 +104,23 @@ def grass(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Grass": dry in September, burned to the ground by the fire."""
     material, tree = nodes.material("Firetwin Grass", (0.42, 0.38, 0.16))
     tint = tree.attribute("tint", "INSTANCER")
-    dry = tree.mix_colour(tint, (0.150, 0.115, 0.055), (0.060, 0.065, 0.028))
-    colour = tree.mix_colour(_age(tree).smoothstep(20.0, 200.0), dry, tree.mix_colour(tint, *_BLACK))
+    straw = tree.input("Dry Colour", (0.150, 0.115, 0.055), "Of grass that has dried", "Variety")
+    green = tree.input("Green Colour", (0.060, 0.065, 0.028), "Of grass that is still green", "Variety")
+    dry = tree.mix_colour(tint, straw, green)
+    black = tree.mix_colour(tint, *_two(tree, "Charred", _BLACK, "grass that burned"))
+    colour = tree.mix_colour(_age(tree).smoothstep(20.0, 200.0), dry, black)
     normal = tree.output("ShaderNodeNewGeometry", name="Normal")
     _leaves(tree, shot, stage, colour, normal, 1.0)
     material.cycles.emission_sampling = "NONE"
     return material
+
+
+def _two(tree: nodes.Tree, name: str, colours: tuple[tuple[float, ...], ...], what: str) -> list[nodes.Value]:
+    """Inputs for the darkest and the lightest colour of something."""
+    return [
+        tree.input(f"{name} {end}", colour, f"{word} of {what}", "Scar")
+        for end, word, colour in zip(("Dark", "Light"), ("Darkest", "Lightest"), colours, strict=True)
+    ]
 
 
 def _age(tree: nodes.Tree) -> nodes.Value:
@@ -149,23 +166,23 @@ def _leaves(
     age = _age(tree)
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Normal": normal})
     through = tree.output("ShaderNodeBsdfTranslucent", {"Color": colour, "Normal": normal})
-    leaf = tree.mix_shader(0.22, matt, through)
+    clear = tree.input("Translucency", 0.22, "Part of the light that goes through leaves", "Leaves", most=1.0)
+    leaf = tree.mix_shader(clear, matt, through)
     position = tree.output("ShaderNodeNewGeometry", name="Position")
     flicker = tree.noise(tree.vector("ADD", position, tree.combine(0.0, 0.0, age * -6.0)), 4.0, 2.0)
-    flaming = (
-        age.smoothstep(0.0, 40.0)
-        * age.smoothstep(TORCHING, 0.4 * TORCHING)
-        * flicker.smoothstep(0.47, 0.69)
-        * torched
-    )
+    alight = age.smoothstep(0.0, 40.0) * age.smoothstep(TORCHING, 0.4 * TORCHING) * torched
+    flaming = alight * flicker.smoothstep(0.47, 0.69)
     afar = tree.output("ShaderNodeCameraData", name="View Distance").ramp(*CLOSE, *_TORCH)
-    flame = tree.mix_colour(flaming.smoothstep(0.1, 0.8), EMBER, FLAME)
-    burning = tree.add_shader(leaf, tree.emission(flame, flaming * afar * brightness(shot)))
+    ember = tree.input("Ember Colour", EMBER, "Light of a crown that glows", "Fire")
+    flame = tree.input("Flame Colour", FLAME, "Light of a crown in flames", "Fire")
+    bright = tree.input("Flame Brightness", brightness(shot), "Radiance of a crown in flames", "Fire")
+    flame = tree.mix_colour(flaming.smoothstep(0.1, 0.8), ember, flame)
+    burning = tree.add_shader(leaf, tree.emission(flame, flaming * afar * bright))
     warmth = _warmth(tree, shot, stage, normal, age, 0.0)
     hot = flaming.ramp(0.0, 1.0, temperature.FLAME_LOW, temperature.FLAME_HIGH)
     hot = infrared.emitted(tree, shot, stage, hot)
     warmth = tree.mix(flaming.smoothstep(0.0, 0.5), warmth, hot)
-    tree.surface(_switch(tree, shot, stage, burning, warmth))
+    _finish(tree, shot, stage, burning, warmth, alight)
 
 
 def _warmth(
@@ -183,9 +200,24 @@ def _warmth(
     return infrared.emitted(tree, shot, stage, kelvin, infrared.NEEDLES)
 
 
-def _switch(
-    tree: nodes.Tree, shot: Shot, stage: Stage, shader: nodes.Value, warmth: nodes.Value
-) -> nodes.Value:
-    """`shader` through the haze, or the infrared radiance through the air."""
+def _finish(
+    tree: nodes.Tree,
+    shot: Shot,
+    stage: Stage,
+    shader: nodes.Value,
+    warmth: nodes.Value,
+    alight: nodes.Value | float = 0.0,
+) -> None:
+    """Make the surface: `shader` through the haze, its infrared radiance, or its class and number.
+
+    Trees have a number; where they are `alight` they are fire, also between the tongues of their flames: from
+    afar these are smaller than pixels. What is under them counts as ground.
+    """
     seen = infrared.through_air(tree, shot, stage, warmth)
-    return nodes.thermal_switch(tree, haze.apply(tree, shader, stage), seen)
+    shader = nodes.thermal_switch(tree, haze.apply(tree, shader, stage), seen)
+    number = tree.attribute("number", "INSTANCER")
+    below = (_age(tree) > 0.0) * (masks.BURNED - masks.GROUND) + masks.GROUND
+    kind = tree.mix(number > 0.0, below, float(masks.TREE))
+    if isinstance(alight, nodes.Value):
+        kind = tree.mix(alight > masks.ALIGHT, kind, float(masks.FIRE))
+    tree.surface(nodes.mask_switch(tree, shader, kind, number))

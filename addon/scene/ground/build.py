@@ -12,14 +12,14 @@ from ...blender.owned import Stage
 from ...shot import accuracy
 from ...shot.shot import Shot
 from ..forest.stand import Stand
-from . import fields, material
+from . import fields, material, solid
 
 
 def build(shot: Shot, stage: Stage, grown: Stand | None) -> bpy.types.Object:
     """Build "Firetwin Ground".
 
     Its mesh carries point attributes: `elevation` (m) and `grid`, where each point is in the images of the
-    ground's fields (see `fields`).
+    ground's fields (see `fields`); and `solid_view`, its colours in Blender's solid view.
     """
     collection, ground = stage.part("Ground"), shot.ground
     row, column, triangles = shape(shot)
@@ -31,6 +31,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None) -> bpy.types.Object:
     data.attributes.new("elevation", "FLOAT", "POINT").data.foreach_set("value", height.astype(np.float32))
     place = fields.place(ground.shape, row, column)
     data.attributes.new(fields.GRID, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", place.ravel())
+    solid.paint(shot, data, row, column)
     data.materials.append(material.build(shot, stage, fields.images(shot, grown), fields.photos(shot)))
     return owned.add(collection, "Ground", data)
 

@@ -14,6 +14,7 @@ import bpy
 from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot import photo
+from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import granite, haze
 from ..glow import CLOSE, EMBER, FLAME
@@ -54,31 +55,57 @@ def build(
 ) -> bpy.types.Material:
     """Build "Firetwin Ground", which reads the fields of these images and is coloured by these photos."""
     material, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
-    known = fields.Fields(tree, images)
-    place = _place(tree, known, shot)
-    rock = _rock(tree, place)
-    stone = _granite(tree, place)
-    green, bump = _unburned(tree, place, rock, stone)
+    with tree.frame("Place and time"):
+        known = fields.Fields(tree, images)
+        place = _place(tree, known, shot)
+    with tree.frame("Rock"):
+        rock = _rock(tree, place)
+        stone = _granite(tree, place)
+    with tree.frame("What grows"):
+        green, bump = _unburned(tree, place, rock, stone)
     for picture, image in photos:
-        green, bump = _photographed(tree, place, picture, image, green, bump)
-    char = _charred(tree, place, rock, stone[0])
-    colour = tree.mix_colour(place.burned, green, char)
-    flaming, embers = _glow(tree, place, rock)
-    normal = tree.output("ShaderNodeBump", {"Strength": 0.9, "Distance": 1.0, "Height": bump})
-    matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Roughness": 0.6, "Normal": normal})
-    lake = known["water"] > 0.5
-    matt = tree.mix_shader(lake, matt, _water(tree, place))
-    light = tree.mix_colour(flaming / (flaming + embers + 1.0e-4), EMBER, FLAME)
-    power = flaming * _FLAME_LIGHT * place.distance.ramp(*CLOSE, _DIMMED, 1.0) + embers * (
-        _EMBER_LIGHT if shot.settings.fire.embers else 0.0
-    )
-    # Lamps and the smoke's glow carry the light of flames: rays that happen to meet the edge would be noise.
-    seen = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
-    shader = haze.apply(tree, tree.add_shader(matt, tree.emission(light, power * seen)), stage)
-    warmth = heat.radiance(tree, shot, stage, place, rock, lake, normal, (flaming, embers))
-    tree.surface(nodes.thermal_switch(tree, shader, warmth))
+        with tree.frame("Photo"):
+            green, bump = _photographed(tree, place, picture, image, green, bump)
+    with tree.frame("Char and ash"):
+        char = _charred(tree, place, rock, stone[0])
+        colour = tree.mix_colour(place.burned, green, char)
+    with tree.frame("Flames and embers"):
+        flaming, embers = _glow(tree, place, rock)
+        light = _light(tree, shot, place, flaming, embers)
+    with tree.frame("Surface"):
+        normal = tree.output("ShaderNodeBump", {"Strength": 0.9, "Distance": 1.0, "Height": bump})
+        matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Roughness": 0.6, "Normal": normal})
+        lake = known["water"] > 0.5
+        matt = tree.mix_shader(lake, matt, _water(tree, place))
+        shader = haze.apply(tree, tree.add_shader(matt, light), stage)
+    with tree.frame("Infrared"):
+        warmth = heat.radiance(tree, shot, stage, place, rock, lake, normal, (flaming, embers))
+    with tree.frame("Masks"):
+        alight = (flaming > masks.ALIGHT) * (masks.FIRE - masks.BURNED)
+        kind = place.burned * (alight + (masks.BURNED - masks.GROUND)) + masks.GROUND
+    tree.surface(nodes.mask_switch(tree, nodes.thermal_switch(tree, shader, warmth), kind))
     material.cycles.emission_sampling = "NONE"  # as lamps, its small lights would be noise
     return material
+
+
+def _light(
+    tree: nodes.Tree, shot: Shot, place: Place, flaming: nodes.Value, embers: nodes.Value
+) -> nodes.Value:
+    """What flames and embers give off to the camera."""
+    flame = tree.input("Flame Colour", FLAME, "Light of the burning edge", "Fire")
+    ember = tree.input("Ember Colour", EMBER, "Light of the spots that glow in the ash", "Fire")
+    bright = tree.input("Flame Brightness", _FLAME_LIGHT, "Radiance of the edge at exposure 0", "Fire")
+    glowing = tree.input(
+        "Ember Brightness",
+        _EMBER_LIGHT if shot.settings.fire.embers else 0.0,
+        "Radiance of the spots that glow in the ash, at exposure 0",
+        "Fire",
+    )
+    light = tree.mix_colour(flaming / (flaming + embers + 1.0e-4), ember, flame)
+    power = flaming * bright * place.distance.ramp(*CLOSE, _DIMMED, 1.0) + embers * glowing
+    # Lamps and the smoke's glow carry the light of flames: rays that happen to meet the edge would be noise.
+    seen = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
+    return tree.emission(light, power * seen)
 
 
 def _place(tree: nodes.Tree, known: fields.Fields, shot: Shot) -> Place:
@@ -133,7 +160,9 @@ def _unburned(
     alone = tree.mix(sharp, 0.25, (lone + (groups - 0.5) * 0.8) > 0.72)  # trees amid brush and on rock
     cover = tree.math("MAXIMUM", cover, alone * 0.85)
     floor = (place.canopy + (patch - 0.5) * 0.5 + (fine - 0.5) * 0.4).smoothstep(0.0, 0.35)
-    dark = tree.mix_colour(tint, (0.026, 0.043, 0.016), (0.072, 0.092, 0.036))
+    deep = tree.input("Forest Dark", (0.026, 0.043, 0.016), "Darkest crowns of the far forest", "Forest")
+    pale = tree.input("Forest Light", (0.072, 0.092, 0.036), "Lightest crowns of the far forest", "Forest")
+    dark = tree.mix_colour(tint, deep, pale)
     stands = tree.noise(place.position, 1500.0, 5.0, 0.6)
     dark = tree.mix_colour(
         stands.smoothstep(0.40, 0.62), dark, tree.mix_colour(0.6, dark, (0.034, 0.072, 0.026))
@@ -217,23 +246,30 @@ def _water(tree: nodes.Tree, place: Place) -> nodes.Value:
     """Dark water that mirrors the sky, more at grazing angles, ruffled by the wind."""
     ripples = tree.noise(place.position, 7.0, 2.0) * 0.05
     normal = tree.output("ShaderNodeBump", {"Strength": 0.5, "Distance": 1.0, "Height": ripples})
-    deep = tree.output("ShaderNodeBsdfDiffuse", {"Color": (0.010, 0.022, 0.024)})
-    mirror = tree.output("ShaderNodeBsdfGlossy", {"Roughness": 0.22, "Normal": normal})
+    colour = tree.input("Water Colour", (0.010, 0.022, 0.024), "Of deep lakes, seen from above", "Water")
+    rough = tree.input("Water Roughness", 0.22, "How blurred a lake mirrors the sky", "Water", most=1.0)
+    deep = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
+    mirror = tree.output("ShaderNodeBsdfGlossy", {"Roughness": rough, "Normal": normal})
     return tree.mix_shader(tree.output("ShaderNodeFresnel", {"IOR": 1.33}), deep, mirror)
 
 
 def _charred(tree: nodes.Tree, place: Place, rock: nodes.Value, stone: nodes.Value) -> nodes.Value:
     """Char, white ash in streaks, brown scorched crowns where it burned mildly, and rock as it was."""
     tone = tree.noise(place.position, 90.0, 4.0, 0.62)
-    char = tree.mix_colour(tone.smoothstep(0.3, 0.72), (0.009, 0.008, 0.008), (0.052, 0.046, 0.041))
+    dark = tree.input("Char Dark", (0.009, 0.008, 0.008), "Blackest char", "Scar")
+    pale = tree.input("Char Light", (0.052, 0.046, 0.041), "Char mixed with soil", "Scar")
+    white = tree.input("Ash Colour", (0.150, 0.142, 0.135), "White ash, some hours after the fire", "Scar")
+    much = tree.input("Ash Amount", 0.6, "How white streaks of old ash become", "Scar", most=1.0)
+    kept = tree.input("Scorch Amount", 0.75, "How brown it is where it burned mildly", "Scar", most=1.0)
+    char = tree.mix_colour(tone.smoothstep(0.3, 0.72), dark, pale)
     ash = tree.noise(place.position, 33.0, 4.0, 0.6).smoothstep(0.58, 0.70)
     old = place.age.smoothstep(900.0, 14_400.0)
-    char = tree.mix_colour(ash * old * 0.6, char, (0.150, 0.142, 0.135))
+    char = tree.mix_colour(ash * old * much, char, white)
     mild = tree.noise(place.position, 540.0, 4.0, 0.6).smoothstep(0.54, 0.64) * place.canopy.smoothstep(
         0.1, 0.6
     )
     scorched = tree.mix_colour(tone, (0.035, 0.022, 0.012), (0.085, 0.052, 0.026))
-    char = tree.mix_colour(mild * 0.75, char, scorched)
+    char = tree.mix_colour(mild * kept, char, scorched)
     char = tree.mix_colour(1.0, char, _grain(tree, place), "MULTIPLY")
     stone = tree.mix_colour(0.45, stone, (0.045, 0.042, 0.040))
     return tree.mix_colour(rock, char, stone)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...shot import heat, noise
+from ...shot import heat, noise, sphere
 from ...shot.ground import bilinear
 from ...shot.path import Path
 from ...shot.shot import Shot
@@ -106,7 +106,13 @@ def _sunlit(smoke: Smoke, place: Array, light: sky.State, through: float) -> Arr
 
 
 def _rays(view: Path, frame: int) -> tuple[Array, Array]:
-    """Starts and directions (n, 3) of rays spread evenly over a camera's picture."""
+    """Starts and directions (n, 3) of rays spread evenly over a camera's picture, or over all directions."""
+    if view.around:
+        sine = (np.arange(_RAYS[1]) + 0.5) / _RAYS[1] * 2.0 - 1.0
+        bearing = ((np.arange(_RAYS[0]) + 0.5) / _RAYS[0] * 2.0 - 1.0) * np.pi
+        bearing, elevation = (v.ravel() for v in np.meshgrid(bearing, np.arcsin(sine)))
+        along = sphere.direction(bearing, elevation) @ view.rotation[frame].T
+        return np.broadcast_to(view.position[frame], along.shape), along
     across, up = (((np.arange(count) + 0.5) / count * 2.0 - 1.0) for count in _RAYS)
     half = view.halves[frame]
     across, up = (v.ravel() for v in np.meshgrid(across * half[0], up * half[1]))

@@ -66,8 +66,8 @@ def layers(shot: Shot, solved: Flow) -> list[Layer]:
 
 def _pixel(shot: Shot) -> float:
     """Size (m) at the fire of the smallest pixel of a picture."""
-    width = min((2.0 * view.half[0] for view in shot.near), default=SENSOR / WIDE_LENS)
-    return width * shot.fire_distance / shot.settings.render.resolution[0]
+    plain = SENSOR / WIDE_LENS / shot.settings.render.resolution[0]  # where no camera is in perspective
+    return shot.fire_distance * (shot.pixel[0] if shot.near else plain)
 
 
 class Painter:

@@ -15,7 +15,7 @@ from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import haze, infrared
-from ..light import exposure, sky
+from ..light import exposure
 from . import material
 
 _FRESH, _OLD = (0.44, 0.36, 0.29), (0.95, 0.945, 0.94)  # albedo: of soot and char, and of aged haze and cloud
@@ -28,28 +28,35 @@ _LIGHT = 0.5  # of extinction counts for light: 0.7 by theory, less for the boun
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Smoke"."""
     made, tree = nodes.material("Firetwin Smoke")
-    density = tree.attribute("density")
-    albedo = tree.mix_colour(tree.attribute("fresh"), _OLD, _FRESH)
+    fresh = tree.input("Fresh Colour", _FRESH, "Albedo of fresh smoke, full of soot", "Colour")
+    old = tree.input("Old Colour", _OLD, "Albedo of aged haze and cloud", "Colour")
+    middle = tree.input("Inner Colour", _MIDDLE, "Albedo for light by way of other smoke", "Colour")
+    thick = tree.input("Density", 1.0, "Factor on how thick smoke is", "Density")
+    even = tree.input("Anisotropy", _ANISOTROPY, "How much light goes on forwards", "Light", -1.0, 1.0)
+    density = tree.attribute("density") * thick
+    albedo = tree.mix_colour(tree.attribute("fresh"), old, fresh)
     part, air = haze.fraction(tree, stage)
     light = tree.emission(air, part * density)
     if exposure.darkness(shot, shot.frames.middle) > 0.0:
-        glow = tree.attribute("glow") * (1.0 - part) * material.glow_light(shot)
-        light = tree.add_shader(light, tree.emission(sky.GLOW, glow * density))
+        shine, bright = material.glow_inputs(tree, shot)
+        glow = tree.attribute("glow") * (1.0 - part) * bright
+        light = tree.add_shader(light, tree.emission(shine, glow * density))
     scattered = tree.mix_colour(part, albedo, (0.0, 0.0, 0.0))
-    detailed = tree.add_shader(_smoke(tree, density, scattered), light)
+    detailed = tree.add_shader(_smoke(tree, density, scattered, even), light)
     # Most steps belong to rays of light through the smoke; one grid is enough for them.
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
-    thinner = density * _LIGHT
-    thinner.socket.node.name = "Light"
-    visible = tree.mix_shader(camera, _smoke(tree, thinner, _MIDDLE), detailed)
+    thinner = density * tree.input("Light Density", _LIGHT, "Part of the smoke that dims light", "Light")
+    visible = tree.mix_shader(camera, _smoke(tree, thinner, middle, even), detailed)
     tree.volume(infrared.smoke(tree, shot, stage, visible, density))
     made.cycles.volume_sampling = "DISTANCE"
     made.cycles.emission_sampling = "NONE"
     return made
 
 
-def _smoke(tree: nodes.Tree, density: nodes.Value, albedo: nodes.Value) -> nodes.Value:
+def _smoke(
+    tree: nodes.Tree, density: nodes.Value, albedo: nodes.Value, anisotropy: nodes.Value
+) -> nodes.Value:
     """Scattering and absorption that make `density` (1/m) the extinction and `albedo` its scattered part."""
     inputs = {"Color": albedo, "Density": density}
-    scatter = tree.output("ShaderNodeVolumeScatter", inputs | {"Anisotropy": _ANISOTROPY})
+    scatter = tree.output("ShaderNodeVolumeScatter", inputs | {"Anisotropy": anisotropy})
     return tree.add_shader(scatter, tree.output("ShaderNodeVolumeAbsorption", inputs))

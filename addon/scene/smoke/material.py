@@ -52,27 +52,33 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     drawn, carried = view.resolution(shot), flow(shot)
     material, tree = nodes.material("Firetwin Smoke")
     position = tree.output("ShaderNodeNewGeometry", name="Position")
+    fresh = tree.input("Fresh Colour", _LOW, "Albedo of smoke near the ground", "Colour")
+    old = tree.input("Old Colour", _HIGH, "Albedo of smoke far up", "Colour")
+    middle = tree.input("Inner Colour", _MIDDLE, "Albedo for light by way of other smoke", "Colour")
+    thick = tree.input("Density", 1.0, "Factor on how thick smoke is", "Density")
+    even = tree.input("Anisotropy", ANISOTROPY, "How much light goes on forwards", "Light", -1.0, 1.0)
     above = tree.separate(position)[2] - carried.ground
-    opacity = above.ramp(*_CLOUD, *OPACITY)
+    opacity = above.ramp(*_CLOUD, *OPACITY) * thick
     full = _extinction(tree.attribute("dilution"), opacity, drawn.extinction)
-    albedo = tree.mix_colour(above.smoothstep(-200.0, 3200.0), _LOW, _HIGH)
+    albedo = tree.mix_colour(above.smoothstep(-200.0, 3200.0), fresh, old)
     noise = _billow(tree, position, carried, float(np.clip(6.0 * drawn.voxel, 260.0, 1000.0)))
     reach = tree.math("MINIMUM", tree.attribute("size") * 0.8, _AMPLITUDE)  # small puffs must not be eaten up
     depth = tree.attribute("density")
     density = (depth + reach * (noise - _MEAN_BILLOW)).smoothstep(*_EDGE) * full
     part, air = haze.fraction(tree, stage)
     scattered = tree.mix_colour(part, albedo, (0.0, 0.0, 0.0))
-    glow = tree.attribute("glow") * (1.0 - part) * glow_light(shot)
+    shine, bright = glow_inputs(tree, shot)
+    glow = tree.attribute("glow") * (1.0 - part) * bright
 
     def seen(density: nodes.Value) -> nodes.Value:
-        light = tree.add_shader(tree.emission(air, part * density), tree.emission(sky.GLOW, glow * density))
-        return tree.add_shader(_smoke(tree, density, scattered), light)
+        light = tree.add_shader(tree.emission(air, part * density), tree.emission(shine, glow * density))
+        return tree.add_shader(_smoke(tree, density, scattered, even), light)
 
     # A mix by 0 or 1 evaluates one side only: deep inside, the noise changes nothing and is left out.
     deep = depth > _EDGE[1] + _AMPLITUDE * _MEAN_BILLOW
     detailed = tree.mix_shader(deep, seen(density), seen(full))
     # Most steps belong to rays of light through the smoke. They need no detail: one grid is enough.
-    plain = _smoke(tree, _extinction(tree.attribute("shade"), opacity, drawn.extinction), _MIDDLE)
+    plain = _smoke(tree, _extinction(tree.attribute("shade"), opacity, drawn.extinction), middle, even)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     tree.volume(infrared.smoke(tree, shot, stage, tree.mix_shader(camera, plain, detailed), density))
     material.cycles.volume_sampling = "DISTANCE"
@@ -91,10 +97,18 @@ def _extinction(dilution: nodes.Value, opacity: nodes.Value, most: float) -> nod
     return (1.0 - (-thickness).exp()) * most
 
 
-def _smoke(tree: nodes.Tree, density: nodes.Value, albedo: nodes.Value) -> nodes.Value:
+def glow_inputs(tree: nodes.Tree, shot: Shot) -> tuple[nodes.Value, nodes.Value]:
+    """Colour and brightness of the flames' light on smoke."""
+    colour = tree.input("Glow Colour", tuple(sky.GLOW), "Of the flames' light on smoke", "Light")
+    return colour, tree.input("Glow", glow_light(shot), "Brightness of the flames' light on smoke", "Light")
+
+
+def _smoke(
+    tree: nodes.Tree, density: nodes.Value, albedo: nodes.Value, anisotropy: nodes.Value
+) -> nodes.Value:
     """Scattering and absorption that make `density` (1/m) the extinction and `albedo` its scattered part."""
     inputs = {"Color": albedo, "Density": density}
-    scatter = tree.output("ShaderNodeVolumeScatter", inputs | {"Anisotropy": ANISOTROPY})
+    scatter = tree.output("ShaderNodeVolumeScatter", inputs | {"Anisotropy": anisotropy})
     return tree.add_shader(scatter, tree.output("ShaderNodeVolumeAbsorption", inputs))
 
 

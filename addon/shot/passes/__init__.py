@@ -43,6 +43,8 @@ class Pass:
         Rays per pixel; None: those of [render].
     data
         Never denoised, and the shaders show infrared radiance instead of light.
+    masks
+        The shaders show what each pixel is (see `masks`).
     channels
         Of its EXR: "colour" or "grey".
     bits
@@ -51,10 +53,14 @@ class Pass:
         Its rays go through the middle of each pixel.
     filmed
         Its PNG files make a film.
+    captions
+        Films write the time into its pictures.
     shows
         Aspects that its own rendering shows (see `schema.chosen`).
     needs
         Other passes whose files its own are made from.
+    sources
+        Files and folders of the package that decide its files, beside its own module and what all depend on.
     finish
         Makes the files that Blender does not, or goes on with those that it made. Called with the pass's
         files by suffix; those of the passes that it needs, by pass and suffix; the shot; the camera's name;
@@ -71,11 +77,14 @@ class Pass:
     leaves_out: tuple[str, ...] = ()
     samples: int | None = None
     data: bool = True
+    masks: bool = False
     channels: str = "grey"
     bits: int = 32
     pixel_centres: bool = False
     filmed: bool = False
+    captions: bool = True
     needs: tuple[str, ...] = ()
+    sources: tuple[str, ...] = ()
     finish: Finish | None = None
 
     @property
@@ -95,6 +104,11 @@ def known() -> dict[str, Pass]:
 def helps() -> dict[str, str]:
     """Every pass's line of help by its name, in order."""
     return {name: each.help for name, each in known().items()}
+
+
+def file_of(camera: str, name: str, frame: int, suffix: str) -> str:
+    """A file of a camera's frame in a pass, relative to the output folder."""
+    return f"{camera}/{name}/{camera}_{name}_{frame:06d}.{suffix}"
 
 
 def of_camera(settings: Settings, camera: Camera) -> tuple[Pass, ...]:

@@ -1,4 +1,4 @@
-"""A bar of temperatures at the right edge of a picture, with its numbers in K."""
+"""A bar of temperatures at the right edge of a picture, with its numbers in K; lines of text at its top."""
 
 from __future__ import annotations
 
@@ -19,6 +19,35 @@ _SIGNS = {
     "8": "111101111101111",
     "9": "111101111001111",
     "K": "101101110101101",
+    "A": "010101111101101",
+    "B": "110101110101110",
+    "C": "011100100100011",
+    "D": "110101101101110",
+    "E": "111100110100111",
+    "F": "111100110100100",
+    "G": "011100101101011",
+    "H": "101101111101101",
+    "I": "111010010010111",
+    "J": "001001001101010",
+    "L": "100100100100111",
+    "M": "101111111101101",
+    "N": "110101101101101",
+    "O": "010101101101010",
+    "P": "110101110100100",
+    "Q": "010101101110011",
+    "R": "110101110101101",
+    "S": "011100010001110",
+    "T": "111010010010010",
+    "U": "101101101101111",
+    "V": "101101101101010",
+    "W": "101101111111101",
+    "X": "101101010101101",
+    "Y": "101101010010010",
+    "Z": "111001010100111",
+    ".": "000000000000010",
+    "-": "000000111000000",
+    ":": "000010000010000",
+    " ": "000000000000000",
 }
 _STEPS = (1000, 500, 100, 50, 10, 5, 2, 1)
 _ENOUGH = 5  # marks; steps under 10 K are for scales that have fewer
@@ -40,10 +69,20 @@ def draw(picture: NDArray[np.float32], low: float, high: float, palette: str, kn
     picture[top - size : bottom + size, left - size : right + size] = 1.0
     picture[top:bottom, left:right] = bar
     for kelvin in marks(low, high, knee, (bottom - top) / (9.0 * size)):
-        at = bottom - 1 - round((bottom - 1 - top) * _place(kelvin, low, high, knee))
+        at = bottom - 1 - round((bottom - 1 - top) * place(kelvin, low, high, knee))
         picture[at : at + 1, left - 3 * size : left] = 1.0
         _write(picture, f"{kelvin:.0f}", left - 4 * size, at, size)
     _write(picture, "K", right + size, top - 5 * size, size)
+
+
+def title(picture: NDArray[np.float32], lines: list[str]) -> None:
+    """Write capital letters, digits and . - : into the upper left corner of a picture (h, w, 3)."""
+    height, width = picture.shape[:2]
+    size = max(height // 240, 1)
+    for number, line in enumerate(lines):
+        right = 3 * size + (4 * len(line) + 1) * size
+        if height >= 90 and right <= width:
+            _write(picture, line.upper(), right, (7 * number + 6) * size, size)
 
 
 def marks(low: float, high: float, knee: float, most: float) -> list[float]:
@@ -53,13 +92,13 @@ def marks(low: float, high: float, knee: float, most: float) -> list[float]:
         if step < 10 and len(found) >= _ENOUGH:
             break
         for kelvin in np.arange(np.ceil(low / step) * step, high + 1e-9, step):
-            places = [_place(each, low, high, knee) for each in (*found, kelvin)]
+            places = [place(each, low, high, knee) for each in (*found, kelvin)]
             if all(abs(place - places[-1]) >= 1.0 / most for place in places[:-1]):
                 found.append(float(kelvin))
     return sorted(found)
 
 
-def _place(kelvin: float, low: float, high: float, knee: float) -> float:
+def place(kelvin: float, low: float, high: float, knee: float) -> float:
     """Where a temperature is on the scale, 0..1."""
     return float(np.log1p((kelvin - low) / knee) / np.log1p((high - low) / knee))
 

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import sphere
+
 if TYPE_CHECKING:
     from ..path import Path
     from ..shot import Shot
@@ -28,8 +30,11 @@ def plane(view: Path, frame: int, height: int, width: int) -> tuple[NDArray[np.f
 
 
 def ranges(view: Path, frame: int, planar: NDArray) -> NDArray[np.float32]:
-    """Distances (h, w) along lines of sight, m, from those along the camera's axis; the sky stays."""
-    if not view.perspective:
+    """Distances (h, w) along lines of sight, m, from those along the camera's axis; the sky stays.
+
+    Of a camera that sees all round these are one, and counted from between its eyes.
+    """
+    if view.around or not view.perspective:
         return planar
     x, y = plane(view, frame, *planar.shape)
     return np.where(planar < SKY, planar * np.sqrt(1.0 + x**2 + y**2), planar).astype(np.float32)
@@ -38,6 +43,8 @@ def ranges(view: Path, frame: int, planar: NDArray) -> NDArray[np.float32]:
 def points(view: Path, frame: int, planar: NDArray) -> NDArray[np.float64]:
     """Scene points (h, w, 3) m of depths along the camera's axis (h, w), m; NaN for the sky."""
     deep = np.where(planar < SKY, planar, np.nan).astype(np.float64)
+    if view.around:
+        return sphere.points(view, frame, deep)
     x, y = plane(view, frame, *planar.shape)
     far = deep if view.perspective else 1.0
     local = np.stack([x * far, y * far, -deep], axis=-1)

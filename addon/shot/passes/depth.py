@@ -2,7 +2,7 @@
 
 The EXR holds two channels, `planar` and `range`. Flames and smoke are left out, as they have no surface. One
 ray goes through the middle of each pixel, so that no pixel is a mean of near and far. The sky is 1e10 m, as
-everywhere in Blender.
+everywhere in Blender. A camera that sees all round has no axis: both are the distance from between its eyes.
 """
 
 from __future__ import annotations

@@ -17,5 +17,7 @@ PASS = Pass(
     channels="colour",
     bits=16,
     filmed=True,
-    shows=frozenset({"time", "camera", "picture", "ground", "forest", "fire", "smoke", "light", "grain"}),
+    shows=frozenset(
+        {"time", "camera", "picture", "ground", "forest", "fire", "smoke", "light", "grain", "places"}
+    ),
 )

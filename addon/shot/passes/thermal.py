@@ -31,7 +31,6 @@ def finish(
     import numpy as np
     from firetwin_core import sensor
 
-    from .. import temperature
     from ..settings import BANDS
     from . import _bar
 
@@ -52,12 +51,16 @@ def finish(
     low_um, high_um = BANDS[settings.band]
     about = {"Comment": f"kelvin: brightness temperature; radiance: W m-2 sr-1, {low_um:g} to {high_um:g} um"}
     sensor.write_image(files["exr"], np.stack(list(channels.values()), axis=-1), about, list(channels))
-    low, high = shot.settings.render.thermal_low, shot.settings.render.thermal_high
-    if low is None:
-        low = min(temperature.coldest(shot.run, shot.frames.middle), high - 1.0)
+    low, high = scale(shot)
     shown = sensor.colour(channels["kelvin"], low, high, settings.palette, KNEE)
     _bar.draw(shown, low, high, settings.palette, KNEE)
     sensor.write_image(files["png"], shown)
+
+
+def scale(shot: Shot) -> tuple[float, float]:
+    """Temperatures (K) at the cold and the hot end of the palette, the same in every frame."""
+    low, high = shot.settings.render.thermal_low, shot.settings.render.thermal_high
+    return (min(shot.coldest, high - 1.0) if low is None else low), high
 
 
 PASS = Pass(
@@ -72,5 +75,6 @@ PASS = Pass(
     shows=frozenset(
         {"time", "camera", "picture", "ground", "forest", "fire", "smoke", "light", "grain", "thermal"}
     ),
+    sources=("shot/passes/_bar.py",),
     finish=finish,
 )

@@ -1,9 +1,12 @@
 """The FIRETWIN paper's thermal view: colours of the model's mean temperature added to the visible picture.
 
 The run's `temperature` is averaged over ten minutes, or the time between two frames where that is longer. The
-gradient black, purple, red, orange, yellow, white goes from the lowest to the highest of it in the middle of
-the shot, so that colours mean the same in every frame. Its colour where the ground is seen, by the depth, is
-added to the picture's pixels (0..1) and held at 1. It is the model's air, not what an infrared camera sees.
+gradient black, purple, red, orange, yellow, white shows how much warmer that air is than unburned air as
+high (`shot.temperature.warmth`): the paper does not say where its gradient begins, and over the whole field
+cold ridges and warm valleys would take up most of it, and redden all that does not burn. Black is what a
+hundredth of the unburned cells are above, white the warmest of the shot, so that colours mean the same in
+every frame. The colour where the ground is seen, by the depth, is added to the picture's pixels (0..1) and
+held at 1. It is the model's air, not what an infrared camera sees.
 """
 
 from __future__ import annotations
@@ -17,8 +20,6 @@ if TYPE_CHECKING:
 
     from ..shot import Shot
 
-LEAST = 600.0  # s
-
 
 def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
     """Add the gradient of the model's temperature to the picture."""
@@ -29,22 +30,17 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     from ..ground import bilinear
     from . import _view
 
-    span = max(LEAST, shot.frames.step)
-
-    def mean(time: float) -> np.ndarray:
-        return temperature.mean(shot.run, time - span, time)
-
-    middle, now = mean(shot.frames.middle), mean(float(shot.frames.time(frame)))
+    now = float(shot.frames.time(frame))
+    above, _ = temperature.warmth(shot.run, now - shot.averaged, now)
     planar = sensor.read_image(needed["depth"]["exr"])[..., 0]
     point = _view.points(_view.of(shot, camera), frame, planar)
     ground = np.isfinite(point).all(axis=-1)
-    kelvin = np.full(planar.shape, np.nan)
+    warmth = np.full(planar.shape, np.nan)
     if ground.any():
         latitude, longitude, _ = shot.local_frame.reverse(point[ground])
-        kelvin[ground] = bilinear(now, *temperature.indices(shot.run, latitude, longitude))
-    low, high = float(middle.min()), float(middle.max())
+        warmth[ground] = bilinear(above, *temperature.indices(shot.run, latitude, longitude))
     rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
-    sensor.write_image(files["png"], sensor.thermal_composite(rgb, kelvin, low, max(high, low + 1.0)))
+    sensor.write_image(files["png"], sensor.thermal_composite(rgb, warmth, *shot.warmest))
 
 
 PASS = Pass(

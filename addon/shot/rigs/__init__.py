@@ -10,7 +10,7 @@ from __future__ import annotations
 import functools
 import importlib
 import pkgutil
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,7 +32,15 @@ USUAL = "drone"  # where a camera names no kind
 
 
 class Rig:
-    """How a camera is set up and moved: what is particular to its kind."""
+    """How a camera is set up and moved: what is particular to its kind.
+
+    Attributes
+    ----------
+    around
+        It sees all round with two eyes, which Cycles alone renders, in pictures that are square.
+    """
+
+    around: ClassVar[bool] = False
 
     @classmethod
     def seeing(cls, view: View) -> Rig:

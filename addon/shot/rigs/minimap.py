@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 class Minimap(Rig):
     """Straight down and to scale, north up, over another camera."""
 
-    follows: str = key("", "name of that camera; empty: the first that is no minimap")
+    follows: str = key("", "name of that camera; empty: the first that follows none")
     swath: float = key(6000.0, "width of the picture on the ground", unit="m", above=0)
 
     @classmethod
@@ -34,7 +34,7 @@ class Minimap(Rig):
 
     def leader(self, cameras: Sequence[Camera]) -> Camera | None:
         """The camera that it follows; None where there is none of that name, or none at all."""
-        found = (each for each in cameras if not isinstance(each.rig, Minimap))
+        found = (each for each in cameras if not hasattr(each.rig, "follows"))
         return next((each for each in found if self.follows in ("", each.name)), None)
 
     def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:

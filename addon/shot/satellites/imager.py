@@ -6,6 +6,11 @@ doi 10.1029/2005JD006318: 14 +- 3 %), so f is the area that gives off this part 
 1000 K. The background is the run's air, and ground that cools since the fire passed. Air, smoke, clouds and
 mirrored sunlight (some kelvin at 3.9 um by day) are left out, and pixels are even boxes beside one another.
 
+The hottest black bodies that ABI measures, 400 K in band 7 and 330 K in band 14, are those of C. C. Schmidt
+et al. 2020, "GOES-R ABI Algorithm Theoretical Basis Document for Fire / Hot Spot Characterization" 2.7, table
+2.3. Users of VIIRS's fire product take I4 to be saturated from 367 K; neither for that nor for the 380 K of
+I5 was a document of the instrument's makers found.
+
 Fire radiative power by the radiance in the middle infrared is A sigma / a (L - L(background)), with
 a = 3.0e-9 W m-2 sr-1 um-1 K-4 (Wooster et al. 2003, 2005): at 3.9 um and 1000 K that is 1.13 of the power
 itself, so that all pixels together have 0.158 of the run's heat as long as none is saturated.
@@ -44,7 +49,12 @@ class Instrument:
     short: float
     long: float
     saturation: tuple[float, float]
+    since: int  # year of the first picture
     hypothetical: str
+
+    def label(self, year: int) -> str:
+        """What a picture of a fire of this year must say."""
+        return f"hypothetical for {year}" if year < self.since else "hypothetical pass"
 
 
 ABI = Instrument(
@@ -53,6 +63,7 @@ ABI = Instrument(
     3.9,
     11.2,
     (400.0, 330.0),
+    2017,
     "hypothetical: this imager is on GOES-16 to -19, launched from 2016 on",
 )
 VIIRS = Instrument(
@@ -61,6 +72,7 @@ VIIRS = Instrument(
     3.74,
     11.45,
     (367.0, 380.0),
+    2012,
     "hypothetical: seen from straight above at this moment; real passes are about 01:30 and 13:30",
 )
 INSTRUMENTS = {each.name: each for each in (ABI, VIIRS)}

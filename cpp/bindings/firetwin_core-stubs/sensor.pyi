@@ -61,6 +61,9 @@ class PlanckTable:
 def palettes() -> list[str]:
     """Names of the palettes that `colour` knows."""
 
+def palette(name: str) -> NDArray[np.float64]:
+    """A palette's colours (n, 3), 0..1, at equal steps from cold to hot."""
+
 def colour(
     kelvin: ArrayLike, low: float, high: float, palette: str = "white-hot", knee: float = 0.0
 ) -> NDArray[np.float32]:
@@ -80,6 +83,19 @@ def thermal_composite(
     from `low` to `high`, linear between; beyond them and NaN as at the nearer end and at `low`.
 
     8-bit pixels are refused: divide them by 255.
+    """
+
+def overlay(
+    below: ArrayLike,
+    above: ArrayLike,
+    kelvin: ArrayLike,
+    start: float,
+    full: float,
+    opacity: float = 1.0,
+) -> NDArray[np.float32]:
+    """Hot spots `above` over the picture `below`, both (h, w, 3), by temperatures (h, w) K.
+
+    below + opacity * clamp((kelvin - start) / (full - start), 0, 1) * (above - below); NaN shows `below`.
     """
 
 def eye_dome(depth: ArrayLike, strength: float = 4.0, radius: int = 1) -> NDArray[np.float32]:

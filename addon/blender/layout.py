@@ -1,0 +1,48 @@
+"""Where nodes lie: each frame a box of columns, inputs left of what they go into, boxes side by side."""
+
+from __future__ import annotations
+
+import bpy
+
+WIDE, GAP = 200.0, 40.0  # from column to column, and between boxes and nodes
+
+
+def arrange(tree: bpy.types.NodeTree) -> None:
+    """Place the nodes of a tree whose nodes were added after those that they are linked from."""
+    boxes: dict[str, list[bpy.types.Node]] = {}
+    for node in tree.nodes:
+        if node.bl_idname != "NodeFrame":
+            boxes.setdefault(node.parent.name if node.parent else "", []).append(node)
+    if "" in boxes:  # what comes of all the frames
+        boxes[""] = boxes.pop("")
+    feeds: dict[str, list[bpy.types.Node]] = {}
+    for link in tree.links:
+        feeds.setdefault(link.from_node.name, []).append(link.to_node)
+    left = 0.0
+    for box in boxes.values():
+        columns = _columns(box, feeds)
+        deepest = max(columns.values())
+        below = dict.fromkeys(range(deepest + 1), 0.0)
+        for node in box:
+            column = columns[node.name]
+            node.location = left + WIDE * (deepest - column), below[column]
+            below[column] -= height(node) + GAP
+        left += WIDE * (deepest + 1) + 2.0 * GAP
+
+
+def height(node: bpy.types.Node) -> float:
+    """About how tall a node is drawn: Blender tells it only once it has drawn it."""
+    outputs = [socket for socket in node.outputs if socket.enabled and not socket.hide]
+    inputs = [socket for socket in node.inputs if socket.enabled and not socket.hide]
+    vectors = [s for s in inputs if s.type in ("VECTOR", "ROTATION") and not s.is_linked and not s.hide_value]
+    own = 300.0 if node.bl_idname == "ShaderNodeTexImage" else 60.0
+    return 30.0 + own + 22.0 * (len(outputs) + len(inputs)) + 66.0 * len(vectors)
+
+
+def _columns(box: list[bpy.types.Node], feeds: dict[str, list[bpy.types.Node]]) -> dict[str, int]:
+    """Column of each node, counted from the right: one more than of all that it goes into in its box."""
+    columns: dict[str, int] = {}
+    for node in reversed(box):
+        after = [columns[to.name] + 1 for to in feeds.get(node.name, ()) if to.name in columns]
+        columns[node.name] = max(after, default=0)
+    return columns

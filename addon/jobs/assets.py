@@ -1,0 +1,109 @@
+"""Write what an artist may use elsewhere as an asset library: a .blend file and its catalogue."""
+
+from __future__ import annotations
+
+import uuid
+from pathlib import Path
+
+from .. import files
+from ..errors import input_error
+from ..progress import READING, Progress, Tell, patience, silent, untold
+from ..shot.choice import Choice
+from . import worker
+
+BLEND, CATALOGUE = "firetwin_assets.blend", "blender_assets.cats.txt"
+CATALOGUES = ("Trees", "Undergrowth", "Materials", "Geometry Nodes", "Shader Nodes", "Compositor", "Cameras")
+SCENE = """\
+run = "sample"
+
+[time]
+start = 2014-09-17T16:00:00-07:00
+end = 2014-09-17T16:24:00-07:00
+frames = 2
+
+[smoke]
+method = "puffs"
+
+[[cameras]]
+name = "drone"
+
+[[cameras.keys]]
+latitude = 38.984
+longitude = -120.558
+height = 600.0
+target = "head"
+"""
+"""A scene file beside the sample run, where none is given."""
+
+_SPACE = uuid.UUID("6f1b2c1e-2f53-4a86-9d0c-6b9a6f0f7a11")  # names of our catalogues are unique within it
+
+
+def identifier(catalogue: str) -> str:
+    """What Blender knows a catalogue by; always the same for the same name."""
+    return str(uuid.uuid5(_SPACE, catalogue))
+
+
+def catalogue() -> str:
+    """Text of the file that names the catalogues."""
+    lines = [f"{identifier(name)}:Firetwin/{name}:Firetwin-{name}" for name in CATALOGUES]
+    head = "# This is an Asset Catalog Definition file for Blender.\n\nVERSION 1\n\n"
+    return head + "\n".join(lines) + "\n"
+
+
+def run(
+    choice: Choice,
+    out: Path,
+    progress: Progress = silent,
+    tell: Tell = untold,
+    stop: worker.Stop | None = None,
+) -> int:
+    """Write the library into the folder `out`: trees, materials and node groups as a shot has them.
+
+    Returns
+    -------
+    How many assets there are.
+
+    Raises
+    ------
+    InputError
+        `out` holds a catalogue of somebody else, or cannot be written.
+    """
+    out = out.absolute()
+    _refuse_strangers(out)
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise input_error(out, 0, 0, f"cannot be made ({error.strerror}); choose another place") from None
+    with patience(READING):
+        choice.shot()
+    task = {"choice": choice.plain(), "out": str(out / BLEND)}
+    count = worker.run(f"{__name__}:in_blender", task, progress, stop=stop, tell=tell)
+    files.write(out / CATALOGUE, lambda part: part.write_text(catalogue(), encoding="utf-8"))
+    return count
+
+
+def _refuse_strangers(out: Path) -> None:
+    """Keep what is there of an asset library that is not ours."""
+    there = out / CATALOGUE
+    if there.exists() and identifier(CATALOGUES[0]) not in there.read_text("utf-8", errors="replace"):
+        raise input_error(there, 0, 0, "belongs to another asset library; choose another folder")
+
+
+def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell) -> int:
+    """Make the assets in an empty Blender, and save them under a temporary name that they then lose."""
+    import bpy
+
+    from ..scene import assets
+
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    count = assets.build(Choice(**choice).shot(), identifier, progress)
+    part = files.part_of(Path(out))
+    bpy.context.preferences.filepaths.save_version = 0
+    try:
+        bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True)
+        files.publish(part, Path(out))
+    except RuntimeError as error:
+        raise input_error(Path(out), 0, 0, f"cannot be written: {' '.join(str(error).split())}") from None
+    finally:
+        part.unlink(missing_ok=True)
+    return count

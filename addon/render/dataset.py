@@ -1,0 +1,59 @@
+"""``CAMERA/transforms.json``: an index of a camera's frames as nerfstudio reads it, so that a shot trains.
+
+It lists the frames whose visible picture and sidecar (see `shot.passes.pose`) are finished, with their lens
+and `transform_matrix`, and under `passes` every finished file of the frame. Cameras without perspective have
+none. Written as a whole when a render ends.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import defaultdict
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from .. import files
+from ..shot.passes import masks
+from .store import Store
+
+NAME = "transforms.json"
+_LENS = {"width": "w", "height": "h", "fx": "fl_x", "fy": "fl_y", "cx": "cx", "cy": "cy"}
+
+
+def write(store: Store) -> None:
+    """Write the index of every camera that has sidecars."""
+    found: dict[tuple[str, str], dict[str, list[str]]] = defaultdict(lambda: defaultdict(list))
+    for name in store.names():
+        camera, kind, *rest = PurePosixPath(name).parts
+        if rest:  # films lie beside the folders of passes
+            found[camera, PurePosixPath(name).stem[-6:]][kind].append(f"{kind}/{rest[0]}")
+    frames: dict[str, list[dict[str, Any]]] = defaultdict(list)
+    for (camera, _), passes in sorted(found.items()):
+        shown = next((path for path in passes.get("rgb", ()) if path.endswith(".png")), None)
+        if shown and "pose" in passes and (frame := _frame(store.out / camera, shown, passes)):
+            frames[camera].append(frame)
+    for camera, listed in frames.items():
+        index = {"camera_model": "OPENCV", "classes": dict(enumerate(masks.NAMES)), "frames": listed}
+        text = json.dumps(index, indent=1) + "\n"
+        path = store.out / camera / NAME
+        files.write(path, lambda part, text=text: part.write_text(text, encoding="utf-8"))
+
+
+def _frame(folder: Path, shown: str, passes: dict[str, list[str]]) -> dict[str, Any] | None:
+    """One frame of an index; None where its projection is parallel or its sidecar has gone."""
+    try:
+        sidecar = json.loads((folder / passes["pose"][0]).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    lens = sidecar["intrinsics"]
+    if lens["projection"] != "perspective":
+        return None
+    bent = {name: lens["distortion"][name] for name in ("k1", "k2", "p1", "p2")}
+    return {
+        "file_path": shown,
+        "transform_matrix": sidecar["pose"]["camera_to_world"],
+        **{ours: lens[name] for name, ours in _LENS.items()},
+        **bent,
+        "time_utc": sidecar["time_utc"],
+        "passes": passes,
+    }

@@ -1,0 +1,203 @@
+"""Compositor node groups: what the passes make of files, for an artist's own compositor.
+
+They are in every scene that is built (Add > Group in the compositor) and give what `firetwin_core.sensor`
+gives from files, within 1e-5. Colours are those of the display, 0..1, as in a PNG: an Image node reads them
+as Non-Color, and the scene's view transform is Raw. Depth and radiance are those of the view layers "depth"
+and "thermal", and of their EXR files.
+
+`Thermal Camera` reads temperatures off a polynomial of the band's radiance, within 3e-6 of the integral's
+inverse from 180 to 1800 K (`RANGE`); it knows the band of the scene's settings.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+from firetwin_core import sensor
+
+from ..blender import compat, nodes
+from ..blender.nodes import Input, Tree, Value
+from ..blender.owned import Stage
+from ..shot.passes import edl, overlay, thermal
+from ..shot.settings import BANDS, Settings
+
+RANGE = 180.0, 1800.0  # K
+_DEGREE = 14
+_DEEPEST, _NEAREST = 1e9, 1e-3  # m, as in cpp/sensor/eye_dome.cpp
+_COLOUR, _NUMBER = "NodeSocketColor", "NodeSocketFloat"
+_BLACK, _WHITE = (0.0, 0.0, 0.0, 1.0), (1.0, 1.0, 1.0, 1.0)
+_KELVIN = Input("Kelvin", "Temperature of each pixel, K", 300.0)
+
+
+def build(settings: Settings, stage: Stage) -> None:
+    """Make the groups that are missing, and let the camera's band be that of the settings."""
+    makers = {
+        "Thermal Blend": thermal_blend,
+        "Thermal Camera": thermal_camera,
+        "Eye Dome": eye_dome,
+        "Overlay": overlaid,
+    }
+    for name, make in makers.items():
+        if stage.root.get(f"group {name}") is None:
+            stage.root[f"group {name}"] = make()
+    set_band(stage.root["group Thermal Camera"], BANDS[settings.thermal.band])
+
+
+def thermal_blend() -> bpy.types.NodeTree:
+    """`sensor.thermal_composite`: the paper's gradient of temperatures added to a picture."""
+    tree, get = _group(
+        "Thermal Blend",
+        "The FIRETWIN paper's thermal view: colours of the model's temperature added to the picture",
+        [
+            Input("Image", "Picture in display colours, 0 to 1", _BLACK),
+            _KELVIN,
+            Input("Low", "K where the gradient begins, with black", 300.0, "Scale", 0.0),
+            Input("High", "K where it ends, with white", 330.0, "Scale", 0.0),
+            Input("Strength", "How much of the gradient is added", 1.0, "Scale"),
+        ],
+        {"Image": _COLOUR},
+    )
+    place = (get("Kelvin") - get("Low")) / (get("High") - get("Low"))
+    heat = tree.colours(place, sensor.palette("paper"))
+    sum_ = tree.vector("ADD", _held(tree, get("Image")), _times(tree, heat, get("Strength")))
+    tree.node("NodeGroupOutput", {"Image": _held(tree, sum_)})
+    return tree.node_tree
+
+
+def thermal_camera() -> bpy.types.NodeTree:
+    """`sensor.brightness_temperature` and `sensor.colour`: what an infrared camera shows of radiance."""
+    names = sensor.palettes()
+    listed = ", ".join(f"{number} {name}" for number, name in enumerate(names, 1))
+    tree, get = _group(
+        "Thermal Camera",
+        "Brightness temperature (K) of infrared radiance, and its picture by a palette",
+        [
+            Input("Radiance", "Of the band, W m-2 sr-1: the image of the view layer thermal", 55.0),
+            Input("Low", "K at the cold end of the palette", 290.0, "Temperatures", 0.0),
+            Input("High", "K at its hot end", 1000.0, "Temperatures", 0.0),
+            Input(
+                "Knee",
+                "K above the cold end where the scale begins to close up",
+                thermal.KNEE,
+                "Temperatures",
+                0.01,
+            ),
+            Input("Palette", listed, 1, "Look", 1, len(names)),
+        ],
+        {"Image": _COLOUR, "Kelvin": _NUMBER},
+    )
+    kelvin = _kelvin(tree, get("Radiance"))
+    knee = get("Knee")
+    above = tree.math("MINIMUM", tree.math("MAXIMUM", kelvin, get("Low")), get("High")) - get("Low")
+    place = _log(tree, above / knee + 1.0) / _log(tree, (get("High") - get("Low")) / knee + 1.0)
+    shown: Any = _BLACK
+    for number, name in enumerate(names, 1):
+        chosen = tree.math("COMPARE", get("Palette"), float(number), 0.5)
+        shown = tree.mix_colour(chosen, shown, tree.colours(place, sensor.palette(name)))
+    tree.node("NodeGroupOutput", {"Image": shown, "Kelvin": kelvin})
+    return tree.node_tree
+
+
+def eye_dome() -> bpy.types.NodeTree:
+    """`sensor.eye_dome`: what lies behind its neighbours is darker."""
+    tree, get = _group(
+        "Eye Dome",
+        "Eye-dome lighting: what lies behind its neighbours is darker, so that shapes stand out",
+        [
+            Input("Image", "Picture in display colours, 0 to 1", _WHITE),
+            Input("Depth", "Along the camera's axis, m: the depth of the view layer depth", 1000.0),
+            Input("Strength", "How dark", edl.STRENGTH, "Shade", 0.0),
+            Input("Radius", "How far away the eight neighbours are, pixels", edl.RADIUS, "Shade", 1),
+        ],
+        {"Image": _COLOUR, "Shade": _NUMBER},
+    )
+    depth = tree.math("MINIMUM", tree.math("MAXIMUM", get("Depth"), _NEAREST), _DEEPEST)
+    # Nearness: beyond the edge Translate gives 0, the deepest there is, which adds nothing.
+    near = tree.math("LOGARITHM", _DEEPEST / depth, 2.0)
+    total: Any = 0.0
+    for down, across in ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1)):
+        moved = {"Image": near, "X": get("Radius") * float(across), "Y": get("Radius") * float(down)}
+        there = tree.pick(compat.whole_pixels(tree.node("CompositorNodeTranslate", moved)))
+        total = total + tree.math(
+            "MINIMUM", near - there, 0.0
+        )  # a node's first input says where its picture lies
+    shade = (total * get("Strength") * 0.125).exp()
+    shaded = _times(tree, get("Image"), shade)
+    tree.node("NodeGroupOutput", {"Image": shaded, "Shade": shade})
+    return tree.node_tree
+
+
+def overlaid() -> bpy.types.NodeTree:
+    """`sensor.overlay`: hot spots of one picture over another."""
+    tree, get = _group(
+        "Overlay",
+        "Hot spots of a thermal picture over the visible one",
+        [
+            Input("Image", "Picture below, in display colours, 0 to 1", _BLACK),
+            Input("Thermal", "Picture of the hot spots, in register", _WHITE),
+            _KELVIN,
+            Input("From", "K above which it begins to show", overlay.START, "Where", 0.0),
+            Input("To", "K from which it shows in full", overlay.FULL, "Where", 0.0),
+            Input("Opacity", "Of what shows in full", overlay.OPACITY, "Where", 0.0, 1.0),
+        ],
+        {"Image": _COLOUR},
+    )
+    part = ((get("Kelvin") - get("From")) / (get("To") - get("From"))).clamp() * get("Opacity")
+    change = tree.vector("SUBTRACT", get("Thermal"), get("Image"))
+    tree.node("NodeGroupOutput", {"Image": tree.vector("ADD", get("Image"), _times(tree, change, part))})
+    return tree.node_tree
+
+
+def set_band(group: bpy.types.NodeTree, band: tuple[float, float]) -> None:
+    """Make a Thermal Camera one of this band, um."""
+    kelvin = np.geomspace(*RANGE, 2000)
+    logs = np.log(sensor.radiance(kelvin, band))
+    low, high = float(logs[0]), float(logs[-1])
+    x = (2.0 * logs - (low + high)) / (high - low)
+    fitted = np.polynomial.chebyshev.chebfit(x, 1.0 / kelvin, _DEGREE)
+    values = {f"Power {n}": each for n, each in enumerate(np.polynomial.chebyshev.cheb2poly(fitted))}
+    values |= {"Least": np.exp(low), "Most": np.exp(high)}
+    values |= {"Scale": 2.0 / (high - low), "Shift": -(low + high) / (high - low)}
+    for name, value in values.items():
+        group.nodes[name].outputs[0].default_value = float(value)
+
+
+def _kelvin(tree: Tree, radiance: Value) -> Value:
+    """1 / T by Horner's rule in the logarithm of radiance; `set_band` fills in the numbers."""
+    held = tree.math("MAXIMUM", radiance, _named(tree, "Least"))
+    held = tree.math("MINIMUM", held, _named(tree, "Most"))
+    x = _log(tree, held) * _named(tree, "Scale") + _named(tree, "Shift")
+    inverse = _named(tree, f"Power {_DEGREE}")
+    for power in reversed(range(_DEGREE)):
+        inverse = inverse * x + _named(tree, f"Power {power}")
+    return 1.0 / inverse
+
+
+def _group(name: str, help: str, inputs: list[Input], outputs: dict[str, str]) -> tuple[Tree, Any]:
+    """A new group and the way to its inputs by name."""
+    tree = nodes.compositor(f"Firetwin {name}", help, inputs, outputs)
+    entry = tree.node("NodeGroupInput")
+    return tree, lambda name: tree.pick(entry, name)
+
+
+def _named(tree: Tree, name: str) -> Value:
+    node = tree.node("ShaderNodeValue")
+    node.name = node.label = name
+    return tree.pick(node)
+
+
+def _log(tree: Tree, value: Any) -> Value:
+    return tree.math("LOGARITHM", value, np.e)
+
+
+def _times(tree: Tree, colour: Any, number: Any) -> Value:
+    """A colour times a number."""
+    return tree.output("ShaderNodeVectorMath", {"Vector": colour, "Scale": number}, operation="SCALE")
+
+
+def _held(tree: Tree, colour: Any) -> Value:
+    """A colour held between 0 and 1."""
+    above = tree.vector("MAXIMUM", colour, (0.0, 0.0, 0.0))
+    return tree.vector("MINIMUM", above, (1.0, 1.0, 1.0))

@@ -1,0 +1,112 @@
+"""Places with names: those that are known of a run's fire, and lists of the user's own."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from firetwin_core.run import Run
+
+from ..data import history
+from ..errors import InputError, input_error
+
+_SHOWN = ("town", "valley", "summit", "lake")
+_NAMES = {"name": {"name", "label", "title"}, "latitude": {"latitude", "lat"}}
+_NAMES["longitude"] = {"longitude", "lon", "lng", "long"}
+_LONGEST = 60  # letters of a name
+
+
+class Label(NamedTuple):
+    """A name, and degrees north and east."""
+
+    name: str
+    latitude: float
+    longitude: float
+
+
+def known(run: Run) -> list[Label]:
+    """Towns, lakes and summits whose positions are published, of the fire that a run depicts."""
+    if not run.event or run.event not in history.events():
+        return []
+    places = history.load(run.event).places
+    return [
+        Label(place.name, place.latitude, place.longitude)
+        for place in places
+        if place.kind in _SHOWN and not place.approximate
+    ]
+
+
+def read(path: Path) -> list[Label]:
+    """Labels of a GeoJSON file's points, or of a CSV file with columns name, latitude and longitude.
+
+    Raises
+    ------
+    InputError
+        It cannot be read, or holds something else.
+    """
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError:
+        raise input_error(path, 0, 0, "is no text in UTF-8; save it as UTF-8") from None
+    except OSError as error:
+        raise input_error(path, 0, 0, f"cannot be read ({error.strerror}); name a CSV or GeoJSON") from None
+    return _geojson(path, text) if text.lstrip().startswith("{") else _csv(path, text)
+
+
+def _csv(path: Path, text: str) -> list[Label]:
+    lines = text.splitlines()
+    comma = max(",;\t", key=lines[0].count) if lines else ","
+    rows = csv.reader(lines, delimiter=comma)
+    header = [name.strip().lower() for name in next(rows, [])]
+    columns = {what: next((k for k, n in enumerate(header) if n in of), -1) for what, of in _NAMES.items()}
+    for what, column in columns.items():
+        if column < 0:
+            known = "name, latitude and longitude (degrees)"
+            raise input_error(path, 1, 0, f"the first line names no column {what}; name {known}")
+    found = []
+    for row in rows:
+        if any(value.strip() for value in row):
+            values = [row[column] if column < len(row) else "" for column in columns.values()]
+            found.append(_label(path, rows.line_num, *values))
+    return found
+
+
+def _geojson(path: Path, text: str) -> list[Label]:
+    try:
+        features = json.loads(text)["features"]
+    except json.JSONDecodeError as error:
+        raise input_error(path, error.lineno, error.colno, f"is no JSON: {error.msg}") from None
+    except (KeyError, TypeError, RecursionError):
+        raise input_error(path, 0, 0, "is no GeoJSON FeatureCollection") from None
+    found = []
+    for number, feature in enumerate(features if isinstance(features, list) else [], 1):
+        try:
+            if feature["geometry"]["type"] != "Point":
+                continue
+            longitude, latitude = feature["geometry"]["coordinates"][:2]
+            name = feature["properties"]["name"]
+        except (KeyError, TypeError, ValueError, IndexError):
+            reason = f'feature {number} has no name or no coordinates; give it a property "name" and a Point'
+            raise input_error(path, 0, 0, reason) from None
+        try:
+            found.append(_label(path, 0, name, latitude, longitude))
+        except InputError as error:
+            raise input_error(path, 0, 0, f"feature {number}: {error.reason}") from None
+    return found
+
+
+def _label(path: Path, line: int, name: Any, latitude: Any, longitude: Any) -> Label:
+    name = " ".join(str(name).split())
+    if not 0 < len(name) <= _LONGEST:
+        raise input_error(path, line, 0, f"a name has 1 to {_LONGEST} letters, not {len(name)}")
+    degrees = []
+    for what, value, most in (("latitude", latitude, 90.0), ("longitude", longitude, 180.0)):
+        try:
+            degrees.append(float(value))
+        except (TypeError, ValueError):
+            raise input_error(path, line, 0, f"{what} is {value!r}, not a number of degrees") from None
+        if not abs(degrees[-1]) <= most:
+            raise input_error(path, line, 0, f"{what} is {degrees[-1]:g}; it goes from {-most:g} to {most:g}")
+    return Label(name, *degrees)

@@ -1,0 +1,245 @@
+"""Cells of a model on the Earth, and the axes of latitude and longitude that a run has.
+
+A grid whose rows and columns do not follow parallels and meridians keeps its cells where that moves none by
+more than half a cell. Else each cell of an even grid of latitudes and longitudes takes the value of the
+nearest of the model's cells: no value is changed, and how far values lie from their place is said.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import Error
+from ..areas import metres_per_degree
+
+Array = NDArray[np.float64]
+_ROWS = 256  # of the new grid that are looked up at once
+_LARGEST = 1 << 28  # cells
+_WIDE = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """Middles of cells in degrees: (ny,) and (nx,), or both (ny, nx); rows run north or south."""
+
+    latitude: Array
+    longitude: Array
+
+    @classmethod
+    def metres(cls, x: Array, y: Array, at: tuple[float, float]) -> Grid:
+        """Cells at metres east (nx,) and north (ny,) of a place: the degrees of its own parallel."""
+        north, east = metres_per_degree(at[0])
+        return cls(at[0] + np.asarray(y, np.float64) / north, at[1] + np.asarray(x, np.float64) / east)
+
+    @classmethod
+    def projected(cls, x: Array, y: Array, projection: str) -> Grid:
+        """Cells at coordinates (nx,) and (ny,) of a projection.
+
+        Raises
+        ------
+        Error
+            PROJ does not know it, or pyproj is missing.
+        """
+        transformer = _pyproj(projection)
+        if transformer.source_crs.is_geographic:
+            return cls(np.asarray(y, np.float64), np.asarray(x, np.float64))
+        longitude, latitude = transformer.transform(*np.meshgrid(x, y))
+        return cls(latitude, longitude)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        if self.latitude.ndim == 2:
+            return self.latitude.shape
+        return len(self.latitude), len(self.longitude)
+
+    @cached_property
+    def cell(self) -> tuple[float, float]:
+        """Width and height of a cell about the middle, m."""
+        north, east = metres_per_degree(float(np.mean(self.latitude)))
+        sides = []
+        for axis in (1, 0):
+            steps = [np.diff(each, axis=min(axis, each.ndim - 1)) for each in self._both(axis)]
+            found = np.hypot(steps[0] * north, steps[1] * east)
+            sides.append(float(np.median(found)) if found.size else 0.0)
+        width, height = sides
+        return width or height or 100.0, height or width or 100.0
+
+    def _both(self, axis: int) -> tuple[Array, Array]:
+        if self.latitude.ndim == 2:
+            return self.latitude, self.longitude
+        along = self.longitude if axis else self.latitude
+        return (np.zeros_like(along), along) if axis else (along, np.zeros_like(along))
+
+    @cached_property
+    def turn(self) -> tuple[NDArray[np.float32], NDArray[np.float32]] | None:
+        """Cosine and sine (ny, nx) of the angle from east to the direction of rows; None: rows run east."""
+        if self.latitude.ndim == 1:
+            return None
+        east = _slope(self.longitude, 1) * np.cos(np.radians(self.latitude))
+        north = _slope(self.latitude, 1)
+        size = np.hypot(east, north)
+        return (east / size).astype(np.float32), (north / size).astype(np.float32)
+
+    def east_north(self, u: NDArray, v: NDArray) -> tuple[NDArray, NDArray]:
+        """Wind along rows and columns (..., ny, nx) as wind to the east and to the north."""
+        if self.turn is None:
+            return u, v
+        cosine, sine = self.turn
+        return u * cosine - v * sine, u * sine + v * cosine
+
+    @cached_property
+    def placed(self) -> Placed:
+        """Axes of a run for these cells.
+
+        Raises
+        ------
+        Error
+            The places make no sense.
+        """
+        for values, limit, name in ((self.latitude, 90.0, "latitude"), (self.longitude, 540.0, "longitude")):
+            if values.size == 0 or values.size > _LARGEST:
+                raise Error(f"a grid of {' x '.join(map(str, self.shape))} cells makes no sense")
+            if not np.isfinite(values).all() or np.abs(values).max() > limit:
+                raise Error(f"its {name}s are no places on the Earth; the file is damaged or in other units")
+        return Placed(self.latitude, self.longitude) if self.latitude.ndim == 1 else _place(self)
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """The axes, and which of the grid's cells each of theirs is (None: the same).
+
+    Attributes
+    ----------
+    index, outside
+        (ny, nx) of the run's cells: the grid's cell (flat), and whether none lies there.
+    error
+        How far values are from their places, in words; empty where they are not.
+    """
+
+    latitude: Array
+    longitude: Array
+    index: NDArray[np.int32] | None = None
+    outside: NDArray[np.bool_] | None = None
+    error: str = ""
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return len(self.latitude), len(self.longitude)
+
+    def put(self, values: NDArray, fill: float | None) -> NDArray[np.float32]:
+        """Values (..., grid) on the run's cells as float32; `fill` (None: the nearest) where none lies."""
+        values = np.asarray(values, np.float32)
+        if self.index is None:
+            return np.ascontiguousarray(values)
+        flat = values.reshape(*values.shape[:-2], -1)
+        found = np.take(flat, self.index, axis=-1)
+        if fill is not None:
+            found[..., self.outside] = fill
+        return found
+
+
+def _place(grid: Grid) -> Placed:
+    latitude, longitude = grid.latitude, np.unwrap(grid.longitude, period=360.0, axis=1)
+    longitude = np.unwrap(longitude, period=360.0, axis=0)
+    north, east = metres_per_degree(float(latitude.mean()))
+    rows, columns = latitude.mean(axis=1), longitude.mean(axis=0)
+    off = np.hypot((latitude - rows[:, None]) * north, (longitude - columns[None, :]) * east).max()
+    if off <= 0.5 * min(grid.cell) and _orderly(rows) and _orderly(columns):
+        text = f"rows and columns are taken as parallels and meridians; cells are {off:.2g} m off at most"
+        return Placed(rows, columns, error=text)
+    if min(grid.shape) < 2:
+        raise Error("a grid of one row or column that does not run north or east has no place in a run")
+    side = float(np.sqrt(grid.cell[0] * grid.cell[1]))
+    low, high = latitude.min(), latitude.max()
+    left, right = longitude.min(), longitude.max()
+    ny, nx = int(np.ceil((high - low) * north / side)) + 1, int(np.ceil((right - left) * east / side)) + 1
+    if ny * nx > 16 * latitude.size + 1000:
+        raise Error("its cells are scattered: latitudes and longitudes make no grid")
+    rows, columns = low + np.arange(ny) * side / north, left + np.arange(nx) * side / east
+    index = np.empty((ny, nx), np.int32)
+    outside = np.empty((ny, nx), bool)
+    off = 0.0
+    nearest = _Nearest(latitude, longitude)
+    for first in range(0, ny, _ROWS):
+        part = slice(first, min(first + _ROWS, ny))
+        i, j, outside[part] = nearest(rows[part, None], columns[None, :])
+        index[part] = i * latitude.shape[1] + j
+        away = np.hypot(
+            (latitude[i, j] - rows[part, None]) * north, (longitude[i, j] - columns[None, :]) * east
+        )
+        off = max(off, float(away[~outside[part]].max(initial=0.0)))
+    text = (
+        f"its grid is turned or curved: {ny} x {nx} cells of {side:.4g} m along parallels and meridians take "
+        f"the values of the nearest cells, which lie {off:.2g} m off at most"
+    )
+    return Placed(rows, columns, index, outside, text)
+
+
+class _Nearest:
+    """The nearest cell of a smooth grid, by Newton's steps through its own derivatives."""
+
+    def __init__(self, latitude: Array, longitude: Array) -> None:
+        self.place = latitude, longitude
+        a, b, c, d = (_slope(each, axis) for each in (latitude, longitude) for axis in (0, 1))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            scale = 1.0 / (a * d - b * c)
+            self.inverse = d * scale, -b * scale, -c * scale, a * scale
+        if not np.isfinite(scale).all():
+            raise Error("its cells lie on each other: latitudes and longitudes make no grid")
+
+    def __call__(
+        self, latitude: Array, longitude: Array
+    ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.bool_]]:
+        ny, nx = self.place[0].shape
+        latitude, longitude = np.broadcast_arrays(latitude, longitude)
+        i = np.full(latitude.shape, ny // 2)
+        j = np.full(latitude.shape, nx // 2)
+        for _ in range(8):
+            north, east = latitude - self.place[0][i, j], longitude - self.place[1][i, j]
+            di = self.inverse[0][i, j] * north + self.inverse[1][i, j] * east
+            dj = self.inverse[2][i, j] * north + self.inverse[3][i, j] * east
+            outside = (i + di < -0.5) | (i + di > ny - 0.5) | (j + dj < -0.5) | (j + dj > nx - 0.5)
+            i_next = np.clip(np.rint(i + di), 0, ny - 1).astype(np.int64)
+            j_next = np.clip(np.rint(j + dj), 0, nx - 1).astype(np.int64)
+            if np.array_equal(i, i_next) and np.array_equal(j, j_next):
+                break
+            i, j = i_next, j_next
+        return i, j, outside
+
+
+def _slope(values: Array, axis: int) -> Array:
+    """Change per cell, over some each way: 32-bit longitudes are 0.65 m coarse, and cells may be small."""
+    count = values.shape[axis]
+    at = np.arange(count)
+    low, high = np.maximum(at - _WIDE, 0), np.minimum(at + _WIDE, count - 1)
+    width = (high - low).reshape((-1, 1) if axis == 0 else (1, -1))
+    return (np.take(values, high, axis) - np.take(values, low, axis)) / width
+
+
+def _orderly(axis: Array) -> bool:
+    steps = np.diff(axis)
+    return bool((steps > 0).all() or (steps < 0).all())
+
+
+def _pyproj(projection: str):  # noqa: ANN202
+    from . import needed
+
+    pyproj = needed.package("pyproj")
+    try:
+        return pyproj.Transformer.from_crs(projection, "EPSG:4326", always_xy=True)
+    except pyproj.exceptions.CRSError as error:
+        raise Error(f"the projection {projection!r} is not known ({' '.join(str(error).split())})") from None
+
+
+def project(projection: str, latitude: Array, longitude: Array) -> tuple[Array, Array]:
+    """Coordinates x and y of places in a projection."""
+    transformer = _pyproj(projection)
+    if transformer.source_crs.is_geographic:
+        return longitude, latitude
+    return transformer.transform(longitude, latitude, direction="INVERSE")

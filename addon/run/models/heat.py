@@ -1,0 +1,114 @@
+"""Heat flux of a model that writes none, from the time that the fire arrived and the fuel that burned.
+
+A spot releases its heat from the arrival on at a rate that falls evenly to nothing at the burn-out time T:
+of its heat 1 - (1 - s/T)^2 is out after s seconds. Each flux is the mean over its interval, the difference of
+that share at both ends, so that all intervals together give the heat of the fuel that burned, to rounding.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import Error
+from .fuels import HEAT
+
+_STEPS = (1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 10800, 21600, 43200, 86400)
+_FRAMES = 300
+_MOST = 20_000
+
+
+@dataclass(frozen=True, eq=False)
+class Release:
+    """Flux (W/m2) of cells with an arrival time (s, NaN where never), heat (J/m2) and burn-out time (s).
+
+    Attributes
+    ----------
+    times
+        (nt,) s: from before the first arrival until all has burned out.
+    """
+
+    shape: tuple[int, int]
+    times: NDArray[np.float64]
+    cell: NDArray[np.int64]
+    arrival: NDArray[np.float64]
+    heat: NDArray[np.float64]
+    burn_out: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, arrival: NDArray, heat: NDArray, burn_out: NDArray, interval: float) -> Release:
+        """From maps; an `interval` of 0 is chosen so that there are 300 times at most.
+
+        Raises
+        ------
+        Error
+            Nothing burns, or there would be too many times.
+        """
+        flat = np.asarray(arrival, np.float64).ravel()
+        cell = np.flatnonzero(np.isfinite(flat))
+        if cell.size == 0:
+            raise Error("nothing burns in it: no cell has a time of arrival")
+        cell = cell[np.argsort(flat[cell], kind="stable")]
+        lasts = np.broadcast_to(burn_out, np.shape(arrival)).ravel()[cell].astype(np.float64)
+        first, end = min(0.0, float(flat[cell[0]])), float((flat[cell] + lasts).max())
+        span = end - first
+        step = interval or next((each for each in _STEPS if span / each <= _FRAMES), span / _FRAMES)
+        count = int(np.ceil(end / step) - np.floor(first / step))
+        if count > _MOST:
+            raise Error(f"--interval: {count} times would be made, {_MOST} at most are; take a longer one")
+        times = np.floor(first / step) * step + step * np.arange(count + 1)
+        return cls(
+            np.shape(arrival),
+            times,
+            cell,
+            flat[cell],
+            np.asarray(heat, np.float64).ravel()[cell],
+            np.maximum(lasts, 1.0),
+        )
+
+    def flux(self, index: int) -> NDArray[np.float32]:
+        """(ny, nx) W/m2, mean over the interval that ends at a time."""
+        found = np.zeros(self.shape, np.float32)
+        if index == 0:
+            return found
+        before, now = self.times[index - 1 : index + 1]
+        first = int(np.searchsorted(self.arrival, before - self.burn_out.max()))
+        part = slice(first, int(np.searchsorted(self.arrival, now)))
+        left = [np.clip(1 - (t - self.arrival[part]) / self.burn_out[part], 0, 1) ** 2 for t in (before, now)]
+        found.ravel()[self.cell[part]] = self.heat[part] * (left[0] - left[1]) / (now - before)
+        return found
+
+
+def of_fuel(fuel: NDArray) -> NDArray[np.float64]:
+    """J/m2 of fuel (kg/m2) that burns completely."""
+    return HEAT * np.nan_to_num(np.asarray(fuel, np.float64))
+
+
+def of_intensity(
+    arrival: NDArray, intensity: NDArray, speed: NDArray | None, cell: tuple[float, float]
+) -> NDArray[np.float64]:
+    """J/m2 that a front of an intensity (W/m) and speed (m/s) releases: I / R (Byram 1959).
+
+    Without a speed it is one over the gradient of the arrival times (s), on cells (width, height) in m.
+    """
+    if speed is None:
+        up = np.gradient(arrival, cell[1], axis=0) if arrival.shape[0] > 1 else np.zeros_like(arrival)
+        across = np.gradient(arrival, cell[0], axis=1) if arrival.shape[1] > 1 else np.zeros_like(arrival)
+        with np.errstate(divide="ignore"):
+            speed = 1.0 / np.hypot(up, across)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        heat = np.asarray(intensity, np.float64) / speed
+    known = np.isfinite(heat) & (heat > 0)
+    middle = float(np.median(heat[known])) if known.any() else 0.0
+    return np.where(known, heat, np.where(np.isfinite(arrival), middle, 0.0))
+
+
+def shared(heat: NDArray, fuel: NDArray, arrival: NDArray) -> tuple[NDArray[np.float64], float]:
+    """`heat` (J/m2) times the factor that makes its total that of the fuel (kg/m2) burned, and the factor."""
+    burned = np.isfinite(arrival)
+    total, own = of_fuel(fuel)[burned].sum(), heat[burned].sum()
+    if own <= 0 or total <= 0:
+        return of_fuel(fuel), 1.0
+    return heat * (total / own), float(total / own)

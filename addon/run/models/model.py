@@ -1,0 +1,113 @@
+"""A fire model's output as a reader gives it: where, when, and a function for each field."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import UsageError
+from .grid import Grid
+
+Array = NDArray[np.float32]
+Still = Callable[[], NDArray]
+Moving = Callable[[int], NDArray]
+
+LONGEST = 400 * 366 * 86400.0  # s; a run is no longer than that
+
+
+@dataclass(frozen=True)
+class Options:
+    """What the user says of files that do not say it themselves.
+
+    Attributes
+    ----------
+    start
+        Moment that the files' times count from.
+    at
+        Latitude and longitude (degrees) of the middle of a grid in metres.
+    projection
+        That of grids in metres, as PROJ knows it: ``EPSG:5070``.
+    interval
+        Seconds between the times of a heat flux that is made.
+    mapping
+        TOML file that says which variable is which field (readers/cf.py).
+    """
+
+    start: datetime | None = None
+    at: tuple[float, float] | None = None
+    projection: str = ""
+    interval: float = 0.0
+    mapping: Path | None = None
+
+    @classmethod
+    def of(cls, start: str, at: str, projection: str, interval: float, paths: list[Path]) -> Options:
+        """From text as on the command line.
+
+        Raises
+        ------
+        UsageError
+        """
+        place = _place(at) if at else None
+        mapping = next((path for path in paths if path.suffix.lower() == ".toml"), None)
+        return cls(_moment(start) if start else None, place, projection, interval, mapping)
+
+
+@dataclass
+class Model:
+    """One run of a fire model.
+
+    Attributes
+    ----------
+    times
+        (nt,) s since `start`.
+    grid, fuel_grid
+        Cells of the fields that move, and of fuels and arrival times.
+    still
+        ``elevation`` [ny, nx] on `grid`; ``surface_fuel``, ``canopy_fuel``, ``fuel_arrival_time`` and
+        ``fuel_elevation`` [fy, fx] on `fuel_grid`; in a run's units.
+    moving
+        A field's [ny, nx] or [nz, ny, nx] at a time's index; in a run's units.
+    mean_s
+        Seconds before each time that heat fluxes are means of; None: the whole interval.
+    levels
+        Shape [nz] of each field on levels.
+    """
+
+    source: str
+    name: str
+    start: datetime
+    times: NDArray[np.float64]
+    grid: Grid
+    fuel_grid: Grid
+    still: dict[str, Still]
+    moving: dict[str, Moving]
+    files: list[Path]
+    version: str = ""
+    projection: str = ""
+    mean_s: float | None = None
+    levels: dict[str, int] = field(default_factory=dict)
+    assumptions: list[str] = field(default_factory=list)
+    close: Callable[[], None] = lambda: None
+
+
+def _moment(text: str) -> datetime:
+    try:
+        moment = datetime.fromisoformat(text)
+    except ValueError:
+        raise UsageError(f"--start: {text!r} is no date and time such as 2014-09-17T04:45:00Z") from None
+    return moment.astimezone(UTC) if moment.tzinfo else moment.replace(tzinfo=UTC)
+
+
+def _place(text: str) -> tuple[float, float]:
+    try:
+        latitude, longitude = map(float, text.split(","))
+        if abs(latitude) < 89 and abs(longitude) <= 360:
+            return latitude, longitude
+    except ValueError:
+        pass
+    raise UsageError(f"--at: {text!r} is no latitude and longitude such as 38.78,-120.6")

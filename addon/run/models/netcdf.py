@@ -1,0 +1,154 @@
+"""netCDF files, read part by part; whatever is wrong with one is one line that names it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import Error, InputError, input_error
+from . import needed
+
+_MAGIC = (b"\x89HDF\r\n\x1a\n", b"CDF\x01", b"CDF\x02", b"CDF\x05")
+_OPEN = 8  # files at once
+_LARGEST = 1 << 31  # bytes of one part
+
+
+def is_netcdf(path: Path) -> bool:
+    """Whether it begins as netCDF does."""
+    try:
+        with path.open("rb") as file:
+            return file.read(8).startswith(_MAGIC)
+    except OSError:
+        return False
+
+
+def names(path: Path) -> tuple[set[str], set[str]]:
+    """Names of a file's dimensions and variables; none where it is no netCDF, or cannot be read."""
+    if not is_netcdf(path):
+        return set(), set()
+    data = File(path)
+    try:
+        return set(data.dimensions), set(data.variables)
+    finally:
+        data.close()
+
+
+class File:
+    """An open file; numbers come as they stand there, but for scale, offset and missing values.
+
+    Raises
+    ------
+    InputError
+        It cannot be read.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        library = needed.package("netCDF4")
+        with self.sense():
+            self.data = library.Dataset(str(path))
+            self.data.set_auto_maskandscale(False)
+            self.variables: dict[str, Any] = dict(self.data.variables)
+            self.dimensions = {name: len(each) for name, each in self.data.dimensions.items()}
+
+    @contextmanager
+    def sense(self) -> Iterator[None]:
+        """What goes wrong within names the file."""
+        try:
+            yield
+        except Error:
+            raise
+        except Exception as error:
+            why = " ".join(str(error).split()) or type(error).__name__
+            raise self.error(f"cannot be read as netCDF ({why}); it is damaged or incomplete") from error
+
+    def error(self, reason: str) -> InputError:
+        """An error about this file."""
+        return input_error(self.path, 0, 0, reason)
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.variables
+
+    def shape(self, name: str) -> tuple[int, ...]:
+        """That of a variable.
+
+        Raises
+        ------
+        InputError
+            There is none of that name.
+        """
+        if name not in self.variables:
+            raise self.error(f"has no variable {name}, which is needed")
+        return tuple(self.variables[name].shape)
+
+    def read(self, name: str, *index: int | slice) -> NDArray:
+        """A part of a variable.
+
+        Raises
+        ------
+        InputError
+            There is none of that name, it has other dimensions, or it cannot be read.
+        """
+        shape = self.shape(name)
+        with self.sense():
+            variable = self.variables[name]
+            if not np.issubdtype(variable.dtype, np.number):
+                raise self.error(f"{name} holds no numbers")
+            size = variable.dtype.itemsize
+            for length, each in zip(shape, (*index, *[slice(None)] * (len(shape) - len(index))), strict=True):
+                size *= len(range(length)[each]) if isinstance(each, slice) else 1
+            if size > _LARGEST:
+                raise self.error(f"{name} has {shape}, more at a time than any model writes")
+            return _plain(variable, np.asarray(variable[index if index else Ellipsis]))
+
+    def attribute(self, name: str, variable: str = "", otherwise: Any = None) -> Any:
+        """An attribute of the file or of one of its variables."""
+        with self.sense():
+            owner = self.variables[variable] if variable else self.data
+            return owner.getncattr(name) if name in owner.ncattrs() else otherwise
+
+    def close(self) -> None:
+        """Done with it."""
+        self.data.close()
+
+
+class Files:
+    """Several, of which few are open."""
+
+    def __init__(self) -> None:
+        self.kept: dict[Path, File] = {}
+
+    def __call__(self, path: Path) -> File:
+        if path not in self.kept:
+            if len(self.kept) >= _OPEN:
+                self.kept.pop(next(iter(self.kept))).close()
+            self.kept[path] = File(path)
+        return self.kept[path]
+
+    def close(self) -> None:
+        """Close all."""
+        while self.kept:
+            self.kept.popitem()[1].close()
+
+
+def _plain(variable: Any, values: NDArray) -> NDArray:
+    """With what its attributes say of scale, offset and missing values (CF conventions 1.11, 2.5.1, 8.1)."""
+    known = set(variable.ncattrs())
+    missing = [variable.getncattr(name) for name in ("_FillValue", "missing_value") if name in known]
+    gone = None
+    for each in missing:
+        same = np.isin(values, np.atleast_1d(each))
+        gone = same if gone is None else gone | same
+    if known & {"scale_factor", "add_offset"}:
+        scale = variable.getncattr("scale_factor") if "scale_factor" in known else 1.0
+        offset = variable.getncattr("add_offset") if "add_offset" in known else 0.0
+        values = values * np.float64(scale) + np.float64(offset)
+    if gone is not None and gone.any():
+        values = values.astype(np.result_type(values, np.float32))
+        values[gone] = np.nan
+    return values

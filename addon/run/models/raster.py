@@ -1,0 +1,236 @@
+"""Rasters in a projection: GeoTIFF and other files that GDAL knows, ASCII grids, and LCP landscapes."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import Error, InputError, input_error
+from . import needed
+from .grid import Grid, project
+
+_LARGEST = 1 << 29  # values
+_ROLES = {
+    "arrival": r"time[ _]*of[ _]*arrival|arrival[ _]*time|arrival|toa",
+    "intensity": r"fireline[ _]*intensity|flin|fli|intensity",
+    "speed": r"spread[ _]*rate|rate[ _]*of[ _]*spread|ros|vs",
+    "per_area": r"heat[ _]*per[ _]*unit[ _]*area|hpua",
+    "elevation": r"dem|elev|elevation",
+    "category": r"fbfm40|fbfm13|f40|f13|fuel[ _]*model",
+    "bulk_density": r"cbd|canopy[ _]*bulk[ _]*density",
+    "base_height": r"cbh|canopy[ _]*base[ _]*height",
+    "height": r"ch|canopy[ _]*height",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Raster:
+    """Values (ny, nx) float32, NaN where none, at x (nx,) and y (ny,) of a projection ("": unsaid).
+
+    `whole` is whether the file holds integers, which says units in LANDFIRE's files.
+    """
+
+    path: Path
+    values: NDArray[np.float32]
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    projection: str
+    whole: bool = False
+
+    def grid(self, projection: str, at: tuple[float, float] | None) -> tuple[Grid, str]:
+        """Its cells, and what is assumed of their place."""
+        known = projection or self.projection
+        if known:
+            return Grid.projected(self.x, self.y, known), ""
+        return local(self.x, self.y, at)
+
+    def on(self, grid: Grid, projection: str) -> NDArray[np.float32]:
+        """Its nearest values on another grid's cells, NaN outside."""
+        latitude, longitude = grid.latitude, grid.longitude
+        if latitude.ndim == 1:
+            latitude, longitude = np.meshgrid(latitude, longitude, indexing="ij")
+        x, y = project(self.projection or projection, latitude, longitude)
+        column, row = _index(self.x, x), _index(self.y, y)
+        inside = (column >= 0) & (column < len(self.x)) & (row >= 0) & (row < len(self.y))
+        found = np.full(grid.shape, np.nan, np.float32)
+        found[inside] = self.values[row[inside], column[inside]]
+        return found
+
+
+def local(x: NDArray, y: NDArray, at: tuple[float, float] | None) -> tuple[Grid, str]:
+    """A grid in metres, its middle at a place, and the sentence that says so."""
+    place = at or (0.0, 0.0)
+    grid = Grid.metres(x - (x[0] + x[-1]) / 2, y - (y[0] + y[-1]) / 2, place)
+    said = "as --at says" if at else "for want of one; --at LAT,LON places it, --projection EPSG:... too"
+    return (
+        grid,
+        f"a grid in metres of no projection: its middle is put at {place[0]:g}, {place[1]:g} {said}",
+    )
+
+
+def _index(axis: NDArray, at: NDArray) -> NDArray[np.int64]:
+    step = (axis[-1] - axis[0]) / max(len(axis) - 1, 1) or 1.0
+    return np.rint(np.clip((at - axis[0]) / step, -9.0, 1e9)).astype(np.int64)
+
+
+def role(path: Path) -> str:
+    """What a raster's name says that it holds: a key of the table above, or nothing."""
+    stem = re.sub(r"\d{5,}", " ", path.stem.lower())
+    for name, words in _ROLES.items():
+        if re.search(rf"(?<![a-z])(?:{words})(?![a-z])", stem):
+            return name
+    return ""
+
+
+def is_raster(path: Path) -> bool:
+    """Whether it is a GeoTIFF or an ASCII grid, by its first bytes; or BIL with its header."""
+    try:
+        with path.open("rb") as file:
+            head = file.read(64)
+    except OSError:
+        return False
+    if head[:4] in (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"):
+        return True
+    return head[:5].lower() == b"ncols" or (path.suffix == ".bil" and path.with_suffix(".hdr").is_file())
+
+
+def is_lcp(path: Path) -> bool:
+    """Whether it has an LCP's first numbers and size (GDAL, lcpdataset.cpp)."""
+    try:
+        with path.open("rb") as file:
+            head = np.frombuffer(file.read(12), "<i4")
+        size = path.stat().st_size
+    except (OSError, ValueError):
+        return False
+    return len(head) == 3 and set(head[:2].tolist()) <= {20, 21} and abs(head[2]) <= 90 and size > 7316
+
+
+def read(path: Path) -> Raster:
+    """A file's first band.
+
+    Raises
+    ------
+    InputError
+        It cannot be read.
+    """
+    try:
+        with path.open("rb") as file:
+            ascii_grid = file.read(5).lower() == b"ncols"
+        return _read_ascii(path) if ascii_grid else _read_gdal(path)
+    except Error:
+        raise
+    except Exception as error:
+        why = " ".join(str(error.__cause__ or error).split()) or type(error).__name__
+        raise _error(path, f"cannot be read as a raster ({why}); it is damaged or incomplete") from error
+
+
+def _read_gdal(path: Path) -> Raster:
+    rasterio = needed.package("rasterio")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", rasterio.errors.NotGeoreferencedWarning)
+        with rasterio.open(path) as source:
+            if source.width * source.height > _LARGEST:
+                raise _error(path, f"has {source.height} x {source.width} values, more than a model's raster")
+            a, b, c, d, e, f = source.transform[:6]
+            if b or d:
+                raise _error(path, "is turned in its projection; gdalwarp makes it upright")
+            values = source.read(1)
+            found = values.astype(np.float32)
+            if source.nodata is not None:
+                found[values == source.nodata] = np.nan
+            if source.scales[0] != 1 or source.offsets[0] != 0:
+                found = found * np.float32(source.scales[0]) + np.float32(source.offsets[0])
+            projection = source.crs.to_wkt() if source.crs else _beside(path)
+            whole = np.issubdtype(values.dtype, np.integer)
+    x, y = c + a * (np.arange(found.shape[1]) + 0.5), f + e * (np.arange(found.shape[0]) + 0.5)
+    return Raster(path, _without(found), x, y, projection, whole)
+
+
+def _read_ascii(path: Path) -> Raster:
+    """Esri's ASCII grid: six lines of a word and a number, then rows from the north."""
+    head: dict[str, float] = {}
+    with path.open(encoding="ascii", errors="replace") as file:
+        while len(head) < 6:
+            at = file.tell()
+            words = file.readline().split()
+            if len(words) != 2 or not words[0][0].isalpha():
+                file.seek(at)
+                break
+            head[words[0].lower()] = float(words[1])
+        if not {"ncols", "nrows", "cellsize"} <= set(head):
+            raise _error(path, "its head lacks ncols, nrows or cellsize")
+        nx, ny, side = int(head["ncols"]), int(head["nrows"]), head["cellsize"]
+        if not (0 < nx * ny <= _LARGEST and nx > 0 and side > 0):
+            raise _error(path, f"has {ny} rows, {nx} columns and cells of {side}, which makes no sense")
+        rest = file.read()
+    values = np.array(rest.split(), np.float32)
+    if values.size != nx * ny:
+        raise _error(path, f"has {values.size} values where its head says {ny} x {nx}; it is incomplete")
+    values = values.reshape(ny, nx)
+    values[values == np.float32(head.get("nodata_value", -9999.0))] = np.nan
+    corner = [head.get(f"{axis}llcorner", head.get(f"{axis}llcenter", 0.0) - side / 2) for axis in "xy"]
+    x, y = corner[0] + side * (np.arange(nx) + 0.5), corner[1] + side * (ny - np.arange(ny) - 0.5)
+    return Raster(path, _without(values), x, y, _beside(path))
+
+
+def _without(values: NDArray[np.float32]) -> NDArray[np.float32]:
+    """-9999 is no value by habit, whether the file says so or not."""
+    values[values == -9999.0] = np.nan
+    return values
+
+
+def _beside(path: Path) -> str:
+    """The projection of the .prj beside it, if there is one."""
+    try:
+        return path.with_suffix(".prj").read_text(errors="replace").strip()
+    except OSError:
+        return ""
+
+
+def landscape(path: Path) -> dict[str, Raster]:
+    """Layers of an LCP: elevation (m), category, height and base_height (m), bulk_density (kg/m3).
+
+    Header as GDAL reads it (lcpdataset.cpp): 7316 bytes, then 16-bit numbers pixel by pixel, rows from the
+    north; units: heights 1 m, 2 ft, 3 m x 10, 4 ft x 10; bulk density 1 kg/m3, 2 lb/ft3, 3 kg/m3 x 100, 4
+    lb/ft3 x 1000.
+
+    Raises
+    ------
+    InputError
+        The file is damaged.
+    """
+    data = path.read_bytes()[:7316]
+    if len(data) < 7316:
+        raise _error(path, "is shorter than an LCP's header")
+    crown, ground = np.frombuffer(data, "<i4", 2, 0)
+    nx, ny = (int(each) for each in np.frombuffer(data, "<i4", 2, 4164))
+    east, west, north, south = np.frombuffer(data, "<f8", 4, 4172)
+    elevation, height, base, density = (
+        int(np.frombuffer(data, "<i2", 1, at)[0]) for at in (4224, 4234, 4236, 4238)
+    )
+    bands = 5 + 3 * int(crown == 21) + 2 * int(ground == 21)
+    if nx <= 0 or ny <= 0 or path.stat().st_size - 7316 < 2 * bands * nx * ny or not east > west < np.inf:
+        raise _error(path, f"says {ny} x {nx} cells of {bands} layers, which it does not hold; it is damaged")
+    cells = np.memmap(path, "<i2", "r", 7316, (ny, nx, bands))
+    x = west + (east - west) * (np.arange(nx) + 0.5) / nx
+    y = north - (north - south) * (np.arange(ny) + 0.5) / ny
+    heights = {0: 0.1, 1: 1.0, 2: 0.3048, 3: 0.1, 4: 0.03048}
+    densities = {0: 0.01, 1: 1.0, 2: 16.018463, 3: 0.01, 4: 0.016018463}
+    layers = {"elevation": (0, 0.3048 if elevation == 1 else 1.0), "category": (3, 1.0)}
+    if crown == 21:
+        layers |= {"height": (5, heights.get(height, 0.1)), "base_height": (6, heights.get(base, 0.1))}
+        layers |= {"bulk_density": (7, densities.get(density, 0.01))}
+    found = {}
+    for name, (band, scale) in layers.items():
+        values = cells[:, :, band].astype(np.float32)
+        found[name] = Raster(path, _without(values) * np.float32(scale), x, y, _beside(path))
+    return found
+
+
+def _error(path: Path, reason: str) -> InputError:
+    return input_error(path, 0, 0, reason)

@@ -1,0 +1,213 @@
+"""Writes a model as a run: piece by piece, to be gone on with after a stop, and a run only when it is whole.
+
+Everything goes to a hidden folder beside the run's, which has no run.toml until all else is on the disk and
+takes the run's name last. A journal says how many times have reached the disk; those are not made again.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import time
+from concurrent.futures import Future, ThreadPoolExecutor
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ... import files
+from ...errors import input_error, writing
+from ...progress import Progress, size
+from .model import LONGEST, Model
+
+JOURNAL = "journal.json"
+_OFTEN = 1 << 29  # bytes between two entries in the journal
+_SECONDS = 15.0
+_FILL = {
+    "heat_flux": 0.0,
+    "surface_fuel": 0.0,
+    "canopy_fuel": 0.0,
+    "smoke_3d": 0.0,
+    "fuel_arrival_time": np.nan,
+}
+_LARGEST = 1 << 31  # bytes of one time of one field
+_FUEL = ("surface_fuel", "canopy_fuel", "fuel_arrival_time", "fuel_elevation")
+
+
+def part_of(out: Path) -> Path:
+    """The folder that becomes `out`."""
+    return out.with_name(f".{out.name}.part")
+
+
+def check(out: Path) -> None:
+    """Whether a run can be made there.
+
+    Raises
+    ------
+    InputError
+        Something is there.
+    """
+    if out.exists() and not (out.is_dir() and not any(out.iterdir())):
+        raise input_error(out, 0, 0, "is there already; remove it or give another place")
+
+
+def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
+    """Write a run.
+
+    Parameters
+    ----------
+    inputs
+        Text that is other when what the run is made from is: what was written from others is made again.
+
+    Raises
+    ------
+    InputError
+        The disk is full, or what the model says makes no run.
+    """
+    times = model.times
+    if not np.isfinite(times).all() or (np.diff(times) <= 0).any() or np.ptp(times) > LONGEST:
+        raise input_error(
+            model.files[0], 0, 0, "its times make no sense: they do not ascend, or end centuries later"
+        )
+    part = part_of(out)
+    placed = model.grid.placed
+    shapes = {
+        name: (len(model.times), *([model.levels[name]] if name in model.levels else []), *placed.shape)
+        for name in model.moving
+    }
+    _room(out, sum(4 * int(np.prod(shape, dtype=np.float64)) for shape in shapes.values()))
+    if max((4 * np.prod(shape[1:], dtype=np.float64) for shape in shapes.values()), default=0) > _LARGEST:
+        raise input_error(model.files[0], 0, 0, f"a grid of {placed.shape} cells is more than can be held")
+    with writing(out):
+        out.parent.mkdir(parents=True, exist_ok=True)
+        done = _done(part, inputs)
+        part.mkdir(exist_ok=True)
+        _moving(model, shapes, part, inputs, done, progress)
+        for name, get in model.still.items():
+            where = (model.fuel_grid if name in _FUEL else model.grid).placed
+            _save(part / f"{name}.npy", where.put(get(), _FILL.get(name)), where.shape)
+        for before, where in (("", placed), ("fuel_", model.fuel_grid.placed)):
+            _save(part / f"{before}latitude.npy", where.latitude)
+            _save(part / f"{before}longitude.npy", where.longitude)
+        (part / JOURNAL).unlink(missing_ok=True)
+        files.write(part / "run.toml", lambda path: path.write_text(description(model), encoding="utf-8"))
+        if out.is_dir():
+            out.rmdir()
+        part.rename(out)
+
+
+def _moving(
+    model: Model, shapes: dict[str, tuple[int, ...]], part: Path, inputs: str, done: int, progress: Progress
+) -> None:
+    """All fields that move, time by time; one thread reads while another writes."""
+    open_files: dict[str, BinaryIO] = {}
+    pending: list[Future] = []
+    count, what = len(model.times), "times"
+    try:
+        for name, shape in shapes.items():
+            open_files[name] = _open(part / f"{name}.npy", shape, done)
+        since, last = 0, time.monotonic()
+        with ThreadPoolExecutor(1) as pool:
+            for index in range(done, count):
+                progress(index, count, what)
+                for name, get in model.moving.items():
+                    values = model.grid.placed.put(get(index), _FILL.get(name))
+                    if values.shape != shapes[name][1:]:
+                        reason = f"{name} is {values.shape} at time {index + 1}, not {shapes[name][1:]}"
+                        raise input_error(model.files[0], 0, 0, reason)
+                    pending.append(pool.submit(_all, open_files[name], values))
+                    since += values.nbytes
+                while len(pending) > len(model.moving):
+                    pending.pop(0).result()
+                if since > _OFTEN or time.monotonic() - last > _SECONDS:
+                    while pending:
+                        pending.pop(0).result()
+                    _journal(part, inputs, index + 1, open_files)
+                    since, last = 0, time.monotonic()
+            while pending:
+                pending.pop(0).result()
+        _journal(part, inputs, count, open_files)
+        progress(count, count, what)
+    finally:
+        for file in open_files.values():
+            file.close()
+
+
+def _open(path: Path, shape: tuple[int, ...], done: int) -> BinaryIO:
+    """An .npy file of this shape, to be written on from the time `done`."""
+    file = path.open("r+b" if done else "wb")
+    np.lib.format.write_array_header_1_0(file, {"descr": "<f4", "fortran_order": False, "shape": shape})
+    file.seek(file.tell() + done * 4 * int(np.prod(shape[1:])))
+    file.truncate()
+    return file
+
+
+def _all(file: BinaryIO, values: NDArray[np.float32]) -> None:
+    file.write(memoryview(np.ascontiguousarray(values, "<f4")).cast("B"))
+
+
+def _journal(part: Path, inputs: str, done: int, open_files: dict[str, BinaryIO]) -> None:
+    for file in open_files.values():
+        file.flush()
+        os.fsync(file.fileno())
+    text = json.dumps({"inputs": inputs, "times": done})
+    files.write(part / JOURNAL, lambda path: path.write_text(text, encoding="utf-8"))
+
+
+def _done(part: Path, inputs: str) -> int:
+    """Times that are there from the same inputs; what is there from others is removed."""
+    try:
+        journal = json.loads((part / JOURNAL).read_text(encoding="utf-8"))
+        if journal["inputs"] == inputs:
+            return int(journal["times"])
+    except (OSError, ValueError, KeyError, TypeError):
+        pass
+    shutil.rmtree(part, ignore_errors=True)
+    return 0
+
+
+def _save(path: Path, values: NDArray, shape: tuple[int, ...] | None = None) -> None:
+    if shape is not None and values.shape != shape:
+        raise input_error(path, 0, 0, f"has shape {values.shape} where the grid has {shape}")
+    files.write(path, lambda part: np.save(part, values))
+
+
+def _room(out: Path, need: int) -> None:
+    folder = next(each for each in (out.absolute(), *out.absolute().parents) if each.exists())
+    there = part_of(out)
+    free = shutil.disk_usage(folder).free + sum(each.stat().st_size for each in there.glob("*.npy"))
+    if need > free:
+        raise input_error(out, 0, 0, f"needs {size(need)} and the disk has {size(free)} free")
+
+
+def description(model: Model) -> str:
+    """The text of run.toml."""
+    placed = {"": model.grid.placed, "fuel ": model.fuel_grid.placed}
+    said = [f"{name}grid: {each.error}" for name, each in placed.items() if each.error]
+    lines = [
+        f"name = {_text(model.name)}",
+        f"start = {model.start:%Y-%m-%dT%H:%M:%S.%f}Z",
+        f"times_s = [{', '.join(repr(float(time)) for time in model.times)}]",
+        'vertical = "orthometric"',
+    ]
+    if model.mean_s is not None:
+        lines.append(f"mean_s = {float(model.mean_s)!r}")
+    lines += [
+        "",
+        "[source]",
+        f"model = {_text(model.source)}",
+        f"version = {_text(model.version or 'not said')}",
+        f"projection = {_text(' '.join(model.projection.split()) or 'latitude and longitude')}",
+        f"files = [{', '.join(_text(path.name) for path in model.files)}]",
+        "assumptions = [",
+        *(f"  {_text(text)}," for text in [*model.assumptions, *said]),
+        "]",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _text(value: str) -> str:
+    """A TOML string: JSON's own of what can be printed."""
+    return json.dumps("".join(each for each in value if each.isprintable()), ensure_ascii=False)

@@ -1,0 +1,145 @@
+"""When a perimeter was true: from what its file says, in the many ways that files do."""
+
+from __future__ import annotations
+
+import re
+from datetime import UTC, date, datetime, timedelta
+from pathlib import Path
+
+from ...errors import UsageError, input_error
+from .feature import Feature, finite
+
+NAMES = (
+    *(
+        "valid_at",
+        "poly_polygondatetime",
+        "poly_datecurrent",
+        "perimeterdatetime",
+        "perdattime",
+        "datecurrent",
+    ),
+    *("date_time", "datetime", "timestamp", "time", "t", "when", "end", "date", "perimeterdate", "perdate"),
+)
+"""Properties that hold it, small letters, the surest first: ForeFire's, NIFC's, GeoMAC's, then plain ones."""
+
+_FORMS = (
+    *("%m/%d/%Y %I:%M:%S %p", "%m/%d/%Y %I:%M %p", "%m/%d/%Y %H:%M:%S", "%m/%d/%Y %H:%M"),
+    *("%Y/%m/%d %H:%M:%S.%f", "%Y/%m/%d %H:%M:%S", "%Y/%m/%d %H:%M", "%Y%m%d %H%M", "%Y%m%d%H%M"),
+    "%a, %d %b %Y %H:%M:%S",
+)
+_ZONE = re.compile(r"\s*(Z|UTC|GMT|[+-]\d\d:?\d\d|(?<=\d)[+-]\d\d)$")
+_IN_NAME = re.compile(
+    r"(?<!\d)(\d{4})-?(\d\d)-?(\d\d)[T_ -]?(\d\d)[:h-]?(\d\d)(?:[:-]?(\d\d))?(Z|[+-]\d{4})?(?!\d)"
+)
+
+
+def without(name: str | Path) -> tuple[Path, datetime | None]:
+    """The file of ``FILE@MOMENT``, and the moment; a file whose own name has an ``@`` stays whole.
+
+    Raises
+    ------
+    UsageError
+        What follows the ``@`` is no moment.
+    """
+    head, mark, tail = str(name).rpartition("@")
+    if not mark or Path(name).exists():
+        return Path(name), None
+    moment = _text(tail)
+    if moment is None:
+        raise UsageError(f'"{tail}" after the @ of {head} is no moment such as 2014-09-18T04:00-07:00')
+    return Path(head), moment[0]
+
+
+def of(path: Path, feature: Feature, assumptions: dict[str, None]) -> datetime:
+    """UTC of a feature; what had to be assumed for it is added to `assumptions`.
+
+    Raises
+    ------
+    InputError
+        Nothing says when, or only the day: a fire can double within one.
+    """
+    known = {key.lower(): value for key, value in feature.properties.items()}
+    days = ""
+    for name in NAMES:
+        value = known.get(name)
+        if value is None or value == "":
+            continue
+        moment = _moment(value)
+        if moment is None:
+            days = days or f'{name} = "{value}"'
+            continue
+        if not moment[1]:
+            assumptions[f"{path.name}: {name} has no zone and is taken as UTC"] = None
+        return moment[0]
+    if moment := _of_name(path.stem):
+        zone = "" if moment[1] else " and UTC"
+        assumptions[f"{path.name}: the moment is taken from the file's name{zone}"] = None
+        return moment[0]
+    what = f"{days} is no day with its hour" if days else f"none of {', '.join(NAMES[:6])} ... is there"
+    where = f"{feature.place}: " if feature.place else ""
+    raise input_error(
+        path, 0, 0, f"{where}nothing says when this was ({what}); write {path.name}@2014-09-18T04:00-07:00"
+    )
+
+
+def _moment(value: object) -> tuple[datetime, bool] | None:
+    """UTC and whether the zone was said; None of what is no moment, or a day without its hour."""
+    if isinstance(value, datetime):
+        return (value if value.tzinfo else value.replace(tzinfo=UTC)).astimezone(
+            UTC
+        ), value.tzinfo is not None
+    if isinstance(value, date | bool):
+        return None
+    if isinstance(value, str):
+        return _text(value)
+    number = finite(value)
+    return _epoch(number) if number is not None else None
+
+
+def _epoch(number: float) -> tuple[datetime, bool] | None:
+    """ArcGIS writes milliseconds since 1970, others seconds; a number like 20140918 is no moment."""
+    seconds = number / 1e3 if abs(number) >= 1e11 else number
+    if seconds < 3e8:  # before 1979: no satellite saw it, so this is a day or another number
+        return None
+    return datetime(1970, 1, 1, tzinfo=UTC) + timedelta(seconds=seconds), True
+
+
+def _text(value: str) -> tuple[datetime, bool] | None:
+    text = " ".join(value.split())
+    if re.fullmatch(r"\d{13}|\d{10}", text):
+        return _epoch(float(text))
+    if len(text) > 10 or re.fullmatch(r"\d{8}T\d{4}", text):  # what is shorter is a day alone
+        try:
+            return _moment(
+                datetime.fromisoformat(text.replace("UTC", "Z").replace("/", "-").replace(" Z", "Z"))
+            )
+        except ValueError:
+            pass
+    zone = _ZONE.search(text)
+    bare = text[: zone.start()] if zone else text
+    for form in _FORMS:
+        try:
+            moment = datetime.strptime(bare, form).replace(tzinfo=UTC)
+        except ValueError:
+            continue
+        return (moment - _offset(zone[1]), True) if zone else (moment, False)
+    return None
+
+
+def _offset(zone: str) -> timedelta:
+    if zone[0] not in "+-":
+        return timedelta(0)
+    digits = zone[1:].replace(":", "").ljust(4, "0")
+    offset = timedelta(hours=int(digits[:2]), minutes=int(digits[2:]))
+    return offset if zone[0] == "+" else -offset
+
+
+def _of_name(stem: str) -> tuple[datetime, bool] | None:
+    found = _IN_NAME.search(stem)
+    if not found:
+        return None
+    try:
+        moment = datetime(*(int(part or 0) for part in found.groups()[:6]), tzinfo=UTC)
+    except ValueError:
+        return None
+    return moment - (_offset(found[7]) if found[7] else timedelta(0)), found[7] is not None

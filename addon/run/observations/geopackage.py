@@ -1,0 +1,113 @@
+"""GeoPackage (OGC 12-128): SQLite tables of features, their polygons as well-known binary."""
+
+from __future__ import annotations
+
+import contextlib
+import sqlite3
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...errors import InputError, input_error
+from .feature import Feature, Polygon, ring
+from .projection import to_degrees
+
+_ENVELOPES = (0, 32, 48, 48, 64)  # bytes, by the flag's three bits
+
+
+def read(path: Path) -> list[Feature]:
+    """The rows of all tables of features.
+
+    Raises
+    ------
+    InputError
+        It is no GeoPackage, or needs pyproj, which is not there.
+    """
+    path.stat()  # says what is missing; SQLite would make a file
+    try:
+        with contextlib.closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
+            base.row_factory = sqlite3.Row
+            return [each for table in base.execute(_TABLES).fetchall() for each in _rows(path, base, table)]
+    except InputError:
+        raise
+    except (sqlite3.Error, ValueError, OverflowError, TypeError) as error:
+        raise input_error(path, 0, 0, f"no GeoPackage: {error}") from None
+
+
+_TABLES = (
+    "SELECT g.table_name AS name, g.column_name AS shape, s.organization AS organization, "
+    "s.organization_coordsys_id AS code, s.definition AS definition FROM gpkg_geometry_columns g "
+    "JOIN gpkg_spatial_ref_sys s ON s.srs_id = g.srs_id"
+)
+
+
+def _rows(path: Path, base: sqlite3.Connection, table: sqlite3.Row) -> Iterator[Feature]:
+    name = table["name"].replace('"', '""')
+    system = f"{table['organization']}:{table['code']}" if table["code"] > 0 else table["definition"]
+    for number, row in enumerate(base.execute(f'SELECT * FROM "{name}"'), 1):
+        place = f"row {number} of {table['name']}"
+        blob = row[table["shape"]]
+        try:
+            polygons = [] if blob is None else list(_polygons(blob))
+        except _NoPolygonError:
+            polygons = []
+        except (struct.error, ValueError, IndexError, TypeError):
+            raise input_error(path, 0, 0, f"{place} has a damaged geometry") from None
+        degrees = tuple(
+            tuple(ring(path, place, to_degrees(path, system, each)) for each in rings) for rings in polygons
+        )
+        properties = {key: row[key] for key in row.keys() if key != table["shape"]}  # noqa: SIM118
+        yield Feature(degrees, properties, place)
+
+
+def _polygons(blob: bytes) -> Iterator[Polygon]:
+    """The polygons of a geometry: two bytes "GP", version, flags, srs, an envelope, well-known binary."""
+    if blob[:2] != b"GP":
+        raise ValueError("no geometry of a GeoPackage")
+    flags = blob[3]
+    if flags & 0x10:  # empty
+        return
+    yield from _Binary(blob, 8 + _ENVELOPES[flags >> 1 & 7]).geometry()
+
+
+class _Binary:
+    """Reads well-known binary (ISO 19125): byte order, type, then counts and float64 coordinates."""
+
+    def __init__(self, blob: bytes, at: int) -> None:
+        self.blob, self.at, self.order = blob, at, "<"
+
+    def number(self) -> int:
+        (found,) = struct.unpack_from(f"{self.order}I", self.blob, self.at)
+        self.at += 4
+        return found
+
+    def geometry(self) -> Iterator[Polygon]:
+        self.order = "<" if self.blob[self.at] else ">"
+        self.at += 1
+        kind = self.number()
+        flags, kind = kind >> 28, kind & 0x0FFFFFFF
+        if flags & 0x2:
+            self.at += 4  # an SRID
+        more = kind // 1000 + (flags >> 3 & 1) + (flags >> 2 & 1) if flags else (0, 1, 1, 2)[kind // 1000]
+        if kind % 1000 == 3:
+            rings = tuple(self.ring(2 + more) for _ in range(self.number()))
+            if rings:
+                yield rings
+        elif kind % 1000 in (6, 7):
+            for _ in range(self.number()):
+                yield from self.geometry()
+        else:
+            raise _NoPolygonError
+
+    def ring(self, size: int) -> Any:
+        count = self.number()
+        found = np.frombuffer(self.blob, f"{self.order}f8", count * size, self.at).reshape(count, size)
+        self.at += count * size * 8
+        return found[:, :2].astype(np.float64)
+
+
+class _NoPolygonError(ValueError):
+    """A geometry of points or lines."""

@@ -1,0 +1,103 @@
+"""KML and KMZ: placemarks with polygons, and their TimeStamp or the end of their TimeSpan."""
+
+from __future__ import annotations
+
+import zipfile
+import zlib
+from collections.abc import Iterator
+from pathlib import Path
+from xml.etree import ElementTree
+
+from ...errors import input_error
+from .feature import Feature, Polygon, Ring, ring
+
+_LARGEST = 1 << 28  # bytes of text: a perimeter is far smaller, a bomb far larger
+
+
+def read(path: Path) -> list[Feature]:
+    """Every placemark.
+
+    Raises
+    ------
+    InputError
+        It is no KML.
+    """
+    text = _unpacked(path) if path.suffix.lower() == ".kmz" else path.read_bytes()
+    if b"<!ENTITY" in text:
+        raise input_error(path, 0, 0, "defines entities, which no KML needs")
+    try:
+        root = ElementTree.fromstring(text)
+    except ElementTree.ParseError as error:
+        line, column = error.position
+        raise input_error(path, line, column + 1, f"not valid XML: {str(error).partition(':')[0]}") from None
+    except (ValueError, LookupError) as error:
+        raise input_error(path, 0, 0, f"not valid XML: {error}") from None
+    return list(_placemarks(path, root, {}))
+
+
+def _unpacked(path: Path) -> bytes:
+    try:
+        with zipfile.ZipFile(path) as archive:
+            inside = [item for item in archive.infolist() if item.filename.lower().endswith(".kml")]
+            if not inside:
+                raise input_error(path, 0, 0, "holds no .kml")
+            if inside[0].file_size > _LARGEST:
+                raise input_error(path, 0, 0, f"its .kml has {inside[0].file_size / 1e6:,.0f} MB")
+            return archive.read(inside[0])
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError) as error:
+        raise input_error(path, 0, 0, f"no KMZ: {str(error)[:1].lower()}{str(error)[1:]}") from None
+
+
+def _placemarks(path: Path, folder: ElementTree.Element, inherited: dict[str, str]) -> Iterator[Feature]:
+    """Placemarks of a folder and those in it; a folder's time is that of what says none."""
+    known = inherited | _time(folder)
+    for child in folder:
+        if _tag(child) == "Placemark":
+            name = next((each.text for each in child if _tag(each) == "name" and each.text), "")
+            place = f'placemark "{name}"' if name else "a placemark"
+            yield Feature(tuple(_polygons(path, place, child)), known | _time(child) | _data(child), place)
+        elif _tag(child) in ("Document", "Folder"):
+            yield from _placemarks(path, child, known)
+
+
+def _time(thing: ElementTree.Element) -> dict[str, str]:
+    """`when` of a TimeStamp; of a TimeSpan the end, by which all of it had burned, else the begin."""
+    for child in thing:
+        if _tag(child) in ("TimeStamp", "TimeSpan"):
+            said = {_tag(each): (each.text or "").strip() for each in child}
+            found = said.get("when") or said.get("end") or said.get("begin")
+            return {"when": found} if found else {}
+    return {}
+
+
+def _data(placemark: ElementTree.Element) -> dict[str, str]:
+    found = {}
+    for each in placemark.iter():
+        if _tag(each) == "SimpleData":
+            found[each.get("name", "")] = (each.text or "").strip()
+        elif _tag(each) == "Data":
+            found[each.get("name", "")] = "".join(v.text or "" for v in each if _tag(v) == "value").strip()
+    return found
+
+
+def _polygons(path: Path, place: str, placemark: ElementTree.Element) -> Iterator[Polygon]:
+    for polygon in placemark.iter():
+        if _tag(polygon) == "Polygon":
+            rings = [_ring(path, place, text) for text in _rings(polygon, "outerBoundaryIs")]
+            if len(rings) != 1:
+                raise input_error(path, 0, 0, f"{place} has a polygon with {len(rings)} outer rings")
+            yield (*rings, *(_ring(path, place, text) for text in _rings(polygon, "innerBoundaryIs")))
+
+
+def _rings(polygon: ElementTree.Element, which: str) -> Iterator[str]:
+    for boundary in polygon:
+        if _tag(boundary) == which:
+            yield from (each.text or "" for each in boundary.iter() if _tag(each) == "coordinates")
+
+
+def _ring(path: Path, place: str, text: str) -> Ring:
+    return ring(path, place, (point.split(",") for point in text.split()))
+
+
+def _tag(thing: ElementTree.Element) -> str:
+    return thing.tag.rpartition("}")[2] if isinstance(thing.tag, str) else ""

@@ -1,0 +1,52 @@
+"""Shapefiles: polygons in the .shp, dates in the .dbf, and the reference system in the .prj beside it."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+
+import numpy as np
+
+from ...errors import InputError, input_error
+from .feature import Feature, Polygon, ring
+from .projection import to_degrees
+
+
+def read(path: Path) -> list[Feature]:
+    """Every shape.
+
+    Raises
+    ------
+    InputError
+        It is damaged, has no .prj, or pyshp is not there.
+    """
+    path.stat()
+    try:
+        import shapefile
+    except ModuleNotFoundError:
+        reason = "shapefiles need pyshp: pip install 'firetwin[score]'; or save it as GeoJSON"
+        raise input_error(path, 0, 0, reason) from None
+    try:
+        system = path.with_suffix(".prj").read_text(encoding="utf-8", errors="replace").strip()
+    except OSError:
+        reason = "has no .prj beside it, so nothing says what its coordinates are"
+        raise input_error(path, 0, 0, reason) from None
+    try:
+        with shapefile.Reader(str(path)) as reader:
+            return [_feature(path, system, i, each) for i, each in enumerate(reader.iterShapeRecords(), 1)]
+    except InputError:
+        raise
+    except (shapefile.ShapefileException, struct.error, ValueError, IndexError, KeyError, TypeError) as error:
+        raise input_error(path, 0, 0, f"no shapefile that can be read: {error}") from None
+
+
+def _feature(path: Path, system: str, number: int, found: object) -> Feature:
+    place = f"shape {number}"
+    shape = found.shape.__geo_interface__ if found.shape.shapeTypeName.startswith("POLYGON") else None
+    polygons: list[Polygon] = []
+    if shape and shape["coordinates"]:
+        parts = [shape["coordinates"]] if shape["type"] == "Polygon" else shape["coordinates"]
+        for rings in parts:
+            flat = [np.array([point[:2] for point in each], np.float64) for each in rings]
+            polygons.append(tuple(ring(path, place, to_degrees(path, system, each)) for each in flat))
+    return Feature(tuple(polygons), found.record.as_dict() if found.record else {}, place)

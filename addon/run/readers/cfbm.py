@@ -1,0 +1,110 @@
+"""NCAR's Community Fire Behavior Model: ``fire_output_YYYY-MM-DD_HH:MM:SS.nc``, one time in each.
+
+Layout measured on files of the model (commit e5cb182): no attributes; variables (ny, nx) float32, south row
+first; all rows and columns are real.
+"""
+
+from __future__ import annotations
+
+import re
+from datetime import UTC, datetime
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import input_error
+from ..models import arrival, beside, fuels, netcdf
+from ..models.grid import Grid
+from ..models.model import Model, Options
+
+NAME = "output of the Community Fire Behavior Model"
+
+_TIME = re.compile(r"(\d{4})-(\d\d)-(\d\d)[_T ](\d\d)\D?(\d\d)\D?(\d\d)")
+
+
+def sniff(path: Path) -> bool:
+    """Whether it has the model's variables and dimensions."""
+    dimensions, variables = netcdf.names(path)
+    return {"nx", "ny"} <= dimensions and {"lats", "lons", "fire_area", "fgrnhfx"} <= variables
+
+
+def read(paths: list[Path], options: Options) -> Model:
+    """The series as a model."""
+    found = {_moment(path): path for path in sorted(paths) if sniff(path)}
+    moments = sorted(found)
+    ours = [found[moment] for moment in moments]
+    times = np.array([(moment - moments[0]).total_seconds() for moment in moments])
+    files = netcdf.Files()
+    first = files(ours[0])
+    grid = Grid(*(first.read(name).astype(np.float64) for name in ("lats", "lons")))
+    shape = grid.shape
+    land = beside.find(paths)
+
+    def get(name: str, i: int) -> NDArray:
+        values = files(ours[i]).read(name)
+        if values.shape != shape:
+            raise files(ours[i]).error(f"{name} is {values.shape} where the first file's grid is {shape}")
+        return values
+
+    def flux(i: int) -> NDArray:
+        values = get("fgrnhfx", i)
+        return np.where(get("fire_area", i) > 0, values, np.float32(0)) if i == 0 else values
+
+    @lru_cache(1)  # both of its fields are asked for in turn
+    def wind(i: int) -> tuple[NDArray, NDArray]:
+        return grid.east_north(get("uf", i), get("vf", i))
+
+    moving = {"heat_flux": flux}
+    told = [
+        "times are those of the files' names, as UTC",
+        "heat flux is fgrnhfx (sensible), a mean over the model's last step, of unsaid length",
+        "the model never sets the flux of the first file: it is 0 there where fire_area is",
+        "latitude and longitude on a sphere of 6370 km are taken as those of WGS84",
+    ]
+    if "uf" in first and "vf" in first:
+        moving |= {"wind_east": lambda i: wind(i)[0], "wind_north": lambda i: wind(i)[1]}
+        told.append("wind is uf, vf at the namelist's fire_wind_height, turned from the grid's axes")
+    still = {}
+    if "zsf" in first:
+        still["elevation"] = lambda: get("zsf", 0)
+    else:
+        still["elevation"] = lambda: land.elevation(grid, options.projection)
+    if "nfuel_cat" in first:
+        told.append("surface fuel is the model's own load (fgi) of Anderson's model nfuel_cat")
+        still["surface_fuel"] = lambda: fuels.loads(get("nfuel_cat", 0), "sfire")
+    else:
+        still["surface_fuel"] = lambda: land.surface(grid, options.projection)
+    canopy = land.canopy(grid, options.projection)
+    still["canopy_fuel"] = lambda: canopy
+    if "lfn" in first:
+        told.append("time of arrival is interpolated in the level function between files")
+        still["fuel_arrival_time"] = lambda: arrival.from_levels(times, lambda i: get("lfn", i), shape)
+    else:
+        told.append("time of arrival is interpolated in fire_area between files")
+        still["fuel_arrival_time"] = lambda: arrival.from_share(times, lambda i: get("fire_area", i), shape)
+    return Model(
+        source="Community Fire Behavior Model",
+        name=f"Community Fire Behavior Model, {moments[0]:%Y-%m-%d %H:%M} UTC",
+        start=moments[0],
+        times=times,
+        grid=grid,
+        fuel_grid=grid,
+        still=still,
+        moving=moving,
+        files=ours,
+        projection="2-D latitude and longitude (Lambert, by geo_em.d01.nc)",
+        mean_s=0.0,
+        assumptions=told + land.assumptions,
+        close=files.close,
+    )
+
+
+def _moment(path: Path) -> datetime:
+    found = _TIME.search(path.name)
+    try:
+        return datetime(*map(int, found.groups()), tzinfo=UTC)  # type: ignore[union-attr]
+    except (AttributeError, ValueError):
+        reason = "its time is in its name only: call it fire_output_YYYY-MM-DD_HH:MM:SS.nc, as the model does"
+        raise input_error(path, 0, 0, reason) from None

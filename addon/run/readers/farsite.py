@@ -1,0 +1,49 @@
+"""FARSITE and FlamMap: arrival time as ASCII grid or GeoTIFF, others and the landscape (LCP) beside.
+
+Such a raster does not say what it holds, so that is read off its name ("arrival"), as FlamMap gives it.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ...errors import input_error
+from ..models import beside, made, raster
+from ..models.model import Model, Options
+
+NAME = "FARSITE or FlamMap output"
+
+_UNITS = {"intensity": 1e3, "speed": 1 / 60.0, "per_area": 1e3}  # kW/m, m/min, kJ/m2
+
+
+def sniff(path: Path) -> bool:
+    """Whether it is a raster that by its name holds arrival times."""
+    return raster.is_raster(path) and raster.role(path) == "arrival"
+
+
+def read(paths: list[Path], options: Options) -> Model:
+    """The raster and what lies beside it as a model."""
+    first = next(path for path in paths if sniff(path))
+    arrival = raster.read(first)
+    told = [
+        "arrival times are in minutes, intensity in kW/m, rate of spread in m/min, heat per area in kJ/m2"
+    ]
+    values = arrival.values * np.float64(60.0)
+    maps = made.Maps(np.where(values < 0, np.nan, values))
+    files = [first]
+    for path in paths:
+        role = raster.role(path)
+        if role in _UNITS and raster.is_raster(path):
+            layer = raster.read(path)
+            if layer.values.shape != arrival.values.shape:
+                raise input_error(path, 0, 0, "has another grid than the arrival times")
+            setattr(maps, role, np.where(layer.values > 0, layer.values * np.float64(_UNITS[role]), np.nan))
+            files.append(path)
+    land = beside.find([path for path in paths if path not in files])
+    projection = options.projection or arrival.projection
+    projection = projection or next((each.projection for each in land.layers.values()), "")
+    grid, said = arrival.grid(projection, options.at)
+    made_of = Options(options.start, options.at, projection, options.interval)
+    return made.model(maps, grid, land, made_of, "FARSITE or FlamMap", files, [*told, said] if said else told)

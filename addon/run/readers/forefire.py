@@ -1,0 +1,191 @@
+"""ForeFire: the arrival times that ``save[]`` writes, with its landscape, fuels table and fronts beside.
+
+Layout measured on ForeFire 2.5.0's own files: rows from the south, -9999 where unburned without saying so,
+no coordinates; cells of Lx/DIMX by Ly/DIMY, which need not be square.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import input_error
+from ..models import beside, made, netcdf
+from ..models.grid import Grid
+from ..models.model import Model, Options
+from ..models.raster import local
+
+NAME = "ForeFire output"
+
+_UNBURNED = -9999.0
+_FAR = 84.0  # degrees; fronts of domains with a UTM corner are written beyond it
+
+
+def sniff(path: Path) -> bool:
+    """Whether it has the model's map of arrival times."""
+    dimensions, variables = netcdf.names(path)
+    return {"DIMX", "DIMY"} <= dimensions and {"arrival_time_of_front", "domain"} <= variables
+
+
+def read(paths: list[Path], options: Options) -> Model:
+    """The map as a model."""
+    path = next(path for path in paths if sniff(path))
+    file = netcdf.File(path)
+    values = file.read("arrival_time_of_front").astype(np.float64)
+    arrival = np.where(values == _UNBURNED, np.nan, values)  # an ignition's cells are negative and burned
+    domain = {}
+    for name in ("SWx", "SWy", "Lx", "Ly", "refYear", "refDay", "BBoxWSEN"):
+        domain[name] = file.attribute(name, "domain")
+    file.close()
+    if not (domain["Lx"] and domain["Ly"] and domain["Lx"] > 0 and domain["Ly"] > 0):
+        raise input_error(path, 0, 0, "its domain lacks Lx and Ly, the size of the map")
+    told = [
+        "a cell that the front touched counts as burned, so areas are 2 to 10 % above the fronts' polygons"
+    ]
+    fronts = _fronts(paths, told)
+    options = _begun(options, domain, arrival, fronts, told)
+    ny, nx = arrival.shape
+    x = domain["SWx"] + domain["Lx"] / nx * (np.arange(nx) + 0.5)
+    y = domain["SWy"] + domain["Ly"] / ny * (np.arange(ny) + 0.5)
+    land = beside.find(paths)
+    scape = next((each for each in paths if each != path and _is_landscape(each)), None)
+    grid = _grid(x, y, domain, arrival, fronts, options, scape, told)
+    maps = made.Maps(arrival)
+    if scape:
+        _landscape(scape, paths, maps, told)
+    return made.model(maps, grid, land, options, "ForeFire", [path], told)
+
+
+def _begun(options: Options, domain: dict, arrival: NDArray, fronts: list, told: list[str]) -> Options:
+    """Times count from midnight (UTC) of the reference day, unless dated fronts say otherwise."""
+    if options.start is not None or not domain["refYear"] or not domain["refDay"]:
+        return options
+    day = datetime(int(domain["refYear"]), 1, 1, tzinfo=UTC) + timedelta(days=int(domain["refDay"]) - 1)
+    last = float(np.nanmax(arrival)) if np.isfinite(arrival).any() else 0.0
+    dated = [front[0] for front in fronts if front[0]]
+    if dated and (max(dated) - day).total_seconds() < 0.999 * last - 1:
+        dated = []
+    if dated and (max(dated) - day).total_seconds() > last + max(600.0, 0.5 * last):
+        start = max(dated) - timedelta(seconds=float(np.ceil(last)))
+        told.append(
+            f"the last front is of {max(dated):%Y-%m-%d %H:%M:%S} UTC: times count from {start:%H:%M:%S}"
+        )
+        return made.with_start(options, start)
+    told.append("times count from midnight (UTC) of refDay in refYear; the time of day is not said otherwise")
+    return made.with_start(options, day)
+
+
+def _fronts(paths: list[Path], told: list[str]) -> list[tuple[datetime | None, float, float, float, float]]:
+    """Date and west, south, east, north of each GeoJSON or KML front."""
+    found = []
+    for path in paths:
+        if path.suffix.lower() not in (".geojson", ".json", ".kml"):
+            continue
+        text = path.read_text(encoding="utf-8", errors="replace")
+        moment = None
+        if path.suffix.lower() == ".kml":
+            places = [tuple(map(float, each)) for each in re.findall(r"(-?[\d.]+),(-?[\d.]+),-?[\d.]+", text)]
+        else:
+            try:
+                data = json.loads(text)
+                if "valid_at" in data:
+                    moment = datetime.fromisoformat(data["valid_at"]).astimezone(UTC)
+                places = list(_corners([each["geometry"]["coordinates"] for each in data["features"]]))
+            except (ValueError, KeyError, TypeError, RecursionError):
+                raise input_error(path, 0, 0, "is no GeoJSON of fronts; leave it out") from None
+        if not places:
+            continue
+        x, y = np.array(places, np.float64)[:, :2].T
+        if np.abs(y).max() > _FAR:
+            told.append(
+                f"{path.name} lies beyond 84 degrees, as fronts of a UTM corner are written: not used"
+            )
+            continue
+        found.append((moment, x.min(), y.min(), x.max(), y.max()))
+    return found
+
+
+def _corners(coordinates: object):  # noqa: ANN202
+    if isinstance(coordinates, list) and coordinates and isinstance(coordinates[0], int | float):
+        yield coordinates[:2]
+    elif isinstance(coordinates, list):
+        for each in coordinates:
+            yield from _corners(each)
+
+
+def _grid(
+    x: NDArray, y: NDArray, domain: dict, arrival: NDArray, fronts: list, options: Options,
+    scape: Path | None, told: list[str],
+) -> Grid:  # fmt: skip
+    """By --projection or --at, the box that a file says, the largest front, else nowhere."""
+    if options.projection:
+        return Grid.projected(x, y, options.projection)
+    box = domain["BBoxWSEN"] or (scape and _attribute(scape, "BBoxWSEN"))
+    if not options.at and box:
+        west, south, east, north = (float(each) for each in str(box).split(","))
+        told.append("degrees are linear in metres within BBoxWSEN, as in the model's own fronts")
+        across = (x - x[0] + (x[1] - x[0]) / 2) / (len(x) * (x[1] - x[0]))
+        up = (y - y[0] + (y[1] - y[0]) / 2) / (len(y) * (y[1] - y[0]))
+        return Grid(south + (north - south) * up, west + (east - west) * across)
+    if not options.at and fronts and np.isfinite(arrival).any():
+        _, west, south, east, north = max(fronts, key=lambda each: (each[3] - each[1]) * (each[4] - each[2]))
+        up, across = (np.flatnonzero(np.isfinite(arrival).any(axis=axis)) for axis in (1, 0))
+        told.append("the map is placed so that the middles of what burned and of the largest front agree")
+        middle = (x[across[0]] + x[across[-1]]) / 2, (y[up[0]] + y[up[-1]]) / 2
+        return Grid.metres(x - middle[0], y - middle[1], ((south + north) / 2, (west + east) / 2))
+    grid, said = local(x, y, options.at)
+    told.append(said)
+    return grid
+
+
+def _attribute(path: Path, name: str) -> object:
+    file = netcdf.File(path)
+    try:
+        return file.attribute(name, "domain") if "domain" in file else None
+    finally:
+        file.close()
+
+
+def _is_landscape(path: Path) -> bool:
+    return bool(netcdf.names(path)[1] & {"fuel", "altitude"})
+
+
+def _landscape(path: Path, paths: list[Path], maps: made.Maps, told: list[str]) -> None:
+    """Fuel and height from a landscape (NT, NZ, NY, NX), its nearest cells on the map of arrivals."""
+    file = netcdf.File(path)
+    try:
+        if "altitude" in file:
+            maps.elevation = _stretched(file, "altitude", maps.arrival.shape).astype(np.float32)
+            told.append("altitude is the landscape's, whole metres")
+        table = next((each for each in paths if each.suffix.lower() in (".ff", ".csv")), None)
+        if "fuel" in file and table:
+            loads = _loads(table)
+            index = _stretched(file, "fuel", maps.arrival.shape)
+            maps.surface = np.zeros(maps.arrival.shape, np.float32)
+            for number, load in loads.items():
+                maps.surface[index == number] = load
+            told.append(f"surface fuel is Sigmad, the dead load, of {table.name}")
+    finally:
+        file.close()
+
+
+def _stretched(file: netcdf.File, name: str, shape: tuple[int, int]) -> NDArray:
+    own = file.shape(name)
+    values = file.read(name, *[0] * (len(own) - 2))
+    row = (np.arange(shape[0]) * values.shape[0]) // shape[0]
+    column = (np.arange(shape[1]) * values.shape[1]) // shape[1]
+    return values[row[:, None], column[None, :]]
+
+
+def _loads(path: Path) -> dict[int, float]:
+    rows = csv.DictReader(path.read_text(encoding="utf-8", errors="replace").splitlines(), delimiter=";")
+    try:
+        return {int(row["Index"]): float(row["Sigmad"]) for row in rows}
+    except (KeyError, ValueError, TypeError):
+        raise input_error(path, 0, 0, "is no fuels table of ForeFire with Index and Sigmad") from None

@@ -1,0 +1,190 @@
+"""Any netCDF file that follows the CF conventions, by a mapping in TOML of fields to its variables.
+
+``[fields]`` has a line per field: ``heat_flux = "hfx"``, or a table with `variable`, `scale` and `offset`
+(the field is scale x variable + offset). Variables of a field's own name need no line. Coordinates are
+found by their units and standard names; ``[axes]`` names them where they say neither.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import input_error
+from ..models import beside, made, needed, netcdf
+from ..models.grid import Grid
+from ..models.model import Model, Options
+
+NAME = "netCDF with latitude, longitude and time"
+
+_MOVING = ("heat_flux", "temperature", "wind_east", "wind_north")
+_LEVELS = ("smoke_3d", "temperature_3d", "height_3d", "wind_east_3d", "wind_north_3d", "wind_up_3d")
+_STILL = ("elevation", "surface_fuel", "canopy_fuel", "fuel_arrival_time")
+
+
+def sniff(path: Path) -> bool:
+    """Whether it is a netCDF file of whatever kind: the last reader to be asked."""
+    return netcdf.is_netcdf(path)
+
+
+def read(paths: list[Path], options: Options) -> Model:
+    """The files' times as a model."""
+    fields, axes = _mapping(options.mapping)
+    files = netcdf.Files()
+    ours = sorted(path for path in paths if sniff(path))
+    first = files(ours[0])
+    fields = {name: {"variable": name} for name in (*_MOVING, *_LEVELS, *_STILL) if name in first} | fields
+    if not {"heat_flux", "fuel_arrival_time"} & set(fields):
+        reason = (
+            f"is of no known model; a TOML file beside it may say which of its variables ({_some(first)}) "
+            'is which field: [fields] heat_flux = "NAME"'
+        )
+        raise first.error(reason)
+    grid, projection = _grid(first, axes, options, next(iter(fields.values()))["variable"])
+    land, told = beside.find(paths), []
+
+    def get(name: str, path: Path, *index: int) -> NDArray:
+        entry = fields[name]
+        values = files(path).read(entry["variable"], *index)
+        if "scale" in entry or "offset" in entry:
+            values = values * float(entry.get("scale", 1.0)) + float(entry.get("offset", 0.0))
+        return values
+
+    def still(name: str) -> NDArray:
+        shape = first.shape(fields[name]["variable"])
+        return get(name, ours[0], *[0] * (len(shape) - 2))
+
+    if "heat_flux" not in fields:
+        maps = made.Maps(still("fuel_arrival_time").astype(np.float64))
+        for name in ("surface_fuel", "canopy_fuel", "elevation"):
+            if name in fields:
+                setattr(maps, name.removesuffix("_fuel"), still(name))
+        return made.model(maps, grid, land, options, "netCDF", ours, told)
+
+    frames = sorted(
+        ((moment, path, i) for path in ours for i, moment in enumerate(_moments(files(path), axes, options))),
+        key=lambda frame: frame[0],
+    )
+    frames = [each for k, each in enumerate(frames) if k == 0 or each[0] > frames[k - 1][0]]
+    start = frames[0][0]
+    model = Model(
+        source="netCDF (CF)",
+        name=str(first.attribute("title", otherwise=ours[0].stem)),
+        start=start,
+        times=np.array([(moment - start).total_seconds() for moment, _, _ in frames]),
+        grid=grid,
+        fuel_grid=grid,
+        still={name: (lambda name=name: still(name)) for name in _STILL if name in fields},
+        moving={
+            name: (lambda i, name=name: get(name, frames[i][1], frames[i][2]))
+            for name in (*_MOVING, *_LEVELS)
+            if name in fields
+        },
+        files=ours,
+        projection=projection,
+        close=files.close,
+    )
+    model.levels = {name: first.shape(fields[name]["variable"])[1] for name in _LEVELS if name in fields}
+    if "fuel_arrival_time" not in fields:
+        told.append("arrival times are not said; the fire's line is found in the heat fluxes")
+    for name, make in (
+        ("elevation", land.elevation),
+        ("surface_fuel", land.surface),
+        ("canopy_fuel", land.canopy),
+    ):
+        if name not in model.still:
+            values = make(grid, options.projection)
+            model.still[name] = lambda values=values: values
+    model.assumptions = told + land.assumptions
+    return model
+
+
+def _mapping(path: Path | None) -> tuple[dict[str, dict[str, Any]], dict[str, str]]:
+    if path is None:
+        return {}, {}
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise input_error(path, 0, 0, f"is no TOML ({' '.join(str(error).split())})") from None
+    known = (*_MOVING, *_LEVELS, *_STILL)
+    fields = {}
+    for name, entry in data.get("fields", {}).items():
+        if name not in known:
+            raise input_error(path, 0, 0, f"there is no field {name}, but {', '.join(known)}")
+        fields[name] = {"variable": entry} if isinstance(entry, str) else dict(entry)
+        if not isinstance(fields[name].get("variable"), str):
+            raise input_error(path, 0, 0, f"{name} does not say its variable, in quotes")
+    return fields, dict(data.get("axes", {}))
+
+
+def _grid(file: netcdf.File, axes: dict[str, str], options: Options, of: str) -> tuple[Grid, str]:
+    latitude, longitude = (
+        axes.get(name) or _coordinate(file, name, units)
+        for name, units in (("latitude", "degrees_north"), ("longitude", "degrees_east"))
+    )
+    if latitude and longitude:
+        return Grid(*(file.read(name).astype(np.float64) for name in (latitude, longitude))), ""
+    x, y = (axes.get(name) or _coordinate(file, f"projection_{name}_coordinate", "") for name in "xy")
+    projection = options.projection or _crs(file, of)
+    if not (x and y and projection):
+        raise file.error(
+            "has no latitude and longitude by their units (degrees_north, degrees_east), nor x and y of a "
+            'projection; [axes] latitude = "NAME" in a TOML file says which they are'
+        )
+    return Grid.projected(*(file.read(name).astype(np.float64) for name in (x, y)), projection), projection
+
+
+def _crs(file: netcdf.File, of: str) -> str:
+    name = file.attribute("grid_mapping", of)
+    if not name or name not in file:
+        return ""
+    with file.sense():
+        variable = file.variables[name]
+        return (
+            needed.package("pyproj")
+            .CRS.from_cf({k: variable.getncattr(k) for k in variable.ncattrs()})
+            .to_wkt()
+        )
+
+
+def _coordinate(file: netcdf.File, standard_name: str, units: str) -> str:
+    for name in file.variables:
+        if file.attribute("standard_name", name) == standard_name or (
+            units
+            and file.attribute("units", name)
+            in (units, units.removesuffix("s"), units.replace("degrees", "degree"))
+        ):
+            return name
+    return ""
+
+
+def _moments(file: netcdf.File, axes: dict[str, str], options: Options) -> list[datetime]:
+    name = axes.get("time") or next(
+        (each for each in file.variables if " since " in str(file.attribute("units", each, ""))), ""
+    )
+    if not name:
+        raise file.error(
+            'has no time by its units ("seconds since ..."); [axes] time = "NAME" in a TOML file says it'
+        )
+    values = np.atleast_1d(file.read(name)).astype(np.float64)
+    units, calendar = (
+        str(file.attribute("units", name, "")),
+        str(file.attribute("calendar", name, "standard")),
+    )
+    if " since " not in units:
+        begin = made.begun(options, file.path)
+        return [begin + timedelta(seconds=float(each)) for each in values]
+    with file.sense():
+        dates = needed.package("netCDF4").num2date(values, units, calendar, only_use_cftime_datetimes=False)
+        return [
+            datetime(*each.timetuple()[:6], each.microsecond, tzinfo=UTC) for each in np.atleast_1d(dates)
+        ]
+
+
+def _some(file: netcdf.File) -> str:
+    return ", ".join(sorted(file.variables)[:12]) or "none"

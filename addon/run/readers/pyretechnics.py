@@ -1,0 +1,95 @@
+"""pyretechnics: its matrices as ``numpy.savez`` keeps them.
+
+``numpy.savez(path, **result["spread_state"].get_full_matrices(), cell_width=30, cell_height=30)``: rows from
+the south, minutes, kW/m and m/min (pyretechnics, eulerian_level_set.py). `latitude` and `longitude` (degrees)
+of rows and columns place it, or `x` and `y` with ``--projection``.
+"""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import Error, input_error
+from ..models import beside, made
+from ..models.grid import Grid
+from ..models.model import Model, Options
+from ..models.raster import local
+
+NAME = "arrays of pyretechnics"
+
+_LARGEST = 1 << 32  # bytes of one matrix
+
+
+def sniff(path: Path) -> bool:
+    """Whether it is an archive of arrays, the time of arrival among them."""
+    try:
+        with path.open("rb") as file:
+            if file.read(4) != b"PK\x03\x04":
+                return False
+        with zipfile.ZipFile(path) as archive:
+            return "time_of_arrival.npy" in archive.namelist()
+    except (OSError, zipfile.BadZipFile):
+        return False
+
+
+def read(paths: list[Path], options: Options) -> Model:
+    """The arrays as a model."""
+    path = next(path for path in paths if sniff(path))
+    found = _arrays(path)
+    minutes = found["time_of_arrival"]
+    if minutes.ndim != 2:
+        raise input_error(path, 0, 0, f"time_of_arrival has shape {minutes.shape}, not rows and columns")
+    told = ["times are in minutes, fireline_intensity in kW/m, spread_rate in m/min; rows are from the south"]
+    burned = np.isfinite(minutes) & (minutes >= 0)
+    maps = made.Maps(np.where(burned, minutes * 60.0, np.nan))
+    for name, field, unit in (("fireline_intensity", "intensity", 1e3), ("spread_rate", "speed", 1 / 60.0)):
+        if name in found:
+            setattr(maps, field, np.where(burned & (found[name] > 0), found[name] * unit, np.nan))
+    for name in ("surface_fuel", "canopy_fuel", "elevation"):
+        if name in found:
+            setattr(maps, name.removesuffix("_fuel"), found[name])
+    grid = _grid(path, found, options, told)
+    return made.model(maps, grid, beside.find(paths), options, "pyretechnics", [path], told)
+
+
+def _grid(path: Path, found: dict[str, NDArray], options: Options, told: list[str]) -> Grid:
+    ny, nx = found["time_of_arrival"].shape
+    if {"latitude", "longitude"} <= set(found):
+        return Grid(found["latitude"], found["longitude"])
+    if {"x", "y"} <= set(found) and options.projection:
+        return Grid.projected(found["x"], found["y"], options.projection)
+    if {"cell_width", "cell_height"} <= set(found):
+        width, height = (float(found[name].ravel()[0]) for name in ("cell_width", "cell_height"))
+        grid, said = local(width * np.arange(nx), height * np.arange(ny), options.at)
+        told.append(said)
+        return grid
+    reason = "lacks latitude and longitude, or cell_width and cell_height (m); add them with numpy.savez"
+    raise input_error(path, 0, 0, reason)
+
+
+def _arrays(path: Path) -> dict[str, NDArray]:
+    wanted = (
+        "time_of_arrival",
+        "fireline_intensity",
+        "spread_rate",
+        "surface_fuel",
+        "canopy_fuel",
+        "elevation",
+    )
+    wanted += ("latitude", "longitude", "x", "y", "cell_width", "cell_height")
+    try:
+        with zipfile.ZipFile(path) as archive:
+            sizes = {each.filename: each.file_size for each in archive.infolist()}
+        if max(sizes.values()) > _LARGEST:
+            raise input_error(path, 0, 0, "holds an array that is larger than any fire")
+        with np.load(path, allow_pickle=False) as arrays:
+            return {name: arrays[name].astype(np.float64) for name in wanted if name in arrays.files}
+    except Error:
+        raise
+    except Exception as error:
+        why = " ".join(str(error).split()) or type(error).__name__
+        raise input_error(path, 0, 0, f"cannot be read ({why}); it is damaged") from error

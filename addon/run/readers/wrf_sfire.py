@@ -1,0 +1,310 @@
+"""WRF-SFIRE and WRF-Fire: ``wrfout_d0N_*``, one time or several in each file.
+
+Names, units and layouts: WRF-SFIRE, Registry/registry.fire and Registry.EM_COMMON; thermodynamics:
+share/module_model_constants.F. Fire variables lie on a subgrid of (west_east + 1) sr_x columns and
+(south_north + 1) sr_y rows, of which the last sr are junk. The run's model grid is the atmosphere's, its fuel
+grid the fire's.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import Error
+from ..models import arrival, beside, fuels, netcdf
+from ..models.grid import Grid
+from ..models.model import Model, Options
+from ..models.raster import local
+
+NAME = "WRF-SFIRE output"
+
+_FIRE = ("FGRNHFX", "LFN", "FIRE_AREA", "TIGN_G")
+_T0, _P0, _RD, _CP, _RV, _G = 300.0, 1e5, 287.0, 1004.5, 461.6, 9.81  # WRF's own constants
+
+
+def sniff(path: Path) -> bool:
+    """Whether it has WRF's dimensions, the fire's subgrid and a variable of the fire."""
+    dimensions, variables = netcdf.names(path)
+    return {"west_east_subgrid", "south_north_subgrid"} <= dimensions and bool(variables & set(_FIRE))
+
+
+@dataclass
+class _Frame:
+    path: Path
+    index: int
+    moment: datetime
+
+
+class _Wrf:
+    """The files as one series."""
+
+    def __init__(self, paths: list[Path]) -> None:
+        self.files = netcdf.Files()
+        found: dict[datetime, _Frame] = {}
+        for path in sorted(paths):
+            for index, moment in enumerate(_moments(self.files(path))):
+                found[moment] = _Frame(path, index, moment)  # of a time that is there twice the later file's
+        self.frames = [found[moment] for moment in sorted(found)]
+        self.first = self.files(self.frames[0].path)
+        self.ny, self.nx, self.sy, self.sx = _sizes(self.first)
+        for path in {frame.path for frame in self.frames}:
+            if _sizes(self.files(path)) != (self.ny, self.nx, self.sy, self.sx):
+                raise self.files(path).error("has another grid than the others; give those of one domain")
+
+    def has(self, *names: str) -> bool:
+        return all(name in self.first for name in names)
+
+    def read(self, name: str, index: int, *, stag: int | None = None) -> NDArray:
+        """A variable at a time; a staggered one as means of both sides of each cell along the axis `stag`."""
+        frame = self.frames[index]
+        values = self.files(frame.path).read(name, frame.index)
+        if stag is None:
+            return values
+        values = np.moveaxis(values, stag, 0)
+        return np.moveaxis(np.float32(0.5) * (values[1:] + values[:-1]), 0, stag)
+
+    def fire(self, name: str, index: int) -> NDArray:
+        """A variable of the subgrid without its junk edge."""
+        frame = self.frames[index]
+        rows, columns = slice(self.ny * self.sy), slice(self.nx * self.sx)
+        return self.files(frame.path).read(name, frame.index, rows, columns)
+
+    def mean(self, fine: NDArray) -> NDArray:
+        """Means of the fire's cells in each of the atmosphere's."""
+        blocks = np.asarray(fine, np.float64).reshape(self.ny, self.sy, self.nx, self.sx)
+        return blocks.mean(axis=(1, 3))
+
+
+def read(paths: list[Path], options: Options) -> Model:
+    """The series as a model."""
+    wrf = _Wrf([path for path in paths if sniff(path)])
+    land = beside.find(paths)
+    told = list(land.assumptions)
+    moments = [frame.moment for frame in wrf.frames]
+    start, said = _start(wrf.first, moments[0])
+    times = np.array([(moment - start).total_seconds() for moment in moments])
+    grid, fire = _grids(wrf, options, told)
+    model = Model(
+        source="WRF-SFIRE",
+        version=_version(wrf.first),
+        name=str(wrf.first.attribute("TITLE", otherwise="WRF-SFIRE run")).strip(),
+        start=start,
+        times=times,
+        grid=grid,
+        fuel_grid=fire,
+        still={},
+        moving={},
+        files=sorted({frame.path for frame in wrf.frames}),
+        projection=_projection(wrf.first),
+        mean_s=float(wrf.first.attribute("DT", otherwise=0.0)),
+        close=wrf.files.close,
+    )
+    told += [said, "latitude and longitude on WRF's sphere of 6370 km are taken as those of WGS84"]
+    _flux(wrf, model, told)
+    _near_ground(wrf, model, told)
+    _on_levels(wrf, model, told)
+    _still(wrf, model, land, options, told)
+    model.assumptions = told + [each for each in land.assumptions if each not in told]
+    return model
+
+
+def _moments(file: netcdf.File) -> list[datetime]:
+    if "Times" not in file:
+        raise file.error("has no variable Times, which is needed")
+    with file.sense():
+        rows = np.asarray(file.variables["Times"][:])
+    found = []
+    for row in np.atleast_2d(rows):
+        text = row.tobytes().decode("ascii", "replace").strip("\0 ")
+        try:
+            found.append(datetime.strptime(text, "%Y-%m-%d_%H:%M:%S").replace(tzinfo=UTC))
+        except ValueError:
+            raise file.error(f"its Times say {text!r}, no date and time; it is damaged") from None
+    if not found:
+        raise file.error("has no times; it is incomplete")
+    return found
+
+
+def _start(file: netcdf.File, first: datetime) -> tuple[datetime, str]:
+    """What TIGN_G counts from: the simulation's start, also where the files are those of a restart."""
+    for name in ("SIMULATION_START_DATE", "START_DATE"):
+        try:
+            text = str(file.attribute(name, otherwise=""))
+            return datetime.strptime(text, "%Y-%m-%d_%H:%M:%S").replace(
+                tzinfo=UTC
+            ), f"times count from {name}"
+        except ValueError:
+            pass
+    return first, "no start is said: times count from the first one there"
+
+
+def _sizes(file: netcdf.File) -> tuple[int, int, int, int]:
+    try:
+        ny, nx = file.dimensions["south_north"], file.dimensions["west_east"]
+        fy, fx = file.dimensions["south_north_subgrid"], file.dimensions["west_east_subgrid"]
+    except KeyError as error:
+        raise file.error(f"has no dimension {error.args[0]}") from None
+    sy, sx = fy // (ny + 1), fx // (nx + 1)
+    if sy < 1 or sx < 1 or sy * (ny + 1) != fy or sx * (nx + 1) != fx:
+        raise file.error(
+            f"its fire grid of {fy} x {fx} does not divide the atmosphere's of {ny} x {nx} cells"
+        )
+    return ny, nx, sy, sx
+
+
+def _grids(wrf: _Wrf, options: Options, told: list[str]) -> tuple[Grid, Grid]:
+    x, y = (wrf.fire(name, 0).astype(np.float64) for name in ("FXLONG", "FXLAT"))
+    unit = float(wrf.read("UNIT_FXLONG", 0)) if wrf.has("UNIT_FXLONG") else 0.0
+    metres = unit == 1.0 or np.abs(y).max() > 90.0
+    if metres:  # of an ideal run, which lies nowhere
+        fire, said = local(x.mean(axis=0), y.mean(axis=1), options.at)
+        told.append(said)
+        return Grid(_block(fire.latitude, wrf.sy), _block(fire.longitude, wrf.sx)), fire
+    if wrf.has("XLAT", "XLONG"):
+        return Grid(*(wrf.read(name, 0).astype(np.float64) for name in ("XLAT", "XLONG"))), Grid(y, x)
+    return Grid(wrf.mean(y), wrf.mean(x)), Grid(y, x)
+
+
+def _block(axis: NDArray, step: int) -> NDArray:
+    return axis.reshape(-1, step).mean(axis=1)
+
+
+def _flux(wrf: _Wrf, model: Model, told: list[str]) -> None:
+    if wrf.has("GRNHFX"):
+        crown = wrf.has("CANHFX")
+        told.append(f"heat flux is GRNHFX{' + CANHFX' if crown else ''} (sensible, on the atmosphere's grid)")
+        model.moving["heat_flux"] = lambda i: (
+            wrf.read("GRNHFX", i) + (wrf.read("CANHFX", i) if crown else np.float32(0))
+        )
+        return
+    crown = wrf.has("FCANHFX")
+    told.append(
+        f"heat flux is the mean of FGRNHFX{' + FCANHFX' if crown else ''} in each cell of the atmosphere"
+    )
+    model.moving["heat_flux"] = lambda i: wrf.mean(
+        wrf.fire("FGRNHFX", i) + (wrf.fire("FCANHFX", i) if crown else np.float32(0))
+    )
+
+
+def _near_ground(wrf: _Wrf, model: Model, told: list[str]) -> None:
+    """Wind to the east and north, and temperature: at 10 m and 2 m, else of the lowest level."""
+    winds = None
+    if wrf.has("U10", "V10"):
+        told.append("wind is U10, V10, turned from the grid's axes to east and north")
+        winds = lambda i: (wrf.read("U10", i), wrf.read("V10", i))  # noqa: E731
+    elif wrf.has("U", "V"):
+        told.append("wind is that of the lowest level, turned from the grid's axes to east and north")
+        winds = lambda i: (wrf.read("U", i, stag=2)[0], wrf.read("V", i, stag=1)[0])  # noqa: E731
+    if winds:
+        turned = lru_cache(1)(lambda i: model.grid.east_north(*winds(i)))  # both are asked for in turn
+        model.moving |= {"wind_east": lambda i: turned(i)[0], "wind_north": lambda i: turned(i)[1]}
+    if wrf.has("T2"):
+        model.moving["temperature"] = lambda i: wrf.read("T2", i)
+    elif wrf.has("T", "P", "PB"):
+        model.moving["temperature"] = lambda i: _kelvin(wrf, i)[0]
+
+
+def _on_levels(wrf: _Wrf, model: Model, told: list[str]) -> None:
+    if not wrf.has("PH", "PHB") or wrf.first.dimensions.get("bottom_top", 0) < 2:
+        return
+    found = {}
+    if wrf.has("tr17_1", "T", "P", "PB"):
+        unit = str(wrf.first.attribute("units", "tr17_1", "")).strip().lower()
+        scale = 1e-9 if unit.startswith("ug") else 1e-3
+        told.append(
+            f"smoke is tr17_1 as {'ug' if scale < 1e-6 else 'g'} per kg of dry air, times its density"
+        )
+        found["smoke_3d"] = lambda i: wrf.read("tr17_1", i) * (_dry_density(wrf, i) * np.float32(scale))
+    if wrf.has("T", "P", "PB"):
+        found["temperature_3d"] = lambda i: _kelvin(wrf, i)
+    if wrf.has("U", "V", "W"):
+        winds = lru_cache(1)(lambda i: _winds(wrf, model, i))
+        found |= {"wind_east_3d": lambda i: winds(i)[0], "wind_north_3d": lambda i: winds(i)[1]}
+        found["wind_up_3d"] = lambda i: wrf.read("W", i, stag=0)
+    if found:
+        found["height_3d"] = lambda i: (
+            (wrf.read("PH", i, stag=0) + wrf.read("PHB", i, stag=0)) / np.float32(_G)
+        )
+        model.moving |= found
+        model.levels |= dict.fromkeys(found, wrf.first.dimensions["bottom_top"])
+
+
+def _winds(wrf: _Wrf, model: Model, i: int) -> tuple[NDArray, NDArray]:
+    return model.grid.east_north(wrf.read("U", i, stag=2), wrf.read("V", i, stag=1))
+
+
+def _kelvin(wrf: _Wrf, i: int) -> NDArray:
+    """Temperature from T, the potential temperature less 300 K: theta (p / 1e5 Pa)^(R/cp)."""
+    pressure = wrf.read("P", i) + wrf.read("PB", i)
+    with np.errstate(invalid="ignore"):
+        return (wrf.read("T", i) + np.float32(_T0)) * (pressure / np.float32(_P0)) ** np.float32(_RD / _CP)
+
+
+def _dry_density(wrf: _Wrf, i: int) -> NDArray:
+    """kg/m3 of dry air: p / (R T (1 + q Rv/R))."""
+    moist = 1 + wrf.read("QVAPOR", i) * np.float32(_RV / _RD) if wrf.has("QVAPOR") else np.float32(1)
+    return (wrf.read("P", i) + wrf.read("PB", i)) / (np.float32(_RD) * _kelvin(wrf, i) * moist)
+
+
+def _still(wrf: _Wrf, model: Model, land: beside.Land, options: Options, told: list[str]) -> None:
+    last = len(wrf.frames) - 1
+    if wrf.has("HGT"):
+        model.still["elevation"] = lambda: wrf.read("HGT", 0)
+    elif wrf.has("ZSF"):
+        model.still["elevation"] = lambda: wrf.mean(wrf.fire("ZSF", 0))
+    else:
+        model.still["elevation"] = lambda: land.elevation(model.grid, options.projection)
+    if wrf.has("ZSF"):
+        model.still["fuel_elevation"] = lambda: wrf.fire("ZSF", 0)
+    if wrf.has("NFUEL_CAT"):
+        told.append(
+            "surface fuel is WRF-SFIRE's load (fgi) of Anderson's model NFUEL_CAT; a namelist.fire may differ"
+        )
+        model.still["surface_fuel"] = lambda: fuels.loads(wrf.fire("NFUEL_CAT", 0), "sfire")
+    else:
+        model.still["surface_fuel"] = lambda: land.surface(model.fuel_grid, options.projection)
+    canopy = land.canopy(model.fuel_grid, options.projection)
+    model.still["canopy_fuel"] = lambda: canopy
+    model.still["fuel_arrival_time"] = lambda: _arrival(wrf, model.times, last)
+    named = "TIGN_G where the fire is in the last file" if wrf.has("TIGN_G") else "interpolated between files"
+    told.append(f"time of arrival is {named}")
+
+
+def _arrival(wrf: _Wrf, times: NDArray, last: int) -> NDArray:
+    shape = wrf.ny * wrf.sy, wrf.nx * wrf.sx
+    if wrf.has("TIGN_G") and wrf.has("LFN"):
+        found, burned = wrf.fire("TIGN_G", last), wrf.fire("LFN", last) <= 0
+    elif wrf.has("TIGN_G", "FIRE_AREA"):
+        found, burned = wrf.fire("TIGN_G", last), wrf.fire("FIRE_AREA", last) >= 0.5
+    elif wrf.has("LFN"):
+        return arrival.from_levels(times, lambda i: wrf.fire("LFN", i), shape)
+    elif wrf.has("FIRE_AREA"):
+        return arrival.from_share(times, lambda i: wrf.fire("FIRE_AREA", i), shape)
+    else:
+        raise Error(f"{wrf.first.path}: has neither LFN nor FIRE_AREA, so nothing says where the fire is")
+    return np.where(burned & (found <= times[-1]), found, np.float32(np.nan))
+
+
+def _version(file: netcdf.File) -> str:
+    found = re.search(r"V[\d.]+", str(file.attribute("TITLE", otherwise="")))
+    return found[0] if found else ""
+
+
+def _projection(file: netcdf.File) -> str:
+    """WRF's projection as PROJ says it, for people."""
+    kinds = {1: "lcc", 2: "stere", 3: "merc"}
+    kind = kinds.get(int(file.attribute("MAP_PROJ", otherwise=0)))
+    if kind is None:
+        return "none: metres or latitude and longitude"
+    keys = {"lat_1": "TRUELAT1", "lat_2": "TRUELAT2", "lat_0": "MOAD_CEN_LAT", "lon_0": "STAND_LON"}
+    said = [
+        f"+{key}={file.attribute(name):g}" for key, name in keys.items() if file.attribute(name) is not None
+    ]
+    return " ".join([f"+proj={kind}", *said, "+a=6370000 +b=6370000"])

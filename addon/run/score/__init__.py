@@ -1,0 +1,157 @@
+"""How well a run matches what was seen of its fire, by date.
+
+A run says when the front reached each fuel cell; by a date it had burned the cells that were reached by then.
+Scores are of areas: on polygons (the front between the cells' middles, in an equal-area projection) and on
+cells (whole ones, on the ellipsoid). Their difference says how far the run's grid lets them be known.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+from typing import Any
+
+import numpy as np
+from firetwin_core.run import Run
+
+from ...errors import UsageError
+from .. import info, times
+from ..observations import Observations
+from . import arrival, detected, shapes
+from .grid import Grid
+from .overlap import Overlap
+
+SAMPLES = 6  # moments at which another run is looked at where nothing else says when
+
+
+@dataclass(frozen=True)
+class Seen:
+    """A perimeter to compare with: when (UTC), where (a shapely geometry in degrees), and whose."""
+
+    time: datetime
+    shape: Any
+    source: str
+
+
+def score(
+    run: Run, observations: Observations, other: Run | None = None, zone: str = "America/Los_Angeles"
+) -> dict[str, Any]:
+    """Everything `firetwin score` tells, as JSON can carry it: m, m2, s, and shares from 0 to 1.
+
+    Parameters
+    ----------
+    other
+        A second run: its perimeters count as seen, at the times of the observations or else at SAMPLES
+        moments of both runs, and the two arrival times are compared cell by cell.
+
+    Raises
+    ------
+    UsageError
+        Shapely or pyproj is not there.
+    """
+    shapes.needed()
+    grid = Grid.of(run)
+    seen = [
+        Seen(each.time, shapes.of_perimeter(each, grid.middle), each.source)
+        for each in observations.perimeters
+    ]
+    if other is not None:
+        seen = _of_run(other, run, [each.time for each in seen])
+    inside = [each for each in seen if run.times[0] <= times.seconds(run, each.time) <= run.times[-1]]
+    dates = [_date(run, grid, each) for each in inside]
+    return {
+        "run": {"name": run.name, "path": run.path, "synthetic": run.synthetic, "event": run.event},
+        "against": sorted({each.source for each in seen} | {each.source for each in observations.detections}),
+        "zone": zone,
+        "domain": {"area": grid.domain, "cells": list(grid.arrival.shape), "cell": list(grid.cell)},
+        "projection": grid.projection.definition,
+        "arrival_from": "fuel_arrival_time" if run.has("fuel_arrival_time") else "heat_flux",
+        "dates": dates,
+        "outside": [_iso(each.time) for each in seen if each not in inside],
+        "arrival": _arrival(run, grid, inside, other),
+        "detections": [row for each in observations.detections for row in detected.rows(run, grid, each)],
+        "reported": _reported(run, grid),
+        "assumptions": [
+            *observations.assumptions,
+            *(
+                f"{each.source}: {each.left_out} detections of low confidence or other heat are left out"
+                for each in observations.detections
+                if each.left_out
+            ),
+        ],
+    }
+
+
+def _date(run: Run, grid: Grid, seen: Seen) -> dict[str, Any]:
+    """Scores of one perimeter: with all that had burned, and without what the run began with."""
+    time, first = times.seconds(run, seen.time), float(run.times[0])
+    here, there = grid.polygon(time), grid.projection.project(seen.shape)
+    burned, observed = grid.burned(time), grid.inside(seen.shape)
+    start, started = grid.polygon(first), grid.burned(first)
+    row = {
+        "time": _iso(seen.time),
+        "source": seen.source,
+        "outside_grid": 1.0 - grid.box.intersection(there).area / there.area if there.area else 0.0,
+        "all": _both(
+            Overlap.of_polygons(here, there, grid.box), Overlap.of_cells(burned, observed, grid.areas)
+        ),
+        "distance": shapes.distances(here, there, min(grid.cell) / 2),
+    }
+    if started.any():
+        row["without_start"] = _both(
+            Overlap.of_polygons(here.difference(start), there.difference(start), grid.box.difference(start)),
+            Overlap.of_cells(burned & ~started, observed & ~started, np.where(started, 0.0, grid.areas)),
+        )
+    return row
+
+
+def _both(polygons: Overlap, cells: Overlap) -> dict[str, Any]:
+    """Scores on polygons, on cells, and the larger less the smaller: how far they can be known."""
+    one, two = polygons.scores(), cells.scores()
+    error = {
+        name: abs(one[name] - two[name]) if one[name] is not None and two[name] is not None else None
+        for name in one
+    }
+    return {"polygons": one, "cells": two, "error": error}
+
+
+def _arrival(run: Run, grid: Grid, seen: Sequence[Seen], other: Run | None) -> dict[str, Any] | None:
+    if other is not None:
+        theirs = Grid.of(other)
+        shift = times.seconds(run, times.moment(other, 0.0))
+        return arrival.between(grid.arrival, arrival.sampled(theirs, grid) + shift, run.times[[0, -1]])
+    if len(seen) < 2:
+        return None
+    masks = [grid.inside(each.shape) for each in seen]
+    return arrival.within(grid.arrival, masks, [times.seconds(run, each.time) for each in seen])
+
+
+def _reported(run: Run, grid: Grid) -> list[dict[str, Any]]:
+    """The dated acreages of the run's fire, with the run's area on polygons beside that of its cells."""
+    rows = info.reported(run)
+    for row in rows:
+        if row["run"] is not None:
+            row["polygons"] = grid.polygon(times.seconds(run, datetime.fromisoformat(row["time"]))).area
+    return rows
+
+
+def _of_run(other: Run, run: Run, moments: Sequence[datetime]) -> list[Seen]:
+    """Perimeters of another run as if they had been seen."""
+    low = max(times.moment(run, float(run.times[0])), times.moment(other, float(other.times[0])))
+    high = min(times.moment(run, float(run.times[-1])), times.moment(other, float(other.times[-1])))
+    if low >= high:
+        raise UsageError(f"--against: {other.path} and the run have no moment in common")
+    common = [moment for moment in moments if low <= moment <= high]
+    spread = [
+        low + timedelta(seconds=s) for s in np.linspace(0, (high - low).total_seconds(), SAMPLES + 1)[1:]
+    ]
+    theirs = Grid.of(other)
+    return [
+        Seen(moment, theirs.degrees(theirs.polygon(times.seconds(other, moment))), other.name)
+        for moment in common or spread
+    ]
+
+
+def _iso(moment: datetime) -> str:
+    return moment.strftime("%Y-%m-%dT%H:%M:%SZ")

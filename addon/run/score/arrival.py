@@ -1,0 +1,80 @@
+"""How much earlier or later (s) the front reached cells: positive where the run is late."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..areas import turned
+
+if TYPE_CHECKING:
+    from .grid import Grid
+
+
+def between(run: NDArray[np.float64], seen: NDArray[np.float64], common: Sequence[float]) -> dict[str, Any]:
+    """Of two arrival times (ny, nx), cell by cell: each cell counts where both burned after the first moment.
+
+    NaN of one is none of the other: such cells are counted apart, and no mean has them.
+    """
+    first, last = common
+    here, there = run <= last, seen <= last
+    after = ~((run <= first) | (seen <= first))
+    both = here & there & after
+    found = {"run_only": int((here & ~there & after).sum()), "seen_only": int((there & ~here & after).sum())}
+    return _statistics(run[both] - seen[both]) | found | {"observed": "arrival times of the other run"}
+
+
+def within(
+    run: NDArray[np.float64], masks: Sequence[NDArray[np.bool_]], moments: Sequence[float]
+) -> dict[str, Any]:
+    """Of perimeters: a cell inside of one and not of those before burned between their two moments (s).
+
+    Nobody knows when in between: the error is 0 where the run falls there too, else the time to the nearer
+    of both moments. Cells of the first perimeter have no moment before it and do not count.
+    """
+    errors, run_never = [], 0
+    known = masks[0].copy()
+    for mask, early, late in zip(masks[1:], moments[:-1], moments[1:], strict=True):
+        new = mask & ~known
+        known |= mask
+        time = run[new]
+        run_never += int(np.isnan(time).sum())
+        time = time[~np.isnan(time)]
+        errors.append(np.where(time < early, time - early, np.maximum(time - late, 0.0)))
+    return (
+        _statistics(np.concatenate(errors) if errors else np.empty(0))
+        | {"run_only": int((~np.isnan(run) & ~known & (run <= moments[-1])).sum()), "seen_only": run_never}
+        | {"observed": "between the moments of two perimeters; 0 where the run falls there too"}
+    )
+
+
+def _statistics(error: NDArray[np.float64]) -> dict[str, Any]:
+    if error.size == 0:
+        return {"cells": 0, "bias": None, "mae": None, "rmse": None}
+    return {
+        "cells": int(error.size),
+        "bias": float(error.mean()),
+        "mae": float(np.abs(error).mean()),
+        "rmse": float(np.sqrt((error**2).mean())),
+    }
+
+
+def sampled(there: Grid, here: Grid) -> NDArray[np.float64]:
+    """Arrival times (s) of one grid at the cells of another, of the cell round each middle; NaN outside."""
+    row = _nearest(there.latitude, here.latitude)
+    column = _nearest(there.longitude, turned(here.longitude, there.middle))
+    found = there.arrival[np.ix_(np.maximum(row, 0), np.maximum(column, 0))]
+    found[row < 0, :] = np.nan
+    found[:, column < 0] = np.nan
+    return found
+
+
+def _nearest(axis: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Index of the cell that each value lies in, -1 for outside; the axis ascends."""
+    middles = (axis[1:] + axis[:-1]) / 2
+    found = np.searchsorted(middles, at)
+    half = (axis[1] - axis[0]) / 2 if axis.size > 1 else np.inf
+    return np.where((at < axis[0] - half) | (at > axis[-1] + half), -1, found)

@@ -1,0 +1,49 @@
+"""Satellites' detections against a run: whether the run had burned there by then, and for how long."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from firetwin_core.run import Run
+
+from .. import times
+from ..areas import turned
+from ..observations import Detections
+from .arrival import _nearest
+from .grid import Grid
+
+
+def rows(run: Run, grid: Grid, detections: Detections) -> list[dict[str, Any]]:
+    """A row for each overpass within the run's time and place.
+
+    `inside` are detections whose middle the run had burned by then, `within_pixel` also those no farther than
+    half a pixel from it. `lag` is how long before (s, median and mean) the front had passed the middles,
+    negative where it came later, of those that it reaches at all; `never` counts the others.
+    """
+    import shapely
+
+    longitude = turned(detections.longitude, grid.middle)
+    row, column = _nearest(grid.latitude, detections.latitude), _nearest(grid.longitude, longitude)
+    moments = np.array([times.seconds(run, each) for each in detections.time])
+    covered = (row >= 0) & (column >= 0) & (moments >= run.times[0]) & (moments <= run.times[-1])
+    found = []
+    for moment in np.unique(moments[covered]):
+        these = np.flatnonzero(covered & (moments == moment))
+        arrival = grid.arrival[row[these], column[these]]
+        points = grid.projection.points(longitude[these], detections.latitude[these])
+        away = shapely.distance(points, grid.polygon(moment))
+        lag = moment - arrival[~np.isnan(arrival)]
+        found.append(
+            {
+                "time": times.moment(run, float(moment)).strftime("%Y-%m-%dT%H:%M:%SZ"),
+                "source": detections.source,
+                "count": int(these.size),
+                "inside": int((arrival <= moment).sum()),
+                "within_pixel": int((np.nan_to_num(away, nan=np.inf) <= detections.size[these] / 2).sum()),
+                "lag_median": float(np.median(lag)) if lag.size else None,
+                "lag_mean": float(lag.mean()) if lag.size else None,
+                "never": int(np.isnan(arrival).sum()),
+            }
+        )
+    return found

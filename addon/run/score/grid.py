@@ -1,0 +1,81 @@
+"""A run's fuel cells: when the front reached them, how large they are, and where the front was at a time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from .. import areas
+from . import shapes
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Middles of the cells (degrees, south and west first) and arrival times (ny, nx) s, NaN: never."""
+
+    latitude: NDArray[np.float64]
+    longitude: NDArray[np.float64]
+    arrival: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, run: Run) -> Grid:
+        """The grid of a run, by the core's arrival times."""
+        latitude, longitude, time = run.fuel_latitude, run.fuel_longitude, run.fuel_arrival_time()
+        south, west = latitude[0] > latitude[-1], longitude[0] > longitude[-1]
+        rows, columns = slice(None, None, -1 if south else 1), slice(None, None, -1 if west else 1)
+        return cls(latitude[rows], longitude[columns], np.asarray(time, np.float64)[rows, columns])
+
+    @property
+    def middle(self) -> float:
+        """The meridian in the middle, degrees east."""
+        return float(self.longitude[0] + self.longitude[-1]) / 2
+
+    @cached_property
+    def cell(self) -> tuple[float, float]:
+        """Width and height of a cell, m."""
+        return areas.cell_size(self.latitude, self.longitude)
+
+    @cached_property
+    def areas(self) -> NDArray[np.float64]:
+        """Area (ny, nx) of each cell in m2."""
+        return areas.cell_areas(self.latitude, self.longitude)
+
+    @property
+    def domain(self) -> float:
+        """Area of all cells, m2."""
+        return float(self.areas.sum())
+
+    @cached_property
+    def projection(self) -> shapes.Projection:
+        """An equal-area projection about the middle."""
+        return shapes.Projection(float(self.latitude[0] + self.latitude[-1]) / 2, self.middle)
+
+    @cached_property
+    def box(self) -> BaseGeometry:
+        """Outline of all cells, projected."""
+        y, x = areas.edges(self.latitude), areas.edges(self.longitude)
+        return self.projection.project(shapes.outline(x, y))
+
+    def burned(self, time: float) -> NDArray[np.bool_]:
+        """Cells (ny, nx) whose middle the front has reached by a model time (s)."""
+        return self.arrival <= time  # False for NaN
+
+    def inside(self, shape: BaseGeometry) -> NDArray[np.bool_]:
+        """Cells (ny, nx) whose middle lies in a shape in degrees."""
+        return shapes.contains(shape, self.longitude, self.latitude)
+
+    def polygon(self, time: float) -> BaseGeometry:
+        """What had burned by a model time (s), projected: the front crosses between the cells' middles."""
+        return self.projection.project(shapes.of_front(self.longitude, self.latitude, self.arrival - time))
+
+    def degrees(self, shape: BaseGeometry) -> BaseGeometry:
+        """A projected shape in degrees."""
+        return self.projection.project(shape, back=True)

@@ -1,0 +1,90 @@
+"""Scores of two areas that overlap more or less: the run's and the observed one.
+
+Names and definitions are those of Duff, Chong & Tolhurst, Environmental Modelling & Software 83 (2016), and
+of `firebench`; kappa is Cohen's, which meteorologists call the Heidke skill score.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
+
+@dataclass(frozen=True)
+class Overlap:
+    """Areas in m2.
+
+    Attributes
+    ----------
+    both
+        Burned in the run and observed: hits.
+    run_only
+        False alarms.
+    seen_only
+        Misses.
+    neither
+        The rest of the domain; kappa depends on it, and so on how large the domain is.
+    """
+
+    both: float
+    run_only: float
+    seen_only: float
+    neither: float
+
+    @classmethod
+    def of_polygons(cls, run: BaseGeometry, seen: BaseGeometry, domain: BaseGeometry) -> Overlap:
+        """Of polygons in an equal-area projection; what was seen outside of the domain is missed as well."""
+        both = run.intersection(seen).area
+        union = run.area + seen.area - both
+        return cls(both, run.area - both, seen.area - both, max(domain.area - union, 0.0))
+
+    @classmethod
+    def of_cells(cls, run: NDArray[np.bool_], seen: NDArray[np.bool_], areas: NDArray[np.float64]) -> Overlap:
+        """Of cells, each with its area; those of area 0 do not count."""
+        parts = (run & seen, run & ~seen, seen & ~run, ~(run | seen))
+        return cls(*(float(areas[part].sum()) for part in parts))
+
+    def scores(self) -> dict[str, float | None]:
+        """All scores by name; None where nothing burned that they divide by."""
+        tp, fp, fn, tn = self.both, self.run_only, self.seen_only, self.neither
+        chance = (tp + fn) * (fn + tn) + (tp + fp) * (fp + tn)
+        return {
+            "area": tp + fp,
+            "observed_area": tp + fn,
+            "hits": tp,
+            "false_alarms": fp,
+            "misses": fn,
+            "area_bias": _ratio(fp - fn, tp + fn),
+            "sorensen": _ratio(2 * tp, 2 * tp + fp + fn),
+            "jaccard": _ratio(tp, tp + fp + fn),
+            "kappa": _ratio(2 * (tp * tn - fp * fn), chance),
+            "precision": _ratio(tp, tp + fp),
+            "recall": _ratio(tp, tp + fn),
+            "sdi": _ratio(fp + fn, tp + fn),
+            "sdi_over": _ratio(fp, tp + fn),
+            "sdi_under": _ratio(fn, tp + fn),
+            "adi": _ratio(fp + fn, tp),
+            "adi_over": _ratio(fp, tp),
+            "adi_under": _ratio(fn, tp),
+        }
+
+
+HELP: dict[str, str] = {
+    "sorensen": "2 hits / (2 hits + false alarms + misses); 1 is a perfect match",
+    "jaccard": "hits / (hits + false alarms + misses); 1 is a perfect match",
+    "kappa": "agreement beyond chance; depends on the domain",
+    "precision": "share of what the run burned that was seen burned",
+    "recall": "share of what was seen burned that the run burned",
+    "sdi": "shape deviation index: (false alarms + misses) / observed; 0 is a perfect match",
+    "adi": "area difference index: (false alarms + misses) / hits; 0 is a perfect match",
+}
+
+
+def _ratio(part: float, whole: float) -> float | None:
+    return part / whole if whole > 0.0 else None

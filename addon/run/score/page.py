@@ -1,0 +1,133 @@
+"""Scores as a page of text for a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from datetime import datetime
+from typing import Any
+
+from ...data import history
+from .. import times
+
+ACRE = history.SQUARE_METRES_PER_ACRE
+
+Column = tuple[str, int, Callable[[Any], str]]
+
+_ALL: tuple[Column, ...] = (
+    ("area", 9, lambda v: f"{v / ACRE:,.0f}"),
+    ("observed_area", 9, lambda v: f"{v / ACRE:,.0f}"),
+    ("area_bias", 9, lambda v: f"{100 * v:+.1f} %"),
+    *((name, 10, lambda v: f"{v:.3f}") for name in ("sorensen", "jaccard", "kappa", "precision", "recall")),
+    *((name, 8, lambda v: f"{v:.3f}") for name in ("sdi", "adi")),
+)
+_TITLES = {"area": "run", "observed_area": "seen", "area_bias": "bias"}
+
+
+def page(found: dict[str, Any]) -> str:
+    """The text that `firetwin score` prints."""
+    run = found["run"]
+    head = run["name"] + ("  (SYNTHETIC: made up, not the output of a model)" if run["synthetic"] else "")
+    return "\n".join([head, *against(found), *_dates(found), *_distances(found), *_more(found)])
+
+
+def against(found: dict[str, Any]) -> list[str]:
+    """What it is compared with, and on what."""
+    wide, high = found["domain"]["cell"]
+    ny, nx = found["domain"]["cells"]
+    names = ", ".join(found["against"]) or "reported areas alone: no perimeters or detections were given"
+    domain = f"domain of kappa {found['domain']['area'] / 1e6:,.0f} km2"
+    return [f"against {names}", f"{ny} x {nx} cells of {high:.0f} x {wide:.0f} m, {domain}"]
+
+
+def _dates(found: dict[str, Any]) -> Iterator[str]:
+    for key, title in (
+        ("all", "All that had burned"),
+        ("without_start", "Without the run's start"),
+    ):
+        rows = [row for row in found["dates"] if key in row]
+        if not rows:
+            continue
+        yield ""
+        yield f"{title:<26}" + "".join(f"{_TITLES.get(name, name):>{w}}" for name, w, _ in _ALL)
+        for row in rows:
+            yield f"  {local(row['time'], found['zone']):<24}" + _cells(row[key]["polygons"])
+            yield f"  {'  +-, polygons or cells':<24}" + _cells(row[key]["error"])
+
+
+def _cells(scores: dict[str, float | None]) -> str:
+    return "".join(f"{'-' if scores[n] is None else form(scores[n]):>{w}}" for n, w, form in _ALL)
+
+
+def _distances(found: dict[str, Any]) -> Iterator[str]:
+    if found["dates"]:
+        yield ""
+        yield f"{'Perimeters apart, m':<26}{'mean':>10}{'Hausdorff':>10}"
+    for row in found["dates"]:
+        far = [row["distance"][name] for name in ("mean", "hausdorff")]
+        yield f"  {local(row['time'], found['zone']):<24}" + "".join(
+            f"{'-' if each is None else format(each, ',.0f'):>10}" for each in far
+        )
+
+
+def _more(found: dict[str, Any]) -> Iterator[str]:
+    if found["arrival"]:
+        yield from ("", arrival(found["arrival"]))
+    if found["detections"]:
+        yield ""
+        yield f"{'Detections':<26}{'seen':>8}{'inside':>8}{'in a pixel':>12}{'never':>8}{'median lag':>12}"
+    for row in found["detections"]:
+        lag = "-" if row["lag_median"] is None else f"{row['lag_median'] / 3600:+.1f} h"
+        yield (
+            f"  {local(row['time'], found['zone']):<24}{row['count']:>8}{row['inside']:>8}"
+            f"{row['within_pixel']:>12}{row['never']:>8}{lag:>12}"
+        )
+    covered = [row for row in found["reported"] if row["run"] is not None]
+    if covered:
+        yield ""
+        yield f"{'Burned area, acres':<26}{'run':>10}{'+-':>8}{'reported':>10}{'difference':>12}  source"
+    for row in covered:
+        apart = abs(row["polygons"] - row["run"]) / ACRE
+        yield (
+            f"  {local(row['time'], found['zone']):<24}{row['run'] / ACRE:>10,.0f}{apart:>8,.0f}"
+            f"{row['reported'] / ACRE:>10,.0f}{100 * row['difference']:>+10.1f} %  {row['source']}"
+        )
+    notes = said(found)
+    yield from ["", "To know", *(f"  - {text}" for text in notes)] if notes else []
+
+
+def arrival(found: dict[str, Any]) -> str:
+    """Errors of arrival times in a line."""
+    if not found["cells"]:
+        return "Arrival times: no cell burned in both"
+    bias, mae, rmse = (found[name] / 3600 for name in ("bias", "mae", "rmse"))
+    return (
+        f"Arrival times of {found['cells']:,} cells ({found['observed']}): bias {bias:+.2f} h, "
+        f"mean absolute error {mae:.2f} h, RMSE {rmse:.2f} h; burned in the run alone {found['run_only']:,}, "
+        f"seen alone {found['seen_only']:,}"
+    )
+
+
+def said(found: dict[str, Any]) -> Sequence[str]:
+    """What a reader should know of these scores."""
+    notes = list(found["assumptions"])
+    if found["outside"]:
+        notes.append(f"{len(found['outside'])} perimeters are of times before or after the run")
+    outside = [row["outside_grid"] for row in found["dates"] if row["outside_grid"] > 1e-3]
+    if outside:
+        notes.append(
+            f"up to {100 * max(outside):.1f} % of an observed perimeter lie outside of the run's grid"
+        )
+    if found["arrival_from"] == "heat_flux":
+        notes.append("the run has no fuel_arrival_time: its front is estimated from heat fluxes")
+    if found["reported"] and not found["dates"]:
+        notes.append("reported areas say how much had burned, not where: no overlap can be scored by them")
+    if found["reported"] and found["run"]["synthetic"]:
+        notes.append(
+            "the synthetic run was tuned to the reported areas: their agreement proves nothing of a model"
+        )
+    return notes
+
+
+def local(time: str, zone: str) -> str:
+    """A moment of the scores as people write it there."""
+    return times.text(datetime.fromisoformat(time), zone)

@@ -1,0 +1,247 @@
+"""Scores as one HTML page: tables, maps and curves inside of it, nothing from anywhere else."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from datetime import datetime
+from html import escape
+from typing import Any
+
+from firetwin_core.run import Run
+
+from ...data import history
+from .. import times
+from . import plots, shapes
+from .grid import Grid
+from .overlap import HELP
+from .page import arrival, local, said
+
+ACRE = history.SQUARE_METRES_PER_ACRE
+_HELP = HELP | {"apart": "mean distance of the two perimeters from each other, and the largest (Hausdorff)"}
+_SHOWN = ("sorensen", "jaccard", "kappa", "precision", "recall", "sdi", "adi")
+
+STYLE = """
+:root{color-scheme:light;--ink:#1f2933;--soft:#5b6773;--line:#dde2e8}
+*{box-sizing:border-box}
+body{margin:0;background:#f4f5f7;color:var(--ink);
+  font:15px/1.5 system-ui,"Segoe UI",Roboto,"DejaVu Sans",sans-serif}
+main{max-width:1060px;margin:0 auto;padding:36px 40px 60px;background:#fff;min-height:100vh}
+h1{font-size:27px;line-height:1.2;margin:0 0 4px}h2{font-size:18px;margin:38px 0 10px}
+p{margin:6px 0;max-width:78ch}.soft{color:var(--soft)}
+.warn{border-left:4px solid #e8833a;background:#fdf3ea;padding:10px 16px;margin:18px 0;max-width:none}
+table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums;margin:8px 0}
+th,td{padding:6px 7px;text-align:right;border-bottom:1px solid var(--line);white-space:nowrap}
+th{font-weight:600;font-size:13px;color:var(--soft);border-bottom:2px solid #c3cad3;vertical-align:bottom}
+th:first-child,td:first-child,.text{text-align:left}td.text{white-space:normal}
+td small{display:block;color:var(--soft);font-size:12px;line-height:1.25}
+.maps{display:grid;grid-template-columns:repeat(auto-fill,minmax(290px,1fr));gap:22px}
+figure{margin:0}figure img,svg{width:100%;height:auto;display:block}
+figcaption{font-size:13px;color:var(--soft);margin-top:6px}figcaption b{color:var(--ink)}
+.key{display:flex;flex-wrap:wrap;gap:6px 22px;margin:6px 0 14px;font-size:14px}
+.key i{display:inline-block;width:14px;height:14px;border-radius:3px;margin-right:7px;vertical-align:-2px}
+.wide{overflow-x:auto}.one{max-width:560px}
+dl{display:grid;grid-template-columns:auto 1fr;gap:3px 16px;font-size:14px}
+dt{font-weight:600}dd{margin:0;color:var(--soft)}
+@media print{body{background:#fff}main{padding:0}}
+"""
+
+
+def html(run: Run, found: dict[str, Any], seen: Any, other: Run | None = None) -> str:
+    """The page of the scores `found` of a run against observations `seen`, or against another run."""
+    grid = Grid.of(run)
+    name = escape(run.name)
+    body = "\n".join(
+        part
+        for parts in (
+            _head(run, found),
+            _growth(run, found, other),
+            _maps(run, grid, found, seen, other),
+            _scores(found),
+            _reported(run, grid, found),
+            _more(found),
+            _foot(found),
+        )
+        for part in parts
+    )
+    return (
+        f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{name}: scores</title>'
+        f'<meta name="viewport" content="width=device-width, initial-scale=1"><style>{STYLE}</style></head>'
+        f"<body><main>\n{body}\n</main></body></html>\n"
+    )
+
+
+def _head(run: Run, found: dict[str, Any]) -> Iterator[str]:
+    zone = found["zone"]
+    first, last = (times.text(times.moment(run, float(run.times[i])), zone) for i in (0, -1))
+    names = ", ".join(found["against"])
+    yield f"<h1>{escape(run.name)}</h1>"
+    yield f'<p class="soft">{first} to {last} &middot; against {escape(names or "reported areas")}</p>'
+    if run.synthetic:
+        yield (
+            '<p class="warn"><b>This run is synthetic:</b> made up, not the output of a fire model. '
+            "Its scores say how the tools work, and nothing of how well any model forecasts.</p>"
+        )
+
+
+def _growth(run: Run, found: dict[str, Any], other: Run | None) -> Iterator[str]:
+    yield f"<h2>Growth</h2><figure>{plots.growth(run, found, other)}</figure>"
+
+
+def _maps(run: Run, grid: Grid, found: dict[str, Any], seen: Any, other: Run | None) -> Iterator[str]:
+    if not found["dates"]:
+        return
+    yield "<h2>Hits, misses and false alarms</h2>"
+    yield _key(
+        (plots.HITS, "burned in both: hits"),
+        (plots.FALSE_ALARMS, "burned in this run alone: false alarms"),
+        (plots.MISSES, f"burned in {escape(other.name)} alone" if other else "seen burned alone: misses"),
+    )
+    theirs = None if other is None else (other, Grid.of(other))
+    pairs = [_pair(run, grid, row, seen, theirs) for row in found["dates"]]
+    frame = shapes.collected([shape for pair in pairs for shape in pair])
+    yield '<div class="maps">'
+    for row, (here, there) in zip(found["dates"], pairs, strict=True):
+        scores = row["all"]["polygons"]
+        yield (
+            f'<figure><img alt="map" src="{plots.overlap(run, grid, here, there, frame)}">'
+            f"<figcaption><b>{local(row['time'], found['zone'])}</b><br>"
+            f"Sorensen {_number(scores['sorensen'])}, "
+            f"area {_signed(scores['area_bias'])}, {escape(row['source'])}</figcaption></figure>"
+        )
+    yield "</div>"
+
+
+def _pair(
+    run: Run, grid: Grid, row: dict[str, Any], seen: Any, theirs: tuple[Run, Grid] | None
+) -> tuple[Any, Any]:
+    """Projected shapes of a date: the run's, and the observed one or that of the other run and its grid."""
+    moment = datetime.fromisoformat(row["time"])
+    here = grid.polygon(times.seconds(run, moment))
+    if theirs is not None:
+        other, there = theirs
+        shape = there.polygon(times.seconds(other, moment))
+        return here, grid.projection.project(there.degrees(shape))
+    for each in seen.perimeters:
+        if abs((each.time - moment).total_seconds()) < 1.0 and each.source == row["source"]:
+            return here, grid.projection.project(shapes.of_perimeter(each, grid.middle))
+    raise KeyError(row["time"])
+
+
+def _scores(found: dict[str, Any]) -> Iterator[str]:
+    for key, title, text in (
+        ("all", "Scores", "All that had burned by each date."),
+        (
+            "without_start",
+            "Scores without the start",
+            "What had burned when the run began counts for nothing.",
+        ),
+    ):
+        rows = [row for row in found["dates"] if key in row]
+        if not rows:
+            continue
+        yield f'<h2>{title}</h2><p class="soft">{text} Small: how far polygons and cells differ.</p>'
+        head = ("date", "run, acres", "seen, acres", *_SHOWN, "apart, m")
+        yield _table(head, (_score_row(row, row[key], found["zone"]) for row in rows))
+    if found["dates"]:
+        yield "<dl>" + "".join(f"<dt>{n}</dt><dd>{escape(text)}</dd>" for n, text in _HELP.items()) + "</dl>"
+
+
+def _score_row(row: dict[str, Any], scores: dict[str, Any], zone: str) -> list[str]:
+    polygons, error = scores["polygons"], scores["error"]
+    sizes = [_area(polygons[name], error[name]) for name in ("area", "observed_area")]
+    numbers = [f"{_number(polygons[name])}<small>&plusmn; {_number(error[name])}</small>" for name in _SHOWN]
+    mean, most = (row["distance"][name] for name in ("mean", "hausdorff"))
+    apart = "-" if mean is None else f"{mean:,.0f}<small>most {most:,.0f}</small>"
+    return [local(row["time"], zone), *sizes, *numbers, apart]
+
+
+def _reported(run: Run, grid: Grid, found: dict[str, Any]) -> Iterator[str]:
+    rows = [row for row in found["reported"] if row["run"] is not None]
+    if not rows:
+        return
+    yield "<h2>Reported areas</h2>"
+    yield (
+        '<p class="soft">What agencies and newspapers printed at the time: how much had burned, not where. '
+        "An area alone is right for a fire in the wrong place too. Small: polygons against cells.</p>"
+    )
+    yield _table(
+        ("date", "run, acres", "reported, acres", "difference", "source"),
+        (
+            [
+                local(row["time"], found["zone"]),
+                _area(row["run"], abs(row["polygons"] - row["run"])),
+                f"{row['reported'] / ACRE:,.0f}",
+                _signed(row["difference"]),
+                escape(row["source"]) + (f"<small>{escape(row['note'])}</small>" if row["note"] else ""),
+            ]
+            for row in rows
+        ),
+        text=("source",),
+    )
+    moments = [datetime.fromisoformat(row["time"]) for row in rows]
+    fires = [grid.polygon(times.seconds(run, moment)) for moment in moments]
+    labels = [f"by {times.text(moment, found['zone'])}" for moment in moments]
+    yield "<h2>Where the run burned by these dates</h2>"
+    yield _key(*zip(plots.ways(len(fires)), labels, strict=True))
+    picture = plots.progress(run, grid, fires, shapes.collected(fires))
+    yield f'<figure class="one"><img alt="map" src="{picture}"></figure>'
+
+
+def _more(found: dict[str, Any]) -> Iterator[str]:
+    if found["arrival"]:
+        yield f"<h2>Arrival times</h2><p>{escape(arrival(found['arrival']))}.</p>"
+    if found["detections"]:
+        yield "<h2>Detections by satellites</h2>"
+        yield (
+            '<p class="soft">Inside: the run had burned there by then. Lag: how long before the overpass the '
+            "front had passed, negative where it came later.</p>"
+        )
+        yield _table(
+            ("overpass", "seen", "inside", "within a pixel", "never burned", "median lag"),
+            (
+                [
+                    local(row["time"], found["zone"]),
+                    *(f"{row[name]:,}" for name in ("count", "inside", "within_pixel", "never")),
+                    "-" if row["lag_median"] is None else f"{row['lag_median'] / 3600:+.1f} h",
+                ]
+                for row in found["detections"]
+            ),
+        )
+
+
+def _foot(found: dict[str, Any]) -> Iterator[str]:
+    wide, high = found["domain"]["cell"]
+    notes = [
+        *said(found),
+        f"cells of {high:.0f} x {wide:.0f} m; kappa's domain is all {found['domain']['area'] / 1e6:,.0f} km2",
+        f"polygons in {found['projection']}",
+        "scores as in Duff, Chong and Tolhurst, Environmental Modelling & Software 83 (2016)",
+    ]
+    yield "<h2>To know</h2><ul>" + "".join(f"<li>{escape(note)}</li>" for note in notes) + "</ul>"
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]], text: Sequence[str] = ()) -> str:
+    kinds = [' class="text"' if name in text else "" for name in head]
+    top = "".join(f"<th{kind}>{name}</th>" for kind, name in zip(kinds, head, strict=True))
+    inside = "".join(
+        "<tr>" + "".join(f"<td{kind}>{cell}</td>" for kind, cell in zip(kinds, row, strict=True)) + "</tr>\n"
+        for row in rows
+    )
+    return f'<div class="wide"><table><thead><tr>{top}</tr></thead><tbody>\n{inside}</tbody></table></div>'
+
+
+def _key(*colours: tuple[str, str]) -> str:
+    inside = "".join(f'<span><i style="background:{colour}"></i>{text}</span>' for colour, text in colours)
+    return f'<div class="key">{inside}</div>'
+
+
+def _area(value: float, error: float) -> str:
+    return f"{value / ACRE:,.0f}<small>&plusmn; {error / ACRE:,.0f}</small>"
+
+
+def _number(value: float | None) -> str:
+    return "-" if value is None else f"{value:.3f}"
+
+
+def _signed(value: float | None) -> str:
+    return "-" if value is None else f"{100 * value:+.1f} %"

@@ -1,0 +1,203 @@
+"""Polygons of fires: of observations, of a run's front, and how far two perimeters lie apart (m)."""
+
+from __future__ import annotations
+
+import itertools
+import sys
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import UsageError
+from .. import areas
+from ..observations import Perimeter
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
+_NEVER = 1e12  # s
+
+
+def needed() -> None:
+    """Ask for what scores need.
+
+    Raises
+    ------
+    UsageError
+        It is not there.
+    """
+    try:
+        import contourpy  # noqa: F401 (of matplotlib)
+        import pyproj  # noqa: F401
+        import shapely  # noqa: F401
+    except ModuleNotFoundError as error:
+        pip = f"{sys.executable} -m pip install 'firetwin[score]'"
+        raise UsageError(f"scores need {error.name}; install it with: {pip}") from None
+
+
+class Projection:
+    """Lambert's azimuthal equal-area projection on WGS84 about a point: areas true, distances within 1e-5."""
+
+    def __init__(self, latitude: float, longitude: float) -> None:
+        from pyproj import Transformer
+
+        self.definition = f"+proj=laea +lat_0={latitude:.6f} +lon_0={longitude:.6f} +datum=WGS84 +units=m"
+        self._there = Transformer.from_crs("EPSG:4326", self.definition, always_xy=True)
+
+    def project(self, shape: BaseGeometry, back: bool = False) -> BaseGeometry:
+        """A shape in degrees in metres, or back."""
+        import shapely
+
+        way = "INVERSE" if back else "FORWARD"
+
+        def move(points: NDArray[np.float64]) -> NDArray[np.float64]:
+            return np.column_stack(self._there.transform(*points.T, direction=way))
+
+        return clean(shapely.transform(shape, move))
+
+    def points(self, longitude: NDArray[np.float64], latitude: NDArray[np.float64]) -> NDArray[Any]:
+        """Points in degrees as projected points."""
+        import shapely
+
+        return shapely.points(*self._there.transform(longitude, latitude))
+
+
+def of_perimeter(perimeter: Perimeter, middle: float) -> BaseGeometry:
+    """The polygons of an observation as one valid shape in degrees, on the side of the globe of `middle`."""
+    import shapely
+
+    def near(ring: NDArray[np.float64]) -> NDArray[np.float64]:
+        turned = areas.turned(ring[:, :1].mean(), middle) - ring[:, :1].mean()
+        return ring + np.array([float(turned), 0.0])
+
+    found = [
+        shapely.Polygon(near(rings[0]), [near(hole) for hole in rings[1:]]) for rings in perimeter.polygons
+    ]
+    return shapely.union_all([clean(each) for each in found])
+
+
+def clean(shape: BaseGeometry) -> BaseGeometry:
+    """The polygons of a shape, valid: rings that cross themselves are taken apart."""
+    import shapely
+
+    if not shape.is_valid:
+        shape = shapely.make_valid(shape)
+    parts = [part for part in shapely.get_parts(shape) if part.geom_type in ("Polygon", "MultiPolygon")]
+    return shapely.union_all(parts) if len(parts) != 1 else parts[0]
+
+
+def collected(found: Iterable[BaseGeometry]) -> BaseGeometry:
+    """Shapes as one, whether or not they overlap: what spans them all."""
+    import shapely
+
+    return shapely.GeometryCollection(list(found))
+
+
+def outline(x: NDArray[np.float64], y: NDArray[np.float64]) -> BaseGeometry:
+    """A rectangle in degrees with a corner at every edge of a cell, as parallels bend when projected."""
+    import shapely
+
+    west, east = np.full_like(y, x[0]), np.full_like(y, x[-1])
+    south, north = np.full_like(x, y[0]), np.full_like(x, y[-1])
+    rim = [(x, south), (east, y), (x[::-1], north[::-1]), (west[::-1], y[::-1])]
+    return shapely.Polygon(np.vstack([np.column_stack(side) for side in rim]))
+
+
+def contains(
+    shape: BaseGeometry, longitude: NDArray[np.float64], latitude: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Middles (ny, nx) of cells that lie in a shape in degrees."""
+    import shapely
+
+    found = np.zeros((latitude.size, longitude.size), bool)
+    if shape.is_empty:
+        return found
+    west, south, east, north = shape.bounds
+    rows = np.flatnonzero((latitude >= south) & (latitude <= north))
+    columns = np.flatnonzero((longitude >= west) & (longitude <= east))
+    if rows.size and columns.size:
+        shapely.prepare(shape)
+        x, y = np.meshgrid(longitude[columns], latitude[rows])
+        found[np.ix_(rows, columns)] = shapely.contains_xy(shape, x, y)
+    return found
+
+
+def of_front(
+    longitude: NDArray[np.float64], latitude: NDArray[np.float64], since: NDArray[np.float64]
+) -> BaseGeometry:
+    """What has burned, in degrees: where `since`, arrival less the moment (s), is 0 or less.
+
+    Between two cells the front moves evenly. Between one that burned and one that never does (NaN), or the
+    edge of the grid, it is half-way: such a cell takes the mean of its burned neighbours with the other sign.
+    """
+    import contourpy
+    import shapely
+
+    if not (since <= 0.0).any():
+        return shapely.Polygon()
+    field = mirrored(np.pad(since, 1, constant_values=np.nan))
+    x, y = (_wider(axis) for axis in (longitude, latitude))
+    front = contourpy.contour_generator(x, y, field, fill_type=contourpy.FillType.OuterOffset)
+    polygons, offsets = front.filled(-_NEVER, 0.0)
+    found = []
+    for points, starts in zip(polygons, offsets, strict=True):
+        rings = [points[a:b] for a, b in itertools.pairwise(starts)]
+        found.append(shapely.Polygon(rings[0], [hole for hole in rings[1:] if len(hole) > 3]))
+    return clean(shapely.MultiPolygon(found))
+
+
+def mirrored(since: NDArray[np.float64]) -> NDArray[np.float64]:
+    """`since` with a number for each NaN: its burned neighbours' mean with the other sign, else never."""
+    burned = np.where(since <= 0.0, since, 0.0)
+    total, count = np.zeros_like(since), np.zeros(since.shape, int)
+    for dy, dx in ((0, 1), (0, -1), (1, 0), (-1, 0)):
+        near = np.roll(burned, (dy, dx), (0, 1))
+        total, count = total - near, count + (near < 0.0)
+    missing = np.isnan(since)
+    found = np.where(missing, np.where(count > 0, total / np.maximum(count, 1), _NEVER / 2), since)
+    return np.maximum(found, np.where(missing, 1e-3, -_NEVER / 2))
+
+
+def _wider(axis: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Middles of cells with one more at either end."""
+    edges = areas.edges(axis)
+    return np.concatenate([[2 * edges[0] - axis[0]], axis, [2 * edges[-1] - axis[-1]]])
+
+
+def distances(run: BaseGeometry, seen: BaseGeometry, step: float) -> dict[str, float | None]:
+    """How far (m) two projected perimeters lie apart, holes included, by points every `step` m of them.
+
+    Hausdorff's distance is the farthest that a point of either lies from the other; the mean distance is that
+    of all points of both. None where one of them is empty.
+    """
+    if run.is_empty or seen.is_empty:
+        return {"hausdorff": None, "mean": None, "run_to_observed": None, "observed_to_run": None}
+    there, back = _away(run.boundary, seen.boundary, step), _away(seen.boundary, run.boundary, step)
+    return {
+        "hausdorff": float(max(there.max(), back.max())),
+        "mean": float(np.concatenate([there, back]).mean()),
+        "run_to_observed": float(there.mean()),
+        "observed_to_run": float(back.mean()),
+    }
+
+
+def _away(line: BaseGeometry, other: BaseGeometry, step: float) -> NDArray[np.float64]:
+    """Distances of points along a line, corners among them, from another."""
+    import shapely
+
+    points = shapely.get_coordinates(shapely.segmentize(line, step))
+    tree = shapely.STRtree(_pieces(other))
+    return tree.query_nearest(shapely.points(points), return_distance=True, all_matches=False)[1]
+
+
+def _pieces(line: BaseGeometry) -> Iterable[Any]:
+    """The straight pieces of a line."""
+    import shapely
+
+    pieces = []
+    for part in shapely.get_parts(line):
+        corners = shapely.get_coordinates(part)
+        pieces.append(shapely.linestrings(np.stack([corners[:-1], corners[1:]], axis=1)))
+    return np.concatenate(pieces)

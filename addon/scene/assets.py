@@ -1,0 +1,172 @@
+"""Trees, materials, node groups and cameras of a shot as assets; trees with pictures of themselves.
+
+What differs from tree to tree is read from the instancer, or else from the object: so a tree that stands
+alone has these as custom properties, and an artist can burn it by its `arrival_time`.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections import defaultdict
+from collections.abc import Callable
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+from ..blender import owned
+from ..progress import Progress, silent
+from ..shot.ground import NEVER
+from ..shot.shot import Shot
+from . import clock, infrared, temperature
+from .camera import build as camera
+from .fire import build as fire
+from .fire import firebrand_material
+from .forest import build as forest
+from .forest import library, models
+from .smoke import flow_material
+from .smoke import material as puff_material
+
+HEIGHTS = {
+    **{"large": 35.0, "medium": 22.0, "small": 8.0, "oak": 14.0},
+    **{"brush": 1.2, "log": 0.5, "rock": 0.8, "tuft": 0.4, "twigs": 0.15},
+}
+"""m; of one of each class, as assets are drawn."""
+
+_PICTURE = 128  # pixels
+_ALONE = {"arrival_time": NEVER, "tint": 0.5, "dead": 0.5, "scorch": 0.0, "torched": 0.0, "elevation": 1500.0}
+_KINDS = {
+    "GeometryNodeTree": "Geometry Nodes",
+    "ShaderNodeTree": "Shader Nodes",
+    "CompositorNodeTree": "Compositor",
+}
+
+Identify = Callable[[str], str]
+
+
+def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
+    """Make everything in the current, empty file, marked as assets; how many there are.
+
+    Parameters
+    ----------
+    identify
+        What Blender knows a catalogue by.
+    """
+    stage = owned.adopt(bpy.context.scene)
+    clock.build(shot, stage)
+    temperature.build(shot, stage)
+    infrared.build(shot, stage)
+    trees = library.tree_models(shot, stage)
+    forest.node_group(shot, "Firetwin Trees", trees, forest.BARE_AFTER)
+    fire.node_group(shot, fire.cards(shot, stage))
+    firebrand_material.build(shot, stage)
+    for look, name in ((puff_material, "Puffs"), (flow_material, "Flow")):
+        look.build(shot, stage).name = f"Firetwin Smoke {name}"
+    camera.build(shot, stage)
+    _trees(trees, identify, progress)
+    for material in filter(owned.ours, bpy.data.materials):
+        _mark(material, identify("Materials"), f"{material.name}: see the inputs of its node group")
+    for group in filter(owned.ours, bpy.data.node_groups):
+        _mark(group, identify(_KINDS[group.bl_idname]), _inputs(group))
+    for thing in (thing for thing in stage.root.all_objects if thing.type == "CAMERA"):
+        _mark(thing, identify("Cameras"), "A camera of the shot, with its path")
+    blocks = (bpy.data.objects, bpy.data.materials, bpy.data.node_groups)
+    return sum(block.asset_data is not None for kind in blocks for block in kind)
+
+
+def _trees(made: bpy.types.Collection, identify: Identify, progress: Progress) -> None:
+    """Name and mark the finest level of every model, and draw its picture."""
+    count: dict[str, int] = defaultdict(int)
+    every = models.every()
+    with tempfile.TemporaryDirectory() as folder:
+        studio = _Studio(Path(folder))
+        for k, model in enumerate(every):
+            progress(k, len(every), "drawing the trees")
+            thing = made.objects[f"Firetwin Tree {k:02d} 0"]
+            high = k < len(models.trees())
+            what = _name(model)
+            if model.state == "snag":
+                what = f"{what} Snag" if high else f"Burned {what}"
+            count[what] += 1
+            thing.name = f"{what} {count[what]}"
+            for name, value in _ALONE.items():
+                thing[name] = value
+            _mark(thing, identify("Trees" if high else "Undergrowth"), _about(model, high))
+            thing.scale = (HEIGHTS[model.kind],) * 3
+            studio.draw(thing)
+        studio.close()
+
+
+def _about(model: models.Model, high: bool) -> str:
+    burns = "; burns when the model time passes its arrival_time" if high and model.state == "living" else ""
+    return f"{_name(model)}, {model.state}{burns}"
+
+
+def _name(model: models.Model) -> str:
+    conifers = {"large": "Large Conifer", "medium": "Conifer", "small": "Young Conifer"}
+    return conifers.get(model.kind, model.kind.capitalize())
+
+
+def _inputs(group: bpy.types.NodeTree) -> str:
+    """What can be set of a node group."""
+    names = [
+        item.name
+        for item in group.interface.items_tree
+        if item.item_type == "SOCKET" and item.in_out == "INPUT" and item.parent.name
+    ]
+    return f"Inputs: {', '.join(names)}" if names else "A part of Firetwin's materials"
+
+
+def _mark(block: bpy.types.ID, catalogue: str, about: str) -> None:
+    block.asset_mark()
+    block.asset_data.catalog_id = catalogue
+    block.asset_data.description = about
+    block.asset_data.author = "Firetwin"
+
+
+class _Studio:
+    """A scene of its own in which Cycles draws an object before a clear background."""
+
+    def __init__(self, folder: Path) -> None:
+        self._path = folder / "picture.png"
+        self._scene = scene = bpy.data.scenes.new("Studio")
+        scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", 8, False
+        scene.render.resolution_x = scene.render.resolution_y = _PICTURE
+        scene.render.film_transparent = True
+        scene.view_settings.view_transform = "Standard"
+        scene.render.filepath = str(self._path)
+        self._sun = bpy.data.lights.new("Studio", "SUN")
+        self._sun.energy, self._sun.angle = 20.0, 0.2
+        lamp = bpy.data.objects.new("Studio Sun", self._sun)
+        lamp.rotation_euler = (0.7, 0.2, 0.6)
+        self._eye = bpy.data.cameras.new("Studio")
+        self._eye.type, self._eye.clip_end = "ORTHO", 1000.0
+        self._camera = bpy.data.objects.new("Studio Camera", self._eye)
+        self._camera.rotation_euler = (np.radians(80.0), 0.0, 0.0)
+        scene.camera = self._camera
+        for thing in (lamp, self._camera):
+            scene.collection.objects.link(thing)
+
+    def draw(self, thing: bpy.types.Object) -> None:
+        """Make the picture of an object its preview."""
+        scene = self._scene
+        scene.collection.objects.link(thing)
+        corners = np.array(thing.bound_box) * np.array(thing.scale)
+        size, middle = np.ptp(corners, axis=0), corners.mean(axis=0)
+        self._eye.ortho_scale = float(max(size.max(), 0.1) * 1.1)
+        away = np.array([0.0, -np.sin(np.radians(80.0)), np.cos(np.radians(80.0))]) * 300.0
+        self._camera.location = middle + away
+        bpy.ops.render.render(write_still=True, scene=scene.name)
+        picture = bpy.data.images.load(str(self._path))
+        pixels = np.empty(_PICTURE * _PICTURE * 4, np.float32)
+        picture.pixels.foreach_get(pixels)
+        preview = thing.preview_ensure()
+        preview.image_size = (_PICTURE, _PICTURE)
+        preview.image_pixels_float.foreach_set(pixels)
+        bpy.data.images.remove(picture)
+        scene.collection.objects.unlink(thing)
+
+    def close(self) -> None:
+        """Take the scene away."""
+        bpy.data.batch_remove([*self._scene.collection.objects, self._eye, self._sun])
+        bpy.data.scenes.remove(self._scene)

@@ -1,0 +1,77 @@
+"""Lines of what was seen, in the scene: flat ribbons that glow by the dates of what they show."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...blender import nodes, owned
+from ...blender.owned import Stage
+from ...shot import observed
+from ...shot.observed import Line
+from ...shot.shot import Shot
+from .. import glow, haze
+
+_FRESH, _FADED = (0.02, 0.55, 1.0), (0.10, 0.22, 0.45)  # no flame and no ground is blue
+_LIGHT = 0.14  # radiance over that of flames
+_DIM = 0.3  # of it that is left when the next perimeter is there
+
+
+def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> bpy.types.Object | None:
+    """Build "Firetwin Observed" where the settings name a file; it lights nothing and casts no shadow.
+
+    Its corners carry `seen_start`, `seen_fades` and `seen_end`, model times in s.
+    """
+    lines = observed.lines(shot)
+    if not lines:
+        return None
+    thing = owned.add(collection, "Observed", _mesh(lines, shot.settings.fire.observed_width))
+    thing.data.materials.append(_material(shot, stage))
+    thing.visible_shadow = thing.visible_diffuse = thing.visible_glossy = thing.visible_volume_scatter = False
+    return thing
+
+
+def _mesh(lines: list[Line], width: float) -> bpy.types.Mesh:
+    ribbons = [ribbon(line.points, width) for line in lines]
+    starts = np.cumsum([0, *(len(each) for each in ribbons)])
+    faces = [_faces(len(line.points)) + at for line, at in zip(lines, starts[:-1], strict=True)]
+    corners = np.concatenate(faces)
+    mesh = bpy.data.meshes.new("Firetwin Observed")
+    mesh.from_pydata(np.concatenate(ribbons).tolist(), [], corners.tolist())
+    for name in ("start", "fades", "end"):
+        values = np.repeat([getattr(line, name) for line in lines], [len(each) for each in ribbons])
+        mesh.attributes.new(f"seen_{name}", "FLOAT", "POINT").data.foreach_set(
+            "value", values.astype(np.float32)
+        )
+    mesh.update()
+    return mesh
+
+
+def ribbon(points: NDArray[np.float64], width: float) -> NDArray[np.float32]:
+    """Corners (2 n, 3) of a flat band along a closed line (n, 3): its left ones, then its right ones."""
+    along = (np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0))[:, :2]
+    length = np.maximum(np.hypot(*along.T), 1e-6)
+    aside = np.column_stack([-along[:, 1], along[:, 0], np.zeros(len(along))]) / length[:, None]
+    return np.concatenate([points + aside * width / 2, points - aside * width / 2]).astype(np.float32)
+
+
+def _faces(count: int) -> NDArray[np.int64]:
+    here = np.arange(count)
+    there = np.roll(here, -1)
+    return np.column_stack([here, there, there + count, here + count])
+
+
+def _material(shot: Shot, stage: Stage) -> bpy.types.Material:
+    material, tree = nodes.material("Firetwin Observed", _FRESH)
+    time = nodes.model_time(tree)
+    start, fades, end = (tree.attribute(f"seen_{name}") for name in ("start", "fades", "end"))
+    there = (1.0 - (start > time)) * (end > time)
+    fresh = fades > time
+    part, _air = haze.fraction(tree, stage)
+    strength = (_DIM + fresh * (1.0 - _DIM)) * (1.0 - part) * (_LIGHT * glow.brightness(shot))
+    clear = tree.output("ShaderNodeBsdfTransparent", {"Color": (1.0, 1.0, 1.0)})
+    line = tree.mix_shader(there, clear, tree.emission(tree.mix_colour(fresh, _FADED, _FRESH), strength))
+    tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), line, clear))
+    material.cycles.emission_sampling = "NONE"
+    return material

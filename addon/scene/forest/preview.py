@@ -1,0 +1,57 @@
+"""The forest as the viewport shows it: some of its trees, made wider, so that a frame change costs little.
+
+Blender makes all instances of an object again whenever its nodes depend on time or camera: 0.6 us of the
+processor for each tree. So a forest of more than `MOST` trees is hidden in the viewport, where others stand
+in: those that burn during the shot, which become snags, and the rest, whose nodes depend on nothing.
+Renders draw the forest and none of these.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...shot import noise
+from ...shot.shot import Shot
+from .levels import LEVELS
+
+MOST = 8000  # trees; what redraws in a few ms
+_WIDEST = 2.5  # times its width, that a crown stands for others
+_LEVEL = 2  # coarse enough for thousands, still a tree
+
+Points = dict[str, NDArray]
+
+
+def parts(
+    shot: Shot, points: Points, bare_after: float, levelled: bool
+) -> Iterator[tuple[str, Points, bool]]:
+    """What stands in for plants with these attributes: a name, attributes, and whether it follows time.
+
+    Nothing where there are no more than `MOST`. A plant is bare from `bare_after` s after the fire
+    came; of plants that are `levelled`, models have levels.
+    """
+    count = len(points["position"])
+    if count <= MOST:
+        return
+    chance = noise.uniform(np.arange(count), 0, shot.settings.seed + 900)
+    kept = np.flatnonzero(chance < MOST / count)
+    some = {key: values[kept] for key, values in points.items()}
+    some["width"] = some["width"] * min(np.sqrt(count / MOST), _WIDEST)
+    for key in ("model", "snag_model") if levelled else ():
+        some[key] = some[key] + np.maximum(_LEVEL - some[key] % LEVELS, 0)
+    bare = some["arrival_time"] + bare_after
+    turns = (bare > shot.frames.first) & (bare <= shot.frames.last)
+    some["model"] = np.where(bare <= shot.frames.first, some["snag_model"], some["model"])
+    for name, chosen in (("Burning", turns), ("", ~turns)):
+        if chosen.any():
+            yield name, {key: values[chosen] for key, values in some.items()}, bool(name)
+
+
+def stand_in(full: bpy.types.Object, shown: list[bpy.types.Object]) -> None:
+    """Have the viewport show these in place of an object that renders draw."""
+    full.hide_viewport = bool(shown)
+    for thing in shown:
+        thing.hide_render = True

@@ -1,0 +1,76 @@
+"""What a satellite's imager measures, in register with a camera's picture: pixels as large as the imager's.
+
+A camera over the equator stands for GOES-R's ABI at its longitude, any other for VIIRS (see
+`shot.satellites.imager`). Each point of the ground that the camera sees, by the depth, shows the imager's
+pixel that it lies in; what lies in no whole pixel within the run's domain is grey.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from firetwin_core import sensor
+from numpy.typing import NDArray
+
+from ..rigs.satellite import Satellite
+from ..satellites import imager
+from . import _bar, _view
+
+if TYPE_CHECKING:
+    from ..shot import Shot
+
+KNEE = 20.0  # K; warm ground and the scar take up half of the palette
+PALETTE = "inferno"
+_GREY = 0.12
+
+
+def draw(png: Path, depth: Path, shot: Shot, camera: str, frame: int, long: bool) -> None:
+    """Write the brightness temperature of the long or the short band with bar, time and label."""
+    view = _view.of(shot, camera)
+    instrument, grid = _instrument(shot, view.camera.rig)
+    moment = shot.moment(frame)
+    try:
+        seen = imager.picture(instrument, grid, shot.fire, float(shot.frames.time(frame)))
+    except imager.NothingSeenError:
+        seen = None
+    planar = sensor.read_image(depth)[..., 0]
+    kelvin = np.full(planar.shape, np.nan)
+    if seen is not None:
+        kelvin = _register(shot, _view.points(view, frame, planar), seen, seen.long if long else seen.short)
+    most = instrument.saturation[long]
+    low = min(shot.coldest_moment, most - 1.0)
+    shown = sensor.colour(kelvin, low, most, PALETTE, KNEE)
+    shown[np.isnan(kelvin)] = _GREY
+    _bar.draw(shown, low, most, PALETTE, KNEE)
+    wave = instrument.long if long else instrument.short
+    lines = [f"{instrument.name} {wave:g} um", f"{moment:%Y-%m-%d %H:%M}Z", instrument.label(moment.year)]
+    _bar.title(shown, lines)
+    sensor.write_image(png, shown)
+
+
+def _instrument(shot: Shot, rig: object) -> tuple[imager.Instrument, imager.Grid]:
+    """The imager that a camera stands for, and its pixels."""
+    longitude = rig.geostationary if isinstance(rig, Satellite) else None
+    instrument = imager.VIIRS if longitude is None else imager.ABI
+    return instrument, imager.grid_of(instrument, shot.run, longitude or 0.0)
+
+
+def _register(
+    shot: Shot, points: NDArray[np.float64], seen: imager.Picture, band: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """K (h, w) of the imager's pixels that points (h, w, 3) of the scene lie in; NaN outside of all."""
+    kelvin = np.full(points.shape[:2], np.nan)
+    ground = np.isfinite(points).all(axis=-1)
+    if not ground.any():
+        return kelvin
+    latitude, longitude, _ = shot.local_frame.reverse(points[ground])
+    place = zip(seen.grid.forward(latitude, longitude), (seen.row, seen.column), band.shape, strict=True)
+    inside, index = np.ones(len(latitude), bool), []
+    for fractional, first, count in place:
+        at = np.floor(np.nan_to_num(fractional, nan=-1e9)).astype(np.int64) - first
+        inside &= (at >= 0) & (at < count)
+        index.append(np.clip(at, 0, count - 1))
+    kelvin[ground] = np.where(inside, band[tuple(index)], np.nan)
+    return kelvin

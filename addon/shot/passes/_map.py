@@ -1,0 +1,110 @@
+"""A map round a camera from the run: relief, canopy, what has burned, the camera's way and what it sees."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LightSource
+from matplotlib.patches import Polygon, Rectangle
+from matplotlib.patheffects import withStroke
+from numpy.typing import NDArray
+
+from ..ground import bilinear
+
+if TYPE_CHECKING:
+    from ..path import Path
+    from ..shot import Shot
+
+_LATELY = 1800.0  # s; what burned since is orange
+_OPEN, _WOODED = np.array([0.86, 0.82, 0.72]), np.array([0.50, 0.60, 0.42])
+_BURNED, _HOT = np.array([0.24, 0.20, 0.18]), np.array([0.98, 0.45, 0.08])
+_LEAST = 2000.0  # m from the middle to the sides
+_ROWS = 200  # of points that are looked up
+_WAY, _EDGE = "#1e62d0", [withStroke(linewidth=2.2, foreground="white")]
+
+
+def draw(axes: Axes, shot: Shot, view: Path, frame: int) -> None:
+    """Draw into the axes of a panel."""
+    box = axes.get_window_extent()
+    here, reach = view.position[frame - 1], _reach(view)
+    tall = reach * box.height / box.width
+    columns = max(round(_ROWS * box.width / box.height), 2)
+    east, north = np.linspace(-reach, reach, columns), np.linspace(tall, -tall, _ROWS)
+    axes.imshow(
+        _ground(shot, here, east, north, shot.frames.time(frame)),
+        extent=(-reach, reach, -tall, tall),
+        interpolation="bilinear",
+        aspect="auto",
+    )
+    axes.set_xlim(-reach, reach)
+    axes.set_ylim(-tall, tall)
+    way = view.position[:, :2] - here[:2]
+    axes.plot(*way.T, color=_WAY, linewidth=1.0, path_effects=_EDGE, zorder=5)
+    _sight(axes, view, frame, reach)
+    axes.plot(0.0, 0.0, "o", color=_WAY, markersize=0.02 * box.height, markeredgecolor="white", zorder=7)
+    _scale(axes, reach, tall, box.height)
+
+
+def _reach(view: Path) -> float:
+    """From the middle to the sides, m: what the camera looks at is on the map in every frame."""
+    away = np.linalg.norm((view.target - view.position)[:, :2], axis=1)
+    return max(_LEAST, 2.2 * float(away.max()))
+
+
+def _ground(shot: Shot, here: NDArray, east: NDArray, north: NDArray, time: float) -> NDArray:
+    """Colours (rows, columns, 3) of the ground at scene metres from `here`, north first."""
+    ground = shot.ground
+    x, y = np.meshgrid(here[0] + east, here[1] + north)
+    latitude, longitude = ground.geodetic(x.ravel(), y.ravel())
+    row, column = ground.indices(latitude, longitude)
+    fields = ground.fields
+    height, canopy = (
+        bilinear(f, row, column).reshape(x.shape) for f in (fields.elevation, fields.canopy_fuel)
+    )
+    age = time - ground.arrival_at(row, column).reshape(x.shape)
+    colour = _OPEN + np.clip(canopy, 0.0, 1.0)[..., None] * (_WOODED - _OPEN)
+    fresh = np.clip(1.0 - age / _LATELY, 0.0, 1.0)[..., None]
+    colour = np.where(age[..., None] > 0.0, _BURNED + fresh * (_HOT - _BURNED), colour)
+    shade = LightSource(315, 45).hillshade(
+        height, vert_exag=1.5, dx=abs(east[1] - east[0]), dy=abs(north[1] - north[0])
+    )
+    return np.clip(colour * (0.45 + 0.75 * shade[..., None]), 0.0, 1.0)
+
+
+def _sight(axes: Axes, view: Path, frame: int, reach: float) -> None:
+    """The angle of view, up to what the camera looks at."""
+    if not view.perspective:
+        return
+    ahead = -view.rotation[frame - 1][:2, 2]
+    length = float(np.linalg.norm((view.target - view.position)[frame - 1, :2]))
+    if np.linalg.norm(ahead) < 0.05 or length < 0.02 * reach:
+        return
+    bearing = np.arctan2(*ahead) + np.arctan(view.halves[frame - 1, 0]) * np.linspace(-1.0, 1.0, 25)
+    rim = length * np.stack([np.sin(bearing), np.cos(bearing)], axis=-1)
+    axes.add_patch(Polygon([(0.0, 0.0), *rim], facecolor=_WAY, alpha=0.16, edgecolor="none", zorder=4))
+    axes.add_patch(Polygon([(0.0, 0.0), *rim], fill=False, edgecolor=_WAY, linewidth=0.8, zorder=6))
+
+
+def _scale(axes: Axes, reach: float, tall: float, height: float) -> None:
+    """A bar of a round length, and which way is north."""
+    unit = 10.0 ** np.floor(np.log10(0.5 * reach))
+    length = max(step * unit for step in (1, 2, 5) if step * unit <= 0.5 * reach)
+    size = 0.036 * height * 0.72
+    x, y = -0.97 * reach, -0.92 * tall
+    edge = {"edgecolor": "black", "linewidth": 0.6, "zorder": 8}
+    for part, colour in ((0, "black"), (1, "white")):
+        corner = x + 0.5 * part * length, y
+        axes.add_patch(Rectangle(corner, 0.5 * length, 0.025 * tall, facecolor=colour, **edge))
+    name = f"{length / 1e3:g} km" if length >= 1000.0 else f"{length:g} m"
+    said = {"size": size, "family": "DejaVu Sans", "color": "black", "path_effects": _EDGE, "zorder": 9}
+    axes.text(x, y + 0.05 * tall, name, va="bottom", **said)
+    axes.annotate(
+        "N",
+        (0.94 * reach, 0.93 * tall),
+        (0.94 * reach, 0.62 * tall),
+        ha="center",
+        arrowprops={"arrowstyle": "-|>", "color": "black", "linewidth": 1.0, "path_effects": _EDGE},
+        **said,
+    )

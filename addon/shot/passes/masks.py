@@ -1,0 +1,80 @@
+"""What each pixel shows: its class, and which tree it is, for machines that learn to see.
+
+====== ===== ==================================================================================
+class  value what counts
+====== ===== ==================================================================================
+sky    0     where no ray ends
+ground 1     what has not burned, with brush, grass, rocks, water, and forest too far for single trees
+burned 2     ground and brush that the fire has passed
+tree   3     living or burned
+smoke  4     hides more than half of what is behind it, in green light
+fire   5     flames in the air, on the ground and in crowns, and firebrands
+====== ===== ==================================================================================
+
+The EXR holds `class`; `clear`, the part 0..1 of what is behind smoke that comes through it; and `instance`,
+the number of the tree from 1 on (0: none), the same in all frames of a camera that are built together (see
+[render] chunk). The PNG shows each class in one colour. One ray goes through the middle of each pixel and
+nothing is filtered, so numbers are whole. Where smoke lets nothing through, what is behind is not known:
+instance 0. EEVEE's pixels hold fewer digits: its classes are right and its instances are not.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from . import Files, Pass
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from ..shot import Shot
+
+SKY, GROUND, BURNED, TREE, SMOKE, FIRE = range(6)
+NAMES = ("sky", "ground", "burned", "tree", "smoke", "fire")
+COLOURS = ((110, 170, 230), (196, 178, 128), (64, 56, 52), (38, 112, 52), (176, 176, 184), (255, 96, 16))
+ALIGHT = 0.3  # of the full flame of ground and crowns, from here on fire is what is seen
+HIDES = 0.5  # of what is behind, from here on smoke is what is seen
+_LEAST = 1.0e-4  # that smoke must let through for numbers to be exact
+
+
+def classes(pixels: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+    """Class, instance and part of light let through, (h, w) each, of `blender.nodes.mask_switch`'s pixels."""
+    import numpy as np
+
+    clear = pixels[..., 1].astype(np.float64)
+    seen = clear > _LEAST
+    low, code = (np.rint(np.where(seen, pixels[..., k] / np.where(seen, clear, 1.0), 0.0)) for k in (0, 2))
+    kind = np.where(clear > 1.0 - HIDES, code % 8, SMOKE)
+    return kind, low + 4096.0 * (code // 8), clear
+
+
+def finish(files: Files, _needed: Mapping[str, Files], _shot: Shot, _camera: str, _frame: int) -> None:
+    """Tell classes, instances and smoke apart, and paint the classes."""
+    import numpy as np
+    from firetwin_core import sensor
+
+    names = ["class", "clear", "instance"]  # as EXR files sort them
+    kind, instance, clear = classes(sensor.read_image(files["exr"]))
+    about = {"Comment": "class: " + ", ".join(f"{value} {name}" for value, name in enumerate(NAMES))}
+    channels = np.stack([kind, np.clip(clear, 0.0, 1.0), instance], axis=-1).astype(np.float32)
+    sensor.write_image(files["exr"], channels, about, names)
+    colours = np.array(COLOURS, np.float32) / 255.0
+    sensor.write_image(files["png"], colours[kind.astype(np.int64)])
+
+
+PASS = Pass(
+    name="masks",
+    order=27,
+    help="Class of each pixel (fire, smoke, tree, burned, ground, sky) and number of each tree, EXR and PNG",
+    files=("exr", "png"),
+    output="Image",
+    leaves_out=("lamps",),
+    samples=1,
+    masks=True,
+    channels="colour",
+    pixel_centres=True,
+    shows=frozenset({"time", "camera", "picture", "ground", "forest", "fire", "smoke"}),
+    finish=finish,
+)

@@ -1,0 +1,41 @@
+"""Hot spots of the infrared picture over the visible one: where it is hotter than 350 K, in full from 450 K.
+
+Sunlit ground stays below, and what burned minutes ago shows faintly (see `shot.temperature.cooling`); the two
+temperatures are chosen by eye. The palette is an ironbow-like one over the scale of the thermal picture.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from . import Files, Pass, thermal
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ..shot import Shot
+
+START, FULL, OPACITY = 350.0, 450.0, 0.9
+
+
+def finish(files: Files, needed: Mapping[str, Files], shot: Shot, _camera: str, _frame: int) -> None:
+    """Lay the hot spots over the picture."""
+    from firetwin_core import sensor
+
+    rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
+    kelvin = sensor.read_image(needed["thermal"]["exr"])[..., 0]
+    hot = sensor.colour(kelvin, *thermal.scale(shot), "ironbow", thermal.KNEE)
+    sensor.write_image(files["png"], sensor.overlay(rgb, hot, kelvin, START, FULL, OPACITY))
+
+
+PASS = Pass(
+    name="overlay",
+    order=45,
+    help="The picture with the hot spots of the infrared one over it",
+    files=("png",),
+    output="",
+    filmed=True,
+    shows=frozenset(),
+    needs=("rgb", "thermal"),
+    finish=finish,
+)

@@ -1,0 +1,52 @@
+"""A mounted sensor: one more camera on the mount of another, with a lens of its own if it has one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from ..path import SENSOR, Path
+from ..schema import Where, key
+from . import Rig
+from ._lens import FOCAL_LENGTH, Lens
+
+if TYPE_CHECKING:
+    from ..ground import Ground
+    from ..settings import Camera
+    from ..shot import Shot
+
+
+@dataclass(frozen=True)
+class Mounted(Rig):
+    """Beside another camera's sensor, in the same place and looking the same way.
+
+    Without a focal length it sees as wide as that camera: pixels then agree where resolutions do.
+    """
+
+    follows: str = key("", "name of the camera, in perspective, on whose mount it is")
+    focal_length: float | None = key(None, "of its own lens; left out, that camera's", **FOCAL_LENGTH)
+    sensor_width: float = key(SENSOR, "of its own chip, where it has a focal length", unit="mm", above=0)
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """It is on some mount."""
+        return None if self.follows else (("follows",), "has no follows; name the camera it is mounted with")
+
+    def leader(self, cameras: Sequence[Camera]) -> Camera | None:
+        """The camera whose mount it shares; None where none in perspective has the name."""
+        found = (each for each in cameras if isinstance(each.rig, Lens))
+        return next((each for each in found if each.name == self.follows), None)
+
+    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+        """The way of the camera that it follows, seen by its own lens."""
+        leader = self.leader(shot.cameras)
+        way = leader.rig.path(leader, shot, ground)
+        if self.focal_length is not None:
+            own = 0.5 * self.sensor_width / self.focal_length
+            way = replace(way, half=(own, own), sensor=self.sensor_width, wider=None)
+        width, height = shot.resolution(camera)
+        half = way.half[0], way.half[0] * height / width
+        return replace(way, camera=camera, half=half, hidden=None)  # that camera warns of ridges
+
+
+RIG = Mounted

@@ -1,0 +1,41 @@
+"""Write the asset library of the run's shot."""
+
+from __future__ import annotations
+
+import functools
+from pathlib import Path
+
+import bpy
+
+from ..progress import count
+from . import run
+from .job import Away, Steps
+from .working import Working
+
+
+class FIRETWIN_OT_assets(Working, bpy.types.Operator):
+    """Write trees, materials and node groups as a library for the asset browser"""
+
+    bl_idname = "firetwin.assets"
+    bl_label = "Write asset library"
+    bl_options = {"REGISTER"}
+
+    directory: bpy.props.StringProperty(
+        name="Folder", description="Folder of the library; empty: beside the pictures", subtype="DIR_PATH"
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return run.ready(cls, context)
+
+    def steps(self, context: bpy.types.Context) -> Steps:
+        """All of it in a worker process."""
+        from ..jobs import assets
+
+        settings = context.scene.firetwin
+        out = Path(bpy.path.abspath(self.directory) or Path(run.output(settings)) / "assets")
+        made = yield Away("starting Blender", functools.partial(assets.run, run.choice(settings), out))
+        return f"Wrote {count(made, 'asset')} to {out}"
+
+
+classes = (FIRETWIN_OT_assets,)

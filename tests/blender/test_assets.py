@@ -1,0 +1,65 @@
+"""The asset library: what is in it, and that Blender finds it as assets."""
+
+import bpy
+import numpy as np
+import pytest
+from firetwin.errors import InputError
+from firetwin.jobs import assets as job
+from firetwin.scene import assets
+from firetwin.scene.forest import models
+
+KINDS = ("objects", "materials", "node_groups")
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory):
+    """Where a library is."""
+    return tmp_path_factory.mktemp("library") / job.BLEND
+
+
+@pytest.fixture
+def few(monkeypatch):
+    """Two trees and a rock, in small pictures."""
+    chosen = [models.every()[k] for k in (6, 12, models.ROCKS[0])]
+    monkeypatch.setattr(models, "every", lambda: chosen)
+    monkeypatch.setattr(models, "trees", lambda: chosen[:2])
+    monkeypatch.setattr(assets, "_PICTURE", 16)
+
+
+def test_trees_materials_and_groups_are_assets_in_catalogues(shot, scene, few, library):
+    count = assets.build(shot, job.identifier)
+    assert "Studio" not in bpy.data.scenes
+    bpy.ops.wm.save_as_mainfile(filepath=str(library))
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(str(library), assets_only=True) as (there, wanted):
+        for kind in KINDS:
+            setattr(wanted, kind, getattr(there, kind))
+    found = {block.name: block for kind in KINDS for block in getattr(wanted, kind)}
+    assert len(found) == count
+    known = {job.identifier(name) for name in job.CATALOGUES}
+    assert {block.asset_data.catalog_id for block in found.values()} <= known
+    assert all(block.asset_data.description for block in found.values())
+    assert {"Young Conifer 1", "Large Conifer Snag 1", "Rock 1"} <= found.keys()
+    assert {"Firetwin Foliage", "Firetwin Smoke Flow", "Firetwin Trees", "Firetwin Flames"} <= found.keys()
+    tree = found["Young Conifer 1"]
+    pixels = np.empty(16 * 16 * 4, np.float32)
+    tree.preview.image_pixels_float.foreach_get(pixels)
+    red, green, _, seen = np.moveaxis(pixels.reshape(16, 16, 4), -1, 0)
+    assert 0.1 < (seen > 0.5).mean() < 0.9  # a tree amid nothing
+    assert green[seen > 0.5].mean() > red[seen > 0.5].mean()  # a living one: it stands alone, and is not dead
+    assert tree.scale.z == assets.HEIGHTS["small"]  # of a model a metre tall
+
+
+def test_the_catalogue_is_one_that_blender_reads():
+    lines = [line for line in job.catalogue().splitlines() if line and not line.startswith("#")]
+    assert lines[0] == "VERSION 1"
+    assert [line.split(":")[0] for line in lines[1:]] == [job.identifier(name) for name in job.CATALOGUES]
+    assert all(len(line.split(":")) == 3 for line in lines[1:])
+
+
+def test_a_library_of_somebody_else_stays(tmp_path):
+    theirs = tmp_path / job.CATALOGUE
+    theirs.write_text("VERSION 1\n")
+    with pytest.raises(InputError, match="belongs to another asset library"):
+        job.run(None, tmp_path)
+    assert theirs.read_text() == "VERSION 1\n"

@@ -1,0 +1,64 @@
+"""Node groups that people can read: inputs that are explained, and nodes that lie in order."""
+
+import itertools
+
+import bpy
+import pytest
+from firetwin.blender import layout, nodes
+from firetwin.scene import build
+
+
+@pytest.fixture
+def groups(shot, scene):
+    build.build(shot, scene)
+    return [group for group in bpy.data.node_groups if group.bl_idname != "CompositorNodeTree"]
+
+
+def test_a_material_is_one_group_whose_inputs_are_explained(groups):
+    for material in bpy.data.materials:
+        kinds = sorted(node.type for node in material.node_tree.nodes)
+        assert kinds == ["GROUP", "OUTPUT_MATERIAL"], material.name
+    sockets = [
+        item
+        for group in groups
+        for item in group.interface.items_tree
+        if item.item_type == "SOCKET" and item.parent.name
+    ]
+    assert len(sockets) > 40
+    assert all(item.description and not item.description.endswith(".") for item in sockets)
+
+
+def test_nodes_do_not_overlap_and_lie_right_of_what_they_are_made_of(groups):
+    assert len(groups) > 8
+    for group in groups:
+        placed = [node for node in group.nodes if node.bl_idname != "NodeFrame"]
+        for link in group.links:
+            if link.from_node.parent == link.to_node.parent:
+                assert link.from_node.location.x < link.to_node.location.x, group.name
+        columns = itertools.groupby(
+            sorted(placed, key=lambda node: (node.location.x, -node.location.y)), lambda node: node.location.x
+        )
+        for _, column in columns:
+            for upper, lower in itertools.pairwise(column):
+                assert upper.location.y - layout.height(upper) >= lower.location.y, (group.name, upper.name)
+
+
+def test_an_input_is_made_once_and_changes_the_picture(scene, shoot):
+    mesh = bpy.data.meshes.new("plate")
+    mesh.from_pydata([(-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0)], [], [(0, 1, 2, 3)])
+    scene.collection.objects.link(bpy.data.objects.new("plate", mesh))
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    camera.location = (0, 0, 5)
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.resolution_x = scene.render.resolution_y = 4
+    material, tree = nodes.material("test")
+    twice = [tree.input("Power", 2.0, "How bright it is", "Light", most=10.0) for _ in range(2)]
+    colour = tree.input("Colour", (1.0, 0.5, 0.25), "Of the light", "Light")
+    tree.surface(tree.emission(colour, twice[0] * twice[1]))
+    mesh.materials.append(material)
+    assert shoot(scene)[2, 2] == pytest.approx([4.0, 2.0, 1.0], rel=1e-5)
+    group = next(node for node in material.node_tree.nodes if node.type == "GROUP")
+    assert [socket.name for socket in group.inputs] == ["Power", "Colour"]
+    group.inputs["Power"].default_value = 1.0
+    assert shoot(scene)[2, 2] == pytest.approx([1.0, 0.5, 0.25], rel=1e-5)

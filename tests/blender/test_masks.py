@@ -1,0 +1,127 @@
+"""Classes and instances of pixels: whole numbers that agree with what was built, and cost nobody else."""
+
+from dataclasses import replace
+
+import bpy
+import numpy as np
+import pytest
+from firetwin.blender import nodes, owned
+from firetwin.render import engine, layers, pictures
+from firetwin.render.picture import Picture
+from firetwin.render.sharing import making
+from firetwin.scene import build, infrared
+from firetwin.shot import passes
+from firetwin.shot.passes import masks
+from firetwin.shot.rigs.drone import CameraKey, Drone
+from firetwin.shot.rigs.mounted import Mounted
+from firetwin.shot.settings import Camera
+from firetwin.shot.shot import Shot
+from firetwin_core import sensor
+
+KEY = CameraKey(0.0, 38.825, -120.56, 250.0, "point", 38.842, -120.552, 0.0)
+
+
+@pytest.fixture
+def shoot(near_settings, run, tmp_path):
+    """Build what one of two cameras of a mount sees, with smoke before its left half, and render passes.
+
+    Returns the scene and the EXR of each pass.
+    """
+
+    def make(*names, camera="drone"):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        stage = owned.adopt(bpy.context.scene)
+        settings = replace(
+            near_settings,
+            cameras=(Camera("drone", Drone(keys=(KEY,), vibration=0.3)), Camera("two", Mounted("drone"))),
+            render=replace(near_settings.render, resolution=(96, 54), samples=1),
+        )
+        shot = Shot(settings, run).of(camera)
+        build.build(shot, stage.scene)
+        layers.build(shot.settings, stage)
+        engine.apply(shot.settings, stage.scene)
+        _smoke(shot, stage)
+        wanted = [Picture(camera, 2, name) for name in names]
+        with making(tmp_path, {(camera, name): {"pass": name} for name in passes.known()}) as here:
+            pictures.render(shot, stage, here, wanted)
+        return stage.scene, {each.name: sensor.read_image(tmp_path / each.file("exr")) for each in wanted}
+
+    return make
+
+
+def _smoke(shot, stage):
+    """A box of smoke 30 m before the left half of the camera, with an optical depth of 1."""
+    view = shot.paths[0]
+    bpy.ops.mesh.primitive_cube_add(size=1.0)
+    box = bpy.context.object
+    box.users_collection[0].objects.unlink(box)
+    stage.part("Smoke").objects.link(box)
+    turn = np.eye(4)
+    turn[:3, :3] = view.rotation[1]
+    turn[:3, 3] = view.position[1] + view.rotation[1] @ [-50.0, 0.0, -30.0]
+    box.matrix_world = [list(column) for column in turn.T]
+    box.scale = (100.0, 200.0, 10.0)
+    material, tree = nodes.material("Firetwin Smoke")
+    dark = tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": 0.1})
+    tree.volume(infrared.smoke(tree, shot, stage, dark, tree.math("ADD", 0.1, 0.0)))
+    box.data.materials.append(material)
+    owned.mark(box)
+
+
+def test_pixels_have_their_class_and_their_tree(shoot):
+    scene, found = shoot("masks", "depth")
+    kind, clear, instance = np.moveaxis(found["masks"], -1, 0)
+    right = np.s_[:, 56:]
+    assert np.array_equal(np.unique(kind[:, :40]), [masks.SMOKE])
+    x, y = np.meshgrid((np.arange(40) + 0.5) / 48 - 1.0, (np.arange(54) + 0.5 - 27.0) / 48)
+    slant = np.sqrt(1.0 + (18.0 / 28.0) ** 2 * (x**2 + y**2))
+    assert clear[:, :40] == pytest.approx(np.exp(-slant), rel=0.01)
+    assert np.all(clear[right] == 1.0)
+    assert set(np.unique(kind[right])) <= {masks.SKY, masks.GROUND, masks.BURNED, masks.TREE, masks.FIRE}
+    assert {masks.GROUND, masks.TREE} <= set(np.unique(kind[right]))
+    assert np.array_equal(instance, np.rint(instance))
+    sky = found["depth"][..., 0] > 1e9
+    assert np.array_equal(kind[right] == masks.SKY, sky[right])
+    assert np.all(instance[right][kind[right] == masks.TREE] > 0)
+    assert np.all(instance[np.isin(kind, (masks.SKY, masks.GROUND, masks.BURNED))] == 0)
+    trees = bpy.data.objects["Firetwin Trees"].data.vertices
+    numbers = np.unique(instance[instance > 0]).astype(int)
+    assert len(numbers) > 20
+    assert numbers.max() <= len(trees)
+    assert (instance[:, :40] > 0).any()  # behind the smoke
+    _stand_there(scene, trees, instance[right] * (kind[right] == masks.TREE), found["depth"][right][..., 0])
+
+
+def _stand_there(scene, trees, instance, depth):
+    """The tree of a pixel's number is as far away as the pixel."""
+    view = np.array(scene.camera.matrix_world.inverted())
+    picked = instance > 0
+    place = np.array([(*trees[int(number) - 1].co, 1.0) for number in instance[picked]])
+    far = -(place @ view.T)[:, 2]
+    off = np.abs(far - depth[picked])
+    assert np.percentile(off, 95) < 30.0, "m; a tree is as high"
+
+
+def test_a_pass_that_nobody_asks_for_is_not_rendered_and_changes_nothing(shoot, tmp_path):
+    scene, found = shoot("rgb")
+    assert [each.name for each in scene.view_layers if each.use] == ["rgb"]
+    trees = [each.node_tree for each in (*bpy.data.materials, scene.world) if each.node_tree]
+    switches = [
+        node
+        for tree in trees
+        for node in tree.nodes
+        if node.bl_idname == "ShaderNodeAttribute" and node.attribute_name == nodes.MASKS
+    ]
+    assert len(switches) >= 6
+    for node in switches:  # as if there were no masks
+        mix = node.outputs["Fac"].links[0].to_node
+        node.id_data.links.new(mix.inputs[1].links[0].from_socket, mix.outputs[0].links[0].to_socket)
+    layers.write_exr(scene, str(tmp_path), [Picture("drone", 2, "rgb")])
+    bpy.ops.render.render(scene=scene.name)
+    assert np.array_equal(sensor.read_image(tmp_path / "drone_rgb_000002.exr"), found["rgb"])
+
+
+def test_sensors_of_one_mount_agree_to_the_pixel(shoot):
+    first, second = (shoot("depth", "masks", camera=name)[1] for name in ("drone", "two"))
+    assert np.array_equal(first["depth"], second["depth"])
+    assert np.array_equal(first["masks"], second["masks"])

@@ -1,0 +1,115 @@
+"""What the viewport shows in place of what renders draw, and that no render knows of it."""
+
+import bpy
+import numpy as np
+import pytest
+from firetwin.blender import viewport
+from firetwin.render import layers
+from firetwin.scene import build
+from firetwin.scene.forest import preview
+from firetwin.scene.ground import solid
+from firetwin.shot.shot import Shot
+from firetwin_core import run as runs
+
+
+@pytest.fixture
+def few(monkeypatch):
+    monkeypatch.setattr(preview, "MOST", 300)
+
+
+def trees():
+    return [thing for thing in bpy.data.objects if "Trees" in thing.name and thing.modifiers]
+
+
+def drawn(names):
+    """How many instances of these objects the viewport draws."""
+    graph = bpy.context.evaluated_depsgraph_get()
+    return sum(item.is_instance and item.parent.original.name in names for item in graph.object_instances)
+
+
+def test_others_stand_in_for_a_large_forest(near_shot, scene, few):
+    build.build(near_shot, scene)
+    full = bpy.data.objects["Firetwin Trees"]
+    shown = [thing for thing in trees() if thing != full]
+    count, some = len(full.data.vertices), sum(len(thing.data.vertices) for thing in shown)
+    assert count > 1000
+    assert some == pytest.approx(300, abs=5 * np.sqrt(300))
+    assert full.hide_viewport
+    assert not full.hide_render
+    assert shown
+    assert all(thing.hide_render and not thing.hide_viewport for thing in shown)
+    assert drawn(["Firetwin Trees"]) == 0
+    assert drawn([thing.name for thing in shown]) == some
+
+
+def test_only_trees_that_burn_follow_time(near_shot, scene, few):
+    """A frame change makes the nodes of no others run: none of theirs asks for the time or the camera."""
+    build.build(near_shot, scene)
+    asking = {"GeometryNodeInputSceneTime", "GeometryNodeInputActiveCamera"}
+    for thing in trees():
+        kinds = {node.bl_idname for node in thing.modifiers[0].node_group.nodes}
+        assert bool(kinds & asking) is (thing.name != "Firetwin Trees in Viewport"), thing.name
+    arrival = np.empty(len(bpy.data.objects["Firetwin Burning Trees in Viewport"].data.vertices), np.float32)
+    data = bpy.data.objects["Firetwin Burning Trees in Viewport"].data
+    data.attributes["arrival_time"].data.foreach_get("value", arrival)
+    assert np.all((arrival + 900.0 > near_shot.frames.first) & (arrival + 900.0 <= near_shot.frames.last))
+
+
+def test_a_small_forest_stays_as_it_is(near_shot, scene):
+    build.build(near_shot, scene)
+    assert [thing.name for thing in trees()] == ["Firetwin Trees"]
+    assert not trees()[0].hide_viewport
+
+
+def test_renders_do_not_know_of_the_viewport(near_settings, run, stage, scene, shoot, monkeypatch):
+    """The same pixels with what is for the viewport and without, in the picture and in the thermal view."""
+    pictures = []
+    for most in (200, 10**9):
+        monkeypatch.setattr(preview, "MOST", most)
+        shot = Shot(near_settings, run)
+        build.build(shot, scene)
+        layers.build(near_settings, stage)
+        scene.frame_set(2)
+        if most > 200:
+            data = bpy.data.objects["Firetwin Ground"].data
+            data.attributes.remove(data.attributes[solid.NAME])
+        pictures.append((shoot(scene, "rgb"), shoot(scene, "thermal")))
+    assert pictures[0][0].std() > 0.01
+    for one, other in zip(*pictures, strict=True):
+        assert np.array_equal(one, other)
+
+
+def test_the_solid_view_shows_fuel_scar_and_water(settings, run_folder, scene, tmp_path):
+    shot = Shot(settings, runs.open(run_folder))
+    build.build(shot, scene, ("ground",))
+    data = bpy.data.objects["Firetwin Ground"].data
+    assert data.color_attributes.active_color.name == solid.NAME
+    row, column = (axis.ravel() for axis in np.indices(shot.ground.shape).astype(float))
+    found = solid.colours(shot, row, column).reshape(*shot.ground.shape, 3)
+    ground = shot.ground
+    inside = ground.burned > 0.5
+    before = inside & (ground.burn_time <= shot.frames.first)
+    during = inside & (ground.burn_time > shot.frames.first) & (ground.burn_time <= shot.frames.last)
+    assert before.sum() > 10
+    assert during.sum() > 10
+    assert found[before] == pytest.approx(np.broadcast_to(solid.BURNED, found[before].shape))
+    assert found[during] == pytest.approx(np.broadcast_to(solid.BURNS, found[during].shape))
+    dense = (ground.fields.canopy_fuel > 2.0) & ~inside & (ground.bare < 0.01) & (ground.water < 0.5)
+    assert found[dense] == pytest.approx(np.broadcast_to(solid.FOREST, found[dense].shape), rel=0.05)
+    ground.__dict__["water"] = np.ones(ground.shape)
+    assert np.all(solid.colours(shot, row, column) == np.float32(solid.WATER))
+
+
+def test_a_file_opens_with_views_that_show_the_scene():
+    viewport.prepare_file()
+    spaces = [
+        space
+        for screen in bpy.data.screens
+        for area in screen.areas
+        for space in area.spaces
+        if space.type == "VIEW_3D"
+    ]
+    assert spaces
+    for space in spaces:
+        assert space.clip_end == viewport.FAR
+        assert space.shading.color_type != "MATERIAL"

@@ -1,0 +1,138 @@
+"""The camera for headsets in Cycles: where each eye sees things, and files that say what they are."""
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from xml.etree import ElementTree
+
+import bpy
+import numpy as np
+import pytest
+from firetwin.render import engine, layers
+from firetwin.render.picture import Picture
+from firetwin.scene.camera import build as cameras
+from firetwin.scene.ground import build as ground
+from firetwin.shot.passes import _view
+from firetwin.shot.rigs._key import CameraKey
+from firetwin.shot.rigs.vr import Vr
+from firetwin.shot.settings import Camera
+from firetwin.shot.shot import Shot
+from firetwin_core import sensor
+
+SIZE, FRAME, APART = 256, 2, 60.0
+PIXEL = 2.0 * np.pi / SIZE
+
+
+def test_depth_pose_and_terrain_agree_in_both_eyes_and_near_things_shift_the_right_way(
+    settings, run, stage, scene, tmp_path
+):
+    keys = (CameraKey(0.0, 38.83, -120.56, 300.0, "fire"), CameraKey(1.0, 38.84, -120.55, 300.0, "fire"))
+    render = replace(settings.render, resolution=(SIZE, SIZE), passes=("depth",))
+    shot = Shot(replace(settings, cameras=(Camera("vr", Vr(APART, keys=keys)),), render=render), run)
+    ground.build(shot, stage, None)
+    (scene.camera,) = cameras.build(shot, stage)
+    (view,) = shot.paths
+    turn = view.rotation[FRAME - 1]
+    bpy.ops.mesh.primitive_uv_sphere_add(radius=15.0, location=view.position[FRAME - 1] - 200.0 * turn[:, 2])
+    layers.build(shot.settings, stage)
+    engine.apply(shot.settings, scene)
+    layers.select(scene, ["depth"])
+    scene.frame_set(FRAME)
+    picture = Picture("vr", FRAME, "depth")
+    layers.write_exr(scene, str(tmp_path), [picture])
+    with engine.pixel_centres(scene):
+        bpy.ops.render.render(scene=scene.name)
+    depth = np.asarray(sensor.read_image(tmp_path / f"{picture.stem()}{FRAME:06d}.exr"))[..., 0]
+    assert depth.shape == (SIZE, SIZE)
+
+    # The ball ahead: the left eye, above, sees it to the right, and the right one to the left.
+    row, column = np.nonzero(depth < 201.0)
+    above = row < SIZE // 2
+    assert (depth[row, column] > 184.0).all()
+    shift = np.degrees((column + 0.5 - SIZE / 2) * PIXEL)
+    expected = float(np.degrees(np.arcsin(0.5 * APART / 200.0)))
+    assert shift[above].mean() == pytest.approx(expected, abs=0.5)
+    assert shift[~above].mean() == pytest.approx(-expected, abs=0.5)
+    level = np.array([row[above].mean(), row[~above].mean()])
+    assert level + 0.5 == pytest.approx([SIZE / 4, 3 * SIZE / 4], abs=0.5)  # the horizon, straight ahead
+
+    # The ground: where depth and pose say that it is.
+    place = _view.points(view, FRAME, depth)
+    seen = (depth > 220.0) & (np.abs(place[..., :2]).max(axis=-1) < 4000.0)
+    earth = place.copy()
+    earth[..., 2] = shot.ground.up(*(np.nan_to_num(place[..., k]).ravel() for k in (0, 1))).reshape(SIZE, -1)
+    bearing = ((np.arange(SIZE) + 0.5) / SIZE * 2.0 - 1.0) * np.pi
+    side = np.where(np.arange(SIZE)[:, None] < SIZE // 2, -0.5, 0.5) * APART
+    right = np.cos(bearing)[:, None] * turn[:, 0] + np.sin(bearing)[:, None] * turn[:, 2]
+    low = np.abs(np.tile((np.arange(SIZE // 2) + 0.5) / SIZE * 2.0 * np.pi - 0.5 * np.pi, 2)) < np.pi / 3
+    for half in (above_half := slice(None, SIZE // 2), slice(SIZE // 2, None)):
+        here = seen[half] & low[half, None]  # where the eyes are as far apart as they can be
+        assert here.sum() > 5000, half == above_half
+        eye = view.position[FRAME - 1] + (side[half, :, None] * right)
+        a, b = (points[half] - eye for points in (place, earth))
+        angle = np.linalg.norm(np.cross(a, b), axis=-1) / np.sum(a * b, axis=-1)
+        off = (angle / PIXEL)[here]
+        print(f"99 of 100 within {np.percentile(off, 99):.3f} pixels, all within {off.max():.3f}")
+        assert np.percentile(off, 99) < 0.4  # 0.5 without eyes, 0.8 with the wrong ones
+        local = a @ turn  # each line of sight ends where its pixel is
+        across = np.arctan2(local[..., 0], -local[..., 2]) - bearing
+        assert np.abs((across + np.pi) % (2.0 * np.pi) - np.pi)[here].max() < 0.01 * PIXEL
+
+    # All round: at the back the picture goes on from its right end at its left one.
+    steps = np.abs(np.diff(np.log(depth), axis=1, append=np.log(depth[:, :1])))[seen[:, -1] & seen[:, 0]]
+    assert np.median(steps[:, -1]) < 2.0 * np.median(steps)
+
+
+SCENE = """\
+run = "{run}"
+[time]
+frames = 2
+[ground]
+near_radius = 0.0
+apron = 20000.0
+[forest]
+trees = false
+grass = false
+[smoke]
+enabled = false
+[render]
+resolution = [64, 64]
+samples = 1
+passes = ["rgb"]
+[[cameras]]
+kind = "vr"
+name = "headset"
+[[cameras.keys]]
+latitude = 38.825
+longitude = -120.56
+height = 400
+target = "point"
+target_latitude = 38.825
+target_longitude = -120.51
+"""
+
+
+@pytest.mark.slow
+def test_stills_and_films_say_what_they_are(run_folder, tmp_path):
+    (tmp_path / "scene.toml").write_text(SCENE.format(run=run_folder))
+    line = ["render", tmp_path / "scene.toml", "--out", tmp_path / "out"]
+    result = subprocess.run(
+        [sys.executable, "-m", "firetwin", *map(str, line)], capture_output=True, text=True
+    )
+    assert result.returncode == 0, result.stderr
+    still = tmp_path / "out" / "headset" / "rgb" / "headset_rgb_000002.png"
+    assert np.asarray(sensor.read_image(still)).shape[:2] == (64, 64)
+    data = still.read_bytes()
+    xmp = data[data.index(b"<x:xmpmeta") : data.index(b"</x:xmpmeta>") + 12]
+    (found,) = ElementTree.fromstring(xmp).iter("{http://www.w3.org/1999/02/22-rdf-syntax-ns#}Description")
+    pano = "{http://ns.google.com/photos/1.0/panorama/}"
+    assert found.attrib[f"{pano}FullPanoWidthPixels"] == "64"
+    assert float(found.attrib[f"{pano}PoseHeadingDegrees"]) == pytest.approx(90.0, abs=0.1)  # east
+    film = tmp_path / "out" / "headset" / "headset_rgb.mp4"
+    probe = ["ffprobe", "-v", "error", "-count_frames", "-show_streams", "-of", "json", film]
+    (stream,) = json.loads(subprocess.run(probe, capture_output=True, check=True).stdout)["streams"]
+    assert stream["nb_read_frames"] == "2"
+    sides = {side["side_data_type"]: side for side in stream["side_data_list"]}
+    assert sides["Stereo 3D"]["type"] == "top and bottom"
+    assert sides["Spherical Mapping"]["projection"] == "equirectangular"

@@ -1,0 +1,257 @@
+"""Conversion as a user meets it: damaged files, stops, what is there already; a run is whole or not there."""
+
+import io
+import sys
+import warnings
+
+import model_files as made
+import numpy as np
+import pytest
+from firetwin import cli
+from firetwin.errors import Error, InputError, UsageError
+from firetwin.jobs import convert, worker
+from firetwin.run import readers
+from firetwin.run.models import write
+from firetwin_core import run as runs
+
+
+def in_process(paths, out, **options):
+    asked = [options.get(name, "") for name in ("start", "at", "projection")] + [0.0]
+    convert.in_process([str(path) for path in paths], str(out), asked)
+
+
+def files_of(kind, folder):
+    """A small file of each kind, and what has to be said of it."""
+    arrival = np.hypot(*np.mgrid[-8:9, -8:9]) * 30.0
+    if kind == "wrf":
+        return made.wrf(folder, times=(60,))[0], {}
+    if kind == "cfbm":
+        return made.cfbm(folder, count=2, shape=(8, 9))[0], {}
+    if kind == "forefire":
+        return [made.forefire(folder / "ForeFire.0.nc", arrival)], {}
+    if kind == "tiff":
+        return [made.tiff(folder / "time_of_arrival_0000001_0000600.tif", arrival.astype(np.float32))], {
+            "start": "2020-07-01"
+        }
+    if kind == "ascii":
+        return [made.ascii_grid(folder / "x_arrival.asc", arrival / 60)], {"start": "2020-07-01"}
+    if kind == "lcp":
+        layers = np.full((17, 17, 8), 102, np.int16)
+        paths = [made.lcp(folder / "a.lcp", layers), made.ascii_grid(folder / "x_arrival.asc", arrival / 60)]
+        return paths, {"start": "2020-07-01"}
+    path = folder / "a.npz"
+    np.savez(path, time_of_arrival=arrival / 60, cell_width=30.0, cell_height=30.0)
+    return [path], {"start": "2020-07-01"}
+
+
+KINDS = ("wrf", "cfbm", "forefire", "tiff", "ascii", "lcp", "npz")
+
+TORTURE = '''
+"""Each line of stdin: a kind's options and files; damages the first file in many ways and converts it."""
+import json, os, shutil, sys, warnings
+from pathlib import Path
+import numpy as np
+warnings.simplefilter("ignore")
+from firetwin.errors import Error
+from firetwin.jobs import convert
+from firetwin_core import run as runs
+
+paths, options, folder, ways, seed = json.loads(sys.stdin.readline())
+whole = Path(paths[0]).read_bytes()
+rng = np.random.default_rng(seed)
+def damaged():
+    for share in (0.0, 0.01, 0.3, 0.6, 0.9, 0.999):
+        yield f"truncated to {share}", whole[: int(share * len(whole))]
+    for way in range(ways):
+        data = bytearray(whole)
+        where = rng.integers(0, len(data) if way % 2 else min(len(data), 4000), 100)
+        for at in where:
+            data[at] ^= 1 << int(rng.integers(0, 8))
+        yield f"flips {way}", bytes(data)
+for name, data in damaged():
+    print("way", name, flush=True)
+    pid = os.fork()
+    if pid == 0:
+        import resource
+        resource.setrlimit(resource.RLIMIT_AS, (6 << 30, 6 << 30))
+        resource.setrlimit(resource.RLIMIT_CPU, (60, 60))
+        Path(paths[0]).write_bytes(data)
+        out = Path(folder) / "out"
+        code = 0
+        try:
+            convert.in_process(paths, str(out), options)
+            runs.open(out).flux_range()
+        except Error as error:
+            code = 0 if "\\n" not in str(error) and not out.exists() or out.exists() else 3
+        except OSError:
+            code = 0
+        except BaseException as error:
+            print("BAD", type(error).__name__, error, flush=True)
+            code = 4
+        shutil.rmtree(out, ignore_errors=True)
+        os._exit(code)
+    _, status = os.waitpid(pid, 0)
+    print("end", status, flush=True)
+'''
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.skipif(sys.platform != "linux", reason="forks")
+def test_damaged_files_end_in_an_error(tmp_path, kind):
+    """Whatever a damaged file does in the process that reads it, Python itself raises nothing but an Error.
+
+    A signal (a crash inside of HDF5) is no failure here: that process is not the user's, see below.
+    """
+    import json
+    import subprocess
+
+    paths, options = files_of(kind, tmp_path)
+    asked = [options.get("start", ""), "", "", 0.0]
+    task = json.dumps([[str(path) for path in paths], asked, str(tmp_path), 8, 5])
+    done = subprocess.run(
+        [sys.executable, "-c", TORTURE], input=task, capture_output=True, text=True, timeout=300
+    )
+    assert done.returncode == 0, done.stderr
+    assert "BAD" not in done.stdout, done.stdout
+    ends = [int(line.split()[1]) for line in done.stdout.splitlines() if line.startswith("end")]
+    assert len(ends) == 14
+    assert all(end & 127 or end == 0 for end in ends), done.stdout
+
+
+def test_a_process_that_crashes_is_one_line(tmp_path, monkeypatch, capfd):
+    paths, _ = files_of("forefire", tmp_path)
+    monkeypatch.setattr(convert, "__name__", "test_convert_crash")
+    (tmp_path / "test_convert_crash.py").write_text("import os\ndef in_process(**_): os.abort()\n")
+    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{':'.join(sys.path)}")
+    assert cli.main(["convert", str(paths[0]), "--out", str(tmp_path / "out")]) == 1
+    text = capfd.readouterr().err.strip().splitlines()
+    assert len(text) == 1
+    assert str(paths[0]) in text[0]
+    assert "SIGABRT" in text[0]
+    assert not (tmp_path / "out").exists()
+
+
+def test_the_command(tmp_path, capfd):
+    paths, _ = files_of("cfbm", tmp_path)
+    out = tmp_path / "out"
+    assert cli.main(["convert", *map(str, paths), "--out", str(out)]) == 0
+    result = capfd.readouterr()
+    assert result.out.strip() == str(out)
+    assert "Community Fire Behavior Model" in result.err
+    assert runs.open(out).heat_flux(1).max() > 1e4
+    assert cli.main(["info", str(out)]) == 0
+    assert (
+        "Made from Community Fire Behavior Model\n  - times are those of the files" in capfd.readouterr().out
+    )
+    assert cli.main(["convert", *map(str, paths), "--out", str(out)]) == 1
+    assert "is there already" in capfd.readouterr().err
+    assert cli.main(["convert", str(paths[0]), "--out", str(tmp_path / "b"), "--at", "north"]) == 2
+    assert cli.main(["info", str(paths[0])]) == 1
+    assert "firetwin convert" in capfd.readouterr().err
+
+
+def test_a_stopped_conversion_goes_on_and_is_no_run_before(tmp_path, monkeypatch):
+    paths, _ = made.cfbm(tmp_path, count=6)
+    in_process(paths, tmp_path / "whole")
+    out, asked = tmp_path / "out", []
+
+    def stop_at(moment):
+        def progress(done, total, what=""):
+            asked.append(done)
+            if done == moment:
+                raise KeyboardInterrupt
+
+        return progress
+
+    monkeypatch.setattr(write, "_OFTEN", 1)  # bytes: a journal entry each time
+    words = [[str(path) for path in paths], str(out), ["", "", "", 0.0]]
+    with pytest.raises(KeyboardInterrupt):
+        convert.in_process(*words, progress=stop_at(4))
+    assert not out.exists()
+    assert not (write.part_of(out) / "run.toml").exists()
+    with pytest.raises(InputError):
+        runs.open(write.part_of(out))
+    asked.clear()
+    convert.in_process(*words, progress=stop_at(-1))
+    assert asked[0] == 4  # what was done is not done again
+    assert not write.part_of(out).exists()
+    for name in ("heat_flux", "wind_east", "fuel_arrival_time", "elevation"):
+        assert (out / f"{name}.npy").read_bytes() == (tmp_path / "whole" / f"{name}.npy").read_bytes()
+
+
+def test_what_was_made_of_other_files_is_made_again(tmp_path, monkeypatch):
+    paths, _ = made.cfbm(tmp_path, count=6)
+    out, asked = tmp_path / "out", []
+
+    def progress(done, total, what=""):
+        asked.append(done)
+        if len(asked) == 5:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(write, "_OFTEN", 1)
+    words = [str(out), ["", "", "", 0.0]]
+    with pytest.raises(KeyboardInterrupt):
+        convert.in_process([str(path) for path in paths], *words, progress=progress)
+    convert.in_process([str(path) for path in paths[:4]], *words, progress=progress)
+    assert asked[5] == 0
+    assert len(runs.open(out).times) == 4
+
+
+def test_a_full_disk_is_said_before_it_is_full(tmp_path, monkeypatch):
+    paths, _ = files_of("cfbm", tmp_path)
+    usage = type("", (), {"free": 10})()
+    monkeypatch.setattr(write.shutil, "disk_usage", lambda folder: usage)
+    with pytest.raises(InputError, match="needs 0 MB and the disk has"):
+        in_process(paths, tmp_path / "out")
+
+
+def test_a_missing_package_is_one_line(tmp_path, monkeypatch):
+    paths, _ = files_of("forefire", tmp_path)
+    monkeypatch.setitem(sys.modules, "netCDF4", None)
+    with pytest.raises(
+        Error, match=r"needs the Python package netCDF4; install it with: .*-m pip install netCDF4"
+    ):
+        in_process(paths, tmp_path / "out")
+
+
+@pytest.mark.parametrize(
+    ("values", "reason"),
+    [
+        (np.full((5, 5), -9999.0), "nothing burns"),
+        (np.full((5, 5), np.nan), "nothing burns"),
+        (np.full((5, 5), 1e300), "its times make no sense"),
+    ],
+)
+def test_absurd_arrivals(tmp_path, values, reason):
+    path = made.forefire(tmp_path / "a.nc", values)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        with pytest.raises(Error, match=reason):
+            in_process([path], tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_options_are_checked():
+    from firetwin.run.models.model import Options
+
+    for wrong in (("noon", ""), ("", "95,0"), ("", "a,b"), ("", "1")):
+        with pytest.raises(UsageError):
+            Options.of(*wrong, "", 0.0, [])
+
+
+def test_nothing_foreign_is_parsed_where_a_run_is_opened(tmp_path, monkeypatch):
+    """Blender itself looks at first bytes only."""
+    paths, _ = files_of("wrf", tmp_path)
+    monkeypatch.setitem(sys.modules, "netCDF4", None)
+    assert readers.foreign(paths[0])
+    assert readers.foreign(tmp_path)
+    with pytest.raises(InputError, match="firetwin convert"):
+        readers.open(tmp_path)
+
+
+def test_a_task_without_blender(monkeypatch):
+    """It ends in one line and says nothing of Blender."""
+    monkeypatch.setattr(sys, "stdout", io.StringIO())
+    with pytest.raises(Error) as caught:
+        worker.run("firetwin.jobs.convert:nothing", {}, blender=False)
+    assert "Blender" not in str(caught.value)

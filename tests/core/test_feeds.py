@@ -1,0 +1,284 @@
+"""Sensors on one mount, masks, sidecars and the index of a shot that trains."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from firetwin.errors import InputError
+from firetwin.render import dataset, fingerprint, whole
+from firetwin.render.store import Store, describe
+from firetwin.run import info
+from firetwin.shot import file, passes
+from firetwin.shot.passes import fused as fused_pass
+from firetwin.shot.passes import masks, pose
+from firetwin.shot.rigs.drone import CameraKey, Drone
+from firetwin.shot.rigs.lookout import Lookout, LookoutKey
+from firetwin.shot.rigs.minimap import Minimap
+from firetwin.shot.rigs.mounted import Mounted
+from firetwin.shot.rigs.satellite import Satellite
+from firetwin.shot.settings import Camera, Ground, Render, Settings, Time
+from firetwin.shot.shot import Shot
+from firetwin_core import run as runs
+from firetwin_core import sensor
+
+KEYS = (
+    CameraKey(0.0, 38.900, -120.599, 300.0, "point", 38.904, -120.593),
+    CameraKey(1.0, 38.908, -120.587, 250.0, "point", 38.904, -120.593),
+)
+DRONE = Camera("drone", Drone(keys=KEYS, vibration=0.5, bank=1.0))
+SCENE = (
+    '[[cameras]]\nname = "drone"\n[[cameras.keys]]\nat = 0.0\n[[cameras]]\nkind = "mounted"\nname = "two"\n'
+)
+
+
+@pytest.fixture
+def shot(make_run):
+    def make(*cameras):
+        ground = Ground(near_radius=0.0, apron=5000.0)
+        render = Render(resolution=(320, 180))
+        settings = Settings(time=Time(frames=5), ground=ground, cameras=cameras, render=render)
+        return Shot(settings, runs.open(make_run()))
+
+    return make
+
+
+def test_sensors_of_a_mount_share_place_and_direction_in_every_frame(shot):
+    narrow = Camera("narrow", Mounted("drone", 50.0, 13.2), resolution=(160, 128))
+    made = shot(DRONE, Camera("same", Mounted("drone")), narrow)
+    drone, same, narrow = (made.of(name).paths[0] for name in ("drone", "same", "narrow"))
+    for other in (same, narrow):  # also where the others are not filmed
+        assert np.array_equal(other.position, drone.position)
+        assert np.array_equal(other.rotation, drone.rotation)
+    assert same.half == drone.half
+    assert narrow.half == pytest.approx((0.132, 0.132 * 128 / 160))
+    assert narrow.sensor == 13.2
+
+
+def test_a_sensor_without_a_lens_zooms_with_its_mount(shot):
+    keys = (LookoutKey(0.0), LookoutKey(1.0, zoom=4.0))
+    tower = Camera("tower", Lookout(latitude=38.904, longitude=-120.593, keys=keys))
+    made = shot(tower, Camera("same", Mounted("tower")), Camera("fixed", Mounted("tower", 20.0)))
+    tower, same, fixed = made.paths
+    assert np.array_equal(same.halves, tower.halves)
+    assert np.ptp(fixed.halves, axis=0) == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("", 'camera "two" has no follows; name the camera it is mounted with'),
+        ('follows = "dorne"', 'follows "dorne", and no other camera has this name; did you mean "drone"?'),
+        ('follows = "two"', 'follows "two", and no other'),
+    ],
+)
+def test_a_mount_that_is_not_there_is_an_error(tmp_path, line, words):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(SCENE + line)
+    with pytest.raises(InputError) as caught:
+        file.read(scene)
+    assert words in caught.value.reason
+
+
+def test_nothing_follows_what_follows_and_nothing_is_mounted_on_a_satellite():
+    cameras = (Camera("two", Mounted("drone")), Camera("sat", Satellite()), DRONE)
+    assert Minimap().leader(cameras[:1]) is None
+    assert Minimap().leader(cameras[::2]) is DRONE
+    assert Mounted("sat").leader(cameras) is None
+
+
+def test_a_mounted_sensor_is_made_again_when_its_mount_moves():
+    two = Camera("two", Mounted("drone"))
+
+    def made_with(drone):
+        return fingerprint.of_picture(Settings(cameras=(drone, two)), {}, "two", "rgb")
+
+    moved = replace(DRONE, rig=replace(DRONE.rig, bank=0.0))
+    assert made_with(DRONE) == made_with(DRONE)
+    assert made_with(DRONE) != made_with(moved)
+
+
+def test_classes_and_numbers_survive_smoke_exactly():
+    rng = np.random.default_rng(0)
+    kind, number = rng.integers(0, 6, (40, 50)), rng.integers(0, 10_000_000, (40, 50))
+    kind[kind == masks.SMOKE] = masks.TREE
+    clear = rng.uniform(0.001, 1.0, kind.shape).astype(np.float32)
+    code = np.stack([number % 4096, np.ones(kind.shape), kind + 8 * (number // 4096)], axis=-1)
+    pixels = (code.astype(np.float32) * clear[..., None]).astype(np.float32)
+    found, instance, through = masks.classes(pixels)
+    assert np.array_equal(instance, number)
+    assert np.array_equal(found[clear > 0.5], kind[clear > 0.5])
+    assert np.all(found[clear < 0.5] == masks.SMOKE)
+    assert np.array_equal(through, clear)
+    found, instance, _ = masks.classes(np.zeros((2, 2, 3), np.float32))
+    assert np.all(found == masks.SMOKE)
+    assert np.all(instance == 0)
+
+
+def test_masks_are_written_by_name_and_in_one_colour_each(tmp_path):
+    files = {end: tmp_path / f"masks.{end}" for end in ("exr", "png")}
+    kinds = np.arange(6)[None].repeat(2, 0)
+    pixels = np.stack([np.full(kinds.shape, 7.0), np.ones(kinds.shape), kinds], axis=-1)
+    sensor.write_image(files["exr"], pixels)
+    masks.finish(files, {}, None, "drone", 1)
+    kind, clear, instance = np.moveaxis(sensor.read_image(files["exr"]), -1, 0)
+    assert np.array_equal(kind, kinds)
+    assert np.all(clear == 1.0)
+    assert np.all(instance == 7.0)
+    assert all(name in files["exr"].read_bytes()[:900] for name in (b"class\0", b"clear\0", b"instance\0"))
+    shown = np.rint(sensor.read_image(files["png"])[..., :3] * 255)
+    assert np.array_equal(shown[0], masks.COLOURS)
+
+
+def seen(sidecar, latitude, longitude, height):
+    """Pixel (u, v) of a WGS84 place by a sidecar alone, by PROJ's geocentric metres and not by our frame."""
+    pyproj = pytest.importorskip("pyproj")
+    ecef = pyproj.Transformer.from_crs("EPSG:4979", "EPSG:4978")
+    origin = sidecar["pose"]["origin"]
+    lat, lon = np.radians([origin["latitude"], origin["longitude"]])
+    zero = ecef.transform(origin["latitude"], origin["longitude"], origin["height"])
+    turn = np.array(
+        [
+            [-np.sin(lon), np.cos(lon), 0.0],
+            [-np.sin(lat) * np.cos(lon), -np.sin(lat) * np.sin(lon), np.cos(lat)],
+            [np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)],
+        ]
+    )
+    place = turn @ (np.array(ecef.transform(latitude, longitude, height)) - zero)
+    matrix, lens = np.array(sidecar["pose"]["camera_to_world"]), sidecar["intrinsics"]
+    x, y, z, _ = np.linalg.inv(matrix) @ np.append(place, 1.0)
+    far = -z if lens["projection"] == "perspective" else 1.0
+    return lens["cx"] + lens["fx"] * x / far, lens["cy"] - lens["fy"] * y / far
+
+
+@pytest.mark.parametrize("name", ["drone", "two", "sat", "goes", "map"])
+def test_a_sidecar_alone_says_where_a_place_is_seen(shot, name):
+    cameras = [DRONE, Camera("two", Mounted("drone", 50.0)), Camera("sat", Satellite(swath=4000.0))]
+    cameras += [Camera("goes", Satellite(swath=4000.0, geostationary=-137.0)), Camera("map", Minimap())]
+    made = shot(*cameras).of(name)
+    (view,) = made.paths
+    found = json.loads(json.dumps(pose.described(made, view, 3)))
+    side = view.halves[2] / (view.meet or 1.0) * [0.5, 0.25]  # in the middle of the upper right quarter
+    far = 800.0 if name in ("drone", "two") else np.linalg.norm(view.target[2] - view.position[2])
+    across = side * (far if view.perspective or view.meet else 1.0)
+    aim = view.position[2] + view.rotation[2] @ np.append(across, -far)
+    place = (float(value[0]) for value in made.local_frame.reverse(aim[None]))
+    assert seen(found, *place) == pytest.approx((0.75 * 320, 0.375 * 180), abs=0.01)
+    assert found["pose"]["height_above_ground"] > 200.0
+    assert found["time_utc"].endswith("+00:00")
+    assert set(found["files"]) == {"rgb", "depth", "thermal"}
+    assert found["files"]["depth"] == {"exr": f"../../{name}/depth/{name}_depth_000003.exr"}
+
+
+def test_heading_pitch_and_roll_are_those_of_the_camera(shot):
+    key = CameraKey(0.0, 38.900, -120.599, 300.0, "point", 38.900, -120.589, 300.0)
+    made = shot(Camera("drone", Drone(keys=(key,))))
+    found = pose.pose(made, made.paths[0], 1)
+    assert found["heading"] == pytest.approx(90.0, abs=0.05)
+    assert found["roll"] == pytest.approx(0.0, abs=0.05)
+    right, up, back = np.moveaxis(made.paths[0].rotation, -1, 0)
+    tilted = replace(made.paths[0], rotation=np.stack([-up, right, back], axis=-1))
+    assert pose.pose(made, tilted, 1)["roll"] == pytest.approx(90.0, abs=0.1)  # its right edge is down
+
+
+def test_a_sidecar_is_made_again_when_passes_change_and_pictures_are_not():
+    def made_with(name, *names):
+        render = Render(passes=names)
+        return fingerprint.of_picture(Settings(cameras=(DRONE,), render=render), {}, "drone", name)
+
+    assert made_with("pose", "rgb", "pose") != made_with("pose", "rgb", "masks", "pose")
+    assert made_with("rgb", "rgb", "pose") == made_with("rgb", "rgb", "masks", "pose")
+
+
+def test_a_cut_off_sidecar_is_no_whole_file(tmp_path):
+    path = tmp_path / "pose.json"
+    path.write_text('{"pose": ')
+    with pytest.raises(InputError, match="is no JSON"):
+        whole.picture(path, (1, 1))
+    path.write_text("{}")
+    whole.picture(path, (1, 1))
+
+
+def test_the_index_lists_frames_that_have_picture_and_sidecar(shot, tmp_path):
+    made = shot(DRONE, Camera("sat", Satellite(swath=4000.0)))
+    with Store(tmp_path, create=True) as store:
+        for camera, frame, names in (
+            ("drone", 1, "rgb pose masks"),
+            ("drone", 2, "rgb"),
+            ("sat", 1, "rgb pose"),
+        ):
+            view = made.of(camera).paths[0]
+            for name in names.split():
+                for end in passes.known()[name].files:
+                    path = tmp_path / passes.file_of(camera, name, frame, end)
+                    path.parent.mkdir(parents=True, exist_ok=True)
+                    text = json.dumps(pose.described(made.of(camera), view, frame)) if name == "pose" else "x"
+                    path.write_text(text)
+                    store.add({}, {str(path.relative_to(tmp_path)): describe(path)})
+        dataset.write(store)
+    assert not (tmp_path / "sat" / dataset.NAME).exists()
+    index = json.loads((tmp_path / "drone" / dataset.NAME).read_text())
+    (frame,) = index["frames"]
+    assert frame["file_path"] == "rgb/drone_rgb_000001.png"
+    assert frame["fl_x"] == pytest.approx(320 * 28.0 / 36.0)
+    assert np.array(frame["transform_matrix"])[:3, 3] == pytest.approx(made.paths[0].position[0])
+    assert set(frame["passes"]) == {"rgb", "pose", "masks"}
+    assert (tmp_path / "drone" / frame["passes"]["masks"][0]).exists()
+    (tmp_path / passes.file_of("drone", "pose", 1, "json")).unlink()
+    with Store(tmp_path) as store:
+        dataset.write(store)  # what people removed is no reason to fail
+
+
+@pytest.fixture
+def fused(shot, tmp_path):
+    """The fused picture of a red picture, 300 K with a hot half, and ground at 500 m under a sky."""
+
+    def make(resolution):
+        made = shot(replace(DRONE, resolution=resolution))
+        needed = {
+            "rgb": {"png": tmp_path / "rgb.png"},
+            "thermal": {"exr": tmp_path / "thermal.exr"},
+            "depth": {"exr": tmp_path / "depth.exr"},
+        }
+        kelvin, depth = np.full((18, 32, 2), 300.0), np.full((18, 32, 2), 500.0)
+        kelvin[:, 16:], depth[:9] = 800.0, 1e10
+        sensor.write_image(needed["rgb"]["png"], np.full((18, 32, 3), (1.0, 0.0, 0.0)))
+        sensor.write_image(needed["thermal"]["exr"], kelvin)
+        sensor.write_image(needed["depth"]["exr"], depth)
+        passes.known()["fused"].finish({"png": tmp_path / "fused.png"}, needed, made, "drone", 3)
+        return sensor.read_image(tmp_path / "fused.png")[..., :3]
+
+    return make
+
+
+@pytest.mark.parametrize("resolution", [(320, 180), (400, 400)])
+def test_panels_lie_where_they_belong_in_any_size(fused, resolution):
+    picture = fused(resolution)
+    assert picture.shape == (*resolution[::-1], 3)
+    red = np.all(np.abs(picture - [1.0, 0.0, 0.0]) < 0.02, axis=-1)
+    rows, columns = (np.flatnonzero(red.any(axis=axis)) for axis in (1, 0))
+    high, wide = np.ptp(rows) + 1, np.ptp(columns) + 1
+    assert wide / high == pytest.approx(resolution[0] / resolution[1], rel=0.05)
+    assert wide > 0.35 * resolution[0]
+    gap = round(1.5 * min(resolution[0] / 178.0, resolution[1] / 100.0))
+    left = columns[-1] + gap
+    thermal = picture[rows[-1] - high // 2, left + 3 : left + wide - 2].mean(axis=-1)
+    assert thermal[-5] > thermal[5] + 0.4, "the hot half is at the right"
+    depth = picture[rows[-1] + gap + 4 : rows[-1] + gap + high - 4, left + wide // 2]
+    assert np.ptp(depth[0]) < 0.02, "the sky is grey"
+    assert np.ptp(depth[-1]) > 0.2
+
+
+def test_what_is_told_beside_the_panels_is_true(shot, monkeypatch):
+    made = shot(DRONE)
+    square_metres = 4046.8564224
+    burned = lambda _, moments: [square_metres * (1000.0 + time) for time in moments]  # noqa: E731
+    monkeypatch.setattr(info, "burned", burned)
+    facts = dict(fused_pass.facts(made, "drone", 3))
+    assert facts["TIME"][1] == f"{made.moment(3):%Y-%m-%d %H:%M:%S} UTC"
+    assert facts["TIME"][0].endswith("PDT")
+    latitude, longitude, height = (float(v[0]) for v in made.local_frame.reverse(made.paths[0].position[2:3]))
+    assert facts["POSITION"] == [f"{latitude:.5f}° N", f"{-longitude:.5f}° W"]
+    assert facts["HEIGHT"][1].startswith(f"{height:,.0f} m ")
+    assert facts["VIEW"] == ["65° wide"]
+    assert facts["BURNED"] == [f"{1000.0 + made.frames.time(3):,.0f} acres"]

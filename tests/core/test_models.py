@@ -1,0 +1,441 @@
+"""Fire models' files become runs: each model's structure and its traps, exact numbers, places and totals."""
+
+import re
+import tomllib
+from datetime import UTC, datetime
+from pathlib import Path
+
+import model_files as made
+import numpy as np
+import pytest
+from firetwin.errors import Error, InputError
+from firetwin.jobs import convert
+from firetwin.run import areas, info
+from firetwin.run.models import fuels
+from firetwin_core import run as runs
+
+START = made.START.replace(tzinfo=UTC)
+
+
+@pytest.fixture
+def converted(tmp_path):
+    """Convert in this process and open the run."""
+
+    def make(paths, start="", at="", projection="", interval=0.0):
+        out = tmp_path / "run"
+        convert.in_process([str(path) for path in paths], str(out), [start, at, projection, interval])
+        return runs.open(out)
+
+    return make
+
+
+def source(run):
+    return tomllib.loads((Path(run.path) / "run.toml").read_text())["source"]
+
+
+def said(run):
+    return " ".join(source(run)["assumptions"])
+
+
+def moment(run):
+    return datetime.fromisoformat(run.start)
+
+
+def burned_area(run):
+    factors = areas.cell_areas(run.fuel_latitude, run.fuel_longitude)
+    return float((factors * (run.fuel_arrival_time() <= run.times[-1])).sum())
+
+
+# ---- WRF-SFIRE
+
+
+def test_wrf_sfire(tmp_path, converted):
+    paths, truth = made.wrf(tmp_path)
+    run = converted(paths[::-1])
+    assert source(run)["model"] == "WRF-SFIRE"
+    assert source(run)["version"] == "V4.4"
+    assert "+proj=lcc" in source(run)["projection"]
+    assert moment(run) == START
+    np.testing.assert_array_equal(run.times, [60, 120, 180])
+    for i in range(3):
+        np.testing.assert_array_equal(run.heat_flux(i), truth["GRNHFX"][i])
+    np.testing.assert_array_equal(run.elevation, truth["HGT"].astype(np.float32))
+    np.testing.assert_allclose(run.fuel_latitude, truth["lat"][:, 0], atol=2e-5)
+    np.testing.assert_allclose(run.fuel_longitude, truth["lon"][0], atol=2e-5)
+    arrival = run.fuel_arrival_time()
+    assert arrival.shape == (made.NY * made.SR, made.NX * made.SR)  # the junk edge is not there
+    inside = truth["x"] < made.SPEED * 180
+    np.testing.assert_allclose(arrival[inside], truth["x"][inside] / made.SPEED, rtol=1e-6)
+    assert (~inside).any()
+    assert not np.isfinite(arrival[~inside]).any()  # TIGN_G there is no time of arrival
+    load = np.asarray(run.surface_fuel)
+    np.testing.assert_array_equal(np.unique(load), np.float32([0, fuels.SFIRE[0], fuels.SFIRE[7]]))
+
+
+def test_wrf_sfire_in_three_dimensions(tmp_path, converted):
+    paths, truth = made.wrf(tmp_path)
+    run = converted(paths)
+    kelvin = np.load(f"{run.path}/temperature_3d.npy")
+    pressure = truth["PB"][1] + np.float32(12)
+    expected = (truth["T"][1] + 300.0) * (pressure / 1e5) ** (287 / 1004.5)
+    np.testing.assert_allclose(kelvin[1], expected, rtol=1e-6)
+    np.testing.assert_allclose(
+        np.load(f"{run.path}/height_3d.npy")[0, :, 0, 0], 925 + 50 * np.arange(made.LEVELS)
+    )
+    smoke = np.load(f"{run.path}/smoke_3d.npy")[1]
+    np.testing.assert_allclose(smoke, truth["tr17_1"][1] * 1e-3 * pressure / (287 * expected), rtol=1e-5)
+    east, up = (np.load(f"{run.path}/wind_{way}_3d.npy")[0] for way in ("east", "up"))
+    np.testing.assert_allclose(
+        east[0, 0], np.arange(made.NX) + 0.5, atol=1e-3
+    )  # staggered: means of both sides
+    np.testing.assert_allclose(up[:, 0, 0], np.arange(made.LEVELS) + 0.5)
+
+
+def test_wrf_sfire_where_the_flux_is_on_the_fire_grid_alone(tmp_path, converted):
+    paths, truth = made.wrf(tmp_path, without=("GRNHFX", "TIGN_G"))
+    run = converted(paths)
+    fine = truth["FGRNHFX"][1].astype(np.float64).reshape(made.NY, made.SR, made.NX, made.SR).mean((1, 3))
+    np.testing.assert_array_equal(run.heat_flux(1), fine.astype(np.float32))
+    arrival = run.fuel_arrival_time()
+    later = (truth["x"] > made.SPEED * 60) & (truth["x"] < made.SPEED * 180)
+    np.testing.assert_allclose(arrival[later], truth["x"][later] / made.SPEED, rtol=1e-5)
+    assert (arrival[truth["x"] < made.SPEED * 60] == 60).all()  # burned in the first frame: by then
+
+
+def test_wrf_sfire_restarted_counts_from_the_simulation(tmp_path, converted):
+    paths, truth = made.wrf(tmp_path, START_DATE="2020-07-01_18:01:00")
+    run = converted(paths)
+    assert moment(run) == START
+    inside = truth["x"] < 100
+    np.testing.assert_allclose(run.fuel_arrival_time()[inside], truth["x"][inside] / made.SPEED, rtol=1e-6)
+
+
+def test_wrf_sfire_in_metres(tmp_path, converted):
+    paths, _ = made.wrf(tmp_path, ideal=True)
+    run = converted(paths, at="40,-105")
+    assert "its middle is put at 40, -105" in said(run)
+    north, east = areas.metres_per_degree(40.0)
+    np.testing.assert_allclose(np.diff(run.fuel_longitude) * east, 10.0, rtol=1e-4)
+    np.testing.assert_allclose(np.diff(run.latitude) * north, 40.0, rtol=1e-4)
+
+
+def test_wrf_sfire_turned(tmp_path, converted):
+    """Of a turned grid each value is the nearest cell's, the wind is turned, and the error is said."""
+    paths, truth = made.wrf(tmp_path, turn=20.0)
+    run = converted(paths)
+    assert "turned or curved" in said(run)
+    values = np.setdiff1d(run.heat_flux(1), np.append(truth["GRNHFX"][1], 0))
+    assert values.size == 0
+    u, v = truth["U10"][1].ravel(), truth["V10"][1].ravel()
+    turned = np.hypot(u, v).max()
+    assert np.hypot(run.wind(1)[0], run.wind(1)[1]).max() <= turned * 1.0001
+    c, s = np.cos(np.radians(20)), np.sin(np.radians(20))
+    east = (u * c - v * s).astype(np.float32)
+    assert np.abs(run.wind(1)[0].ravel()[:, None] - east[None]).min(axis=1).max() < 1e-2
+    x, y = np.meshgrid(run.fuel_longitude, run.fuel_latitude)
+    along = c * (x + 120) * 111_300 * np.cos(np.radians(39)) + s * (y - 39) * 111_100
+    arrival = run.fuel_arrival_time()
+    known = np.isfinite(arrival)
+    assert np.abs(arrival[known] * made.SPEED - along[known]).max() < 7.5  # m: half a diagonal and a float
+    assert burned_area(run) == pytest.approx((truth["x"] < made.SPEED * 180).sum() * 100.0, rel=0.07)
+
+
+# ---- CFBM
+
+
+def test_cfbm(tmp_path, converted):
+    paths, truth = made.cfbm(tmp_path)
+    run = converted(paths)
+    assert source(run)["model"] == "Community Fire Behavior Model"
+    assert moment(run) == START
+    np.testing.assert_array_equal(run.times, [0, 30, 60, 90])
+    for i in (1, 2, 3):
+        np.testing.assert_array_equal(
+            run.heat_flux(i), truth["flux"][i]
+        )  # all rows and columns, all tiny values
+    assert run.heat_flux(0).max() == 0  # never set by the model
+    np.testing.assert_allclose(run.latitude, truth["lat"].mean(1), rtol=1e-12)
+    arrival = run.fuel_arrival_time()
+    later = (truth["x"] > made.SPEED * 30) & (truth["x"] < made.SPEED * 90)
+    np.testing.assert_allclose(arrival[later], truth["x"][later] / made.SPEED, rtol=1e-5)
+    assert (
+        arrival[truth["x"] < made.SPEED * 30] == 15
+    ).all()  # no level function before ignition: the middle
+    assert not np.isfinite(arrival[truth["x"] > made.SPEED * 90]).any()
+    np.testing.assert_allclose(run.wind(1)[0], 3.0, rtol=1e-3)
+
+
+def test_cfbm_turned_wind(tmp_path, converted):
+    paths, _ = made.cfbm(tmp_path, turn=30.0)
+    run = converted(paths)
+    c, s = np.cos(np.radians(30)), np.sin(np.radians(30))
+    np.testing.assert_allclose(np.median(run.wind(1)[0]), 3 * c - 4 * s, atol=0.05)
+    np.testing.assert_allclose(np.median(run.wind(1)[1]), 3 * s + 4 * c, atol=0.05)
+
+
+def test_cfbm_without_a_time_in_its_name(tmp_path, converted):
+    paths, _ = made.cfbm(tmp_path, count=1)
+    with pytest.raises(InputError, match="its time is in its name only"):
+        converted([paths[0].rename(tmp_path / "first.nc")])
+
+
+# ---- ForeFire
+
+
+def disc(shape, cell, speed=0.3):
+    """A round fire from the middle, its ignition negative as the model writes it."""
+    y, x = ((np.arange(n) - (n - 1) / 2) * side for n, side in zip(shape, cell, strict=True))
+    arrival = np.hypot(*np.meshgrid(x, y)) / speed - 15.0
+    return np.where(arrival > 1200, -9999.0, arrival)
+
+
+def test_forefire(tmp_path, converted):
+    arrival = disc((51, 101), (20.0, 30.0))
+    run = converted([made.forefire(tmp_path / "ForeFire.0.nc", arrival, lx=3030.0, ly=1020.0)], at="42,9")
+    assert moment(run) == datetime(2020, 7, 18, tzinfo=UTC)
+    found = run.fuel_arrival_time()
+    np.testing.assert_array_equal(found, np.where(arrival == -9999, np.nan, arrival).astype(np.float32))
+    assert (found < 0).any()  # ignitions burn
+    north, east = areas.metres_per_degree(42.0)
+    np.testing.assert_allclose(np.diff(run.longitude) * east, 30.0, rtol=1e-6)  # cells are not square
+    np.testing.assert_allclose(np.diff(run.latitude) * north, 20.0, rtol=1e-6)
+    burned = (arrival > -9999).sum() * 600.0
+    assert info.energy(run) == pytest.approx(burned * fuels.HEAT, rel=3e-3)  # 1 kg/m2, as is said
+    assert "1 kg/m2" in said(run)
+
+
+def test_forefire_fronts_place_and_date_it(tmp_path, converted):
+    import json
+
+    arrival = disc((60, 60), (20.0, 20.0))
+    path = made.forefire(tmp_path / "ForeFire.0.nc", arrival, lx=1200.0, ly=1200.0)
+    ring = [[9.0 + 0.004 * c, 42.0 + 0.003 * s, 0] for c, s in ((-1, 0), (0, 1), (1, 0), (0, -1), (-1, 0))]
+    front = {"valid_at": "2020-07-18T14:00:00Z", "features": [{"geometry": {"coordinates": [[ring]]}}]}
+    (tmp_path / "a.geojson").write_text(json.dumps(front))
+    run = converted([path, tmp_path / "a.geojson"])
+    assert abs((run.latitude[0] + run.latitude[-1]) / 2 - 42.0) < 1e-6
+    assert abs((run.longitude[0] + run.longitude[-1]) / 2 - 9.0) < 1e-6
+    last = np.ceil(arrival.max())
+    assert (datetime(2020, 7, 18, 14, tzinfo=UTC) - moment(run)).total_seconds() == last
+    ring[0][1] = 88.0  # of a domain with a UTM corner
+    (tmp_path / "a.geojson").write_text(json.dumps(front))
+    (tmp_path / "run").rename(tmp_path / "before")
+    assert "beyond 84 degrees" in said(converted([path, tmp_path / "a.geojson"]))
+
+
+def test_forefire_itself(tmp_path):
+    """The model runs, and what it wrote comes back: area, place and time."""
+    pytest.importorskip("pyforefire", reason="pip install forefire")
+    import subprocess
+    import sys
+
+    code = """
+import os, pyforefire
+ff = pyforefire.ForeFire()
+os.mkdir("ForeFire")
+ff["caseDirectory"] = os.getcwd()
+for key, value in {"spatialIncrement": 3., "perimeterResolution": 10., "atmoNX": 40, "atmoNY": 30,
+                   "refYear": 2020, "refDay": 200, "minimalPropagativeFrontDepth": 10.}.items():
+    ff[key] = value
+ff.execute("FireDomain[sw=(0,0,0);ne=(3000,2000,0);t=0]")
+ff.addLayer("propagation", "Iso", "propagationModel")
+ff.execute("startFire[loc=(1500,1000,0);t=0]")
+ff.execute("step[dt=900]")
+ff["dumpMode"] = "geojson"
+ff.execute("print[front.geojson]")
+ff.execute("save[]")
+"""
+    subprocess.run([sys.executable, "-c", code], cwd=tmp_path, check=True, timeout=60, capture_output=True)
+    convert.in_process(
+        [str(tmp_path / "ForeFire.0.nc"), str(tmp_path / "front.geojson")],
+        str(tmp_path / "run"),
+        ["", "", "", 0],
+    )
+    run = runs.open(tmp_path / "run")
+    raw = np.asarray(made.netCDF4.Dataset(tmp_path / "ForeFire.0.nc")["arrival_time_of_front"][:])
+    arrival = run.fuel_arrival_time()
+    np.testing.assert_array_equal(np.isfinite(arrival), raw != -9999)
+    np.testing.assert_array_equal(arrival[raw != -9999], raw[raw != -9999].astype(np.float32))
+    cell = 3000 * 2000 / raw.size
+    assert burned_area(run) == pytest.approx((raw != -9999).sum() * cell, rel=1e-3)
+    assert moment(run) == datetime(2020, 7, 18, tzinfo=UTC)
+    import json
+
+    shapely = pytest.importorskip("shapely")
+    data = json.loads((tmp_path / "front.geojson").read_text())
+    rings = [
+        np.array(ring)[:, :2] for f in data["features"] for p in f["geometry"]["coordinates"] for ring in p
+    ]
+    west, south, east, north = shapely.Polygon(np.concatenate(rings)).bounds
+    dx, dy = abs(np.diff(run.longitude).mean()), abs(np.diff(run.latitude).mean())
+    burned = np.isfinite(arrival)
+    columns, rows = run.fuel_longitude[burned.any(0)], run.fuel_latitude[burned.any(1)]
+    assert abs(columns.min() - west) < 1.5 * dx  # a touched cell counts
+    assert abs(columns.max() - east) < 1.5 * dx
+    assert abs(rows.min() - south) < 1.5 * dy
+    assert abs(rows.max() - north) < 1.5 * dy
+
+
+# ---- ELMFIRE, FARSITE, pyretechnics
+
+
+def plane(ny=20, nx=30, cell=30.0, speed=0.5, until=600.0):
+    """Arrival (s) of a front that moves along rows, and its fuel numbers."""
+    x = (np.arange(nx) + 0.5) * cell + np.zeros((ny, 1))
+    arrival = np.where(x / speed <= until * 2, x / speed, np.nan).astype(np.float32)
+    return arrival, np.where(x < 300, 102, np.where(x < 600, 165, 98)).astype(np.int16)
+
+
+def test_elmfire(tmp_path, converted):
+    arrival, number = plane()
+    case = "0000001_0001200"
+    files = [made.tiff(tmp_path / f"time_of_arrival_{case}.tif", np.where(np.isnan(arrival), -9999, arrival))]
+    flin = np.where(np.isnan(arrival), -9999, 500.0).astype(np.float32)  # kW/m
+    files.append(made.tiff(tmp_path / f"flin_{case}.tif", flin))
+    files.append(made.tiff(tmp_path / f"vs_{case}.tif", np.full_like(flin, 0.5 / 0.3048 * 60)))  # ft/min
+    files.append(made.tiff(tmp_path / "fbfm40.tif", number))
+    files.append(made.tiff(tmp_path / "cbd.tif", np.full(number.shape, 12, np.int16)))
+    files.append(made.tiff(tmp_path / "ch.tif", np.full(number.shape, 150, np.int16)))
+    files.append(made.tiff(tmp_path / "cbh.tif", np.full(number.shape, 50, np.int16)))
+    files.append(made.tiff(tmp_path / "dem.tif", np.full(number.shape, 900, np.int16)))
+    run = converted(files, start="2020-07-01T20:00:00Z")
+    assert source(run)["model"] == "ELMFIRE"
+    assert np.unique(run.canopy_fuel).max() == pytest.approx(0.12 * 10.0)
+    assert set(np.unique(run.surface_fuel)) <= {np.float32(0), np.float32(0.247), np.float32(3.138)}
+    assert run.elevation.max() == 900
+    burns = np.isfinite(arrival)
+    joules = (fuels.loads(number) + 1.2)[burns].mean() * fuels.HEAT  # a m2
+    factor = float(re.search(r"times ([\d.e+]+):", said(run))[1])
+    assert factor == pytest.approx(joules / (500e3 / 0.5), rel=5e-3)  # kW/m over ft/min
+    cell = areas.cell_areas(run.latitude, run.longitude)
+    burned = np.isfinite(run.fuel_arrival_time())
+    fuel = (np.asarray(run.surface_fuel) + np.asarray(run.canopy_fuel)) * burned * cell
+    assert info.energy(run) == pytest.approx(fuel.sum() * fuels.HEAT, rel=0.06)  # cells turned and resampled
+    place = run.latitude[-1], run.longitude[0]  # a corner, by PROJ
+    from pyproj import Transformer
+
+    x, y = Transformer.from_crs("EPSG:4326", "EPSG:32610", always_xy=True).transform(place[1], place[0])
+    assert abs(x - 500_015) < 30
+    assert abs(y - (4_300_000 - 15 if run.latitude[-1] > run.latitude[0] else 4_300_000 - 585)) < 30
+
+
+def test_heat_is_that_of_the_fuel_burned(tmp_path, converted):
+    """Made of intensity on a grid that needs no turning: the total is exact."""
+    arrival, number = plane()
+    minutes = made.ascii_grid(tmp_path / "FlamMap_Arrival Time.asc", arrival / 60)
+    made.ascii_grid(tmp_path / "FlamMap_Intensity.asc", np.where(np.isnan(arrival), np.nan, 400.0))
+    layers = np.zeros((*number.shape, 8), np.int16)
+    layers[..., 3], layers[..., 5], layers[..., 6], layers[..., 7] = number, 150, 50, 12
+    land = made.lcp(tmp_path / "land.lcp", layers, north=number.shape[0] * 30.0)
+    files = [minutes, tmp_path / "FlamMap_Intensity.asc", land]
+    run = converted(files, start="2020-07-01T20:00:00Z")
+    assert source(run)["model"] == "FARSITE or FlamMap"
+    np.testing.assert_allclose(run.fuel_arrival_time(), arrival, rtol=1e-6)  # minutes become seconds
+    cell = areas.cell_areas(run.latitude, run.longitude)
+    burned = np.isfinite(run.fuel_arrival_time())
+    fuel = (np.asarray(run.surface_fuel, np.float64) + np.asarray(run.canopy_fuel)) * burned * cell
+    step = np.diff(run.times)
+    released = sum(float((run.heat_flux(i + 1) * cell).sum()) * step[i] for i in range(len(step)))
+    assert released == pytest.approx(fuel.sum() * fuels.HEAT, rel=1e-5)
+    assert np.unique(run.canopy_fuel) == pytest.approx([1.2])
+
+
+def test_an_lcp_is_what_gdal_reads(tmp_path):
+    rasterio = pytest.importorskip("rasterio")
+    from firetwin.run.models import raster
+
+    layers = np.random.default_rng(3).integers(0, 300, (7, 9, 8)).astype(np.int16)
+    path = made.lcp(tmp_path / "a.lcp", layers, north=210.0)
+    found = raster.landscape(path)
+    with rasterio.open(path, driver="LCP") as file:
+        np.testing.assert_array_equal(found["elevation"].values, file.read(1))
+        np.testing.assert_allclose(found["height"].values, file.read(6) / 10, rtol=1e-6)
+        np.testing.assert_allclose(found["bulk_density"].values, file.read(8) / 100, rtol=1e-6)
+        assert file.transform * (0.5, 0.5) == pytest.approx(
+            (found["elevation"].x[0], found["elevation"].y[0])
+        )
+
+
+def test_pyretechnics_itself(tmp_path, converted):
+    pytest.importorskip("pyretechnics", reason="pip install 'firetwin[simulate]', which compiles for minutes")
+    from pyretechnics.eulerian_level_set import SpreadState, spread_fire_with_phi_field
+    from pyretechnics.space_time_cube import SpaceTimeCube
+
+    shape = (1, 40, 50)
+    values = {"slope": 0, "aspect": 0, "fuel_model": 102, "canopy_cover": 0, "canopy_height": 0}
+    values |= {
+        "canopy_base_height": 0,
+        "canopy_bulk_density": 0,
+        "wind_speed_10m": 30,
+        "upwind_direction": 270,
+    }
+    values |= {f"fuel_moisture_dead_{k}hr": 0.05 for k in (1, 10, 100)}
+    values |= {"fuel_moisture_live_herbaceous": 0.9, "fuel_moisture_live_woody": 0.6, "foliar_moisture": 0.9}
+    values |= {"fuel_spread_adjustment": 1, "weather_spread_adjustment": 1}
+    cubes = {name: SpaceTimeCube(shape, value) for name, value in values.items()}
+    state = SpreadState(shape).ignite_cell((20, 20))
+    done = spread_fire_with_phi_field(cubes, state, (60.0, 30.0, 30.0), 0.0, 60.0)
+    matrices = done["spread_state"].get_full_matrices()
+    path = tmp_path / "out.npz"
+    np.savez(path, **matrices, cell_width=30.0, cell_height=30.0)
+    run = converted([path], start="2020-07-01T20:00:00Z", at="39,-120")
+    arrival = run.fuel_arrival_time()
+    raw = matrices["time_of_arrival"]
+    burned = np.isfinite(raw) & (raw >= 0)
+    np.testing.assert_array_equal(np.isfinite(arrival), burned)
+    np.testing.assert_allclose(arrival[burned], raw[burned] * 60, rtol=1e-6)
+    assert burned_area(run) == pytest.approx(burned.sum() * 900.0, rel=1e-3)
+    assert run.latitude[0] < run.latitude[-1]  # rows are from the south
+    assert np.flatnonzero(burned.any(0)).max() > 22  # the wind blows it east
+
+
+# ---- any CF netCDF
+
+
+def cf(path, *, name="hfx", times=(0, 60), units="seconds since 2020-07-01 18:00:00"):
+    flux = np.random.default_rng(4).uniform(0, 1e5, (len(times), 5, 6)).astype(np.float32)
+    with made.netCDF4.Dataset(path, "w") as f:
+        for dim, size in (("t", len(times)), ("y", 5), ("x", 6)):
+            f.createDimension(dim, size)
+        f.createVariable("t", "f8", ("t",))[:] = times
+        f["t"].units = units
+        for axis, dim, unit, values in (
+            ("la", "y", "degrees_north", 39 + 0.001 * np.arange(5)),
+            ("lo", "x", "degrees_east", -120 + 0.001 * np.arange(6)),
+        ):
+            f.createVariable(axis, "f8", (dim,))[:] = values
+            f[axis].units = unit
+        variable = f.createVariable(name, "i2", ("t", "y", "x"), fill_value=-1)
+        variable.scale_factor, variable.add_offset = 10.0, 5.0
+        variable.set_auto_maskandscale(False)
+        variable[:] = np.where(flux > 9e4, -1, flux / 10).astype(np.int16)
+        raw = variable[:]
+    return path, np.where(raw == -1, np.nan, raw * 10.0 + 5.0)
+
+
+def test_any_netcdf_by_a_mapping(tmp_path, converted):
+    path, expected = cf(tmp_path / "a.nc")
+    mapping = tmp_path / "map.toml"
+    mapping.write_text('[fields]\nheat_flux = { variable = "hfx", scale = 2.0 }\n')
+    run = converted([path, mapping])
+    assert moment(run) == START
+    np.testing.assert_array_equal(run.heat_flux(1), (expected[1] * 2).astype(np.float32))
+    np.testing.assert_allclose(run.latitude, 39 + 0.001 * np.arange(5), rtol=1e-12)
+
+
+def test_a_netcdf_of_no_known_model_says_how_to_map_it(tmp_path, converted):
+    path, _ = cf(tmp_path / "a.nc")
+    with pytest.raises(InputError, match=r"hfx, la, lo, t.*\[fields\] heat_flux"):
+        converted([path])
+    (tmp_path / "map.toml").write_text('[fields]\nheatflux = "hfx"\n')
+    with pytest.raises(InputError, match="there is no field heatflux"):
+        converted([path, tmp_path / "map.toml"])
+
+
+def test_a_start_that_nothing_says_is_asked_for(tmp_path, converted):
+    arrival, _ = plane()
+    path = made.ascii_grid(tmp_path / "x_Arrival Time.asc", arrival / 60)
+    with pytest.raises(InputError, match="--start"):
+        converted([path])
+    with pytest.raises(Error, match="no fire model that is known"):
+        converted([made.ascii_grid(tmp_path / "other.asc", arrival)])
