@@ -431,7 +431,7 @@ def by_hand() -> Iterator[object]:
     yield idle
     yield 2
     check(bpy.context.scene.objects.get("My flight") == thing, "a renamed and keyed camera stays itself")
-    settings().output, settings().which = str(FOLDER / "beside"), "frame"
+    settings().output, settings().which = str(FOLDER / "beside"), "all"
     settings().camera = "My-flight"
     call(bpy.ops.firetwin.render_background)
     yield 8
@@ -443,9 +443,14 @@ def by_hand() -> Iterator[object]:
     yield 2
     check(not queue.items[0].stop.asked, "Esc over the 3D view belongs to something else")
     keys("Escape", over="UI")
-    yield soon(lambda: queue.items[0].state == "paused")
-    check(queue.items[0].state == "paused", "Esc over the sidebar pauses it")
-    call(bpy.ops.firetwin.queue, index=0, what="go_on")
+
+    def paused() -> list[int]:
+        return [index for index, item in enumerate(queue.items) if item.state == "paused"]
+
+    yield soon(lambda: bool(paused()))
+    check(bool(paused()), "Esc over the sidebar pauses what is rendered then")
+    for index in paused():
+        call(bpy.ops.firetwin.queue, index=index, what="go_on")
     yield soon(lambda: all(item.state in ("done", "failed") for item in queue.items), 900.0)
     yield 2
     check([item.state for item in queue.items] == ["done", "done"], str([item.text for item in queue.items]))
