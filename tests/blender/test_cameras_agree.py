@@ -17,6 +17,7 @@ from firetwin.shot.rigs.lookout import Lookout, LookoutKey
 from firetwin.shot.rigs.minimap import Minimap
 from firetwin.shot.rigs.mounted import Mounted
 from firetwin.shot.rigs.orbit import Orbit
+from firetwin.shot.rigs.poses import Pose, Poses
 from firetwin.shot.rigs.satellite import Satellite
 from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
@@ -34,6 +35,8 @@ RIGS = {
                        keys=(LookoutKey(0.0, 20.0, 15.0), LookoutKey(1.0, 70.0, 15.0, 3.0))),
     "chase": Chase(distance=2500.0, height=1200.0),
     "mounted": Mounted(follows="drone", focal_length=20.0),
+    "poses": Poses(keys=(Pose(0.0, 38.810, -120.57, 2600.0, 30.0, 25.0, 5.0),
+                         Pose(1.0, 38.815, -120.57, 2500.0, 40.0, 25.0, lens=40.0))),
     "minimap": Minimap(follows="drone", swath=3000.0),
     "satellite": Satellite(swath=6000.0),
     "geostationary": Satellite(swath=6000.0, geostationary=-137.0),
