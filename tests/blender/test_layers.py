@@ -182,5 +182,5 @@ def test_layers_leave_out_what_their_sensor_does_not_see(plain):
         return {part.name for part in parts if part.exclude}
 
     assert left_out("rgb") == set()
-    assert left_out("thermal") == set()
-    assert left_out("depth") == {"Firetwin Smoke", "Firetwin Fire"}
+    assert left_out("thermal") == {"Firetwin Places"}
+    assert left_out("depth") == {"Firetwin Smoke", "Firetwin Fire", "Firetwin Places"}
