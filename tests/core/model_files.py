@@ -8,7 +8,7 @@ import pytest
 netCDF4 = pytest.importorskip("netCDF4", reason="pip install 'firetwin[models]'")  # noqa: N816
 
 NY, NX, SR, LEVELS = 6, 8, 4, 5
-SPEED = 2.0  # m/s, of the front
+SPEED = 1.5  # m/s, of the front
 START = datetime(2020, 7, 1, 18)
 
 

@@ -66,6 +66,7 @@ def test_wrf_sfire(tmp_path, converted):
     assert arrival.shape == (made.NY * made.SR, made.NX * made.SR)  # the junk edge is not there
     inside = truth["x"] < made.SPEED * 180
     np.testing.assert_allclose(arrival[inside], truth["x"][inside] / made.SPEED, rtol=1e-6)
+    assert (~inside).any()
     assert not np.isfinite(arrival[~inside]).any()  # TIGN_G there is no time of arrival
     load = np.asarray(run.surface_fuel)
     np.testing.assert_array_equal(np.unique(load), np.float32([0, fuels.SFIRE[0], fuels.SFIRE[7]]))
@@ -136,7 +137,7 @@ def test_wrf_sfire_turned(tmp_path, converted):
     arrival = run.fuel_arrival_time()
     known = np.isfinite(arrival)
     assert np.abs(arrival[known] * made.SPEED - along[known]).max() < 7.5  # m: half a diagonal and a float
-    assert burned_area(run) == pytest.approx((truth["x"] < 360).sum() * 100.0, rel=0.07)
+    assert burned_area(run) == pytest.approx((truth["x"] < made.SPEED * 180).sum() * 100.0, rel=0.07)
 
 
 # ---- CFBM
@@ -155,10 +156,12 @@ def test_cfbm(tmp_path, converted):
     assert run.heat_flux(0).max() == 0  # never set by the model
     np.testing.assert_allclose(run.latitude, truth["lat"].mean(1), rtol=1e-12)
     arrival = run.fuel_arrival_time()
-    later = (truth["x"] > 60) & (truth["x"] < 180)
+    later = (truth["x"] > made.SPEED * 30) & (truth["x"] < made.SPEED * 90)
     np.testing.assert_allclose(arrival[later], truth["x"][later] / made.SPEED, rtol=1e-5)
-    assert (arrival[truth["x"] < 60] == 15).all()  # no level function before ignition: the middle
-    assert not np.isfinite(arrival[truth["x"] > 180]).any()
+    assert (
+        arrival[truth["x"] < made.SPEED * 30] == 15
+    ).all()  # no level function before ignition: the middle
+    assert not np.isfinite(arrival[truth["x"] > made.SPEED * 90]).any()
     np.testing.assert_allclose(run.wind(1)[0], 3.0, rtol=1e-3)
 
 

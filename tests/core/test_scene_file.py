@@ -313,12 +313,20 @@ def test_settings_come_back_from_their_text(tmp_path_factory, whole):
     path.write_text(file.text(whole), encoding="utf-8")
     back = file.read(path)
     ground = dataclasses.replace(back.ground, **moved(back.ground, folder, "elevation", "photo"))
+    places = dataclasses.replace(back.places, **moved(back.places, folder, "file"))
+    fire = dataclasses.replace(back.fire, **moved(back.fire, folder, "observed"))
     cameras = tuple(
         dataclasses.replace(camera, rig=dataclasses.replace(camera.rig, **moved(camera.rig, folder, "track")))
         for camera in back.cameras
     )
     back = dataclasses.replace(
-        back, path=whole.path, ground=ground, cameras=cameras, **moved(back, folder, "run", "cache")
+        back,
+        path=whole.path,
+        ground=ground,
+        places=places,
+        fire=fire,
+        cameras=cameras,
+        **moved(back, folder, "run", "cache"),
     )
     assert back == whole
 

@@ -125,10 +125,8 @@ def test_moving_one_camera_leaves_what_another_shows():
         (("run",), Path("elsewhere")),
         (("cache",), Path("elsewhere")),
         (("render", "device"), "cpu"),
-        (("render", "passes"), ("rgb",)),
         (("render", "video"), False),
         (("cameras", 0, "name"), "other"),
-        (("cameras", 0, "passes"), ("rgb",)),
     ],
 )
 def test_what_shows_nothing_is_never_chosen(path, value):

@@ -96,7 +96,8 @@ def _maps(run: Run, grid: Grid, found: dict[str, Any], seen: Any, other: Run | N
         (plots.FALSE_ALARMS, "burned in this run alone: false alarms"),
         (plots.MISSES, f"burned in {escape(other.name)} alone" if other else "seen burned alone: misses"),
     )
-    pairs = [_pair(run, grid, row, seen, other) for row in found["dates"]]
+    theirs = None if other is None else (other, Grid.of(other))
+    pairs = [_pair(run, grid, row, seen, theirs) for row in found["dates"]]
     frame = shapes.collected([shape for pair in pairs for shape in pair])
     yield '<div class="maps">'
     for row, (here, there) in zip(found["dates"], pairs, strict=True):
@@ -110,13 +111,16 @@ def _maps(run: Run, grid: Grid, found: dict[str, Any], seen: Any, other: Run | N
     yield "</div>"
 
 
-def _pair(run: Run, grid: Grid, row: dict[str, Any], seen: Any, other: Run | None) -> tuple[Any, Any]:
-    """Projected shapes of a date: the run's and the observed one."""
+def _pair(
+    run: Run, grid: Grid, row: dict[str, Any], seen: Any, theirs: tuple[Run, Grid] | None
+) -> tuple[Any, Any]:
+    """Projected shapes of a date: the run's, and the observed one or that of the other run and its grid."""
     moment = datetime.fromisoformat(row["time"])
     here = grid.polygon(times.seconds(run, moment))
-    if other is not None:
-        theirs = Grid.of(other)
-        return here, grid.projection.project(theirs.degrees(theirs.polygon(times.seconds(other, moment))))
+    if theirs is not None:
+        other, there = theirs
+        shape = there.polygon(times.seconds(other, moment))
+        return here, grid.projection.project(there.degrees(shape))
     for each in seen.perimeters:
         if abs((each.time - moment).total_seconds()) < 1.0 and each.source == row["source"]:
             return here, grid.projection.project(shapes.of_perimeter(each, grid.middle))
