@@ -6,12 +6,18 @@ import pytest
 from firetwin.blender import owned
 from firetwin.scene import build
 from firetwin.scene.forest import build as forest
-from firetwin.scene.forest import models, plot, seen, stand
+from firetwin.scene.forest import models, plot, preview, seen, stand
 from firetwin.shot.ground import NEVER
 from firetwin.shot.rigs.satellite import Satellite
 from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import forest as core
+
+
+@pytest.fixture(autouse=True)
+def nothing_stands_in(monkeypatch):
+    """The viewport, which tests look at, shows the forest as renders draw it, however large it is."""
+    monkeypatch.setattr(preview, "MOST", 10**9)
 
 
 def _instances(name):

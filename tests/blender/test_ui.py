@@ -421,7 +421,8 @@ def test_undo_takes_back_what_was_built_and_removed(settings, scene_file):
 
 
 def space(start=0.01, end=1000.0):
-    return SimpleNamespace(clip_start=start, clip_end=end, region_3d=SimpleNamespace())
+    shading = SimpleNamespace(color_type="MATERIAL")
+    return SimpleNamespace(clip_start=start, clip_end=end, region_3d=SimpleNamespace(), shading=shading)
 
 
 def test_views_reach_as_far_as_the_world(settings, scene_file, monkeypatch):
