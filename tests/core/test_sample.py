@@ -97,7 +97,7 @@ def test_the_rubicon_runs_in_a_canyon(store):
 def test_burned_area_follows_the_reports(store):
     tolerance = {0.0: 0.005, 615.0: 0.03, 1275.0: 0.03, 1815.0: 0.03}  # minutes after the start
     checked = 0
-    for time, acres, _ in history.load().acreages:
+    for time, acres, *_ in history.load().acreages:
         minute = (time - stored.START).total_seconds() / 60
         if minute in tolerance:
             burned = (store.arrival <= minute * 60).sum() * stored.ACRES_PER_CELL
