@@ -12,7 +12,7 @@ def test_reported_acres_grow_to_the_final_size():
     assert [each.acres for each in acreages] == sorted(each.acres for each in acreages)
     assert acreages[-1].acres == 97_717
     assert all(time.tzinfo is UTC and source for time, _, source, _ in acreages)
-    assert datetime(2014, 9, 18, 2, 0, tzinfo=UTC) in [time for time, acres, *_ in acreages if acres == 27_930]
+    assert datetime(2014, 9, 18, 2, 0, tzinfo=UTC) in [each.time for each in acreages if each.acres == 27_930]
 
 
 def test_both_published_ignition_points_are_kept():
