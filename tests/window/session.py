@@ -276,6 +276,7 @@ def parts() -> Iterator[object]:
     yield soon(lambda: all(map(uid, before)))
     yield 1
     check(all(map(uid, before)), "undo brings the scene back")
+    bpy.context.scene.camera.name = "Firetwin Camera drone"
     call(bpy.ops.firetwin.view, whole=False)
     yield 2
 
