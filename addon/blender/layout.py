@@ -18,16 +18,19 @@ def arrange(tree: bpy.types.NodeTree) -> None:
     feeds: dict[str, list[bpy.types.Node]] = {}
     for link in tree.links:
         feeds.setdefault(link.from_node.name, []).append(link.to_node)
-    left = 0.0
+    left, place = 0.0, {}
     for box in boxes.values():
         columns = _columns(box, feeds)
         deepest = max(columns.values())
         below = dict.fromkeys(range(deepest + 1), 0.0)
         for node in box:
             column = columns[node.name]
-            node.location = left + WIDE * (deepest - column), below[column]
+            place[node.name] = left + WIDE * (deepest - column), below[column]
             below[column] -= height(node) + GAP
         left += WIDE * (deepest + 1) + 2.0 * GAP
+    # All at once: after each that is set by itself Blender would look through the whole tree.
+    flat = [at for node in tree.nodes for at in place.get(node.name, (0.0, 0.0))]
+    tree.nodes.foreach_set("location", flat)
 
 
 def height(node: bpy.types.Node) -> float:

@@ -156,7 +156,8 @@ class Tree:
     ) -> bpy.types.Node:
         """Add a node: first its properties, then its inputs by name (or in order)."""
         node = self.node_tree.nodes.new(kind)
-        node.parent = self._frame
+        if self._frame is not None:
+            node.parent = self._frame
         for name, value in properties.items():
             setattr(node, name, value)
         pairs = inputs.items() if isinstance(inputs, Mapping) else enumerate(inputs)

@@ -105,7 +105,7 @@ def _stand_there(scene, trees, instance, depth):
 def test_a_pass_that_nobody_asks_for_is_not_rendered_and_changes_nothing(shoot, tmp_path):
     scene, found = shoot("rgb")
     assert [each.name for each in scene.view_layers if each.use] == ["rgb"]
-    trees = [each.node_tree for each in (*bpy.data.materials, scene.world) if each.node_tree]
+    trees = [scene.world.node_tree, *bpy.data.node_groups]
     switches = [
         node
         for tree in trees

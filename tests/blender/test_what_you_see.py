@@ -171,7 +171,7 @@ def test_a_queue_pauses_goes_on_and_tells_what_failed(scene, tmp_path, monkeypat
         _wait(lambda: first.state == queue.PAUSED)
         queue.advance()
         assert second.state == queue.RENDERING
-        assert "1 of 4" in second.text
+        _wait(lambda: "1 of 4" in second.text)
         queue.go_on(first)
         (tmp_path / "go").touch()
         _wait(lambda: second.state == queue.DONE)
