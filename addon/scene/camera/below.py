@@ -35,6 +35,8 @@ def hit(stage: Stage, origin: ArrayLike, direction: ArrayLike) -> Vector | None:
     start = inverse @ Vector(origin)
     way = (inverse.to_3x3() @ Vector(direction)).normalized()
     layer = stage.scene.view_layers[0]
+    if layer.depsgraph is None:  # a window may show another view layer alone
+        layer.update()
     try:
         found, where, _, _ = ground.evaluated_get(layer.depsgraph).ray_cast(start, way, distance=1.0e6)
     except RuntimeError:  # nothing has been drawn yet
