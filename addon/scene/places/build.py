@@ -7,6 +7,8 @@ to the place. Each is an instance on a point there: so what stands before the pl
 from __future__ import annotations
 
 import bpy
+import numpy as np
+from numpy.typing import NDArray
 
 from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
@@ -14,7 +16,7 @@ from ...shot import labels
 from ...shot.shot import Shot
 from . import material
 
-_STEM = 2.2  # letters' heights from the ground to the letters
+_STEM, _TIER, _TIERS = 2.2, 1.3, 3  # letters' heights from the ground to the letters; from row to row; rows
 _RIM = 0.035  # of the height of letters
 _THIN = 0.045  # half-width of the stem
 _FULL = 0.5  # of the distance at which labels are gone, to where they show fully
@@ -28,8 +30,8 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
         return None
     looks = [material.build(shot, name, colour) for name, colour in material.COLOURS.items()]
     library = owned.library("Place Names")
-    for k, name in enumerate(found.names):
-        mesh = _label(f"Firetwin Place {k:03d}", name)
+    for k, (name, tier) in enumerate(zip(found.names, _tiers(shot, found.position), strict=True)):
+        mesh = _label(f"Firetwin Place {k:03d}", name, _STEM + _TIER * int(tier))
         for look in looks:
             mesh.materials.append(look)
         _seen_only(owned.add(library, f"Place {k:03d}", mesh))
@@ -42,15 +44,25 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
     return thing
 
 
+def _tiers(shot: Shot, position: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Row (n,) of each label: those side by side from where the first camera is stand at other heights."""
+    eye = shot.paths[0].position.mean(axis=0) if shot.paths else np.zeros(3)
+    off = position - eye
+    order = np.argsort(np.arctan2(off[:, 0], off[:, 1]))
+    tiers = np.empty(len(order), np.int64)
+    tiers[order] = np.arange(len(order)) % _TIERS
+    return tiers
+
+
 def _seen_only(thing: bpy.types.Object) -> None:
     """Labels are seen and nothing more."""
     thing.visible_shadow = thing.visible_diffuse = thing.visible_glossy = False
     thing.visible_volume_scatter = thing.visible_transmission = False
 
 
-def _label(name: str, text: str) -> bpy.types.Mesh:
+def _label(name: str, text: str, stem: float) -> bpy.types.Mesh:
     """Letters (material 0) over their rim and the stem (1), one unit high, in the plane of x and y."""
-    parts = [_letters(text, 0.0, 0.02), _letters(text, _RIM, 0.0), _stem()]
+    parts = [_letters(text, stem, 0.0, 0.02), _letters(text, stem, _RIM, 0.0), _stem(stem - 0.3)]
     mesh = owned.mark(bpy.data.meshes.new(name))
     start, vertices, faces, looks = 0, [], [], []
     for (points, polygons), look in zip(parts, (0, 1, 0), strict=True):
@@ -63,7 +75,7 @@ def _label(name: str, text: str) -> bpy.types.Mesh:
     return mesh
 
 
-def _letters(text: str, offset: float, front: float) -> tuple[list, list]:
+def _letters(text: str, stem: float, offset: float, front: float) -> tuple[list, list]:
     """Points and faces of a line of text over the stem, its outline moved out by `offset`."""
     curve = bpy.data.curves.new("Firetwin Letters", "FONT")
     curve.body, curve.align_x, curve.offset, curve.resolution_u = text, "CENTER", offset, 3
@@ -71,15 +83,14 @@ def _letters(text: str, offset: float, front: float) -> tuple[list, list]:
         curve.font = owned.mark(font)
     thing = bpy.data.objects.new("Firetwin Letters", curve)
     mesh = thing.to_mesh()
-    points = [(v.co.x, v.co.y + _STEM, front) for v in mesh.vertices]
+    points = [(v.co.x, v.co.y + stem, front) for v in mesh.vertices]
     faces = [list(polygon.vertices) for polygon in mesh.polygons]
     bpy.data.objects.remove(thing)
     bpy.data.curves.remove(curve)
     return points, faces
 
 
-def _stem() -> tuple[list, list]:
-    top = _STEM - 0.3
+def _stem(top: float) -> tuple[list, list]:
     return [(-_THIN, 0.0, 0.01), (_THIN, 0.0, 0.01), (_THIN, top, 0.01), (-_THIN, top, 0.01)], [[0, 1, 2, 3]]
 
 
