@@ -42,21 +42,12 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
         glow = tree.attribute("glow") * (1.0 - part) * bright
         light = tree.add_shader(light, tree.emission(shine, glow * density))
     scattered = tree.mix_colour(part, albedo, (0.0, 0.0, 0.0))
-    detailed = tree.add_shader(_smoke(tree, density, scattered, even), light)
+    detailed = tree.add_shader(material.smoke(tree, density, scattered, even), light)
     # Most steps belong to rays of light through the smoke; one grid is enough for them.
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     thinner = density * tree.input("Light Density", _LIGHT, "Part of the smoke that dims light", "Light")
-    visible = tree.mix_shader(camera, _smoke(tree, thinner, middle, even), detailed)
+    visible = tree.mix_shader(camera, material.smoke(tree, thinner, middle, even), detailed)
     tree.volume(infrared.smoke(tree, shot, stage, visible, density))
     made.cycles.volume_sampling = "DISTANCE"
     made.cycles.emission_sampling = "NONE"
     return made
-
-
-def _smoke(
-    tree: nodes.Tree, density: nodes.Value, albedo: nodes.Value, anisotropy: nodes.Value
-) -> nodes.Value:
-    """Scattering and absorption that make `density` (1/m) the extinction and `albedo` its scattered part."""
-    inputs = {"Color": albedo, "Density": density}
-    scatter = tree.output("ShaderNodeVolumeScatter", inputs | {"Anisotropy": anisotropy})
-    return tree.add_shader(scatter, tree.output("ShaderNodeVolumeAbsorption", inputs))

@@ -72,13 +72,13 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
 
     def seen(density: nodes.Value) -> nodes.Value:
         light = tree.add_shader(tree.emission(air, part * density), tree.emission(shine, glow * density))
-        return tree.add_shader(_smoke(tree, density, scattered, even), light)
+        return tree.add_shader(smoke(tree, density, scattered, even), light)
 
     # A mix by 0 or 1 evaluates one side only: deep inside, the noise changes nothing and is left out.
     deep = depth > _EDGE[1] + _AMPLITUDE * _MEAN_BILLOW
     detailed = tree.mix_shader(deep, seen(density), seen(full))
     # Most steps belong to rays of light through the smoke. They need no detail: one grid is enough.
-    plain = _smoke(tree, _extinction(tree.attribute("shade"), opacity, drawn.extinction), middle, even)
+    plain = smoke(tree, _extinction(tree.attribute("shade"), opacity, drawn.extinction), middle, even)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     tree.volume(infrared.smoke(tree, shot, stage, tree.mix_shader(camera, plain, detailed), density))
     material.cycles.volume_sampling = "DISTANCE"
@@ -103,7 +103,7 @@ def glow_inputs(tree: nodes.Tree, shot: Shot) -> tuple[nodes.Value, nodes.Value]
     return colour, tree.input("Glow", glow_light(shot), "Brightness of the flames' light on smoke", "Light")
 
 
-def _smoke(
+def smoke(
     tree: nodes.Tree, density: nodes.Value, albedo: nodes.Value, anisotropy: nodes.Value
 ) -> nodes.Value:
     """Scattering and absorption that make `density` (1/m) the extinction and `albedo` its scattered part."""
