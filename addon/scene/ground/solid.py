@@ -37,7 +37,7 @@ def colours(shot: Shot, row: NDArray[np.float64], column: NDArray[np.float64]) -
     dense = np.clip(at(ground.fields.canopy_fuel) / _DENSE, 0, 1)
     shade = np.array(GRASS) + (np.array(FOREST) - GRASS) * dense
     shade = shade + (np.array(BARE) - shade) * np.clip(at(ground.bare), 0, 1)
-    inside, arrival = at(ground.burned) > 0.5, at(np.minimum(ground.burn_time, 1.0e7))
-    shade = np.where(inside & (arrival <= shot.frames.last), BURNS, shade)
-    shade = np.where(inside & (arrival <= shot.frames.first), BURNED, shade)
+    arrival = ground.arrival_at(row, column)[:, None]
+    shade = np.where(arrival <= shot.frames.last, BURNS, shade)
+    shade = np.where(arrival <= shot.frames.first, BURNED, shade)
     return np.where(at(ground.water) > 0.5, WATER, shade).astype(np.float32)
