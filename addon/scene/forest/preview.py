@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ...shot import noise
 from ...shot.shot import Shot
+from . import models
 from .levels import LEVELS
 
 MOST = 8000  # trees; what redraws in a few ms
@@ -41,7 +42,8 @@ def parts(
     some = {key: values[kept] for key, values in points.items()}
     some["width"] = some["width"] * min(np.sqrt(count / MOST), _WIDEST)
     for key in ("model", "snag_model") if levelled else ():
-        some[key] = some[key] + np.maximum(_LEVEL - some[key] % LEVELS, 0)
+        model, level = np.divmod(some[key], LEVELS)
+        some[key] = models.instance(model, np.maximum(level, _LEVEL))
     bare = some["arrival_time"] + bare_after
     turns = (bare > shot.frames.first) & (bare <= shot.frames.last)
     some["model"] = np.where(bare <= shot.frames.first, some["snag_model"], some["model"])
