@@ -394,9 +394,14 @@ def model_time(tree: Tree) -> Value:
     return tree.attribute(TIME, "VIEW_LAYER")
 
 
+def switch(tree: Tree, kind: str, shader: Any, other: Any) -> Value:
+    """`shader`, but `other` in view layers whose property `kind` (`THERMAL`, `MASKS`) is 1."""
+    return tree.mix_shader(tree.attribute(kind, "VIEW_LAYER"), shader, other)
+
+
 def thermal_switch(tree: Tree, shader: Any, value: Any) -> Value:
     """`shader`, but a number as pixel value in view layers with `firetwin_thermal` = 1."""
-    return tree.mix_shader(tree.attribute(THERMAL, "VIEW_LAYER"), shader, tree.emission(value, 1.0))
+    return switch(tree, THERMAL, shader, tree.emission(value, 1.0))
 
 
 def mask_switch(tree: Tree, shader: Any, kind: Any, number: Any = 0.0) -> Value:
@@ -410,9 +415,4 @@ def mask_switch(tree: Tree, shader: Any, kind: Any, number: Any = 0.0) -> Value:
         kind = (number - low) * (8.0 / 4096.0) + kind
     else:
         low = number
-    return masked(tree, shader, tree.emission(tree.combine(low, 1.0, kind), 1.0))
-
-
-def masked(tree: Tree, shader: Any, other: Any) -> Value:
-    """`shader`, but `other` in view layers with `firetwin_masks` = 1."""
-    return tree.mix_shader(tree.attribute(MASKS, "VIEW_LAYER"), shader, other)
+    return switch(tree, MASKS, shader, tree.emission(tree.combine(low, 1.0, kind), 1.0))

@@ -66,9 +66,9 @@ def smoke(tree: nodes.Tree, shot: Shot, stage: Stage, visible: Any, density: nod
     black = tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": absorbed})
     own = emitted(tree, shot, stage, temperature.air(tree, shot, stage))
     warm = tree.add_shader(black, tree.emission((1.0, 1.0, 1.0), own * absorbed))
-    shader = tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), visible, warm)
+    shader = nodes.switch(tree, nodes.THERMAL, visible, warm)
     dims = tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": density})
-    return nodes.masked(tree, shader, dims)
+    return nodes.switch(tree, nodes.MASKS, shader, dims)
 
 
 def build(shot: Shot, stage: Stage) -> None:

@@ -43,7 +43,7 @@ def plain(settings, stage, scene, shot):
     tree = nodes.Tree(compat.node_tree(world))
     seen = tree.output("ShaderNodeBackground", {"Color": (0.4, 0.5, 0.6), "Strength": 1.0})
     cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": infrared.sky(shot)})
-    tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), seen, cold))
+    tree.surface(nodes.switch(tree, nodes.THERMAL, seen, cold))
     data = bpy.data.cameras.new("Firetwin Camera drone")
     data.clip_end, data.lens = 3e5, 28.0
     camera = owned.add(parts["Cameras"], "Camera drone", data, "camera drone")

@@ -32,7 +32,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     glowing = tree.add_shader(tree.emission(colour, strength), clear)
     warmth = infrared.through_air(tree, shot, stage, infrared.emitted(tree, shot, stage, kelvin))
     warm = tree.mix_shader(cover, clear, tree.emission(warmth, 1.0))
-    shader = tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), glowing, warm)
+    shader = nodes.switch(tree, nodes.THERMAL, glowing, warm)
     tree.surface(nodes.mask_switch(tree, shader, masks.FIRE))
     material.cycles.emission_sampling = "NONE"
     return material

@@ -63,8 +63,8 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     warmth = infrared.through_air(tree, shot, stage, warmth)
     hot = tree.mix_shader(emissivity, gap, tree.emission(warmth, 1.0))
     light = tree.mix_shader(flame, clear, shader)
-    shader = tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), light, hot)
+    shader = nodes.switch(tree, nodes.THERMAL, light, hot)
     whole = tree.mix_shader(flame, gap, tree.emission((0.0, 1.0, masks.FIRE), 1.0))
-    tree.surface(nodes.masked(tree, shader, whole))
+    tree.surface(nodes.switch(tree, nodes.MASKS, shader, whole))
     material.cycles.emission_sampling = "NONE"
     return material

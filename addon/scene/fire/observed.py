@@ -72,6 +72,6 @@ def _material(shot: Shot, stage: Stage) -> bpy.types.Material:
     strength = (_DIM + fresh * (1.0 - _DIM)) * (1.0 - part) * (_LIGHT * glow.brightness(shot))
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": (1.0, 1.0, 1.0)})
     line = tree.mix_shader(there, clear, tree.emission(tree.mix_colour(fresh, _FADED, _FRESH), strength))
-    tree.surface(tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), line, clear))
+    tree.surface(nodes.switch(tree, nodes.THERMAL, line, clear))
     material.cycles.emission_sampling = "NONE"
     return material

@@ -84,9 +84,9 @@ def _world(scene: bpy.types.Scene, frames: NDArray[np.float64], states: list[Sta
     seen = tree.output("ShaderNodeBackground", {"Color": light, "Strength": 1.0})
     cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": 0.0})
     cold.socket.node.name = "Thermal Sky"
-    shader = tree.mix_shader(tree.attribute(nodes.THERMAL, "VIEW_LAYER"), seen, cold)
+    shader = nodes.switch(tree, nodes.THERMAL, seen, cold)
     none = tree.output("ShaderNodeBackground", {"Color": (0.0, 1.0, float(masks.SKY)), "Strength": 1.0})
-    tree.surface(nodes.masked(tree, shader, none))
+    tree.surface(nodes.switch(tree, nodes.MASKS, shader, none))
     compat.set_sky(sky, states[0].sky[0], states[0].sky[1], _DUST)
     place = f'nodes["{sky.name}"]'
     _key(world.node_tree, f"{place}.sun_elevation", frames, np.array([s.sky[0] for s in states]))
