@@ -35,13 +35,15 @@ def hit(stage: Stage, origin: ArrayLike, direction: ArrayLike) -> Vector | None:
     start = inverse @ Vector(origin)
     way = (inverse.to_3x3() @ Vector(direction)).normalized()
     layer = stage.scene.view_layers[0]
-    if layer.depsgraph is None:  # a window may show another view layer alone
-        layer.update()
+
+    def meet() -> tuple[bool, Vector]:
+        return ground.evaluated_get(layer.depsgraph).ray_cast(start, way, distance=1.0e6)[:2]
+
     try:
-        found, where, _, _ = ground.evaluated_get(layer.depsgraph).ray_cast(start, way, distance=1.0e6)
-    except RuntimeError:  # nothing has been drawn yet
+        found, where = meet()
+    except (TypeError, RuntimeError):  # a window may show another view layer alone, or has not drawn yet
         layer.update()
-        found, where, _, _ = ground.evaluated_get(layer.depsgraph).ray_cast(start, way, distance=1.0e6)
+        found, where = meet()
     return ground.matrix_world @ where if found else None
 
 
