@@ -15,7 +15,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any
 
 import bpy
@@ -124,7 +123,7 @@ class Tree:
         least: float | None = 0.0,
         most: float | None = None,
     ) -> Value:
-        """An input of this group, made with its first use: a number, or a colour where three are given.
+        """An input of this group, made with its first use: a (whole) number, or a colour of three or four.
 
         Parameters
         ----------
@@ -136,16 +135,16 @@ class Tree:
             Bounds of a number; None: none.
         """
         interface = self.node_tree.interface
-        if not any(item.item_type == "SOCKET" and item.name == name for item in interface.items_tree):
+        if not any(_is_input(item, name) for item in interface.items_tree):
             parent = next((item for item in interface.items_tree if _is_panel(item, panel)), None)
             if panel and parent is None:
                 parent = interface.new_panel(panel)
             colour = isinstance(default, Sequence)
-            kind = "NodeSocketColor" if colour else "NodeSocketFloat"
+            kind = "Color" if colour else "Int" if isinstance(default, int) else "Float"
             made = interface.new_socket(
-                name, description=help, in_out="INPUT", socket_type=kind, parent=parent
+                name, description=help, in_out="INPUT", socket_type=f"NodeSocket{kind}", parent=parent
             )
-            made.default_value = (*default, 1.0) if colour else default
+            made.default_value = (*default, 1.0)[:4] if colour else default
             for bound, value in (("min_value", least), ("max_value", most)):
                 if value is not None and not colour:
                     setattr(made, bound, value)
@@ -300,6 +299,10 @@ class Tree:
         layout.arrange(self.node_tree)
 
 
+def _is_input(item: bpy.types.NodeTreeInterfaceItem, name: str) -> bool:
+    return item.item_type == "SOCKET" and item.in_out == "INPUT" and item.name == name
+
+
 def _is_panel(item: bpy.types.NodeTreeInterfaceItem, name: str) -> bool:
     return item.item_type == "PANEL" and item.name == name
 
@@ -333,35 +336,8 @@ def geometry(name: str) -> tuple[Tree, bpy.types.Node]:
     return tree, tree.node("NodeGroupInput")
 
 
-@dataclass(frozen=True)
-class Input:
-    """An input of a node group.
-
-    Attributes
-    ----------
-    name, help
-        What it is called, and a line on it.
-    default
-        Its kind follows from it: a whole number, a number, or a colour (red, green, blue, alpha).
-    panel
-        Heading that it stands under; empty: none.
-    low, high
-        Bounds of numbers.
-    """
-
-    name: str
-    help: str
-    default: Any = 0.0
-    panel: str = ""
-    low: float | None = None
-    high: float | None = None
-
-
-_SOCKETS = {int: "NodeSocketInt", float: "NodeSocketFloat", tuple: "NodeSocketColor"}
-
-
-def compositor(name: str, help: str, inputs: Sequence[Input], outputs: Mapping[str, str]) -> Tree:
-    """A new compositor node group of ours, for people to use: what its inputs mean shows under the pointer.
+def compositor(name: str, help: str, outputs: Mapping[str, str]) -> Tree:
+    """A new compositor node group of ours, for people to use: what it does shows under the pointer.
 
     Parameters
     ----------
@@ -372,17 +348,6 @@ def compositor(name: str, help: str, inputs: Sequence[Input], outputs: Mapping[s
     group.description = help
     for label, kind in outputs.items():
         group.interface.new_socket(label, in_out="OUTPUT", socket_type=kind)
-    panels = {each.panel: group.interface.new_panel(each.panel) for each in inputs if each.panel}
-    for each in inputs:
-        kind = _SOCKETS[type(each.default)]
-        socket = group.interface.new_socket(
-            each.name, description=each.help, socket_type=kind, parent=panels.get(each.panel)
-        )
-        if each.low is not None:
-            socket.min_value = each.low
-        if each.high is not None:
-            socket.max_value = each.high
-        socket.default_value = each.default
     return Tree(group)
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from firetwin_core import sensor
 
 from ..blender import compat, nodes
-from ..blender.nodes import Input, Tree, Value
+from ..blender.nodes import Tree, Value
 from ..blender.owned import Stage
 from ..shot.passes import edl, overlay, thermal
 from ..shot.settings import BANDS, Settings
@@ -28,7 +28,6 @@ _DEGREE = 14
 _DEEPEST, _NEAREST = 1e9, 1e-3  # m, as in cpp/sensor/eye_dome.cpp
 _COLOUR, _NUMBER = "NodeSocketColor", "NodeSocketFloat"
 _BLACK, _WHITE = (0.0, 0.0, 0.0, 1.0), (1.0, 1.0, 1.0, 1.0)
-_KELVIN = Input("Kelvin", "Temperature of each pixel, K", 300.0)
 
 
 def build(settings: Settings, stage: Stage) -> None:
@@ -47,22 +46,19 @@ def build(settings: Settings, stage: Stage) -> None:
 
 def thermal_blend() -> bpy.types.NodeTree:
     """`sensor.thermal_composite`: the paper's gradient of temperatures added to a picture."""
-    tree, get = _group(
-        "Thermal Blend",
+    tree = nodes.compositor(
+        "Firetwin Thermal Blend",
         "The FIRETWIN paper's thermal view: colours of the model's temperature added to the picture",
-        [
-            Input("Image", "Picture in display colours, 0 to 1", _BLACK),
-            _KELVIN,
-            Input("Low", "K where the gradient begins, with black", 300.0, "Scale", 0.0),
-            Input("High", "K where it ends, with white", 330.0, "Scale", 0.0),
-            Input("Strength", "How much of the gradient is added", 1.0, "Scale"),
-        ],
         {"Image": _COLOUR},
     )
-    place = (get("Kelvin") - get("Low")) / (get("High") - get("Low"))
-    heat = tree.colours(place, sensor.palette("paper"))
-    sum_ = tree.vector("ADD", _held(tree, get("Image")), _times(tree, heat, get("Strength")))
-    tree.node("NodeGroupOutput", {"Image": _held(tree, sum_)})
+    image = tree.input("Image", _BLACK, "Picture in display colours, 0 to 1")
+    kelvin = _temperature(tree)
+    low = tree.input("Low", 300.0, "K where the gradient begins, with black", "Scale")
+    high = tree.input("High", 330.0, "K where it ends, with white", "Scale")
+    strength = tree.input("Strength", 1.0, "How much of the gradient is added", "Scale", least=None)
+    heat = tree.colours((kelvin - low) / (high - low), sensor.palette("paper"))
+    sum_ = tree.vector("ADD", _held(tree, image), _times(tree, heat, strength))
+    tree.finish({"Image": _held(tree, sum_)})
     return tree.node_tree
 
 
@@ -70,83 +66,70 @@ def thermal_camera() -> bpy.types.NodeTree:
     """`sensor.brightness_temperature` and `sensor.colour`: what an infrared camera shows of radiance."""
     names = sensor.palettes()
     listed = ", ".join(f"{number} {name}" for number, name in enumerate(names, 1))
-    tree, get = _group(
-        "Thermal Camera",
+    tree = nodes.compositor(
+        "Firetwin Thermal Camera",
         "Brightness temperature (K) of infrared radiance, and its picture by a palette",
-        [
-            Input("Radiance", "Of the band, W m-2 sr-1: the image of the view layer thermal", 55.0),
-            Input("Low", "K at the cold end of the palette", 290.0, "Temperatures", 0.0),
-            Input("High", "K at its hot end", 1000.0, "Temperatures", 0.0),
-            Input(
-                "Knee",
-                "K above the cold end where the scale begins to close up",
-                thermal.KNEE,
-                "Temperatures",
-                0.01,
-            ),
-            Input("Palette", listed, 1, "Look", 1, len(names)),
-        ],
         {"Image": _COLOUR, "Kelvin": _NUMBER},
     )
-    kelvin = _kelvin(tree, get("Radiance"))
-    knee = get("Knee")
-    above = tree.math("MINIMUM", tree.math("MAXIMUM", kelvin, get("Low")), get("High")) - get("Low")
-    place = _log(tree, above / knee + 1.0) / _log(tree, (get("High") - get("Low")) / knee + 1.0)
+    of = "Of the band, W m-2 sr-1: the image of the view layer thermal"
+    radiance = tree.input("Radiance", 55.0, of, least=None)
+    low = tree.input("Low", 290.0, "K at the cold end of the palette", "Temperatures")
+    high = tree.input("High", 1000.0, "K at its hot end", "Temperatures")
+    closes = "K above the cold end where the scale begins to close up"
+    knee = tree.input("Knee", thermal.KNEE, closes, "Temperatures", 0.01)
+    palette = tree.input("Palette", 1, listed, "Look", 1, len(names))
+    kelvin = _kelvin(tree, radiance)
+    above = tree.math("MINIMUM", tree.math("MAXIMUM", kelvin, low), high) - low
+    place = _log(tree, above / knee + 1.0) / _log(tree, (high - low) / knee + 1.0)
     shown: Any = _BLACK
     for number, name in enumerate(names, 1):
-        chosen = tree.math("COMPARE", get("Palette"), float(number), 0.5)
+        chosen = tree.math("COMPARE", palette, float(number), 0.5)
         shown = tree.mix_colour(chosen, shown, tree.colours(place, sensor.palette(name)))
-    tree.node("NodeGroupOutput", {"Image": shown, "Kelvin": kelvin})
+    tree.finish({"Image": shown, "Kelvin": kelvin})
     return tree.node_tree
 
 
 def eye_dome() -> bpy.types.NodeTree:
     """`sensor.eye_dome`: what lies behind its neighbours is darker."""
-    tree, get = _group(
-        "Eye Dome",
+    tree = nodes.compositor(
+        "Firetwin Eye Dome",
         "Eye-dome lighting: what lies behind its neighbours is darker, so that shapes stand out",
-        [
-            Input("Image", "Picture in display colours, 0 to 1", _WHITE),
-            Input("Depth", "Along the camera's axis, m: the depth of the view layer depth", 1000.0),
-            Input("Strength", "How dark", edl.STRENGTH, "Shade", 0.0),
-            Input("Radius", "How far away the eight neighbours are, pixels", edl.RADIUS, "Shade", 1),
-        ],
         {"Image": _COLOUR, "Shade": _NUMBER},
     )
-    depth = tree.math("MINIMUM", tree.math("MAXIMUM", get("Depth"), _NEAREST), _DEEPEST)
+    image = tree.input("Image", _WHITE, "Picture in display colours, 0 to 1")
+    along = "Along the camera's axis, m: the depth of the view layer depth"
+    depth = tree.input("Depth", 1000.0, along, least=None)
+    strength = tree.input("Strength", edl.STRENGTH, "How dark", "Shade")
+    radius = tree.input("Radius", edl.RADIUS, "How far away the eight neighbours are, pixels", "Shade", 1)
+    depth = tree.math("MINIMUM", tree.math("MAXIMUM", depth, _NEAREST), _DEEPEST)
     # Nearness: beyond the edge Translate gives 0, the deepest there is, which adds nothing.
     near = tree.math("LOGARITHM", _DEEPEST / depth, 2.0)
     total: Any = 0.0
     for down, across in ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1)):
-        moved = {"Image": near, "X": get("Radius") * float(across), "Y": get("Radius") * float(down)}
+        moved = {"Image": near, "X": radius * float(across), "Y": radius * float(down)}
         there = tree.pick(compat.whole_pixels(tree.node("CompositorNodeTranslate", moved)))
         total = total + tree.math(
             "MINIMUM", near - there, 0.0
         )  # a node's first input says where its picture lies
-    shade = (total * get("Strength") * 0.125).exp()
-    shaded = _times(tree, get("Image"), shade)
-    tree.node("NodeGroupOutput", {"Image": shaded, "Shade": shade})
+    shade = (total * strength * 0.125).exp()
+    tree.finish({"Image": _times(tree, image, shade), "Shade": shade})
     return tree.node_tree
 
 
 def overlaid() -> bpy.types.NodeTree:
     """`sensor.overlay`: hot spots of one picture over another."""
-    tree, get = _group(
-        "Overlay",
-        "Hot spots of a thermal picture over the visible one",
-        [
-            Input("Image", "Picture below, in display colours, 0 to 1", _BLACK),
-            Input("Thermal", "Picture of the hot spots, in register", _WHITE),
-            _KELVIN,
-            Input("From", "K above which it begins to show", overlay.START, "Where", 0.0),
-            Input("To", "K from which it shows in full", overlay.FULL, "Where", 0.0),
-            Input("Opacity", "Of what shows in full", overlay.OPACITY, "Where", 0.0, 1.0),
-        ],
-        {"Image": _COLOUR},
+    tree = nodes.compositor(
+        "Firetwin Overlay", "Hot spots of a thermal picture over the visible one", {"Image": _COLOUR}
     )
-    part = ((get("Kelvin") - get("From")) / (get("To") - get("From"))).clamp() * get("Opacity")
-    change = tree.vector("SUBTRACT", get("Thermal"), get("Image"))
-    tree.node("NodeGroupOutput", {"Image": tree.vector("ADD", get("Image"), _times(tree, change, part))})
+    image = tree.input("Image", _BLACK, "Picture below, in display colours, 0 to 1")
+    spots = tree.input("Thermal", _WHITE, "Picture of the hot spots, in register")
+    kelvin = _temperature(tree)
+    start = tree.input("From", overlay.START, "K above which it begins to show", "Where")
+    full = tree.input("To", overlay.FULL, "K from which it shows in full", "Where")
+    opacity = tree.input("Opacity", overlay.OPACITY, "Of what shows in full", "Where", most=1.0)
+    part = ((kelvin - start) / (full - start)).clamp() * opacity
+    change = tree.vector("SUBTRACT", spots, image)
+    tree.finish({"Image": tree.vector("ADD", image, _times(tree, change, part))})
     return tree.node_tree
 
 
@@ -175,11 +158,8 @@ def _kelvin(tree: Tree, radiance: Value) -> Value:
     return 1.0 / inverse
 
 
-def _group(name: str, help: str, inputs: list[Input], outputs: dict[str, str]) -> tuple[Tree, Any]:
-    """A new group and the way to its inputs by name."""
-    tree = nodes.compositor(f"Firetwin {name}", help, inputs, outputs)
-    entry = tree.node("NodeGroupInput")
-    return tree, lambda name: tree.pick(entry, name)
+def _temperature(tree: Tree) -> Value:
+    return tree.input("Kelvin", 300.0, "Temperature of each pixel, K", least=None)
 
 
 def _named(tree: Tree, name: str) -> Value:

@@ -121,6 +121,13 @@ def test_a_lens_alone_leaves_the_way_as_it_is(film, stage, drone):
     assert rig.keys == film.settings.cameras[0].rig.keys
 
 
+def test_the_chip_is_as_wide_as_the_cameras_own_pictures(film, stage, drone):
+    tall = replace(film.settings.cameras[0], resolution=(360, 640))
+    drone.data.sensor_fit, drone.data.sensor_height = "VERTICAL", 24.0
+    (found,) = hand.pull(stage.scene, (tall,), SIZE, FRAMES)
+    assert found.rig.sensor_width == pytest.approx(24.0 * 360 / 640)
+
+
 def test_a_new_name_is_kept_and_names_the_files(film, stage, drone):
     drone.name = "Über the ridge!"
     stage.scene.camera = drone

@@ -5,13 +5,15 @@ import itertools
 import bpy
 import pytest
 from firetwin.blender import layout, nodes
+from firetwin.render import groups as compositor
 from firetwin.scene import build
 
 
 @pytest.fixture
-def groups(shot, scene):
+def groups(shot, scene, stage):
     build.build(shot, scene)
-    return [group for group in bpy.data.node_groups if group.bl_idname != "CompositorNodeTree"]
+    compositor.build(shot.settings, stage)
+    return list(bpy.data.node_groups)
 
 
 def test_a_material_is_one_group_whose_inputs_are_explained(groups):

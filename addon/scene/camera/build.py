@@ -15,7 +15,7 @@ from ...blender.owned import Stage
 from ...shot import sparse, turning
 from ...shot.path import Path, clip
 from ...shot.shot import Shot
-from . import hand
+from . import hand, made
 
 # How far a picture may be off between keys: turned, zoomed, or moved as the nearest ground sees it, pixels.
 _PIXELS = 0.05
@@ -37,7 +37,7 @@ def build(shot: Shot, stage: Stage) -> list[bpy.types.Object]:
     return built
 
 
-def tolerance(view: Path, shot: Shot) -> tuple[float, float, float]:
+def _tolerance(view: Path, shot: Shot) -> tuple[float, float, float]:
     """How far a camera may be off its path: m, radians, and parts of its focal length."""
     pixel = view.pixel
     near = 1.0
@@ -58,7 +58,7 @@ def _camera(
     data.clip_start, data.clip_end = clip(view, shot.ground)
     if not hand.rigged(thing):
         _set(view, shot, thing)
-    hand.remember(thing)
+    made.remember(thing)
     return thing
 
 
@@ -73,9 +73,9 @@ def _see_around(data: bpy.types.Camera, apart: float) -> None:
 def _set(view: Path, shot: Shot, thing: bpy.types.Object) -> None:
     """Give an object the way and the lens of a path."""
     data = thing.data
-    moved, turned, zoomed = tolerance(view, shot)
-    compat.remove_fcurves(data, hand.LENS)
-    compat.remove_fcurves(thing, hand.POSE)
+    moved, turned, zoomed = _tolerance(view, shot)
+    compat.remove_fcurves(data, made.LENS)
+    compat.remove_fcurves(thing, made.POSE)
     data.sensor_fit, data.sensor_width = "HORIZONTAL", view.sensor
     if view.around:
         _see_around(data, view.apart)

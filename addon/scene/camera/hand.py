@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import bpy
 import numpy as np
@@ -20,11 +17,8 @@ from ...blender.owned import Stage
 from ...shot import sparse, turning
 from ...shot.rigs import _lens, poses
 from ...shot.settings import Camera
-from . import below
+from . import below, made
 
-POSE = ("location", "rotation_quaternion", "rotation_euler", "rotation_axis_angle", "scale")
-LENS = ("lens", "sensor_width", "sensor_height", "ortho_scale")
-_MADE = "firetwin_made"  # of an object: what it was like when it was made
 _PLACE = "firetwin_place"  # of the root: latitude and longitude of the scene's origin
 _PIXEL = 0.25  # how far a picture may be off between poses; at keys that people set it is not
 _LEAST = 0.02  # m that a camera may be off in any case
@@ -51,57 +45,6 @@ def rigged(thing: bpy.types.Object) -> bool:
         or any((*thing.delta_location, *thing.delta_rotation_euler))
         or (data is not None and (data.drivers or data.nla_tracks))
     )
-
-
-def remember(thing: bpy.types.Object) -> None:
-    """Keep what an object is like now, so that `changed` can tell what an artist does to it."""
-    thing[owned.NAME] = thing.name
-    thing[_MADE] = json.dumps(_state(thing))
-
-
-def changed(thing: bpy.types.Object) -> set[str]:
-    """What of "name", "pose" and "lens" an artist changed since an object was made."""
-    if _MADE not in thing:
-        return set()
-    before, now = json.loads(thing[_MADE]), _state(thing)
-    return {part for part in now if now[part] != before.get(part)}
-
-
-def _state(thing: bpy.types.Object) -> dict[str, str]:
-    """A few letters for each part of an object that stand for what it is like in every frame."""
-    hangs = [thing.parent.name if thing.parent else "", [_constraint(each) for each in thing.constraints]]
-    return {
-        "name": thing.name,
-        "pose": _digest([thing.rotation_mode, _values(thing, POSE), hangs]),
-        "lens": _digest([thing.data.type, thing.data.sensor_fit, _values(thing.data, LENS)]),
-    }
-
-
-def _constraint(each: bpy.types.Constraint) -> list[Any]:
-    target = getattr(each, "target", None)
-    return [each.type, each.mute, each.influence, target.name if target else ""]
-
-
-def _values(block: bpy.types.ID, names: Sequence[str]) -> list[Any]:
-    """The values of properties, or where they are animated the curves."""
-    animated: dict[str, list[Any]] = {}
-    for curve in compat.fcurves(block):
-        if curve.data_path in names:
-            points = [
-                [*point.co, *point.handle_left, *point.handle_right, point.interpolation]
-                for point in curve.keyframe_points
-            ]
-            animated.setdefault(curve.data_path, []).append([curve.array_index, points])
-    still = {
-        name: list(value) if hasattr(value := getattr(block, name), "__len__") else value
-        for name in names
-        if name not in animated
-    }
-    return [animated, still]
-
-
-def _digest(values: Any) -> str:
-    return hashlib.sha256(json.dumps(values).encode()).hexdigest()[:16]
 
 
 @dataclass(frozen=True)
@@ -251,7 +194,7 @@ def pull(
     frame, taken = local_frame(stage), {each.name for each in cameras}
     for i, before in enumerate(cameras):
         thing = stage.camera(before.name)
-        if frame is None or thing is None or thing.type != "CAMERA" or not (what := changed(thing)):
+        if frame is None or thing is None or thing.type != "CAMERA" or not (what := made.changed(thing)):
             continue
         name = _name(thing.name, before.name, taken - {before.name}) if "name" in what else before.name
         taken.add(name)
@@ -261,7 +204,7 @@ def pull(
         if words:
             tell(f'camera "{name}": {words}')
         else:
-            remember(thing)
+            made.remember(thing)
     return tuple(found)
 
 
@@ -274,7 +217,7 @@ def _pulled(
     size: tuple[int, int],
 ) -> tuple[Camera, str]:
     """The camera with what was changed, and what cannot be said."""
-    data = thing.data
+    data, size = thing.data, before.resolution or size
     if not what & {"pose", "lens"}:
         return before, ""
     if data.type == "ORTHO" and "pose" not in what and hasattr(before.rig, "swath"):
@@ -286,7 +229,6 @@ def _pulled(
     if what & {"pose", "lens"} == {"lens"} and still and isinstance(before.rig, _lens.Lens):
         lens = {"focal_length": _short(data.lens), "sensor_width": _short(_sensor(data, size))}
         return replace(before, rig=replace(before.rig, **lens)), words
-    size = before.resolution or size
     seen = flown(stage.scene, thing, frames, size)
     near = 0.5 * below.height(stage, seen.place[:: max(len(seen.place) // 50, 1)])
     rig = poses_of(seen, local_frame(stage), size[0], near)
@@ -302,10 +244,10 @@ def _following(camera: Camera, old: str, new: str) -> Camera:
 
 def _name(text: str, before: str, taken: set[str]) -> str:
     """A camera's name that an object's name gives: letters, digits, - and _, and no other camera's."""
-    made = re.sub(r"[^A-Za-z0-9_-]+", "-", text.removeprefix(_PREFIX)).strip("-_") or before
-    found, number = made, 2
+    given = re.sub(r"[^A-Za-z0-9_-]+", "-", text.removeprefix(_PREFIX)).strip("-_") or before
+    found, number = given, 2
     while found in taken:
-        found, number = f"{made}-{number}", number + 1
+        found, number = f"{given}-{number}", number + 1
     return found
 
 

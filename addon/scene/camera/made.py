@@ -1,0 +1,67 @@
+"""What camera objects were like when they were made, so that what an artist did to them since is known."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Sequence
+from typing import Any
+
+import bpy
+
+from ...blender import compat, owned
+
+POSE = ("location", "rotation_quaternion", "rotation_euler", "rotation_axis_angle", "scale")
+LENS = ("lens", "sensor_width", "sensor_height", "ortho_scale")
+_MADE = "firetwin_made"  # of an object: what it was like when it was made
+
+
+def remember(thing: bpy.types.Object) -> None:
+    """Keep what an object is like now, so that `changed` can tell what an artist does to it."""
+    thing[owned.NAME] = thing.name
+    thing[_MADE] = json.dumps(_state(thing))
+
+
+def changed(thing: bpy.types.Object) -> set[str]:
+    """What of "name", "pose" and "lens" an artist changed since an object was made."""
+    if _MADE not in thing:
+        return set()
+    before, now = json.loads(thing[_MADE]), _state(thing)
+    return {part for part in now if now[part] != before.get(part)}
+
+
+def _state(thing: bpy.types.Object) -> dict[str, str]:
+    """A few letters for each part of an object that stand for what it is like in every frame."""
+    hangs = [thing.parent.name if thing.parent else "", [_constraint(each) for each in thing.constraints]]
+    return {
+        "name": thing.name,
+        "pose": _digest([thing.rotation_mode, _values(thing, POSE), hangs]),
+        "lens": _digest([thing.data.type, thing.data.sensor_fit, _values(thing.data, LENS)]),
+    }
+
+
+def _constraint(each: bpy.types.Constraint) -> list[Any]:
+    target = getattr(each, "target", None)
+    return [each.type, each.mute, each.influence, target.name if target else ""]
+
+
+def _values(block: bpy.types.ID, names: Sequence[str]) -> list[Any]:
+    """The values of properties, or where they are animated the curves."""
+    animated: dict[str, list[Any]] = {}
+    for curve in compat.fcurves(block):
+        if curve.data_path in names:
+            points = [
+                [*point.co, *point.handle_left, *point.handle_right, point.interpolation]
+                for point in curve.keyframe_points
+            ]
+            animated.setdefault(curve.data_path, []).append([curve.array_index, points])
+    still = {
+        name: list(value) if hasattr(value := getattr(block, name), "__len__") else value
+        for name in names
+        if name not in animated
+    }
+    return [animated, still]
+
+
+def _digest(values: Any) -> str:
+    return hashlib.sha256(json.dumps(values).encode()).hexdigest()[:16]
