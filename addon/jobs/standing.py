@@ -88,8 +88,8 @@ def in_blender(
     import bpy
 
     from ..blender import devices, owned
+    from ..render import engine, sharing, video
     from ..render import pictures as making_pictures
-    from ..render import sharing, video
     from ..render.picture import Picture
     from ..scene.smoke import bake
 
@@ -109,17 +109,16 @@ def in_blender(
             if stage.camera(camera) is None:
                 raise Error(f'the camera "{camera}" is not in the scene {scene}; build the cameras again')
             wanted, alone = list(group), shot.of(camera)
-            render = stage.scene.render
-            render.resolution_x, render.resolution_y = alone.settings.render.resolution
-            render.resolution_percentage = 100
+            engine.size(alone.settings, stage.scene)
             making_pictures.render(alone, stage, making, wanted, share(progress, done, frames), ready)
             done += frames_of(wanted)
         video.make(shot, making, progress)
 
 
 def _as_it_stands(shot: Shot, scene: Any) -> Shot:
-    """The shot with the size of pictures that the scene has."""
+    """The shot with the size of pictures that the scene has, those of two eyes one above the other."""
     render, part = scene.render, scene.render.resolution_percentage / 100.0
-    size = tuple(2 * max(round(side * part / 2), 8) for side in (render.resolution_x, render.resolution_y))
+    sides = render.resolution_x, render.resolution_y * (2 if render.use_multiview else 1)
+    size = tuple(2 * max(round(side * part / 2), 8) for side in sides)
     settings = shot.settings
     return Shot(replace(settings, render=replace(settings.render, resolution=size)), shot.run)
