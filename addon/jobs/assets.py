@@ -10,6 +10,7 @@ from ..errors import input_error
 from ..progress import READING, Progress, Tell, patience, silent, untold
 from ..shot.choice import Choice
 from . import worker
+from .build import save
 
 BLEND, CATALOGUE = "firetwin_assets.blend", "blender_assets.cats.txt"
 CATALOGUES = ("Trees", "Undergrowth", "Materials", "Geometry Nodes", "Shader Nodes", "Compositor", "Cameras")
@@ -90,20 +91,12 @@ def _refuse_strangers(out: Path) -> None:
 
 
 def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell) -> int:
-    """Make the assets in an empty Blender, and save them under a temporary name that they then lose."""
+    """Make the assets in an empty Blender, and save them."""
     import bpy
 
     from ..scene import assets
 
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     count = assets.build(Choice(**choice).shot(), identifier, progress)
-    part = files.part_of(Path(out))
-    bpy.context.preferences.filepaths.save_version = 0
-    try:
-        bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True)
-        files.publish(part, Path(out))
-    except RuntimeError as error:
-        raise input_error(Path(out), 0, 0, f"cannot be written: {' '.join(str(error).split())}") from None
-    finally:
-        part.unlink(missing_ok=True)
+    save(Path(out))
     return count

@@ -52,9 +52,7 @@ def _writable(out: Path) -> None:
 
 
 def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell) -> None:
-    """Build the scene and save it under a temporary name that it then loses."""
-    import bpy
-
+    """Build the scene and save it."""
     from ..blender import viewport
     from ..scene.smoke import bake
     from ..scene.smoke import build as smoke
@@ -68,13 +66,31 @@ def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell)
     setting.build_scene(shot, progress, tell)
     viewport.prepare_file()
     smoke.relative(Path(out))
-    part = files.part_of(Path(out))
+    save(Path(out), relative_remap=False)
+
+
+def save(out: Path, **how: bool) -> None:
+    """Save what is open in Blender as `out`, under a temporary name that it then loses.
+
+    Parameters
+    ----------
+    how
+        More for Blender, as of `bpy.ops.wm.save_as_mainfile`.
+
+    Raises
+    ------
+    InputError
+        The disk is full, or the file cannot be written.
+    """
+    import bpy
+
+    part = files.part_of(out)
     bpy.context.preferences.filepaths.save_version = 0
     try:
-        bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True, relative_remap=False)
-        files.publish(part, Path(out))
+        bpy.ops.wm.save_as_mainfile(filepath=str(part), compress=True, **how)
+        files.publish(part, out)
     except RuntimeError as error:
         reason = f"cannot be written: {' '.join(str(error).split())}"
-        raise input_error(out, 0, 0, FULL if disk_is_full(error) or no_room(Path(out)) else reason) from None
+        raise input_error(out, 0, 0, FULL if disk_is_full(error) or no_room(out) else reason) from None
     finally:
         part.unlink(missing_ok=True)

@@ -40,7 +40,7 @@ def run(
     -------
     How many pictures were made.
     """
-    from ..render import claims, dataset, films, fingerprint, plan
+    from ..render import dataset, films, fingerprint, plan
     from ..render.store import Store
 
     out = asked.out
@@ -64,27 +64,45 @@ def run(
     if undone:
         cameras = " and ".join(dict.fromkeys(picture.camera for picture in undone))
         tell(f"rendering {count(len(undone), 'picture')} of {cameras}")
-    task = {
-        "choice": choice.plain(),
-        "out": str(out.absolute()),
-        "pictures": [[picture.camera, picture.frame, picture.name] for picture in undone],
-        "filmed": [list(pair) for pair in made_with],
-        "owner": claims.new_owner(),
-        "after": before,
-    }
+    task = {"choice": choice.plain(), "filmed": [list(pair) for pair in made_with], "after": before}
     with Store(out, create=True) as store:
-        try:
-            eevee = shot.settings.render.engine == "eevee"
-            worker.run(f"{__name__}:in_blender", task, progress, eevee=eevee, stop=stop, tell=tell)
-        except BaseException:
-            with contextlib.suppress(Error):  # what stopped the work is what to tell
-                claims.leave(store, task["owner"])
-                store.export()
-            raise
-        claims.leave(store, task["owner"])
-        store.export()
+        make(f"{__name__}:in_blender", task, undone, store, shot, progress, tell, stop)
         dataset.write(store)
     return len(undone)
+
+
+def make(
+    job: str,
+    task: dict[str, Any],
+    undone: list[Any],
+    store: Any,
+    shot: Shot,
+    progress: Progress,
+    tell: Tell,
+    stop: worker.Stop | None,
+) -> None:
+    """Have a process make pictures; whatever ends it, no others wait for its own and the manifest is written.
+
+    Parameters
+    ----------
+    task
+        What the job takes besides `out`, `pictures` and `owner`.
+    """
+    from ..render import claims
+
+    owner = claims.new_owner()
+    pictures = [[picture.camera, picture.frame, picture.name] for picture in undone]
+    task = task | {"out": str(store.out.absolute()), "pictures": pictures, "owner": owner}
+    eevee = shot.settings.render.engine == "eevee"
+    try:
+        worker.run(job, task, progress, eevee=eevee, stop=stop, tell=tell)
+    except BaseException:
+        with contextlib.suppress(Error):  # what stopped the work is what to tell
+            claims.leave(store, owner)
+            store.export()
+        raise
+    claims.leave(store, owner)
+    store.export()
 
 
 def in_blender(
@@ -115,11 +133,7 @@ def in_blender(
             done = frames - frames_of(free)
             for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
                 wanted = list(group)
-
-                def counted(here: int, of: int, what: str = "", before: int = done) -> None:
-                    progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
-
-                _camera(shot.of(camera), making, wanted, counted, tell)
+                _camera(shot.of(camera), making, wanted, share(progress, done, frames), tell)
                 done += frames_of(wanted)
         video.make(shot, making, progress)
 
@@ -148,6 +162,15 @@ def frames_of(pictures: list[Any]) -> int:
     return len({(picture.camera, picture.frame) for picture in pictures})
 
 
+def share(progress: Progress, before: int, frames: int) -> Progress:
+    """Progress of rendering some of so many frames, `before` of which are made; other work counts alone."""
+
+    def counted(here: int, of: int, what: str = "") -> None:
+        progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
+
+    return counted
+
+
 def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell: Tell) -> None:
     """Render the pictures of a shot's one camera; its smoke is baked a frame ahead of them."""
     from ..blender import devices
@@ -160,14 +183,10 @@ def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell
     frames, done = frames_of(wanted), 0
     with bake.ahead(shot, smoky(shot, wanted), progress, tell) as ready:
         for part, group in _parts(shot, wanted):
-
-            def counted(here: int, of: int, what: str = "", before: int = done) -> None:
-                progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
-
             stage = setting.build_scene(part, progress, tell)
             if shot.settings.render.engine == "cycles" and not done:
                 tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
-            pictures.render(shot, stage, making, group, counted, ready)
+            pictures.render(shot, stage, making, group, share(progress, done, frames), ready)
             done += frames_of(group)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
 import itertools
 from dataclasses import replace
@@ -14,7 +13,7 @@ from ..progress import Progress, Tell, count, silent, untold
 from ..shot.choice import Choice
 from ..shot.shot import Shot
 from . import worker
-from .render import Asked, frames_of, smoky
+from .render import Asked, frames_of, make, share, smoky
 
 
 def run(
@@ -39,7 +38,7 @@ def run(
     -------
     How many pictures were made.
     """
-    from ..render import claims, plan
+    from ..render import plan
     from ..render.store import Store
 
     shot = choice.shot()
@@ -54,20 +53,11 @@ def run(
             "choice": choice.plain(),
             "blend": str(blend),
             "scene": scene,
-            "out": str(asked.out.absolute()),
-            "pictures": [[picture.camera, picture.frame, picture.name] for picture in undone],
             "made_with": [[*pair, values] for pair, values in made_with.items()],
-            "owner": claims.new_owner(),
             "after": before,
         }
         tell(f"rendering {count(len(undone), 'picture')} of {blend.name} as it stands")
-        try:
-            eevee = shot.settings.render.engine == "eevee"
-            worker.run(f"{__name__}:in_blender", task, progress, eevee=eevee, stop=stop, tell=tell)
-        finally:
-            with contextlib.suppress(Error):  # what stopped the work is what to tell
-                claims.leave(store, task["owner"])
-                store.export()
+        make(f"{__name__}:in_blender", task, undone, store, shot, progress, tell, stop)
     return len(undone)
 
 
@@ -98,8 +88,8 @@ def in_blender(
     import bpy
 
     from ..blender import devices, owned
+    from ..render import engine, sharing, video
     from ..render import pictures as making_pictures
-    from ..render import sharing, video
     from ..render.picture import Picture
     from ..scene.smoke import bake
 
@@ -119,21 +109,16 @@ def in_blender(
             if stage.camera(camera) is None:
                 raise Error(f'the camera "{camera}" is not in the scene {scene}; build the cameras again')
             wanted, alone = list(group), shot.of(camera)
-            render = stage.scene.render
-            render.resolution_x, render.resolution_y = alone.settings.render.resolution
-            render.resolution_percentage = 100
-
-            def counted(here: int, of: int, what: str = "", before: int = done) -> None:
-                progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
-
-            making_pictures.render(alone, stage, making, wanted, counted, ready)
+            engine.size(alone.settings, stage.scene)
+            making_pictures.render(alone, stage, making, wanted, share(progress, done, frames), ready)
             done += frames_of(wanted)
         video.make(shot, making, progress)
 
 
 def _as_it_stands(shot: Shot, scene: Any) -> Shot:
-    """The shot with the size of pictures that the scene has."""
+    """The shot with the size of pictures that the scene has, those of two eyes one above the other."""
     render, part = scene.render, scene.render.resolution_percentage / 100.0
-    size = tuple(2 * max(round(side * part / 2), 8) for side in (render.resolution_x, render.resolution_y))
+    sides = render.resolution_x, render.resolution_y * (2 if render.use_multiview else 1)
+    size = tuple(2 * max(round(side * part / 2), 8) for side in sides)
     settings = shot.settings
     return Shot(replace(settings, render=replace(settings.render, resolution=size)), shot.run)

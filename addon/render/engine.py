@@ -27,8 +27,6 @@ DEPTH_FILTER = 0.01  # pixels, the narrowest filter Cycles has: one ray through 
 def apply(settings: Settings, scene: bpy.types.Scene) -> None:
     """Set the size of the picture, the engine and its samples."""
     render = scene.render
-    render.resolution_x, render.resolution_y = settings.render.resolution
-    render.resolution_percentage = 100
     render.pixel_aspect_x = render.pixel_aspect_y = 1.0
     render.use_border = render.film_transparent = render.use_motion_blur = False
     render.use_file_extension = render.use_overwrite = True
@@ -36,16 +34,18 @@ def apply(settings: Settings, scene: bpy.types.Scene) -> None:
     render.image_settings.color_mode, render.image_settings.color_depth = "RGB", "8"
     render.image_settings.compression = 15
     render.dither_intensity = 0.0
-    _eyes(settings, scene)
+    size(settings, scene)
     if settings.render.engine == "eevee":
         _eevee(settings, scene)
     else:
         _cycles(settings, scene)
 
 
-def _eyes(settings: Settings, scene: bpy.types.Scene) -> None:
-    """Render a picture for each eye where all cameras see all round; files hold both."""
+def size(settings: Settings, scene: bpy.types.Scene) -> None:
+    """Set the size of the picture: of one for each eye where all cameras see all round; files hold both."""
     render = scene.render
+    render.resolution_x, render.resolution_y = settings.render.resolution
+    render.resolution_percentage = 100
     render.use_multiview = bool(settings.cameras) and all(each.rig.around for each in settings.cameras)
     if render.use_multiview:
         render.resolution_y //= 2

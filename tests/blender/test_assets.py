@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.jobs import assets as job
+from firetwin.jobs import build
 from firetwin.scene import assets
 from firetwin.scene.forest import models
 
@@ -63,3 +64,10 @@ def test_a_library_of_somebody_else_stays(tmp_path):
     with pytest.raises(InputError, match="belongs to another asset library"):
         job.run(None, tmp_path)
     assert theirs.read_text() == "VERSION 1\n"
+
+
+@pytest.mark.parametrize(("full", "words"), [(True, "the disk is full"), (False, "cannot be written")])
+def test_a_file_that_cannot_be_saved_is_one_clear_error(tmp_path, monkeypatch, full, words):
+    monkeypatch.setattr(build, "no_room", lambda path: full)
+    with pytest.raises(InputError, match=rf"away.{job.BLEND}: {words}"):
+        build.save(tmp_path / "away" / job.BLEND)

@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 import bpy
 import numpy as np
 import pytest
+from firetwin.jobs import standing
 from firetwin.render import engine, layers
 from firetwin.render.picture import Picture
 from firetwin.scene.camera import build as cameras
@@ -82,6 +83,20 @@ def test_depth_pose_and_terrain_agree_in_both_eyes_and_near_things_shift_the_rig
     # All round: at the back the picture goes on from its right end at its left one.
     steps = np.abs(np.diff(np.log(depth), axis=1, append=np.log(depth[:, :1])))[seen[:, -1] & seen[:, 0]]
     assert np.median(steps[:, -1]) < 2.0 * np.median(steps)
+
+
+def test_a_scene_as_it_stands_keeps_both_eyes_and_their_size(settings, run, scene):
+    render = replace(settings.render, resolution=(SIZE, SIZE))
+    vr = Camera("vr", Vr(APART, keys=(CameraKey(0.0, 38.83, -120.56, 300.0, "fire"),)))
+    shot = Shot(replace(settings, cameras=(vr,), render=render), run)
+    engine.apply(shot.settings, scene)
+    for percent, across in ((100, SIZE), (50, SIZE // 2)):
+        scene.render.resolution_percentage = percent
+        stands = standing._as_it_stands(shot, scene)
+        assert stands.settings.render.resolution == (across, across)
+        engine.size(stands.settings, scene)
+        size = scene.render.resolution_x, scene.render.resolution_y, scene.render.use_multiview
+        assert size == (across, across // 2, True)  # of each eye
 
 
 SCENE = """\

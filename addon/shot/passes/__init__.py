@@ -60,7 +60,8 @@ class Pass:
     needs
         Other passes whose files its own are made from.
     sources
-        Files and folders of the package that decide its files, beside its own module and what all depend on.
+        Files and folders of the package that decide its files, beside its own module, the helpers of passes
+        (`_NAME.py`) and what all depend on.
     finish
         Makes the files that Blender does not, or goes on with those that it made. Called with the pass's
         files by suffix; those of the passes that it needs, by pass and suffix; the shot; the camera's name;

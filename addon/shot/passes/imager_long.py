@@ -2,32 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from ._band import band
 
-from . import Files, Pass
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from ..shot import Shot
-
-
-def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
-    """Draw the band."""
-    from . import _imager
-
-    _imager.draw(files["png"], needed["depth"]["exr"], shot, camera, frame, long=True)
-
-
-PASS = Pass(
-    name="imager_long",
-    order=51,
-    help="What a satellite's imager measures in the thermal infrared (11.2 um)",
-    files=("png",),
-    output="",
-    filmed=True,
-    shows=frozenset({"time", "camera"}),
-    needs=("depth",),
-    sources=("shot/passes/_imager.py", "shot/passes/_bar.py", "shot/satellites"),
-    finish=finish,
+PASS = band(
+    "imager_long", 51, "What a satellite's imager measures in the thermal infrared (11.2 um)", long=True
 )

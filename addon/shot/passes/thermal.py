@@ -75,6 +75,5 @@ PASS = Pass(
     shows=frozenset(
         {"time", "camera", "picture", "ground", "forest", "fire", "smoke", "light", "grain", "thermal"}
     ),
-    sources=("shot/passes/_bar.py",),
     finish=finish,
 )

@@ -1,0 +1,35 @@
+"""A pass that shows what a satellite's imager measures in one band (see `_imager`, which needs NumPy)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from . import Files, Pass
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ..shot import Shot
+
+
+def band(name: str, order: int, help: str, long: bool) -> Pass:
+    """The pass of the long or of the short band."""
+
+    def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
+        """Draw the band."""
+        from . import _imager
+
+        _imager.draw(files["png"], needed["depth"]["exr"], shot, camera, frame, long)
+
+    return Pass(
+        name=name,
+        order=order,
+        help=help,
+        files=("png",),
+        output="",
+        filmed=True,
+        shows=frozenset({"time", "camera"}),
+        needs=("depth",),
+        sources=("shot/satellites",),
+        finish=finish,
+    )
