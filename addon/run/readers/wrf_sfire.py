@@ -52,11 +52,15 @@ class _Wrf:
             for index, moment in enumerate(_moments(self.files(path))):
                 found[moment] = _Frame(path, index, moment)  # of a time that is there twice the later file's
         self.frames = [found[moment] for moment in sorted(found)]
-        self.first = self.files(self.frames[0].path)
         self.ny, self.nx, self.sy, self.sx = _sizes(self.first)
         for path in {frame.path for frame in self.frames}:
             if _sizes(self.files(path)) != (self.ny, self.nx, self.sy, self.sx):
                 raise self.files(path).error("has another grid than the others; give those of one domain")
+
+    @property
+    def first(self) -> netcdf.File:
+        """The first time's file; asked for each time, as few of the files stay open."""
+        return self.files(self.frames[0].path)
 
     def has(self, *names: str) -> bool:
         return all(name in self.first for name in names)
