@@ -77,7 +77,7 @@ def find(paths: list[Path]) -> Land:
     """Layers among files, by LCP header or by raster and name."""
     land = Land({})
     for path in paths:
-        if path.suffix.lower() == ".lcp" and raster.is_lcp(path):
+        if path.suffix.lower() == ".lcp":
             land.layers |= raster.landscape(path)
         elif raster.is_raster(path) and raster.role(path) in _LAYERS:
             layer = raster.read(path)

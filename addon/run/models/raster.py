@@ -204,9 +204,10 @@ def landscape(path: Path) -> dict[str, Raster]:
     InputError
         The file is damaged.
     """
-    data = path.read_bytes()[:7316]
-    if len(data) < 7316:
-        raise _error(path, "is shorter than an LCP's header")
+    if not is_lcp(path):
+        raise _error(path, "has no header of an LCP with cells behind it; it is damaged or incomplete")
+    with path.open("rb") as file:
+        data = file.read(7316)
     crown, ground = np.frombuffer(data, "<i4", 2, 0)
     nx, ny = (int(each) for each in np.frombuffer(data, "<i4", 2, 4164))
     east, west, north, south = np.frombuffer(data, "<f8", 4, 4172)
