@@ -165,6 +165,17 @@ def test_cfbm(tmp_path, converted):
     np.testing.assert_allclose(run.wind(1)[0], 3.0, rtol=1e-3)
 
 
+def test_what_is_assumed_where_fuel_and_height_are_not_said_is_said(tmp_path, converted):
+    paths, _ = made.cfbm(tmp_path, count=2)
+    for path in paths:
+        with made.netCDF4.Dataset(path, "a") as file:
+            file.renameVariable("nfuel_cat", "a")
+            file.renameVariable("zsf", "b")
+    assumed = said(converted(paths))
+    assert "1 kg/m2 of surface fuel everywhere" in assumed
+    assert "it is flat, at 0 m" in assumed
+
+
 def test_cfbm_turned_wind(tmp_path, converted):
     paths, _ = made.cfbm(tmp_path, turn=30.0)
     run = converted(paths)

@@ -93,14 +93,7 @@ def read(paths: list[Path], options: Options) -> Model:
     model.levels = {name: first.shape(fields[name]["variable"])[1] for name in _LEVELS if name in fields}
     if "fuel_arrival_time" not in fields:
         told.append("arrival times are not said; the fire's line is found in the heat fluxes")
-    for name, make in (
-        ("elevation", land.elevation),
-        ("surface_fuel", land.surface),
-        ("canopy_fuel", land.canopy),
-    ):
-        if name not in model.still:
-            values = make(grid, options.projection)
-            model.still[name] = lambda values=values: values
+    land.complete(model.still, grid, grid, options.projection)
     model.assumptions = told + land.assumptions
     return model
 
