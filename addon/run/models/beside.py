@@ -91,9 +91,8 @@ def find(paths: list[Path]) -> Land:
     for path in paths:
         if path.suffix.lower() == ".lcp":
             land.layers |= raster.landscape(path)
-        elif raster.is_raster(path) and raster.role(path) in _LAYERS:
-            layer = raster.read(path)
-            land.layers[raster.role(path)] = _in_units(layer, raster.role(path))
+        elif (name := raster.role(path)) in _LAYERS and raster.is_raster(path):
+            land.layers[name] = _in_units(raster.read(path), name)
     return land
 
 
