@@ -11,7 +11,7 @@ from firetwin import cli
 from firetwin.errors import Error, InputError, UsageError
 from firetwin.jobs import convert, worker
 from firetwin.run import readers
-from firetwin.run.models import write
+from firetwin.run.models import netcdf, write
 from firetwin_core import run as runs
 
 
@@ -116,6 +116,38 @@ def test_damaged_files_end_in_an_error(tmp_path, kind):
     ends = [int(line.split()[1]) for line in done.stdout.splitlines() if line.startswith("end")]
     assert len(ends) == 14
     assert all(end & 127 or end == 0 for end in ends), done.stdout
+
+
+@pytest.mark.parametrize("kind", ["NETCDF3_CLASSIC", "NETCDF3_64BIT_OFFSET", "NETCDF3_64BIT_DATA"])
+@pytest.mark.parametrize("records", [0, 1, 3])
+@pytest.mark.parametrize("types", [("f4", "i2", "S1", "f8"), ("i2",)])
+def test_a_classic_file_that_is_cut_off_is_no_file(tmp_path, kind, records, types):
+    """netCDF itself gives zeros for what is not there."""
+    path = tmp_path / "a.nc"
+    with made.netCDF4.Dataset(path, "w", format=kind) as file:
+        file.title, file.numbers = "a b c", np.arange(3, dtype=np.int16)
+        for name, size in (("t", None), ("y", 3), ("x", 5)):
+            file.createDimension(name, size)
+        for name in types:
+            file.createVariable(f"still_{name}", name, ("y", "x")).units = "m/s"
+            moving = file.createVariable(f"moving_{name}", name, ("t", "y", "x"))
+            moving[:records] = np.ones((records, 3, 5), name)
+    whole = path.read_bytes()
+    netcdf.File(path).close()
+    padding = 2 if types == ("i2",) and records == 0 else 0
+    path.write_bytes(whole[: len(whole) - padding])
+    netcdf.File(path).close()
+    path.write_bytes(whole[: len(whole) - padding - 1])
+    with pytest.raises(InputError, match="it is incomplete"):
+        netcdf.File(path)
+
+
+def test_an_lcp_that_is_cut_off_is_not_left_out(tmp_path):
+    paths, options = files_of("lcp", tmp_path)
+    for size in (7316, 6000, 0):
+        paths[0].write_bytes(paths[0].read_bytes()[:size])
+        with pytest.raises(InputError, match=r"a\.lcp: has no header of an LCP"):
+            in_process(paths, tmp_path / "out", **options)
 
 
 def test_a_process_that_crashes_is_one_line(tmp_path, monkeypatch, capfd):

@@ -165,6 +165,17 @@ def test_cfbm(tmp_path, converted):
     np.testing.assert_allclose(run.wind(1)[0], 3.0, rtol=1e-3)
 
 
+def test_what_is_assumed_where_fuel_and_height_are_not_said_is_said(tmp_path, converted):
+    paths, _ = made.cfbm(tmp_path, count=2)
+    for path in paths:
+        with made.netCDF4.Dataset(path, "a") as file:
+            file.renameVariable("nfuel_cat", "a")
+            file.renameVariable("zsf", "b")
+    assumed = said(converted(paths))
+    assert "1 kg/m2 of surface fuel everywhere" in assumed
+    assert "it is flat, at 0 m" in assumed
+
+
 def test_cfbm_turned_wind(tmp_path, converted):
     paths, _ = made.cfbm(tmp_path, turn=30.0)
     run = converted(paths)
@@ -421,6 +432,19 @@ def test_any_netcdf_by_a_mapping(tmp_path, converted):
     assert moment(run) == START
     np.testing.assert_array_equal(run.heat_flux(1), (expected[1] * 2).astype(np.float32))
     np.testing.assert_allclose(run.latitude, 39 + 0.001 * np.arange(5), rtol=1e-12)
+
+
+def test_many_netcdf_files_are_each_read_for_what_is_theirs(tmp_path, converted):
+    """More than are open at once: what is said of the first is not read from another in its place."""
+    paths = [cf(tmp_path / f"{k:02}.nc", name="heat_flux", times=(60 * k,))[0] for k in range(12)]
+    for k, path in enumerate(paths):
+        with made.netCDF4.Dataset(path, "a") as f:
+            f.title = f"file {k}"
+            if k == 0:
+                f.createVariable("elevation", "f8", ("y", "x"))[:] = 700.0
+    run = converted(paths)
+    assert run.name == "file 0"
+    np.testing.assert_array_equal(run.elevation, 700.0)
 
 
 def test_a_netcdf_of_no_known_model_says_how_to_map_it(tmp_path, converted):

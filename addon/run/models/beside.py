@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ...errors import input_error
 from . import fuels, raster
 from .grid import Grid
+from .model import Still
 
 _LAYERS = ("elevation", "category", "bulk_density", "base_height", "height")
 _UNSAID = 1.0  # kg/m2, where nothing says what burned
@@ -39,7 +40,7 @@ class Land:
         """Number of the fuel model in each cell."""
         return self.on("category", grid, projection)
 
-    def surface(self, grid: Grid, projection: str, burned: NDArray | None = None) -> NDArray[np.float32]:
+    def surface(self, grid: Grid, projection: str) -> NDArray[np.float32]:
         """Surface fuel (kg/m2), of the fuel models, else one load wherever."""
         number = self.category(grid, projection)
         if number is not None:
@@ -67,6 +68,17 @@ class Land:
             return np.zeros(grid.shape, np.float32)
         return np.nan_to_num(found, nan=float(np.nanmin(found)) if np.isfinite(found).any() else 0.0)
 
+    def complete(self, still: dict[str, Still], grid: Grid, fuel_grid: Grid, projection: str) -> None:
+        """Add elevation and fuels where a model's files lack them; found here, so that all of it is said."""
+        for name, find, where in (
+            ("elevation", self.elevation, grid),
+            ("surface_fuel", self.surface, fuel_grid),
+            ("canopy_fuel", self.canopy, fuel_grid),
+        ):
+            if name not in still:
+                values = find(where, projection)
+                still[name] = lambda values=values: values
+
     def say(self, text: str) -> None:
         """An assumption, said once."""
         if text not in self.assumptions:
@@ -77,11 +89,10 @@ def find(paths: list[Path]) -> Land:
     """Layers among files, by LCP header or by raster and name."""
     land = Land({})
     for path in paths:
-        if path.suffix.lower() == ".lcp" and raster.is_lcp(path):
+        if path.suffix.lower() == ".lcp":
             land.layers |= raster.landscape(path)
-        elif raster.is_raster(path) and raster.role(path) in _LAYERS:
-            layer = raster.read(path)
-            land.layers[raster.role(path)] = _in_units(layer, raster.role(path))
+        elif (name := raster.role(path)) in _LAYERS and raster.is_raster(path):
+            land.layers[name] = _in_units(raster.read(path), name)
     return land
 
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ...errors import Error
 from ..areas import metres_per_degree
+from . import needed
 
 Array = NDArray[np.float64]
 _ROWS = 256  # of the new grid that are looked up at once
@@ -228,8 +229,6 @@ def _orderly(axis: Array) -> bool:
 
 
 def _pyproj(projection: str):  # noqa: ANN202
-    from . import needed
-
     pyproj = needed.package("pyproj")
     try:
         return pyproj.Transformer.from_crs(projection, "EPSG:4326", always_xy=True)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Error, InputError, input_error
-from . import needed
+from . import classic, needed
 
 _MAGIC = (b"\x89HDF\r\n\x1a\n", b"CDF\x01", b"CDF\x02", b"CDF\x05")
 _OPEN = 8  # files at once
@@ -55,6 +55,10 @@ class File:
             self.data.set_auto_maskandscale(False)
             self.variables: dict[str, Any] = dict(self.data.variables)
             self.dimensions = {name: len(each) for name, each in self.data.dimensions.items()}
+            if self.data.disk_format == "NETCDF3":
+                size, need = path.stat().st_size, classic.needed(path)
+                if size < need:
+                    raise self.error(f"has {size} bytes where its header says {need}; it is incomplete")
 
     @contextmanager
     def sense(self) -> Iterator[None]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import warnings
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -51,10 +52,7 @@ class Raster:
 
     def on(self, grid: Grid, projection: str) -> NDArray[np.float32]:
         """Its nearest values on another grid's cells, NaN outside."""
-        latitude, longitude = grid.latitude, grid.longitude
-        if latitude.ndim == 1:
-            latitude, longitude = np.meshgrid(latitude, longitude, indexing="ij")
-        x, y = project(self.projection or projection, latitude, longitude)
+        x, y = _places(grid, self.projection or projection)
         column, row = _index(self.x, x), _index(self.y, y)
         inside = (column >= 0) & (column < len(self.x)) & (row >= 0) & (row < len(self.y))
         found = np.full(grid.shape, np.nan, np.float32)
@@ -71,6 +69,15 @@ def local(x: NDArray, y: NDArray, at: tuple[float, float] | None) -> tuple[Grid,
         grid,
         f"a grid in metres of no projection: its middle is put at {place[0]:g}, {place[1]:g} {said}",
     )
+
+
+@lru_cache(1)  # layers beside a model are looked up one after the other, mostly in one projection
+def _places(grid: Grid, projection: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Coordinates x and y (ny, nx) of a grid's cells in a projection."""
+    latitude, longitude = grid.latitude, grid.longitude
+    if latitude.ndim == 1:
+        latitude, longitude = np.meshgrid(latitude, longitude, indexing="ij")
+    return project(projection, latitude, longitude)
 
 
 def _index(axis: NDArray, at: NDArray) -> NDArray[np.int64]:
@@ -204,9 +211,10 @@ def landscape(path: Path) -> dict[str, Raster]:
     InputError
         The file is damaged.
     """
-    data = path.read_bytes()[:7316]
-    if len(data) < 7316:
-        raise _error(path, "is shorter than an LCP's header")
+    if not is_lcp(path):
+        raise _error(path, "has no header of an LCP with cells behind it; it is damaged or incomplete")
+    with path.open("rb") as file:
+        data = file.read(7316)
     crown, ground = np.frombuffer(data, "<i4", 2, 0)
     nx, ny = (int(each) for each in np.frombuffer(data, "<i4", 2, 4164))
     east, west, north, south = np.frombuffer(data, "<f8", 4, 4172)

@@ -69,21 +69,16 @@ def read(paths: list[Path], options: Options) -> Model:
     still = {}
     if "zsf" in first:
         still["elevation"] = lambda: get("zsf", 0)
-    else:
-        still["elevation"] = lambda: land.elevation(grid, options.projection)
     if "nfuel_cat" in first:
         told.append("surface fuel is the model's own load (fgi) of Anderson's model nfuel_cat")
         still["surface_fuel"] = lambda: fuels.loads(get("nfuel_cat", 0), "sfire")
-    else:
-        still["surface_fuel"] = lambda: land.surface(grid, options.projection)
-    canopy = land.canopy(grid, options.projection)
-    still["canopy_fuel"] = lambda: canopy
     if "lfn" in first:
         told.append("time of arrival is interpolated in the level function between files")
         still["fuel_arrival_time"] = lambda: arrival.from_levels(times, lambda i: get("lfn", i), shape)
     else:
         told.append("time of arrival is interpolated in fire_area between files")
         still["fuel_arrival_time"] = lambda: arrival.from_share(times, lambda i: get("fire_area", i), shape)
+    land.complete(still, grid, grid, options.projection)
     return Model(
         source="Community Fire Behavior Model",
         name=f"Community Fire Behavior Model, {moments[0]:%Y-%m-%d %H:%M} UTC",

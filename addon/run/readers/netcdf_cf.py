@@ -56,7 +56,7 @@ def read(paths: list[Path], options: Options) -> Model:
         return values
 
     def still(name: str) -> NDArray:
-        shape = first.shape(fields[name]["variable"])
+        shape = files(ours[0]).shape(fields[name]["variable"])
         return get(name, ours[0], *[0] * (len(shape) - 2))
 
     if "heat_flux" not in fields:
@@ -72,6 +72,7 @@ def read(paths: list[Path], options: Options) -> Model:
     )
     frames = [each for k, each in enumerate(frames) if k == 0 or each[0] > frames[k - 1][0]]
     start = frames[0][0]
+    first = files(ours[0])  # which may have been closed for the others' times
     model = Model(
         source="netCDF (CF)",
         name=str(first.attribute("title", otherwise=ours[0].stem)),
@@ -92,14 +93,7 @@ def read(paths: list[Path], options: Options) -> Model:
     model.levels = {name: first.shape(fields[name]["variable"])[1] for name in _LEVELS if name in fields}
     if "fuel_arrival_time" not in fields:
         told.append("arrival times are not said; the fire's line is found in the heat fluxes")
-    for name, make in (
-        ("elevation", land.elevation),
-        ("surface_fuel", land.surface),
-        ("canopy_fuel", land.canopy),
-    ):
-        if name not in model.still:
-            values = make(grid, options.projection)
-            model.still[name] = lambda values=values: values
+    land.complete(model.still, grid, grid, options.projection)
     model.assumptions = told + land.assumptions
     return model
 

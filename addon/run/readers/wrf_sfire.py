@@ -52,11 +52,15 @@ class _Wrf:
             for index, moment in enumerate(_moments(self.files(path))):
                 found[moment] = _Frame(path, index, moment)  # of a time that is there twice the later file's
         self.frames = [found[moment] for moment in sorted(found)]
-        self.first = self.files(self.frames[0].path)
         self.ny, self.nx, self.sy, self.sx = _sizes(self.first)
         for path in {frame.path for frame in self.frames}:
             if _sizes(self.files(path)) != (self.ny, self.nx, self.sy, self.sx):
                 raise self.files(path).error("has another grid than the others; give those of one domain")
+
+    @property
+    def first(self) -> netcdf.File:
+        """The first time's file; asked for each time, as few of the files stay open."""
+        return self.files(self.frames[0].path)
 
     def has(self, *names: str) -> bool:
         return all(name in self.first for name in names)
@@ -86,7 +90,7 @@ def read(paths: list[Path], options: Options) -> Model:
     """The series as a model."""
     wrf = _Wrf([path for path in paths if sniff(path)])
     land = beside.find(paths)
-    told = list(land.assumptions)
+    told = []
     moments = [frame.moment for frame in wrf.frames]
     start, said = _start(wrf.first, moments[0])
     times = np.array([(moment - start).total_seconds() for moment in moments])
@@ -111,7 +115,7 @@ def read(paths: list[Path], options: Options) -> Model:
     _near_ground(wrf, model, told)
     _on_levels(wrf, model, told)
     _still(wrf, model, land, options, told)
-    model.assumptions = told + [each for each in land.assumptions if each not in told]
+    model.assumptions = told + land.assumptions
     return model
 
 
@@ -259,8 +263,6 @@ def _still(wrf: _Wrf, model: Model, land: beside.Land, options: Options, told: l
         model.still["elevation"] = lambda: wrf.read("HGT", 0)
     elif wrf.has("ZSF"):
         model.still["elevation"] = lambda: wrf.mean(wrf.fire("ZSF", 0))
-    else:
-        model.still["elevation"] = lambda: land.elevation(model.grid, options.projection)
     if wrf.has("ZSF"):
         model.still["fuel_elevation"] = lambda: wrf.fire("ZSF", 0)
     if wrf.has("NFUEL_CAT"):
@@ -268,18 +270,15 @@ def _still(wrf: _Wrf, model: Model, land: beside.Land, options: Options, told: l
             "surface fuel is WRF-SFIRE's load (fgi) of Anderson's model NFUEL_CAT; a namelist.fire may differ"
         )
         model.still["surface_fuel"] = lambda: fuels.loads(wrf.fire("NFUEL_CAT", 0), "sfire")
-    else:
-        model.still["surface_fuel"] = lambda: land.surface(model.fuel_grid, options.projection)
-    canopy = land.canopy(model.fuel_grid, options.projection)
-    model.still["canopy_fuel"] = lambda: canopy
     model.still["fuel_arrival_time"] = lambda: _arrival(wrf, model.times, last)
     named = "TIGN_G where the fire is in the last file" if wrf.has("TIGN_G") else "interpolated between files"
     told.append(f"time of arrival is {named}")
+    land.complete(model.still, model.grid, model.fuel_grid, options.projection)
 
 
 def _arrival(wrf: _Wrf, times: NDArray, last: int) -> NDArray:
     shape = wrf.ny * wrf.sy, wrf.nx * wrf.sx
-    if wrf.has("TIGN_G") and wrf.has("LFN"):
+    if wrf.has("TIGN_G", "LFN"):
         found, burned = wrf.fire("TIGN_G", last), wrf.fire("LFN", last) <= 0
     elif wrf.has("TIGN_G", "FIRE_AREA"):
         found, burned = wrf.fire("TIGN_G", last), wrf.fire("FIRE_AREA", last) >= 0.5
