@@ -36,7 +36,7 @@ def rows(run: Run, grid: Grid, detections: Detections) -> list[dict[str, Any]]:
         lag = moment - arrival[~np.isnan(arrival)]
         found.append(
             {
-                "time": times.moment(run, float(moment)).strftime("%Y-%m-%dT%H:%M:%SZ"),
+                "time": times.iso(times.moment(run, float(moment))),
                 "source": detections.source,
                 "count": int(these.size),
                 "inside": int((arrival <= moment).sum()),
