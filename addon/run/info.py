@@ -53,8 +53,8 @@ def _find(run: Run, zone: str) -> dict[str, Any]:
         "canopy_fuel": _fuel(run, "canopy_fuel", 0.01),
         "times": {
             "count": len(seconds),
-            "first": _iso(times.moment(run, float(seconds[0]))),
-            "last": _iso(times.moment(run, float(seconds[-1]))),
+            "first": times.iso(times.moment(run, float(seconds[0]))),
+            "last": times.iso(times.moment(run, float(seconds[-1]))),
             "interval": _range(np.diff(seconds)) if len(seconds) > 1 else None,
         },
         "fields": list(run.fields),
@@ -144,17 +144,13 @@ def _reported(run: Run, reports: list[history.Acreage], areas_then: list[float])
     """The reports beside the run's own areas (m2) at their times, where the run covers them."""
     rows = []
     for report, area in zip(reports, areas_then, strict=True):
-        row = {"time": _iso(report.time), "reported": report.acres * ACRE, "source": report.source}
+        row = {"time": times.iso(report.time), "reported": report.acres * ACRE, "source": report.source}
         row["note"] = report.note
         covered = run.times[0] <= times.seconds(run, report.time) <= run.times[-1]
         row["run"] = area if covered else None
         row["difference"] = area / row["reported"] - 1 if covered else None
         rows.append(row)
     return rows
-
-
-def _iso(moment: datetime) -> str:
-    return moment.strftime("%Y-%m-%dT%H:%M:%SZ")
 
 
 def page(info: dict[str, Any]) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -11,10 +10,15 @@ from firetwin_core.run import Run
 
 from ..data import history
 from ..errors import InputError, input_error
+from . import tables
 
 _SHOWN = ("town", "valley", "summit", "lake")
-_NAMES = {"name": {"name", "label", "title"}, "latitude": {"latitude", "lat"}}
-_NAMES["longitude"] = {"longitude", "lon", "lng", "long"}
+_NAMES = {
+    "name": {"name", "label", "title"},
+    "latitude": {"latitude", "lat"},
+    "longitude": {"longitude", "lon", "lng", "long"},
+}
+_COLUMNS = "name, latitude and longitude (degrees)"
 _LONGEST = 60  # letters of a name
 
 
@@ -56,21 +60,8 @@ def read(path: Path) -> list[Label]:
 
 
 def _csv(path: Path, text: str) -> list[Label]:
-    lines = text.splitlines()
-    comma = max(",;\t", key=lines[0].count) if lines else ","
-    rows = csv.reader(lines, delimiter=comma)
-    header = [name.strip().lower() for name in next(rows, [])]
-    columns = {what: next((k for k, n in enumerate(header) if n in of), -1) for what, of in _NAMES.items()}
-    for what, column in columns.items():
-        if column < 0:
-            known = "name, latitude and longitude (degrees)"
-            raise input_error(path, 1, 0, f"the first line names no column {what}; name {known}")
-    found = []
-    for row in rows:
-        if any(value.strip() for value in row):
-            values = [row[column] if column < len(row) else "" for column in columns.values()]
-            found.append(_label(path, rows.line_num, *values))
-    return found
+    found = tables.rows(path, iter(text.splitlines()), _NAMES, _NAMES, _COLUMNS)
+    return [_label(path, line, **value) for line, value in found]
 
 
 def _geojson(path: Path, text: str) -> list[Label]:
@@ -78,7 +69,7 @@ def _geojson(path: Path, text: str) -> list[Label]:
         features = json.loads(text)["features"]
     except json.JSONDecodeError as error:
         raise input_error(path, error.lineno, error.colno, f"is no JSON: {error.msg}") from None
-    except (KeyError, TypeError, RecursionError):
+    except (KeyError, TypeError, ValueError, RecursionError):
         raise input_error(path, 0, 0, "is no GeoJSON FeatureCollection") from None
     found = []
     for number, feature in enumerate(features if isinstance(features, list) else [], 1):
@@ -105,7 +96,7 @@ def _label(path: Path, line: int, name: Any, latitude: Any, longitude: Any) -> L
     for what, value, most in (("latitude", latitude, 90.0), ("longitude", longitude, 180.0)):
         try:
             degrees.append(float(value))
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise input_error(path, line, 0, f"{what} is {value!r}, not a number of degrees") from None
         if not abs(degrees[-1]) <= most:
             raise input_error(path, line, 0, f"{what} is {degrees[-1]:g}; it goes from {-most:g} to {most:g}")

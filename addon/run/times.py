@@ -19,6 +19,11 @@ def moment(run: Run, time: float) -> datetime:
     return _start(run) + timedelta(seconds=time)
 
 
+def iso(when: datetime) -> str:
+    """A moment in UTC as programs write it: ``2014-09-17T22:42:00Z``."""
+    return when.strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
 def text(when: datetime, zone: str) -> str:
     """A moment as people write it there: ``17 Sep 2014 15:42 PDT``."""
     local = when.astimezone(ZoneInfo(zone))

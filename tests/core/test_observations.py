@@ -125,6 +125,8 @@ def test_detections(tmp_path):
         ({}, "king_2014-09-18T0400-0700", True, True),
         ({"date": "2014-09-18"}, "a", False, False),
         ({"time": 20140918}, "a", False, False),
+        ({"time": 1e20, "when": "0001-01-01T00:00:00+14:00"}, "a", False, False),
+        ({"time": 10**400, "when": "01/01/0001 01:00:00 +1400"}, "00010101_0100+1400", False, False),
         ({}, "king", False, False),
     ],
 )
@@ -159,13 +161,21 @@ BAD = {
     ),
     "words.geojson": ('{"type": "Polygon", "coordinates": [["a", "b", "c"]]}', "longitudes and latitudes"),
     "crs.geojson": ('{"type": "Polygon", "crs": {"properties": {"name": "EPSG:3310"}}}', "EPSG:3310.*4326"),
+    "crs_none.geojson": ('{"type": "Point", "crs": {"properties": null}}', "no polygons"),
+    "digits.geojson": (f'{{"type": {"1" * 5000}}}', "is damaged: .*digits"),
+    "large.geojson": (
+        f'{{"type": "Polygon", "coordinates": [[[1{"0" * 400}, 1], [2, 2], [3, 1]]]}}',
+        "longitudes and latitudes",
+    ),
     "line.geojson": ('{"type": "LineString", "coordinates": [[0, 0], [1, 1]]}', "no polygons"),
     "cut.kml": ("<kml><Document>", "cut.kml:1:16: not valid XML"),
+    "deep.kml": (f"<kml>{'<Folder>' * 3000}{'</Folder>' * 3000}</kml>", "is damaged: .*recursion"),
     "bomb.kml": ('<!DOCTYPE a [<!ENTITY b "c">]><kml/>', "entities"),
     "a.kmz": ("not a zip", "no KMZ"),
     "a.gpkg": ("not a base at all, but long enough to be looked at by SQLite" * 9, "no GeoPackage"),
     "a.csv": ("lat,lon\n1,2\n", "no column latitude"),
     "b.csv": (FIRMS + "38.9,-120.6,340.1,0.5,0.4,2014-13-17,930,N,VIIRS,n,0\n", "b.csv:6: acq_date"),
+    "c.csv": (FIRMS + f"{'9' * 200000},", "is damaged: field larger"),
     "a.shp": ("not a shapefile", r"no .prj"),
 }
 

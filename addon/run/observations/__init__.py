@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import InputError, input_error
+from ...errors import Error, input_error
 from . import dates
 from .feature import Feature, Polygon
 
@@ -123,10 +123,13 @@ def read(paths: Iterable[str | Path]) -> Observations:
         reader = _reader(path)
         try:
             found = reader.read(path)
-        except InputError:
+        except Error:
             raise
         except OSError as error:
             raise input_error(path, 0, 0, (error.strerror or str(error)).lower()) from None
+        except Exception as error:  # Python's, or a library's: what is in the file is not what it should be
+            reason = " ".join(str(error).split()) or type(error).__name__
+            raise input_error(path, 0, 0, f"is damaged: {reason}") from error
         if isinstance(found, Detections):
             detections.append(found)
         else:

@@ -44,7 +44,7 @@ def without(name: str | Path) -> tuple[Path, datetime | None]:
     head, mark, tail = str(name).rpartition("@")
     if not mark or Path(name).exists():
         return Path(name), None
-    moment = _text(tail)
+    moment = _moment(tail)
     if moment is None:
         raise UsageError(f'"{tail}" after the @ of {head} is no moment such as 2014-09-18T04:00-07:00')
     return Path(head), moment[0]
@@ -84,6 +84,13 @@ def of(path: Path, feature: Feature, assumptions: dict[str, None]) -> datetime:
 
 def _moment(value: object) -> tuple[datetime, bool] | None:
     """UTC and whether the zone was said; None of what is no moment, or a day without its hour."""
+    try:
+        return _read(value)
+    except OverflowError:  # before the year 1, or after 9999
+        return None
+
+
+def _read(value: object) -> tuple[datetime, bool] | None:
     if isinstance(value, datetime):
         return (value if value.tzinfo else value.replace(tzinfo=UTC)).astimezone(
             UTC
@@ -110,7 +117,7 @@ def _text(value: str) -> tuple[datetime, bool] | None:
         return _epoch(float(text))
     if len(text) > 10 or re.fullmatch(r"\d{8}T\d{4}", text):  # what is shorter is a day alone
         try:
-            return _moment(
+            return _read(
                 datetime.fromisoformat(text.replace("UTC", "Z").replace("/", "-").replace(" Z", "Z"))
             )
         except ValueError:
@@ -140,6 +147,6 @@ def _of_name(stem: str) -> tuple[datetime, bool] | None:
         return None
     try:
         moment = datetime(*(int(part or 0) for part in found.groups()[:6]), tzinfo=UTC)
-    except ValueError:
+        return moment - (_offset(found[7]) if found[7] else timedelta(0)), found[7] is not None
+    except (ValueError, OverflowError):
         return None
-    return moment - (_offset(found[7]) if found[7] else timedelta(0)), found[7] is not None

@@ -39,7 +39,7 @@ def ring(path: Path, place: str, points: Iterable[Any]) -> Ring:
     """
     try:
         found = np.array([(float(point[0]), float(point[1])) for point in points]).reshape(-1, 2)
-    except (TypeError, ValueError, IndexError, KeyError):
+    except (TypeError, ValueError, OverflowError, IndexError, KeyError):
         raise input_error(
             path, 0, 0, f"{place} has a ring that is no list of longitudes and latitudes"
         ) from None
@@ -67,6 +67,6 @@ def finite(value: object) -> float | None:
     """A number that a file gives as one or as text, else None."""
     try:
         found = float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return None
     return found if math.isfinite(found) else None

@@ -40,7 +40,8 @@ def read(path: Path) -> list[Feature]:
 def _check_degrees(path: Path, whole: dict[str, Any]) -> None:
     """GeoJSON of before 2016 may name another reference system."""
     crs = whole.get("crs")
-    name = str(crs.get("properties", {}).get("name", "")) if isinstance(crs, dict) else ""
+    properties = crs.get("properties") if isinstance(crs, dict) else None
+    name = str(properties.get("name", "")) if isinstance(properties, dict) else ""
     if name and not name.endswith(("CRS84", ":4326", ":4269", ":4979")):
         raise input_error(path, 0, 0, f"is in {name}; save it in WGS84 (EPSG:4326)")
 

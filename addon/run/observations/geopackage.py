@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError, input_error
+from ...errors import input_error
 from .feature import Feature, Polygon, ring
 from .projection import to_degrees
 
@@ -31,9 +31,7 @@ def read(path: Path) -> list[Feature]:
         with contextlib.closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
             base.row_factory = sqlite3.Row
             return [each for table in base.execute(_TABLES).fetchall() for each in _rows(path, base, table)]
-    except InputError:
-        raise
-    except (sqlite3.Error, ValueError, OverflowError, TypeError) as error:
+    except sqlite3.Error as error:
         raise input_error(path, 0, 0, f"no GeoPackage: {error}") from None
 
 

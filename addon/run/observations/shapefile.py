@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import struct
 from pathlib import Path
 
 import numpy as np
 
-from ...errors import InputError, input_error
+from ...errors import input_error
 from .feature import Feature, Polygon, ring
 from .projection import to_degrees
 
@@ -18,7 +17,7 @@ def read(path: Path) -> list[Feature]:
     Raises
     ------
     InputError
-        It is damaged, has no .prj, or pyshp is not there.
+        It has no .prj, or pyshp is not there.
     """
     path.stat()
     try:
@@ -31,13 +30,8 @@ def read(path: Path) -> list[Feature]:
     except OSError:
         reason = "has no .prj beside it, so nothing says what its coordinates are"
         raise input_error(path, 0, 0, reason) from None
-    try:
-        with shapefile.Reader(str(path)) as reader:
-            return [_feature(path, system, i, each) for i, each in enumerate(reader.iterShapeRecords(), 1)]
-    except InputError:
-        raise
-    except (shapefile.ShapefileException, struct.error, ValueError, IndexError, KeyError, TypeError) as error:
-        raise input_error(path, 0, 0, f"no shapefile that can be read: {error}") from None
+    with shapefile.Reader(str(path)) as reader:
+        return [_feature(path, system, i, each) for i, each in enumerate(reader.iterShapeRecords(), 1)]
 
 
 def _feature(path: Path, system: str, number: int, found: object) -> Feature:

@@ -68,7 +68,7 @@ def score(
         "projection": grid.projection.definition,
         "arrival_from": "fuel_arrival_time" if run.has("fuel_arrival_time") else "heat_flux",
         "dates": dates,
-        "outside": [_iso(each.time) for each in seen if each not in inside],
+        "outside": [times.iso(each.time) for each in seen if each not in inside],
         "arrival": _arrival(run, grid, inside, other),
         "detections": [row for each in observations.detections for row in detected.rows(run, grid, each)],
         "reported": _reported(run, grid),
@@ -90,7 +90,7 @@ def _date(run: Run, grid: Grid, seen: Seen) -> dict[str, Any]:
     burned, observed = grid.burned(time), grid.inside(seen.shape)
     start, started = grid.polygon(first), grid.burned(first)
     row = {
-        "time": _iso(seen.time),
+        "time": times.iso(seen.time),
         "source": seen.source,
         "outside_grid": 1.0 - grid.box.intersection(there).area / there.area if there.area else 0.0,
         "all": _both(
@@ -151,7 +151,3 @@ def _of_run(other: Run, run: Run, moments: Sequence[datetime]) -> list[Seen]:
         Seen(moment, theirs.degrees(theirs.polygon(times.seconds(other, moment))), other.name)
         for moment in common or spread
     ]
-
-
-def _iso(moment: datetime) -> str:
-    return moment.strftime("%Y-%m-%dT%H:%M:%SZ")

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..areas import turned
-
 if TYPE_CHECKING:
     from .grid import Grid
 
@@ -64,17 +62,8 @@ def _statistics(error: NDArray[np.float64]) -> dict[str, Any]:
 
 def sampled(there: Grid, here: Grid) -> NDArray[np.float64]:
     """Arrival times (s) of one grid at the cells of another, of the cell round each middle; NaN outside."""
-    row = _nearest(there.latitude, here.latitude)
-    column = _nearest(there.longitude, turned(here.longitude, there.middle))
+    row, column = there.at(here.latitude, here.longitude)
     found = there.arrival[np.ix_(np.maximum(row, 0), np.maximum(column, 0))]
     found[row < 0, :] = np.nan
     found[:, column < 0] = np.nan
     return found
-
-
-def _nearest(axis: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Index of the cell that each value lies in, -1 for outside; the axis ascends."""
-    middles = (axis[1:] + axis[:-1]) / 2
-    found = np.searchsorted(middles, at)
-    half = (axis[1] - axis[0]) / 2 if axis.size > 1 else np.inf
-    return np.where((at < axis[0] - half) | (at > axis[-1] + half), -1, found)

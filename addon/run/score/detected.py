@@ -8,9 +8,7 @@ import numpy as np
 from firetwin_core.run import Run
 
 from .. import times
-from ..areas import turned
 from ..observations import Detections
-from .arrival import _nearest
 from .grid import Grid
 
 
@@ -23,20 +21,19 @@ def rows(run: Run, grid: Grid, detections: Detections) -> list[dict[str, Any]]:
     """
     import shapely
 
-    longitude = turned(detections.longitude, grid.middle)
-    row, column = _nearest(grid.latitude, detections.latitude), _nearest(grid.longitude, longitude)
+    row, column = grid.at(detections.latitude, detections.longitude)
     moments = np.array([times.seconds(run, each) for each in detections.time])
     covered = (row >= 0) & (column >= 0) & (moments >= run.times[0]) & (moments <= run.times[-1])
     found = []
     for moment in np.unique(moments[covered]):
         these = np.flatnonzero(covered & (moments == moment))
         arrival = grid.arrival[row[these], column[these]]
-        points = grid.projection.points(longitude[these], detections.latitude[these])
+        points = grid.projection.points(detections.longitude[these], detections.latitude[these])
         away = shapely.distance(points, grid.polygon(moment))
         lag = moment - arrival[~np.isnan(arrival)]
         found.append(
             {
-                "time": times.moment(run, float(moment)).strftime("%Y-%m-%dT%H:%M:%SZ"),
+                "time": times.iso(times.moment(run, float(moment))),
                 "source": detections.source,
                 "count": int(these.size),
                 "inside": int((arrival <= moment).sum()),

@@ -64,6 +64,13 @@ class Grid:
         y, x = areas.edges(self.latitude), areas.edges(self.longitude)
         return self.projection.project(shapes.outline(x, y))
 
+    def at(
+        self, latitude: NDArray[np.float64], longitude: NDArray[np.float64]
+    ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Rows and columns of the cells that parallels and meridians (degrees) lie in, -1 outside."""
+        turned = areas.turned(longitude, self.middle)
+        return _nearest(self.latitude, latitude), _nearest(self.longitude, turned)
+
     def burned(self, time: float) -> NDArray[np.bool_]:
         """Cells (ny, nx) whose middle the front has reached by a model time (s)."""
         return self.arrival <= time  # False for NaN
@@ -79,3 +86,11 @@ class Grid:
     def degrees(self, shape: BaseGeometry) -> BaseGeometry:
         """A projected shape in degrees."""
         return self.projection.project(shape, back=True)
+
+
+def _nearest(axis: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Index of the cell that each value lies in, -1 for outside; the axis ascends."""
+    middles = (axis[1:] + axis[:-1]) / 2
+    found = np.searchsorted(middles, at)
+    half = (axis[1] - axis[0]) / 2 if axis.size > 1 else np.inf
+    return np.where((at < axis[0] - half) | (at > axis[-1] + half), -1, found)
