@@ -7,8 +7,9 @@ from pathlib import Path
 
 import bpy
 
+from ..errors import Error
 from ..progress import count
-from . import run
+from . import render, run, scene_file
 from .job import Away, Steps
 from .working import Working
 
@@ -33,8 +34,10 @@ class FIRETWIN_OT_assets(Working, bpy.types.Operator):
         from ..jobs import assets
 
         settings = context.scene.firetwin
-        out = Path(bpy.path.abspath(self.directory) or Path(run.output(settings)) / "assets")
-        made = yield Away("starting Blender", functools.partial(assets.run, run.choice(settings), out))
+        out = bpy.path.abspath(self.directory) or scene_file.output(settings, "assets")
+        if not out:
+            raise Error(render.NO_OUTPUT)
+        made = yield Away("starting Blender", functools.partial(assets.run, run.choice(settings), Path(out)))
         return f"Wrote {count(made, 'asset')} to {out}"
 
 

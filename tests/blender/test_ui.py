@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from firetwin.blender import devices, owned, viewport
 from firetwin.errors import Error, InputError, input_error
+from firetwin.jobs import assets
 from firetwin.jobs.worker import StoppedError
 from firetwin.shot import file, passes
 from firetwin.shot.schema import parts
@@ -347,6 +348,18 @@ def test_a_part_built_again_leaves_the_rest(settings, scene_file):
     assert working.told(build.FIRETWIN_OT_build)[-1].text == "Built the forest of Test"
     bpy.ops.firetwin.build(part="cameras")
     assert (scene.camera.name, scene.camera.location.z) == ("Mine", pytest.approx(5000.0, abs=0.01))
+
+
+def test_the_asset_library_is_written_beside_the_pictures(settings, scene_file, tmp_path, monkeypatch):
+    written = []
+    monkeypatch.setattr(assets, "run", lambda choice, out, **_: written.append(out) or 3)
+    settings.scene_file = str(scene_file)
+    with pytest.raises(RuntimeError, match="choose an output folder"):
+        bpy.ops.firetwin.assets()
+    settings.output = str(tmp_path / "out")
+    assert bpy.ops.firetwin.assets() == {"FINISHED"}
+    assert bpy.ops.firetwin.assets(directory=str(tmp_path / "mine")) == {"FINISHED"}
+    assert written == [tmp_path / "out" / "assets", tmp_path / "mine"]
 
 
 def left_out(scene):
