@@ -99,6 +99,9 @@ def _parser() -> argparse.ArgumentParser:
     sample.add_argument("out", metavar="OUT", type=Path, help="folder to write; made when missing")
     sample.add_argument("--frames", metavar="N", type=_count, help="only N model times, evenly spread (all)")
     sample.add_argument("--format", choices=("npy", "text"), default="npy", help="kind of field files (npy)")
+    sample.add_argument(
+        "--pace", metavar="FACTOR", type=_factor, default=1.0, help="a what-if: a fire so fast (1)"
+    )
 
     info = command("info", "show what is in a run", INFO)
     info.add_argument("run", metavar="RUN", type=Path, help="run folder")
@@ -154,6 +157,7 @@ def _parser() -> argparse.ArgumentParser:
     build = command("build", "build the scene and save it as a .blend file", BUILD)
     _scene(build)
     build.add_argument("-o", "--out", metavar="X.blend", type=Path, required=True, help="file to write")
+    build.add_argument("--run", metavar="NAME", default="", help="with this one of [[runs]] (the first run)")
 
     bake = command("bake", "write the smoke volumes that the scene needs", BAKE)
     _scene(bake)
@@ -166,7 +170,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar="LIST",
         help="of each camera's frames, such as 1-10, 3,5-9 or 1-48:4 (all)",
     )
-    render.add_argument("--camera", metavar="NAME", help="this camera only (all)")
+    render.add_argument("--camera", metavar="NAME", help="this camera only (all), drone@RUN in one run")
     render.add_argument("--passes", metavar="LIST", help="such as rgb,thermal (as the scene file says)")
     render.add_argument("--resume", action="store_true", help="keep what is finished and still matches")
 
@@ -217,7 +221,14 @@ def _count(text: str) -> int:
     return int(text)
 
 
-_UNITS = {"": 1, "B": 1, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
+def _factor(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.1 <= value <= 3.0:
+        raise argparse.ArgumentTypeError(f"must be a number from 0.1 to 3, not {text!r}")
+    return value
 
 
 _UNITS = {"": 1, "B": 1, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}

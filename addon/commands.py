@@ -24,7 +24,8 @@ def sample(arguments: argparse.Namespace) -> None:
     from .data import sample
 
     say(f"writing the synthetic King-like run to {arguments.out}")
-    sample.write(arguments.out, arguments.frames, arguments.format, Reporter("model times"))
+    report = Reporter("model times")
+    sample.write(arguments.out, arguments.frames, arguments.format, report, arguments.pace)
     print(arguments.out)
 
 
@@ -279,4 +280,4 @@ def _open(folder: Path) -> Run:
 def _choice(arguments: argparse.Namespace) -> Choice:
     from .shot.choice import Choice
 
-    return Choice(scene=str(arguments.scene))
+    return Choice(scene=str(arguments.scene), beside=getattr(arguments, "run", ""))

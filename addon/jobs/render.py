@@ -119,11 +119,14 @@ def in_blender(
 
     Pictures that other renders make at the same time are left to them.
     """
-    from ..render import fingerprint, sharing, video
+    from ..render import compared, fingerprint, sharing, video
     from ..render.picture import Picture
+    from ..shot import passes
 
     shot = Choice(**choice).shot()
-    todo = [Picture(*picture) for picture in pictures]
+    asked = [Picture(*picture) for picture in pictures]
+    todo = [picture for picture in asked if not passes.known()[picture.name].compares]
+    drawn = set(todo)
     if todo:
         _check_device(shot)
     frames = frames_of(todo)
@@ -135,6 +138,7 @@ def in_blender(
                 wanted = list(group)
                 _camera(shot.of(camera), making, wanted, share(progress, done, frames), tell)
                 done += frames_of(wanted)
+        compared.make(shot, making, [each for each in asked if each not in drawn], progress, tell)
         video.make(shot, making, progress)
 
 

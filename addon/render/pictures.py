@@ -56,7 +56,7 @@ def render(
                     raise
                 continue  # another took it over, with the files that were being made
             if line.held():
-                _publish(shot, making, part, finished)
+                publish(shot, making, part, finished)
                 made += 1
     progress(total, total, "rendering")
     return made
@@ -117,7 +117,7 @@ class _Frame:
         }
 
 
-def _publish(shot: Shot, making: Making, part: Path, pictures: list[Picture]) -> None:
+def publish(shot: Shot, making: Making, part: Path, pictures: list[Picture]) -> None:
     """Look at the files of a complete frame, give them their names, and only then enter them in the store."""
     made = {name: part / Path(name).name for each in pictures for name in each.files()}
     for path in made.values():

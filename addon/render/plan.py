@@ -16,14 +16,16 @@ from .store import Store
 def pictures(
     shot: Shot, frames: str | None = None, camera: str | None = None, names: str | None = None
 ) -> list[Picture]:
-    """Pictures of the scene file, or those of them that the command line picks, camera by camera.
+    """Pictures of the scene file, or those of them that the command line picks, camera by camera, run by run.
+
+    What compares runs comes last, and what it is made from before it whether or not it was named.
 
     Parameters
     ----------
     frames
         Such as "1-10"; of each camera's own frames, these. None: all.
     camera
-        Only this one.
+        Only this one, in all runs; or as ``camera@run`` in that one.
     names
         Such as "rgb,thermal"; in place of the passes that the scene file gives.
 
@@ -39,21 +41,34 @@ def pictures(
         wanted = frame_list.parse(frames or "", shot.frames.count)
     except ValueError as error:
         raise UsageError(f"--frames: {error}") from None
-    cameras = [shot.camera(camera)] if camera else settings.cameras
-    if not cameras:
+    if camera:
+        shot.camera(camera)  # says which there are
+    elif not settings.cameras:
         raise UsageError(f"{settings.path} has no [[cameras]], so there is nothing to render")
+    views = [view for view in shot.views if camera in (None, view, view.partition("@")[0])]
     chosen = _passes(names) if names is not None else None
-    found = [
-        Picture(c.name, frame, name)
-        for c in cameras
-        for frame in _frames(shot, c, wanted)
-        for name in chosen or [each.name for each in passes.of_camera(settings, c)]
-    ]
-    if not found:
-        raise UsageError(
-            f"--frames {frames}: {' and '.join(c.name for c in cameras)} has none of these frames"
-        )
-    return found
+    if chosen and not settings.runs and (alone := [name for name in chosen if passes.known()[name].compares]):
+        raise UsageError(f'--passes: "{alone[0]}" compares runs, and {settings.path} has no [[runs]]')
+    drawn, compared = [], []
+    for view in views:
+        camera_of_view = shot.camera(view)
+        listed = _frames(shot, camera_of_view, wanted)
+        asked = chosen or tuple(each.name for each in passes.of_camera(settings, camera_of_view))
+        first = "@" not in view
+        made, last = _in_turn(asked) if first else (passes.in_other_runs(asked), ())
+        drawn += [Picture(view, frame, name) for frame in listed for name in made]
+        compared += [Picture(view, frame, name) for frame in listed for name in last]
+    if not drawn:
+        raise UsageError(f"--frames {frames}: {' and '.join(views)} has none of these frames")
+    return drawn + compared
+
+
+def _in_turn(asked: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Passes of the first run that are made by themselves, and those that compare it with others."""
+    known = passes.known()
+    compared = tuple(name for name in asked if known[name].compares)
+    needed = {need for name in compared for need in known[name].made_from}
+    return tuple(name for name in known if name in needed or name in {*asked} - {*compared}), compared
 
 
 def missing(store: Store, wanted: list[Picture], made_with: Fingerprints, after: int = 0) -> list[Picture]:

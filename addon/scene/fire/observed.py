@@ -14,7 +14,7 @@ from ...shot.shot import Shot
 from .. import glow, haze
 
 _FRESH, _FADED = (0.02, 0.55, 1.0), (0.10, 0.22, 0.45)  # no flame and no ground is blue
-_LIGHT = 0.14  # radiance over that of flames
+LIGHT = 0.14  # radiance over that of flames
 _DIM = 0.3  # of it that is left when the next perimeter is there
 
 
@@ -28,8 +28,13 @@ def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> bpy.typ
         return None
     thing = owned.add(collection, "Observed", _mesh(lines, shot.settings.fire.observed_width))
     thing.data.materials.append(_material(shot, stage))
-    thing.visible_shadow = thing.visible_diffuse = thing.visible_glossy = thing.visible_volume_scatter = False
+    seen_only(thing)
     return thing
+
+
+def seen_only(thing: bpy.types.Object) -> None:
+    """Lines are seen and nothing more."""
+    thing.visible_shadow = thing.visible_diffuse = thing.visible_glossy = thing.visible_volume_scatter = False
 
 
 def _mesh(lines: list[Line], width: float) -> bpy.types.Mesh:
@@ -50,7 +55,15 @@ def _mesh(lines: list[Line], width: float) -> bpy.types.Mesh:
 
 def ribbon(points: NDArray[np.float64], width: float) -> NDArray[np.float32]:
     """Corners (2 n, 3) of a flat band along a closed line (n, 3): its left ones, then its right ones."""
-    along = (np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0))[:, :2]
+    here = np.arange(len(points))
+    return band(points, np.roll(here, 1), np.roll(here, -1), width)
+
+
+def band(
+    points: NDArray[np.float64], before: NDArray[np.int64], after: NDArray[np.int64], width: float
+) -> NDArray[np.float32]:
+    """The same of points (n, 3) on closed lines, given which point is before and after each (n,)."""
+    along = (points[after] - points[before])[:, :2]
     length = np.maximum(np.hypot(*along.T), 1e-6)
     aside = np.column_stack([-along[:, 1], along[:, 0], np.zeros(len(along))]) / length[:, None]
     return np.concatenate([points + aside * width / 2, points - aside * width / 2]).astype(np.float32)
@@ -69,7 +82,7 @@ def _material(shot: Shot, stage: Stage) -> bpy.types.Material:
     there = (1.0 - (start > time)) * (end > time)
     fresh = fades > time
     part, _air = haze.fraction(tree, stage)
-    strength = (_DIM + fresh * (1.0 - _DIM)) * (1.0 - part) * (_LIGHT * glow.brightness(shot))
+    strength = (_DIM + fresh * (1.0 - _DIM)) * (1.0 - part) * (LIGHT * glow.brightness(shot))
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": (1.0, 1.0, 1.0)})
     line = tree.mix_shader(there, clear, tree.emission(tree.mix_colour(fresh, _FADED, _FRESH), strength))
     tree.surface(nodes.switch(tree, nodes.THERMAL, line, clear))
