@@ -22,7 +22,7 @@ from .nearest import suggestion
 from .schema import Where, key, kind_of, one_of, parts
 
 BANDS = {"lwir": (8.0, 14.0), "mwir": (3.4, 4.1)}  # um, of infrared cameras
-_MOST_RUNS = 3  # beside the first
+MOST_RUNS = 3  # beside the first
 _LARGEST_SEED = 2**31 - 1  # Cycles takes no larger one
 
 
@@ -441,9 +441,9 @@ class Settings:
         for i, name in enumerate(names):
             if name in names[:i]:
                 return ("runs", i, "name"), f'a second run is named "{name}"; names must differ'
-        if len(names) > _MOST_RUNS:
-            reason = f"runs has {len(names)} tables; beside the first run at most {_MOST_RUNS}"
-            return ("runs", _MOST_RUNS), reason
+        if len(names) > MOST_RUNS:
+            reason = f"runs has {len(names)} tables; beside the first run at most {MOST_RUNS}"
+            return ("runs", MOST_RUNS), reason
         for where, listed in (
             (("render", "passes"), self.render.passes),
             *((("cameras", i, "passes"), camera.passes) for i, camera in enumerate(self.cameras)),
