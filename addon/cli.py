@@ -104,7 +104,7 @@ def _parser() -> argparse.ArgumentParser:
     )
 
     info = command("info", "show what is in a run", INFO)
-    info.add_argument("run", metavar="RUN", type=Path, help="run folder")
+    info.add_argument("run", metavar="RUN", type=Path, help="run folder, or a scene file for all its runs")
     info.add_argument("--json", action="store_true", help="write JSON for programs")
 
     made = command("convert", "make a run of a fire model's own output", CONVERT)
@@ -130,7 +130,9 @@ def _parser() -> argparse.ArgumentParser:
     )
 
     score = command("score", "how well a run matches what was seen of its fire", SCORE)
-    score.add_argument("run", metavar="RUN", type=Path, help="run folder")
+    score.add_argument(
+        "run", metavar="RUN", type=Path, help="run folder, or a scene file: its first run against the other"
+    )
     score.add_argument(
         "--against",
         metavar="FILE|RUN",

@@ -30,16 +30,22 @@ def sample(arguments: argparse.Namespace) -> None:
 
 
 def info(arguments: argparse.Namespace) -> None:
-    """Show what is in a run."""
+    """Show what is in a run, or in all runs of a scene file."""
     from .run import info
     from .shot.settings import Time
 
-    facts = info.gather(_open(arguments.run), Time().zone)
+    if arguments.run.suffix == ".toml" and arguments.run.is_file():
+        runs = _runs(arguments.run)
+        facts = {name: info.gather(run, Time().zone) for name, run in runs.items()}
+        page = "\n\n".join(f"{name}: {runs[name].path}\n{info.page(each)}" for name, each in facts.items())
+    else:
+        facts = info.gather(_open(arguments.run), Time().zone)
+        page = info.page(facts)
     if arguments.json:
         json.dump(facts, sys.stdout, indent=1)
         print()
     else:
-        print(info.page(facts))
+        print(page)
 
 
 def maps(arguments: argparse.Namespace) -> None:
@@ -63,8 +69,12 @@ def score(arguments: argparse.Namespace) -> None:
     from .run.score import page
     from .shot.settings import Time
 
-    run = _open(arguments.run)
-    named = arguments.against or observations.beside(arguments.run)
+    if arguments.run.suffix == ".toml" and arguments.run.is_file():
+        run, *others = _runs(arguments.run).values()
+        named = arguments.against or [other.path for other in others]
+    else:
+        run = _open(arguments.run)
+        named = arguments.against or observations.beside(arguments.run)
     runs = [_open(Path(each)) for each in named if not observations.is_one(each)]
     if len(runs) > 1:
         raise UsageError("--against: one other run at a time")
@@ -269,6 +279,14 @@ def _list(out: Path) -> None:
         if name.endswith(".mp4"):
             print(out / name)
     print(out / manifest.NAME)
+
+
+def _runs(scene: Path) -> dict[str, Run]:
+    """All runs of a scene file by their names, the first one first."""
+    from .shot.choice import Choice
+
+    shot = Choice(scene=str(scene)).shot()
+    return {shot.title: shot.run, **shot.others}
 
 
 def _open(folder: Path) -> Run:
