@@ -14,7 +14,7 @@ from .. import times
 from . import plots, shapes
 from .grid import Grid
 from .overlap import HELP
-from .page import arrival, local, said
+from .page import arrival, local, said, theirs
 
 ACRE = history.SQUARE_METRES_PER_ACRE
 _HELP = HELP | {"apart": "mean distance of the two perimeters from each other, and the largest (Hausdorff)"}
@@ -90,11 +90,9 @@ def _growth(run: Run, found: dict[str, Any], other: Run | None) -> Iterator[str]
 def _maps(run: Run, grid: Grid, found: dict[str, Any], seen: Any, other: Run | None) -> Iterator[str]:
     if not found["dates"]:
         return
-    yield "<h2>Hits, misses and false alarms</h2>"
+    yield f"<h2>{'Where the two burned' if other else 'Hits, misses and false alarms'}</h2>"
     yield _key(
-        (plots.HITS, "burned in both: hits"),
-        (plots.FALSE_ALARMS, "burned in this run alone: false alarms"),
-        (plots.MISSES, f"burned in {escape(other.name)} alone" if other else "seen burned alone: misses"),
+        *zip((plots.HITS, plots.FALSE_ALARMS, plots.MISSES), _kinds(run, other), strict=True),
     )
     theirs = None if other is None else (other, Grid.of(other))
     pairs = [_pair(run, grid, row, seen, theirs) for row in found["dates"]]
@@ -109,6 +107,13 @@ def _maps(run: Run, grid: Grid, found: dict[str, Any], seen: Any, other: Run | N
             f"area {_signed(scores['area_bias'])}, {escape(row['source'])}</figcaption></figure>"
         )
     yield "</div>"
+
+
+def _kinds(run: Run, other: Run | None) -> tuple[str, str, str]:
+    """What the colours of maps mean; between two runs nothing is right or wrong."""
+    if other is None:
+        return "burned in both: hits", "burned in this run alone: false alarms", "seen burned alone: misses"
+    return "burned in both", f"only in {escape(run.name)}", f"only in {escape(other.name)}"
 
 
 def _pair(
@@ -140,7 +145,7 @@ def _scores(found: dict[str, Any]) -> Iterator[str]:
         if not rows:
             continue
         yield f'<h2>{title}</h2><p class="soft">{text} Small: how far polygons and cells differ.</p>'
-        head = ("date", "run, acres", "seen, acres", *_SHOWN, "apart, m")
+        head = ("date", "run, acres", f"{theirs(found)}, acres", *_SHOWN, "apart, m")
         yield _table(head, (_score_row(row, row[key], found["zone"]) for row in rows))
     if found["dates"]:
         yield "<dl>" + "".join(f"<dt>{n}</dt><dd>{escape(text)}</dd>" for n, text in _HELP.items()) + "</dl>"
@@ -189,7 +194,7 @@ def _reported(run: Run, grid: Grid, found: dict[str, Any]) -> Iterator[str]:
 
 def _more(found: dict[str, Any]) -> Iterator[str]:
     if found["arrival"]:
-        yield f"<h2>Arrival times</h2><p>{escape(arrival(found['arrival']))}.</p>"
+        yield f"<h2>Arrival times</h2><p>{escape(arrival(found))}.</p>"
     if found["detections"]:
         yield "<h2>Detections by satellites</h2>"
         yield (
