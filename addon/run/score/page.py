@@ -88,9 +88,10 @@ def _more(found: dict[str, Any]) -> Iterator[str]:
         yield f"{'Burned area, acres':<26}{'run':>10}{'+-':>8}{'reported':>10}{'difference':>12}  source"
     for row in covered:
         apart = abs(row["polygons"] - row["run"]) / ACRE
+        share = round(100 * row["difference"], 1) + 0.0  # no "-0.0"
         yield (
             f"  {local(row['time'], found['zone']):<24}{row['run'] / ACRE:>10,.0f}{apart:>8,.0f}"
-            f"{row['reported'] / ACRE:>10,.0f}{100 * row['difference']:>+10.1f} %  {row['source']}"
+            f"{row['reported'] / ACRE:>10,.0f}{share:>+10.1f} %  {row['source']}"
         )
     notes = said(found)
     yield from ["", "To know", *(f"  - {text}" for text in notes)] if notes else []

@@ -53,7 +53,7 @@ def html(run: Run, found: dict[str, Any], seen: Any, other: Run | None = None) -
     body = "\n".join(
         part
         for parts in (
-            _head(run, found),
+            _head(run, found, other),
             _growth(run, found, other),
             _maps(run, grid, found, seen, other),
             _scores(found),
@@ -70,16 +70,19 @@ def html(run: Run, found: dict[str, Any], seen: Any, other: Run | None = None) -
     )
 
 
-def _head(run: Run, found: dict[str, Any]) -> Iterator[str]:
+def _head(run: Run, found: dict[str, Any], other: Run | None) -> Iterator[str]:
     zone = found["zone"]
     first, last = (times.text(times.moment(run, float(run.times[i])), zone) for i in (0, -1))
     names = ", ".join(found["against"])
     yield f"<h1>{escape(run.name)}</h1>"
     yield f'<p class="soft">{first} to {last} &middot; against {escape(names or "reported areas")}</p>'
-    if run.synthetic:
+    made_up = [each.name for each in (run, other) if each is not None and each.synthetic]
+    if made_up:
+        who = "Both runs are" if len(made_up) > 1 else f"{escape(made_up[0])} is"
         yield (
-            '<p class="warn"><b>This run is synthetic:</b> made up, not the output of a fire model. '
-            "Its scores say how the tools work, and nothing of how well any model forecasts.</p>"
+            f'<p class="warn"><b>{"This run is" if run.synthetic and not other else who} synthetic:</b> '
+            "made up, not the output of a fire model. Scores say how the tools work, and nothing of how well "
+            "any model forecasts.</p>"
         )
 
 
@@ -103,8 +106,8 @@ def _maps(run: Run, grid: Grid, found: dict[str, Any], seen: Any, other: Run | N
         yield (
             f'<figure><img alt="map" src="{plots.overlap(run, grid, here, there, frame)}">'
             f"<figcaption><b>{local(row['time'], found['zone'])}</b><br>"
-            f"Sorensen {_number(scores['sorensen'])}, "
-            f"area {_signed(scores['area_bias'])}, {escape(row['source'])}</figcaption></figure>"
+            f"Sorensen {_number(scores['sorensen'])}, area {_signed(scores['area_bias'])}"
+            f"{'' if other else ', ' + escape(row['source'])}</figcaption></figure>"
         )
     yield "</div>"
 
@@ -147,6 +150,11 @@ def _scores(found: dict[str, Any]) -> Iterator[str]:
         yield f'<h2>{title}</h2><p class="soft">{text} Small: how far polygons and cells differ.</p>'
         head = ("date", "run, acres", f"{theirs(found)}, acres", *_SHOWN, "apart, m")
         yield _table(head, (_score_row(row, row[key], found["zone"]) for row in rows))
+    if found["dates"] and found["other_run"]:
+        yield (
+            '<p class="soft">Hits burned in both, false alarms in this run alone, misses in the other alone: '
+            "between two runs none of it is right or wrong.</p>"
+        )
     if found["dates"]:
         yield "<dl>" + "".join(f"<dt>{n}</dt><dd>{escape(text)}</dd>" for n, text in _HELP.items()) + "</dl>"
 
@@ -249,4 +257,4 @@ def _number(value: float | None) -> str:
 
 
 def _signed(value: float | None) -> str:
-    return "-" if value is None else f"{100 * value:+.1f} %"
+    return "-" if value is None else f"{round(100 * value, 1) + 0.0:+.1f} %"
