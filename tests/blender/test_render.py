@@ -12,7 +12,7 @@ from firetwin.errors import Error
 from firetwin.jobs import worker
 from firetwin.render.store import Store
 from firetwin.shot import passes
-from scene_text import BARE, DRONE, NO_SMOKE, TINY
+from scene_text import DRONE, NO_PLANTS, NO_SMOKE, TINY
 
 FRAMES = 3
 SCENE = (
@@ -21,7 +21,7 @@ run = "{run}"
 [time]
 frames = {frames}
 """
-    + BARE
+    + NO_PLANTS
     + NO_SMOKE
     + TINY
     + """\

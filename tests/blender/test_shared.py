@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from firetwin.render.store import Store
 from firetwin_core import sensor
-from scene_text import BARE, TINY
+from scene_text import NO_PLANTS, TINY
 
 FRAMES = 4
 KILLS = int(os.environ.get("FIRETWIN_KILLS", "2"))
@@ -27,7 +27,7 @@ cache = "{cache}"
 [time]
 frames = {frames}
 """
-    + BARE
+    + NO_PLANTS
     + """\
 [smoke]
 enabled = {smoke}
