@@ -13,7 +13,7 @@ import bpy
 from ..blender import owned
 from ..shot import file
 from ..shot.choice import Choice
-from . import by_hand, camera_list, job, maps, preferences, scene_file, working
+from . import by_hand, camera_list, changed, job, maps, preferences, scene_file, working
 from .job import Away, Steps
 from .text import labelled, paragraph
 from .working import Working
@@ -21,6 +21,7 @@ from .working import Working
 
 def chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """Another run folder: look into it."""
+    changed.compare(settings)
     if job.Job.current is not None:
         return
     settings.facts = settings.problem = ""
