@@ -187,8 +187,8 @@ class FIRETWIN_PT_run(bpy.types.Panel):
         row = labelled(column, "Run", 0.2)
         row.prop(settings, "run", text="")
         row.operator(FIRETWIN_OT_inspect.bl_idname, text="", icon="FILE_REFRESH")
-        row = labelled(column, "Scene", 0.2)
-        row.prop(settings, "scene_file", text="", placeholder="Optional")
+        row = labelled(column, "File", 0.2)
+        row.prop(settings, "scene_file", text="", placeholder="Scene file, if any")
         row.operator("firetwin.export", text="", icon="EXPORT")
         if settings.problem:
             box = layout.box().column(align=True)
