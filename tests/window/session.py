@@ -428,7 +428,7 @@ def session() -> Iterator[object]:
     yield from install()
     for step in (
         *(panel, quality, build, shown.sections, shown.dialogs, look, parts, scrub, render),
-        *(by_hand, undo, beside, file, page.page, shown.browser),
+        *(by_hand, undo, beside, file, shown.drop, page.page, shown.browser),
     ):
         if step.__name__ in STEPS:
             yield from step()

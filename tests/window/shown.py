@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import bpy
-from hands import FOLDER, MODULE, alone, call, check, here, idle, keys, picture, settings, tab, ui, view
+from hands import FOLDER, MODULE, alone, call, check, here, idle, keys, picture, settings, soon, tab, ui, view
 
 _BLENDERS_MENUS = ("TOPBAR_MT_file_import", "TOPBAR_MT_file_export", "VIEW3D_MT_add")
 
@@ -70,6 +70,27 @@ def _window(name: str, close: Callable[[], object]) -> Iterator[object]:
     with bpy.context.temp_override(window=window, area=window.screen.areas[0]):
         close()
     yield 1
+
+
+def drop() -> Iterator[object]:
+    """A run's file is dragged from a file manager onto the view."""
+    bpy.ops.wm.read_homefile()
+    yield 3
+    place = next(region for region in view().regions if region.type == "WINDOW")
+    height = bpy.context.window_manager.windows[0].height
+    where = (str(place.x + 300), str(height - place.y - place.height // 2))
+    script, file = Path(__file__).with_name("drag.py"), FOLDER / "sample/run.toml"
+    dragged = subprocess.Popen(["/usr/bin/python3", str(script), str(file), "Blender", *where])
+    yield soon(lambda: dragged.poll() is not None)
+    check(dragged.poll() == 0, f"the view takes a run.toml that is dropped on it ({dragged.poll()})")
+    yield soon(lambda: settings().run != "", 30.0)
+    yield 1
+    yield idle
+    yield 1
+    check(settings().run == str(file.parent), f"and opens it: {settings().run}")
+    tab()
+    yield 1
+    picture("24-dropped")
 
 
 def browser() -> Iterator[object]:
