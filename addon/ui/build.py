@@ -120,7 +120,13 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
         return working.free(cls)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        return context.window_manager.invoke_confirm(self, event)
+        return context.window_manager.invoke_confirm(
+            self,
+            event,
+            title="Remove what Firetwin built?",
+            message="What you changed by hand in it goes too. Settings stay, and undo brings all back",
+            confirm_text="Remove",
+        )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene = context.scene

@@ -16,9 +16,9 @@ def labelled(layout: bpy.types.UILayout, label: str, share: float = 0.3) -> bpy.
 
 
 class _Lines(textwrap.TextWrapper):
-    """Breaks lines at blanks, and long paths where a folder ends."""
+    """Breaks lines at blanks, but none between a number and its unit, and long paths where a folder ends."""
 
-    wordsep_re = re.compile(r"(\s+|(?<=[/\\])(?=[^/\\\s]))")
+    wordsep_re = re.compile(r"((?<!\d)\s+|\s+(?!(?:k?m|s|min|h|K|MB|GB)\b)|(?<=[/\\])(?=[^/\\\s]))")
 
 
 def paragraph(context: bpy.types.Context, layout: bpy.types.UILayout, text: str, icon: str = "NONE") -> None:

@@ -87,9 +87,8 @@ def idle() -> bool:
 
 
 def tab() -> None:
-    """Open the sidebar at Firetwin."""
+    """Firetwin's tab of the sidebar, which is open and was drawn."""
     area = view()
-    area.spaces.active.show_region_ui = True
     sidebar = next(region for region in area.regions if region.type == "UI")
     sidebar.active_panel_category = "Firetwin"
 

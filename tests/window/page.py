@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import bpy
-from hands import FOLDER, alone, built, call, check, here, idle, picture, say, settings, soon, tab, ui
+from hands import FOLDER, alone, built, call, check, here, idle, picture, say, settings, soon, tab, ui, view
 
 PAGE = Path(__file__).parents[2] / "examples/artists.md"
 _SIDEBAR, _WINDOW = "254x636+767+84", "1050x690+2+28"  # of the screen of 1280 x 800, with the usual sidebar
@@ -75,6 +75,8 @@ def page() -> Iterator[object]:
 
 def _opened(words: Page) -> Iterator[object]:
     words.next("N", "Firetwin")
+    view().spaces.active.show_region_ui = True
+    yield 2
     tab()
     yield 1
     page_picture("1-first")

@@ -13,7 +13,9 @@ _BLENDERS_MENUS = ("TOPBAR_MT_file_import", "TOPBAR_MT_file_export", "VIEW3D_MT_
 
 
 def sections() -> Iterator[object]:
-    """Every panel by itself and open, and every menu."""
+    """Every panel by itself and open, and every menu; what is built is hidden, for drawing it takes long."""
+    for thing in bpy.context.scene.objects:
+        thing.hide_set(True)
     known = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
     for top in (each for each in known if not hasattr(each, "bl_parent_id")):
         name = f"20-panel-{top.bl_label.lower().replace(' ', '-')}"
@@ -29,6 +31,8 @@ def sections() -> Iterator[object]:
         yield 1
     for each in asked:
         bpy.utils.unregister_class(each)
+    for thing in bpy.context.scene.objects:
+        thing.hide_set(False)
 
 
 def _asking(operator: str, name: str) -> type[bpy.types.Menu]:
@@ -54,17 +58,17 @@ def dialogs() -> Iterator[object]:
     for name in ("open", "export"):
         call(getattr(bpy.ops.firetwin, name))
         yield 3
-        yield from _window(f"22-files-{name}", lambda: bpy.ops.file.cancel())
+        yield from _window(f"22-files-{name}", "File View", lambda: bpy.ops.file.cancel())
     bpy.ops.preferences.addon_show(module=MODULE)
     yield 3
-    yield from _window("22-preferences", bpy.ops.wm.window_close)
+    yield from _window("22-preferences", "Preferences", bpy.ops.wm.window_close)
 
 
-def _window(name: str, close: Callable[[], object]) -> Iterator[object]:
+def _window(name: str, title: str, close: Callable[[], object]) -> Iterator[object]:
     """A picture of the window that was opened last; then it goes."""
     window = bpy.context.window_manager.windows[-1]
     if len(bpy.context.window_manager.windows) > 1:
-        subprocess.run(["xdotool", "getactivewindow", "windowmove", "60", "40"], check=False)
+        subprocess.run(["xdotool", "search", "--name", title, "windowmove", "60", "40"], check=False)
         yield 1
     picture(name)
     with bpy.context.temp_override(window=window, area=window.screen.areas[0]):
@@ -88,6 +92,8 @@ def drop() -> Iterator[object]:
     yield idle
     yield 1
     check(settings().run == str(file.parent), f"and opens it: {settings().run}")
+    view().spaces.active.show_region_ui = True
+    yield 2
     tab()
     yield 1
     picture("24-dropped")
