@@ -53,11 +53,9 @@ def _value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Part) 
 
 def _long(part: Part) -> bool:
     """Whether a key wants the width of the sidebar: paths, moments, lists, and labels that need it."""
-    return (
-        len(keys.heading(part)) > _LETTERS
-        or part.type not in (int, float)
-        and (part.type is not str or part.key.choices is None)
-    )
+    if part.type in (int, float):
+        return len(keys.heading(part)) > _LETTERS and not keys.switched(part)
+    return part.type is not str or part.key.choices is None
 
 
 class FIRETWIN_OT_reset(bpy.types.Operator):
