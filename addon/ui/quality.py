@@ -126,7 +126,7 @@ class FIRETWIN_MT_presets(bpy.types.Menu):
     preset_operator = "script.execute_preset"
 
     def draw(self, context: bpy.types.Context) -> None:
-        if bpy.utils.preset_paths(self.preset_subdir):
+        if bpy.utils.preset_paths("firetwin"):
             bpy.types.Menu.draw_preset(self, context)
         else:
             self.layout.label(text="None is saved yet: + saves these settings")
