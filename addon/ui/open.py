@@ -10,7 +10,7 @@ from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from ..blender import owned
 from ..errors import Error
-from . import assets, build, job, run, scene_file, working
+from . import build, job, run, scene_file, working
 from .job import Away, Steps
 from .working import Working
 
@@ -130,7 +130,7 @@ class FIRETWIN_MT_add(bpy.types.Menu):
     def draw(self, context: bpy.types.Context) -> None:
         entries(self.layout)
         self.layout.operator(build.FIRETWIN_OT_build.bl_idname, icon="WORLD")
-        self.layout.operator(assets.FIRETWIN_OT_assets.bl_idname, icon="ASSET_MANAGER")
+        self.layout.operator("firetwin.assets", icon="ASSET_MANAGER")
 
 
 def entries(layout: bpy.types.UILayout) -> None:

@@ -9,7 +9,7 @@ import sys
 import time
 from pathlib import Path
 
-from Xlib import X, Xatom, display
+from Xlib import X, display
 from Xlib.protocol import event
 
 _PATIENCE = 60.0  # s
@@ -77,7 +77,7 @@ class Drag:
 
     def drop(self, x: int, y: int) -> bool:
         """Enter, move there and let go; whether it was taken."""
-        self.send("XdndEnter", 5 << 24, self.atom("text/uri-list"), Xatom.NONE, Xatom.NONE)
+        self.send("XdndEnter", 5 << 24, self.atom("text/uri-list"))
         for step in range(3):
             self.send(
                 "XdndPosition", 0, (x << 16) | (y - 2 + step), X.CurrentTime, self.atom("XdndActionCopy")
