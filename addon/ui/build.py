@@ -73,8 +73,8 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
         new = new or uid != before
         told: list[str] = []
         yield from build.steps(shot, owned.scene(uid), parts, told.append)
-        _finish(owned.scene(uid), shot, parts, new)
         changed.remember(owned.scene(uid).firetwin, then, parts)
+        _finish(owned.scene(uid), shot, parts, new)
         for text in (*shot.warnings(), *told):
             yield Told(text, "WARNING")
         what = f"{shot.frames.count} frames" if part == ALL else f"the {part}"
