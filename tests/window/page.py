@@ -7,6 +7,7 @@ waiting takes is in session.log.
 
 from __future__ import annotations
 
+import os
 import re
 import subprocess
 import sys
@@ -49,13 +50,25 @@ def page_picture(name: str, part: str = _SIDEBAR) -> None:
     check(out.stat().st_size < 150_000, f"{out.name} has {out.stat().st_size / 1000:.0f} kB")
 
 
+class Watch:
+    """Seconds by the clock and by the processors, of Blender and of what it started and waited for."""
+
+    def __init__(self) -> None:
+        self._clock, self._used = time.monotonic(), os.times()
+
+    def say(self, what: str) -> None:
+        """Write down what was taken since it began."""
+        took, used = time.monotonic() - self._clock, sum(os.times()[:4]) - sum(self._used[:4])
+        say(f"time    {what}: {took:.1f} s, {used:.1f} cpu-s")
+
+
 def timed(what: str, start: Callable[[], object]) -> Iterator[object]:
     """Start some work and wait till it is over; how long it took is written down."""
-    began = time.monotonic()
+    watch = Watch()
     start()
     yield 0.5
     yield idle
-    say(f"time    {what}: {time.monotonic() - began:.1f} s")
+    watch.say(what)
     yield 1.5
 
 
@@ -63,14 +76,14 @@ def page() -> Iterator[object]:
     """From an installed add-on to a first own shot."""
     bpy.ops.wm.read_homefile()
     yield 3
-    words, began = Page(), time.monotonic()
+    words, watch = Page(), Watch()
     yield from _opened(words)
     yield from _built(words)
     yield from _flown(words)
     yield from _rendered(words)
     yield from _changed(words)
     words.over()
-    say(f"time    the whole page: {time.monotonic() - began:.0f} s")
+    watch.say("the whole page")
 
 
 def _opened(words: Page) -> Iterator[object]:
@@ -97,9 +110,9 @@ def _built(words: Page) -> Iterator[object]:
     call(bpy.ops.firetwin.quality, level="preview")
     yield 0.5
     yield from timed("Build scene at Preview, 48 frames, two cameras", lambda: call(bpy.ops.firetwin.build))
-    began = time.monotonic()
+    watch = Watch()
     bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
-    say(f"time    the first picture of the built scene in the 3D view: {time.monotonic() - began:.1f} s")
+    watch.say("the built scene drawn in the 3D view")
     check("Firetwin Ground" in built(), "built")
     check(settings().changed == "", f"nothing changed since it was built {settings().changed}")
     yield 3
@@ -155,7 +168,7 @@ def _rendered(words: Page) -> Iterator[object]:
 
 
 def _background(what: str) -> Iterator[object]:
-    queue, began = sys.modules[f"{ui().__name__}.queue"], time.monotonic()
+    queue, watch = sys.modules[f"{ui().__name__}.queue"], Watch()
     number = len(queue.items)
     call(bpy.ops.firetwin.render_background)
     yield 1
@@ -164,7 +177,7 @@ def _background(what: str) -> Iterator[object]:
         return queue.items[number].state in ("done", "failed", "paused")
 
     yield soon(over, 900.0)
-    say(f"time    {what}: {time.monotonic() - began:.1f} s")
+    watch.say(what)
     yield 2
     check(queue.items[number].state == "done", queue.items[number].text)
 
