@@ -130,6 +130,7 @@ class FIRETWIN_MT_add(bpy.types.Menu):
     def draw(self, context: bpy.types.Context) -> None:
         entries(self.layout)
         self.layout.operator(build.FIRETWIN_OT_build.bl_idname, icon="WORLD")
+        self.layout.operator("firetwin.assets", icon="ASSET_MANAGER")
 
 
 def entries(layout: bpy.types.UILayout) -> None:

@@ -13,7 +13,7 @@ import bpy
 from ..blender import owned
 from ..shot import file
 from ..shot.choice import Choice
-from . import by_hand, camera_list, job, maps, preferences, scene_file, working
+from . import by_hand, camera_list, changed, job, maps, preferences, scene_file, working
 from .job import Away, Steps
 from .text import labelled, paragraph
 from .working import Working
@@ -21,6 +21,7 @@ from .working import Working
 
 def chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """Another run folder: look into it."""
+    changed.compare(settings)
     if job.Job.current is not None:
         return
     settings.facts = settings.problem = ""
@@ -186,8 +187,8 @@ class FIRETWIN_PT_run(bpy.types.Panel):
         row = labelled(column, "Run", 0.2)
         row.prop(settings, "run", text="")
         row.operator(FIRETWIN_OT_inspect.bl_idname, text="", icon="FILE_REFRESH")
-        row = labelled(column, "Scene", 0.2)
-        row.prop(settings, "scene_file", text="", placeholder="Optional")
+        row = labelled(column, "File", 0.2)
+        row.prop(settings, "scene_file", text="", placeholder="Scene file, if any")
         row.operator("firetwin.export", text="", icon="EXPORT")
         if settings.problem:
             box = layout.box().column(align=True)
