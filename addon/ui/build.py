@@ -115,11 +115,12 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
         if context.mode != "OBJECT":
             cls.poll_message_set("Leave the edit mode first")
             return False
-        return working.free(cls)
+        return working.editable(cls, context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         return context.window_manager.invoke_confirm(self, event)
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene = context.scene
         view.narrow(scene)

@@ -1,0 +1,210 @@
+"""All operators alike: what each one says, that it never fails with a traceback, and that undo knows it."""
+
+import shutil
+
+import bpy
+import firetwin
+import pytest
+from bl_operators.presets import AddPresetBase
+from bpy_extras.io_utils import ExportHelper, ImportHelper
+from firetwin.blender import compat
+from firetwin.jobs import assets, render, sample, standing
+from firetwin.shot import file
+from firetwin.ui import flying, queue, scene_file, working
+from mathutils import Euler, Matrix
+from scene_text import BARE, TINY
+
+SCENE = (
+    """\
+run = "{run}"
+[time]
+start = 2014-09-17T21:00:00Z
+end = 2014-09-17T22:00:00Z
+frames = 3
+[smoke]
+enabled = false
+"""
+    + BARE
+    + "trees = false\n"
+    + TINY
+    + """\
+[[cameras]]
+name = "drone"
+keys = [
+    {{at = 0, latitude = 38.825, longitude = -120.56, height = 400, target = "fire"}},
+    {{at = 1, latitude = 38.830, longitude = -120.57, height = 500, target = "fire"}},
+]
+"""
+)
+EYE = Matrix.Translation((-500.0, -2500.0, 2400.0)) @ Euler((1.2, 0.0, -0.2)).to_matrix().to_4x4()
+OPERATORS = {
+    cls.bl_idname.partition(".")[2]: cls for cls in firetwin.ui.classes if issubclass(cls, bpy.types.Operator)
+}
+ALWAYS = {"copy"}  # what needs nothing can be called at any time
+HELPERS = ImportHelper, ExportHelper, AddPresetBase, working.Working, object
+
+
+@pytest.fixture(scope="module")
+def blend(run_folder, tmp_path_factory):
+    """A scene that the panel built, as a file, beside a copy of its run."""
+    folder = tmp_path_factory.mktemp("operators")
+    bpy.ops.wm.read_factory_settings()
+    firetwin.register()
+    (folder / "scene.toml").write_text(SCENE.format(run=run_folder))
+    shutil.copytree(run_folder, folder / "other")
+    settings = bpy.context.scene.firetwin
+    settings.scene_file, settings.output = str(folder / "scene.toml"), str(folder / "out")
+    bpy.ops.firetwin.build()
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"))
+    firetwin.unregister()
+    return folder / "scene.blend"
+
+
+@pytest.fixture
+def panel(blend, monkeypatch):
+    """A built scene of the panel, and a view that looks from EYE."""
+    firetwin.register()
+    bpy.ops.wm.open_mainfile(filepath=str(blend))
+    monkeypatch.setattr(flying, "eye", lambda context: (EYE.copy(), 30.0, 36.0))
+    yield bpy.context.scene.firetwin
+    queue.clear()
+    firetwin.unregister()
+
+
+def test_operators_say_what_they_do_and_when_they_can_be_used():
+    for name, cls in OPERATORS.items():
+        own = [each for each in cls.__mro__ if each not in HELPERS and not each.__module__.startswith("bpy")]
+        text = getattr(cls, "bl_description", "") or cls.__doc__
+        assert len(text.split()) >= 3, name
+        assert not text.rstrip().endswith("."), name  # Blender adds it
+        assert any("poll" in vars(each) for each in own) or name in ALWAYS, name
+
+
+class Broken:
+    """A context of which nothing can be had."""
+
+    def __getattr__(self, name):
+        raise ValueError(f"no {name}")
+
+
+class Reports(list):
+    """In place of an operator: keeps its reports."""
+
+    def report(self, level, text):
+        self.append((*level, text))
+
+    def __getattr__(self, name):
+        raise ValueError(f"no {name}")
+
+
+def test_what_nobody_foresaw_is_a_report():
+    for name, cls in OPERATORS.items():
+        execute = vars(cls).get("execute")
+        if execute is None:  # of Blender, or an operator that only listens, or a work
+            assert issubclass(cls, working.Working | AddPresetBase) or "modal" in vars(cls), name
+            continue
+        reports = Reports()
+        assert execute(reports, Broken()) == {"CANCELLED"}, name
+        ((level, text),) = reports
+        assert level == "ERROR"
+        assert text.startswith("Unexpected "), name
+
+
+def state():
+    """What an artist could lose: blocks, places, curves, constraints, lenses, settings; not what is seen."""
+    blocks = {
+        (prop.identifier, block.name_full, block.session_uid)
+        for prop in bpy.data.bl_rna.properties
+        if prop.type == "COLLECTION" and prop.identifier not in ("screens", "window_managers")
+        for block in getattr(bpy.data, prop.identifier)
+    }
+    things = {
+        thing.name: (
+            *(value for row in thing.matrix_basis for value in row),
+            *((each.name, getattr(each.target, "name", "")) for each in thing.constraints),
+            *((curve.data_path, len(curve.keyframe_points)) for curve in compat.fcurves(thing)),
+            (thing.data.lens, thing.data.sensor_width) if thing.type == "CAMERA" else None,
+        )
+        for thing in bpy.data.objects
+    }
+    scenes = {
+        scene.name: (
+            scene.camera.name if scene.camera else None,
+            file.text(scene_file.settings(scene)),
+            scene.firetwin.first_time,
+            [node.mute for node in tree.nodes] if (tree := compat.compositor(scene)) else [],
+        )
+        for scene in bpy.data.scenes
+    }
+    return blocks, things, scenes
+
+
+CHANGES = {
+    "inspect": {},
+    "open": {"filepath": "{folder}/other/run.toml"},
+    "sample": {"folder": "{folder}/king"},
+    "quality": {"level": "final"},
+    "window": {"key": "start", "moment": "2014-09-17T21:10:00Z"},
+    "reset": {"section": "time", "key": "frames"},
+    "build": {"part": "light"},
+    "remove": {},
+    "camera_add": {"kind": "poses"},
+    "camera_copy": {},
+    "camera_remove": {},
+    "camera_key": {},
+    "camera_lens": {"preset": "thermal_hand"},
+    "camera_aim": {"target": "point"},
+    "camera_path": {},
+    "f12_files": {},
+}
+KEEPS = {
+    "copy": {"message": "this"},
+    "export": {"filepath": "{folder}/out.toml"},
+    "preset": {"name": "Mine"},
+    "view": {"whole": True},
+    "jump": {"moment": "2014-09-17T21:30:00Z"},
+    "go": {"text": "38.84 -120.55"},
+    "render": {},
+    "render_background": {},
+    "queue": {"what": "pause"},
+    "assets": {},
+}
+LISTENS = {"queue_esc", "stop"}  # for Esc, and while something goes on
+
+
+def call(name, options, folder):
+    filled = {
+        key: value.format(folder=folder) if isinstance(value, str) else value
+        for key, value in options.items()
+    }
+    return getattr(bpy.ops.firetwin, name)("EXEC_DEFAULT", True, **filled)
+
+
+def test_undo_and_redo_go_round_every_operator(panel, blend, tmp_path, monkeypatch):
+    """What an operator changes comes back with undo and again with redo; others change nothing."""
+    assert {*CHANGES, *KEEPS, *LISTENS} == set(OPERATORS)
+    monkeypatch.setattr(sample, "run", lambda folder, **_: shutil.copytree(blend.parent / "other", folder))
+    for job in (render, assets):
+        monkeypatch.setattr(job, "run", lambda *_, **__: 1)
+    monkeypatch.setattr(standing, "run", lambda *_, **__: 1)
+    monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(tmp_path / path))
+    (tmp_path / "presets" / "firetwin").mkdir(parents=True)
+    bpy.ops.ed.undo_push(message="opened")
+    bpy.context.scene.firetwin.light.haze = 0.7
+    for name, options in CHANGES.items():
+        bpy.ops.ed.undo_push(message=f"before {name}")
+        before = state()
+        assert call(name, options, blend.parent) == {"FINISHED"}, name
+        after = state()
+        assert after != before or name == "inspect", name
+        bpy.ops.ed.undo()
+        assert state() == before, name
+        bpy.ops.ed.redo()
+        assert state() == after, name
+        bpy.ops.ed.undo()
+    bpy.ops.ed.undo_push(message="the rest")
+    before = state()
+    for name, options in KEEPS.items():
+        assert call(name, options, tmp_path) == {"FINISHED"}, name
+        bpy.context.scene.frame_set(1)
+        assert state() == before, name
