@@ -109,13 +109,15 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
+        if not working.editable(cls, context):
+            return False
         if not owned.built(context.scene):
             cls.poll_message_set("There is nothing of Firetwin's in this scene")
             return False
         if context.mode != "OBJECT":
             cls.poll_message_set("Leave the edit mode first")
             return False
-        return working.editable(cls, context)
+        return True
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         return context.window_manager.invoke_confirm(self, event)

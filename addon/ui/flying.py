@@ -69,14 +69,17 @@ def view(stage: owned.Stage, matrix: Matrix, lens: float, sensor: float) -> View
 
 def flown(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Whether there is a scene of ours to fly in; says what is missing."""
+    if not working.editable(cls, context):
+        return False
     if not context.scene.firetwin.first_time:
         cls.poll_message_set("Build the scene first")
-        return False
-    return working.editable(cls, context)
+    return bool(context.scene.firetwin.first_time)
 
 
 def filming(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Whether the scene has a camera that can be changed; says what is missing."""
+    if not working.editable(cls, context):
+        return False
     thing = context.scene.camera
     if thing is None or thing.type != "CAMERA":
         cls.poll_message_set("Add a camera first")
@@ -84,7 +87,7 @@ def filming(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     if thing.library is not None or thing.data.library is not None:
         cls.poll_message_set("This camera is linked from another file: change it there, or make it local")
         return False
-    return working.editable(cls, context)
+    return True
 
 
 def kind_items(self: object, context: bpy.types.Context) -> list[tuple[str, str, str]]:

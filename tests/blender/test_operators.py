@@ -4,38 +4,15 @@ import shutil
 
 import bpy
 import firetwin
+import panel_scene
 import pytest
 from bl_operators.presets import AddPresetBase
 from bpy_extras.io_utils import ExportHelper, ImportHelper
-from firetwin.blender import compat
 from firetwin.jobs import assets, render, sample, standing
-from firetwin.shot import file
-from firetwin.ui import flying, queue, scene_file, working
+from firetwin.ui import flying, queue, working
 from mathutils import Euler, Matrix
-from scene_text import BARE, TINY
+from panel_scene import state
 
-SCENE = (
-    """\
-run = "{run}"
-[time]
-start = 2014-09-17T21:00:00Z
-end = 2014-09-17T22:00:00Z
-frames = 3
-[smoke]
-enabled = false
-"""
-    + BARE
-    + "trees = false\n"
-    + TINY
-    + """\
-[[cameras]]
-name = "drone"
-keys = [
-    {{at = 0, latitude = 38.825, longitude = -120.56, height = 400, target = "fire"}},
-    {{at = 1, latitude = 38.830, longitude = -120.57, height = 500, target = "fire"}},
-]
-"""
-)
 EYE = Matrix.Translation((-500.0, -2500.0, 2400.0)) @ Euler((1.2, 0.0, -0.2)).to_matrix().to_4x4()
 OPERATORS = {
     cls.bl_idname.partition(".")[2]: cls for cls in firetwin.ui.classes if issubclass(cls, bpy.types.Operator)
@@ -48,16 +25,8 @@ HELPERS = ImportHelper, ExportHelper, AddPresetBase, working.Working, object
 def blend(run_folder, tmp_path_factory):
     """A scene that the panel built, as a file, beside a copy of its run."""
     folder = tmp_path_factory.mktemp("operators")
-    bpy.ops.wm.read_factory_settings()
-    firetwin.register()
-    (folder / "scene.toml").write_text(SCENE.format(run=run_folder))
     shutil.copytree(run_folder, folder / "other")
-    settings = bpy.context.scene.firetwin
-    settings.scene_file, settings.output = str(folder / "scene.toml"), str(folder / "out")
-    bpy.ops.firetwin.build()
-    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"))
-    firetwin.unregister()
-    return folder / "scene.blend"
+    return panel_scene.build(run_folder, folder)
 
 
 @pytest.fixture
@@ -108,35 +77,6 @@ def test_what_nobody_foresaw_is_a_report():
         ((level, text),) = reports
         assert level == "ERROR"
         assert text.startswith("Unexpected "), name
-
-
-def state():
-    """What an artist could lose: blocks, places, curves, constraints, lenses, settings; not what is seen."""
-    blocks = {
-        (prop.identifier, block.name_full, block.session_uid)
-        for prop in bpy.data.bl_rna.properties
-        if prop.type == "COLLECTION" and prop.identifier not in ("screens", "window_managers")
-        for block in getattr(bpy.data, prop.identifier)
-    }
-    things = {
-        thing.name: (
-            *(value for row in thing.matrix_basis for value in row),
-            *((each.name, getattr(each.target, "name", "")) for each in thing.constraints),
-            *((curve.data_path, len(curve.keyframe_points)) for curve in compat.fcurves(thing)),
-            (thing.data.lens, thing.data.sensor_width) if thing.type == "CAMERA" else None,
-        )
-        for thing in bpy.data.objects
-    }
-    scenes = {
-        scene.name: (
-            scene.camera.name if scene.camera else None,
-            file.text(scene_file.settings(scene)),
-            scene.firetwin.first_time,
-            [node.mute for node in tree.nodes] if (tree := compat.compositor(scene)) else [],
-        )
-        for scene in bpy.data.scenes
-    }
-    return blocks, things, scenes
 
 
 CHANGES = {
