@@ -63,8 +63,10 @@ def check(good: bool, text: str) -> None:
 
 
 def settings() -> str:
-    """What the panel says, as a scene file."""
-    return file.text(scene_file.settings(bpy.context.scene))
+    """What the panel says, as a scene file without comments; folders are called otherwise elsewhere."""
+    lines = file.text(scene_file.settings(bpy.context.scene)).splitlines()
+    bare = (line.partition("#")[0].rstrip() for line in lines)
+    return "\n".join(line for line in bare if not line.startswith(("run = ", "cache = ")))
 
 
 def blends(folder: Path, name: str) -> tuple[Path, Path]:
@@ -77,9 +79,12 @@ def save(run: Path, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     blend, beside = blends(folder, VERSION)
     beside.write_text(SCENE.format(run=run.resolve()), encoding="utf-8")
-    bpy.context.scene.firetwin.scene_file = str(beside)
-    bpy.context.scene.firetwin.output = str(folder / VERSION)
+    panel = bpy.context.scene.firetwin
+    panel.scene_file = str(beside)
     bpy.ops.firetwin.build()
+    keep(blend, beside)
+    panel.scene_file, panel.output = "", f"//{VERSION}"
+    panel.run = bpy.path.relpath(str(run.resolve()))
     keep(blend, beside)
 
 
@@ -99,7 +104,7 @@ def look(blend: Path, beside: Path) -> None:
     check(owned.ours(scene) and stage.camera("drone") == scene.camera, "scene and camera are ours")
     check(scene.objects["Firetwin Trees"].location.x == 3.0, "what was moved by hand stays")
     check(tree(scene), "the compositor has our nodes")
-    before = np.array(picture(scene, blend, "as-it-is"))
+    before = picture(scene, blend, "as-it-is")
     for call, options in (
         (bpy.ops.firetwin.inspect, {}),
         (bpy.ops.firetwin.camera_add, {"kind": "poses"}),
@@ -117,12 +122,17 @@ def look(blend: Path, beside: Path) -> None:
     scene.camera = owned.stage(scene).camera("drone")
     bpy.ops.firetwin.f12_files(on=False)
     after = picture(scene, blend, "built-again")
-    away = float(np.abs(before - after).mean())
-    check(away < 0.02, f"built again it shows the same, but for grain: {away:.4f} of 1")
+    away = float(np.abs(_blurred(before) - _blurred(after)).max())
+    check(away < 0.1, f"built again it shows the same, but for grain: {away:.3f} of 1 at most")
     keep(*blends(blend.parent, f"{blend.stem}-{VERSION}"))
     bpy.ops.firetwin.remove()
     left = [block.name for block in owned._blocks() if owned.ours(block)]
     check(not left, f"removed, nothing of ours is left: {left}")
+
+
+def _blurred(pixels: np.ndarray) -> np.ndarray:
+    """Means of 9 by 16 pixels."""
+    return pixels.reshape(4, 9, 4, 16, 3).mean(axis=(1, 3))
 
 
 def tree(scene: bpy.types.Scene) -> bool:
