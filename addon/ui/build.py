@@ -111,13 +111,15 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
+        if not working.editable(cls, context):
+            return False
         if not owned.built(context.scene):
             cls.poll_message_set("There is nothing of Firetwin's in this scene")
             return False
         if context.mode != "OBJECT":
             cls.poll_message_set("Leave the edit mode first")
             return False
-        return working.free(cls)
+        return True
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         return context.window_manager.invoke_confirm(
@@ -128,6 +130,7 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
             confirm_text="Remove",
         )
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene = context.scene
         view.narrow(scene)

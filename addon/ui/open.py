@@ -9,8 +9,7 @@ import bpy
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from ..blender import owned
-from ..errors import Error
-from . import build, job, run, scene_file, working
+from . import build, run, scene_file, working
 from .job import Away, Steps
 from .working import Working
 
@@ -33,13 +32,14 @@ class FIRETWIN_OT_open(bpy.types.Operator, ImportHelper):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.free(cls)
+        return working.editable(cls, context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if self.filepath and Path(self.filepath).is_file():  # dropped on the view
             return self.execute(context)
         return ImportHelper.invoke(self, context, event)
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         panel, path = context.scene.firetwin, Path(self.filepath)
         if path.suffix == ".toml" and path.name != _RUN and not path.is_dir():
@@ -54,7 +54,7 @@ class FIRETWIN_OT_open(bpy.types.Operator, ImportHelper):
 def _begin(panel: bpy.types.PropertyGroup, folder: str) -> None:
     """Choose a run; where it is another one, time window and cameras of the one before go."""
     if bpy.path.abspath(panel.run) != folder:
-        panel.scene_file = panel.time.start = panel.time.end = ""
+        panel.scene_file = panel.time.start = panel.time.end = panel.facts = ""
         panel.cameras.clear()
     panel.run = folder
 
@@ -68,12 +68,13 @@ class FIRETWIN_OT_export(bpy.types.Operator, ExportHelper):
     filename_ext = ".toml"
     filter_glob: bpy.props.StringProperty(default="*.toml", options={"HIDDEN"})
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return run.ready(cls, context)
+
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            scene_file.export(context.scene, Path(self.filepath))
-        except Error as error:
-            self.report({"ERROR"}, job.words(error))
-            return {"CANCELLED"}
+        scene_file.export(context.scene, Path(self.filepath))
         self.report({"INFO"}, f"Wrote {self.filepath}")
         return {"FINISHED"}
 
@@ -108,7 +109,7 @@ class FIRETWIN_OT_sample(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.free(cls)
+        return working.editable(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Write it in a worker process, unless it is there; then look into it."""

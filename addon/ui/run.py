@@ -11,6 +11,7 @@ from typing import Any
 import bpy
 
 from ..blender import owned
+from ..jobs.worker import StoppedError
 from ..shot import file
 from ..shot.choice import Choice
 from . import by_hand, camera_list, changed, job, maps, preferences, scene_file, working
@@ -37,7 +38,7 @@ def imported(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> N
     try:
         scene_file.fill(settings.id_data, file.read(bpy.path.abspath(settings.scene_file)))
     except Exception as error:
-        settings.facts, settings.problem = "", job.words(error)
+        settings.problem = job.words(error)
     working.redraw()
 
 
@@ -62,7 +63,7 @@ def ready(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     if not settings.run:
         cls.poll_message_set("Open a run or a scene file first")
         return False
-    return working.free(cls)
+    return working.editable(cls, context)
 
 
 class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
@@ -74,10 +75,7 @@ class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not context.scene.firetwin.run:
-            cls.poll_message_set("Open a run or a scene file first")
-            return False
-        return working.free(cls)
+        return ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Gather, and see whether the settings fit the run."""
@@ -87,7 +85,7 @@ class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
 def look(uid: int) -> Steps:
     """Gather in a thread, then write down in the scene with this `session_uid`."""
     settings = owned.scene(uid).firetwin
-    settings.problem = settings.facts = ""
+    settings.problem = ""
     folder, zone = Path(bpy.path.abspath(settings.run)), settings.time.zone
     try:
         found, images = yield Away("reading the run", lambda **_: facts(folder, zone))
@@ -95,6 +93,9 @@ def look(uid: int) -> Steps:
         maps.show(owned.scene(uid).firetwin.run, images)
         chosen = choice(owned.scene(uid).firetwin)
         yield Away("reading the run", lambda **_: chosen.shot())
+    except StoppedError:
+        owned.scene(uid).firetwin.problem = "The run was not read to its end; Read run does it"
+        raise
     except Exception as error:
         owned.scene(uid).firetwin.problem = job.words(error)
         raise
