@@ -9,6 +9,13 @@ from ..errors import Error, UsageError
 from ..progress import Progress, Tell, silent, untold
 from . import worker
 
+PATIENCE = 600.0
+"""s without a part of a file read or written after which a conversion is ended.
+
+A damaged HDF5 file can keep its library busy for ever. A part has 2 GB at most, mostly one field at one time,
+so that a disk of 4 MB/s is waited for, however large the files are.
+"""
+
 
 def run(
     paths: list[Path],
@@ -48,7 +55,9 @@ def run(
         "options": [start, at, projection, interval],
     }
     try:
-        worker.run(f"{__name__}:in_process", task, progress, stop=stop, tell=tell, blender=False)
+        worker.run(
+            f"{__name__}:in_process", task, progress, stop=stop, tell=tell, blender=False, patience=PATIENCE
+        )
     except worker.EndedError as error:
         raise Error(f"{paths[0]}: reading it {error}; the file is most likely damaged") from None
     return out
@@ -58,18 +67,25 @@ def in_process(
     paths: list[str], out: str, options: list, progress: Progress = silent, tell: Tell = untold
 ) -> None:
     """The child's side: find the reader, read and write."""
+    from ..run.models import headway
+
+    files = [Path(path) for path in paths]
+    with headway.to(lambda: worker.sign()):
+        _convert(files, Path(out), options, progress, tell)
+
+
+def _convert(files: list[Path], out: Path, options: list, progress: Progress, tell: Tell) -> None:
     from ..run import readers
     from ..run.models import write
     from ..run.models.model import Options
 
-    files = [Path(path) for path in paths]
     try:
         said = Options.of(*options, files)
         reader = readers.reader(files)
         tell(f"{files[0].name} is {reader.NAME}")
         model = reader.read(files, said)
         try:
-            write.write(model, Path(out), _fingerprint(files, options), progress)
+            write.write(model, out, _fingerprint(files, options), progress)
         finally:
             model.close()
         placed = (("grid", model.grid.placed), ("fuel grid", model.fuel_grid.placed))
