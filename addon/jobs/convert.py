@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import itertools
+import os
+import tomllib
 from pathlib import Path
 
 from ..errors import Error, UsageError
@@ -61,6 +64,46 @@ def run(
     except worker.EndedError as error:
         raise Error(f"{paths[0]}: reading it {error}; the file is most likely damaged") from None
     return out
+
+
+def beside(
+    paths: list[Path], folders: list[Path], start: str = "", at: str = "", projection: str = ""
+) -> tuple[Path, bool]:
+    """Where a run of these goes that nobody named a place for, and whether it is there already.
+
+    It is called like the file or folder with ``_run`` after it, in the first of the `folders` that can be
+    written to; one that was made of other files, or with other words, keeps its name.
+
+    Raises
+    ------
+    InputError
+        There are no such files.
+    Error
+        None of the folders can be written to.
+    """
+    from ..run.readers import gathered
+
+    inputs = _fingerprint([path.absolute() for path in gathered(paths)], [start, at, projection, 0.0])
+    folder = next((each for each in folders if os.access(_existing(each), os.W_OK)), None)
+    if folder is None:
+        raise Error(f"{paths[0]}: nothing can be written beside it; choose an output folder first")
+    for number in itertools.count(1):
+        out = folder / f"{paths[0].stem}_run{f'_{number}' if number > 1 else ''}"
+        if not out.exists():
+            return out, False
+        if _made_of(out) == inputs:
+            return out, True
+
+
+def _existing(folder: Path) -> Path:
+    return next(each for each in (folder.absolute(), *folder.absolute().parents) if each.exists())
+
+
+def _made_of(out: Path) -> str:
+    try:
+        return str(tomllib.loads((out / "run.toml").read_text(encoding="utf-8"))["source"]["inputs"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return ""
 
 
 def in_process(
