@@ -12,6 +12,7 @@ import bpy
 
 from ..blender import owned
 from ..jobs.worker import StoppedError
+from ..run import readers
 from ..shot import file
 from ..shot.choice import Choice
 from . import by_hand, camera_list, changed, job, maps, preferences, scene_file, working
@@ -43,10 +44,14 @@ def imported(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> N
 
 
 def _inspect(settings: bpy.types.PropertyGroup) -> None:
-    """Call the operator; what it has to say about a failure is in `problem`, so no error is raised here."""
+    """Look into a run, or make one of a model's own files; what fails is in `problem`, and no error here."""
+    folder = Path(bpy.path.abspath(settings.run))
     try:
         with bpy.context.temp_override(scene=settings.id_data):
-            bpy.ops.firetwin.inspect("INVOKE_DEFAULT")
+            if readers.foreign(folder):
+                bpy.ops.firetwin.convert("INVOKE_DEFAULT", filepath=str(folder))
+            else:
+                bpy.ops.firetwin.inspect("INVOKE_DEFAULT")
     except RuntimeError as error:
         settings.problem = settings.problem or str(error)
 
@@ -116,7 +121,7 @@ def _write_down(settings: bpy.types.PropertyGroup, found: dict[str, Any]) -> Non
 
 def facts(folder: Path, zone: str) -> tuple[dict[str, Any], maps.Images]:
     """What the panel shows of a run: name, rows, warnings, dated moments and cameras; and its maps."""
-    from ..run import info, readers, thumbnails
+    from ..run import info, thumbnails
     from ..shot import overview
 
     run = readers.open(folder)
