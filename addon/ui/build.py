@@ -75,7 +75,7 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
         yield from build.steps(shot, owned.scene(uid), parts, told.append)
         changed.remember(owned.scene(uid).firetwin, then, parts)
         _finish(owned.scene(uid), shot, parts, new)
-        for text in (*shot.warnings(), *told):
+        for text in (*shot.warnings(), *shot.one_eyed(), *told):
             yield Told(text, "WARNING")
         what = f"{shot.frames.count} frames" if part == ALL else f"the {part}"
         return f"Built {what} of {shot.run.name}" + (f"; {words}" if words else "")
