@@ -27,6 +27,7 @@ from .stand import Stand
 GRASS_DISTANCE = 400.0  # m
 BARE_AFTER = 900.0  # s after the fire came a burned tree is a snag
 _GONE_AFTER = 300.0  # s, and brush and grass are stems and stubble
+_ALIKE = 110.0, 70.0  # m, patches of trees that are alike in hue, and that died before; by eye
 _TALLEST, _GRASS = 31.0, 10.0  # m; as tall as any tree of Algorithm 2, and as one that would hold a clump
 
 
@@ -116,7 +117,10 @@ def _points(
     """All attributes of n trees; random ones hang on two integers per tree."""
     ground, seed = shot.ground, shot.settings.seed
     row, column = ground.under(position)
-    tint, dead = (noise.uniform(key, second, seed + 300 + k) for k in range(2))
+    tint, dead = (
+        _alike(position, size, noise.uniform(key, second, seed + 300 + k), seed + 330 + 10 * k)
+        for k, size in enumerate(_ALIKE)
+    )
     burned = fate.of(shot, row, column, scale, np.stack([key, second], axis=-1))
     size = np.select([scale > 20.0, scale > 12.0], [0, 1], 2)
     return {
@@ -134,6 +138,13 @@ def _points(
         "tint": tint,
         "dead": dead,
     }
+
+
+def _alike(position: NDArray, size: float, chance: NDArray, seed: int) -> NDArray[np.float64]:
+    """Numbers 0..1 spread about as evenly as those of `chance` (n,), but alike in patches of `size` m."""
+    patch = noise.fractal(position[:, 0], position[:, 1], size, 2, seed) / 0.4
+    own = np.log(np.maximum(chance, 1.0e-6) / np.maximum(1.0 - chance, 1.0e-6))
+    return 1.0 / (1.0 + np.exp(-0.8 * 1.702 * patch - 0.6 * own))
 
 
 def _instances(
