@@ -3,10 +3,10 @@
     python tests/benchmarks/popping.py FRAMES --out popping.png [--side 16] [--from 1] [--to 120]
 
 FRAMES is a folder of a camera's pictures. Each patch is looked for in the next one, and the mean difference
-of brightness (of 0 to 1, as shown) that is left where it fits best is its change. Flames, grain and what comes
-out from behind a tree change all the time; what pops changes once. So each change is told in medians: that of
-the whole picture in the median of all frames, that of a patch in the median of the `_AROUND` frames before and
-after, in the same place of the picture. Writes a plot of both, prints the largest and where it is.
+of brightness (of 0 to 1, as shown) left where it fits best is its change. Flames, grain and what comes
+out from behind a tree change all the time; what pops changes once. So each change is told in medians: that
+of the whole picture in the median of all frames, that of a patch in the median of its place in the
+`_AROUND` frames before and after. Writes a plot of both, prints the largest and where it is.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from ...shot.ground import NEVER, bilinear
 from ...shot.rigs.satellite import HEIGHT
 from ...shot.shot import Shot
 from .. import clock
-from . import fate, models, preview, seen, understorey
+from . import fate, models, openings, preview, seen, understorey
 from .library import grass_models, levelled, tree_models
 from .stand import Stand
 
@@ -118,7 +118,7 @@ def _points(
     ground, seed = shot.ground, shot.settings.seed
     row, column = ground.under(position)
     tint, dead = (
-        _alike(position, size, noise.uniform(key, second, seed + 300 + k), seed + 330 + 10 * k)
+        openings.alike(position, size, noise.uniform(key, second, seed + 300 + k), seed + 330 + 10 * k)
         for k, size in enumerate(_ALIKE)
     )
     burned = fate.of(shot, row, column, scale, np.stack([key, second], axis=-1))
@@ -138,13 +138,6 @@ def _points(
         "tint": tint,
         "dead": dead,
     }
-
-
-def _alike(position: NDArray, size: float, chance: NDArray, seed: int) -> NDArray[np.float64]:
-    """Numbers 0..1 spread about as evenly as those of `chance` (n,), but alike in patches of `size` m."""
-    patch = noise.fractal(position[:, 0], position[:, 1], size, 2, seed) / 0.4
-    own = np.log(np.maximum(chance, 1.0e-6) / np.maximum(1.0 - chance, 1.0e-6))
-    return 1.0 / (1.0 + np.exp(-0.8 * 1.702 * patch - 0.6 * own))
 
 
 def _instances(

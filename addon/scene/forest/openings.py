@@ -1,4 +1,4 @@
-"""Where trees of a stand are left out, or stand alone: its edges, its gaps, and land without canopy fuel.
+"""How a stand is uneven: its ragged edges, its gaps, trees alone beyond it, and patches of trees alike.
 
 A fuel cell says how much grows in it, not where. Sierra forests of mixed conifers are clumps and openings
 (Larson and Churchill 2012, Forest Ecology and Management 267:74-92), and end in ragged edges with single
@@ -17,7 +17,7 @@ from ...shot.shot import Shot
 LONE_FUEL = 0.02  # kg/m2; stands for the trees of cells without canopy fuel: 57 stems a hectare, up to 15 m
 _SEED = 6  # cells; so far from others trees stand alone
 _LONE = 0.5  # part of these that is there in their clumps
-_EDGE, _RAGGED = 38.0, 0.42  # m, size of an edge's bays; how far they reach, cells
+_EDGE, _RAGGED = 38.0, 0.6  # m, size of an edge's bays; how far they reach, cells
 _GAP, _OPEN = 62.0, 0.88  # m, size of gaps; part of their trees that is missing
 
 Array = NDArray[np.float64]
@@ -49,3 +49,10 @@ def kept(shot: Shot, position: Array) -> Array:
     stand = stand * (1.0 - _OPEN * noise.smoothstep(0.38, 0.60, gaps))
     lone = _LONE * noise.smoothstep(-0.1, 0.5, bays) * (empty > 0.0)
     return np.maximum(stand, lone) * (wet < 0.3)
+
+
+def alike(position: Array, size: float, chance: Array, seed: int) -> Array:
+    """Numbers (n,) spread over 0..1 about as evenly as `chance` (n,), but alike in patches of `size` m."""
+    patch = noise.fractal(position[:, 0], position[:, 1], size, 2, seed) / 0.4
+    own = np.log(np.maximum(chance, 1.0e-6) / np.maximum(1.0 - chance, 1.0e-6))
+    return 1.0 / (1.0 + np.exp(-0.8 * 1.702 * patch - 0.6 * own))
