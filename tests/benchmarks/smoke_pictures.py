@@ -4,7 +4,8 @@
 
 WITHOUT is the same picture of the same scene with `smoke.enabled = false` and the same `light.exposure`.
 Smoke is where a colour differs by more than a threshold, or with --brighter where one is that much brighter:
-from above its shadow on the ground is no smoke. Everything is done for two thresholds. Needs SciPy.
+from above its shadow on the ground is no smoke, and before the sky only what lies above the horizon, with
+--upper, can be told from it. Everything is done for two thresholds. Needs SciPy.
 `smoke_views.py` makes such pictures and measures them.
 
 Outline: the perimeter of blobs goes as their area to the power D / 2. D is 1 for balls, 1.35 for clouds on
@@ -121,8 +122,8 @@ def _flattened(square: Picture) -> Picture:
     return square - (plane @ np.linalg.lstsq(plane, square.ravel(), rcond=None)[0]).reshape(square.shape)
 
 
-def measured(smoky: Path, clear: Path, brighter: bool) -> dict[str, dict[str, float]]:
-    """All numbers of a picture for each threshold.
+def measured(smoky: Path, clear: Path, brighter: bool, upper: float = 1.0) -> dict[str, dict[str, float]]:
+    """All numbers of a picture for each threshold; `upper` is the part of its rows that counts, from its top.
 
     Raises
     ------
@@ -132,6 +133,8 @@ def measured(smoky: Path, clear: Path, brighter: bool) -> dict[str, dict[str, fl
     with_smoke, without = colours(smoky), colours(clear)
     if with_smoke.shape != without.shape:
         raise ValueError(f"{smoky} and {clear} differ in size")
+    rows = round(upper * len(without))
+    with_smoke, without = with_smoke[:rows], without[:rows]
     change, shown, found = with_smoke - without, brightness(with_smoke), {}
     for threshold in THRESHOLDS:
         smoke = (change if brighter else np.abs(change)).max(axis=-1) > threshold
@@ -158,10 +161,11 @@ def main() -> None:
     parser.add_argument("smoky", type=Path, metavar="WITH.png")
     parser.add_argument("clear", type=Path, metavar="WITHOUT.png")
     parser.add_argument("--brighter", action="store_true", help="darker places are shadow, not smoke")
+    parser.add_argument("--upper", type=float, default=1.0, help="part of the rows that counts, from the top")
     parser.add_argument("--json", action="store_true")
     given = parser.parse_args()
     try:
-        found = measured(given.smoky, given.clear, given.brighter)
+        found = measured(given.smoky, given.clear, given.brighter, given.upper)
     except ValueError as error:
         parser.error(str(error))
     if given.json:

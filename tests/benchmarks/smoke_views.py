@@ -62,17 +62,18 @@ target_latitude = 38.985
 target_longitude = -120.475
 target_height = 1700.0
 """
-VIEWS = {  # time of day, exposure, whether the ground is below the smoke, camera
-    "down": ("16:45", 0.5, True, 'kind = "satellite"\nswath = 10300.0\n' + KEY.format(38.868, -120.57)),
-    "column": ("16:12", 0.1, False, COLUMN),
-    "satellite": ("16:12", 0.5, True, 'kind = "satellite"\nswath = 56000.0\n'),
+SKY = 0.57  # of the rows from 40 km are above the horizon
+VIEWS = {  # time of day, exposure, whether the ground is below the smoke, rows that count, camera
+    "down": ("16:45", 0.5, True, 1.0, 'kind = "satellite"\nswath = 10300.0\n' + KEY.format(38.868, -120.57)),
+    "column": ("16:12", 0.1, False, SKY, COLUMN),
+    "satellite": ("16:12", 0.5, True, 1.0, 'kind = "satellite"\nswath = 56000.0\n'),
 }
 METHODS = {"flow": True, "puffs": True, "none": False}
 
 
 def rendered(model: Path, out: Path, view: str, method: str, size: tuple[int, int], samples: int) -> Path:
     """A view's picture, made if it is not there."""
-    clock, exposure, _, camera = VIEWS[view]
+    clock, exposure, _, _, camera = VIEWS[view]
     name = f"{view}_{method}"
     folder = out / name
     picture = folder / "seen" / "rgb" / "seen_rgb_000001.png"
@@ -123,7 +124,7 @@ def main() -> None:
     for view in given.views:
         pictures = {each: rendered(given.run, given.out, view, each, size, given.samples) for each in METHODS}
         for method in ("flow", "puffs"):
-            found = smoke_pictures.measured(pictures[method], pictures["none"], VIEWS[view][2])
+            found = smoke_pictures.measured(pictures[method], pictures["none"], *VIEWS[view][2:4])
             low = found[f"{smoke_pictures.THRESHOLDS[0]:g}"]
             rooted = roots(given.out / f"{view}_{method}.toml")
             cells = (
