@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..errors import UsageError
 from ..run.content import fingerprint
-from ..shot import frame_list, passes
+from ..shot import frame_list, mount, passes
 from ..shot.nearest import suggestion
 from ..shot.settings import Camera
 from ..shot.shot import Shot
@@ -18,7 +18,8 @@ def pictures(
 ) -> list[Picture]:
     """Pictures of the scene file, or those of them that the command line picks, camera by camera, run by run.
 
-    What compares runs comes last, and what it is made from before it whether or not it was named.
+    With them come those of other cameras that they are made from, before them (see `shot.mount`). What
+    compares runs comes last, and what it is made from before it whether or not it was named.
 
     Parameters
     ----------
@@ -60,7 +61,7 @@ def pictures(
         compared += [Picture(view, frame, name) for frame in listed for name in last]
     if not drawn:
         raise UsageError(f"--frames {frames}: {' and '.join(views)} has none of these frames")
-    return drawn + compared
+    return _with_given(shot, drawn) + compared
 
 
 def _in_turn(asked: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -69,6 +70,33 @@ def _in_turn(asked: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     compared = tuple(name for name in asked if known[name].compares)
     needed = {need for name in compared for need in known[name].made_from}
     return tuple(name for name in known if name in needed or name in {*asked} - {*compared}), compared
+
+
+def rounds(shot: Shot, wanted: list[Picture]) -> list[list[Picture]]:
+    """Pictures in their order, up to where some are made from those of other cameras, and from there on."""
+    last = {each.camera for each in wanted if _given(shot, each.camera, each.name)}
+    parts = [[each for each in wanted if (each.camera in last) is second] for second in (False, True)]
+    return [part for part in parts if part]
+
+
+def _with_given(shot: Shot, found: list[Picture]) -> list[Picture]:
+    given = [
+        Picture(c, each.frame, name) for each in found for c, name in _given(shot, each.camera, each.name)
+    ]
+    if not given:
+        return found
+    views, names = shot.views, list(passes.known())
+    every = sorted(
+        {*found, *given}, key=lambda each: (views.index(each.camera), each.frame, names.index(each.name))
+    )
+    return [each for part in rounds(shot, every) for each in part]
+
+
+def _given(shot: Shot, view: str, name: str) -> list[tuple[str, str]]:
+    """Other cameras of the same run, and passes, that a pass of a camera is made from."""
+    camera, mark, run = view.partition("@")
+    taken = mount.taken(shot.settings, shot.cameras, camera, passes.known()[name])
+    return [(c + mark + run, need) for c, need in taken.values() if c != camera]
 
 
 def missing(store: Store, wanted: list[Picture], made_with: Fingerprints, after: int = 0) -> list[Picture]:

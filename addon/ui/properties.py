@@ -48,6 +48,8 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annota
     )
     usual_cameras: bpy.props.StringProperty(options={"HIDDEN"})
     facts: bpy.props.StringProperty(options={"HIDDEN"})
+    built: bpy.props.StringProperty(options={"HIDDEN"})
+    changed: bpy.props.StringProperty(options={"HIDDEN"})
     problem: bpy.props.StringProperty(options={"HIDDEN"})
     bake_smoke: bpy.props.BoolProperty(
         name="Smoke of every frame",
@@ -107,4 +109,4 @@ def copy(source: bpy.types.Scene, target: bpy.types.Scene) -> None:
         setattr(target.firetwin, name, getattr(source.firetwin, name))
 
 
-classes = (*sections.groups(), *other_runs.groups, *camera_list.classes, FIRETWIN_PG_scene)
+classes = (*sections.groups(), *other_runs.classes, *camera_list.classes, FIRETWIN_PG_scene)

@@ -63,12 +63,14 @@ class Pass:
         It is about all of a scene's runs, and made when what it is made from is finished.
     across
         Other passes whose files of every run its own are made from, in a pass that compares.
+    mount
+        It takes these also from the sensors of its camera's mount (see `shot.mount`).
     sources
         Files and folders of the package that decide its files, beside its own module, the helpers of passes
         (`_NAME.py`) and what all depend on.
     finish
         Makes the files that Blender does not, or goes on with those that it made. Called with the pass's
-        files by suffix; those of the passes that it needs, by pass (of another run ``pass@run``) and suffix;
+        files by suffix; those of the passes that it needs, by need (of another run ``need@run``) and suffix;
         the shot; the camera's name; and the frame.
     """
 
@@ -91,6 +93,7 @@ class Pass:
     needs: tuple[str, ...] = ()
     compares: bool = False
     across: tuple[str, ...] = ()
+    mount: bool = False
     sources: tuple[str, ...] = ()
     finish: Finish | None = None
 
