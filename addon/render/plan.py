@@ -65,6 +65,15 @@ def rounds(shot: Shot, wanted: list[Picture]) -> list[list[Picture]]:
     return [part for part in parts if part]
 
 
+def seen(shot: Shot, wanted: list[Picture]) -> set[tuple[str, str]]:
+    """Cameras and passes that Blender renders for these pictures: some are made from others' files alone."""
+    pairs = {(each.camera, each.name) for each in wanted}
+    for camera, name in list(pairs):
+        pairs |= set(mount.taken(shot.settings, shot.cameras, camera, passes.known()[name]).values())
+    own = {each.camera for each in wanted}
+    return {(camera, name) for camera, name in pairs if camera in own and passes.known()[name].output}
+
+
 def _with_given(shot: Shot, found: list[Picture]) -> list[Picture]:
     given = [
         Picture(c, each.frame, name) for each in found for c, name in _given(shot, each.camera, each.name)

@@ -429,6 +429,10 @@ class Settings:
             if camera.rig.around and self.render.engine != "cycles":
                 reason = f'camera "{camera.name}" sees all round, which EEVEE cannot; render it with Cycles'
                 return ("cameras", i, "kind"), reason
+            if camera.rig.around and any(each.flat for each in passes.of_camera(self, camera)):
+                flat = ", ".join(each.name for each in passes.of_camera(self, camera) if each.flat)
+                where = ("cameras", i, "passes") if camera.passes else ("render", "passes")
+                return where, f'camera "{camera.name}" sees all round, which has no {flat}'
             if camera.rig.around and width != height:
                 reason = (
                     f'camera "{camera.name}" needs a square resolution, such as [2048, 2048]: two pictures '

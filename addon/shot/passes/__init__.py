@@ -61,6 +61,8 @@ class Pass:
         Other passes whose files its own are made from.
     mount
         It takes these also from the sensors of its camera's mount (see `shot.mount`).
+    flat
+        Cameras that see all round have it not.
     sources
         Files and folders of the package that decide its files, beside its own module, the helpers of passes
         (`_NAME.py`) and what all depend on.
@@ -88,6 +90,7 @@ class Pass:
     captions: bool = True
     needs: tuple[str, ...] = ()
     mount: bool = False
+    flat: bool = False
     sources: tuple[str, ...] = ()
     finish: Finish | None = None
 

@@ -67,7 +67,8 @@ def finish(files: Files, _needed: Mapping[str, Files], _shot: Shot, _camera: str
 PASS = Pass(
     name="masks",
     order=27,
-    help="Class of each pixel (fire, smoke, tree, burned, ground, sky) and number of each tree, EXR and PNG",
+    help="Class of each pixel (fire, smoke, tree, burned, ground, sky) and number of each tree, EXR and PNG; "
+    "numbers hold within one camera's frames that are built together ([render] chunk)",
     files=("exr", "png"),
     output="Image",
     leaves_out=("lamps",),
