@@ -44,7 +44,11 @@ def pictures(
     cameras = [shot.camera(camera)] if camera else settings.cameras
     if not cameras:
         raise UsageError(f"{settings.path} has no [[cameras]], so there is nothing to render")
-    chosen = _passes(names) if names is not None else None
+    chosen = _passes(names) if names is not None else ()
+    for each in cameras:
+        for name in chosen:
+            if reason := passes.refused(passes.known()[name], each, settings.render.engine):
+                raise UsageError(f"--passes: {reason}")
     found = [
         Picture(c.name, frame, name)
         for c in cameras

@@ -118,6 +118,18 @@ def file_of(camera: str, name: str, frame: int, suffix: str) -> str:
     return f"{camera}/{name}/{camera}_{name}_{frame:06d}.{suffix}"
 
 
+def refused(each: Pass, camera: Camera, engine: str) -> str:
+    """Why a camera cannot record a pass with an engine; empty: it can."""
+    if each.masks and engine == "eevee":
+        return (
+            f'camera "{camera.name}" cannot record {each.name} with EEVEE, which keeps 11 bits of a number, '
+            "and numbers of trees have more; render it with Cycles"
+        )
+    if each.flat and camera.rig.around:
+        return f'camera "{camera.name}" sees all round, which has no {each.name}'
+    return ""
+
+
 def of_camera(settings: Settings, camera: Camera) -> tuple[Pass, ...]:
     """Passes of a camera in order: its own, or those of [render] where it names none."""
     names = camera.passes or settings.render.passes
