@@ -48,7 +48,7 @@ def maps(arguments: argparse.Namespace) -> None:
     from .run import maps, observations
     from .shot.settings import Time
 
-    seen = observations.read(arguments.against or observations.beside(arguments.run)).perimeters
+    seen = observations.read(arguments.against or observations.beside(arguments.run))
     for path in maps.draw(run, arguments.out, Time().zone, seen):
         print(path)
 

@@ -124,6 +124,8 @@ def test_wrf_sfire_turned(tmp_path, converted):
     paths, truth = made.wrf(tmp_path, turn=20.0)
     run = converted(paths)
     assert "turned or curved" in said(run)
+    load = np.asarray(run.surface_fuel)
+    assert load[0, 0] == load[1, 1] == np.float32(fuels.SFIRE[0])  # beyond the model's cells it goes on
     values = np.setdiff1d(run.heat_flux(1), np.append(truth["GRNHFX"][1], 0))
     assert values.size == 0
     u, v = truth["U10"][1].ravel(), truth["V10"][1].ravel()
@@ -466,5 +468,5 @@ def test_a_start_that_nothing_says_is_asked_for(tmp_path, converted):
     path = made.ascii_grid(tmp_path / "x_Arrival Time.asc", arrival / 60)
     with pytest.raises(InputError, match="--start"):
         converted([path])
-    with pytest.raises(Error, match="no fire model that is known"):
+    with pytest.raises(Error, match="a raster does not say what it holds"):
         converted([made.ascii_grid(tmp_path / "other.asc", arrival)])

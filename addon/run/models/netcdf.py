@@ -69,7 +69,8 @@ class File:
         except Error:
             raise
         except Exception as error:
-            why = " ".join(str(error).split()) or type(error).__name__
+            text = getattr(error, "strerror", None) or str(error) or type(error).__name__
+            why = " ".join(str(text).split())
             raise self.error(f"cannot be read as netCDF ({why}); it is damaged or incomplete") from error
 
     def error(self, reason: str) -> InputError:
