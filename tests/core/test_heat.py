@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 from fires import closed, square
+from firetwin import cli
 from firetwin.run import observations
 from firetwin.run.observations import heat
 from firetwin.run.observations.feature import Feature
@@ -162,3 +163,13 @@ def test_heat_is_drawn_by_class_until_the_next_flight(make_run, tmp_path):
     (axes, *_) = maps.intensity_map(readers.open(run), "UTC", observations.read([path])).axes
     labels = [text.get_text() for text in axes.get_legend().get_texts()]
     assert labels == ["intense heat", "scattered heat", "isolated heat"]
+
+
+def test_heat_alone_is_nothing_to_compare_with(make_run, tmp_path, capsys):
+    path = tmp_path / "ir.geojson"
+    spot = {"type": "Point", "coordinates": [-120.592, 38.905]}
+    path.write_text(
+        json.dumps({"type": "Feature", "properties": {"class": "isolated", "time": FLOWN}, "geometry": spot})
+    )
+    assert cli.main(["score", str(make_run()), "--against", str(path)]) == 1
+    assert "ir.geojson: holds heat but no perimeter" in capsys.readouterr().err

@@ -166,7 +166,7 @@ def read(paths: Iterable[str | Path]) -> Observations:
             raise input_error(path, 0, 0, (error.strerror or str(error)).lower()) from None
         except Exception as error:  # Python's, or a library's: what is in the file is not what it should be
             reason = " ".join(str(error).split()) or type(error).__name__
-            raise input_error(path, 0, 0, f"is damaged: {reason}") from error
+            raise input_error(path, 0, 0, f"is damaged or incomplete: {reason}") from error
         if isinstance(found, Detections):
             detections.append(found)
         else:
@@ -204,6 +204,8 @@ def _sorted(
             left += 1
     if not burned and not hot:
         raise input_error(path, 0, 0, "holds no polygons, so nothing says where it had burned")
+    if burned and hot:
+        assumptions[f"{path.name}: heat within its perimeter is drawn and not compared"] = None
     if left:
         assumptions[f"{path.name}: {left} features that are neither perimeter nor heat are left out"] = None
     perimeters = [Perimeter(when, tuple(polygons), path.name) for when, polygons in burned.items()]

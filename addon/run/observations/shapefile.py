@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -30,7 +31,8 @@ def read(path: Path) -> list[Feature]:
     except OSError:
         reason = "has no .prj beside it, so nothing says what its coordinates are"
         raise input_error(path, 0, 0, reason) from None
-    with shapefile.Reader(str(path)) as reader:
+    with warnings.catch_warnings(), shapefile.Reader(str(path)) as reader:
+        warnings.simplefilter("ignore")  # of damage, which ends in an error
         return [_feature(path, system, i, each) for i, each in enumerate(reader.iterShapeRecords(), 1)]
 
 
