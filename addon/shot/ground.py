@@ -356,16 +356,7 @@ def _widened(field: NDArray, reach: int) -> NDArray:
     return field
 
 
-def _split(index: ArrayLike, count: int) -> tuple[NDArray[np.int64], Array]:
-    """Whole and fractional part of indices into an axis of `count` values."""
-    whole = np.clip(np.floor(index).astype(np.int64), 0, max(count - 2, 0))
-    return whole, np.asarray(index) - whole
-
-
 def bilinear(field: Array, row: ArrayLike, column: ArrayLike) -> Array:
     """Values of `field` (ny, nx) between its points."""
-    i, v = _split(row, field.shape[0])
-    j, u = _split(column, field.shape[1])
-    i1, j1 = np.minimum(i + 1, field.shape[0] - 1), np.minimum(j + 1, field.shape[1] - 1)
-    low = field[i, j] * (1.0 - u) + field[i, j1] * u
-    return low * (1.0 - v) + (field[i1, j] * (1.0 - u) + field[i1, j1] * u) * v
+    row, column = np.broadcast_arrays(np.asarray(row, np.float64), np.asarray(column, np.float64))
+    return terrain.bilinear(field, row.ravel(), column.ravel()).reshape(row.shape)

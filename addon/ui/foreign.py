@@ -49,7 +49,7 @@ class FIRETWIN_OT_convert(Said, Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.free(cls)
+        return working.editable(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Read and write in a worker process, unless that was done before; then look into the run."""
@@ -91,7 +91,7 @@ def chosen(operator: bpy.types.Operator) -> list[Path]:
 def begin(panel: bpy.types.PropertyGroup, folder: str) -> None:
     """Choose a run; where it is another one, time window and cameras of the one before go."""
     if bpy.path.abspath(panel.run) != folder:
-        panel.scene_file = panel.time.start = panel.time.end = ""
+        panel.scene_file = panel.time.start = panel.time.end = panel.facts = ""
         panel.cameras.clear()
     panel.run = folder
 

@@ -9,9 +9,8 @@ import bpy
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from ..blender import owned
-from ..errors import Error
 from ..run import readers
-from . import build, foreign, job, run, scene_file, working
+from . import build, foreign, run, scene_file, working
 from .job import Away, Steps
 from .working import Working
 
@@ -40,13 +39,14 @@ class FIRETWIN_OT_open(foreign.Said, bpy.types.Operator, ImportHelper):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.free(cls)
+        return working.editable(cls, context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if self.filepath and Path(self.filepath).is_file():  # dropped on the view
             return self.execute(context)
         return ImportHelper.invoke(self, context, event)
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         panel, path = context.scene.firetwin, Path(self.filepath)
         if readers.foreign(foreign.chosen(self)[0]):
@@ -79,12 +79,13 @@ class FIRETWIN_OT_export(bpy.types.Operator, ExportHelper):
     filename_ext = ".toml"
     filter_glob: bpy.props.StringProperty(default="*.toml", options={"HIDDEN"})
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return run.ready(cls, context)
+
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            scene_file.export(context.scene, Path(self.filepath))
-        except Error as error:
-            self.report({"ERROR"}, job.words(error))
-            return {"CANCELLED"}
+        scene_file.export(context.scene, Path(self.filepath))
         self.report({"INFO"}, f"Wrote {self.filepath}")
         return {"FINISHED"}
 
@@ -122,7 +123,7 @@ class FIRETWIN_OT_sample(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.free(cls)
+        return working.editable(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Write it in a worker process, unless it is there; then look into it."""
@@ -144,6 +145,7 @@ class FIRETWIN_MT_add(bpy.types.Menu):
     def draw(self, context: bpy.types.Context) -> None:
         entries(self.layout)
         self.layout.operator(build.FIRETWIN_OT_build.bl_idname, icon="WORLD")
+        self.layout.operator("firetwin.assets", icon="ASSET_MANAGER")
 
 
 def entries(layout: bpy.types.UILayout) -> None:

@@ -11,10 +11,11 @@ from typing import Any
 import bpy
 
 from ..blender import owned
+from ..jobs.worker import StoppedError
 from ..run import readers
 from ..shot import file
 from ..shot.choice import Choice
-from . import by_hand, camera_list, job, maps, preferences, scene_file, working
+from . import by_hand, camera_list, changed, job, maps, preferences, scene_file, working
 from .job import Away, Steps
 from .text import labelled, paragraph
 from .working import Working
@@ -22,6 +23,7 @@ from .working import Working
 
 def chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """Another run folder: look into it."""
+    changed.compare(settings)
     if job.Job.current is not None:
         return
     settings.facts = settings.problem = ""
@@ -37,7 +39,7 @@ def imported(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> N
     try:
         scene_file.fill(settings.id_data, file.read(bpy.path.abspath(settings.scene_file)))
     except Exception as error:
-        settings.facts, settings.problem = "", job.words(error)
+        settings.problem = job.words(error)
     working.redraw()
 
 
@@ -66,7 +68,7 @@ def ready(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     if not settings.run:
         cls.poll_message_set("Open a run or a scene file first")
         return False
-    return working.free(cls)
+    return working.editable(cls, context)
 
 
 class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
@@ -78,10 +80,7 @@ class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not context.scene.firetwin.run:
-            cls.poll_message_set("Open a run or a scene file first")
-            return False
-        return working.free(cls)
+        return ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Gather, and see whether the settings fit the run."""
@@ -91,7 +90,7 @@ class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
 def look(uid: int) -> Steps:
     """Gather in a thread, then write down in the scene with this `session_uid`."""
     settings = owned.scene(uid).firetwin
-    settings.problem = settings.facts = ""
+    settings.problem = ""
     folder, zone = Path(bpy.path.abspath(settings.run)), settings.time.zone
     try:
         found, images = yield Away("reading the run", lambda **_: facts(folder, zone))
@@ -99,6 +98,9 @@ def look(uid: int) -> Steps:
         maps.show(owned.scene(uid).firetwin.run, images)
         chosen = choice(owned.scene(uid).firetwin)
         yield Away("reading the run", lambda **_: chosen.shot())
+    except StoppedError:
+        owned.scene(uid).firetwin.problem = "The run was not read to its end; Read run does it"
+        raise
     except Exception as error:
         owned.scene(uid).firetwin.problem = job.words(error)
         raise
@@ -191,8 +193,8 @@ class FIRETWIN_PT_run(bpy.types.Panel):
         row = labelled(column, "Run", 0.2)
         row.prop(settings, "run", text="")
         row.operator(FIRETWIN_OT_inspect.bl_idname, text="", icon="FILE_REFRESH")
-        row = labelled(column, "Scene", 0.2)
-        row.prop(settings, "scene_file", text="", placeholder="Optional")
+        row = labelled(column, "File", 0.2)
+        row.prop(settings, "scene_file", text="", placeholder="Scene file, if any")
         row.operator("firetwin.export", text="", icon="EXPORT")
         if settings.problem:
             box = layout.box().column(align=True)
