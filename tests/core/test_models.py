@@ -454,6 +454,23 @@ def test_many_netcdf_files_are_each_read_for_what_is_theirs(tmp_path, converted)
     np.testing.assert_array_equal(run.elevation, 700.0)
 
 
+def test_chunks_of_several_times_are_unpacked_once(tmp_path):
+    """As libraries choose them where time does not grow."""
+    from firetwin.run.models import netcdf
+
+    with made.netCDF4.Dataset(tmp_path / "a.nc", "w") as f:
+        for dim, size in (("t", 8), ("y", 60), ("x", 50)):
+            f.createDimension(dim, size)
+        f.createVariable("flux", "f4", ("t", "y", "x"), zlib=True, chunksizes=(4, 32, 32))[:] = 1.0
+    file = netcdf.File(tmp_path / "a.nc")
+    file.read("flux", 3)
+    size, count, _ = file.variables["flux"].get_var_chunk_cache()
+    assert size >= 4 * 64 * 64 * 4
+    assert count >= 4
+    assert size < 2 << 20
+    file.close()
+
+
 def test_a_netcdf_of_no_known_model_says_how_to_map_it(tmp_path, converted):
     path, _ = cf(tmp_path / "a.nc")
     with pytest.raises(InputError, match=r"hfx, la, lo, t.*\[fields\] heat_flux"):
