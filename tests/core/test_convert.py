@@ -5,6 +5,7 @@ import sys
 import threading
 import time
 import warnings
+from types import SimpleNamespace
 
 import model_files as made
 import numpy as np
@@ -201,6 +202,17 @@ def test_patience_ends_with_what_is_silent_alone():
         assert not Child.killed.is_set()  # after 0.6 s
         assert Child.killed.wait(10.0)
         assert watch.over
+
+
+def test_each_word_of_a_process_is_heard():
+    class Child:
+        stdin, wait = io.StringIO(), staticmethod(lambda: 0)
+        stdout = iter(['{"sign": true}', '{"progress": [1, 2]}', '{"tell": "a"}', '{"result": 5}'])
+
+    heard, told = [], []
+    watch = SimpleNamespace(heard=lambda: heard.append(1))
+    assert worker._converse(Child, {}, lambda *_: None, told.append, watch) == {"result": 5}
+    assert (len(heard), told) == (4, ["a"])
 
 
 def test_reading_says_that_it_goes_on(tmp_path, monkeypatch):
