@@ -10,7 +10,8 @@ import matplotlib
 import numpy as np
 from matplotlib.colors import LightSource, LinearSegmentedColormap, LogNorm, Normalize
 from matplotlib.figure import Figure
-from matplotlib.patches import Polygon, Rectangle
+from matplotlib.patches import PathPatch, Polygon, Rectangle
+from matplotlib.path import Path as Outline
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, LogLocator
 from numpy.typing import NDArray
@@ -65,7 +66,7 @@ def fuel_map(run: Run) -> Figure:
 
 def intensity_map(run: Run, zone: str, seen: Observations = NOTHING) -> Figure:
     """Largest heat flux (kW/m2) of each model cell of the whole run, over the relief; what was seen."""
-    flux = np.ma.masked_less_equal(thumbnails.strongest(run) / 1e3, 0)
+    flux = np.ma.masked_less(thumbnails.strongest(run), thumbnails.FIRE) / 1e3
     first, last = (times.text(times.moment(run, float(run.times[i])), zone) for i in (0, -1))
     figure, axes = _page(run, "Fire intensity", f"strongest heat flux, {first} to {last}")
     _relief(axes, run, 1.0)
@@ -98,12 +99,18 @@ def _seen(axes: Axes, run: Run, zone: str, seen: Observations) -> None:
         axes.add_artist(before)
 
 
-def _outline(axes: Axes, run: Run, polygons: Sequence[Polygons], style: dict) -> Polygon:
-    """Rings of polygons as lines; one of them."""
+def _outline(axes: Axes, run: Run, polygons: Sequence[Polygons], style: dict) -> PathPatch:
+    """Rings of polygons as lines of one patch, so that holes are none of it."""
     middle = float(run.longitude[0] + run.longitude[-1]) / 2
-    rings = [ring.T for polygon in polygons for ring in polygon]
-    drawn = [axes.fill(areas.turned(x, middle), y, facecolor="none", **style)[0] for x, y in rings]
-    return drawn[0]
+    paths = []
+    for polygon in polygons:
+        for place, (x, y) in enumerate(ring.T for ring in polygon):
+            corners = np.column_stack([areas.turned(x, middle), y])
+            x, y = (corners - corners[0]).T
+            left = np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) > 0  # turns; holes have to the other way
+            corners = corners if left == (place == 0) else corners[::-1]
+            paths.append(Outline([*corners, corners[0]], closed=True))
+    return axes.add_patch(PathPatch(Outline.make_compound_path(*paths), facecolor="none", **style))
 
 
 def _heat(axes: Axes, run: Run, kind: str, found: Sequence[Heat]) -> Artist:

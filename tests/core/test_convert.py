@@ -372,6 +372,9 @@ def test_what_is_no_models_output_is_told_apart(tmp_path):
         "x_arrival.asc": "x_arrival.asc:7:5: 'abc' is no number", cut.name: "cannot be read as netCDF",
         absurd.name: "nothing burns in it",
     }.items():  # fmt: skip
+        told = []
         with pytest.raises(InputError, match=words) as caught:
-            in_process(readers.gathered([tmp_path / name]), tmp_path / "out", start="2020-07-01")
+            files = [str(path) for path in readers.gathered([tmp_path / name])]
+            convert.in_process(files, str(tmp_path / "out"), ["2020-07-01", "", "", 0.0], tell=told.append)
         assert str(caught.value).startswith(str(tmp_path / name))
+        assert not any("latitude, longitude and time" in text for text in told)

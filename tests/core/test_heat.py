@@ -143,11 +143,16 @@ def test_heat_is_drawn_by_class_until_the_next_flight(make_run, tmp_path):
 
     run = make_run()
     corners = [[-120.595, 38.903], [-120.590, 38.903], [-120.590, 38.907], [-120.595, 38.903]]
+    hole = [[-120.592, 38.9033], [-120.5905, 38.9033], [-120.5905, 38.9045], [-120.592, 38.9033]]
     features = [
         {"type": "Feature", "properties": {"class": name, "time": f"2014-09-17T04:{minute}:30Z"},
-         "geometry": {"type": "Polygon", "coordinates": [corners]} if name != "Isolated Heat"
+         "geometry": {"type": "Polygon", "coordinates": rings} if rings
          else {"type": "Point", "coordinates": [-120.592, 38.905]}}
-        for name, minute in (("Intense Heat", 45), ("Isolated Heat", 45), ("Scattered Heat", 46))
+        for name, minute, rings in (
+            ("Intense Heat", 45, [corners, hole]),
+            ("Isolated Heat", 45, []),
+            ("Scattered Heat", 46, [corners]),
+        )
     ]  # fmt: skip
     path = tmp_path / "ir.geojson"
     path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
@@ -156,13 +161,18 @@ def test_heat_is_drawn_by_class_until_the_next_flight(make_run, tmp_path):
     lines = observed.lines(Choice(scene=str(scene)).shot())
     assert [(line.kind, line.start, line.end) for line in lines] == [
         ("intense", 30.0, 90.0),
+        ("intense", 30.0, 90.0),  # its hole
         ("isolated", 30.0, 90.0),
         ("scattered", 90.0, 90.0 + 24 * 3600.0),
     ]
-    assert np.ptp(lines[1].points[:, 0]) == pytest.approx(120.0, rel=0.05)  # 1.5 widths each way
+    assert np.ptp(lines[2].points[:, 0]) == pytest.approx(120.0, rel=0.05)  # 1.5 widths each way
     (axes, *_) = maps.intensity_map(readers.open(run), "UTC", observations.read([path])).axes
     labels = [text.get_text() for text in axes.get_legend().get_texts()]
     assert labels == ["intense heat", "scattered heat", "isolated heat"]
+    intense = next(each for each in axes.patches if each.get_label() == "intense heat")
+    rings = [ring.T - ring[:1].T for ring in intense.get_path().to_polygons()]
+    turns = [np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]) for x, y in rings]
+    assert turns[0] > 0 > turns[1]  # the hole is one
 
 
 def test_heat_alone_is_nothing_to_compare_with(make_run, tmp_path, capsys):
