@@ -365,6 +365,11 @@ def test_what_is_no_models_output_is_told_apart(tmp_path):
     bad = made.ascii_grid(tmp_path / "x_arrival.asc", arrival)
     bad.write_text(bad.read_text().replace("-9999\n", "-9999\n1.0 abc ", 1))
     absurd = made.forefire(tmp_path / "a.nc", np.full((5, 5), -9999.0))
+
+    def one(name, tell):
+        files = [str(path) for path in readers.gathered([tmp_path / name])]
+        convert.in_process(files, str(tmp_path / "out"), ["2020-07-01", "", "", 0.0], tell=tell)
+
     for name, words in {
         "empty": "folder without files", "zero.nc": "is empty", "text.nc": "does not begin as a .nc",
         "c.npz": "does not begin as a .npz", "notes.txt": "no fire model that is known: WRF-SFIRE",
@@ -374,7 +379,6 @@ def test_what_is_no_models_output_is_told_apart(tmp_path):
     }.items():  # fmt: skip
         told = []
         with pytest.raises(InputError, match=words) as caught:
-            files = [str(path) for path in readers.gathered([tmp_path / name])]
-            convert.in_process(files, str(tmp_path / "out"), ["2020-07-01", "", "", 0.0], tell=told.append)
+            one(name, told.append)
         assert str(caught.value).startswith(str(tmp_path / name))
         assert not any("latitude, longitude and time" in text for text in told)
