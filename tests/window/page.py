@@ -123,7 +123,11 @@ def _go(words: Page, place: str) -> Iterator[object]:
     words.next(place)
     settings().go_to = place
     call(bpy.ops.firetwin.go)
-    yield 4
+    region = view().spaces.active.region_3d
+    yield soon(lambda: abs(region.view_distance - 2500.0) < 1.0)
+    yield 1
+    bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)  # what is keyed is what was drawn last
+    check(region.view_perspective == "PERSP" and abs(region.view_distance - 2500.0) < 1.0, f"at {place}")
 
 
 def _flown(words: Page) -> Iterator[object]:
