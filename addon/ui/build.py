@@ -75,7 +75,7 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
         yield from build.steps(shot, owned.scene(uid), parts, told.append)
         changed.remember(owned.scene(uid).firetwin, then, parts)
         _finish(owned.scene(uid), shot, parts, new)
-        for text in (*shot.warnings(), *told):
+        for text in (*shot.warnings(), *shot.one_eyed(), *told):
             yield Told(text, "WARNING")
         what = f"{shot.frames.count} frames" if part == ALL else f"the {part}"
         return f"Built {what} of {shot.run.name}" + (f"; {words}" if words else "")
@@ -111,13 +111,15 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
+        if not working.editable(cls, context):
+            return False
         if not owned.built(context.scene):
             cls.poll_message_set("There is nothing of Firetwin's in this scene")
             return False
         if context.mode != "OBJECT":
             cls.poll_message_set("Leave the edit mode first")
             return False
-        return working.free(cls)
+        return True
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         return context.window_manager.invoke_confirm(
@@ -128,6 +130,7 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
             confirm_text="Remove",
         )
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene = context.scene
         view.narrow(scene)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..shot.schema import Part, parts
-from . import keys, sections
+from . import keys, sections, working
 from .text import labelled
 
 _LABEL = 0.48  # of the width
@@ -68,6 +68,11 @@ class FIRETWIN_OT_reset(bpy.types.Operator):
     section: bpy.props.StringProperty(options={"SKIP_SAVE"})
     key: bpy.props.StringProperty(options={"SKIP_SAVE"})
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return working.editable(cls, context)
+
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         section = next(part for part in sections.sections() if part.name == self.section)
         part = next(part for part in parts(section.table) if part.name == self.key)

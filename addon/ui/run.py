@@ -11,6 +11,8 @@ from typing import Any
 import bpy
 
 from ..blender import owned
+from ..jobs.worker import StoppedError
+from ..run import readers
 from ..shot import file
 from ..shot.choice import Choice
 from . import by_hand, camera_list, changed, job, maps, preferences, scene_file, working
@@ -37,15 +39,19 @@ def imported(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> N
     try:
         scene_file.fill(settings.id_data, file.read(bpy.path.abspath(settings.scene_file)))
     except Exception as error:
-        settings.facts, settings.problem = "", job.words(error)
+        settings.problem = job.words(error)
     working.redraw()
 
 
 def _inspect(settings: bpy.types.PropertyGroup) -> None:
-    """Call the operator; what it has to say about a failure is in `problem`, so no error is raised here."""
+    """Look into a run, or make one of a model's own files; what fails is in `problem`, and no error here."""
+    folder = Path(bpy.path.abspath(settings.run))
     try:
         with bpy.context.temp_override(scene=settings.id_data):
-            bpy.ops.firetwin.inspect("INVOKE_DEFAULT")
+            if readers.foreign(folder):
+                bpy.ops.firetwin.convert("INVOKE_DEFAULT", filepath=str(folder))
+            else:
+                bpy.ops.firetwin.inspect("INVOKE_DEFAULT")
     except RuntimeError as error:
         settings.problem = settings.problem or str(error)
 
@@ -62,7 +68,7 @@ def ready(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     if not settings.run:
         cls.poll_message_set("Open a run or a scene file first")
         return False
-    return working.free(cls)
+    return working.editable(cls, context)
 
 
 class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
@@ -74,10 +80,7 @@ class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not context.scene.firetwin.run:
-            cls.poll_message_set("Open a run or a scene file first")
-            return False
-        return working.free(cls)
+        return ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Gather, and see whether the settings fit the run."""
@@ -87,7 +90,7 @@ class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
 def look(uid: int) -> Steps:
     """Gather in a thread, then write down in the scene with this `session_uid`."""
     settings = owned.scene(uid).firetwin
-    settings.problem = settings.facts = ""
+    settings.problem = ""
     folder, zone = Path(bpy.path.abspath(settings.run)), settings.time.zone
     try:
         found, images = yield Away("reading the run", lambda **_: facts(folder, zone))
@@ -95,6 +98,9 @@ def look(uid: int) -> Steps:
         maps.show(owned.scene(uid).firetwin.run, images)
         chosen = choice(owned.scene(uid).firetwin)
         yield Away("reading the run", lambda **_: chosen.shot())
+    except StoppedError:
+        owned.scene(uid).firetwin.problem = "The run was not read to its end; Read run does it"
+        raise
     except Exception as error:
         owned.scene(uid).firetwin.problem = job.words(error)
         raise
@@ -115,7 +121,7 @@ def _write_down(settings: bpy.types.PropertyGroup, found: dict[str, Any]) -> Non
 
 def facts(folder: Path, zone: str) -> tuple[dict[str, Any], maps.Images]:
     """What the panel shows of a run: name, rows, warnings, dated moments and cameras; and its maps."""
-    from ..run import info, readers, thumbnails
+    from ..run import info, thumbnails
     from ..shot import overview
 
     run = readers.open(folder)
