@@ -128,6 +128,10 @@ def look(blend: Path, beside: Path) -> None:
     bpy.ops.firetwin.remove()
     left = [block.name for block in owned._blocks() if owned.ours(block)]
     check(not left, f"removed, nothing of ours is left: {left}")
+    check(
+        compat.compositor(scene) is None or not compat.compositor(scene).nodes,
+        "nor a compositor without a picture",
+    )
 
 
 def _blurred(pixels: np.ndarray) -> np.ndarray:

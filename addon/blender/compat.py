@@ -253,6 +253,13 @@ def exr_output_path(node: bpy.types.Node, folder: str, stem: str) -> None:
         node.file_slots[0].path = f"{stem}######"
 
 
+def lost_files(node: bpy.types.Node) -> bool:
+    """Whether an `exr_output` node has lost what it writes: 4.5 reads files of 5.0 and later so."""
+    if node.bl_idname != "CompositorNodeOutputFile":
+        return False
+    return not (node.file_output_items if hasattr(node, "file_output_items") else node.file_slots)
+
+
 def new_strip(
     editor: bpy.types.SequenceEditor, name: str, kind: str, channel: int, start: int, length: int
 ) -> bpy.types.Strip:
