@@ -85,6 +85,7 @@ def mend(scene: bpy.types.Scene) -> None:
 
     These are the files of passes, and our mark on the node that shows the picture.
     """
+    compat.drop_copies()
     tree = compat.compositor(scene)
     if tree is None or not owned.ours(tree):
         return
