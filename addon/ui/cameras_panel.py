@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import build, camera_list, job, order, working
+from . import build, camera_list, changed, job, order, working
 
 
 class FIRETWIN_UL_cameras(bpy.types.UIList):
@@ -45,6 +45,7 @@ class FIRETWIN_OT_camera_remove(bpy.types.Operator):
         panel = context.scene.firetwin
         panel.cameras.remove(panel.camera_index)
         panel.camera_index = max(min(panel.camera_index, len(panel.cameras) - 1), 0)
+        changed.compare(panel)
         return {"FINISHED"}
 
 

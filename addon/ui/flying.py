@@ -136,7 +136,7 @@ class FIRETWIN_OT_camera_add(Working, bpy.types.Operator):
         yield from build.steps(shot, owned.scene(uid), ("cameras",))
         scene = owned.scene(uid)
         scene.camera = owned.stage(scene).camera(name)
-        return f'Added the camera "{name}"; Render and Write scene file know it too'
+        return f'Added the camera "{name}"; build again for trees and fine ground where it looks'
 
 
 class FIRETWIN_OT_camera_key(bpy.types.Operator):

@@ -134,7 +134,12 @@ class FIRETWIN_MT_presets(bpy.types.Menu):
     bl_label = "Presets"
     preset_subdir = "firetwin"
     preset_operator = "script.execute_preset"
-    draw = bpy.types.Menu.draw_preset
+
+    def draw(self, context: bpy.types.Context) -> None:
+        if bpy.utils.preset_paths("firetwin"):
+            bpy.types.Menu.draw_preset(self, context)
+        else:
+            self.layout.label(text="None is saved yet: + saves these settings")
 
 
 def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup) -> None:

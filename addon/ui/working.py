@@ -14,7 +14,7 @@ from collections.abc import Callable
 import bpy
 
 from ..jobs.worker import StoppedError
-from . import job, text
+from . import job, keys, text
 from .job import Ended, Job, Steps, Told, words
 
 _TICK = 0.1  # s
@@ -229,7 +229,7 @@ def message(
         text.paragraph(context, column, "Stop, or Esc with the pointer here, ends this")
     elif Job.current is None:
         for each in told(operator):
-            text.paragraph(context, column, each.text, _ICONS[each.level])
+            text.paragraph(context, column, keys.sentence(each.text), _ICONS[each.level])
         if wrong := [each.text for each in told(operator) if each.level == "ERROR"]:
             copy_button(column, "\n".join(wrong))
 
