@@ -23,6 +23,7 @@ SUBJECTS = (
     "volume",
     "smoke",
     "step",
+    "scattering",
     "plume",
     "flow",
     "interpolation",
