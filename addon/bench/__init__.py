@@ -22,6 +22,7 @@ SUBJECTS = (
     "volume",
     "smoke",
     "step",
+    "scattering",
     "plume",
     "flow",
     "interpolation",

@@ -41,6 +41,8 @@ class Ground:
 
     Attributes
     ----------
+    made_up
+        Whether the run is synthetic: islands that the fire left out are invented in such a one alone.
     eyes
         (m, 3) camera places in the scene, m; without any the ground is bilinear everywhere.
     surface
@@ -76,6 +78,7 @@ class Ground:
         )
         self._share = np.pad(_oriented(self._relief.share, latitude, longitude), self.fields.margin)
         self.seed, self.near_radius = settings.seed, settings.ground.near_radius
+        self.made_up = run.synthetic
         self._set_arrival(_oriented(arrival, latitude, longitude), float(run.times[-1]))
         self.eyes = np.empty((0, 3))
         self.bare, self.water = _bare(self.fields), _water(self.fields)
@@ -138,9 +141,10 @@ class Ground:
         end = max(end, float(np.max(arrival, initial=end, where=reached)))
         part = np.clip(0.5 + (end - time) / np.where(known, crossing, 1.0), 0.0, 1.0)
         burned = np.where(known & (reached | (time > end)), part, 0.0)
-        row, column = np.nonzero(burned)
-        patches = noise.fractal(column * self.cell[1], row * self.cell[0], 800.0, 3, self.seed + 70)
-        burned[row, column] *= 1.0 - noise.smoothstep(0.50, 0.68, patches)  # islands left out (invented), 6 %
+        if self.made_up:
+            row, column = np.nonzero(burned)
+            patches = noise.fractal(column * self.cell[1], row * self.cell[0], 800.0, 3, self.seed + 70)
+            burned[row, column] *= 1.0 - noise.smoothstep(0.50, 0.68, patches)  # islands left out, 6 %
         self.burned = np.pad(burned, margin)
         self.burn_time = np.pad(np.where(known, time, NEVER), margin, constant_values=NEVER)
 

@@ -1,6 +1,6 @@
 """Does smoke move in a film as the air does in its flow? Optical flow beside the solver's wind.
 
-    python tests/benchmarks/film_motion.py RUN --out DIR [--frames 24] [--apart 2] [--measure]
+    python tests/benchmarks/film_motion.py RUN --out DIR [--frames 24] [--width 320] [--samples 6] [--apart 2]
 
 Films the head of the sample's fire and a flank in the wind with two cameras that stand still, a frame a
 second, with smoke as a flow. In every fourth frame the wind of the flow is kept as it is solved, and seen
@@ -9,9 +9,10 @@ later, weighted by how much of it is seen there. Beside it stands the way that t
 (Lucas and Kanade 1981, "An iterative image registration technique", IJCAI), in patches of `PATCH` pixels that
 smoke fills and that have enough in them to be followed. Prints their median difference in pixels and in per
 cent of the median way, how much of the flow's way the pictures go, and pops: the largest change from frame to
-frame over the median one.
+frame over the median one. 240 frames are a film of 10 s of each camera.
 
-DIR may be used again: what is there is not made anew; `--measure` makes nothing at all.
+DIR may be used again: what is there is not made anew. `--measure` makes nothing at all and takes the frames
+that are there.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ import itertools
 import json
 import subprocess
 import sys
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import bpy  # noqa: F401 (Blender's own libraries come first)
@@ -44,7 +46,7 @@ SCENE = """run = "{run}"
 cache = "cache"
 [time]
 start = 2014-09-17T16:12:00-07:00
-end = 2014-09-17T16:12:{end:02d}-07:00
+end = 2014-09-17T{end:%H:%M:%S}-07:00
 frames = {frames}
 [forest]
 trees = false
@@ -52,10 +54,10 @@ grass = false
 [smoke]
 method = "flow"
 [render]
-resolution = [320, 180]
-samples = 6
+resolution = [{width}, {height}]
+samples = {samples}
 passes = ["rgb"]
-video = false
+video = true
 [[cameras]]
 name = "head"
 [[cameras.keys]]
@@ -74,6 +76,7 @@ target_latitude = {flank[2]}
 target_longitude = {flank[3]}
 target_height = 300.0
 """
+BEGIN = datetime(2014, 9, 17, 16, 12)
 FLANK = (38.94090, -120.58700, 38.92470, -120.56620)  # from 2.6 km upwind of the western flank
 
 Array = NDArray[np.float64]
@@ -104,8 +107,8 @@ def density(openvdb, path: Path) -> Grid:
     return Grid(values, np.array(found.transform.indexToWorld(low)), found.transform.voxelSize()[0])
 
 
-def compared(shot: Shot, name: str, out: Path, apart: int) -> tuple[Array, Array]:
-    """Ways (n, 2) of all patches of a camera, as the picture has them and as the flow has."""
+def compared(shot: Shot, name: str, out: Path, apart: int, count: int) -> tuple[Array, Array]:
+    """Ways (n, 2) of all patches in a camera's first pictures, as they have them and as the flow has."""
     view = next(view for view in shot.paths if view.camera.name == name)
     resolution = shot.settings.render.resolution
     openvdb, baker = bundled_openvdb(Bench()), Baker(shot)
@@ -115,7 +118,7 @@ def compared(shot: Shot, name: str, out: Path, apart: int) -> tuple[Array, Array
     centre = np.stack(np.meshgrid(columns, rows), -1).reshape(-1, 2).astype(float)
     inner = np.stack(np.meshgrid(*[np.linspace(-half + 4, half - 4, 3)] * 2), -1).reshape(-1, 2)
     found = [], []
-    for frame in range(1, shot.frames.count + 1 - apart, KEPT):
+    for frame in range(1, count + 1 - apart, KEPT):
         with np.load(out / f"wind_{frame:06d}.npz") as kept:
             winds = SolvedWind(layers[-1].part, kept["wind"].astype(np.float32))
         folder = _volumes(out, layers[-1], frame)
@@ -164,32 +167,50 @@ def summary(seen: Array, way: Array) -> dict[str, float]:
     }
 
 
+def write(scene: Path, wanted: argparse.Namespace) -> None:
+    """Write the scene file of the films."""
+    text = SCENE.format(
+        run=wanted.run.resolve(),
+        frames=wanted.frames,
+        end=BEGIN + timedelta(seconds=wanted.frames - 1),
+        width=wanted.width,
+        height=round(wanted.width * 9 / 32) * 2,
+        samples=wanted.samples,
+        flank=FLANK,
+    )
+    scene.write_text(text, encoding="utf-8")
+
+
 def main() -> None:
     """Solve, render, measure."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("run", type=Path)
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--frames", type=int, default=24)
-    parser.add_argument("--apart", type=int, default=2)
+    parser.add_argument("--width", type=int, default=320, help="of the pictures, pixels")
+    parser.add_argument("--samples", type=int, default=6)
+    parser.add_argument("--apart", type=int, default=2, help="frames from one to the other of a comparison")
     parser.add_argument("--measure", action="store_true")
     wanted = parser.parse_args()
     wanted.out.mkdir(parents=True, exist_ok=True)
     scene = wanted.out / "motion.toml"
-    scene.write_text(
-        SCENE.format(run=wanted.run.resolve(), frames=wanted.frames, end=wanted.frames - 1, flank=FLANK),
-        encoding="utf-8",
-    )
+    if not wanted.measure:
+        write(scene, wanted)
     settings = file.read(scene)
     shot = Shot(settings, run.open(settings.run))
     if not wanted.measure:
         solve(shot, wanted.out)
-        command = "import sys; from firetwin.cli import main; sys.exit(main(sys.argv[1:]))"
-        film = [sys.executable, "-c", command, "render", scene, "--out", wanted.out / "film", "--resume"]
+        film = [sys.executable, "-m", "firetwin", "render", scene, "--out", wanted.out / "film", "--resume"]
         subprocess.run(film, check=True)
     report = {}
     for camera in ("head", "flank"):
-        report[camera] = summary(*compared(shot, camera, wanted.out, wanted.apart))
-        report[camera] |= pops(wanted.out, camera, wanted.frames)
+        every = range(1, shot.frames.count + 1)
+        there = next((n - 1 for n in every if not picture(wanted.out, camera, n).exists()), len(every))
+        if there <= max(wanted.apart, 1):
+            print(f"{camera}: too few pictures in {wanted.out}", file=sys.stderr)
+            continue
+        report[camera] = {"frames": there} | summary(*compared(shot, camera, wanted.out, wanted.apart, there))
+        report[camera] |= pops(wanted.out, camera, there)
     print(json.dumps(report, indent=1))
 
 

@@ -23,11 +23,21 @@ Picture = NDArray[np.float64]
 Array = NDArray[np.float64]
 
 
-def luminance(path: Path) -> Picture:
-    """Brightness (rows, columns) of a picture as it is shown, 0 to 1."""
+def colours(path: Path) -> Picture:
+    """Red, green and blue (rows, columns, 3) of a picture as they are shown, 0 to 1."""
     import matplotlib.image
 
-    return matplotlib.image.imread(path)[..., :3].astype(float) @ np.array([0.2126, 0.7152, 0.0722])
+    return matplotlib.image.imread(path)[..., :3].astype(float)
+
+
+def brightness(picture: Picture) -> Picture:
+    """Of colours (..., 3) as they are shown, 0 to 1."""
+    return picture @ np.array([0.2126, 0.7152, 0.0722])
+
+
+def luminance(path: Path) -> Picture:
+    """Brightness (rows, columns) of a picture as it is shown, 0 to 1."""
+    return brightness(colours(path))
 
 
 def smoothed(picture: Picture) -> Picture:

@@ -1,8 +1,9 @@
 """What few bounces of light in smoke cost the picture, and what noise does: FLIP and processors' seconds.
 
-    .venv/bin/python tests/benchmarks/scattering.py SCENE.toml --frame 24 [--bounces] [--noise] [--width 256]
+    python tests/benchmarks/scattering.py SCENE.toml [--bounces] [--noise] [--frame 1] [--width 256]
 
-Renders one frame of a scene's first camera, whose smoke is baked if it is not yet. With --bounces, each
+Renders one frame of a scene's first camera, whose smoke is baked if it is not yet; examples/views has scenes
+(`firetwin bench` does so for a plume of its own). With --bounces, which is what it does by itself, each
 number of them at 24 samples, as the material has it or with nearly even scattering, beside 32 bounces of
 light that goes forwards; with --noise, ways to sample and denoise at 3 and 4 samples beside 64 samples.
 FLIP (Andersson et al. 2020, doi 10.1145/3406183) and the root of the mean square of the picture's colours,
@@ -135,12 +136,12 @@ def main() -> None:
     parser.add_argument("scene", type=Path)
     parser.add_argument("--frame", type=int, default=1)
     parser.add_argument("--width", type=int, default=256)
-    parser.add_argument("--bounces", action="store_true")
-    parser.add_argument("--noise", action="store_true")
+    parser.add_argument("--bounces", action="store_true", help="compare bounces, not noise")
+    parser.add_argument("--noise", action="store_true", help="compare noise and denoisers, not bounces")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(options.scene, options.frame, options.width, Path(folder))
-        if options.bounces:
+        if options.bounces or not options.noise:
             truth, seconds = bench.picture(24, True, bounces(32, 1.0, flow_material.FORWARD))
             compare(bench, "32 bounces", truth, seconds, BOUNCES, 24)
         if options.noise:
@@ -158,12 +159,12 @@ def compare(
     samples: int,
 ) -> None:
     """Print what each way costs and misses of the truth."""
-    print(f"{name:28} {'':8} {'':8} {seconds:8.1f} s")
+    print(f"{'samples, way':28} {'FLIP':>8} {'rms':>8} {'cpu-s':>8}\n{name:28} {'':8} {'':8} {seconds:8.1f}")
     for way, tweak in ways.items():
         found, seconds = bench.picture(samples, True, tweak)
         flip = flip_evaluator.evaluate(truth, found, "LDR")[1]
         error = np.sqrt(((found - truth) ** 2).mean())
-        print(f"{samples:2} {way:25} {flip:8.4f} {error:8.4f} {seconds:8.1f} s", flush=True)
+        print(f"{samples:2} {way:25} {flip:8.4f} {error:8.4f} {seconds:8.1f}", flush=True)
 
 
 if __name__ == "__main__":

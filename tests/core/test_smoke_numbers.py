@@ -70,6 +70,12 @@ def test_koch_islands_have_their_dimension():
     assert dimension == pytest.approx(np.log(4) / np.log(3), abs=0.05)
 
 
+def test_one_outline_has_its_dimension_by_the_ruler():
+    assert pictures.ruler(np.pad(disc(60), 3)) == pytest.approx(1.0, abs=0.04)
+    assert pictures.ruler(np.pad(snowflake(120), 3)) == pytest.approx(np.log(4) / np.log(3), abs=0.05)
+    assert np.isnan(pictures.ruler(np.ones((32, 32), bool)))
+
+
 def test_blobs_that_the_picture_cuts_do_not_count():
     whole = canvas([disc(r) for r in (5, 8, 12, 17, 25)])
     assert pictures.outline(whole[: len(whole) // 2])[1] < 5

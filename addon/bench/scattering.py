@@ -1,0 +1,196 @@
+"""Light inside smoke: one bounce in the material's way beside 32 bounces, FLIP and time.
+
+The smoke is a plume in the wind, solved, painted and lit as a shot's, and drawn by Cycles in a process of its
+own. Pictures are compared by the mean FLIP (Andersson et al. 2020, "FLIP: A Difference Evaluator for
+Alternating Images"). Beside it stands what another grain makes: less than that does not show. The reference
+lets light go on forwards, as smoke does, and counts all of the smoke.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from datetime import UTC, datetime
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from firetwin_core import flow, volume
+from numpy.typing import NDArray
+
+from ..jobs import worker
+from ..progress import Progress, Tell, silent, untold
+from ..shot import settings
+from ..shot.rigs.drone import CameraKey, Drone
+from ..shot.shot import Shot
+from .harness import OURS, Bench
+from .step import MODEL_TIMES, picture
+from .timing import Times
+
+if TYPE_CHECKING:
+    import bpy
+
+MOMENT = datetime(2014, 9, 17, 23, 12, tzinfo=UTC)
+PLACE = 38.97, -120.56
+VIEW = CameraKey(0.0, PLACE[0] - 0.036, PLACE[1] - 0.01, 900.0, "point", *PLACE, 700.0)
+LENS = 60.0  # mm; the plume fills half of the picture
+RESOLUTION, SAMPLES = (160, 90), 16
+SPACING, SHAPE, LEVELS, DEPTH, VOXEL = 80.0, (40, 64), 36, 60.0, 40.0  # m, rows and columns, levels; m
+WIND, POWER, SMOKE = 6.0, 6e9, 1.2e-9  # m/s, W, kg/J
+FORWARD = 0.6  # anisotropy of smoke, which the material's one bounce stands in for
+REFERENCE, OTHER_GRAIN = "32 bounces", "ours, other grain"
+WAYS = {  # bounces, part of the smoke that dims light, anisotropy; None: as the material has it
+    OURS: (1, None, None),
+    "1 bounce, all of the smoke": (1, 1.0, FORWARD),
+    REFERENCE: (32, 1.0, FORWARD),
+    OTHER_GRAIN: (1, None, None),
+}
+LIMIT = 0.15  # FLIP, of a picture half of which is smoke
+
+
+def run(bench: Bench) -> None:
+    """Render every way, then compare."""
+    if find_spec("bpy") is None:
+        bench.skip("bpy is not installed (pip install 'firetwin[blender]')")
+        return
+    flip = bench.rival("flip_evaluator")
+    if flip is None:
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        seconds = worker.run(f"{__name__}:render_in_blender", {"folder": folder})
+        errors = {
+            name: flip.evaluate(
+                picture(folder, OURS if name == OTHER_GRAIN else REFERENCE), picture(folder, name), "LDR"
+            )[1]
+            for name in seconds
+        }
+    for name, taken in seconds.items():
+        bench.row(
+            f"smoke in {RESOLUTION[0]} by {RESOLUTION[1]} pixels",
+            name,
+            Times((taken,)),
+            RESOLUTION[0] * RESOLUTION[1],
+            "pixel",
+            error=None if name == REFERENCE else errors[name],
+            error_unit="FLIP",
+            threads=os.cpu_count() or 1,
+        )
+    bench.target("light in smoke, off that of 32 bounces by", errors[OURS], LIMIT, "FLIP", most=True)
+
+
+def plume() -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Extinction (nx, ny, nz), 1/m, and freshness of a steady fire's smoke after five minutes."""
+    levels = np.arange(LEVELS + 1) * DEPTH
+    theta = [300.0, 300.0 + 0.004 * levels[-1]]
+    solver = flow.Solver(levels, SHAPE, SPACING, [0.0, levels[-1]], theta, [[WIND, 0.0], [2 * WIND, 0.0]])
+    place = np.array([0.25 * SHAPE[1], 0.5 * SHAPE[0]]) * SPACING
+    place = place + np.random.default_rng(1).uniform(-200.0, 200.0, (40, 2))
+    solver.set_sources(place, np.full(40, POWER / 40), np.full(40, SMOKE * POWER / 40))
+    solver.step(5.0, 60)
+    middle = 0.5 * (levels[1:] + levels[:-1])
+    detail = flow.Detail(
+        smoke=solver.smoke(),
+        age=solver.age(),
+        rise=solver.velocity()[..., 2],
+        warmth=solver.warmth(),
+        drift=np.zeros((*solver.shape, 2, 3), np.float32),
+        weights=(1.0, 0.0),
+        turns=(0, 0),
+        spacing=SPACING,
+        corner=(0.0, 0.0),
+        levels=middle,
+        heights=np.broadcast_to(middle[:, None, None], solver.shape),
+        ground=np.zeros(SHAPE),
+    )
+    columns, rows, layers = (
+        int(side / VOXEL) for side in (SHAPE[1] * SPACING, SHAPE[0] * SPACING, levels[-1])
+    )
+    flat = np.zeros((columns, rows))
+    density, fresh, _ = detail.paint((0.0, 0.0, 0.0), VOXEL, flat, flat + 1.0, layers)
+    return density, fresh
+
+
+def scene_file(folder: Path) -> settings.Settings:
+    """One frame of the sample from a drone."""
+    return settings.Settings(
+        path=folder / "scene.toml",
+        run=folder / "sample",
+        cache=folder / "cache",
+        time=settings.Time(start=MOMENT, frames=1),
+        smoke=settings.Smoke(method="flow", voxel_size=VOXEL),
+        light=settings.Light(exposure=0.5),
+        cameras=(settings.Camera(rig=Drone(keys=(VIEW,), focal_length=LENS)),),
+        render=settings.Render(resolution=RESOLUTION, samples=SAMPLES, passes=("rgb",)),
+    )
+
+
+# What follows runs in the worker process, where Blender is.
+
+
+def render_in_blender(folder: str, progress: Progress = silent, tell: Tell = untold) -> dict[str, float]:
+    """Draw the picture in every way; the time (s) of each."""
+    import time
+
+    import bpy
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    _build(scene_file(Path(folder)), scene)
+    tree = bpy.data.materials["Firetwin Smoke"].node_tree
+    inputs = next(node for node in tree.nodes if node.type == "GROUP").inputs
+    light, forward = inputs["Light Density"], inputs["Anisotropy"]
+    usual = light.default_value, forward.default_value
+    scene.cycles.samples, draft = 1, scene.cycles.samples
+    bpy.ops.render.render()  # loads what later ones find loaded
+    scene.cycles.samples = draft
+    seconds = {}
+    for done, (name, (bounces, part, even)) in enumerate(WAYS.items()):
+        progress(done, len(WAYS))
+        scene.cycles.volume_bounces = bounces
+        scene.cycles.max_bounces = max(scene.cycles.max_bounces, bounces)
+        light.default_value = usual[0] if part is None else part
+        forward.default_value = usual[1] if even is None else even
+        scene.cycles.seed = int(name == OTHER_GRAIN)
+        scene.render.filepath = picture(folder, name)
+        start = time.perf_counter()
+        bpy.ops.render.render(write_still=True)
+        seconds[name] = time.perf_counter() - start
+    return seconds
+
+
+def _build(file: settings.Settings, scene: bpy.types.Scene) -> None:
+    """Build sun, camera and the plume where the camera looks."""
+    from firetwin_core import run as runs
+
+    from ..blender import owned
+    from ..data import sample
+    from ..render import engine
+    from ..scene import clock
+    from ..scene.camera import build as camera
+    from ..scene.light import build as light
+    from ..scene.smoke import bake, flow_frames
+    from ..scene.smoke import build as smoke
+    from ..scene.smoke.flow import Flow
+
+    sample.write(file.run, MODEL_TIMES, "npy")
+    shot = Shot(file, runs.open(file.run))
+    density, fresh = plume()
+    middle = shot.paths[0].target[0]
+    origin = (
+        middle[0] - 0.4 * SHAPE[1] * SPACING,
+        middle[1] - 0.5 * SHAPE[0] * SPACING,
+        middle[2] - VIEW.target_height,
+    )
+    place = bake.folder(shot)
+    place.mkdir(parents=True)
+    for layer in flow_frames.layers(shot, Flow(shot)):
+        part = 1.0 if layer.name == "smoke" else 0.0
+        grids = {"density": part * density, "fresh": fresh}
+        volume.write(str(layer.file(place, 1)), grids, VOXEL, origin, tolerance=1e-6)
+    stage = owned.adopt(scene)
+    clock.build(shot, stage)
+    smoke.build(shot, stage)
+    light.build(shot, stage)
+    camera.build(shot, stage)
+    engine.apply(file, scene)
