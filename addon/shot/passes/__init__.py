@@ -51,6 +51,8 @@ class Pass:
         Of each number in its EXR.
     pixel_centres
         Its rays go through the middle of each pixel.
+    shapes
+        It shows where surfaces are and nothing of what they are like.
     filmed
         Its PNG files make a film.
     captions
@@ -90,6 +92,7 @@ class Pass:
     channels: str = "grey"
     bits: int = 32
     pixel_centres: bool = False
+    shapes: bool = False
     filmed: bool = False
     captions: bool = True
     needs: tuple[str, ...] = ()
