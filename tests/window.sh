@@ -2,12 +2,13 @@
 # Installs the extension in the real Blender 5.2 and uses it in its window, as an artist does, and takes pictures.
 #
 #   tests/window.sh                  everything
-#   tests/window.sh panel build      only these of: commands panel build parts scrub render undo beside file; it
-#                                    is always installed before and uninstalled after
+#   tests/window.sh panel build      only these steps of use.sh's list; it is always installed before and
+#                                    uninstalled after
 #
 # Debian's development release has that Blender, with Python 3.14. It is kept in build/debian/sid, or in
 # $FIRETWIN_DEBIAN/sid (tests/in_debian.sh); the core is built there, and a zip made that carries it. The pictures
-# and the logs are then in build/shared/window. No display is needed. $FIRETWIN_PATIENCE is how many seconds it waits
+# and the logs are then in build/shared/window, those of the artists' page in page/ there (they belong into
+# examples/pictures/). No display is needed. $FIRETWIN_PATIENCE is how many seconds it waits
 # for any one thing (1800).
 # Exit status 1: something is not as it should be; 77: there is no such folder, and what was skipped is said.
 set -euo pipefail

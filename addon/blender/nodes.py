@@ -158,7 +158,8 @@ class Tree:
         if self._frame is not None:
             node.parent = self._frame
         for name, value in properties.items():
-            setattr(node, name, value)
+            if getattr(node, name) != value:  # Blender looks over the whole tree after every change
+                setattr(node, name, value)
         pairs = inputs.items() if isinstance(inputs, Mapping) else enumerate(inputs)
         for name, value in pairs:
             self.connect(value, compat.find_socket(node.inputs, name))
@@ -186,9 +187,12 @@ class Tree:
             value = compat.find_socket(value.outputs, 0)
         if isinstance(value, bpy.types.NodeSocket):
             self.node_tree.links.new(value, socket)
-        elif socket.type == "RGBA" and isinstance(value, Sequence):
-            socket.default_value = (*value[:3], 1.0)
-        else:
+            return
+        if socket.type == "RGBA" and isinstance(value, Sequence):
+            value = (*value[:3], 1.0)
+        known = socket.default_value
+        same = tuple(known) == tuple(value) if hasattr(value, "__len__") else known == value
+        if not same:
             socket.default_value = value
 
     def math(self, operation: str, *operands: Any, clamp: bool = False) -> Value:

@@ -94,9 +94,13 @@ def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell)
     """Make the assets in an empty Blender, and save them."""
     import bpy
 
+    from ..blender import owned
+    from ..render import groups
     from ..scene import assets
 
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    count = assets.build(Choice(**choice).shot(), identifier, progress)
+    shot = Choice(**choice).shot()
+    groups.build(shot.settings, owned.adopt(bpy.context.scene))
+    count = assets.build(shot, identifier, progress)
     save(Path(out))
     return count

@@ -59,7 +59,7 @@ def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell)
     from . import setting
 
     shot = Choice(**choice).shot()
-    for text in shot.warnings():
+    for text in (*shot.warnings(), *shot.one_eyed()):
         tell(text)
     if shot.settings.smoke.enabled:
         bake.bake(shot, progress)

@@ -3,11 +3,21 @@
 from __future__ import annotations
 
 import hashlib
+import itertools
+import os
+import tomllib
 from pathlib import Path
 
 from ..errors import Error, UsageError
 from ..progress import Progress, Tell, silent, untold
 from . import worker
+
+PATIENCE = 600.0
+"""s without a part of a file read or written after which a conversion is ended.
+
+A damaged HDF5 file can keep its library busy for ever. A part has 2 GB at most, mostly one field at one time,
+so that a disk of 4 MB/s is waited for, however large the files are.
+"""
 
 
 def run(
@@ -48,28 +58,77 @@ def run(
         "options": [start, at, projection, interval],
     }
     try:
-        worker.run(f"{__name__}:in_process", task, progress, stop=stop, tell=tell, blender=False)
+        worker.run(
+            f"{__name__}:in_process", task, progress, stop=stop, tell=tell, blender=False, patience=PATIENCE
+        )
     except worker.EndedError as error:
         raise Error(f"{paths[0]}: reading it {error}; the file is most likely damaged") from None
     return out
+
+
+def beside(
+    paths: list[Path], folders: list[Path], start: str = "", at: str = "", projection: str = ""
+) -> tuple[Path, bool]:
+    """Where a run of these goes that nobody named a place for, and whether it is there already.
+
+    It is called like the file or folder with ``_run`` after it, in the first of the `folders` that can be
+    written to; one that was made of other files, or with other words, keeps its name.
+
+    Raises
+    ------
+    InputError
+        There are no such files.
+    Error
+        None of the folders can be written to.
+    """
+    from ..run.readers import gathered
+
+    inputs = _fingerprint([path.absolute() for path in gathered(paths)], [start, at, projection, 0.0])
+    folder = next((each for each in folders if os.access(_existing(each), os.W_OK)), None)
+    if folder is None:
+        raise Error(f"{paths[0]}: nothing can be written beside it; choose an output folder first")
+    for number in itertools.count(1):
+        out = folder / f"{paths[0].stem}_run{f'_{number}' if number > 1 else ''}"
+        if not out.exists():
+            return out, False
+        if _made_of(out) == inputs:
+            return out, True
+
+
+def _existing(folder: Path) -> Path:
+    return next(each for each in (folder.absolute(), *folder.absolute().parents) if each.exists())
+
+
+def _made_of(out: Path) -> str:
+    try:
+        return str(tomllib.loads((out / "run.toml").read_text(encoding="utf-8"))["source"]["inputs"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return ""
 
 
 def in_process(
     paths: list[str], out: str, options: list, progress: Progress = silent, tell: Tell = untold
 ) -> None:
     """The child's side: find the reader, read and write."""
+    from ..run.models import headway
+
+    files = [Path(path) for path in paths]
+    with headway.to(lambda: worker.sign()):
+        _convert(files, Path(out), options, progress, tell)
+
+
+def _convert(files: list[Path], out: Path, options: list, progress: Progress, tell: Tell) -> None:
     from ..run import readers
     from ..run.models import write
     from ..run.models.model import Options
 
-    files = [Path(path) for path in paths]
     try:
         said = Options.of(*options, files)
         reader = readers.reader(files)
         tell(f"{files[0].name} is {reader.NAME}")
         model = reader.read(files, said)
         try:
-            write.write(model, Path(out), _fingerprint(files, options), progress)
+            write.write(model, out, _fingerprint(files, options), progress)
         finally:
             model.close()
         placed = (("grid", model.grid.placed), ("fuel grid", model.fuel_grid.placed))

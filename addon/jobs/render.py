@@ -119,7 +119,7 @@ def in_blender(
 
     Pictures that other renders make at the same time are left to them.
     """
-    from ..render import fingerprint, sharing, video
+    from ..render import fingerprint, plan, sharing, video
     from ..render.picture import Picture
 
     shot = Choice(**choice).shot()
@@ -129,12 +129,15 @@ def in_blender(
     frames = frames_of(todo)
     made_with = fingerprint.of_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
     with sharing.making(Path(out), made_with, owner, after) as making:
-        while free := making.free(todo, tell):
-            done = frames - frames_of(free)
-            for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
-                wanted = list(group)
-                _camera(shot.of(camera), making, wanted, share(progress, done, frames), tell)
-                done += frames_of(wanted)
+        over = 0
+        for part in plan.rounds(shot, todo):
+            over += frames_of(part)
+            while free := making.free(part, tell):
+                done = over - frames_of(free)
+                for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
+                    wanted = list(group)
+                    _camera(shot.of(camera), making, wanted, share(progress, done, frames), tell)
+                    done += frames_of(wanted)
         video.make(shot, making, progress)
 
 

@@ -16,10 +16,13 @@ import subprocess
 import sys
 import tempfile
 import threading
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from ..progress import Progress, Tell, silent, untold
+from ..progress import Progress, Tell, duration, silent, untold
+
+_signs: list[Callable[[], None]] = []
 
 
 class StoppedError(Exception):
@@ -64,6 +67,7 @@ def run(
     stop: Stop | None = None,
     tell: Tell = untold,
     blender: bool = True,
+    patience: float = 0.0,
 ) -> Any:
     """Call ``package.module:function`` in a child process: ``function(progress=..., tell=..., **arguments)``.
 
@@ -77,6 +81,8 @@ def run(
         What another thread can end it by.
     blender
         The task needs Blender; one that does not also runs where there is none.
+    patience
+        Seconds without a word of it, a `sign` for instance, after which it is ended; 0: it may take its time.
 
     Returns
     -------
@@ -108,7 +114,8 @@ def run(
         _end_on_sigterm()
         if stop is not None:
             stop.watch(child)
-        answer = _converse(child, {"task": task, "arguments": arguments}, progress, tell)
+        with _Patience(child, patience) as watch:
+            answer = _converse(child, {"task": task, "arguments": arguments}, progress, tell, watch)
     finally:
         _end(child)
     if "result" in answer:
@@ -126,6 +133,8 @@ def run(
         os.unlink(log.name)
         if "error" in answer:
             raise Error(answer["error"])
+        if watch.over:
+            raise EndedError(f"made no headway for {duration(patience)}, so it was ended")
         raise EndedError(_stopped(child.returncode))
     if "error" in answer:
         raise Error(f"{answer['error']} (the log of Blender is {log.name})")
@@ -138,8 +147,44 @@ def _end_on_sigterm() -> None:
         signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
 
 
+class _Patience:
+    """Ends a child that has not said anything for `seconds` (0: never).
+
+    Attributes
+    ----------
+    over
+        Whether it did.
+    """
+
+    def __init__(self, child: subprocess.Popen[str], seconds: float) -> None:
+        self.over = False
+        self._child, self._seconds = child, seconds
+        self._heard, self._done = threading.Event(), False
+
+    def __enter__(self) -> _Patience:
+        if self._seconds > 0:
+            threading.Thread(target=self._wait, daemon=True).start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._done = True
+        self._heard.set()
+
+    def heard(self) -> None:
+        """It said something."""
+        self._heard.set()
+
+    def _wait(self) -> None:
+        while self._heard.wait(self._seconds):
+            if self._done:
+                return
+            self._heard.clear()
+        self.over = True
+        self._child.kill()
+
+
 def _converse(
-    child: subprocess.Popen[str], request: dict[str, Any], progress: Progress, tell: Tell
+    child: subprocess.Popen[str], request: dict[str, Any], progress: Progress, tell: Tell, watch: _Patience
 ) -> dict[str, Any]:
     """Send the request, pass on progress and what is told, and return the last answer (empty: none came)."""
     try:
@@ -148,6 +193,7 @@ def _converse(
     except OSError:  # a pipe without a reader: BrokenPipeError, on Windows an invalid argument
         return {}
     for line in child.stdout:
+        watch.heard()
         if not line.startswith("{"):
             continue  # Blender's own executable greets before it runs anything
         answer = json.loads(line)
@@ -155,7 +201,7 @@ def _converse(
             progress(*answer["progress"])
         elif "tell" in answer:
             tell(answer["tell"])
-        else:
+        elif "sign" not in answer:
             child.wait()
             return answer
     child.wait()
@@ -230,6 +276,7 @@ def serve(blender: bool = True) -> None:
     def answer(**message: Any) -> None:
         print(json.dumps(message), file=channel, flush=True)
 
+    _signs.append(lambda: answer(sign=True))
     if blender:
         import bpy  # noqa: F401 (before the core: the first of two libtbb.so.12 wins, and it must be Blender's)
 
@@ -255,6 +302,12 @@ def serve(blender: bool = True) -> None:
         answer(result=result)
     sys.stderr.flush()
     os._exit(0)  # Blender as a module may crash while the interpreter shuts down
+
+
+def sign() -> None:
+    """Say that the work goes on: the child's side of `patience`, of no effect elsewhere."""
+    for say in _signs:
+        say()
 
 
 def _watch_parent() -> None:

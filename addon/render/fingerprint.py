@@ -12,7 +12,8 @@ from typing import Any
 import firetwin_core
 
 from ..progress import Progress, silent
-from ..shot import labels, observed, passes, photo, schema, sources
+from ..run.content import fingerprint
+from ..shot import labels, mount, observed, passes, photo, schema, sources
 from ..shot.settings import Settings
 from ..shot.shot import Shot
 from .picture import Picture
@@ -41,7 +42,7 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
     (mine,) = (each for each in settings.cameras if each.name == camera)
     leader = mine.rig.leader(settings.cameras)
     cameras = [mine] if leader is None else [mine, leader]
-    return {
+    made_with = {
         "versions": versions(),
         "sources": sources.of(aspects, cameras, *_RENDERING, *_modules(name)),
         "run": run,
@@ -49,6 +50,10 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
         "pass": name,
         "settings": schema.chosen(settings, aspects, camera),
     } | ({"leader": schema.chosen(settings, {"camera"}, leader.name)} if leader else {})
+    taken = mount.taken(settings, settings.cameras, camera, passes.known()[name])
+    others = {need: pair for need, pair in taken.items() if pair[0] != camera}
+    given = {need: [*pair, fingerprint(of_picture(settings, run, *pair))] for need, pair in others.items()}
+    return made_with | ({"given": given} if given else {})
 
 
 def _modules(name: str) -> list[str]:

@@ -12,7 +12,7 @@ from .. import files
 from ..blender.owned import Stage
 from ..errors import writing
 from ..progress import Progress, silent
-from ..shot import passes
+from ..shot import mount, passes
 from ..shot.passes import _view
 from ..shot.path import compass
 from ..shot.shot import Shot
@@ -83,17 +83,25 @@ class _Frame:
     def render(self, names: list[str]) -> list[Picture]:
         """Make the files of these passes in the temporary folder, and of no others that can be spared."""
         known = passes.known()
-        needed = {need for name in names for need in known[name].needs} - set(names)
+        taken = {
+            name: mount.taken(self.shot.settings, self.shot.cameras, self.camera, known[name])
+            for name in names
+        }
+        own = {name for needs in taken.values() for camera, name in needs.values() if camera == self.camera}
         store, made_with = self.making.store, self.making.made_with
-        lacking = {need for need in needed if plan.missing(store, [self.pictures[need]], made_with)}
+        lacking = {need for need in own - set(names) if plan.missing(store, [self.pictures[need]], made_with)}
         drawn = [known[name] for name in known if name in names or name in lacking]
+        made = {self.pictures[each.name] for each in drawn}
         for centres in (False, True):
             if group := [each.name for each in drawn if each.output and each.pixel_centres is centres]:
                 self.draw(group, centres)
         for each in drawn:
             if each.finish:
-                there = {need: self.files(need, need in needed - lacking) for need in each.needs}
-                mine = self.files(each.name)
+                pairs = taken.get(each.name, {})
+                there = {
+                    need: self.files(Picture(c, self.frame, name), made) for need, (c, name) in pairs.items()
+                }
+                mine = self.files(self.pictures[each.name], made)
                 with writing(mine[each.files[0]]):
                     each.finish(mine, there, self.shot, self.camera, self.frame)
         return [self.pictures[name] for name in names]
@@ -104,17 +112,15 @@ class _Frame:
         layers.write_exr(self.scene, str(self.part), [self.pictures[name] for name in names])
         still = next((name for name in names if layers.still(passes.known()[name])), None)
         if still:
-            self.scene.render.filepath = str(self.files(still)["png"])
+            self.scene.render.filepath = str(self.part / Path(self.pictures[still].file("png")).name)
         with engine.pixel_centres(self.scene, centres):
             bpy.ops.render.render(write_still=still is not None, scene=self.scene.name)
 
-    def files(self, name: str, finished: bool = False) -> dict[str, Path]:
-        """Files of a pass by suffix: where they are made, or where they are once they are finished."""
-        paths = map(Path, self.pictures[name].files())
-        return {
-            path.suffix[1:]: self.making.store.out / path if finished else self.part / path.name
-            for path in paths
-        }
+    def files(self, picture: Picture, made: set[Picture]) -> dict[str, Path]:
+        """Files of a picture by suffix: where those that are being `made` are, or where finished ones are."""
+        out = self.making.store.out
+        paths = map(Path, picture.files())
+        return {path.suffix[1:]: self.part / path.name if picture in made else out / path for path in paths}
 
 
 def _publish(shot: Shot, making: Making, part: Path, pictures: list[Picture]) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..errors import UsageError
 from ..run.content import fingerprint
-from ..shot import frame_list, passes
+from ..shot import frame_list, mount, passes
 from ..shot.nearest import suggestion
 from ..shot.settings import Camera
 from ..shot.shot import Shot
@@ -17,6 +17,8 @@ def pictures(
     shot: Shot, frames: str | None = None, camera: str | None = None, names: str | None = None
 ) -> list[Picture]:
     """Pictures of the scene file, or those of them that the command line picks, camera by camera.
+
+    With them come those of other cameras that they are made from, before them (see `shot.mount`).
 
     Parameters
     ----------
@@ -53,7 +55,33 @@ def pictures(
         raise UsageError(
             f"--frames {frames}: {' and '.join(c.name for c in cameras)} has none of these frames"
         )
-    return found
+    return _with_given(shot, found)
+
+
+def rounds(shot: Shot, wanted: list[Picture]) -> list[list[Picture]]:
+    """Pictures in their order, up to where some are made from those of other cameras, and from there on."""
+    last = {each.camera for each in wanted if _given(shot, each.camera, each.name)}
+    parts = [[each for each in wanted if (each.camera in last) is second] for second in (False, True)]
+    return [part for part in parts if part]
+
+
+def _with_given(shot: Shot, found: list[Picture]) -> list[Picture]:
+    given = [
+        Picture(c, each.frame, name) for each in found for c, name in _given(shot, each.camera, each.name)
+    ]
+    if not given:
+        return found
+    cameras, names = [camera.name for camera in shot.cameras], list(passes.known())
+    every = sorted(
+        {*found, *given}, key=lambda each: (cameras.index(each.camera), each.frame, names.index(each.name))
+    )
+    return [each for part in rounds(shot, every) for each in part]
+
+
+def _given(shot: Shot, camera: str, name: str) -> list[tuple[str, str]]:
+    """Other cameras and passes that a pass of a camera is made from."""
+    taken = mount.taken(shot.settings, shot.cameras, camera, passes.known()[name])
+    return [pair for pair in taken.values() if pair[0] != camera]
 
 
 def missing(store: Store, wanted: list[Picture], made_with: Fingerprints, after: int = 0) -> list[Picture]:

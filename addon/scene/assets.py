@@ -45,7 +45,7 @@ Identify = Callable[[str], str]
 
 
 def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
-    """Make everything in the current, empty file, marked as assets; how many there are.
+    """Make everything in the current file, marked as assets like our node groups that are there; how many.
 
     Parameters
     ----------
@@ -108,13 +108,14 @@ def _name(model: models.Model) -> str:
 
 
 def _inputs(group: bpy.types.NodeTree) -> str:
-    """What can be set of a node group."""
+    """What a node group is for, and what can be set of it."""
     names = [
         item.name
         for item in group.interface.items_tree
         if item.item_type == "SOCKET" and item.in_out == "INPUT" and item.parent.name
     ]
-    return f"Inputs: {', '.join(names)}" if names else "A part of Firetwin's materials"
+    about = group.description or ("" if names else "A part of Firetwin's materials")
+    return ". ".join(filter(None, (about, f"Inputs: {', '.join(names)}" if names else "")))
 
 
 def _mark(block: bpy.types.ID, catalogue: str, about: str) -> None:

@@ -16,10 +16,14 @@ from ..blender.owned import Stage
 from .light import sky
 
 _GROUP = "haze"
+_WHITE = (1.0, 1.0, 1.0, 1.0)
 
 
 def _group(stage: Stage) -> bpy.types.NodeTree:
-    """Make the node group (once per scene); `settings` changes the constants in it."""
+    """Make the node group (once per scene); `settings` changes the constants in it.
+
+    Its inputs are factors on these, so that one material can differ from the scene.
+    """
     if stage.root.get(_GROUP) is not None:
         return stage.root[_GROUP]
     group = owned.mark(bpy.data.node_groups.new("Firetwin Haze", "ShaderNodeTree"))
@@ -32,10 +36,12 @@ def _group(stage: Stage) -> bpy.types.NodeTree:
     extinction.outputs[0].default_value = sky.HAZE
     colour = tree.node("ShaderNodeRGB")
     colour.name = "Colour"
-    depth = way(tree, sky.HAZE_HEIGHT) * extinction
+    density = tree.input("Density", 1.0, "Factor on the haze of the scene; 0: none", "Haze")
+    tint = tree.input("Tint", _WHITE, "Factor on the colour of the scene's haze", "Haze")
+    depth = way(tree, sky.HAZE_HEIGHT) * (extinction * density)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     fraction = (1.0 - (-depth).exp()) * camera
-    tree.finish({"Fraction": fraction, "Colour": colour})
+    tree.finish({"Fraction": fraction, "Colour": tree.vector("MULTIPLY", colour, tint)})
     return group
 
 
@@ -57,8 +63,13 @@ def settings(stage: Stage, amount: float, colour: tuple[float, float, float]) ->
 
 
 def fraction(tree: nodes.Tree, stage: Stage) -> tuple[nodes.Value, nodes.Value]:
-    """Part of the light that is haze (0..1, zero for other than camera rays), and the haze's colour."""
-    node = tree.node("ShaderNodeGroup", node_tree=_group(stage))
+    """Part of the light that is haze (0..1, zero for other than camera rays), and the haze's colour.
+
+    The group of `tree` gets inputs for both.
+    """
+    density = tree.input("Haze", 1.0, "Factor on the haze between this and the camera; 0: none", "Air")
+    tint = tree.input("Haze Tint", _WHITE, "Factor on the colour of that haze", "Air")
+    node = tree.node("ShaderNodeGroup", {"Density": density, "Tint": tint}, node_tree=_group(stage))
     return tree.pick(node, "Fraction"), tree.pick(node, "Colour")
 
 

@@ -41,6 +41,8 @@ class Ground:
 
     Attributes
     ----------
+    made_up
+        Whether the run is synthetic: islands that the fire left out are invented in such a one alone.
     eyes
         (m, 3) camera places in the scene, m; without any the ground is bilinear everywhere.
     surface
@@ -76,6 +78,7 @@ class Ground:
         )
         self._share = np.pad(_oriented(self._relief.share, latitude, longitude), self.fields.margin)
         self.seed, self.near_radius = settings.seed, settings.ground.near_radius
+        self.made_up = run.synthetic
         self._set_arrival(_oriented(arrival, latitude, longitude), float(run.times[-1]))
         self.eyes = np.empty((0, 3))
         self.bare, self.water = _bare(self.fields), _water(self.fields)
@@ -138,9 +141,10 @@ class Ground:
         end = max(end, float(np.max(arrival, initial=end, where=reached)))
         part = np.clip(0.5 + (end - time) / np.where(known, crossing, 1.0), 0.0, 1.0)
         burned = np.where(known & (reached | (time > end)), part, 0.0)
-        row, column = np.nonzero(burned)
-        patches = noise.fractal(column * self.cell[1], row * self.cell[0], 800.0, 3, self.seed + 70)
-        burned[row, column] *= 1.0 - noise.smoothstep(0.50, 0.68, patches)  # islands left out (invented), 6 %
+        if self.made_up:
+            row, column = np.nonzero(burned)
+            patches = noise.fractal(column * self.cell[1], row * self.cell[0], 800.0, 3, self.seed + 70)
+            burned[row, column] *= 1.0 - noise.smoothstep(0.50, 0.68, patches)  # islands left out, 6 %
         self.burned = np.pad(burned, margin)
         self.burn_time = np.pad(np.where(known, time, NEVER), margin, constant_values=NEVER)
 
@@ -352,16 +356,7 @@ def _widened(field: NDArray, reach: int) -> NDArray:
     return field
 
 
-def _split(index: ArrayLike, count: int) -> tuple[NDArray[np.int64], Array]:
-    """Whole and fractional part of indices into an axis of `count` values."""
-    whole = np.clip(np.floor(index).astype(np.int64), 0, max(count - 2, 0))
-    return whole, np.asarray(index) - whole
-
-
 def bilinear(field: Array, row: ArrayLike, column: ArrayLike) -> Array:
     """Values of `field` (ny, nx) between its points."""
-    i, v = _split(row, field.shape[0])
-    j, u = _split(column, field.shape[1])
-    i1, j1 = np.minimum(i + 1, field.shape[0] - 1), np.minimum(j + 1, field.shape[1] - 1)
-    low = field[i, j] * (1.0 - u) + field[i, j1] * u
-    return low * (1.0 - v) + (field[i1, j] * (1.0 - u) + field[i1, j1] * u) * v
+    row, column = np.broadcast_arrays(np.asarray(row, np.float64), np.asarray(column, np.float64))
+    return terrain.bilinear(field, row.ravel(), column.ravel()).reshape(row.shape)

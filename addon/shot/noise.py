@@ -1,8 +1,9 @@
-"""Gradient noise on the plane in NumPy, for relief and patches that geometry needs."""
+"""Gradient noise on the plane and random numbers by place, for relief and patches that geometry needs."""
 
 from __future__ import annotations
 
 import numpy as np
+from firetwin_core import terrain
 from numpy.typing import ArrayLike, NDArray
 
 
@@ -30,17 +31,7 @@ def normal(first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:
 def perlin(x: ArrayLike, y: ArrayLike, seed: int) -> NDArray[np.float64]:
     """Gradient noise of wavelength 1, about -1..1 (Perlin 2002: quintic fade)."""
     x, y = np.broadcast_arrays(np.asarray(x, np.float64), np.asarray(y, np.float64))
-    column, row = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
-    u, v = x - column, y - row
-    corners = []
-    for dy in (0, 1):
-        for dx in (0, 1):
-            angle = _hash(column + dx, row + dy, seed) * (2.0 * np.pi / 2.0**32)
-            corners.append(np.cos(angle) * (u - dx) + np.sin(angle) * (v - dy))
-    fade_u, fade_v = (w * w * w * (w * (6.0 * w - 15.0) + 10.0) for w in (u, v))
-    low = corners[0] + fade_u * (corners[1] - corners[0])
-    high = corners[2] + fade_u * (corners[3] - corners[2])
-    return 1.41 * (low + fade_v * (high - low))
+    return terrain.perlin(x.ravel(), y.ravel(), seed).reshape(x.shape)
 
 
 def fractal(

@@ -201,7 +201,12 @@ class _Tiff(_Source):
 class _Plain(_Source):
     def __init__(self, settings: Settings) -> None:
         self.path = settings.ground.photo
-        self.pixels = np.rint(255.0 * np.clip(sensor.read_image(self.path), 0.0, 1.0)).astype(np.uint8)
+        try:
+            pixels = sensor.read_image(self.path)
+        except InputError as error:
+            reason = f"ground.photo: {self.path} {error.reason}"
+            raise file.error_at(settings.path, ("ground", "photo"), reason) from None
+        self.pixels = np.rint(255.0 * np.clip(pixels, 0.0, 1.0)).astype(np.uint8)
         self.affine = self._affine(settings)
         height, width = self.pixels.shape[:2]
         corners = (

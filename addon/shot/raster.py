@@ -68,6 +68,7 @@ class Raster:
 
     def __init__(self, settings: Settings, name: str) -> None:
         self.rasterio = library(settings, name)
+        self.key = settings.path, ("ground", name)
         self.path: Path = getattr(settings.ground, name)
         if not self.path.is_file():
             reason = f"ground.{name}: there is no file {self.path}"
@@ -112,7 +113,8 @@ class Raster:
             raise
         except (known.RasterioError, OSError, ValueError) as error:
             why = " ".join(str(error.__cause__ or error).split()).replace(str(self.path), "it")
-            raise self.error(f"cannot be read as a GeoTIFF ({why})") from error
+            reason = f"{'.'.join(self.key[1])}: {self.path} cannot be read as a GeoTIFF ({why})"
+            raise file.error_at(*self.key, reason) from error
 
     def overlaps(self, latitude: Array, longitude: Array) -> bool:
         """Whether it covers any of a rectangle that holds these places, degrees."""

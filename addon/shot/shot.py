@@ -178,6 +178,18 @@ class Shot:
         """What an artist should know of the cameras' paths."""
         return [text for view in self.paths if (text := self._ridges(view))]
 
+    def one_eyed(self) -> list[str]:
+        """Cameras for headsets whose second eye is missing in a scene that they share with others."""
+        cameras = self.settings.cameras
+        around = [camera.name for camera in cameras if camera.rig.around]
+        if not around or len(around) == len(cameras):
+            return []
+        return [
+            f'camera "{name}" has one eye in a scene that other cameras are in; firetwin render, or a scene '
+            "with it alone, gives both"
+            for name in around
+        ]
+
     def _ridges(self, view: Path) -> str:
         """What ridges between a camera and its target have done, or hide."""
         hidden = np.zeros(1) if view.hidden is None else view.hidden

@@ -13,7 +13,7 @@ from ..scene.camera import below, hand
 from ..shot import sparse, targets
 from . import flying, run
 from .job import Away, Steps
-from .working import Working
+from .working import Working, reported
 
 AIM, PATH = "Firetwin Aim", "Firetwin Path"  # names of the constraints
 _TARGETS = (
@@ -38,11 +38,7 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        thing = context.scene.camera
-        if thing is None or thing.type != "CAMERA":
-            cls.poll_message_set("Add a camera first")
-            return False
-        return flying.flown(cls, context)
+        return flying.flown(cls, context) and flying.filming(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Find the place, then make the empty and the constraint."""
@@ -105,14 +101,14 @@ class FIRETWIN_OT_camera_path(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        thing = context.scene.camera
-        if not flying.flown(cls, context) or thing is None:
+        if not flying.flown(cls, context) or not flying.filming(cls, context):
             return False
-        if thing.constraints.get(PATH):
+        if context.scene.camera.constraints.get(PATH):
             cls.poll_message_set("It flies along a curve already: edit that, or take the constraint away")
             return False
         return True
 
+    @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene, thing, chosen = context.scene, context.scene.camera, context.active_object
         if chosen is not None and chosen.type == "CURVE" and chosen.select_get():

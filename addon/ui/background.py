@@ -40,6 +40,7 @@ class FIRETWIN_OT_render_background(bpy.types.Operator):
             return False
         return run.ready(cls, context)
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         from ..jobs import standing
         from ..jobs.render import Asked
@@ -82,8 +83,9 @@ class FIRETWIN_OT_f12_files(bpy.types.Operator):
         if not owned.ours(context.scene) or not context.scene.firetwin.first_time:
             cls.poll_message_set("Build a scene of Firetwin's own first")
             return False
-        return True
+        return working.editable(cls, context)
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         from ..render import shown
 
@@ -109,6 +111,10 @@ class FIRETWIN_OT_queue_esc(bpy.types.Operator):
     bl_options = {"INTERNAL"}
 
     on = False
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return not cls.on
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         type(self).on = True
@@ -154,6 +160,13 @@ class FIRETWIN_OT_queue(bpy.types.Operator):
         items = properties.bl_rna.properties["what"].enum_items
         return items[properties.what].description
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not queue.items:
+            cls.poll_message_set("Nothing renders in the background")
+        return bool(queue.items)
+
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         if not 0 <= self.index < len(queue.items):
             return {"CANCELLED"}

@@ -10,9 +10,9 @@ from ..blender import owned
 from ..errors import Error
 from ..scene.build import PARTS
 from ..shot.shot import Shot
-from . import by_hand, job, keys, quality, run, stage, time, view, working
+from . import by_hand, changed, job, keys, order, quality, run, stage, time, view, working
 from .job import Away, Steps, Told
-from .text import labelled
+from .text import labelled, paragraph
 from .working import Working
 
 ALL = "all"
@@ -60,6 +60,7 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
         parts = tuple(PARTS) if part == ALL else (part,)
         for text in by_hand.pull(context.scene):
             yield Told(text, "WARNING")
+        then = changed.seen(settings)
         chosen, smoke = run.choice(settings), settings.bake_smoke and "smoke" in parts
         shot = yield Away("reading the run", lambda **_: chosen.shot())
         if smoke and shot.settings.smoke.enabled:
@@ -72,8 +73,9 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
         new = new or uid != before
         told: list[str] = []
         yield from build.steps(shot, owned.scene(uid), parts, told.append)
+        changed.remember(owned.scene(uid).firetwin, then, parts)
         _finish(owned.scene(uid), shot, parts, new)
-        for text in (*shot.warnings(), *told):
+        for text in (*shot.warnings(), *shot.one_eyed(), *told):
             yield Told(text, "WARNING")
         what = f"{shot.frames.count} frames" if part == ALL else f"the {part}"
         return f"Built {what} of {shot.run.name}" + (f"; {words}" if words else "")
@@ -109,21 +111,31 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
+        if not working.editable(cls, context):
+            return False
         if not owned.built(context.scene):
             cls.poll_message_set("There is nothing of Firetwin's in this scene")
             return False
         if context.mode != "OBJECT":
             cls.poll_message_set("Leave the edit mode first")
             return False
-        return working.free(cls)
+        return True
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        return context.window_manager.invoke_confirm(self, event)
+        return context.window_manager.invoke_confirm(
+            self,
+            event,
+            title="Remove what Firetwin built?",
+            message="What you changed by hand in it goes too. Settings stay, and undo brings all back",
+            confirm_text="Remove",
+        )
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene = context.scene
         view.narrow(scene)
         time.forget(scene.firetwin)
+        changed.forget(scene.firetwin)
         stage.remove(scene)
         self.report({"INFO"}, "Removed what Firetwin built")
         return {"FINISHED"}
@@ -143,11 +155,11 @@ class FIRETWIN_MT_parts(bpy.types.Menu):
         layout.operator(FIRETWIN_OT_remove.bl_idname, text="Remove all", icon="TRASH")
 
 
-def again(layout: bpy.types.UILayout, part: str) -> None:
-    """A button, for the head of a panel, that builds a part again."""
+def again(layout: bpy.types.UILayout, part: str, due: bool = False) -> None:
+    """A button, for the head of a panel, that builds a part again; it stands out where that is due."""
     row = layout.row(align=True)
-    row.enabled = job.Job.current is None
-    row.operator(FIRETWIN_OT_build.bl_idname, text="", icon="FILE_REFRESH", emboss=False).part = part
+    row.enabled, row.alert = job.Job.current is None, due
+    row.operator(FIRETWIN_OT_build.bl_idname, text="", icon="FILE_REFRESH", emboss=due).part = part
     row.label(text="", icon="BLANK1")
 
 
@@ -168,6 +180,9 @@ class FIRETWIN_PT_build(bpy.types.Panel):
         working.button(row, FIRETWIN_OT_build, "WORLD")
         if job.Job.current is None:
             row.menu(FIRETWIN_MT_parts.bl_idname, text="", icon="DOWNARROW_HLT")
+        if settings.changed:
+            names = ", ".join(map(order.title, settings.changed.split()))
+            paragraph(context, layout.column(align=True), f"Changed since it was built: {names}", "INFO")
         column = layout.column()
         column.enabled = job.Job.current is None
         quality.draw(column, settings)

@@ -26,16 +26,18 @@ import bpy
 from ..errors import Error, InputError
 from ..shot.schema import Part, parts
 from ..shot.settings import Camera, Settings
-from . import tables
+from . import changed, tables
 
 
 class FIRETWIN_PG_camera(bpy.types.PropertyGroup):
     """A camera of the scene file"""
 
     name: bpy.props.StringProperty(
-        name="Name", description="Names the camera's folder and files: letters, digits, - and _"
+        name="Name",
+        description="Names the camera's folder and files: letters, digits, - and _",
+        update=changed.note,
     )
-    table: bpy.props.StringProperty(options={"HIDDEN"})
+    table: bpy.props.StringProperty(options={"HIDDEN"}, update=changed.note)
 
 
 def get(item: FIRETWIN_PG_camera) -> Camera:

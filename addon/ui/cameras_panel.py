@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import build, camera_list, job, order
+from . import build, camera_list, changed, job, order, working
 
 
 class FIRETWIN_UL_cameras(bpy.types.UIList):
@@ -38,12 +38,14 @@ class FIRETWIN_OT_camera_remove(bpy.types.Operator):
         if not 0 <= panel.camera_index < len(panel.cameras):
             cls.poll_message_set("Choose a camera in the list first")
             return False
-        return job.Job.current is None
+        return working.editable(cls, context)
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         panel = context.scene.firetwin
         panel.cameras.remove(panel.camera_index)
         panel.camera_index = max(min(panel.camera_index, len(panel.cameras) - 1), 0)
+        changed.compare(panel)
         return {"FINISHED"}
 
 
@@ -58,6 +60,7 @@ class FIRETWIN_OT_camera_copy(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         return FIRETWIN_OT_camera_remove.poll(context)
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         panel = context.scene.firetwin
         camera = camera_list.get(panel.cameras[panel.camera_index])

@@ -69,10 +69,25 @@ def view(stage: owned.Stage, matrix: Matrix, lens: float, sensor: float) -> View
 
 def flown(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Whether there is a scene of ours to fly in; says what is missing."""
+    if not working.editable(cls, context):
+        return False
     if not context.scene.firetwin.first_time:
         cls.poll_message_set("Build the scene first")
+    return bool(context.scene.firetwin.first_time)
+
+
+def filming(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+    """Whether the scene has a camera that can be changed; says what is missing."""
+    if not working.editable(cls, context):
         return False
-    return working.free(cls)
+    thing = context.scene.camera
+    if thing is None or thing.type != "CAMERA":
+        cls.poll_message_set("Add a camera first")
+        return False
+    if thing.library is not None or thing.data.library is not None:
+        cls.poll_message_set("This camera is linked from another file: change it there, or make it local")
+        return False
+    return True
 
 
 def kind_items(self: object, context: bpy.types.Context) -> list[tuple[str, str, str]]:
@@ -121,7 +136,7 @@ class FIRETWIN_OT_camera_add(Working, bpy.types.Operator):
         yield from build.steps(shot, owned.scene(uid), ("cameras",))
         scene = owned.scene(uid)
         scene.camera = owned.stage(scene).camera(name)
-        return f'Added the camera "{name}"; Render and Write scene file know it too'
+        return f'Added the camera "{name}"; build again for trees and fine ground where it looks'
 
 
 class FIRETWIN_OT_camera_key(bpy.types.Operator):
@@ -145,17 +160,15 @@ class FIRETWIN_OT_camera_key(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not flown(cls, context):
+        if not flown(cls, context) or not filming(cls, context):
             return False
         thing = context.scene.camera
-        if thing is None or thing.type != "CAMERA":
-            cls.poll_message_set("Add a camera first")
-            return False
         if any(each.type == "FOLLOW_PATH" for each in thing.constraints) or thing.parent:
             cls.poll_message_set("It flies along a curve or hangs on something: move that instead")
             return False
         return True
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene, thing = context.scene, context.scene.camera
         stage, matrix = owned.stage(scene), eye(context)[0]
@@ -212,12 +225,14 @@ class FIRETWIN_OT_camera_lens(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        thing = context.scene.camera
-        if thing is None or thing.type != "CAMERA" or thing.data.type != "PERSP":
+        if not filming(cls, context):
+            return False
+        if context.scene.camera.data.type != "PERSP":
             cls.poll_message_set("Choose a camera in perspective as the scene's camera first")
             return False
         return True
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         data, lens = context.scene.camera.data, LENSES[self.preset]
         compat.remove_fcurves(data, ("lens",))

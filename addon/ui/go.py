@@ -11,7 +11,7 @@ from mathutils import Euler, Quaternion, Vector
 
 from ..blender import owned
 from ..scene.camera import below, hand
-from . import run
+from . import run, working
 from .flying import flown, space
 
 _NUMBER = r"\s*(-?\d+(?:\.\d*)?)\s*°?\s*"
@@ -81,6 +81,7 @@ class FIRETWIN_OT_go(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         return flown(cls, context)
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene, text = context.scene, self.text or context.scene.firetwin.go_to
         if coordinates(text) is None and (when := moment(scene.firetwin, text)) is not None:

@@ -49,10 +49,10 @@ def prop(kind: type, name: str, first: tuple[str, str, str] | None = None, **opt
     return make(**{**about, **more, **options})
 
 
-def switch(part: Part) -> Any:
-    """The Blender property that says whether a number stands at all."""
+def switch(part: Part, **options: Any) -> Any:
+    """The Blender property that says whether a number stands at all; `options` as those of `prop`."""
     text = f"Choose it: {part.key.described()}"
-    return bpy.props.BoolProperty(name=label(part.name), description=text, default=False)
+    return bpy.props.BoolProperty(name=label(part.name), description=text, default=False, **options)
 
 
 def switched(part: Part) -> bool:
@@ -101,13 +101,13 @@ def take(group: bpy.types.PropertyGroup, part: Part, exact: dict[str, Any] | Non
     """
     exact = json.loads(group.exact or "{}") if exact is None else exact
     kept = _restored(part, exact[part.name]) if part.name in exact else _ABSENT
-    same = kept is not _ABSENT and _shown(group, part) == _as_shown(part, kept)
+    same = kept is not _ABSENT and shown(group, part) == _as_shown(part, kept)
     return kept if same else _value(group, part)
 
 
 def shows(group: bpy.types.PropertyGroup, part: Part, value: Any) -> bool:
     """Whether a property shows this value."""
-    return _shown(group, part) == _as_shown(part, value)
+    return shown(group, part) == _as_shown(part, value)
 
 
 def differs(group: bpy.types.PropertyGroup, part: Part) -> bool:
@@ -145,7 +145,7 @@ def _show(group: bpy.types.PropertyGroup, part: Part, value: Any) -> None:
         setattr(group, part.name, shown)
 
 
-def _shown(group: bpy.types.PropertyGroup, part: Part) -> tuple[bool, Any]:
+def shown(group: bpy.types.PropertyGroup, part: Part) -> tuple[bool, Any]:
     """What the panel shows: whether the value stands, and the value as Blender keeps it."""
     if switched(part) and not getattr(group, USE + part.name):
         return False, None
@@ -154,7 +154,7 @@ def _shown(group: bpy.types.PropertyGroup, part: Part) -> tuple[bool, Any]:
 
 
 def _as_shown(part: Part, value: Any) -> tuple[bool, Any]:
-    """What `_shown` says where the property shows `value`."""
+    """What `shown` says where the property shows `value`."""
     if value is None:
         return (False, None) if switched(part) else (True, "")
     if isinstance(value, datetime):
@@ -185,21 +185,21 @@ def _number(part: Part, value: float) -> float:
 
 def _value(group: bpy.types.PropertyGroup, part: Part) -> Any:
     """The value of the key as a property alone tells it: of numbers the shortest that looks the same."""
-    use, shown = _shown(group, part)
+    use, value = shown(group, part)
     if not use:
         return None
     inner = typing.get_args(part.type)
     if inner and part.key.choices is not None:
-        return tuple(name for name in part.key.names() if name in shown)
+        return tuple(name for name in part.key.names() if name in value)
     if inner and inner[-1] is Ellipsis:
-        return _listed(part, shown)
+        return _listed(part, value)
     if inner:
-        return tuple(_shortest(each) for each in shown)
+        return tuple(_shortest(each) for each in value)
     if part.type in (Path, datetime):
-        if not shown.strip():
+        if not value.strip():
             return None
-        return Path(bpy.path.abspath(shown)) if part.type is Path else _moment(part, shown)
-    return _shortest(shown)
+        return Path(bpy.path.abspath(value)) if part.type is Path else _moment(part, value)
+    return _shortest(value)
 
 
 def _shortest(value: Any) -> Any:

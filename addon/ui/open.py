@@ -9,54 +9,65 @@ import bpy
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
 from ..blender import owned
-from ..errors import Error
-from . import build, job, run, scene_file, working
+from ..run import readers
+from . import build, foreign, run, scene_file, working
 from .job import Away, Steps
 from .working import Working
 
 _RUN = "run.toml"
+_FILES = "*.toml;*.nc;*.npz;*.asc;*.tif;*.tiff;*.bil;*.lcp;*.prj;*.geojson;*.kml;*.csv;*.ff;wrfout*"
 
 
-class FIRETWIN_OT_open(bpy.types.Operator, ImportHelper):
-    """Open a model run (its run.toml or its folder) or a scene file"""
+class FIRETWIN_OT_open(foreign.Said, bpy.types.Operator, ImportHelper):
+    """Open a model run (its run.toml or its folder), a scene file, or a fire model's own files"""
 
     bl_idname = "firetwin.open"
     bl_label = "Open run"
     bl_description = (
-        "Open a model run (its run.toml or its folder) or a scene file. Another run brings its own "
-        "time window and cameras; the field Run keeps those that are there"
+        "Open a model run (its run.toml or its folder) or a scene file; or a fire model's own files (all of "
+        "a run together), of which a run is made beside them. Another run brings its own time window and "
+        "cameras; the field Run keeps those that are there"
     )
     bl_options = {"UNDO"}
 
     filename_ext = ".toml"
-    filter_glob: bpy.props.StringProperty(default="*.toml", options={"HIDDEN"})
+    filter_glob: bpy.props.StringProperty(default=_FILES, options={"HIDDEN"})
+    directory: bpy.props.StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
+    files: bpy.props.CollectionProperty(
+        type=bpy.types.OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"}
+    )
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.free(cls)
+        return working.editable(cls, context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if self.filepath and Path(self.filepath).is_file():  # dropped on the view
             return self.execute(context)
         return ImportHelper.invoke(self, context, event)
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         panel, path = context.scene.firetwin, Path(self.filepath)
+        if readers.foreign(foreign.chosen(self)[0]):
+            return self._convert(panel)
         if path.suffix == ".toml" and path.name != _RUN and not path.is_dir():
             panel.scene_file = str(path)
         else:
-            _begin(panel, str(path.parent if path.name == _RUN else path))
+            foreign.begin(panel, str(path.parent if path.name == _RUN else path))
         if panel.problem:
             self.report({"ERROR"}, panel.problem)
         return {"FINISHED"}
 
-
-def _begin(panel: bpy.types.PropertyGroup, folder: str) -> None:
-    """Choose a run; where it is another one, time window and cameras of the one before go."""
-    if bpy.path.abspath(panel.run) != folder:
-        panel.scene_file = panel.time.start = panel.time.end = ""
-        panel.cameras.clear()
-    panel.run = folder
+    def _convert(self, panel: bpy.types.PropertyGroup) -> set[str]:
+        """Make a run of a model's own files."""
+        words = {name: getattr(self, name) for name in ("filepath", "directory", "start", "at", "projection")}
+        files = [{"name": each.name} for each in self.files]
+        try:
+            return bpy.ops.firetwin.convert("INVOKE_DEFAULT", files=files, **words)
+        except RuntimeError as error:
+            self.report({"ERROR"}, panel.problem or str(error))
+            return {"CANCELLED"}
 
 
 class FIRETWIN_OT_export(bpy.types.Operator, ExportHelper):
@@ -68,23 +79,27 @@ class FIRETWIN_OT_export(bpy.types.Operator, ExportHelper):
     filename_ext = ".toml"
     filter_glob: bpy.props.StringProperty(default="*.toml", options={"HIDDEN"})
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return run.ready(cls, context)
+
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            scene_file.export(context.scene, Path(self.filepath))
-        except Error as error:
-            self.report({"ERROR"}, job.words(error))
-            return {"CANCELLED"}
+        scene_file.export(context.scene, Path(self.filepath))
         self.report({"INFO"}, f"Wrote {self.filepath}")
         return {"FINISHED"}
 
 
 class FIRETWIN_FH_open(bpy.types.FileHandler):
-    """A run.toml or a scene file dropped on a 3D view"""
+    """A run.toml, a scene file or a fire model's own files dropped on a 3D view
+
+    GeoTIFF, which is Blender's own too, and wrfout files, whose names have no end, are opened by the menu.
+    """
 
     bl_idname = "FIRETWIN_FH_open"
     bl_label = "Fire model run"
     bl_import_operator = FIRETWIN_OT_open.bl_idname
-    bl_file_extensions = ".toml"
+    bl_file_extensions = ".toml;.nc;.npz;.asc"
 
     @classmethod
     def poll_drop(cls, context: bpy.types.Context) -> bool:
@@ -108,7 +123,7 @@ class FIRETWIN_OT_sample(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return working.free(cls)
+        return working.editable(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Write it in a worker process, unless it is there; then look into it."""
@@ -117,7 +132,7 @@ class FIRETWIN_OT_sample(Working, bpy.types.Operator):
         uid = context.scene.session_uid
         folder = Path(bpy.path.abspath(self.folder)) if self.folder else scene_file.own_folder() / "king_fire"
         yield Away("writing the sample run", functools.partial(sample.run, folder))
-        _begin(owned.scene(uid).firetwin, str(folder))
+        foreign.begin(owned.scene(uid).firetwin, str(folder))
         return (yield from run.look(uid))
 
 
@@ -130,6 +145,7 @@ class FIRETWIN_MT_add(bpy.types.Menu):
     def draw(self, context: bpy.types.Context) -> None:
         entries(self.layout)
         self.layout.operator(build.FIRETWIN_OT_build.bl_idname, icon="WORLD")
+        self.layout.operator("firetwin.assets", icon="ASSET_MANAGER")
 
 
 def entries(layout: bpy.types.UILayout) -> None:
@@ -140,7 +156,7 @@ def entries(layout: bpy.types.UILayout) -> None:
 
 
 def _import(self: bpy.types.Menu, context: bpy.types.Context) -> None:
-    self.layout.operator(FIRETWIN_OT_open.bl_idname, text="Fire model run (.toml)")
+    self.layout.operator(FIRETWIN_OT_open.bl_idname, text="Fire model run (.toml, .nc, .tif, ...)")
 
 
 def _export(self: bpy.types.Menu, context: bpy.types.Context) -> None:

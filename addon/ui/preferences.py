@@ -8,7 +8,7 @@ from ..shot.settings import Render
 from . import keys
 
 _PACKAGE = __package__.rpartition(".")[0]
-AS_FILE = ("scene", "Scene file's", "As the scene file says")
+AS_FILE = ("scene", "As each scene says", "What the scene's own settings name")
 """The choice that leaves the scene file its word."""
 
 

@@ -47,6 +47,8 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annota
     )
     usual_cameras: bpy.props.StringProperty(options={"HIDDEN"})
     facts: bpy.props.StringProperty(options={"HIDDEN"})
+    built: bpy.props.StringProperty(options={"HIDDEN"})
+    changed: bpy.props.StringProperty(options={"HIDDEN"})
     problem: bpy.props.StringProperty(options={"HIDDEN"})
     bake_smoke: bpy.props.BoolProperty(
         name="Smoke of every frame",

@@ -9,7 +9,7 @@ import bpy
 from bl_operators.presets import AddPresetBase
 
 from ..shot.schema import Part, parts
-from . import job, keys, sections
+from . import job, keys, sections, working
 
 _MOVED = (
     ("ground", "near_radius"),
@@ -85,6 +85,11 @@ class FIRETWIN_OT_quality(bpy.types.Operator):
         """The tooltip."""
         return f"{_STEPS[properties.level][0]}. What is built changes when it is built again"
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return working.editable(cls, context)
+
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         apply(context.scene.firetwin, self.level)
         return {"FINISHED"}
@@ -97,7 +102,12 @@ class FIRETWIN_OT_preset(AddPresetBase, bpy.types.Operator):
     bl_label = "Save preset"
     preset_menu = "FIRETWIN_MT_presets"
     preset_subdir = "firetwin"
+    bl_options = {"REGISTER"}
     preset_defines = ["firetwin = bpy.context.scene.firetwin"]
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return working.editable(cls, context)
 
     @property
     def preset_values(self) -> list[str]:
@@ -124,7 +134,12 @@ class FIRETWIN_MT_presets(bpy.types.Menu):
     bl_label = "Presets"
     preset_subdir = "firetwin"
     preset_operator = "script.execute_preset"
-    draw = bpy.types.Menu.draw_preset
+
+    def draw(self, context: bpy.types.Context) -> None:
+        if bpy.utils.preset_paths("firetwin"):
+            bpy.types.Menu.draw_preset(self, context)
+        else:
+            self.layout.label(text="None is saved yet: + saves these settings")
 
 
 def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import order, run, working
+from . import keys, order, run, working
 from .job import Job
 from .text import labelled, paragraph
 
@@ -34,7 +34,7 @@ class FIRETWIN_PT_report(bpy.types.Panel):
             column = layout.box().column(align=True)
             lines = [each.text for each in Job.last.told]
             for line in lines:
-                paragraph(context, column, line)
+                paragraph(context, column, keys.sentence(line))
             working.copy_button(column, "\n".join((Job.last.name, *lines)))
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import bpy
 
 from ..shot.schema import Part, parts
-from . import keys, sections
+from . import keys, sections, working
 from .text import labelled
 
 _LABEL = 0.48  # of the width
+_LETTERS = 17  # of a label that has room in it, in a sidebar of the usual width
 
 
 def key(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Part, section: str) -> None:
@@ -51,8 +52,10 @@ def _value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Part) 
 
 
 def _long(part: Part) -> bool:
-    """Whether a value wants the width of the sidebar: paths, moments and lists."""
-    return part.type not in (int, float) and (part.type is not str or part.key.choices is None)
+    """Whether a key wants the width of the sidebar: paths, moments, lists, and labels that need it."""
+    if part.type in (int, float):
+        return len(keys.heading(part)) > _LETTERS and not keys.switched(part)
+    return part.type is not str or part.key.choices is None
 
 
 class FIRETWIN_OT_reset(bpy.types.Operator):
@@ -65,6 +68,11 @@ class FIRETWIN_OT_reset(bpy.types.Operator):
     section: bpy.props.StringProperty(options={"SKIP_SAVE"})
     key: bpy.props.StringProperty(options={"SKIP_SAVE"})
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return working.editable(cls, context)
+
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         section = next(part for part in sections.sections() if part.name == self.section)
         part = next(part for part in parts(section.table) if part.name == self.key)

@@ -11,9 +11,11 @@ from typing import Any
 import bpy
 
 from ..blender import owned
+from ..jobs.worker import StoppedError
+from ..run import readers
 from ..shot import file
 from ..shot.choice import Choice
-from . import by_hand, camera_list, job, maps, preferences, scene_file, working
+from . import by_hand, camera_list, changed, job, maps, preferences, scene_file, working
 from .job import Away, Steps
 from .text import labelled, paragraph
 from .working import Working
@@ -21,6 +23,7 @@ from .working import Working
 
 def chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """Another run folder: look into it."""
+    changed.compare(settings)
     if job.Job.current is not None:
         return
     settings.facts = settings.problem = ""
@@ -36,15 +39,19 @@ def imported(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> N
     try:
         scene_file.fill(settings.id_data, file.read(bpy.path.abspath(settings.scene_file)))
     except Exception as error:
-        settings.facts, settings.problem = "", job.words(error)
+        settings.problem = job.words(error)
     working.redraw()
 
 
 def _inspect(settings: bpy.types.PropertyGroup) -> None:
-    """Call the operator; what it has to say about a failure is in `problem`, so no error is raised here."""
+    """Look into a run, or make one of a model's own files; what fails is in `problem`, and no error here."""
+    folder = Path(bpy.path.abspath(settings.run))
     try:
         with bpy.context.temp_override(scene=settings.id_data):
-            bpy.ops.firetwin.inspect("INVOKE_DEFAULT")
+            if readers.foreign(folder):
+                bpy.ops.firetwin.convert("INVOKE_DEFAULT", filepath=str(folder))
+            else:
+                bpy.ops.firetwin.inspect("INVOKE_DEFAULT")
     except RuntimeError as error:
         settings.problem = settings.problem or str(error)
 
@@ -61,7 +68,7 @@ def ready(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     if not settings.run:
         cls.poll_message_set("Open a run or a scene file first")
         return False
-    return working.free(cls)
+    return working.editable(cls, context)
 
 
 class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
@@ -73,10 +80,7 @@ class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not context.scene.firetwin.run:
-            cls.poll_message_set("Open a run or a scene file first")
-            return False
-        return working.free(cls)
+        return ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Gather, and see whether the settings fit the run."""
@@ -86,7 +90,7 @@ class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
 def look(uid: int) -> Steps:
     """Gather in a thread, then write down in the scene with this `session_uid`."""
     settings = owned.scene(uid).firetwin
-    settings.problem = settings.facts = ""
+    settings.problem = ""
     folder, zone = Path(bpy.path.abspath(settings.run)), settings.time.zone
     try:
         found, images = yield Away("reading the run", lambda **_: facts(folder, zone))
@@ -94,6 +98,9 @@ def look(uid: int) -> Steps:
         maps.show(owned.scene(uid).firetwin.run, images)
         chosen = choice(owned.scene(uid).firetwin)
         yield Away("reading the run", lambda **_: chosen.shot())
+    except StoppedError:
+        owned.scene(uid).firetwin.problem = "The run was not read to its end; Read run does it"
+        raise
     except Exception as error:
         owned.scene(uid).firetwin.problem = job.words(error)
         raise
@@ -114,7 +121,7 @@ def _write_down(settings: bpy.types.PropertyGroup, found: dict[str, Any]) -> Non
 
 def facts(folder: Path, zone: str) -> tuple[dict[str, Any], maps.Images]:
     """What the panel shows of a run: name, rows, warnings, dated moments and cameras; and its maps."""
-    from ..run import info, readers, thumbnails
+    from ..run import info, thumbnails
     from ..shot import overview
 
     run = readers.open(folder)
@@ -186,8 +193,8 @@ class FIRETWIN_PT_run(bpy.types.Panel):
         row = labelled(column, "Run", 0.2)
         row.prop(settings, "run", text="")
         row.operator(FIRETWIN_OT_inspect.bl_idname, text="", icon="FILE_REFRESH")
-        row = labelled(column, "Scene", 0.2)
-        row.prop(settings, "scene_file", text="", placeholder="Optional")
+        row = labelled(column, "File", 0.2)
+        row.prop(settings, "scene_file", text="", placeholder="Scene file, if any")
         row.operator("firetwin.export", text="", icon="EXPORT")
         if settings.problem:
             box = layout.box().column(align=True)

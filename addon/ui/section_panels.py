@@ -9,7 +9,6 @@ from ..shot.schema import Part, parts
 from . import build, job, keys, order, rows, sections
 
 _OWN = ("time",)  # drawn by a panel of its own
-_TITLES = {"thermal": "Sensors"}
 _BELOW = {"render": "FIRETWIN_PT_render"}  # sections that stand in another panel
 _LATE = ("thermal",)  # after the cameras
 
@@ -33,12 +32,12 @@ def _panel(section: Part, place: int) -> type[bpy.types.Panel]:
         draw(self.layout, context.scene.firetwin, name)
 
     def again(self: bpy.types.Panel, context: bpy.types.Context) -> None:
-        build.again(self.layout, name)
+        build.again(self.layout, name, name in context.scene.firetwin.changed.split())
 
     own = {
         "__doc__": keys.sentence(section.key.help),
         "bl_idname": f"FIRETWIN_PT_section_{name}",
-        "bl_label": "Settings" if name in _BELOW else _TITLES.get(name, keys.label(name)),
+        "bl_label": "Settings" if name in _BELOW else order.title(name),
         "bl_space_type": "VIEW_3D",
         "bl_region_type": "UI",
         "bl_category": "Firetwin",

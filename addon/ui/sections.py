@@ -15,7 +15,7 @@ import bpy
 
 from ..shot.schema import Part, parts, summary
 from ..shot.settings import Settings
-from . import keys
+from . import changed, keys
 from .tables import from_text, to_text
 
 NOT_HERE = ("path", "run", "cache", "cameras")
@@ -39,13 +39,15 @@ def properties(known: tuple[Part, ...], kind: type) -> dict[str, Any]:
     found: dict[str, Any] = {"exact": bpy.props.StringProperty(options={"HIDDEN"})}
     for part in known:
         if part.tables:
-            found[part.name] = bpy.props.StringProperty(name=keys.label(part.name), options={"HIDDEN"})
+            found[part.name] = bpy.props.StringProperty(
+                name=keys.label(part.name), options={"HIDDEN"}, update=changed.note
+            )
         elif part.table:
             found[part.name] = bpy.props.PointerProperty(type=group(part.table))
         else:
-            found[part.name] = keys.prop(kind, part.name)
+            found[part.name] = keys.prop(kind, part.name, update=changed.note)
             if keys.switched(part):
-                found[keys.USE + part.name] = keys.switch(part)
+                found[keys.USE + part.name] = keys.switch(part, update=changed.note)
     return found
 
 

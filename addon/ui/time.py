@@ -12,7 +12,7 @@ from ..run import times
 from ..shot.schema import parts
 from ..shot.settings import Time
 from ..shot.shot import Shot
-from . import job, keys, rows, run
+from . import job, keys, rows, run, working
 from .text import labelled
 
 
@@ -64,6 +64,7 @@ class FIRETWIN_OT_jump(bpy.types.Operator):
             return False
         return True
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         settings = context.scene.firetwin
         frame = frame_of(settings, datetime.fromisoformat(self.moment))
@@ -85,6 +86,11 @@ class FIRETWIN_OT_window(bpy.types.Operator):
     moment: bpy.props.StringProperty(options={"SKIP_SAVE"})
     key: bpy.props.StringProperty(options={"SKIP_SAVE"})
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return working.editable(cls, context)
+
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         part = next(part for part in parts(Time) if part.name == self.key)
         keys.put(context.scene.firetwin.time, part, datetime.fromisoformat(self.moment).astimezone(UTC))

@@ -11,6 +11,7 @@ from mathutils import Euler
 
 from ..blender import viewport
 from ..run import areas
+from . import working
 
 _TILT = 0.9  # rad from straight down
 
@@ -86,6 +87,7 @@ class FIRETWIN_OT_view(bpy.types.Operator):
             return False
         return True
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         look(context.scene, self.whole)
         return {"FINISHED"}

@@ -3,14 +3,18 @@
 In the background, and when called by a script, the steps of a work follow one another at once. In the
 window they are taken by a modal operator. Esc stops it with the pointer over the sidebar alone: elsewhere it
 belongs to something else. While steps are taken in Blender only the mouse in the sidebar does anything.
+A work that ends in the middle is undone in the window, so that a scene is whole or as it was.
 """
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
+
 import bpy
 
 from ..jobs.worker import StoppedError
-from . import job, text
+from . import job, keys, text
 from .job import Ended, Job, Steps, Told, words
 
 _TICK = 0.1  # s
@@ -23,6 +27,35 @@ def free(cls: type[bpy.types.Operator]) -> bool:
     if Job.current is not None:
         cls.poll_message_set(f"{Job.current.name} is not finished; Stop, in Firetwin's sidebar, ends it")
     return Job.current is None
+
+
+def editable(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+    """Whether no work goes on and the scene is of this file; says what is in the way."""
+    if context.scene.library is not None:
+        cls.poll_message_set("This scene is linked from another file: change it there, or make it local")
+        return False
+    return free(cls)
+
+
+def reported(execute: Callable[..., set[str]]) -> Callable[..., set[str]]:
+    """An operator's `execute` whose errors are reports."""
+
+    @functools.wraps(execute)
+    def told(self: bpy.types.Operator, context: bpy.types.Context) -> set[str]:
+        try:
+            return execute(self, context)
+        except Exception as error:
+            self.report({"ERROR"}, job.words(error))
+            return {"CANCELLED"}
+
+    return told
+
+
+def take_back() -> None:
+    """Undo the last step in the first window."""
+    with bpy.context.temp_override(window=next(iter(bpy.context.window_manager.windows), None)):
+        if bpy.ops.ed.undo.poll():
+            bpy.ops.ed.undo()
 
 
 def abandon() -> None:
@@ -112,7 +145,7 @@ class Working:
             over = self.job.advance()
         except Exception as error:
             self._end(context)
-            return self._failed(self.job, error)
+            return self._failed(self.job, error, self._goes_back())
         if not over:
             _show(context, self.job)
             return {"PASS_THROUGH"}  # others wait for timers too
@@ -134,13 +167,21 @@ class Working:
         for each in told:
             self.report({each.level}, each.text)
 
-    def _failed(self, work: Job, error: Exception) -> set[str]:
+    def _failed(self, work: Job, error: Exception, back: bool = False) -> set[str]:
         if isinstance(error, StoppedError):
-            undo = "; undo takes back what was made" if work.touched else "; what was finished is kept"
-            self._tell(work, Told(f"{work.name} stopped{undo}", "WARNING"))
+            undo = "the scene is as it was" if back else "undo takes back what was made"
+            kept = undo if work.touched else "what was finished is kept"
+            self._tell(work, Told(f"{work.name} stopped; {kept}", "WARNING"))
         else:
             self._tell(work, Told(words(error), "ERROR"))
+        if back:
+            bpy.app.timers.register(take_back, first_interval=0.0)  # after Blender has kept this step
         return {"FINISHED"} if work.touched else {"CANCELLED"}  # what is half made can then be undone
+
+    def _goes_back(self) -> bool:
+        """Whether what is half made can be undone, and nobody has done that."""
+        able = not bpy.app.background and bpy.context.preferences.edit.use_global_undo
+        return able and self.job.touched and not self.job.undone and "UNDO" in self.bl_options
 
     def _end(self, context: bpy.types.Context) -> None:
         if self._timer is not None:
@@ -188,7 +229,7 @@ def message(
         text.paragraph(context, column, "Stop, or Esc with the pointer here, ends this")
     elif Job.current is None:
         for each in told(operator):
-            text.paragraph(context, column, each.text, _ICONS[each.level])
+            text.paragraph(context, column, keys.sentence(each.text), _ICONS[each.level])
         if wrong := [each.text for each in told(operator) if each.level == "ERROR"]:
             copy_button(column, "\n".join(wrong))
 
@@ -218,6 +259,7 @@ class FIRETWIN_OT_stop(bpy.types.Operator):
             cls.poll_message_set("Nothing goes on")
         return Job.current is not None
 
+    @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         Job.current.stop.now()
         return {"FINISHED"}
@@ -232,6 +274,7 @@ class FIRETWIN_OT_copy(bpy.types.Operator):
 
     message: bpy.props.StringProperty(options={"SKIP_SAVE"})
 
+    @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.window_manager.clipboard = details(self.message)
         self.report({"INFO"}, "Copied the details")

@@ -1,5 +1,6 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "terrain/bilinear.hpp"
 #include "terrain/mesh.hpp"
 #include "terrain/surface.hpp"
 
@@ -69,8 +70,48 @@ Array<double> detail(const Surface& ground, const py::object& row, const py::obj
   const auto out = writable(result);
   const py::gil_scoped_release release;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size(), 1024), [&](const auto& range) {
+    std::vector<terrain::Wave> waves = ground.waves();
     for (std::size_t k = range.begin(); k < range.end(); ++k) {
-      out[k] = ground.detail(i[k], j[k]);
+      out[k] = ground.detail(i[k], j[k], waves);
+    }
+  });
+  return result;
+}
+
+Array<double> perlin(const py::object& x, const py::object& y, std::int64_t seed) {
+  const auto across = to_array<double>(x, "x", {-1});
+  const auto up = to_array<double>(y, "y", {across.size()});
+  auto result = new_array<double>({across.size()});
+  const auto i = view(across), j = view(up);
+  const auto out = writable(result);
+  const py::gil_scoped_release release;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size(), 4096), [&](const auto& range) {
+    terrain::Wave wave(seed);
+    for (std::size_t k = range.begin(); k < range.end(); ++k) {
+      out[k] = wave(i[k], j[k]);
+    }
+  });
+  return result;
+}
+
+/// Values (n,) of a field (ny, nx) between its points, beyond its ends as between the last two.
+Array<double> bilinear(const py::object& field, const py::object& row, const py::object& column) {
+  const auto values = to_array<double>(field, "field", {-1, -1});
+  const auto rows = to_array<double>(row, "row", {-1});
+  const auto columns = to_array<double>(column, "column", {rows.size()});
+  if (values.size() == 0) {
+    wrong("field", "must have a row and a column or more");
+  }
+  auto result = new_array<double>({rows.size()});
+  const auto i = view(rows), j = view(columns);
+  const auto out = writable(result);
+  const auto height = static_cast<std::size_t>(values.shape(0));
+  const auto width = static_cast<std::size_t>(values.shape(1));
+  const double* known = values.data();
+  const py::gil_scoped_release release;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size(), 4096), [&](const auto& range) {
+    for (std::size_t k = range.begin(); k < range.end(); ++k) {
+      out[k] = terrain::bilinear(known, height, width, i[k], j[k]);
     }
   });
   return result;
@@ -107,6 +148,8 @@ Made mesh(const py::object& place, const py::object& tolerance, const py::object
 } // namespace
 
 void init_terrain(Module module) {
+  module.def("perlin", &perlin, py::arg("x"), py::arg("y"), py::arg("seed"));
+  module.def("bilinear", &bilinear, py::arg("field"), py::arg("row"), py::arg("column"));
   Class<Surface, std::shared_ptr<Surface>>(module, "Surface")
       .def(py::init(&surface), py::arg("elevation"), py::arg("steep"), py::arg("dry"),
            py::arg("cell"), py::arg("octaves"), py::arg("strength"), py::arg("level"),

@@ -112,9 +112,11 @@ void Occluder::build_blocks() {
 }
 
 Occluder::Cells Occluder::cells(double left, double right, double low, double high) const {
-  // Held to where the grid may be, so that it fits a long.
+  // Held to where the grid may be, so that it fits a long; rounded down without a library's call.
   const auto index = [](double v) {
-    return static_cast<long>(std::floor(std::clamp(v, -2.0, 1e8)));
+    const double held = std::clamp(v, -2.0, 1e8);
+    const auto whole = static_cast<long>(held);
+    return whole - (held < static_cast<double>(whole));
   };
   return {index((left - x_) / cell_), index((right - x_) / cell_), index((low - y_) / cell_),
           index((high - y_) / cell_)};
@@ -162,8 +164,11 @@ public:
       : ground_(ground), from_(from), way_(minus(to.centre, from.centre)),
         grows_(to.radius - from.radius), length_(std::hypot(way_[0], way_[1])) {}
 
-  /// Whether the ground is over all of them somewhere between the fractions `a` and `b`.
-  bool blocked(double a, double b) const {
+  /// Whether the ground is over all of them at the fraction t, and t is one that is tried below.
+  bool blocked(double t) const { return ground_.buries(at(t)) && tried(t); }
+
+  /// Whether it is somewhere between the fractions `a` and `b`, and where.
+  bool blocked(double a, double b, double& where) const {
     const Ball first = at(a), last = at(b);
     const double top = std::min(first.centre[2] + first.radius, last.centre[2] + last.radius);
     if (!(ground_.highest(around(first, last)) > top)) {
@@ -172,15 +177,34 @@ public:
     const double half = 0.5 * (a + b);
     const Ball middle = at(half);
     if (ground_.buries(middle)) {
+      where = half;
       return true;
     }
-    if ((b - a) * length_ <= std::max(0.5 * ground_.cell_, 0.5 * middle.radius)) {
+    if (is_short(a, b)) {
       return false;
     }
-    return blocked(half, b) || blocked(a, half);
+    return blocked(half, b, where) || blocked(a, half, where);
   }
 
 private:
+  /// Whether the fractions between `a` and `b` are too near each other to be halved again.
+  bool is_short(double a, double b) const {
+    const double radius = from_.radius + 0.5 * (a + b) * grows_;
+    return (b - a) * length_ <= std::max(0.5 * ground_.cell_, 0.5 * radius);
+  }
+
+  /// Whether t is the middle of a part that comes of halving.
+  bool tried(double t) const {
+    double a = 0.0, b = 1.0;
+    for (double half = 0.5; half != t; half = 0.5 * (a + b)) {
+      if (is_short(a, b)) {
+        return false;
+      }
+      (t < half ? b : a) = half;
+    }
+    return true;
+  }
+
   Ball at(double t) const {
     return {{from_.centre[0] + t * way_[0], from_.centre[1] + t * way_[1],
              from_.centre[2] + t * way_[2]},
@@ -202,8 +226,9 @@ private:
   double grows_, length_;
 };
 
-bool Occluder::hides(const Ball& camera, const Ball& thing) const {
-  return Lines(*this, camera, thing).blocked(0.0, 1.0);
+bool Occluder::hides(const Ball& camera, const Ball& thing, double& where) const {
+  const Lines lines(*this, camera, thing);
+  return lines.blocked(where) || lines.blocked(0.0, 1.0, where);
 }
 
 bool Occluder::buries(const Ball& ball) const {

@@ -33,7 +33,9 @@ public:
   /// over all of that ball is higher than its top, each of the lines is under the ground there, so
   /// each has gone through it. What is called hidden is hidden; what only just hides may not be
   /// called so.
-  bool hides(const Ball& camera, const Ball& thing) const;
+  /// @param where the t that is tried first; becomes the one at which the ground hides it. What
+  ///        hides one thing from one place most often hides the next one too. It decides nothing.
+  bool hides(const Ball& camera, const Ball& thing, double& where) const;
 
   /// Whether all of a ball is under the ground.
   bool buries(const Ball& ball) const;

@@ -133,7 +133,8 @@ private:
   /// Branches that may see a tile, down to those whose views see it from about the same place.
   void find(std::size_t number, const Ball& tile, std::vector<std::size_t>& found) const {
     const auto& branch = sight_.branches_[number];
-    if (!sight_.may_count(branch, tile, demand_, nullptr)) {
+    double nowhere = 0.0;
+    if (!sight_.may_count(branch, tile, demand_, nullptr, nowhere)) {
       return;
     }
     if (branch.left == 0 || sight_.shift(branch, tile.centre) <= same_place * tile.radius) {
@@ -150,15 +151,16 @@ private:
            std::span<bool> out) const {
     std::vector<std::optional<bool>> open(branches.size());
     std::size_t leaf = 0;
+    double ridge = 0.0;
     for (std::size_t k = start_[tile]; k < start_[tile + 1]; ++k) {
       const Ball thing = ball(member_[k]);
-      bool counts = leaf != 0 && sight_.counts(leaf, thing, demand_, leaf);
+      bool counts = leaf != 0 && sight_.counts(leaf, thing, demand_, leaf, ridge);
       for (std::size_t i = 0; i < branches.size() && !counts; ++i) {
         if (!open[i]) {
           const auto& branch = sight_.branches_[branches[i]];
-          open[i] = sight_.may_count(branch, bounds, demand_, sight_.ground_.get());
+          open[i] = sight_.may_count(branch, bounds, demand_, sight_.ground_.get(), ridge);
         }
-        counts = *open[i] && sight_.counts(branches[i], thing, demand_, leaf);
+        counts = *open[i] && sight_.counts(branches[i], thing, demand_, leaf, ridge);
       }
       out[member_[k]] = counts;
     }

@@ -110,8 +110,8 @@ double Sight::shift(const Branch& b, const Vector& place) const {
   return b.moved + b.turned * length(minus(place, views_[b.middle].position));
 }
 
-bool Sight::may_see(const Branch& b, const Ball& ball, const Demand& demand,
-                    const Occluder* ground) const {
+bool Sight::may_see(const Branch& b, const Ball& ball, const Demand& demand, const Occluder* ground,
+                    double& ridge) const {
   if (b.perspective && b.parallel) {
     return true;
   }
@@ -122,7 +122,7 @@ bool Sight::may_see(const Branch& b, const Ball& ball, const Demand& demand,
   }
   const double radius = ball.radius + demand.margin + shift(b, ball.centre);
   return b.frustum.touches(ball.centre, radius) &&
-         !(ground && b.clear && ground->hides(camera, ball));
+         !(ground && b.clear && ground->hides(camera, ball, ridge));
 }
 
 Ball Sight::piece(const Branch& b, const Ball& ball, double from, double to) {
@@ -134,7 +134,7 @@ Ball Sight::piece(const Branch& b, const Ball& ball, double from, double to) {
 
 /// Along the rays of light that go through the thing, until all of them are under the ground.
 bool Sight::may_shadow(const Branch& b, const Ball& ball, const Demand& demand,
-                       const Occluder* ground) const {
+                       const Occluder* ground, double& ridge) const {
   if (b.sun_height <= 0.0) {
     return false;
   }
@@ -146,11 +146,11 @@ bool Sight::may_shadow(const Branch& b, const Ball& ball, const Demand& demand,
   while (end < most && !(ground && ground->buries(piece(b, ball, end, end + step(end))))) {
     end += step(end);
   }
-  if (!may_see(b, piece(b, ball, 0.0, end), demand, ground)) {
+  if (!may_see(b, piece(b, ball, 0.0, end), demand, ground, ridge)) {
     return false;
   }
   for (double way = 0.0; way < end; way += step(way)) {
-    if (may_see(b, piece(b, ball, way, way + step(way)), demand, ground)) {
+    if (may_see(b, piece(b, ball, way, way + step(way)), demand, ground, ridge)) {
       return true;
     }
   }
@@ -158,27 +158,28 @@ bool Sight::may_shadow(const Branch& b, const Ball& ball, const Demand& demand,
 }
 
 bool Sight::may_count(const Branch& b, const Ball& ball, const Demand& demand,
-                      const Occluder* ground) const {
-  return may_see(b, ball, demand, ground) ||
-         (demand.shadows && may_shadow(b, ball, demand, ground));
+                      const Occluder* ground, double& ridge) const {
+  return may_see(b, ball, demand, ground, ridge) ||
+         (demand.shadows && may_shadow(b, ball, demand, ground, ridge));
 }
 
 bool Sight::counts(const Ball& ball, const Demand& demand) const {
   std::size_t last = 0;
-  return !branches_.empty() && counts(0, ball, demand, last);
+  double ridge = 0.0;
+  return !branches_.empty() && counts(0, ball, demand, last, ridge);
 }
 
-bool Sight::counts(std::size_t number, const Ball& ball, const Demand& demand,
-                   std::size_t& leaf) const {
+bool Sight::counts(std::size_t number, const Ball& ball, const Demand& demand, std::size_t& leaf,
+                   double& ridge) const {
   const Branch& b = branches_[number];
-  if (!may_count(b, ball, demand, ground_.get())) {
+  if (!may_count(b, ball, demand, ground_.get(), ridge)) {
     return false;
   }
   if (b.left == 0) {
     leaf = number;
     return true;
   }
-  return counts(b.left, ball, demand, leaf) || counts(b.right, ball, demand, leaf);
+  return counts(b.left, ball, demand, leaf, ridge) || counts(b.right, ball, demand, leaf, ridge);
 }
 
 double Sight::distance(const Vector& place) const {

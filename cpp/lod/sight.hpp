@@ -68,17 +68,19 @@ private:
   double shift(const Branch& branch, const Vector& place) const;
   /// Whether a ball may count for a view of this branch; exact for leaves.
   /// @param ground what hides; null asks the views alone, which is quick
+  /// @param ridge where on the way it last did (see `Occluder::hides`)
   bool may_count(const Branch& branch, const Ball& ball, const Demand& demand,
-                 const Occluder* ground) const;
-  bool may_see(const Branch& branch, const Ball& ball, const Demand& demand,
-               const Occluder* ground) const;
+                 const Occluder* ground, double& ridge) const;
+  bool may_see(const Branch& branch, const Ball& ball, const Demand& demand, const Occluder* ground,
+               double& ridge) const;
   bool may_shadow(const Branch& branch, const Ball& ball, const Demand& demand,
-                  const Occluder* ground) const;
+                  const Occluder* ground, double& ridge) const;
   /// A ball round its shadow between two distances (m) from its middle, whichever view's sun throws
   /// it.
   static Ball piece(const Branch& branch, const Ball& ball, double from, double to);
   /// `leaf` becomes the branch for whose view it counts.
-  bool counts(std::size_t branch, const Ball& ball, const Demand& demand, std::size_t& leaf) const;
+  bool counts(std::size_t branch, const Ball& ball, const Demand& demand, std::size_t& leaf,
+              double& ridge) const;
   void distance(std::size_t branch, const Vector& place, double& least) const;
 
   std::vector<View> views_;

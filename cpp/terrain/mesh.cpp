@@ -30,7 +30,8 @@ struct Triangle {
 
 class Refinement {
 public:
-  Refinement(const Survey& survey, const Points& points) : survey_(survey), points_(points) {
+  Refinement(const Survey& survey, const Points& points)
+      : survey_(survey), points_(points), waves_(points.waves()) {
     std::int32_t side = std::int32_t{1} << points.depth();
     while (side < std::max(points.width(), points.height())) {
       side *= 2;
@@ -107,8 +108,8 @@ private:
     return found;
   }
 
-  Vector place(std::int32_t x, std::int32_t y) const {
-    return x > points_.width() || y > points_.height() ? Vector{} : points_.at(x, y);
+  Vector place(std::int32_t x, std::int32_t y) {
+    return x > points_.width() || y > points_.height() ? Vector{} : points_.at(x, y, waves_);
   }
 
   struct Box {
@@ -207,6 +208,7 @@ private:
 
   const Survey& survey_;
   const Points& points_;
+  std::vector<Wave> waves_;
   std::vector<Vertex> vertices_;
   std::vector<Triangle> triangles_;
   std::vector<std::int32_t> changed_; ///< halved in this round, now halves

@@ -93,7 +93,11 @@ Vector Points::between(std::size_t row, std::size_t column, double v, double u) 
   return place;
 }
 
-Vector Points::at(std::int32_t x, std::int32_t y) const {
+std::vector<Wave> Points::waves() const {
+  return close_.surface ? close_.surface->waves() : std::vector<Wave>{};
+}
+
+Vector Points::at(std::int32_t x, std::int32_t y, std::span<Wave> waves) const {
   const double unit = static_cast<double>(std::int32_t{1} << depth_);
   const std::size_t row = std::min(static_cast<std::size_t>(y >> depth_), survey_.rows - 2);
   const std::size_t column = std::min(static_cast<std::size_t>(x >> depth_), survey_.columns - 2);
@@ -102,7 +106,7 @@ Vector Points::at(std::int32_t x, std::int32_t y) const {
       between(row, column, i - static_cast<double>(row), j - static_cast<double>(column));
   if (close_.surface) {
     const double part = weight(place);
-    place[2] += part > 0.0 ? part * close_.surface->detail(i, j) : 0.0;
+    place[2] += part > 0.0 ? part * close_.surface->detail(i, j, waves) : 0.0;
   }
   return place;
 }
@@ -110,15 +114,15 @@ Vector Points::at(std::int32_t x, std::int32_t y) const {
 void Points::raise_nodes() {
   raised_.resize(survey_.rows * survey_.columns);
   tbb::parallel_for(std::size_t{0}, survey_.rows, [&](std::size_t row) {
+    std::vector<Wave> known = waves();
     for (std::size_t column = 0; column < survey_.columns; ++column) {
       const std::size_t i = row * survey_.columns + column;
       const float* p = &survey_.place[3 * i];
       const double part = weight({p[0], p[1], p[2]});
-      raised_[i] =
-          part > 0.0
-              ? static_cast<float>(part * close_.surface->detail(static_cast<double>(row),
-                                                                 static_cast<double>(column)))
-              : 0.0F;
+      raised_[i] = part > 0.0 ? static_cast<float>(part * close_.surface->detail(
+                                                              static_cast<double>(row),
+                                                              static_cast<double>(column), known))
+                              : 0.0F;
     }
   });
 }
@@ -136,6 +140,7 @@ void Points::fill_tiles() {
   }
   tiles_.resize(total);
   tbb::parallel_for(std::size_t{0}, survey_.rows - 1, [&](std::size_t row) {
+    std::vector<Wave> known = waves();
     for (std::size_t column = 0; column + 1 < survey_.columns; ++column) {
       const std::size_t cell = row * (survey_.columns - 1) + column;
       const int level = survey_.fine[cell];
@@ -147,7 +152,7 @@ void Points::fill_tiles() {
           const std::int32_t y =
               (static_cast<std::int32_t>(row) << depth_) + (j << (depth_ - level));
           tiles_[offset_[cell] + static_cast<std::size_t>(j * side + i)] =
-              static_cast<float>(at(x, y)[2]);
+              static_cast<float>(at(x, y, known)[2]);
         }
       }
     }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace firetwin::terrain {
@@ -19,7 +20,9 @@ public:
   std::int32_t height() const { return height_; } ///< units
 
   /// Place of a point of the lattice, which lies on the ground.
-  Vector at(std::int32_t x, std::int32_t y) const;
+  /// @param waves the surface's, as `waves` gives them
+  Vector at(std::int32_t x, std::int32_t y, std::span<Wave> waves) const;
+  std::vector<Wave> waves() const;
 
   /// Calls `visit(place, tolerance)` for every point that counts with x and y between these units,
   /// both inclusive, and stops when it returns false. @return whether none did

@@ -24,18 +24,34 @@ std::uint32_t hash(std::int64_t x, std::int64_t y, std::int64_t seed) {
 
 } // namespace
 
-double perlin(double x, double y, std::int64_t seed) {
-  const double column = std::floor(x), row = std::floor(y);
-  const double u = x - column, v = y - row;
-  const auto slope = [&](int dx, int dy) {
-    const double angle =
-        hash(static_cast<std::int64_t>(column) + dx, static_cast<std::int64_t>(row) + dy, seed) *
-        (2.0 * std::numbers::pi / 4294967296.0);
-    return std::cos(angle) * (u - dx) + std::sin(angle) * (v - dy);
+Wave::Slope Wave::slope(std::int64_t column, std::int64_t row) const {
+  const double angle = hash(column, row, seed_) * (2.0 * std::numbers::pi / 4294967296.0);
+  return {std::cos(angle), std::sin(angle)};
+}
+
+double Wave::operator()(double x, double y) {
+  const double left = std::floor(x), low = std::floor(y);
+  const double u = x - left, v = y - low;
+  const auto column = static_cast<std::int64_t>(left), row = static_cast<std::int64_t>(low);
+  if (!known_ || column != column_ || row != row_) {
+    if (known_ && row == row_ && column == column_ + 1) {
+      slopes_ = {slopes_[1], slope(column + 1, row), slopes_[3], slope(column + 1, row + 1)};
+    } else {
+      slopes_ = {slope(column, row), slope(column + 1, row), slope(column, row + 1),
+                 slope(column + 1, row + 1)};
+    }
+    column_ = column;
+    row_ = row;
+    known_ = true;
+  }
+  const auto rise = [&](std::size_t corner) {
+    const auto [east, north] = slopes_[corner];
+    return east * (u - static_cast<double>(corner % 2)) +
+           north * (v - static_cast<double>(corner / 2));
   };
-  const double low = slope(0, 0) + fade(u) * (slope(1, 0) - slope(0, 0));
-  const double high = slope(0, 1) + fade(u) * (slope(1, 1) - slope(0, 1));
-  return 1.41 * (low + fade(v) * (high - low));
+  const double below = rise(0) + fade(u) * (rise(1) - rise(0));
+  const double above = rise(2) + fade(u) * (rise(3) - rise(2));
+  return 1.41 * (below + fade(v) * (above - below));
 }
 
 /// The cell that a place is in, and how far it is in it.
@@ -102,26 +118,34 @@ double Surface::smooth(const Place& at) const {
   return total;
 }
 
-double Surface::relief(const Place& at, double row, double column) const {
+std::vector<Wave> Surface::waves() const {
+  std::vector<Wave> made;
+  for (std::size_t i = 0; i < relief_.octaves.size(); ++i) {
+    made.emplace_back(relief_.seed + static_cast<std::int64_t>(i));
+  }
+  return made;
+}
+
+double Surface::relief(const Place& at, double row, double column, std::span<Wave> waves) const {
   const double dry = at.bilinear(dry_, columns());
   if (dry <= 0.0 || relief_.strength <= 0.0) {
     return 0.0;
   }
   const double y = row * cell_north_, x = column * cell_east_;
   double shape = 0.0;
-  std::int64_t seed = relief_.seed;
-  for (const Octave& octave : relief_.octaves) {
-    const double wave = perlin(x / octave.size, y / octave.size, seed++);
+  for (std::size_t i = 0; i < relief_.octaves.size(); ++i) {
+    const Octave& octave = relief_.octaves[i];
+    const double wave = waves[i](x / octave.size, y / octave.size);
     shape += octave.weight * (1.0 - relief_.sharp * std::abs(wave)); // sharp ridges, round hollows
   }
   return relief_.strength * dry * (relief_.level + at.bilinear(steep_, columns())) *
          (shape - relief_.mean);
 }
 
-double Surface::detail(double row, double column) const {
+double Surface::detail(double row, double column, std::span<Wave> waves) const {
   const Place at = place(row, column, rows(), columns());
   const auto own = [&] {
-    return smooth(at) - at.bilinear(elevation_.values, columns()) + relief(at, row, column);
+    return smooth(at) - at.bilinear(elevation_.values, columns()) + relief(at, row, column, waves);
   };
   if (patch_.rows == 0) {
     return own();

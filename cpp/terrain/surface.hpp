@@ -2,14 +2,32 @@
 
 #include "base/grid.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace firetwin::terrain {
 
 /// Gradient noise of wavelength 1 on the plane, about -1 to 1 (Perlin 2002: quintic fade).
-double perlin(double x, double y, std::int64_t seed);
+///
+/// It remembers the slopes at the corners of the cell that was asked about last: places that are
+/// near each other cost a fraction of those that are not.
+class Wave {
+public:
+  explicit Wave(std::int64_t seed) : seed_(seed) {}
+  double operator()(double x, double y);
+
+private:
+  using Slope = std::array<double, 2>;
+  Slope slope(std::int64_t column, std::int64_t row) const;
+
+  std::int64_t seed_;
+  std::int64_t column_ = 0, row_ = 0;
+  bool known_ = false;
+  std::array<Slope, 4> slopes_{}; ///< low left, low right, high left, high right
+};
 
 /// A wave of relief.
 struct Octave {
@@ -54,14 +72,18 @@ public:
   std::size_t rows() const { return elevation_.rows; }
   std::size_t columns() const { return elevation_.columns; }
 
+  /// The relief's waves, for places that are near each other.
+  std::vector<Wave> waves() const;
+
   /// Height (m) seen closely, less the bilinear one, at a fractional row and column of the grid.
-  double detail(double row, double column) const;
+  /// @param waves its own, as `waves` gives them
+  double detail(double row, double column, std::span<Wave> waves) const;
 
 private:
   struct Place;
   static Place place(double row, double column, std::size_t rows, std::size_t columns);
   double smooth(const Place& at) const;
-  double relief(const Place& at, double row, double column) const;
+  double relief(const Place& at, double row, double column, std::span<Wave> waves) const;
 
   Grid<double> elevation_;
   std::vector<float> steep_, dry_;

@@ -166,3 +166,18 @@ def few_cells(monkeypatch):
     monkeypatch.setattr(boxes, "_NEST", 72)
     monkeypatch.setattr(boxes, "_MARGIN", 2000.0)
     monkeypatch.setattr(boxes, "LEAD", 40.0)
+
+
+@pytest.fixture
+def plate(scene):
+    """A plate that fills the view of a camera above it."""
+    mesh = bpy.data.meshes.new("plate")
+    mesh.from_pydata([(-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0)], [], [(0, 1, 2, 3)])
+    scene.collection.objects.link(bpy.data.objects.new("plate", mesh))
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    camera.location = (0, 0, 5)
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.resolution_x = scene.render.resolution_y = 4
+    scene.cycles.samples = 1
+    return mesh

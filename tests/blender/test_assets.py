@@ -6,8 +6,10 @@ import pytest
 from firetwin.errors import InputError
 from firetwin.jobs import assets as job
 from firetwin.jobs import build
+from firetwin.progress import silent, untold
 from firetwin.scene import assets
 from firetwin.scene.forest import models
+from firetwin.shot import file
 
 KINDS = ("objects", "materials", "node_groups")
 
@@ -27,10 +29,10 @@ def few(monkeypatch):
     monkeypatch.setattr(assets, "_PICTURE", 16)
 
 
-def test_trees_materials_and_groups_are_assets_in_catalogues(shot, scene, few, library):
-    count = assets.build(shot, job.identifier)
+def test_trees_materials_and_groups_are_assets_in_catalogues(settings, few, library):
+    settings.path.write_text(file.text(settings))
+    count = job.in_blender({"scene": str(settings.path)}, str(library), silent, untold)
     assert "Studio" not in bpy.data.scenes
-    bpy.ops.wm.save_as_mainfile(filepath=str(library))
     bpy.ops.wm.read_factory_settings(use_empty=True)
     with bpy.data.libraries.load(str(library), assets_only=True) as (there, wanted):
         for kind in KINDS:
@@ -42,6 +44,13 @@ def test_trees_materials_and_groups_are_assets_in_catalogues(shot, scene, few, l
     assert all(block.asset_data.description for block in found.values())
     assert {"Young Conifer 1", "Large Conifer Snag 1", "Rock 1"} <= found.keys()
     assert {"Firetwin Foliage", "Firetwin Smoke Flow", "Firetwin Trees", "Firetwin Flames"} <= found.keys()
+    camera = found["Firetwin Thermal Camera"].asset_data
+    assert camera.catalog_id == job.identifier("Compositor")
+    assert camera.description.startswith("Brightness temperature (K)")
+    assert camera.description.endswith("Inputs: Low, High, Knee, Palette")
+    assert {"Firetwin Thermal Blend", "Firetwin Eye Dome", "Firetwin Overlay"} <= found.keys()
+    assert found["Firetwin Haze"].asset_data.description == "Inputs: Density, Tint"
+    assert "Haze Tint" in found["Firetwin Foliage Shader"].asset_data.description
     tree = found["Young Conifer 1"]
     pixels = np.empty(16 * 16 * 4, np.float32)
     tree.preview.image_pixels_float.foreach_get(pixels)

@@ -10,28 +10,25 @@ import pytest
 from firetwin.jobs import worker
 from firetwin.render import engine
 from firetwin_core import sensor
+from scene_text import DRONE, NO_PLANTS, NO_SMOKE
 
-SCENE = """\
+SCENE = (
+    """\
 run = "{run}"
 [time]
 frames = 2
-[ground]
-near_radius = 0.0
-apron = 20000.0
-[forest]
-trees = false
-grass = false
-[smoke]
-enabled = false
+"""
+    + NO_PLANTS
+    + NO_SMOKE
+    + """\
 [render]
 engine = "eevee"
 resolution = [64, 36]
 samples = 1
 passes = ["rgb", "thermal"]
-[[cameras]]
-name = "drone"
-keys = [{{latitude = 38.825, longitude = -120.56, height = 400, target = "fire"}}]
 """
+    + DRONE
+)
 
 # Black bodies side by side, 300, 1200 and 1000 K, in pixels of a metre; one of these is half and half.
 PLATES = """\

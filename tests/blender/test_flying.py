@@ -11,25 +11,9 @@ from firetwin.shot.lenses import LENSES
 from firetwin.shot.rigs.poses import Poses
 from firetwin.ui import aims, camera_list, flying, go
 from mathutils import Euler, Matrix
-from scene_text import BARE, TINY
+from scene_text import BARE, DRONE, NO_SMOKE, THREE_FRAMES, TINY
 
-SCENE = (
-    """\
-run = "{run}"
-[time]
-start = 2014-09-17T21:00:00Z
-end = 2014-09-17T22:00:00Z
-frames = 3
-"""
-    + BARE
-    + "[smoke]\nenabled = false\n"
-    + TINY
-    + """\
-[[cameras]]
-name = "drone"
-keys = [{{latitude = 38.825, longitude = -120.56, height = 400, target = "fire"}}]
-"""
-)
+SCENE = THREE_FRAMES + BARE + NO_SMOKE + TINY + DRONE
 EYE = Matrix.Translation((-500.0, -2500.0, 2400.0)) @ Euler((1.2, 0.0, -0.2)).to_matrix().to_4x4()
 
 

@@ -7,10 +7,16 @@ from firetwin.scene import haze
 from firetwin.scene.light import sky
 
 
-def _look(stage, shoot, height, distance):
-    """Red of a black wall at `height` seen from `distance` above it (level where that is negative)."""
+def _look(stage, shoot, height, distance, **inputs):
+    """Red of a black wall at `height` seen from `distance` above it (level where that is negative).
+
+    Its material has these inputs other than they are.
+    """
     material, tree = nodes.material("wall")
     tree.surface(haze.apply(tree, tree.emission((0.0, 0.0, 0.0)), stage))
+    group = next(node for node in material.node_tree.nodes if node.type == "GROUP")
+    for name, value in inputs.items():
+        group.inputs[name.replace("_", " ")].default_value = value
     scene, mesh = stage.scene, bpy.data.meshes.new("wall")
     size = 10.0 * abs(distance)
     if distance > 0.0:
@@ -45,6 +51,13 @@ def test_from_space_the_whole_air_is_one_scale_height_deep(stage, shoot):
     haze.settings(stage, 1.0, (2.0, 0.0, 0.0))
     depth = sky.HAZE * sky.HAZE_HEIGHT
     assert _look(stage, shoot, 0.0, 60_000.0) == pytest.approx(2.0 * (1.0 - math.exp(-depth)), rel=0.01)
+
+
+def test_one_material_may_have_more_haze_of_another_colour(stage, shoot):
+    haze.settings(stage, 1.0, (2.0, 0.0, 0.0))
+    depth = 3.0 * sky.HAZE * sky.HAZE_HEIGHT
+    seen = _look(stage, shoot, 0.0, 60_000.0, Haze=3.0, Haze_Tint=(0.5, 1.0, 1.0, 1.0))
+    assert seen == pytest.approx(1.0 - math.exp(-depth), rel=0.01)
 
 
 def test_no_haze_hides_nothing(stage, shoot):

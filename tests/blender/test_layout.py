@@ -45,20 +45,12 @@ def test_nodes_do_not_overlap_and_lie_right_of_what_they_are_made_of(groups):
                 assert upper.location.y - layout.height(upper) >= lower.location.y, (group.name, upper.name)
 
 
-def test_an_input_is_made_once_and_changes_the_picture(scene, shoot):
-    mesh = bpy.data.meshes.new("plate")
-    mesh.from_pydata([(-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0)], [], [(0, 1, 2, 3)])
-    scene.collection.objects.link(bpy.data.objects.new("plate", mesh))
-    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-    camera.location = (0, 0, 5)
-    scene.collection.objects.link(camera)
-    scene.camera = camera
-    scene.render.resolution_x = scene.render.resolution_y = 4
+def test_an_input_is_made_once_and_changes_the_picture(scene, plate, shoot):
     material, tree = nodes.material("test")
     twice = [tree.input("Power", 2.0, "How bright it is", "Light", most=10.0) for _ in range(2)]
     colour = tree.input("Colour", (1.0, 0.5, 0.25), "Of the light", "Light")
     tree.surface(tree.emission(colour, twice[0] * twice[1]))
-    mesh.materials.append(material)
+    plate.materials.append(material)
     assert shoot(scene)[2, 2] == pytest.approx([4.0, 2.0, 1.0], rel=1e-5)
     group = next(node for node in material.node_tree.nodes if node.type == "GROUP")
     assert [socket.name for socket in group.inputs] == ["Power", "Colour"]

@@ -1,25 +1,9 @@
 import math
 
-import bpy
 import pytest
 from firetwin.blender import compat, nodes, owned
 from firetwin.scene import clock
 from firetwin_core import sensor
-
-
-@pytest.fixture
-def plate(scene):
-    """A plate that fills the view of a camera above it."""
-    mesh = bpy.data.meshes.new("plate")
-    mesh.from_pydata([(-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0)], [], [(0, 1, 2, 3)])
-    scene.collection.objects.link(bpy.data.objects.new("plate", mesh))
-    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-    camera.location = (0, 0, 5)
-    scene.collection.objects.link(camera)
-    scene.camera = camera
-    scene.render.resolution_x = scene.render.resolution_y = 4
-    scene.cycles.samples = 1
-    return mesh
 
 
 def _show(plate, build):

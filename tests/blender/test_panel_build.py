@@ -134,8 +134,10 @@ def test_a_part_built_again_keeps_what_was_changed_by_hand_elsewhere(opened):
     scene.camera.name = "My camera"
     kept = [thing.session_uid for thing in (trees, ground, scene.camera)]
     opened.fire.budget, opened.light.haze = 100, 0.5
+    assert opened.changed == "fire light"
     for part in ("fire", "smoke", "light"):
         assert bpy.ops.firetwin.build(part=part) == {"FINISHED"}
+    assert opened.changed == ""
     assert [
         scene.objects[name].session_uid for name in ("Firetwin Trees", "Firetwin Ground", "My camera")
     ] == kept

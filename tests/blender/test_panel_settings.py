@@ -8,9 +8,10 @@ import bpy
 import firetwin
 import pytest
 from firetwin.errors import Error
+from firetwin.scene.build import PARTS
 from firetwin.shot import file, schema
 from firetwin.shot.settings import Render, Settings
-from firetwin.ui import camera_list, job, keys, scene_file, sections
+from firetwin.ui import camera_list, changed, job, keys, scene_file, sections
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -113,6 +114,27 @@ def test_only_what_differs_from_the_default_is_marked(panel):
     assert marked() >= {"start", "end", "fps", "samples"}
     panel.light.use_exposure = True
     assert "exposure" in marked()
+
+
+def test_what_changed_since_it_was_built_is_known(panel):
+    scene_file.fill(panel.id_data, file.read(EXAMPLES / "king_fire.toml"))
+    panel.forest.budget = 1000
+    assert panel.changed == ""  # nothing is built
+    changed.remember(panel, changed.seen(panel), tuple(PARTS))
+    panel.forest.budget, panel.light.use_exposure, panel.time.frames = 900, True, 2
+    panel.cameras[0].name = "mine"
+    assert panel.changed == "time forest light cameras"
+    panel.light.use_exposure = False
+    changed.remember(panel, changed.seen(panel), ("forest",))
+    changed.remember(panel, changed.seen(panel), ("cameras",))
+    assert panel.changed == "time cameras"  # what is built elsewhere hangs on them too
+    changed.remember(panel, changed.seen(panel), tuple(PARTS))
+    assert panel.changed == ""
+    panel.run = "/elsewhere"
+    assert panel.changed == "run"
+    changed.forget(panel)
+    panel.forest.budget = 800
+    assert panel.changed == ""
 
 
 def test_cameras_are_kept_whole(panel):

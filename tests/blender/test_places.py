@@ -49,6 +49,8 @@ def test_labels_beyond_their_distance_are_gone(labelled, run, scene):
     away = np.linalg.norm(shot.ground.point([38.840, 38.872], [-120.555, -120.545]) - eye, axis=1)
     assert list(away < 3000.0) == [True, False]
     assert len(instances()) == 1
+    build.remove(scene)
+    assert not [font for font in bpy.data.fonts if font.users]  # the typeface was lent
 
 
 def test_only_the_visible_picture_has_labels(labelled, run, stage, scene, shoot):

@@ -12,7 +12,7 @@ from firetwin.errors import Error
 from firetwin.jobs import worker
 from firetwin.render.store import Store
 from firetwin.shot import passes
-from scene_text import BARE, TINY
+from scene_text import DRONE, NO_PLANTS, NO_SMOKE, TINY
 
 FRAMES = 3
 SCENE = (
@@ -21,17 +21,14 @@ run = "{run}"
 [time]
 frames = {frames}
 """
-    + BARE
-    + """\
-[smoke]
-enabled = false
-"""
+    + NO_PLANTS
+    + NO_SMOKE
     + TINY
     + """\
 {render}
-[[cameras]]
-name = "drone"
-keys = [{{latitude = 38.825, longitude = -120.56, height = 400, target = "fire"}}]
+"""
+    + DRONE
+    + """\
 [[cameras]]
 name = "satellite"
 kind = "satellite"

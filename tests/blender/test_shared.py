@@ -15,9 +15,10 @@ import numpy as np
 import pytest
 from firetwin.render.store import Store
 from firetwin_core import sensor
-from scene_text import BARE, TINY
+from scene_text import NO_PLANTS, TINY
 
-KILLS = int(os.environ.get("FIRETWIN_KILLS", "3"))
+FRAMES = 4
+KILLS = int(os.environ.get("FIRETWIN_KILLS", "2"))
 SEED = int(os.environ.get("FIRETWIN_SEED", "1"))
 SCENE = (
     """\
@@ -26,7 +27,7 @@ cache = "{cache}"
 [time]
 frames = {frames}
 """
-    + BARE
+    + NO_PLANTS
     + """\
 [smoke]
 enabled = {smoke}
@@ -138,9 +139,9 @@ def test_two_renders_killed_at_random_make_the_files_of_one(start, render, tmp_p
     chance = random.Random(SEED)
     undisturbed, shared = tmp_path / "one", tmp_path / "two"
     begun = time.monotonic()
-    render(undisturbed, frames=6)
+    render(undisturbed, frames=FRAMES)
     alone = time.monotonic() - begun
-    running = [start(shared, frames=6), start(shared, frames=6)]
+    running = [start(shared, frames=FRAMES), start(shared, frames=FRAMES)]
     for _ in range(KILLS):
         time.sleep(chance.uniform(0.2, 1.2) * alone)
         which = chance.randrange(2)
@@ -148,7 +149,7 @@ def test_two_renders_killed_at_random_make_the_files_of_one(start, render, tmp_p
         if running[which].poll() is None:
             (os.killpg if with_child else os.kill)(running[which].pid, signal.SIGKILL)
         running[which].communicate()
-        running[which] = start(shared, frames=6)
+        running[which] = start(shared, frames=FRAMES)
     for process in running:
         said = process.communicate(timeout=600)[1]
         assert process.returncode == 0, said
@@ -165,12 +166,12 @@ def test_two_renders_killed_at_random_make_the_files_of_one(start, render, tmp_p
 
 def test_two_renders_make_no_picture_twice(start, tmp_path):
     out = tmp_path / "out"
-    running = [start(out, frames=6), start(out, frames=6)]
+    running = [start(out, frames=FRAMES), start(out, frames=FRAMES)]
     for process in running:
         assert process.wait(timeout=600) == 0, process.stderr.read()
     with Store(out) as store:
         count, last = store.data.one("SELECT count(*), max(number) FROM files")
-    assert count == last == 6 * (2 * (2 + 1 + 1 + 2)) // 2 + 2 * 6 + 4
+    assert count == last == (FRAMES + 2) * (2 + 1 + 1 + 2) + 4  # files of both cameras, and films
 
 
 def test_settings_of_one_camera_make_its_pictures_again(render, tmp_path):

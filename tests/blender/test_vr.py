@@ -20,6 +20,7 @@ from firetwin.shot.rigs.vr import Vr
 from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
+from scene_text import NO_PLANTS, NO_SMOKE
 
 SIZE, FRAME, APART = 256, 2, 60.0
 PIXEL = 2.0 * np.pi / SIZE
@@ -99,18 +100,15 @@ def test_a_scene_as_it_stands_keeps_both_eyes_and_their_size(settings, run, scen
         assert size == (across, across // 2, True)  # of each eye
 
 
-SCENE = """\
+SCENE = (
+    """\
 run = "{run}"
 [time]
 frames = 2
-[ground]
-near_radius = 0.0
-apron = 20000.0
-[forest]
-trees = false
-grass = false
-[smoke]
-enabled = false
+"""
+    + NO_PLANTS
+    + NO_SMOKE
+    + """\
 [render]
 resolution = [64, 64]
 samples = 1
@@ -126,6 +124,7 @@ target = "point"
 target_latitude = 38.825
 target_longitude = -120.51
 """
+)
 
 
 @pytest.mark.slow

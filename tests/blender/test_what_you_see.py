@@ -15,29 +15,9 @@ from firetwin.shot.rigs.poses import Poses
 from firetwin.ui import queue, scene_file
 from firetwin_core import sensor
 from mathutils import Euler
-from scene_text import BARE, TINY
+from scene_text import BARE, DRONE, NO_SMOKE, THREE_FRAMES, TINY
 
-SCENE = (
-    """\
-run = "{run}"
-[time]
-start = 2014-09-17T21:00:00Z
-end = 2014-09-17T22:00:00Z
-frames = 3
-"""
-    + BARE
-    + """\
-[smoke]
-enabled = false
-"""
-    + TINY
-    + """\
-passes = ["rgb", "thermal", "depth"]
-[[cameras]]
-name = "drone"
-keys = [{{latitude = 38.825, longitude = -120.56, height = 400, target = "fire"}}]
-"""
-)
+SCENE = THREE_FRAMES + BARE + NO_SMOKE + TINY + 'passes = ["rgb", "thermal", "depth"]\n' + DRONE
 FRAME = 2
 
 

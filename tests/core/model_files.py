@@ -146,7 +146,7 @@ def cfbm(folder, *, count=4, step=30, shape=(20, 30), cell=10.0, turn=0.0, seed=
     return paths, {"flux": fluxes, "x": x, "y": y, "lat": lat.astype(float), "lon": lon.astype(float)}
 
 
-def forefire(path, arrival, *, lx=3000.0, ly=1000.0, year=2020, day=200):
+def forefire(path, arrival, *, lx=3000.0, ly=1000.0, west=0.0, south=0.0, year=2020, day=200):
     """What `save[]` writes: float64, -9999 where unburned without saying so, no coordinates."""
     with netCDF4.Dataset(path, "w") as f:
         f.createDimension("DIMX", arrival.shape[1])
@@ -155,8 +155,8 @@ def forefire(path, arrival, *, lx=3000.0, ly=1000.0, year=2020, day=200):
         f.createVariable("arrival_time_of_front", "f8", ("DIMY", "DIMX"))[:] = arrival
         f.createVariable("domain", "S1", ("domdim",)).setncatts(
             {
-                "SWx": 0.0,
-                "SWy": 0.0,
+                "SWx": west,
+                "SWy": south,
                 "Lx": lx,
                 "Ly": ly,
                 "Lz": 0.0,
@@ -164,6 +164,20 @@ def forefire(path, arrival, *, lx=3000.0, ly=1000.0, year=2020, day=200):
                 "refDay": np.int32(day),
             }
         )
+    return path
+
+
+def landscape(path, fuel, altitude, *, size, box):
+    """ForeFire's data: netCDF-3, (NT, NZ, NY, NX) 16-bit layers with dimensions of their own."""
+    with netCDF4.Dataset(path, "w", format="NETCDF3_CLASSIC") as f:
+        for name, letter, values in (("fuel", "f", fuel), ("altitude", "n", altitude)):
+            axes = [f"{letter}{axis}" for axis in "tzyx"]
+            for axis, length in zip(axes, values.shape, strict=True):
+                f.createDimension(axis, length)
+            f.createVariable(name, "i2", axes)[:] = values
+        f.createDimension("domdim", 1)
+        said = {"SWx": 0.0, "SWy": 0.0, "Lx": size, "Ly": size, "BBoxWSEN": box}
+        f.createVariable("domain", "S1", ("domdim",)).setncatts(said)
     return path
 
 

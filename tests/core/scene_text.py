@@ -14,3 +14,31 @@ resolution = [64, 36]
 samples = 1
 denoise = false
 """
+
+THREE_FRAMES = """\
+run = "{run}"
+[time]
+start = 2014-09-17T21:00:00Z
+end = 2014-09-17T22:00:00Z
+frames = 3
+"""
+
+NO_PLANTS = """\
+[ground]
+near_radius = 0.0
+apron = 20000.0
+[forest]
+trees = false
+grass = false
+"""
+
+NO_SMOKE = """\
+[smoke]
+enabled = false
+"""
+
+DRONE = """\
+[[cameras]]
+name = "drone"
+keys = [{{latitude = 38.825, longitude = -120.56, height = 400, target = "fire"}}]
+"""

@@ -2,6 +2,8 @@
 
 import io
 import sys
+import threading
+import time
 import warnings
 
 import model_files as made
@@ -11,7 +13,7 @@ from firetwin import cli
 from firetwin.errors import Error, InputError, UsageError
 from firetwin.jobs import convert, worker
 from firetwin.run import readers
-from firetwin.run.models import netcdf, write
+from firetwin.run.models import headway, netcdf, write
 from firetwin_core import run as runs
 
 
@@ -48,13 +50,18 @@ KINDS = ("wrf", "cfbm", "forefire", "tiff", "ascii", "lcp", "npz")
 
 TORTURE = '''
 """Each line of stdin: a kind's options and files; damages the first file in many ways and converts it."""
-import json, os, shutil, sys, warnings
+import importlib, json, os, shutil, sys, warnings
 from pathlib import Path
 import numpy as np
 warnings.simplefilter("ignore")
 from firetwin.errors import Error
 from firetwin.jobs import convert
+from firetwin.run.readers import MODELS
 from firetwin_core import run as runs
+for name in ("netCDF4", "rasterio", "pyproj", "firetwin.run.models.write"):  # once, for all that are forked
+    importlib.import_module(name)
+for name in MODELS:
+    importlib.import_module(f"firetwin.run.readers.{name}")
 
 paths, options, folder, ways, seed = json.loads(sys.stdin.readline())
 whole = Path(paths[0]).read_bytes()
@@ -107,14 +114,14 @@ def test_damaged_files_end_in_an_error(tmp_path, kind):
 
     paths, options = files_of(kind, tmp_path)
     asked = [options.get("start", ""), "", "", 0.0]
-    task = json.dumps([[str(path) for path in paths], asked, str(tmp_path), 8, 5])
+    task = json.dumps([[str(path) for path in paths], asked, str(tmp_path), 4, 5])
     done = subprocess.run(
         [sys.executable, "-c", TORTURE], input=task, capture_output=True, text=True, timeout=300
     )
     assert done.returncode == 0, done.stderr
     assert "BAD" not in done.stdout, done.stdout
     ends = [int(line.split()[1]) for line in done.stdout.splitlines() if line.startswith("end")]
-    assert len(ends) == 14
+    assert len(ends) == 10
     assert all(end & 127 or end == 0 for end in ends), done.stdout
 
 
@@ -161,6 +168,49 @@ def test_a_process_that_crashes_is_one_line(tmp_path, monkeypatch, capfd):
     assert str(paths[0]) in text[0]
     assert "SIGABRT" in text[0]
     assert not (tmp_path / "out").exists()
+
+
+HANGING = """
+import re
+def in_process(**_):
+    re.match("(a+)+$", "a" * 60 + "b")  # for longer than the Sun burns, in C and with Python held
+"""
+
+
+def test_a_process_that_hangs_is_one_line(tmp_path, monkeypatch, capfd):
+    paths, _ = files_of("forefire", tmp_path)
+    monkeypatch.setattr(convert, "__name__", "test_convert_hangs")
+    monkeypatch.setattr(convert, "PATIENCE", 1.0)
+    (tmp_path / "test_convert_hangs.py").write_text(HANGING)
+    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{':'.join(sys.path)}")
+    assert cli.main(["convert", str(paths[0]), "--out", str(tmp_path / "out")]) == 1
+    (line,) = capfd.readouterr().err.strip().splitlines()
+    assert f"{paths[0]}: reading it made no headway for 1 s" in line
+    assert not (tmp_path / "out").exists()
+
+
+def test_patience_ends_with_what_is_silent_alone():
+    class Child:
+        killed = threading.Event()
+        kill = killed.set
+
+    with worker._Patience(Child, 0.4) as watch:
+        for _ in range(12):
+            time.sleep(0.05)
+            watch.heard()
+        assert not Child.killed.is_set()  # after 0.6 s
+        assert Child.killed.wait(10.0)
+        assert watch.over
+
+
+def test_reading_says_that_it_goes_on(tmp_path, monkeypatch):
+    """A sign for each part that is read, so that neither many files nor slow ones are taken for a hang."""
+    paths, _ = made.cfbm(tmp_path, count=5)
+    signs = []
+    monkeypatch.setattr(headway, "_OFTEN", 0.0)
+    monkeypatch.setattr(worker, "sign", lambda: signs.append(1))
+    in_process(paths, tmp_path / "out")
+    assert len(signs) > 5 * 6  # opened, and five fields of each
 
 
 def test_the_command(tmp_path, capfd):

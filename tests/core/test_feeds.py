@@ -6,12 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from firetwin.errors import InputError
-from firetwin.render import dataset, fingerprint, whole
+from firetwin.render import dataset, fingerprint, plan, whole
+from firetwin.render.picture import Picture
 from firetwin.render.store import Store, describe
 from firetwin.run import info
-from firetwin.shot import file, passes
+from firetwin.shot import file, mount, passes
+from firetwin.shot.passes import _sheet, masks, pose
 from firetwin.shot.passes import fused as fused_pass
-from firetwin.shot.passes import masks, pose
 from firetwin.shot.rigs.drone import CameraKey, Drone
 from firetwin.shot.rigs.lookout import Lookout, LookoutKey
 from firetwin.shot.rigs.minimap import Minimap
@@ -267,6 +268,91 @@ def test_panels_lie_where_they_belong_in_any_size(fused, resolution):
     depth = picture[rows[-1] + gap + 4 : rows[-1] + gap + high - 4, left + wide // 2]
     assert np.ptp(depth[0]) < 0.02, "the sky is grey"
     assert np.ptp(depth[-1]) > 0.2
+
+
+MOUNT = (
+    replace(DRONE, passes=("rgb", "depth", "fused"), resolution=(640, 360)),
+    Camera("far", Mounted("drone", 60.0), passes=("rgb",)),
+    Camera("infrared", Mounted("drone", 14.0, 10.8), passes=("thermal",), resolution=(160, 128)),
+    Camera("later", Mounted("drone"), passes=("thermal",)),
+    Camera("map", Minimap("drone", 4000.0), passes=("rgb",), resolution=(200, 200)),
+)
+
+
+def test_a_place_is_at_the_same_point_of_every_panel_of_a_mount(shot, tmp_path):
+    made = shot(*MOUNT)
+    own, infrared, over = (made.of(name).paths[0] for name in ("drone", "infrared", "map"))
+    aim = own.position[2] + own.rotation[2] @ [0.2 * 800.0, 0.1 * 800.0, -800.0]
+    pictures = {}
+    for view, size in ((own, (640, 360)), (infrared, (160, 128)), (over, (200, 200))):
+        x, y, z = view.rotation[2].T @ (aim - view.position[2])
+        far = -z if view.perspective else 1.0
+        share = 0.5 + 0.5 * np.array([x, -y]) / far / view.halves[2]
+        grid = np.stack(np.meshgrid(*(np.arange(n) + 0.5 for n in size)), axis=-1)
+        near = np.linalg.norm(grid - share * size, axis=-1) < 0.015 * size[0]
+        pictures[view.camera.name] = near
+    needed = {
+        "rgb": {"png": tmp_path / "rgb.png"},
+        "thermal": {"exr": tmp_path / "thermal.exr"},
+        "depth": {"exr": tmp_path / "depth.exr"},
+        "map": {"png": tmp_path / "map.png"},
+    }
+    green, red = np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0])
+    sensor.write_image(needed["rgb"]["png"], np.where(pictures["drone"][..., None], green, 0.2 * red))
+    sensor.write_image(needed["map"]["png"], np.where(pictures["map"][..., None], green, 0.2 * red))
+    hot = np.where(pictures["infrared"], 1200.0, 300.0)
+    sensor.write_image(needed["thermal"]["exr"], np.stack([hot, hot], axis=-1))
+    sensor.write_image(needed["depth"]["exr"], np.full((360, 640, 2), 800.0))
+    passes.known()["fused"].finish({"png": tmp_path / "f.png"}, needed, made.of("drone"), "drone", 3)
+    shown = sensor.read_image(tmp_path / "f.png")[..., :3]
+    sheet = _sheet.Sheet(640, 360)
+    wide, high = sheet.wide * sheet.unit, sheet.high * sheet.unit
+    gap, top = 1.5 * sheet.unit, sheet.top * sheet.unit
+
+    def spot(place, like):
+        row, column = divmod(place, 2)
+        x, y = gap + column * (wide + gap), top + row * (high + gap)
+        panel = shown[round(y) : round(y + high), round(x) : round(x + wide)]
+        rows, columns = np.nonzero(like(panel) & (np.arange(panel.shape[1]) > 0.4 * wide))  # the name is left
+        return (columns.mean() + 0.5) / wide, (rows.mean() + 0.5) / high
+
+    def is_green(panel):
+        return (panel[..., 1] > 0.7) & (panel[..., 0] < 0.4) & (panel[..., 2] < 0.4)
+
+    expected = (0.5 + 0.5 * 0.2 / own.halves[2, 0], 0.5 - 0.5 * 0.1 / own.halves[2, 1])
+    one = 1.5 / wide
+    assert spot(0, is_green) == pytest.approx(expected, abs=one)
+    assert spot(1, lambda panel: panel.min(axis=-1) > 0.9) == pytest.approx(expected, abs=one)
+    away = (aim - own.position[2])[:2] / 4000.0
+    assert spot(2, is_green) == pytest.approx((0.5 + away[0], 0.5 - away[1] * wide / high), abs=one)
+
+
+def test_a_fused_view_asks_its_mount_for_what_its_camera_does_not_record(shot):
+    made = shot(*MOUNT)
+    assert mount.taken(made.settings, made.cameras, "drone", passes.known()["fused"]) == {
+        "rgb": ("drone", "rgb"),
+        "thermal": ("infrared", "thermal"),
+        "depth": ("drone", "depth"),
+        "map": ("map", "rgb"),
+    }
+    asked = plan.pictures(made, "2", "drone", "fused")
+    assert asked == [
+        Picture("infrared", 2, "thermal"),
+        Picture("map", 2, "rgb"),
+        Picture("drone", 2, "fused"),
+    ]
+    assert plan.rounds(made, asked) == [asked[:2], asked[2:]]
+    assert plan.pictures(made, "2", "drone", "rgb") == [Picture("drone", 2, "rgb")]
+
+
+def test_a_fused_view_is_made_again_when_a_sensor_of_its_mount_changes():
+    def made_with(*cameras):
+        return fingerprint.of_picture(Settings(cameras=cameras), {}, "drone", "fused")
+
+    other = replace(MOUNT[2], rig=replace(MOUNT[2].rig, focal_length=10.0))
+    unused = replace(MOUNT[3], rig=replace(MOUNT[3].rig, focal_length=10.0))
+    assert made_with(*MOUNT) != made_with(*MOUNT[:2], other, *MOUNT[3:])
+    assert made_with(*MOUNT) == made_with(*MOUNT[:3], unused, *MOUNT[4:])
 
 
 def test_what_is_told_beside_the_panels_is_true(shot, monkeypatch):

@@ -254,11 +254,13 @@ ff.execute("startFire[loc=(1500,1000,0);t=0]")
 ff.execute("step[dt=900]")
 ff["dumpMode"] = "geojson"
 ff.execute("print[front.geojson]")
+ff["dumpMode"] = "json"
+ff.execute("print[front.json]")
 ff.execute("save[]")
 """
     subprocess.run([sys.executable, "-c", code], cwd=tmp_path, check=True, timeout=60, capture_output=True)
     convert.in_process(
-        [str(tmp_path / "ForeFire.0.nc"), str(tmp_path / "front.geojson")],
+        [str(tmp_path / name) for name in ("ForeFire.0.nc", "front.geojson", "front.json")],
         str(tmp_path / "run"),
         ["", "", "", 0],
     )
@@ -272,6 +274,9 @@ ff.execute("save[]")
     assert moment(run) == datetime(2020, 7, 18, tzinfo=UTC)
     import json
 
+    (front,) = json.loads((tmp_path / "front.json").read_text())["fronts"]
+    own = float(front["area"].removesuffix("ha")) * 1e4
+    assert own * 1.0 < burned_area(run) < own * 1.1  # a touched cell counts: as stated
     shapely = pytest.importorskip("shapely")
     data = json.loads((tmp_path / "front.geojson").read_text())
     rings = [

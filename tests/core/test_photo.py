@@ -157,7 +157,7 @@ def test_no_picture_is_one_line(make, tmp_path, data):
     if data.startswith(b"II"):
         pytest.importorskip("rasterio")
     (tmp_path / "photo.png").write_bytes(data)
-    with pytest.raises(InputError, match=r"photo\.png: "):
+    with pytest.raises(InputError, match=r"scene\.toml:9:1: ground\.photo: .*photo\.png "):
         make(f'photo = "photo.png"\nphoto_extent = {list(BOX)}').shot()
 
 

@@ -220,7 +220,7 @@ def test_other_files_are_one_line(make, tiff, tmp_path):
     whole = tiff().read_bytes()
     for content_of in (b"", b"no raster", whole[:400], b"\x89PNG\r\n\x1a\n", b"<VRTDataset/>"):
         (tmp_path / "dem.tif").write_bytes(content_of)
-        with pytest.raises(InputError, match=r"dem\.tif: (cannot be read as a GeoTIFF|does not say where)"):
+        with pytest.raises(InputError, match=r"dem\.tif:? (cannot be read as a GeoTIFF|does not say where)"):
             make().shot()
     (tmp_path / "dem.tif").unlink()
     for _ in range(2):
@@ -233,7 +233,9 @@ def test_what_is_cut_off_is_one_line(make, tiff, tmp_path):
     path = tiff()
     data = path.read_bytes()
     path.write_bytes(data[: len(data) // 2])
-    with pytest.raises(InputError, match=r"dem\.tif: cannot be read as a GeoTIFF"):
+    with pytest.raises(
+        InputError, match=r"scene\.toml:.*ground\.elevation: .*dem\.tif cannot be read as a GeoTIFF"
+    ):
         _ = make().shot().relief.fuel
 
 

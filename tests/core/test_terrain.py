@@ -153,6 +153,55 @@ def test_near_an_eye_the_mesh_follows_the_surface_between_grid_points():
         assert np.abs(off).max() > 0.3 * most
 
 
+def gradient_noise(x, y, seed):
+    """Perlin's noise (2002) in NumPy: slopes of length 1 on a lattice, turned by MurmurHash3's finaliser."""
+    column, row = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
+    u, v = x - column, y - row
+    corners = []
+    for dy in (0, 1):
+        for dx in (0, 1):
+            h = (column + dx).astype(np.uint32) * np.uint32(0x9E3779B1)
+            h ^= (row + dy).astype(np.uint32) * np.uint32(0x85EBCA77)
+            h ^= np.uint32((seed * 0x27D4EB2F + 0x165667B1) & 0xFFFFFFFF)
+            h = (h ^ (h >> np.uint32(16))) * np.uint32(0x85EBCA6B)
+            h = (h ^ (h >> np.uint32(13))) * np.uint32(0xC2B2AE35)
+            angle = (h ^ (h >> np.uint32(16))) * (2 * np.pi / 2**32)
+            corners.append(np.cos(angle) * (u - dx) + np.sin(angle) * (v - dy))
+    u, v = (w**3 * (w * (6 * w - 15) + 10) for w in (u, v))
+    low, high = (corners[k] + u * (corners[k + 1] - corners[k]) for k in (0, 2))
+    return 1.41 * (low + v * (high - low))
+
+
+def test_noise_at_a_place_does_not_hang_on_the_place_before():
+    rng = np.random.default_rng(4)
+    x, y = (v.ravel() for v in np.meshgrid(np.linspace(-3.0, 9.0, 150), np.linspace(5.0, -2.0, 90)))
+    in_rows = terrain.perlin(x, y, 12)
+    assert in_rows == pytest.approx(gradient_noise(x, y, 12), abs=1e-12)
+    mixed = rng.permutation(len(x))
+    assert np.array_equal(terrain.perlin(x[mixed], y[mixed], 12), in_rows[mixed])
+    assert not np.array_equal(terrain.perlin(x, y, 13), in_rows)
+    assert np.array_equal(terrain.perlin(np.arange(5.0), np.arange(5.0), 12), np.zeros(5))
+
+
+def test_values_between_points_are_bilinear_and_go_on_beyond_the_ends():
+    rng = np.random.default_rng(5)
+    a, b, c, d = rng.normal(size=4)
+    row, column = rng.uniform(-3.0, 12.0, (2, 500))
+    known = a + b * np.arange(8)[:, None] + c * np.arange(6) + d * np.arange(8)[:, None] * np.arange(6)
+    wanted = a + b * row + c * column + d * row * column
+    assert terrain.bilinear(known, row, column) == pytest.approx(wanted, abs=1e-9)
+    inner, last = np.array([2.5, 6.999]), np.array([4.25, 0.0])
+    bent = rng.normal(size=(8, 6))
+    i, j = inner.astype(int), last.astype(int)
+    low = bent[i, j] * (1 - (last - j)) + bent[i, j + 1] * (last - j)
+    high = bent[i + 1, j] * (1 - (last - j)) + bent[i + 1, j + 1] * (last - j)
+    assert np.array_equal(terrain.bilinear(bent, inner, last), low * (1 - (inner - i)) + high * (inner - i))
+    assert np.array_equal(terrain.bilinear([[3.0]], [0.0, 2.0], [1.0, 0.5]), [3.0, 3.0])
+    assert np.isnan(terrain.bilinear(bent, [np.nan], [1.0])).all()
+    with pytest.raises(ValueError, match="field"):
+        terrain.bilinear(np.empty((0, 3)), [0.0], [0.0])
+
+
 def test_the_surface_is_smooth_with_ridges_of_gradient_noise():
     rows, columns = 12, 15
     height, _ = surface(rows, columns, 5)
@@ -173,7 +222,7 @@ def test_the_surface_is_smooth_with_ridges_of_gradient_noise():
     assert plain.detail(row, column) == pytest.approx(smooth - flat, abs=1e-9)
     wet = terrain.Surface(level, level, level + 1.0, (20.0, 20.0), OCTAVES, 7.0, 0.25, 2.4, 0.55, 91)
     waves = sum(
-        weight * (1 - 2.4 * np.abs(noise.perlin(column * 20 / size, row * 20 / size, 91 + k)))
+        weight * (1 - 2.4 * np.abs(gradient_noise(column * 20 / size, row * 20 / size, 91 + k)))
         for k, (size, weight) in enumerate(OCTAVES)
     )
     assert wet.detail(row, column) == pytest.approx(7.0 * 0.25 * (waves - 0.55), abs=1e-9)

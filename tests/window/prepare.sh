@@ -9,7 +9,7 @@ packages=(
   # Blender's own extensions need these, and Debian's package only half of them.
   python3-numpy python3-requests python3-cattr python3-zstandard
   # A screen, hands, eyes, and OpenGL by the CPU.
-  xvfb xdotool imagemagick libgl1-mesa-dri libegl1
+  xvfb xdotool python3-xlib imagemagick libgl1-mesa-dri libegl1
   g++ cmake ninja-build pkgconf python3-dev python3-venv
   libopenvdb-dev libboost-dev libimath-dev libblosc-dev libtbb-dev libopenimageio-dev libopenexr-dev
   libgeographiclib-dev libtomlplusplus-dev libfast-float-dev libfftw3-dev

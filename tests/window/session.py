@@ -12,100 +12,39 @@ import subprocess
 import sys
 import time
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import bpy
 
 sys.path.insert(0, str(Path(__file__).parent))
 import inventory
+import page
+import shown
+from hands import (
+    FOLDER,
+    MODULE,
+    PATIENCE,
+    STEPS,
+    alone,
+    built,
+    busy,
+    call,
+    check,
+    failures,
+    here,
+    idle,
+    keys,
+    picture,
+    say,
+    settings,
+    soon,
+    stopping,
+    tab,
+    view,
+)
 
-FOLDER, *STEPS = sys.argv[sys.argv.index("--") + 1 :]
-FOLDER = Path(FOLDER)
 USER = Path(os.environ["BLENDER_USER_RESOURCES"])
-MODULE = "bl_ext.user_default.firetwin"
-PATIENCE = float(os.environ.get("FIRETWIN_PATIENCE", "1800"))  # s, for anything, without a GPU
-failures: list[str] = []
-began = time.monotonic()
-
-
-def say(text: str) -> None:
-    line = f"{time.monotonic() - began:7.1f} s  {text}"
-    print(line, flush=True)
-    with (FOLDER / "session.log").open("a", encoding="utf-8") as log:
-        log.write(line + "\n")
-
-
-def check(good: bool, text: str) -> None:
-    say(("ok      " if good else "FAILED  ") + text)
-    if not good:
-        failures.append(text)
-
-
-def picture(name: str) -> None:
-    """Draw what is new, then take the whole screen."""
-    window = bpy.context.window_manager.windows[0]
-    with bpy.context.temp_override(window=window, screen=window.screen):
-        bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
-    path = FOLDER / f"{name}.png"
-    subprocess.run(["import", "-window", "root", str(path)], check=True)
-    say(f"picture {path.name}")
-
-
-def keys(*names: str, over: str = "WINDOW") -> None:
-    """Press keys with the mouse over the 3D view, or over its sidebar ("UI")."""
-    place = next(region for region in view().regions if region.type == over)
-    x = place.x + (200 if over == "WINDOW" else place.width // 2)
-    height = bpy.context.window_manager.windows[0].height
-    y = height - place.y - place.height // 4  # not in the middle, where reports are
-    subprocess.run(["xdotool", "mousemove", str(x), str(y)], check=True)
-    time.sleep(0.3)
-    subprocess.run(["xdotool", "key", "--delay", "100", *names], check=True)
-
-
-def view() -> bpy.types.Area:
-    return next(area for area in bpy.context.window_manager.windows[0].screen.areas if area.type == "VIEW_3D")
-
-
-def here() -> dict[str, object]:
-    """Where a user's click in the 3D view happens."""
-    window, area = bpy.context.window_manager.windows[0], view()
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    return {"window": window, "area": area, "region": region, "screen": window.screen}
-
-
-def call(operator: Callable[..., set[str]], **options: object) -> set[str]:
-    with bpy.context.temp_override(**here()):
-        return operator("INVOKE_DEFAULT", **options)
-
-
-def settings() -> bpy.types.PropertyGroup:
-    return bpy.context.scene.firetwin
-
-
-def busy() -> bool:
-    return sys.modules[f"{MODULE}.ui.job"].Job.current is not None
-
-
-def stopping() -> bool:
-    job = sys.modules[f"{MODULE}.ui.job"].Job.current
-    return job is None or job.stop.asked
-
-
-def idle() -> bool:
-    return not busy()
-
-
-def tab() -> None:
-    """Open the sidebar at Firetwin."""
-    area = view()
-    area.spaces.active.show_region_ui = True
-    sidebar = next(region for region in area.regions if region.type == "UI")
-    sidebar.active_panel_category = "Firetwin"
-
-
-def built() -> list[str]:
-    return [thing.name for thing in bpy.context.scene.objects if thing.name.startswith("Firetwin")]
 
 
 def install() -> Iterator[object]:
@@ -151,51 +90,6 @@ def panel() -> Iterator[object]:
     picture("05-run")
 
 
-def ui() -> object:
-    return sys.modules[f"{MODULE}.ui"]
-
-
-def opened(cls: type) -> type:
-    """A panel like another one, but open: Blender keeps which are closed by their names."""
-    own = {name: value for name, value in vars(cls).items() if name[:2] != "__" and name != "bl_rna"}
-    own |= {"bl_idname": f"{cls.bl_idname}_open", "bl_options": set()}
-    if "bl_parent_id" in own:
-        own["bl_parent_id"] += "_open"
-    return type(own["bl_idname"], (bpy.types.Panel,), own)
-
-
-def parent(cls: type, known: list[type]) -> type | None:
-    return next((each for each in known if each.bl_idname == getattr(cls, "bl_parent_id", "")), None)
-
-
-def sections() -> Iterator[object]:
-    """Every panel by itself and open, and the menus."""
-    known = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
-    for each in reversed(known):
-        bpy.utils.unregister_class(each)
-    for top in (each for each in known if not hasattr(each, "bl_parent_id")):
-        shown = [opened(each) for each in known if top in (each, parent(each, known))]
-        for each in shown:
-            bpy.utils.register_class(each)
-        yield 0.5
-        tab()
-        yield 1.5
-        picture(f"20-panel-{top.bl_label.lower().replace(' ', '-')}")
-        for each in reversed(shown):
-            bpy.utils.unregister_class(each)
-    for each in known:
-        bpy.utils.register_class(each)
-    yield 1
-    tab()
-    for name in ("TOPBAR_MT_file_import", "VIEW3D_MT_add", "FIRETWIN_MT_start", "FIRETWIN_MT_parts"):
-        with bpy.context.temp_override(**here()):
-            bpy.ops.wm.call_menu(name=name)
-        yield 1
-        picture(f"21-menu-{name.lower()}")
-        keys("Escape")
-        yield 1
-
-
 def quality() -> Iterator[object]:
     """A step of quality, a setting and its mark; the exported file brings the same back."""
     before = settings().render.samples
@@ -229,12 +123,6 @@ def build() -> Iterator[object]:
     check(len(bpy.data.scenes) == 1, "into the startup scene, which nobody used")
     check(view().spaces.active.clip_end > 100_000, "the view reaches as far as the scene")
     picture("07-built")
-
-
-def soon(condition: Callable[[], bool], seconds: float = 300.0) -> Callable[[], bool]:
-    """What to wait for: a slow machine takes long to draw before it takes a key."""
-    end = time.monotonic() + seconds
-    return lambda: condition() or time.monotonic() > end
 
 
 def uid(name: str) -> int:
@@ -385,27 +273,6 @@ def mean_difference(one: Path, other: Path) -> float:
     return float(np.abs(pixels[0] - pixels[1]).mean())
 
 
-def alone(name: str, top: str) -> Iterator[object]:
-    """A picture of one panel and those in it, open."""
-    known = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
-    shown = [opened(each) for each in known if top in (each.bl_idname, getattr(each, "bl_parent_id", ""))]
-    for each in reversed(known):
-        bpy.utils.unregister_class(each)
-    for each in shown:
-        bpy.utils.register_class(each)
-    yield 0.5
-    tab()
-    yield 2
-    picture(name)
-    for each in reversed(shown):
-        bpy.utils.unregister_class(each)
-    for each in known:
-        bpy.utils.register_class(each)
-    yield 0.5
-    tab()
-    yield 1
-
-
 def by_hand() -> Iterator[object]:
     """A camera from the view, keyed by flying, kept by a rebuild, and rendered beside the window."""
     region, queue = view().spaces.active.region_3d, sys.modules[f"{MODULE}.ui.queue"]
@@ -425,7 +292,7 @@ def by_hand() -> Iterator[object]:
     yield 2
     call(bpy.ops.firetwin.camera_key)
     yield 1
-    yield from alone("30-keyed-by-hand", "FIRETWIN_PT_cameras")
+    yield from alone("FIRETWIN_PT_cameras", lambda: picture("30-keyed-by-hand"))
     thing.name = "My flight"
     call(bpy.ops.firetwin.build, part="cameras")
     yield 1
@@ -439,7 +306,7 @@ def by_hand() -> Iterator[object]:
     check(queue.current() is not None, "a render goes on beside the window")
     call(bpy.ops.firetwin.render_background)
     yield 2
-    yield from alone("31-queue", "FIRETWIN_PT_render")
+    yield from alone("FIRETWIN_PT_render", lambda: picture("31-queue"))
     keys("Escape")
     yield 2
     check(not queue.items[0].stop.asked, "Esc over the 3D view belongs to something else")
@@ -455,7 +322,7 @@ def by_hand() -> Iterator[object]:
     yield soon(lambda: all(item.state in ("done", "failed") for item in queue.items), 900.0)
     yield 2
     check([item.state for item in queue.items] == ["done", "done"], str([item.text for item in queue.items]))
-    yield from alone("32-queue-done", "FIRETWIN_PT_render")
+    yield from alone("FIRETWIN_PT_render", lambda: picture("32-queue-done"))
 
 
 def undo() -> Iterator[object]:
@@ -559,7 +426,10 @@ def session() -> Iterator[object]:
     before = inventory.take(USER)
     picture("01-start")
     yield from install()
-    for step in (panel, quality, build, sections, look, parts, scrub, render, by_hand, undo, beside, file):
+    for step in (
+        *(panel, quality, build, shown.sections, shown.dialogs, look, parts, scrub, render),
+        *(by_hand, undo, beside, file, shown.drop, page.page, shown.browser),
+    ):
         if step.__name__ in STEPS:
             yield from step()
     yield from leave(before)

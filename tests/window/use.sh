@@ -7,7 +7,7 @@ cd "${1:?usage: tests/window/use.sh OUT [STEP ...]}"
 shift
 steps=("$@")
 if ((${#steps[@]} == 0)); then
-  steps=(commands panel quality build sections parts scrub render undo beside file)
+  steps=(commands panel quality build sections dialogs look parts scrub render by_hand undo beside file drop page browser)
 fi
 here=/firetwin/tests/window
 export LIBGL_ALWAYS_SOFTWARE=1 BLENDER_USER_RESOURCES=$PWD/user

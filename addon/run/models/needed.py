@@ -8,6 +8,8 @@ from types import ModuleType
 
 from ...errors import Error
 
+ALL = "netCDF4 pyproj pyshp rasterio"
+
 
 def package(name: str) -> ModuleType:
     """Import it.
@@ -20,8 +22,8 @@ def package(name: str) -> ModuleType:
     try:
         return importlib.import_module(name)
     except ImportError:
-        pip = f"{sys.executable} -m pip install {name}"
+        pip = f"{sys.executable} -m pip install"
         raise Error(
-            f"reading this needs the Python package {name}; install it with: {pip} "
-            "(or all that models' files need: pip install 'firetwin[models]')"
+            f"reading this needs the Python package {name}; install it with: {pip} {name} "
+            f"(or all that models' files need: {pip} {ALL})"
         ) from None

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Error, InputError, input_error
-from . import classic, needed
+from . import classic, headway, needed
 
 _MAGIC = (b"\x89HDF\r\n\x1a\n", b"CDF\x01", b"CDF\x02", b"CDF\x05")
 _OPEN = 8  # files at once
@@ -62,7 +62,8 @@ class File:
 
     @contextmanager
     def sense(self) -> Iterator[None]:
-        """What goes wrong within names the file."""
+        """What goes wrong within names the file; that it goes on is said."""
+        headway.sign()
         try:
             yield
         except Error:

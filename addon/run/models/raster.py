@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Error, InputError, input_error
-from . import needed
+from . import headway, needed
 from .grid import Grid, project
 
 _LARGEST = 1 << 29  # values
@@ -125,6 +125,7 @@ def read(path: Path) -> Raster:
     InputError
         It cannot be read.
     """
+    headway.sign()
     try:
         with path.open("rb") as file:
             ascii_grid = file.read(5).lower() == b"ncols"

@@ -92,7 +92,9 @@ def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
             _save(part / f"{before}latitude.npy", where.latitude)
             _save(part / f"{before}longitude.npy", where.longitude)
         (part / JOURNAL).unlink(missing_ok=True)
-        files.write(part / "run.toml", lambda path: path.write_text(description(model), encoding="utf-8"))
+        files.write(
+            part / "run.toml", lambda path: path.write_text(description(model, inputs), encoding="utf-8")
+        )
         if out.is_dir():
             out.rmdir()
         part.rename(out)
@@ -182,8 +184,8 @@ def _room(out: Path, need: int) -> None:
         raise input_error(out, 0, 0, f"needs {size(need)} and the disk has {size(free)} free")
 
 
-def description(model: Model) -> str:
-    """The text of run.toml."""
+def description(model: Model, inputs: str) -> str:
+    """The text of run.toml; `inputs` as in `write`."""
     placed = {"": model.grid.placed, "fuel ": model.fuel_grid.placed}
     said = [f"{name}grid: {each.error}" for name, each in placed.items() if each.error]
     lines = [
@@ -201,6 +203,7 @@ def description(model: Model) -> str:
         f"version = {_text(model.version or 'not said')}",
         f"projection = {_text(' '.join(model.projection.split()) or 'latitude and longitude')}",
         f"files = [{', '.join(_text(path.name) for path in model.files)}]",
+        f"inputs = {_text(inputs)}",
         "assumptions = [",
         *(f"  {_text(text)}," for text in [*model.assumptions, *said]),
         "]",

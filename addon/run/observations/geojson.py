@@ -34,7 +34,8 @@ def read(path: Path) -> list[Feature]:
             raise input_error(path, 0, 0, 'no GeoJSON: its "features" are no list')
     else:
         features = [whole if whole["type"] == "Feature" else {"geometry": whole}]
-    return [_feature(path, f"feature {i}", each) for i, each in enumerate(features, 1)]
+    said = {name: each for name, each in whole.items() if isinstance(each, str | int | float)}
+    return [_feature(path, f"feature {i}", each, said) for i, each in enumerate(features, 1)]
 
 
 def _check_degrees(path: Path, whole: dict[str, Any]) -> None:
@@ -46,13 +47,14 @@ def _check_degrees(path: Path, whole: dict[str, Any]) -> None:
         raise input_error(path, 0, 0, f"is in {name}; save it in WGS84 (EPSG:4326)")
 
 
-def _feature(path: Path, place: str, feature: Any) -> Feature:
+def _feature(path: Path, place: str, feature: Any, said: dict[str, Any]) -> Feature:
+    """A feature; what is `said` of all of them, such as ForeFire's ``valid_at``, is said of it."""
     if not isinstance(feature, dict):
         raise input_error(path, 0, 0, f"{place} is no table")
     properties = feature.get("properties")
     return Feature(
         tuple(_polygons(path, place, feature.get("geometry"))),
-        properties if isinstance(properties, dict) else {},
+        said | (properties if isinstance(properties, dict) else {}),
         place,
     )
 

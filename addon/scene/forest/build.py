@@ -20,13 +20,14 @@ from ...shot.ground import NEVER, bilinear
 from ...shot.rigs.satellite import HEIGHT
 from ...shot.shot import Shot
 from .. import clock
-from . import fate, models, preview, seen, understorey
+from . import fate, models, openings, preview, seen, understorey
 from .library import grass_models, levelled, tree_models
 from .stand import Stand
 
 GRASS_DISTANCE = 400.0  # m
 BARE_AFTER = 900.0  # s after the fire came a burned tree is a snag
 _GONE_AFTER = 300.0  # s, and brush and grass are stems and stubble
+_ALIKE = 110.0, 70.0  # m, patches of trees that are alike in hue, and that died before; by eye
 _TALLEST, _GRASS = 31.0, 10.0  # m; as tall as any tree of Algorithm 2, and as one that would hold a clump
 
 
@@ -116,7 +117,10 @@ def _points(
     """All attributes of n trees; random ones hang on two integers per tree."""
     ground, seed = shot.ground, shot.settings.seed
     row, column = ground.under(position)
-    tint, dead = (noise.uniform(key, second, seed + 300 + k) for k in range(2))
+    tint, dead = (
+        openings.alike(position, size, noise.uniform(key, second, seed + 300 + k), seed + 330 + 10 * k)
+        for k, size in enumerate(_ALIKE)
+    )
     burned = fate.of(shot, row, column, scale, np.stack([key, second], axis=-1))
     size = np.select([scale > 20.0, scale > 12.0], [0, 1], 2)
     return {

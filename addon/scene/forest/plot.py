@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...run import areas
 from ...shot.relief import between
 from ...shot.shot import Shot
-from . import seen
+from . import openings, seen
 
 _CELL = 74.0  # m, least size of a cell beyond the run; its fuels are invented in larger patches
 _OTHER = 7919  # added to the seed: land beyond is no copy of the run's
@@ -60,12 +60,10 @@ def of(shot: Shot, height: float, reach: float) -> list[Plot]:
         How far from cameras trees stand, m.
     """
     run, seed = shot.run, shot.settings.seed
-    place, fuel = seen.middles(shot), np.nan_to_num(run.canopy_fuel)
+    place, axes = seen.middles(shot), (run.fuel_latitude, run.fuel_longitude)
+    fuel = openings.with_lone(shot, run.canopy_fuel, *_lines(shot, *axes))
     mask = seen.cells(shot, height, reach, place) & (fuel > 0.0)
-    area = float(np.prod(shot.ground.cell))
-    own = Plot(
-        run.fuel_latitude, run.fuel_longitude, run.canopy_fuel, shot.relief.fuel, place, mask, area, seed
-    )
+    own = Plot(*axes, fuel, shot.relief.fuel, place, mask, float(np.prod(shot.ground.cell)), seed)
     beyond = _beyond(shot, height, reach)
     return [own] if beyond is None else [own, beyond]
 
@@ -86,16 +84,25 @@ def _beyond(shot: Shot, height: float, reach: float) -> Plot | None:
         axes.append(np.concatenate([low - rim[::-1], within, high + rim]))
         inside.append(np.arange(len(axes[-1])) - more)
         inside[-1] = (inside[-1] >= 0) & (inside[-1] < len(within))
-    row, _ = ground.indices(axes[0], np.full(len(axes[0]), axes[1][0]))
-    _, column = ground.indices(np.full(len(axes[1]), axes[0][0]), axes[1])
+    row, column = _lines(shot, *axes)
     fuel, elevation = (
         between(field, row, column).astype(np.float32) for field in (fields.canopy_fuel, fields.elevation)
     )
+    fuel = openings.with_lone(shot, fuel, row, column)
     place = shot.local_frame.forward_grid(*axes, elevation)
     out = ~(inside[0][:, None] & inside[1][None, :])
     mask = seen.cells(shot, height, reach, place, out & (fuel > 0.0))
     area = max(ground.cell[0], _CELL) * max(ground.cell[1], _CELL)
     return Plot(*axes, fuel, elevation, place, mask, area, shot.settings.seed + _OTHER)
+
+
+def _lines(
+    shot: Shot, latitude: NDArray[np.float64], longitude: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Rows (fy,) and columns (fx,) of the ground, fractional, on which a grid's lines lie."""
+    row, _ = shot.ground.indices(latitude, np.full(len(latitude), longitude[0]))
+    _, column = shot.ground.indices(np.full(len(longitude), latitude[0]), longitude)
+    return row, column
 
 
 def _near_edge(shot: Shot, reach: float) -> bool:

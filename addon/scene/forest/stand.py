@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ...shot import noise
 from ...shot.ground import bilinear
 from ...shot.shot import Shot
-from . import models, plot, seen
+from . import models, openings, plot, seen
 from .plot import Plot
 
 TALLEST = 42.0  # m; the core's largest tree
@@ -70,6 +70,8 @@ def grow(shot: Shot) -> Stand:
     distance = shot.sights.distance(position)
     fade = _fade(distance, reach) if shot.pixel[1] > seen.PIXEL else 1.0
     chosen = (noise.uniform(*key.T, settings.seed + 202) < fade) & (distance > CLEARING)
+    stands = noise.uniform(*key[chosen].T, settings.seed + 203)
+    chosen[chosen] = stands < openings.kept(shot, position[chosen])
     chosen[chosen] = seen.visible(shot, position[chosen], found.scale[chosen], reach, found.width[chosen])
     chosen = np.flatnonzero(chosen)
     model = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[found.size_class[chosen]]

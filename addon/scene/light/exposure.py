@@ -75,7 +75,7 @@ def _smooth(shot: Shot, frames: Array) -> _Metered:
         stops = np.array([_stops(each, np.zeros(2)) for each in found])
         return _Metered(frames, stops, noise.smoothstep(*_DARK, stops))
     found = [[meter.measure(shot, view, int(frame)) for frame in frames] for view in shot.paths]
-    dark = np.array([[_dark(light) for light, _shine in view] for view in found])
+    dark = np.array([[_dark(level) for _found, level, _shine in view] for view in found])
     stops = np.array([_stops(*_with_flames(*measured)) for measured in found[0]])
     return _Metered(frames, targets.smoothed(stops), targets.smoothed(dark.max(axis=0)))
 
@@ -91,13 +91,16 @@ def _stops(found: Array, glow: Array) -> float:
 
 
 def _dark(found: Array) -> float:
-    """How dark it is where these radiances (n,) are found without flames, 0 to 1."""
+    """How dark it is where these radiances (n,) are found without flames and relief, 0 to 1.
+
+    In the shade of a ridge a picture is exposed longer; the smoke over it is no darker.
+    """
     return float(noise.smoothstep(*_DARK, _stops(found, np.zeros(1))))
 
 
-def _with_flames(found: Array, shine: Array) -> tuple[Array, Array]:
+def _with_flames(found: Array, level: Array, shine: Array) -> tuple[Array, Array]:
     """Radiances (n,) of all light and of the flames' in smoke, of what the meter measures."""
-    glow = sky.glow(_dark(found)) * meter.luminance(sky.GLOW) * shine
+    glow = sky.glow(_dark(level)) * meter.luminance(sky.GLOW) * shine
     return found + glow, glow
 
 

@@ -25,6 +25,8 @@ _HIGHEST = 4500.0  # m over the scene's zero; no ground is higher
 _AIR = 50_000.0  # m over the scene's zero; a ten-thousandth of the haze is higher
 _GROUND = 0.06  # reflectance of forest, brush and ash, luminance: `ground.material`, in the mean
 _SHADE = 0.1  # of that light under trees: a fleck of sun here and there, and what sky shows; by eye
+_SLOPE = 40.0  # m to each side, of slopes
+_SHADOW = np.geomspace(100.0, 6000.0, 14)  # m towards the sun where relief may throw a shadow from
 _CROWNS = 6.0, 25.0  # m above the ground: lower than crowns, and over most of them
 _CLOSED, _BARE = 0.6, 0.4  # kg/m2 of canopy that shades 1 - 1/e of the ground; of that burned trees; by eye
 _CLOUD = 0.3  # of lit smoke: a deep ball of it has 0.27, the sun behind the camera, to 0.46, at its side
@@ -64,24 +66,39 @@ def clear(light: sky.State) -> Array:
     return np.array([ground, light.sky_mean])
 
 
-def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array]:
-    """Luminances (n,) along the meter's rays in a frame, and what flames add (GW) to those in smoke."""
+def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array, Array]:
+    """What the meter's rays find in a frame.
+
+    Returns
+    -------
+    found, level
+        (n,) luminances, and those were the sun to fall on the ground as if that were level.
+    shine
+        (n,) what flames add to rays in smoke, GW.
+    """
     light, smoke = sky.State(*shot.sun(shot.frames.time(frame))), _smoke(shot, shot.frames.time(frame))
     start, along = _rays(view, frame - 1)
     ends = _ends(shot, start, along)
     ground = np.isfinite(ends)
     far = np.where(ground, ends, 0.0)
     place = start + far[:, None] * along
-    lit = _GROUND / np.pi * light.power * light.direction[2] * _sunlit(smoke, place, light, 1.0)
-    behind = np.where(ground, lit + _GROUND * light.sky_mean, light.sky_mean * _gradation(along[:, 2]))
-    behind *= 1.0 - (1.0 - _SHADE) * _crowns(shot, view.position[frame - 1], shot.frames.time(frame))
+    sunlit = _GROUND / np.pi * light.power * _sunlit(smoke, place, light, 1.0)
+    crowns = 1.0 - (1.0 - _SHADE) * _crowns(shot, view.position[frame - 1], shot.frames.time(frame))
     clear = np.exp(-shot.settings.light.haze * _haze_depth(start[:, 2], along[:, 2], far))
-    behind = np.where(ground, behind * clear + luminance(light.haze) * (1.0 - clear), behind)
     depth, met = _depth(smoke, start, along, ends)
     hidden = 1.0 - np.exp(-depth)
     shade = _sunlit(smoke, start + met[:, None] * along, light, _THROUGH)
-    found = (1.0 - hidden) * behind + hidden * _lit_smoke(light, along) * shade
-    return found, hidden * _shine(smoke, start, along, ends)
+    before = hidden * _lit_smoke(light, along) * shade
+
+    def seen(facing: Array | float) -> Array:
+        lit = facing * sunlit + _GROUND * light.sky_mean
+        behind = crowns * np.where(ground, lit, light.sky_mean * _gradation(along[:, 2]))
+        behind = np.where(ground, behind * clear + luminance(light.haze) * (1.0 - clear), behind)
+        return (1.0 - hidden) * behind + before
+
+    facing = np.zeros(len(place))
+    facing[ground] = _facing(shot, place[ground], light.direction)
+    return seen(facing), seen(light.direction[2]), hidden * _shine(smoke, start, along, ends)
 
 
 def _crowns(shot: Shot, eye: Array, time: float) -> float:
@@ -97,6 +114,18 @@ def _crowns(shot: Shot, eye: Array, time: float) -> float:
     canopy = float(bilinear(ground.fields.canopy_fuel, row, column)[0])
     burned = float(ground.arrival_at(row, column)[0]) < time
     return low * (1.0 - np.exp(-canopy / _CLOSED)) * (_BARE if burned else 1.0)
+
+
+def _facing(shot: Shot, place: Array, direction: Array) -> Array:
+    """Part (n,) of the sun's power on the ground below places (n, 3): by slope, none in a ridge's shadow."""
+    up, (x, y) = shot.bare_ground.up, place[:, :2].T
+    east = (up(x + _SLOPE, y) - up(x - _SLOPE, y)) / (2.0 * _SLOPE)
+    north = (up(x, y + _SLOPE) - up(x, y - _SLOPE)) / (2.0 * _SLOPE)
+    facing = (direction[2] - east * direction[0] - north * direction[1]) / np.sqrt(1.0 + east**2 + north**2)
+    toward = direction / max(float(np.hypot(*direction[:2])), 1.0e-6)
+    way = np.column_stack([x, y, up(x, y)])[:, None] + (_SHADOW[:, None] * toward)[None]
+    ground = up(way[..., 0].ravel(), way[..., 1].ravel()).reshape(way.shape[:2])
+    return np.where((ground > way[..., 2]).any(axis=1), 0.0, np.maximum(facing, 0.0))
 
 
 def _sunlit(smoke: Smoke, place: Array, light: sky.State, through: float) -> Array:

@@ -6,6 +6,9 @@ to the place. Each is an instance on a point there: so what stands before the pl
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import bpy
 import numpy as np
 from numpy.typing import NDArray
@@ -30,11 +33,12 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
         return None
     looks = [material.build(shot, name, colour) for name, colour in material.COLOURS.items()]
     library = owned.library("Place Names")
-    for k, (name, tier) in enumerate(zip(found.names, _tiers(shot, found.position), strict=True)):
-        mesh = _label(f"Firetwin Place {k:03d}", name, _STEM + _TIER * int(tier))
-        for look in looks:
-            mesh.materials.append(look)
-        _seen_only(owned.add(library, f"Place {k:03d}", mesh))
+    with _typeface() as font:
+        for k, (name, tier) in enumerate(zip(found.names, _tiers(shot, found.position), strict=True)):
+            mesh = _label(f"Firetwin Place {k:03d}", name, _STEM + _TIER * int(tier), font)
+            for look in looks:
+                mesh.materials.append(look)
+            _seen_only(owned.add(library, f"Place {k:03d}", mesh))
     data = bpy.data.meshes.new("Firetwin Places")
     data.from_pydata(found.position.tolist(), [], [])
     thing = owned.add(collection, "Places", data)
@@ -60,9 +64,21 @@ def _seen_only(thing: bpy.types.Object) -> None:
     thing.visible_volume_scatter = thing.visible_transmission = False
 
 
-def _label(name: str, text: str, stem: float) -> bpy.types.Mesh:
+@contextmanager
+def _typeface() -> Iterator[bpy.types.VectorFont | None]:
+    """Blender's typeface, which is in the file no longer than before."""
+    before, font = set(bpy.data.fonts), compat.typeface()
+    try:
+        yield font
+    finally:
+        if font is not None and font not in before:
+            bpy.data.fonts.remove(font)
+
+
+def _label(name: str, text: str, stem: float, font: bpy.types.VectorFont | None) -> bpy.types.Mesh:
     """Letters (material 0) over their rim and the stem (1), one unit high, in the plane of x and y."""
-    parts = [_letters(text, stem, 0.0, 0.02), _letters(text, stem, _RIM, 0.0), _stem(stem - 0.3)]
+    letters = (_letters(text, stem, *way, font) for way in ((0.0, 0.02), (_RIM, 0.0)))
+    parts = [*letters, _stem(stem - 0.3)]
     mesh = owned.mark(bpy.data.meshes.new(name))
     start, vertices, faces, looks = 0, [], [], []
     for (points, polygons), look in zip(parts, (0, 1, 0), strict=True):
@@ -75,12 +91,14 @@ def _label(name: str, text: str, stem: float) -> bpy.types.Mesh:
     return mesh
 
 
-def _letters(text: str, stem: float, offset: float, front: float) -> tuple[list, list]:
+def _letters(
+    text: str, stem: float, offset: float, front: float, font: bpy.types.VectorFont | None
+) -> tuple[list, list]:
     """Points and faces of a line of text over the stem, its outline moved out by `offset`."""
     curve = bpy.data.curves.new("Firetwin Letters", "FONT")
     curve.body, curve.align_x, curve.offset, curve.resolution_u = text, "CENTER", offset, 3
-    if (font := compat.typeface()) is not None:
-        curve.font = owned.mark(font)
+    if font is not None:
+        curve.font = font
     thing = bpy.data.objects.new("Firetwin Letters", curve)
     mesh = thing.to_mesh()
     points = [(v.co.x, v.co.y + stem, front) for v in mesh.vertices]

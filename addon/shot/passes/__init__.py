@@ -59,12 +59,14 @@ class Pass:
         Aspects that its own rendering shows (see `schema.chosen`).
     needs
         Other passes whose files its own are made from.
+    mount
+        It takes these also from the sensors of its camera's mount (see `shot.mount`).
     sources
         Files and folders of the package that decide its files, beside its own module, the helpers of passes
         (`_NAME.py`) and what all depend on.
     finish
         Makes the files that Blender does not, or goes on with those that it made. Called with the pass's
-        files by suffix; those of the passes that it needs, by pass and suffix; the shot; the camera's name;
+        files by suffix; those of the passes that it needs, by need and suffix; the shot; the camera's name;
         and the frame.
     """
 
@@ -85,6 +87,7 @@ class Pass:
     filmed: bool = False
     captions: bool = True
     needs: tuple[str, ...] = ()
+    mount: bool = False
     sources: tuple[str, ...] = ()
     finish: Finish | None = None
 

@@ -25,19 +25,20 @@ _ROWS = 200  # of points that are looked up
 _WAY, _EDGE = "#1e62d0", [withStroke(linewidth=2.2, foreground="white")]
 
 
-def draw(axes: Axes, shot: Shot, view: Path, frame: int) -> None:
-    """Draw into the axes of a panel."""
+def draw(
+    axes: Axes, shot: Shot, view: Path, frame: int, photo: NDArray | None = None, swath: float = 0.0
+) -> None:
+    """Draw into the axes of a panel; a minimap's picture (h, w, 3), `swath` metres wide, is its ground."""
     box = axes.get_window_extent()
-    here, reach = view.position[frame - 1], _reach(view)
+    here, reach = view.position[frame - 1], 0.5 * swath or _reach(view)
     tall = reach * box.height / box.width
-    columns = max(round(_ROWS * box.width / box.height), 2)
-    east, north = np.linspace(-reach, reach, columns), np.linspace(tall, -tall, _ROWS)
-    axes.imshow(
-        _ground(shot, here, east, north, shot.frames.time(frame)),
-        extent=(-reach, reach, -tall, tall),
-        interpolation="bilinear",
-        aspect="auto",
-    )
+    if photo is None:
+        columns = max(round(_ROWS * box.width / box.height), 2)
+        east, north = np.linspace(-reach, reach, columns), np.linspace(tall, -tall, _ROWS)
+        photo, high = _ground(shot, here, east, north, shot.frames.time(frame)), tall
+    else:
+        high = reach * photo.shape[0] / photo.shape[1]
+    axes.imshow(photo, extent=(-reach, reach, -high, high), interpolation="bilinear", aspect="auto")
     axes.set_xlim(-reach, reach)
     axes.set_ylim(-tall, tall)
     way = view.position[:, :2] - here[:2]

@@ -5,12 +5,15 @@ Sizes are in units of a hundredth of the picture's height (of 16:9), so a sheet 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import matplotlib
 import numpy as np
 from firetwin_core import sensor
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
@@ -21,6 +24,8 @@ PAPER, INK, QUIET = "#14171b", "#f2f3f4", "#9aa3ad"
 NEAREST, FARTHEST = 50.0, 50_000.0  # m, ends of the scale of distances
 _SIDE, _GAP, _BAR = 30.5, 1.5, 1.6  # beside the panels, between them, a colour bar
 _DPI = 100.0
+Part = tuple[float, float]  # of the view, across and up, round its middle
+WHOLE: Part = (1.0, 1.0)
 _DEPTHS = matplotlib.colormaps["viridis_r"]
 
 
@@ -65,24 +70,45 @@ class Sheet:
         label.set_path_effects([withStroke(linewidth=0.5 * self.points(1.0), foreground="#000000b0")])
         return axes
 
-    def picture(self, place: int, name: str, pixels: NDArray) -> None:
-        """A panel that shows pixels (h, w, 3) 0..1."""
+    def picture(
+        self,
+        place: int,
+        name: str,
+        pixels: NDArray,
+        part: Part = WHOLE,
+        outlined: Iterable[Part] = (),
+    ) -> None:
+        """A panel that shows pixels (h, w, 3) 0..1 of a part of the view, and outlines of smaller parts."""
         axes = self.panel(place, name)
-        axes.imshow(np.clip(pixels, 0.0, 1.0), aspect="auto", interpolation_stage="rgba")
+        wide, high = part
+        axes.imshow(
+            np.clip(pixels, 0.0, 1.0),
+            extent=(-wide, wide, -high, high),
+            aspect="auto",
+            interpolation_stage="rgba",
+        )
+        axes.set_xlim(-1.0, 1.0)
+        axes.set_ylim(-1.0, 1.0)
+        for wide, high in outlined:
+            if min(wide, high) < 1.0:
+                corner, edge = (-wide, -high), {"edgecolor": INK, "linewidth": self.points(0.25)}
+                axes.add_patch(Rectangle(corner, 2.0 * wide, 2.0 * high, fill=False, **edge))
 
-    def thermal(self, place: int, kelvin: NDArray, low: float, high: float, palette: str) -> None:
+    def thermal(
+        self, place: int, kelvin: NDArray, low: float, high: float, palette: str, part: Part = WHOLE
+    ) -> None:
         """Brightness temperatures (h, w) K and their bar, in the colours of the thermal pass."""
-        self.picture(place, "THERMAL", sensor.colour(kelvin, low, high, palette, KNEE))
+        self.picture(place, "THERMAL", sensor.colour(kelvin, low, high, palette, KNEE), part)
         bar = sensor.colour(np.linspace(high, low, 256)[:, None], low, high, palette)
         marks = _bar.marks(low, high, KNEE, 0.5 * self.high / 2.0)
         self._scale(place, bar, [(f"{mark:.0f}", _bar.place(mark, low, high, KNEE)) for mark in marks], "K")
 
-    def depth(self, place: int, metres: NDArray, sky: float) -> None:
+    def depth(self, place: int, metres: NDArray, sky: float, part: Part = WHOLE) -> None:
         """Distances (h, w) m and their bar, logarithmic; the sky has none."""
         share = np.log(np.maximum(metres, 1.0e-3) / NEAREST) / np.log(FARTHEST / NEAREST)
         shown = _DEPTHS(np.clip(share, 0.0, 1.0))[..., :3]
         shown[metres > sky] = 0.16
-        self.picture(place, "DEPTH", shown)
+        self.picture(place, "DEPTH", shown, part)
         marks = [step * 10.0**power for power in range(1, 5) for step in (1, 2, 5)]
         kept = [mark for mark in marks if NEAREST <= mark <= FARTHEST]
         places = [np.log(mark / NEAREST) / np.log(FARTHEST / NEAREST) for mark in kept]

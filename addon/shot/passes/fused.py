@@ -1,19 +1,23 @@
 """All of a camera's feeds in one picture: visible, thermal, depth and a map, with time, place and scales.
 
 The picture is as large as the camera's own, whatever that is. Temperatures and distances have the same
-colours in every frame of a shot. The map is drawn from the run, north up, round the camera: relief, canopy,
-what has burned (the last half hour in orange), and the camera's way and angle of view.
+colours in every frame of a shot. What the camera does not record itself comes from the sensors on its mount
+(see `shot.mount`), and all panels are in register: a place is at the same point of each, and a sensor that
+sees less fills its part of the panel and is outlined in the visible picture. The map is the picture of a
+minimap that follows the camera; without one it is drawn from the run, north up, round the camera: relief,
+canopy, what has burned (the last half hour in orange). It shows the camera's way and angle of view.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import Files, Pass, pose
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from ..path import Path
     from ..shot import Shot
 
 _ABOVE = {"orthometric": "MSL", "ellipsoidal": "WGS84"}
@@ -30,18 +34,42 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
         from . import _map, _sheet
     except ModuleNotFoundError as error:
         raise Error(f"the fused pass needs {error.name}, which is not in Blender: pip install it") from None
+    from .. import mount
     from . import _view, thermal
 
     view = _view.of(shot, camera)
+    taken = mount.taken(shot.settings, shot.cameras, camera, PASS)
     low, high = thermal.scale(shot)
     sheet = _sheet.Sheet(*shot.resolution(view.camera))
     sheet.head(_title(shot, camera), facts(shot, camera, frame))
-    sheet.picture(0, "VISIBLE", sensor.read_image(needed["rgb"]["png"])[..., :3])
+    rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
     kelvin = sensor.read_image(needed["thermal"]["exr"])[..., 0]
-    sheet.thermal(1, kelvin, low, high, shot.settings.thermal.palette)
-    _map.draw(sheet.panel(2, "MAP"), shot, view, frame)
-    sheet.depth(3, sensor.read_image(needed["depth"]["exr"])[..., 1], _view.SKY)
+    depth = sensor.read_image(needed["depth"]["exr"])[..., 1]
+    pixels = {"rgb": rgb, "thermal": kelvin, "depth": depth}
+    parts = {need: _part(shot, view, frame, taken[need][0], pixels[need].shape) for need in pixels}
+    sheet.picture(0, "VISIBLE", rgb, parts["rgb"], outlined=set(parts.values()))
+    sheet.thermal(1, kelvin, low, high, shot.settings.thermal.palette, parts["thermal"])
+    sheet.depth(3, depth, _view.SKY, parts["depth"])
+    panel = sheet.panel(2, "MAP")
+    if mount.MAP in taken:
+        photo = sensor.read_image(needed[mount.MAP]["png"])[..., :3]
+        _map.draw(panel, shot, view, frame, photo, _rig(shot, taken[mount.MAP][0]).swath)
+    else:
+        _map.draw(panel, shot, view, frame)
     sensor.write_image(files["png"], sheet.pixels())
+
+
+def _part(shot: Shot, view: Path, frame: int, name: str, shape: tuple[int, ...]) -> tuple[float, float]:
+    """How much of a camera's view, across and up, the picture of a sensor on its mount covers."""
+    if name == view.camera.name:
+        return 1.0, 1.0
+    across, up = view.halves[frame - 1]
+    own = _rig(shot, name).through(view).halves[frame - 1, 0]
+    return float(own / across), float(own * shape[0] / shape[1] / up)
+
+
+def _rig(shot: Shot, name: str) -> Any:
+    return next(each.rig for each in shot.cameras if each.name == name)
 
 
 def _title(shot: Shot, camera: str) -> str:
@@ -86,5 +114,7 @@ PASS = Pass(
     captions=False,
     shows=frozenset({"time", "camera", "film", "ground", "thermal"}),
     needs=("rgb", "thermal", "depth"),
+    mount=True,
+    sources=("shot/rigs/mounted.py", "shot/rigs/minimap.py"),
     finish=finish,
 )

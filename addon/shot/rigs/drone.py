@@ -107,7 +107,8 @@ class Drone(Lens):
             recorded = read(self.track)
             way, shown = recorded.at(self.track_times, shot.run, shot.frames, ground.frame)
             position = way.flown(ground, shown)
-        target = self._target(keys, position, moments, shot, ground)
+        moving = _moving(keys, shot, ground)
+        target = self._target(keys, position, moments, shot, ground, moving)
         short = flight.short(ground, position, clearance)
         hidden = np.zeros(count)
         if any(each.target in targets.MOVING for each in keys):  # nobody could know where the fire would be
@@ -115,7 +116,7 @@ class Drone(Lens):
         if self.over_ridges:
             short = np.maximum(short, hidden)
         position[:, 2] += path.eased(short)
-        target = self._target(keys, position, moments, shot, ground)
+        target = self._target(keys, position, moments, shot, ground, moving)
         rotation = path.look(position, target)
         if self.bank > 0.0:
             rotation = flight.rolled(rotation, self.bank * flight.bank(position, shot.frames.step))
@@ -125,11 +126,18 @@ class Drone(Lens):
         return Path(camera, position, rotation, target, half, hidden=hidden, sensor=self.sensor_width)
 
     def _target(
-        self, keys: list[CameraKey], position: Array, moments: Array, shot: Shot, ground: Ground
+        self,
+        keys: list[CameraKey],
+        position: Array,
+        moments: Array,
+        shot: Shot,
+        ground: Ground,
+        moving: dict[tuple[str, float], Array],
     ) -> Array:
         """Where it looks (frames, 3) from there."""
         at = np.array([each.at for each in keys])
-        return path.blend(at, np.array([_aim(each, position, shot, ground) for each in keys]), moments)
+        aims = [_aim(each, position, shot, ground, moving) for each in keys]
+        return path.blend(at, np.array(aims), moments)
 
 
 def _waypoints(keys: list[CameraKey]) -> Waypoints:
@@ -138,14 +146,22 @@ def _waypoints(keys: list[CameraKey]) -> Waypoints:
     return Waypoints(*values, np.array([each.above == "ground" for each in keys]))
 
 
-def _aim(at: CameraKey, position: Array, shot: Shot, ground: Ground) -> Array:
+def _moving(keys: list[CameraKey], shot: Shot, ground: Ground) -> dict[tuple[str, float], Array]:
+    """Where what moves is in every frame (frames, 3), by its name and the height above the ground."""
+    wanted = {(each.target, each.target_height) for each in keys if each.target in targets.MOVING}
+    return {each: targets.follow(each[0], ground, shot.frames.times, each[1]) for each in wanted}
+
+
+def _aim(
+    at: CameraKey, position: Array, shot: Shot, ground: Ground, moving: dict[tuple[str, float], Array]
+) -> Array:
     """Where a key points in every frame (frames, 3)."""
     if at.target == "ahead":
         return flight.ahead(position, np.full(len(position), at.tilt))
     if at.target == "point":
         place = ground.point(at.target_latitude, at.target_longitude, at.target_height)
         return np.repeat(place, shot.frames.count, axis=0)
-    return targets.follow(at.target, ground, shot.frames.times, at.target_height)
+    return moving[at.target, at.target_height]
 
 
 RIG = Drone

@@ -40,13 +40,17 @@ class Mounted(Rig):
     def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
         """The way of the camera that it follows, seen by its own lens."""
         leader = self.leader(shot.cameras)
-        way = leader.rig.path(leader, shot, ground)
-        if self.focal_length is not None:
-            own = 0.5 * self.sensor_width / self.focal_length
-            way = replace(way, half=(own, own), sensor=self.sensor_width, wider=None)
+        way = self.through(leader.rig.path(leader, shot, ground))
         width, height = shot.resolution(camera)
         half = way.half[0], way.half[0] * height / width
         return replace(way, camera=camera, half=half, hidden=None)  # that camera warns of ridges
+
+    def through(self, way: Path) -> Path:
+        """The way of the mount's camera seen by its own lens, in square pictures if it has one."""
+        if self.focal_length is None:
+            return way
+        own = 0.5 * self.sensor_width / self.focal_length
+        return replace(way, half=(own, own), sensor=self.sensor_width, wider=None)
 
 
 RIG = Mounted

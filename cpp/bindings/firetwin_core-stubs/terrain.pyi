@@ -5,6 +5,18 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+def perlin(x: ArrayLike, y: ArrayLike, seed: int) -> NDArray[np.float64]:
+    """Gradient noise (n,) of wavelength 1 at places (n,) of the plane, about -1..1 (Perlin 2002: quintic fade).
+
+    Quickest where neighbours in the list are neighbours on the plane.
+    """
+
+def bilinear(field: ArrayLike, row: ArrayLike, column: ArrayLike) -> NDArray[np.float64]:
+    """Values (n,) of a field (ny, nx) between its points, at fractional rows and columns (n,).
+
+    Beyond its ends it goes on as between the last two points; a single row or column goes on level.
+    """
+
 class Surface:
     """The ground between the points of a grid, seen closely: smooth, with relief.
 

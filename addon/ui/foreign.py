@@ -1,0 +1,99 @@
+"""Open a fire model's own files: a process of its own makes a run of them, which is opened then."""
+
+from __future__ import annotations
+
+import functools
+import re
+from pathlib import Path
+
+import bpy
+
+from ..blender import owned
+from . import job, run, scene_file, working
+from .job import Away, Steps
+from .working import Working
+
+
+class Said:
+    """What files do not always say, as properties of an operator."""
+
+    start: bpy.props.StringProperty(
+        name="Start",
+        description="Of a fire model's own files that do not say it: when their times begin, such as "
+        "2014-09-17T04:45:00Z",
+        options={"SKIP_SAVE"},
+    )
+    at: bpy.props.StringProperty(
+        name="At",
+        description="Of a fire model's own files in metres of no projection: latitude and longitude of the "
+        "middle, such as 38.78,-120.6",
+        options={"SKIP_SAVE"},
+    )
+    projection: bpy.props.StringProperty(
+        name="Projection",
+        description="Of a fire model's own files in a projection they do not name: such as EPSG:5070",
+        options={"SKIP_SAVE"},
+    )
+
+
+class FIRETWIN_OT_convert(Said, Working, bpy.types.Operator):
+    """Make a run of a fire model's own files, beside them or in the output folder, and open it"""
+
+    bl_idname = "firetwin.convert"
+    bl_label = "Convert model output"
+    bl_options = {"UNDO"}
+
+    filepath: bpy.props.StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
+    directory: bpy.props.StringProperty(subtype="DIR_PATH", options={"SKIP_SAVE"})
+    files: bpy.props.CollectionProperty(type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE"})
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return working.editable(cls, context)
+
+    def steps(self, context: bpy.types.Context) -> Steps:
+        """Read and write in a worker process, unless that was done before; then look into the run."""
+        from ..jobs import convert
+
+        uid, paths = context.scene.session_uid, chosen(self)
+        panel = context.scene.firetwin
+        panel.problem = ""
+        try:
+            output = scene_file.output(panel)
+            folders = [paths[0].parent, *([Path(output)] if output else []), scene_file.own_folder() / "runs"]
+            said = {name: getattr(self, name).strip() for name in ("start", "at", "projection")}
+            out, there = convert.beside(paths, folders, **said)
+            if not there:
+                yield Away("reading the model's files", functools.partial(convert.run, paths, out, **said))
+        except Exception as error:
+            owned.scene(uid).firetwin.problem = _words(error)
+            raise
+        begin(owned.scene(uid).firetwin, str(out))
+        return (yield from run.look(uid))
+
+
+def _words(error: Exception) -> str:
+    """Options of the command line are fields beside the list of files here."""
+    option = r"--(start|at|projection)\b"
+    return re.sub(
+        option, lambda found: f"{found[1].capitalize()} (beside the files in Open run)", job.words(error)
+    )
+
+
+def chosen(operator: bpy.types.Operator) -> list[Path]:
+    """The files that were chosen, or the one, or the folder."""
+    names = [each.name for each in operator.files if each.name]
+    if names and operator.directory:
+        return [Path(operator.directory, name) for name in names]
+    return [Path(bpy.path.abspath(operator.filepath or operator.directory))]
+
+
+def begin(panel: bpy.types.PropertyGroup, folder: str) -> None:
+    """Choose a run; where it is another one, time window and cameras of the one before go."""
+    if bpy.path.abspath(panel.run) != folder:
+        panel.scene_file = panel.time.start = panel.time.end = panel.facts = ""
+        panel.cameras.clear()
+    panel.run = folder
+
+
+classes = (FIRETWIN_OT_convert,)

@@ -1,0 +1,150 @@
+"""All operators alike: what each one says, that it never fails with a traceback, and that undo knows it."""
+
+import shutil
+
+import bpy
+import firetwin
+import panel_scene
+import pytest
+from bl_operators.presets import AddPresetBase
+from bpy_extras.io_utils import ExportHelper, ImportHelper
+from firetwin.jobs import assets, render, sample, standing
+from firetwin.ui import flying, queue, working
+from mathutils import Euler, Matrix
+from panel_scene import state
+
+EYE = Matrix.Translation((-500.0, -2500.0, 2400.0)) @ Euler((1.2, 0.0, -0.2)).to_matrix().to_4x4()
+OPERATORS = {
+    cls.bl_idname.partition(".")[2]: cls for cls in firetwin.ui.classes if issubclass(cls, bpy.types.Operator)
+}
+ALWAYS = {"copy"}  # what needs nothing can be called at any time
+HELPERS = ImportHelper, ExportHelper, AddPresetBase, working.Working, object
+
+
+@pytest.fixture(scope="module")
+def blend(run_folder, tmp_path_factory):
+    """A scene that the panel built, as a file, beside a copy of its run."""
+    folder = tmp_path_factory.mktemp("operators")
+    shutil.copytree(run_folder, folder / "other")
+    return panel_scene.build(run_folder, folder)
+
+
+@pytest.fixture
+def panel(blend, monkeypatch):
+    """A built scene of the panel, and a view that looks from EYE."""
+    firetwin.register()
+    bpy.ops.wm.open_mainfile(filepath=str(blend))
+    monkeypatch.setattr(flying, "eye", lambda context: (EYE.copy(), 30.0, 36.0))
+    yield bpy.context.scene.firetwin
+    queue.clear()
+    firetwin.unregister()
+
+
+def test_operators_say_what_they_do_and_when_they_can_be_used():
+    for name, cls in OPERATORS.items():
+        own = [each for each in cls.__mro__ if each not in HELPERS and not each.__module__.startswith("bpy")]
+        text = getattr(cls, "bl_description", "") or cls.__doc__
+        assert len(text.split()) >= 3, name
+        assert not text.rstrip().endswith("."), name  # Blender adds it
+        assert any("poll" in vars(each) for each in own) or name in ALWAYS, name
+
+
+class Broken:
+    """A context of which nothing can be had."""
+
+    def __getattr__(self, name):
+        raise ValueError(f"no {name}")
+
+
+class Reports(list):
+    """In place of an operator: keeps its reports."""
+
+    def report(self, level, text):
+        self.append((*level, text))
+
+    def __getattr__(self, name):
+        raise ValueError(f"no {name}")
+
+
+def test_what_nobody_foresaw_is_a_report():
+    for name, cls in OPERATORS.items():
+        execute = vars(cls).get("execute")
+        if execute is None:  # of Blender, or an operator that only listens, or a work
+            assert issubclass(cls, working.Working | AddPresetBase) or "modal" in vars(cls), name
+            continue
+        reports = Reports()
+        assert execute(reports, Broken()) == {"CANCELLED"}, name
+        ((level, text),) = reports
+        assert level == "ERROR"
+        assert text.startswith("Unexpected "), name
+
+
+CHANGES = {
+    "inspect": {},
+    "open": {"filepath": "{folder}/other/run.toml"},
+    "sample": {"folder": "{folder}/king"},
+    "quality": {"level": "final"},
+    "window": {"key": "start", "moment": "2014-09-17T21:10:00Z"},
+    "reset": {"section": "time", "key": "frames"},
+    "build": {"part": "light"},
+    "remove": {},
+    "camera_add": {"kind": "poses"},
+    "camera_copy": {},
+    "camera_remove": {},
+    "camera_key": {},
+    "camera_lens": {"preset": "thermal_hand"},
+    "camera_aim": {"target": "point"},
+    "camera_path": {},
+    "f12_files": {},
+}
+KEEPS = {
+    "copy": {"message": "this"},
+    "export": {"filepath": "{folder}/out.toml"},
+    "preset": {"name": "Mine"},
+    "view": {"whole": True},
+    "jump": {"moment": "2014-09-17T21:30:00Z"},
+    "go": {"text": "38.84 -120.55"},
+    "render": {},
+    "render_background": {},
+    "queue": {"what": "pause"},
+    "assets": {},
+}
+LISTENS = {"queue_esc", "stop"}  # for Esc, and while something goes on
+
+
+def call(name, options, folder):
+    filled = {
+        key: value.format(folder=folder) if isinstance(value, str) else value
+        for key, value in options.items()
+    }
+    return getattr(bpy.ops.firetwin, name)("EXEC_DEFAULT", True, **filled)
+
+
+def test_undo_and_redo_go_round_every_operator(panel, blend, tmp_path, monkeypatch):
+    """What an operator changes comes back with undo and again with redo; others change nothing."""
+    assert {*CHANGES, *KEEPS, *LISTENS} == set(OPERATORS)
+    monkeypatch.setattr(sample, "run", lambda folder, **_: shutil.copytree(blend.parent / "other", folder))
+    for job in (render, assets):
+        monkeypatch.setattr(job, "run", lambda *_, **__: 1)
+    monkeypatch.setattr(standing, "run", lambda *_, **__: 1)
+    monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(tmp_path / path))
+    (tmp_path / "presets" / "firetwin").mkdir(parents=True)
+    bpy.ops.ed.undo_push(message="opened")
+    bpy.context.scene.firetwin.light.haze = 0.7
+    for name, options in CHANGES.items():
+        bpy.ops.ed.undo_push(message=f"before {name}")
+        before = state()
+        assert call(name, options, blend.parent) == {"FINISHED"}, name
+        after = state()
+        assert after != before or name == "inspect", name
+        bpy.ops.ed.undo()
+        assert state() == before, name
+        bpy.ops.ed.redo()
+        assert state() == after, name
+        bpy.ops.ed.undo()
+    bpy.ops.ed.undo_push(message="the rest")
+    before = state()
+    for name, options in KEEPS.items():
+        assert call(name, options, tmp_path) == {"FINISHED"}, name
+        bpy.context.scene.frame_set(1)
+        assert state() == before, name

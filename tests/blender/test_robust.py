@@ -1,0 +1,259 @@
+"""What goes wrong around an artist: Esc at any moment, a lost run, a full disk, several scenes, libraries."""
+
+import contextlib
+import os
+import shutil
+import subprocess
+import time
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import bpy
+import firetwin
+import panel_scene
+import pytest
+from firetwin.blender import nodes, owned
+from firetwin.errors import InputError
+from firetwin.jobs import build as build_job
+from firetwin.jobs import render as render_job
+from firetwin.jobs import worker
+from firetwin.jobs.worker import StoppedError
+from firetwin.scene.ground import material
+from firetwin.scene.smoke import bake
+from firetwin.shot import file
+from firetwin.shot.choice import Choice
+from firetwin.shot.settings import Smoke
+from firetwin.shot.shot import Shot
+from firetwin.ui import build, camera_list, job, queue, run, scene_file, working
+from panel_scene import state
+
+
+@pytest.fixture(scope="module")
+def blend(run_folder, tmp_path_factory):
+    """A scene that the panel built, as a file, with a copy of the run that may vanish."""
+    folder = tmp_path_factory.mktemp("robust")
+    shutil.copytree(run_folder, folder / "run")
+    return panel_scene.build(folder / "run", folder)
+
+
+@pytest.fixture
+def panel(blend):
+    """A built scene of the panel."""
+    firetwin.register()
+    bpy.ops.wm.open_mainfile(filepath=str(blend))
+    yield bpy.context.scene.firetwin
+    queue.clear()
+    firetwin.unregister()
+
+
+@pytest.fixture
+def quick(monkeypatch):
+    """The ground has a plain material: its nodes are what takes longest to build."""
+    monkeypatch.setattr(material, "build", lambda *_: nodes.material("Firetwin Ground")[0])
+
+
+def stopped_after(count):
+    """Build, stopped after so many steps, as the window ends it; the last of them, or None: it was done."""
+    bpy.ops.ed.undo_push(message="before")
+    work = job.Job("Build scene", build.FIRETWIN_OT_build.steps(SimpleNamespace(part="all"), bpy.context))
+    for _ in range(count):
+        if work._step(wait=True):
+            return None
+    work.stop.now()
+    with pytest.raises(StoppedError):
+        work.run()
+    if work.touched:
+        bpy.ops.ed.undo_push(message="Build scene")
+        working.take_back()
+    return work.what
+
+
+def test_a_build_stopped_at_any_step_leaves_the_scene_as_it_was(panel, quick):
+    bpy.context.scene.objects["Firetwin Ground"].location.x = 5.0  # by hand
+    panel.light.haze = 0.7
+    before, seen = state(), []
+    while (what := stopped_after(len(seen))) is not None:
+        seen.append(what)
+        assert state() == before, what
+    assert seen[:3] == ["Build scene", "reading the run", "clearing the stage"]
+    assert {"building the ground", "lighting the fire", "naming the places"} <= set(seen)
+    assert state() != before
+
+
+def test_a_first_build_stopped_in_the_middle_brings_the_startup_scene_back(panel, quick, blend):
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    bpy.context.scene.firetwin.scene_file = str(blend.with_suffix(".toml"))
+    before = state()
+    assert stopped_after(7) == "hanging the smoke"
+    assert state() == before
+    assert set(bpy.context.scene.objects.keys()) == {"Cube", "Light", "Camera"}
+
+
+def message(operator, **options):
+    """What an operator that cannot do its work says."""
+    with pytest.raises(RuntimeError) as refused:
+        operator(**options)
+    text = str(refused.value)
+    assert "Traceback" not in text
+    assert "Unexpected" not in text
+    return text
+
+
+def test_a_run_that_vanishes_is_a_message_and_nothing_is_lost(panel, blend, tmp_path):
+    folder, scene = blend.parent / "run", bpy.context.scene
+    facts, cameras = panel.facts, camera_list.cameras(panel)
+    hidden, panel.which, panel.output = folder.rename(blend.parent / "away"), "frame", str(tmp_path)
+    before = state()
+    try:
+        for frame in (2, 3, 1):
+            scene.frame_set(frame)
+        for call, options in (
+            (bpy.ops.firetwin.inspect, {}),
+            (bpy.ops.firetwin.build, {}),
+            (bpy.ops.firetwin.build, {"part": "fire"}),
+            (bpy.ops.firetwin.camera_add, {"kind": "poses"}),
+            (bpy.ops.firetwin.camera_aim, {"target": "head"}),
+            (bpy.ops.firetwin.render, {}),
+            (bpy.ops.firetwin.assets, {}),
+        ):
+            assert "check the path" in message(call, **options), call
+            assert state() == before
+        assert (panel.facts, camera_list.cameras(panel)) == (facts, cameras)
+        assert "check the path" in panel.problem
+        bpy.ops.firetwin.render_background()
+        (item,) = queue.items
+        while item.state == queue.RENDERING:
+            time.sleep(0.01)
+        assert (item.state, "check the path" in item.text) == (queue.FAILED, True)
+    finally:
+        hidden.rename(folder)
+    assert bpy.ops.firetwin.inspect() == {"FINISHED"}
+    assert not panel.problem
+    assert bpy.ops.firetwin.build(part="fire") == {"FINISHED"}
+
+
+def test_reading_a_run_that_is_stopped_says_how_to_go_on(panel):
+    work = job.Job("Read run", run.look(bpy.context.scene.session_uid))
+    work._step(wait=True)
+    work.stop.now()
+    with pytest.raises(StoppedError):
+        work.run()
+    assert panel.problem.endswith("Read run does it")
+    assert panel.facts
+
+
+@pytest.fixture
+def tiny():
+    """A disk of 1 MB that is full, and what fills it."""
+    place = Path("/tmp") / f"firetwin-full-{os.getpid()}"
+    place.mkdir()
+    command = ["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", str(place)]
+    if not shutil.which("mount") or subprocess.run(command, capture_output=True).returncode:
+        place.rmdir()
+        pytest.skip("cannot mount a small disk here")
+    filler = place / "filler"
+    with contextlib.suppress(OSError), filler.open("wb", buffering=0) as full:
+        while full.write(bytes(4096)):
+            pass
+    yield filler
+    subprocess.run(["umount", str(place)], check=True)
+    place.rmdir()
+
+
+def test_a_full_disk_is_a_message_and_what_was_there_stays(panel, blend, run, tiny, tmp_path, monkeypatch):
+    """At every writer: settings, the .blend file, smoke, pictures, a copy for the queue."""
+    place = tiny.parent
+    before = state()
+    assert "the disk is full" in message(bpy.ops.firetwin.export, filepath=str(place / "out.toml"))
+    monkeypatch.setattr("tempfile.tempdir", str(place))
+    panel.output = str(tmp_path)
+    assert "cannot be copied" in message(bpy.ops.firetwin.render_background)
+    monkeypatch.undo()
+    assert not queue.items
+    with pytest.raises(InputError, match="the disk is full"):
+        build_job.save(place / "scene.blend")
+    panel.output = str(blend.parent / "out")
+    assert state() == before
+    whole = file.read(blend.with_suffix(".toml"))
+    smoky = Shot(replace(whole, cache=place / "cache", smoke=Smoke(method="puffs")), run)
+    with pytest.raises(InputError, match="the disk is full"):
+        bake.bake(smoky, frames=[1])
+    firetwin.unregister()
+    monkeypatch.setattr(worker, "run", here)
+    asked = render_job.Asked(place / "film", "1", passes="rgb", resume=True)
+    choice = Choice(str(blend.with_suffix(".toml")))
+    with pytest.raises(InputError, match="the disk is full"):
+        render_job.run(choice, asked)
+    assert not [path for path in place.rglob("*") if path.suffix in (".vdb", ".png", ".blend", ".toml")]
+    tiny.unlink()
+    assert render_job.run(choice, asked) == 1
+    assert (place / "film/drone/rgb/drone_rgb_000001.png").is_file()
+    firetwin.register()
+
+
+def here(task, arguments, progress, tell=lambda text: None, **_):
+    """In place of a process of its own."""
+    module, _, function = task.partition(":")
+    return getattr(__import__(module, fromlist=["x"]), function)(progress=progress, tell=tell, **arguments)
+
+
+def names(scene):
+    """What a scene holds, with what tells it from others of the same name."""
+    return {(thing.name, thing.session_uid) for thing in scene.objects}
+
+
+def test_two_scenes_of_one_file_do_not_mix(panel, quick, blend):
+    first = bpy.context.scene
+    bpy.ops.scene.new(type="NEW")
+    second = bpy.context.window.scene
+    second.name = "Second"
+    second.firetwin.scene_file = str(blend.with_suffix(".toml"))
+    before = names(first), file.text(scene_file.settings(first))
+    assert bpy.ops.firetwin.build() == {"FINISHED"}
+    assert not names(first) & names(second)
+    assert not set(first.collection.children_recursive) & set(second.collection.children_recursive)
+    assert len(names(first)) == len(names(second))
+    assert second.camera == owned.stage(second).camera("drone") != first.camera
+    second.camera.location.z, second.camera.name = 7000.0, "Other"
+    assert bpy.ops.firetwin.build(part="cameras") == {"FINISHED"}
+    assert second.firetwin.cameras.keys() == ["Other"]
+    assert (names(first), file.text(scene_file.settings(first))) == before
+    assert bpy.ops.firetwin.remove() == {"FINISHED"}
+    assert not second.objects
+    assert names(first) == before[0]
+    bpy.context.window.scene = first
+    assert bpy.ops.firetwin.build() == {"FINISHED"}
+    assert first.firetwin.cameras.keys() == ["drone"]
+
+
+CAMERA = ("camera_key", "camera_aim", "camera_path", "camera_lens")
+REFUSED = ("inspect", "build", "remove", "camera_add", *CAMERA, "render", "open", "quality")
+
+
+def test_what_is_linked_is_left_alone_and_what_is_appended_is_ours(panel, quick, blend):
+    there = file.text(scene_file.settings(bpy.context.scene))
+    bpy.ops.wm.read_homefile(use_empty=True)
+    with bpy.data.libraries.load(str(blend), link=True) as (known, wanted):
+        wanted.scenes = known.scenes
+    (linked,) = wanted.scenes
+    bpy.context.window.scene = linked
+    for name in REFUSED:
+        assert "linked" in message(getattr(bpy.ops.firetwin, name)), name
+    bpy.ops.wm.read_homefile(use_empty=True)
+    with bpy.data.libraries.load(str(blend)) as (known, wanted):
+        wanted.scenes = known.scenes
+    (appended,) = wanted.scenes
+    bpy.context.window.scene = appended
+    assert file.text(scene_file.settings(appended)) == there
+    before = {name for name, _ in names(appended)}
+    assert bpy.ops.firetwin.build() == {"FINISHED"}
+    assert {name for name, _ in names(appended)} == before
+    with bpy.data.libraries.load(str(blend), link=True) as (known, wanted):
+        wanted.objects = ["Firetwin Camera drone"]
+    appended.collection.objects.link(wanted.objects[0])
+    appended.camera = wanted.objects[0]
+    for name in CAMERA:
+        assert "linked" in message(getattr(bpy.ops.firetwin, name)), name
+    assert bpy.ops.firetwin.remove() == {"FINISHED"}
+    assert appended.objects.keys() == ["Firetwin Camera drone"]

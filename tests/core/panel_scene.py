@@ -1,0 +1,73 @@
+"""A small scene that the panel builds, and what an artist could lose of the file that is open."""
+
+import bpy
+import firetwin
+from firetwin.blender import compat
+from firetwin.shot import file
+from firetwin.ui import scene_file
+from scene_text import BARE, TINY
+
+SCENE = (
+    """\
+run = "{run}"
+[time]
+start = 2014-09-17T21:00:00Z
+end = 2014-09-17T22:00:00Z
+frames = 3
+[smoke]
+enabled = false
+"""
+    + BARE
+    + "trees = false\n"
+    + TINY
+    + """\
+[[cameras]]
+name = "drone"
+keys = [
+    {{at = 0, latitude = 38.825, longitude = -120.56, height = 400, target = "fire"}},
+    {{at = 1, latitude = 38.830, longitude = -120.57, height = 500, target = "fire"}},
+]
+"""
+)
+
+
+def build(run, folder):
+    """Build it by the panel from the run, and save it as `folder`/scene.blend; returns that path."""
+    bpy.ops.wm.read_factory_settings()
+    firetwin.register()
+    (folder / "scene.toml").write_text(SCENE.format(run=run))
+    settings = bpy.context.scene.firetwin
+    settings.scene_file, settings.output = str(folder / "scene.toml"), str(folder / "out")
+    bpy.ops.firetwin.build()
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"))
+    firetwin.unregister()
+    return folder / "scene.blend"
+
+
+def state():
+    """What an artist could lose: blocks, places, curves, constraints, lenses, settings; not what is seen."""
+    blocks = {
+        (prop.identifier, block.name_full, block.session_uid)
+        for prop in bpy.data.bl_rna.properties
+        if prop.type == "COLLECTION" and prop.identifier not in ("screens", "window_managers")
+        for block in getattr(bpy.data, prop.identifier)
+    }
+    things = {
+        thing.name: (
+            *(value for row in thing.matrix_basis for value in row),
+            *((each.name, getattr(each.target, "name", "")) for each in thing.constraints),
+            *((curve.data_path, len(curve.keyframe_points)) for curve in compat.fcurves(thing)),
+            (thing.data.lens, thing.data.sensor_width) if thing.type == "CAMERA" else None,
+        )
+        for thing in bpy.data.objects
+    }
+    scenes = {
+        scene.name: (
+            scene.camera.name if scene.camera else None,
+            file.text(scene_file.settings(scene)),
+            scene.firetwin.first_time,
+            [node.mute for node in tree.nodes] if (tree := compat.compositor(scene)) else [],
+        )
+        for scene in bpy.data.scenes
+    }
+    return blocks, things, scenes

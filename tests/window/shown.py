@@ -1,0 +1,132 @@
+"""Pictures of all that the add-on shows: panels, menus, dialogs, preferences, and its assets."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import bpy
+from hands import FOLDER, MODULE, alone, call, check, here, idle, keys, picture, settings, soon, tab, ui, view
+
+_BLENDERS_MENUS = ("TOPBAR_MT_file_import", "TOPBAR_MT_file_export", "VIEW3D_MT_add")
+
+
+def sections() -> Iterator[object]:
+    """Every panel by itself and open, and every menu; what is built is hidden, for drawing it takes long."""
+    for thing in bpy.context.scene.objects:
+        thing.hide_set(True)
+    known = [each for each in ui().classes if issubclass(each, bpy.types.Panel)]
+    for top in (each for each in known if not hasattr(each, "bl_parent_id")):
+        name = f"20-panel-{top.bl_label.lower().replace(' ', '-')}"
+        yield from alone(top.bl_idname, lambda name=name: picture(name))
+    own = [each.__name__ for each in ui().classes if issubclass(each, bpy.types.Menu)]
+    asked = [_asking("firetwin.camera_add", "kind"), _asking("firetwin.camera_aim", "target")]
+    for name in (*_BLENDERS_MENUS, *own, *(each.__name__ for each in asked)):
+        with bpy.context.temp_override(**here()):
+            bpy.ops.wm.call_menu(name=name)
+        yield 1
+        picture(f"21-menu-{name.lower()}")
+        keys("Escape")
+        yield 1
+    for each in asked:
+        bpy.utils.unregister_class(each)
+    for thing in bpy.context.scene.objects:
+        thing.hide_set(False)
+
+
+def _asking(operator: str, name: str) -> type[bpy.types.Menu]:
+    """The menu that a button opens which asks for one of several."""
+
+    def draw(self: bpy.types.Menu, context: bpy.types.Context) -> None:
+        self.layout.operator_enum(operator, name)
+
+    label = f"FIRETWIN_MT_test_{operator.partition('.')[2]}"
+    menu = type(label, (bpy.types.Menu,), {"bl_label": name, "draw": draw})
+    bpy.utils.register_class(menu)
+    return menu
+
+
+def dialogs() -> Iterator[object]:
+    """What asks before it does something, what chooses files, and the preferences."""
+    for name in ("preset", "remove"):
+        call(getattr(bpy.ops.firetwin, name))
+        yield 1
+        picture(f"22-dialog-{name}")
+        keys("Escape")
+        yield 1
+    for name in ("open", "export"):
+        call(getattr(bpy.ops.firetwin, name))
+        yield 3
+        yield from _window(f"22-files-{name}", "File View", lambda: bpy.ops.file.cancel())
+    bpy.ops.preferences.addon_show(module=MODULE)
+    yield 3
+    yield from _window("22-preferences", "Preferences", bpy.ops.wm.window_close)
+
+
+def _window(name: str, title: str, close: Callable[[], object]) -> Iterator[object]:
+    """A picture of the window that was opened last; then it goes."""
+    window = bpy.context.window_manager.windows[-1]
+    if len(bpy.context.window_manager.windows) > 1:
+        subprocess.run(["xdotool", "search", "--name", title, "windowmove", "60", "40"], check=False)
+        yield 1
+    picture(name)
+    with bpy.context.temp_override(window=window, area=window.screen.areas[0]):
+        close()
+    yield 1
+
+
+def drop() -> Iterator[object]:
+    """A run's file is dragged from a file manager onto the view."""
+    bpy.ops.wm.read_homefile()
+    yield 3
+    place = next(region for region in view().regions if region.type == "WINDOW")
+    height = bpy.context.window_manager.windows[0].height
+    where = (str(place.x + 300), str(height - place.y - place.height // 2))
+    script, file = Path(__file__).with_name("drag.py"), FOLDER / "sample/run.toml"
+    dragged = subprocess.Popen(["/usr/bin/python3", str(script), str(file), "Blender", *where])
+    yield soon(lambda: dragged.poll() is not None)
+    check(dragged.poll() == 0, f"the view takes a run.toml that is dropped on it ({dragged.poll()})")
+    yield soon(lambda: settings().run != "", 30.0)
+    yield 1
+    yield idle
+    yield 1
+    check(settings().run == str(file.parent), f"and opens it: {settings().run}")
+    view().spaces.active.show_region_ui = True
+    yield 2
+    tab()
+    yield 1
+    picture("24-dropped")
+
+
+def browser() -> Iterator[object]:
+    """The asset library, written by the panel's operator and looked at in Blender's browser."""
+    folder = FOLDER / "library"
+    call(bpy.ops.firetwin.assets, directory=str(folder))
+    yield 0.5
+    yield idle
+    check((folder / "firetwin_assets.blend").exists(), "the asset library is written")
+    bpy.context.preferences.filepaths.asset_libraries.new(name="Firetwin", directory=str(folder))
+    area = view()
+    area.ui_type = "ASSETS"
+    yield 3
+    space = area.spaces.active
+    space.params.asset_library_reference = "Firetwin"
+    space.show_region_ui = False
+    for name in _catalogues(folder):
+        space.params.catalog_id = name[0]
+        yield 6
+        picture(f"23-assets-{name[1].lower().replace(' ', '-')}")
+    libraries = bpy.context.preferences.filepaths.asset_libraries
+    libraries.remove(libraries["Firetwin"])
+    area.ui_type = "VIEW_3D"
+    yield 2
+    tab()
+    check(settings().run != "", "back in the 3D view")
+
+
+def _catalogues(folder: Path) -> list[tuple[str, str]]:
+    """Identifier and name of every catalogue of a library."""
+    lines = (folder / "blender_assets.cats.txt").read_text("utf-8").splitlines()
+    found = [line.split(":") for line in lines if line.count(":") == 2]
+    return [(each[0], each[1].rpartition("/")[2]) for each in found]
