@@ -94,7 +94,7 @@ def solve(shot: Shot, out: Path) -> None:
             sys.exit(f"{out}/cache holds frame {frame} but not its wind: remove the cache")
         solved.ready(frame)
         np.savez(place, wind=solved._live.solvers[-1].velocity().astype(np.float16))
-        print(f"{camera.name}: solved to frame {frame}", flush=True)
+        print(f"{camera.name}: solved to frame {frame}", file=sys.stderr)
     solved.solve([shot.frames.count])
 
 
@@ -202,7 +202,7 @@ def main() -> None:
         for name in CAMERAS:
             solve(shot.of(name), wanted.out)
         film = [sys.executable, "-m", "firetwin", "render", scene, "--out", wanted.out / "film", "--resume"]
-        subprocess.run(film, check=True)
+        subprocess.run(film, check=True, stdout=sys.stderr)
     report = {}
     for camera in CAMERAS:
         every = range(1, shot.frames.count + 1)

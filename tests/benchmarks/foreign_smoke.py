@@ -134,7 +134,8 @@ def main() -> None:
         scene.write_text(text, encoding="utf-8")
         picture = film / "seen" / "rgb" / "seen_rgb_000001.png"
         if not picture.exists():
-            subprocess.run([sys.executable, "-m", "firetwin", "render", scene, "--out", film], check=True)
+            command = [sys.executable, "-m", "firetwin", "render", scene, "--out", film]
+            subprocess.run(command, check=True, stdout=sys.stderr)
         print(picture, flush=True)
 
 
