@@ -161,8 +161,8 @@ def summary(seen: Array, way: Array) -> dict[str, float]:
         "median_way_px": float(np.median(long)),
         "median_error_px": float(np.median(off)),
         "median_error_percent": float(100.0 * np.median(off) / np.median(long)),
-        "mean_seen_px": [float(v) for v in np.median(seen, axis=0)],
-        "mean_flow_px": [float(v) for v in np.median(way, axis=0)],
+        "median_seen_px": [float(v) for v in np.median(seen, axis=0)],
+        "median_flow_px": [float(v) for v in np.median(way, axis=0)],
         "seen_over_flow": float(np.sum(seen * way) / np.sum(way * way)),
     }
 
