@@ -269,7 +269,8 @@ Reads, found by content: WRF-SFIRE (wrfout*), NCAR's Community Fire Behavior Mod
 ForeFire (arrival times, fronts, landscape), ELMFIRE (GeoTIFF), FARSITE and FlamMap (ASCII or GeoTIFF, LCP),
 pyretechnics (.npz), and any CF netCDF by a mapping in a TOML file: [fields] heat_flux = "NAME". Fuels may
 come from an LCP or LANDFIRE's rasters among the files. What a model does not say is assumed, said, and
-written to run.toml. A conversion that was stopped goes on when the command is given again.
+written to run.toml. A conversion that was stopped goes on when the command is given again; one that has read
+and written nothing for ten minutes is ended, as a damaged file may keep its library busy for ever.
 Needs packages that are not installed by themselves: pip install 'firetwin[models]'."""
 
 MAPS = """\

@@ -55,7 +55,7 @@ def maps(arguments: argparse.Namespace) -> None:
     from .run import maps, observations
     from .shot.settings import Time
 
-    seen = observations.read(arguments.against or observations.beside(arguments.run)).perimeters
+    seen = observations.read(arguments.against or observations.beside(arguments.run))
     for path in maps.draw(run, arguments.out, Time().zone, seen):
         print(path)
 
@@ -63,7 +63,7 @@ def maps(arguments: argparse.Namespace) -> None:
 def score(arguments: argparse.Namespace) -> None:
     """Compare a run with what was seen of its fire."""
     from . import files
-    from .errors import UsageError
+    from .errors import UsageError, input_error
     from .run import observations
     from .run import score as scores
     from .run.score import page
@@ -81,6 +81,8 @@ def score(arguments: argparse.Namespace) -> None:
     if arguments.report and arguments.report.suffix.lower() != ".html":
         raise UsageError(f"--report: {arguments.report} does not end in .html")
     seen = observations.read(each for each in named if observations.is_one(each))
+    if seen.heat and not (seen.perimeters or seen.detections or runs):
+        raise input_error(named[0], 0, 0, "holds heat but no perimeter, so there is nothing to compare with")
     found = scores.score(run, seen, *runs, zone=Time().zone)
     print(json.dumps(found, indent=1) if arguments.json else page.page(found))
     if arguments.report:

@@ -103,7 +103,7 @@ def look(blend: Path, beside: Path) -> None:
     check(settings() == beside.read_text(encoding="utf-8"), "its settings are what they were")
     check(owned.ours(scene) and stage.camera("drone") == scene.camera, "scene and camera are ours")
     check(scene.objects["Firetwin Trees"].location.x == 3.0, "what was moved by hand stays")
-    check(tree(scene), "the compositor has our nodes")
+    check(composited(scene), "the compositor has our nodes")
     before = picture(scene, blend, "as-it-is")
     for call, options in (
         (bpy.ops.firetwin.inspect, {}),
@@ -128,6 +128,8 @@ def look(blend: Path, beside: Path) -> None:
     bpy.ops.firetwin.remove()
     left = [block.name for block in owned._blocks() if owned.ours(block)]
     check(not left, f"removed, nothing of ours is left: {left}")
+    tree = compat.compositor(scene)
+    check(tree is None or not tree.nodes, "nor a compositor without a picture")
 
 
 def _blurred(pixels: np.ndarray) -> np.ndarray:
@@ -135,7 +137,7 @@ def _blurred(pixels: np.ndarray) -> np.ndarray:
     return pixels.reshape(4, 9, 4, 16, 3).mean(axis=(1, 3))
 
 
-def tree(scene: bpy.types.Scene) -> bool:
+def composited(scene: bpy.types.Scene) -> bool:
     """Whether the compositor writes our passes."""
     nodes = compat.compositor(scene)
     return nodes is not None and any(owned.ours(node) for node in nodes.nodes)

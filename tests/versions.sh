@@ -3,6 +3,7 @@
 #
 #   tests/versions.sh                    tests in Blender 4.5, 5.0 and 5.2
 #   tests/versions.sh --picture          the example's drone frame by each of them, compared by FLIP
+#   tests/versions.sh --files 4.5 5.2    a scene saved by each of them, opened and used by the others, and back
 #   tests/versions.sh 5.2                this version only
 #   tests/versions.sh 5.2 -- -k smoke    arguments for pytest
 #
@@ -22,14 +23,16 @@ shared=build/shared # the same inside and outside a folder
 
 say() { echo "versions: $*" >&2; }
 usage() {
-  sed -n '4,7s/^# *//p' "$0" >&2
+  sed -n '4,8s/^# *//p' "$0" >&2
   exit 2
 }
 
-picture=false here=false versions=()
+picture=false here=false files='' versions=()
 while (($#)); do
   case $1 in
     --picture) picture=true ;;
+    --files) files=save ;;
+    --open) files=open ;; # after --files has saved them
     --here) here=true ;; # run these versions with this machine's Python: what is called inside a folder
     --)
       shift
@@ -74,6 +77,10 @@ run_here() {
   python=$(interpreter "$version")
   if $picture; then
     "$python" tests/picture.py render "$shared/sample" "$shared/picture/$version"
+  elif [[ $files == save ]]; then
+    "$python" tests/between.py save "$shared/sample" "$shared/files"
+  elif [[ $files == open ]]; then
+    "$python" tests/between.py open "$shared/files"
   else
     "$python" -m pytest tests/blender -q -n 2 --dist loadfile "$@"
   fi
@@ -123,8 +130,19 @@ if $picture; then
   sample
   install_flip
 fi
+if [[ $files == save ]]; then
+  sample
+  rm -rf "$shared/files"
+  options=(--files)
+  # Twice: what a version has opened and saved again is opened by those before it.
+  versions=("${versions[@]}" open "${versions[@]}" "${versions[0]}")
+fi
 passed=() failed=() skipped=()
 for version in "${versions[@]}"; do
+  if [[ $version == open ]]; then
+    options=(--open)
+    continue
+  fi
   say "Blender $version"
   status=0
   folder=()

@@ -157,6 +157,9 @@ def set_sky(node: bpy.types.ShaderNodeTexSky, elevation: float, rotation: float,
     setattr(node, "dust_density" if hasattr(node, "dust_density") else "aerosol_density", dust)
 
 
+_COMPOSITOR = "Firetwin Compositor"
+
+
 def compositor(scene: bpy.types.Scene) -> bpy.types.NodeTree | None:
     """The scene's compositor tree: from 5.0 it is a node group, before that the scene's own."""
     if hasattr(scene, "compositing_node_group"):
@@ -167,7 +170,7 @@ def compositor(scene: bpy.types.Scene) -> bpy.types.NodeTree | None:
 def new_compositor(scene: bpy.types.Scene) -> bpy.types.NodeTree:
     """An empty compositor tree of ours for a scene that has none."""
     if hasattr(scene, "compositing_node_group"):
-        tree = bpy.data.node_groups.new("Firetwin Compositor", "CompositorNodeTree")
+        tree = bpy.data.node_groups.new(_COMPOSITOR, "CompositorNodeTree")
         scene.compositing_node_group = tree
     else:
         scene.use_nodes = True
@@ -253,6 +256,22 @@ def exr_output_path(node: bpy.types.Node, folder: str, stem: str) -> None:
         node.file_slots[0].path = f"{stem}######"
 
 
+def lost_files(node: bpy.types.Node) -> bool:
+    """Whether an `exr_output` node has lost what it writes: 4.5 reads files of 5.0 and later so."""
+    if node.bl_idname != "CompositorNodeOutputFile":
+        return False
+    return not (node.file_output_items if hasattr(node, "file_output_items") else node.file_slots)
+
+
+def drop_copies() -> None:
+    """Remove our compositors that 4.5, where they are the scenes' own, finds in files of 5.0 and later."""
+    if "compositing_node_group" not in bpy.types.Scene.bl_rna.properties:
+        for name in ("Compositing Node Tree", _COMPOSITOR):
+            tree = bpy.data.node_groups.get(name)
+            if tree is not None and owned.ours(tree):
+                bpy.data.node_groups.remove(tree)
+
+
 def new_strip(
     editor: bpy.types.SequenceEditor, name: str, kind: str, channel: int, start: int, length: int
 ) -> bpy.types.Strip:
@@ -302,9 +321,15 @@ def film_settings(render: bpy.types.RenderSettings) -> None:
 
 
 def set_denoising(cycles: Any, wanted: bool) -> None:
-    """Have Cycles denoise with OpenImageDenoise; a Blender built without it, such as Debian's, cannot."""
+    """Have Cycles denoise with OpenImageDenoise; a Blender built without it, such as Debian's, cannot.
+
+    Balanced quality takes less than half of high quality's time, 2.6 instead of 6 s of the processor for
+    640x360 pixels. Pictures of 3 samples differ by FLIP 0.03, by another grain 0.045; with smoke by 0.04 and
+    0.075.
+    """
     try:
         cycles.denoiser, cycles.denoising_prefilter = "OPENIMAGEDENOISE", "ACCURATE"
+        cycles.denoising_quality = "BALANCED"
     except TypeError:
         wanted = False
     cycles.use_denoising = wanted

@@ -90,13 +90,14 @@ def in_blender(
     import bpy
 
     from ..blender import devices, owned
-    from ..render import engine, sharing, video
+    from ..render import engine, layers, sharing, video
     from ..render import pictures as making_pictures
     from ..render.picture import Picture
     from ..scene.smoke import bake
 
     bpy.ops.wm.open_mainfile(filepath=blend, load_ui=False)
     stage = owned.stage(bpy.data.scenes[scene])
+    layers.mend(stage.scene)
     shot = _as_it_stands(Choice(**choice).shot(), stage.scene)
     todo = [Picture(*picture) for picture in pictures]
     if stage.scene.render.engine == "CYCLES":

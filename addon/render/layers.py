@@ -7,7 +7,8 @@ are not ours stay as they are, and so do ours once they are made: what an artist
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
+from contextlib import contextmanager
 
 import bpy
 
@@ -19,6 +20,9 @@ from ..shot.settings import Settings
 from . import groups
 from .picture import Picture
 
+_SOURCE, _BETWEEN = "CompositorNodeRLayers", ("CompositorNodeGlare", "CompositorNodeSeparateColor")
+_ENDS = "CompositorNodeComposite", "NodeGroupOutput"
+
 
 def build(settings: Settings, stage: Stage) -> None:
     """Make view layers and compositor of a scene of our own, and set the layers as the settings say.
@@ -28,6 +32,7 @@ def build(settings: Settings, stage: Stage) -> None:
     groups.build(settings, stage)
     if not stage.own:
         return
+    mend(stage.scene)
     for each in _rendered():
         layer = _layer(stage.scene, each)
         layer[nodes.THERMAL] = 1.0 if each.data else 0.0
@@ -49,6 +54,7 @@ def complete(settings: Settings, stage: Stage, parts: Collection[str]) -> None:
     groups.build(settings, stage)
     if not stage.own:
         return
+    mend(stage.scene)
     there = {layer.get(owned.MARK) for layer in stage.scene.view_layers}
     if any(f"pass {each.name}" not in there for each in _rendered()):
         build(settings, stage)
@@ -64,6 +70,7 @@ def remove(scene: bpy.types.Scene) -> None:
             scene.view_layers.remove(layer)
         else:
             owned.unmark(layer)
+    mend(scene)
     tree = compat.compositor(scene)
     if tree is not None and owned.ours(tree):
         for node in [node for node in tree.nodes if owned.ours(node)]:
@@ -74,11 +81,55 @@ def remove(scene: bpy.types.Scene) -> None:
             compat.no_compositor(scene)
 
 
+def mend(scene: bpy.types.Scene) -> None:
+    """Make anew what Blender has lost of our compositor when it opened a file of another version.
+
+    These are the files of passes, and our mark on the node that shows the picture.
+    """
+    compat.drop_copies()
+    tree = compat.compositor(scene)
+    if tree is None or not owned.ours(tree):
+        return
+    for node in [node for node in tree.nodes if owned.ours(node) and compat.lost_files(node)]:
+        each = passes.known()[node[owned.MARK].removeprefix("exr ")]
+        tree.nodes.remove(node)
+        _file(tree, each, _image(tree, each))
+    ends = [node for node in tree.nodes if node.bl_idname in _ENDS]
+    if not any(map(owned.ours, ends)):
+        for node in ends:
+            if any(link.to_node == node and owned.ours(link.from_node) for link in tree.links):
+                owned.mark(node)
+
+
 def select(scene: bpy.types.Scene, names: Iterable[str]) -> None:
     """Render the view layers of these passes and no others."""
     chosen = {f"pass {name}" for name in names}
     for layer in scene.view_layers:
         layer.use = layer.get(owned.MARK) in chosen
+
+
+@contextmanager
+def plain(scene: bpy.types.Scene, names: Iterable[str]) -> Iterator[None]:
+    """Within, layers of passes that show shapes alone draw all in black: no material costs any time.
+
+    Ours that these layers see let nothing through. Where there are materials of an artist's they stay.
+    """
+    shapes = {f"pass {name}" for name in names if passes.known()[name].shapes}
+    found = [layer for layer in scene.view_layers if layer.get(owned.MARK) in shapes]
+    if not found or not all(owned.ours(each) for each in bpy.data.materials if each.users):
+        yield
+        return
+    black, tree = nodes.material("Firetwin Plain")
+    tree.surface(tree.emission((0.0, 0.0, 0.0)))
+    for layer in found:
+        layer.material_override = black
+    try:
+        yield
+    finally:
+        for layer in found:
+            layer.material_override = None
+        bpy.data.materials.remove(black)
+        bpy.data.node_groups.remove(tree.node_tree)
 
 
 def write_exr(scene: bpy.types.Scene, folder: str, pictures: Iterable[Picture]) -> None:
@@ -145,7 +196,7 @@ def _compositor(scene: bpy.types.Scene) -> None:
 
 def _record(scene: bpy.types.Scene, tree: bpy.types.NodeTree, each: Pass) -> None:
     """From a pass's view layer to its EXR, and to the picture that is shown."""
-    source = tree.nodes.new("CompositorNodeRLayers")
+    source = tree.nodes.new(_SOURCE)
     source.scene = scene
     source.layer = next(layer.name for layer in scene.view_layers if owned.ours(layer, f"pass {each.name}"))
     image = source.outputs[each.output]
@@ -156,6 +207,22 @@ def _record(scene: bpy.types.Scene, tree: bpy.types.NodeTree, each: Pass) -> Non
         parts = tree.nodes.new("CompositorNodeSeparateColor")  # all channels hold the same number
         tree.links.new(image, parts.inputs[0])
         image = parts.outputs[0]
+    _file(tree, each, image)
+
+
+def _file(tree: bpy.types.NodeTree, each: Pass, image: bpy.types.NodeSocket) -> None:
+    """Write this to the pass's EXR."""
     node = compat.exr_output(tree, f"Firetwin {each.name} EXR", image, each.channels == "grey", each.bits)
     node.mute = True
     owned.mark(node, f"exr {each.name}")
+
+
+def _image(tree: bpy.types.NodeTree, each: Pass) -> bpy.types.NodeSocket:
+    """What `_record` has made of a pass's view layer."""
+    ours = [node for node in tree.nodes if owned.ours(node)]
+    source = next(node for node in ours if node.bl_idname == _SOURCE and node.layer == each.name)
+    image = source.outputs[each.output]
+    for link in tree.links:
+        if link.from_socket == image and owned.ours(link.to_node) and link.to_node.bl_idname in _BETWEEN:
+            return link.to_node.outputs[0]
+    return image

@@ -113,7 +113,7 @@ class _Frame:
         still = next((name for name in names if layers.still(passes.known()[name])), None)
         if still:
             self.scene.render.filepath = str(self.part / Path(self.pictures[still].file("png")).name)
-        with engine.pixel_centres(self.scene, centres):
+        with engine.pixel_centres(self.scene, centres), layers.plain(self.scene, names):
             bpy.ops.render.render(write_still=still is not None, scene=self.scene.name)
 
     def files(self, picture: Picture, made: set[Picture]) -> dict[str, Path]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 from ..errors import UsageError
 from ..run.content import fingerprint
 from ..shot import frame_list, mount, passes
@@ -47,7 +49,10 @@ def pictures(
     elif not settings.cameras:
         raise UsageError(f"{settings.path} has no [[cameras]], so there is nothing to render")
     views = [view for view in shot.views if camera in (None, view, view.partition("@")[0])]
-    chosen = _passes(names) if names is not None else None
+    chosen = _passes(names) if names is not None else ()
+    for name, view in itertools.product(chosen, views):
+        if reason := passes.refused(passes.known()[name], shot.camera(view), settings.render.engine):
+            raise UsageError(f"--passes: {reason}")
     if chosen and not settings.runs and (alone := [name for name in chosen if passes.known()[name].compares]):
         raise UsageError(f'--passes: "{alone[0]}" compares runs, and {settings.path} has no [[runs]]')
     drawn, compared = [], []
@@ -77,6 +82,15 @@ def rounds(shot: Shot, wanted: list[Picture]) -> list[list[Picture]]:
     last = {each.camera for each in wanted if _given(shot, each.camera, each.name)}
     parts = [[each for each in wanted if (each.camera in last) is second] for second in (False, True)]
     return [part for part in parts if part]
+
+
+def seen(shot: Shot, wanted: list[Picture]) -> set[tuple[str, str]]:
+    """Cameras and passes that Blender renders for these pictures: some are made from others' files alone."""
+    pairs = {(each.camera, each.name) for each in wanted}
+    for camera, name in list(pairs):
+        pairs |= set(mount.taken(shot.settings, shot.cameras, camera, passes.known()[name]).values())
+    own = {each.camera for each in wanted}
+    return {(camera, name) for camera, name in pairs if camera in own and passes.known()[name].output}
 
 
 def _with_given(shot: Shot, found: list[Picture]) -> list[Picture]:

@@ -28,6 +28,7 @@ def to_files(stage: Stage, out: Path, camera: str, names: tuple[str, ...]) -> No
         Those that are not `exact` count for nothing.
     """
     chosen = [name for name in exact() if name in names]
+    layers.mend(stage.scene)
     layers.select(stage.scene, chosen)
     pictures = {name: Picture(camera, 1, name) for name in chosen}
     for node in compat.compositor(stage.scene).nodes:

@@ -433,7 +433,7 @@ class Settings:
                 frame_list.parse(camera.frames, self.time.frames)
             except ValueError as error:
                 return ("cameras", i, "frames"), f"cameras.frames: {error}"
-        return self._leaderless() or self._around() or self._alone()
+        return self._leaderless() or self._impossible() or self._alone()
 
     def _alone(self) -> tuple[Where, str] | None:
         """What is wrong with the other runs, or asked of them and there are none."""
@@ -452,13 +452,16 @@ class Settings:
                 return where, f'passes has "{found[0]}", which compares runs; add [[runs]] or leave it out'
         return None
 
-    def _around(self) -> tuple[Where, str] | None:
-        """What is asked of cameras that see all round and cannot be."""
+    def _impossible(self) -> tuple[Where, str] | None:
+        """What is asked of cameras and cannot be."""
         for i, camera in enumerate(self.cameras):
             width, height = camera.resolution or self.render.resolution
             if camera.rig.around and self.render.engine != "cycles":
                 reason = f'camera "{camera.name}" sees all round, which EEVEE cannot; render it with Cycles'
                 return ("cameras", i, "kind"), reason
+            for each in passes.of_camera(self, camera):
+                if reason := passes.refused(each, camera, self.render.engine):
+                    return ("cameras", i, "passes") if camera.passes else ("render", "passes"), reason
             if camera.rig.around and width != height:
                 reason = (
                     f'camera "{camera.name}" needs a square resolution, such as [2048, 2048]: two pictures '

@@ -9,9 +9,10 @@ import numpy as np
 from mathutils import Vector, geometry
 
 from ..blender import compat, owned
+from ..errors import Error
 from ..scene.camera import below, hand
 from ..shot import sparse, targets
-from . import flying, run
+from . import flying, go, run
 from .job import Away, Steps
 from .working import Working, reported
 
@@ -20,6 +21,7 @@ _TARGETS = (
     ("head", "Head of the fire", "The part of the front that advances fastest, in every frame"),
     ("fire", "Middle of the fire", "The middle of the ground that burns, in every frame"),
     ("point", "Ground in the view", "The ground in the middle of this view"),
+    ("station", "Place", "A place by its name or coordinates: what is typed in beside Go to, where none is"),
     ("object", "Active object", "The object chosen last, such as a place's label"),
     ("none", "Nothing", "Look where its own keys say again"),
 )
@@ -35,6 +37,9 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     target: bpy.props.EnumProperty(name="Target", description="What it looks at", items=_TARGETS)
+    place: bpy.props.StringProperty(
+        name="Place", description="Name or coordinates of the place to look at", options={"SKIP_SAVE"}
+    )
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -42,7 +47,7 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Find the place, then make the empty and the constraint."""
-        scene, target = context.scene, self.target
+        scene, target, at = context.scene, self.target, self.place or context.scene.firetwin.go_to
         uid, name, other = scene.session_uid, scene.camera.name, context.active_object
         way = None
         if target == "point":
@@ -50,6 +55,11 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
             place, turn = hand.pose_of(matrix)
             met = below.hit(owned.stage(scene), place, -turn[:, 2])
             way = np.array([met if met is not None else place - 2000.0 * turn[:, 2]])
+        elif target == "station":
+            met = go.place(scene, at)
+            if met is None:
+                raise Error(f'no place here is called "{at}"; choose one of the list, or type coordinates')
+            way = np.array([met])
         elif target in targets.MOVING:
             chosen = run.choice(scene.firetwin)
             shot = yield Away("reading the run", lambda **_: chosen.shot())
@@ -61,7 +71,7 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
         _unhook(thing, AIM)
         if target == "none":
             return f"{name} looks where its keys say"
-        empty = other if target == "object" else _empty(scene, target, way)
+        empty = other if target == "object" else _empty(scene, at if target == "station" else target, way)
         if empty is None or empty == thing:
             return "Choose another object to look at first"
         hook = thing.constraints.new("TRACK_TO")

@@ -282,6 +282,7 @@ class FIRETWIN_PT_flying(bpy.types.Panel):
         row = column.row(align=True)
         row.operator_menu_enum("firetwin.camera_aim", "target", text="Look at", icon="CON_TRACKTO")
         row.operator("firetwin.camera_path", text="Draw path", icon="CON_FOLLOWPATH")
+        column.menu("FIRETWIN_MT_named", icon="TRACKER")
         column.menu(FIRETWIN_MT_lenses.bl_idname, icon="CAMERA_DATA")
         row = column.row(align=True)
         row.prop(scene.firetwin, "go_to", text="", icon="VIEWZOOM", placeholder="38.82 -120.55")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import time
 import zoneinfo
 from datetime import UTC, datetime
 
@@ -11,7 +12,7 @@ from mathutils import Euler, Quaternion, Vector
 
 from ..blender import owned
 from ..scene.camera import below, hand
-from . import run, working
+from . import named, run, working
 from .flying import flown, space
 
 _NUMBER = r"\s*(-?\d+(?:\.\d*)?)\s*°?\s*"
@@ -35,11 +36,9 @@ def moment(panel: bpy.types.PropertyGroup, text: str) -> datetime | None:
     if found := _DATE.fullmatch(text):
         zone = UTC if found[3] else zoneinfo.ZoneInfo(panel.zone)
         return datetime.fromisoformat(f"{found[1]} {found[2]:0>5}").replace(tzinfo=zone).astimezone(UTC)
-    reported = run.read(panel.facts).get("reported", []) if panel.facts else []
-    for each in reported if text.strip() else []:
-        if any(text.strip().lower() in str(value).lower() for value in each.values()):
-            return datetime.fromisoformat(str(each["time"]).replace("Z", "+00:00"))
-    return None
+    wanted, moments = text.strip().lower(), run.read(panel.facts)["moments"] if panel.facts else []
+    found = (time for time, words in moments if wanted and wanted in words.lower())
+    return next(map(datetime.fromisoformat, found), None)
 
 
 def frame_of(panel: bpy.types.PropertyGroup, when: datetime) -> int:
@@ -50,9 +49,11 @@ def frame_of(panel: bpy.types.PropertyGroup, when: datetime) -> int:
 
 
 def place(scene: bpy.types.Scene, text: str) -> Vector | None:
-    """Where in the scene a text says: coordinates on the ground, or an object whose name has it."""
-    stage = owned.stage(scene)
-    if pair := coordinates(text):
+    """Where in the scene a text says: coordinates on the ground, a known place, or an object by its name."""
+    stage, pair = owned.stage(scene), coordinates(text)
+    if pair is None and (label := named.find(scene.firetwin, text)):
+        pair = label.latitude, label.longitude
+    if pair:
         east, north, _ = hand.local_frame(stage).forward([pair[0]], [pair[1]], [0.0])[0]
         ground = below.up(stage, (east, north))
         return None if ground is None else Vector((east, north, ground))
@@ -84,11 +85,11 @@ class FIRETWIN_OT_go(bpy.types.Operator):
     @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene, text = context.scene, self.text or context.scene.firetwin.go_to
-        if coordinates(text) is None and (when := moment(scene.firetwin, text)) is not None:
+        where = place(scene, text)
+        if where is None and (when := moment(scene.firetwin, text)) is not None:
             scene.frame_set(frame_of(scene.firetwin, when))
             self.report({"INFO"}, f"Frame {scene.frame_current}, the nearest to {when:%d %b %Y %H:%M} UTC")
             return {"FINISHED"}
-        where = place(scene, text)
         if where is None:
             self.report({"WARNING"}, f'Nothing here is called "{text}", and no ground lies there')
             return {"CANCELLED"}
@@ -117,12 +118,10 @@ def _fly(
     if not smooth:
         _stand(region, start, end, 1.0)
         return
-    passed = 0.0
+    began = time.monotonic()  # a slow window shows fewer pictures, and is there as soon
 
     def step() -> float | None:
-        nonlocal passed
-        passed += _STEP
-        part = min(passed / _SECONDS, 1.0)
+        part = min((time.monotonic() - began) / _SECONDS, 1.0)
         try:
             _stand(region, start, end, part * part * (3.0 - 2.0 * part))
         except ReferenceError:  # the window or the file is another one

@@ -121,7 +121,7 @@ def _write_down(settings: bpy.types.PropertyGroup, found: dict[str, Any]) -> Non
 
 def facts(folder: Path, zone: str) -> tuple[dict[str, Any], maps.Images]:
     """What the panel shows of a run: name, rows, warnings, dated moments and cameras; and its maps."""
-    from ..run import info, thumbnails
+    from ..run import info, labels, thumbnails
     from ..shot import overview
 
     run = readers.open(folder)
@@ -135,6 +135,7 @@ def facts(folder: Path, zone: str) -> tuple[dict[str, Any], maps.Images]:
         "last": found["times"]["last"],
         "moments": _moments(found),
         "burned": _burned(found),
+        "places": labels.known(run),
         "cameras": camera_list.text(overview.cameras(run)),
     }
     return told, thumbnails.draw(run)

@@ -98,7 +98,7 @@ def test_keys_are_set_where_the_view_is_and_never_in_the_ground(panel, monkeypat
     assert (_back(thing, 3)[0] - place).length < 0.01
 
 
-def test_a_camera_looks_at_an_empty_that_follows_the_fire(panel):
+def test_a_camera_looks_at_an_empty_that_follows_the_fire_or_stands_at_a_place(panel, tmp_path):
     scene = bpy.context.scene
     for target, name in (("fire", "Aim at fire"), ("point", "Aim at point")):
         assert bpy.ops.firetwin.camera_aim(target=target) == {"FINISHED"}
@@ -106,6 +106,16 @@ def test_a_camera_looks_at_an_empty_that_follows_the_fire(panel):
         for frame in (1, 3):
             place, ahead = _back(scene.camera, frame)
             assert ahead.angle(empty.matrix_world.translation - place) < 1e-3
+    assert len(scene.camera.constraints) == 1
+    (tmp_path / "places.csv").write_text("name,latitude,longitude\nStation 61,38.84,-120.55\n")
+    panel.places.file = str(tmp_path / "places.csv")
+    assert bpy.ops.firetwin.camera_aim(target="station", place="station 61") == {"FINISHED"}
+    empty = scene.objects["Aim at station 61"]
+    assert (empty.location - go.place(scene, "38.84 -120.55")).length < 0.01
+    place, ahead = _back(scene.camera, 2)
+    assert ahead.angle(empty.matrix_world.translation - place) < 1e-3
+    with pytest.raises(RuntimeError, match='no place here is called "elsewhere"'):
+        bpy.ops.firetwin.camera_aim(target="station", place="elsewhere")
     assert len(scene.camera.constraints) == 1
     bpy.ops.firetwin.camera_aim(target="none")
     assert not scene.camera.constraints
@@ -173,4 +183,6 @@ def test_one_goes_to_places_names_and_moments(panel):
     assert scene.frame_current == 2
     assert bpy.ops.firetwin.go(text="2014-09-17 21:58 UTC") == {"FINISHED"}
     assert scene.frame_current == 3
+    assert bpy.ops.firetwin.go(text="run begins") == {"FINISHED"}  # a dated moment of the run
+    assert scene.frame_current == 1
     assert bpy.ops.firetwin.go(text="nowhere at all") == {"CANCELLED"}

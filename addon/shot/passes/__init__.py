@@ -51,6 +51,8 @@ class Pass:
         Of each number in its EXR.
     pixel_centres
         Its rays go through the middle of each pixel.
+    shapes
+        It shows where surfaces are and nothing of what they are like.
     filmed
         Its PNG files make a film.
     captions
@@ -65,6 +67,8 @@ class Pass:
         Other passes whose files of every run its own are made from, in a pass that compares.
     mount
         It takes these also from the sensors of its camera's mount (see `shot.mount`).
+    flat
+        Cameras that see all round have it not.
     sources
         Files and folders of the package that decide its files, beside its own module, the helpers of passes
         (`_NAME.py`) and what all depend on.
@@ -88,12 +92,14 @@ class Pass:
     channels: str = "grey"
     bits: int = 32
     pixel_centres: bool = False
+    shapes: bool = False
     filmed: bool = False
     captions: bool = True
     needs: tuple[str, ...] = ()
     compares: bool = False
     across: tuple[str, ...] = ()
     mount: bool = False
+    flat: bool = False
     sources: tuple[str, ...] = ()
     finish: Finish | None = None
 
@@ -136,6 +142,18 @@ def in_other_runs(names: Iterable[str]) -> tuple[str, ...]:
     asked = [known()[name] for name in names]
     wanted = {name for each in asked for name in (each.across if each.compares else (each.name,))}
     return tuple(name for name in known() if name in wanted)
+
+
+def refused(each: Pass, camera: Camera, engine: str) -> str:
+    """Why a camera cannot record a pass with an engine; empty: it can."""
+    if each.masks and engine == "eevee":
+        return (
+            f'camera "{camera.name}" cannot record {each.name} with EEVEE, which keeps 11 bits of a number, '
+            "and numbers of trees have more; render it with Cycles"
+        )
+    if each.flat and camera.rig.around:
+        return f'camera "{camera.name}" sees all round, which has no {each.name}'
+    return ""
 
 
 def of_camera(settings: Settings, camera: Camera) -> tuple[Pass, ...]:
