@@ -22,6 +22,7 @@ SUBJECTS = (
     "volume",
     "smoke",
     "step",
+    "scrub",
     "scattering",
     "plume",
     "flow",
