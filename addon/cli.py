@@ -99,9 +99,12 @@ def _parser() -> argparse.ArgumentParser:
     sample.add_argument("out", metavar="OUT", type=Path, help="folder to write; made when missing")
     sample.add_argument("--frames", metavar="N", type=_count, help="only N model times, evenly spread (all)")
     sample.add_argument("--format", choices=("npy", "text"), default="npy", help="kind of field files (npy)")
+    sample.add_argument(
+        "--pace", metavar="FACTOR", type=_factor, default=1.0, help="a what-if: a fire so fast (1)"
+    )
 
     info = command("info", "show what is in a run", INFO)
-    info.add_argument("run", metavar="RUN", type=Path, help="run folder")
+    info.add_argument("run", metavar="RUN", type=Path, help="run folder, or a scene file for all its runs")
     info.add_argument("--json", action="store_true", help="write JSON for programs")
 
     made = command("convert", "make a run of a fire model's own output", CONVERT)
@@ -127,7 +130,9 @@ def _parser() -> argparse.ArgumentParser:
     )
 
     score = command("score", "how well a run matches what was seen of its fire", SCORE)
-    score.add_argument("run", metavar="RUN", type=Path, help="run folder")
+    score.add_argument(
+        "run", metavar="RUN", type=Path, help="run folder, or a scene file: its first run against the other"
+    )
     score.add_argument(
         "--against",
         metavar="FILE|RUN",
@@ -154,6 +159,7 @@ def _parser() -> argparse.ArgumentParser:
     build = command("build", "build the scene and save it as a .blend file", BUILD)
     _scene(build)
     build.add_argument("-o", "--out", metavar="X.blend", type=Path, required=True, help="file to write")
+    build.add_argument("--run", metavar="NAME", default="", help="with this one of [[runs]] (the first run)")
 
     bake = command("bake", "write the smoke volumes that the scene needs", BAKE)
     _scene(bake)
@@ -166,7 +172,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar="LIST",
         help="of each camera's frames, such as 1-10, 3,5-9 or 1-48:4 (all)",
     )
-    render.add_argument("--camera", metavar="NAME", help="this camera only (all)")
+    render.add_argument("--camera", metavar="NAME", help="this camera only (all), drone@RUN in one run")
     render.add_argument("--passes", metavar="LIST", help="such as rgb,thermal (as the scene file says)")
     render.add_argument("--resume", action="store_true", help="keep what is finished and still matches")
 
@@ -217,7 +223,14 @@ def _count(text: str) -> int:
     return int(text)
 
 
-_UNITS = {"": 1, "B": 1, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
+def _factor(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.1 <= value <= 3.0:
+        raise argparse.ArgumentTypeError(f"must be a number from 0.1 to 3, not {text!r}")
+    return value
 
 
 _UNITS = {"": 1, "B": 1, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
@@ -256,7 +269,8 @@ Reads, found by content: WRF-SFIRE (wrfout*), NCAR's Community Fire Behavior Mod
 ForeFire (arrival times, fronts, landscape), ELMFIRE (GeoTIFF), FARSITE and FlamMap (ASCII or GeoTIFF, LCP),
 pyretechnics (.npz), and any CF netCDF by a mapping in a TOML file: [fields] heat_flux = "NAME". Fuels may
 come from an LCP or LANDFIRE's rasters among the files. What a model does not say is assumed, said, and
-written to run.toml. A conversion that was stopped goes on when the command is given again.
+written to run.toml. A conversion that was stopped goes on when the command is given again; one that has read
+and written nothing for ten minutes is ended, as a damaged file may keep its library busy for ever.
 Needs packages that are not installed by themselves: pip install 'firetwin[models]'."""
 
 MAPS = """\

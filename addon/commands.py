@@ -24,21 +24,28 @@ def sample(arguments: argparse.Namespace) -> None:
     from .data import sample
 
     say(f"writing the synthetic King-like run to {arguments.out}")
-    sample.write(arguments.out, arguments.frames, arguments.format, Reporter("model times"))
+    report = Reporter("model times")
+    sample.write(arguments.out, arguments.frames, arguments.format, report, arguments.pace)
     print(arguments.out)
 
 
 def info(arguments: argparse.Namespace) -> None:
-    """Show what is in a run."""
+    """Show what is in a run, or in all runs of a scene file."""
     from .run import info
     from .shot.settings import Time
 
-    facts = info.gather(_open(arguments.run), Time().zone)
+    if arguments.run.suffix == ".toml" and arguments.run.is_file():
+        runs = _runs(arguments.run)
+        facts = {name: info.gather(run, Time().zone) for name, run in runs.items()}
+        page = "\n\n".join(f"{name}: {runs[name].path}\n{info.page(each)}" for name, each in facts.items())
+    else:
+        facts = info.gather(_open(arguments.run), Time().zone)
+        page = info.page(facts)
     if arguments.json:
         json.dump(facts, sys.stdout, indent=1)
         print()
     else:
-        print(info.page(facts))
+        print(page)
 
 
 def maps(arguments: argparse.Namespace) -> None:
@@ -48,7 +55,7 @@ def maps(arguments: argparse.Namespace) -> None:
     from .run import maps, observations
     from .shot.settings import Time
 
-    seen = observations.read(arguments.against or observations.beside(arguments.run)).perimeters
+    seen = observations.read(arguments.against or observations.beside(arguments.run))
     for path in maps.draw(run, arguments.out, Time().zone, seen):
         print(path)
 
@@ -56,20 +63,26 @@ def maps(arguments: argparse.Namespace) -> None:
 def score(arguments: argparse.Namespace) -> None:
     """Compare a run with what was seen of its fire."""
     from . import files
-    from .errors import UsageError
+    from .errors import UsageError, input_error
     from .run import observations
     from .run import score as scores
     from .run.score import page
     from .shot.settings import Time
 
-    run = _open(arguments.run)
-    named = arguments.against or observations.beside(arguments.run)
+    if arguments.run.suffix == ".toml" and arguments.run.is_file():
+        run, *others = _runs(arguments.run).values()
+        named = arguments.against or [other.path for other in others]
+    else:
+        run = _open(arguments.run)
+        named = arguments.against or observations.beside(arguments.run)
     runs = [_open(Path(each)) for each in named if not observations.is_one(each)]
     if len(runs) > 1:
         raise UsageError("--against: one other run at a time")
     if arguments.report and arguments.report.suffix.lower() != ".html":
         raise UsageError(f"--report: {arguments.report} does not end in .html")
     seen = observations.read(each for each in named if observations.is_one(each))
+    if seen.heat and not (seen.perimeters or seen.detections or runs):
+        raise input_error(named[0], 0, 0, "holds heat but no perimeter, so there is nothing to compare with")
     found = scores.score(run, seen, *runs, zone=Time().zone)
     print(json.dumps(found, indent=1) if arguments.json else page.page(found))
     if arguments.report:
@@ -270,6 +283,14 @@ def _list(out: Path) -> None:
     print(out / manifest.NAME)
 
 
+def _runs(scene: Path) -> dict[str, Run]:
+    """All runs of a scene file by their names, the first one first."""
+    from .shot.choice import Choice
+
+    shot = Choice(scene=str(scene)).shot()
+    return {shot.title: shot.run, **shot.others}
+
+
 def _open(folder: Path) -> Run:
     from .run import readers
 
@@ -279,4 +300,4 @@ def _open(folder: Path) -> Run:
 def _choice(arguments: argparse.Namespace) -> Choice:
     from .shot.choice import Choice
 
-    return Choice(scene=str(arguments.scene))
+    return Choice(scene=str(arguments.scene), beside=getattr(arguments, "run", ""))

@@ -31,6 +31,7 @@ def write(
     frames: int | None = None,
     format: str = "npy",
     progress: Callable[[int, int], None] | None = None,
+    pace: float = 1.0,
 ) -> None:
     """Write the sample run to the folder `out`.
 
@@ -44,6 +45,8 @@ def write(
         "npy": one array per field. "text": one file per field and time.
     progress
         Called with the number of output times done and their total.
+    pace
+        How fast the fire is beside the sample's own, from the start on: a made-up what-if to compare with.
 
     Raises
     ------
@@ -56,17 +59,21 @@ def write(
         raise input_error(out, 0, 0, f"no format is called {format!r}; choose {' or '.join(FORMATS)}")
     minutes = _minutes(out, frames)
     with writing(out):
-        _write(out, minutes, format, progress)
+        _write(out, minutes, format, progress, pace)
 
 
 def _write(
-    out: Path, minutes: NDArray[np.int64], format: str, progress: Callable[[int, int], None] | None
+    out: Path,
+    minutes: NDArray[np.int64],
+    format: str,
+    progress: Callable[[int, int], None] | None,
+    pace: float,
 ) -> None:
     out.parent.mkdir(parents=True, exist_ok=True)
     work = Path(tempfile.mkdtemp(prefix=f".{out.name}.", dir=out.parent))
     try:
         work.chmod(0o755)
-        sample = stored.load()
+        sample = at_pace(stored.load(), pace)
         writer = runtext.NpyWriter(work) if format == "npy" else runtext.TextWriter(work)
         for name, values in _static(sample).items():
             writer.field(name, values)
@@ -75,7 +82,7 @@ def _write(
                 put(done, values)
                 if progress:
                     progress(done + 1, len(minutes))
-        (work / "run.toml").write_text(_run_toml(minutes), encoding="utf-8")
+        (work / "run.toml").write_text(_run_toml(minutes, pace), encoding="utf-8")
         if out.exists():
             shutil.rmtree(out)
         work.rename(out)
@@ -120,7 +127,7 @@ def _refuse_strangers(out: Path) -> None:
         return
     try:
         run = tomllib.loads((out / "run.toml").read_text(encoding="utf-8"))
-        ours = run.get("name") == NAME and run.get("synthetic") is True
+        ours = str(run.get("name")).startswith(NAME) and run.get("synthetic") is True
     except (OSError, ValueError):
         ours = False
     if not ours:
@@ -143,7 +150,22 @@ def _static(sample: stored.Sample) -> dict[str, NDArray]:
     }
 
 
-def _run_toml(minutes: NDArray[np.int64]) -> str:
+def at_pace(sample: stored.Sample, pace: float) -> stored.Sample:
+    """The sample with every rate of spread multiplied by `pace`; what burned before the start stays.
+
+    That would be the same fire in weather that does not change; here it is an invention.
+    """
+    if pace == 1.0:
+        return sample
+    arrival = np.where(sample.arrival > 0.0, sample.arrival / pace, sample.arrival)
+    arrival[arrival > stored.MINUTES * INTERVAL] = np.nan
+    return sample._replace(arrival=arrival)
+
+
+def _run_toml(minutes: NDArray[np.int64], pace: float = 1.0) -> str:
+    known = f'name = "{NAME}"\nsynthetic = true\nevent = "king_fire"'
+    if pace != 1.0:
+        known = f'name = "{NAME}, {pace:g} of its pace"\nsynthetic = true'
     if len(minutes) > 1 and np.ptp(np.diff(minutes)) == 0:
         times = f"interval_s = {(minutes[1] - minutes[0]) * INTERVAL:.1f}"
     else:
@@ -154,9 +176,7 @@ def _run_toml(minutes: NDArray[np.int64]) -> str:
 # simulated with pyretechnics and tuned so that burned areas follow the reported ones. Heat flux is the mean
 # over the {INTERVAL:.0f} s that end at each time. Temperature and wind come from scaling laws, not a flow
 # model.
-name = "{NAME}"
-synthetic = true
-event = "king_fire"
+{known}
 start = {stored.START:%Y-%m-%dT%H:%M:%SZ}
 {times}
 mean_s = {INTERVAL:.1f}

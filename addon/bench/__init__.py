@@ -18,6 +18,7 @@ SUBJECTS = (
     "forest",
     "stand",
     "ground",
+    "skip",
     "emitters",
     "volume",
     "smoke",

@@ -46,7 +46,8 @@ def identifier(catalogue: str) -> str:
 
 def catalogue() -> str:
     """Text of the file that names the catalogues."""
-    lines = [f"{identifier(name)}:Firetwin/{name}:Firetwin-{name}" for name in CATALOGUES]
+    above = f"{identifier('Firetwin')}:Firetwin:Firetwin"  # else Blender makes it, and asks to save it
+    lines = [above, *(f"{identifier(name)}:Firetwin/{name}:Firetwin-{name}" for name in CATALOGUES)]
     head = "# This is an Asset Catalog Definition file for Blender.\n\nVERSION 1\n\n"
     return head + "\n".join(lines) + "\n"
 

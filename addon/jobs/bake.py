@@ -44,7 +44,7 @@ def in_blender(choice: dict[str, str], together: bool, progress: Progress, tell:
     shot = Choice(**choice).shot()
     for text in shot.warnings():
         tell(text)
-    shots = [shot] if together else [shot.of(camera.name) for camera in shot.settings.cameras]
+    shots = [shot] if together else [shot.of(view) for view in shot.views]
     places = {bake.folder(each, progress): each for each in shots}
     for each in places.values():
         if text := outlook.words(each):

@@ -119,11 +119,14 @@ def in_blender(
 
     Pictures that other renders make at the same time are left to them.
     """
-    from ..render import fingerprint, plan, sharing, video
+    from ..render import compared, fingerprint, plan, sharing, video
     from ..render.picture import Picture
+    from ..shot import passes
 
     shot = Choice(**choice).shot()
-    todo = [Picture(*picture) for picture in pictures]
+    asked = [Picture(*picture) for picture in pictures]
+    todo = [picture for picture in asked if not passes.known()[picture.name].compares]
+    drawn = set(todo)
     if todo:
         _check_device(shot)
     frames = frames_of(todo)
@@ -138,6 +141,7 @@ def in_blender(
                     wanted = list(group)
                     _camera(shot.of(camera), making, wanted, share(progress, done, frames), tell)
                     done += frames_of(wanted)
+        compared.make(shot, making, [each for each in asked if each not in drawn], progress, tell)
         video.make(shot, making, progress)
 
 
@@ -177,17 +181,18 @@ def share(progress: Progress, before: int, frames: int) -> Progress:
 def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell: Tell) -> None:
     """Render the pictures of a shot's one camera; its smoke is baked a frame ahead of them."""
     from ..blender import devices
-    from ..render import pictures
+    from ..render import pictures, plan
     from ..scene.smoke import bake
     from . import setting
 
     for text in shot.warnings():
         tell(text)
     frames, done = frames_of(wanted), 0
+    drawn = plan.seen(shot, wanted)
     with bake.ahead(shot, smoky(shot, wanted), progress, tell) as ready:
         for part, group in _parts(shot, wanted):
-            stage = setting.build_scene(part, progress, tell)
-            if shot.settings.render.engine == "cycles" and not done:
+            stage = setting.build_scene(part, progress, tell) if drawn else setting.empty()
+            if drawn and shot.settings.render.engine == "cycles" and not done:
                 tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
             pictures.render(shot, stage, making, group, share(progress, done, frames), ready)
             done += frames_of(group)
@@ -211,10 +216,17 @@ def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:
 
 def smoky(shot: Shot, wanted: list[Any]) -> list[int]:
     """Frames of pictures that show smoke, ascending."""
+    from ..render import plan
     from ..shot import passes
 
     if not shot.settings.smoke.enabled:
         return []
     known = passes.known()
-    names = {name for name, each in known.items() if "smoke" in each.aspects}
-    return sorted({picture.frame for picture in wanted if picture.name in names})
+    smoky = {
+        name
+        for name in {picture.name for picture in wanted}
+        if any(
+            "smoke" in known[each].shows for _, each in plan.seen(shot, [p for p in wanted if p.name == name])
+        )
+    }
+    return sorted({picture.frame for picture in wanted if picture.name in smoky})

@@ -10,13 +10,18 @@ from ..scene import build
 from ..shot.shot import Shot
 
 
-def build_scene(shot: Shot, progress: Progress, tell: Tell) -> Stage:
-    """Build the scene of a shot, with view layers and engine, in a Blender that holds nothing else."""
+def empty() -> Stage:
+    """A scene with nothing in it, in a Blender that holds nothing else."""
     import bpy
 
     # Not read_factory_settings: its preferences enable no extension, and Blender then deletes their wheels.
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    stage = owned.adopt(bpy.context.scene)
+    return owned.adopt(bpy.context.scene)
+
+
+def build_scene(shot: Shot, progress: Progress, tell: Tell) -> Stage:
+    """Build the scene of a shot, with view layers and engine, in a Blender that holds nothing else."""
+    stage = empty()
     total = len(build.PARTS) + 2
     for done, _ in enumerate(build.steps(shot, stage.scene, tell=tell)):
         progress(done, total, "building the scene")

@@ -25,7 +25,7 @@ def run(
     tell: Tell = untold,
     stop: worker.Stop | None = None,
 ) -> int:
-    """Render what is asked for of a scene in a .blend file, then the films.
+    """Render what is asked for of a scene in a .blend file, then the films: of the one run that it shows.
 
     Parameters
     ----------
@@ -40,9 +40,11 @@ def run(
     """
     from ..render import plan
     from ..render.store import Store
+    from ..shot import passes
 
     shot = choice.shot()
-    wanted = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
+    planned = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
+    wanted = [each for each in planned if "@" not in each.camera and not passes.known()[each.name].compares]
     with blend.open("rb") as file:
         digest = hashlib.file_digest(file, "sha256").hexdigest()
     made_with = _made_with(digest, wanted)

@@ -27,21 +27,21 @@ def missing(shot: Shot, store: Store, made_with: Fingerprints) -> Iterator[Film]
     if not shot.settings.render.video:
         return
     filmed = [each.name for each in passes.known().values() if each.filmed]
-    for camera in shot.settings.cameras:
+    for camera in shot.views:
         for name in filmed:
-            if (camera.name, name) not in made_with:
+            if (camera, name) not in made_with:
                 continue
-            key, path = fingerprint(made_with[camera.name, name]), film(camera.name, name)
-            state = _state(shot, store, camera.name, name, key)
+            key, path = fingerprint(made_with[camera, name]), film(camera, name)
+            state = _state(shot, store, camera, name, key)
             if store.note(path) == state:
                 continue
-            frames = set(shot.frames_of(camera))
-            found = store.pictures(camera.name, name, key, ".png")
+            frames = set(shot.frames_of(shot.camera(camera)))
+            found = store.pictures(camera, name, key, ".png")
             made_from = _made_from(
-                shot, camera.name, name, [[frame, found[frame]] for frame in found if frame in frames]
+                shot, camera, name, [[frame, found[frame]] for frame in found if frame in frames]
             )
             if len(made_from["frames"]) > 1 and not store.intact(fingerprint(made_from), [path]):
-                yield camera.name, name, made_from
+                yield camera, name, made_from
             else:
                 with contextlib.suppress(Error):  # a folder that is only read
                     store.write_note(path, state)
@@ -55,7 +55,7 @@ def _made_from(shot: Shot, camera: str, name: str, pictures: list[list[Any]]) ->
         "camera": camera,
         "frames": pictures,
         "fps": time.fps,
-        "captions": [frames.first, frames.last, frames.count, time.zone, shot.run.synthetic],
+        "captions": [frames.first, frames.last, frames.count, time.zone, shot.run_of(camera).synthetic],
     }
 
 

@@ -12,6 +12,7 @@ from typing import Any
 import firetwin_core
 
 from ..progress import Progress, silent
+from ..run import content
 from ..run.content import fingerprint
 from ..shot import labels, mount, observed, passes, photo, schema, sources
 from ..shot.settings import Settings
@@ -64,7 +65,7 @@ def _modules(name: str) -> list[str]:
         file,
         *each.sources,
         *(helpers if each.finish else ()),
-        *(module for need in each.needs for module in _modules(need)),
+        *(module for need in each.made_from for module in _modules(need)),
     ]
 
 
@@ -84,12 +85,29 @@ def versions() -> dict[str, str]:
 def of_pictures(shot: Shot, pictures: list[Picture], progress: Progress = silent) -> Fingerprints:
     """Those of every (camera, pass) among the pictures, and of the passes that these are made from."""
     asked = {(p.camera, p.name) for p in pictures}
-    needed = {(camera, need) for camera, name in asked for need in passes.known()[name].needs}
+    needed = {(camera, need) for camera, name in asked for need in passes.known()[name].made_from}
     return of_pairs(shot, asked | needed, progress)
 
 
 def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silent) -> Fingerprints:
-    """Those of each (camera, pass); what of the run was never read is read now."""
-    run = shot.inputs(progress=progress) | photo.inputs(shot.settings, progress)
-    run |= labels.inputs(shot.settings) | observed.inputs(shot.settings, progress)
-    return {pair: of_picture(shot.settings, run, *pair) for pair in sorted(pairs)}
+    """Those of each (camera, pass); what of the runs was never read is read now."""
+    more = photo.inputs(shot.settings, progress) | labels.inputs(shot.settings)
+    more |= observed.inputs(shot.settings, progress)
+    shots = {label: shot.in_run(f"@{label}") for label in {view.partition("@")[2] for view, _ in pairs}}
+    runs = {label: own.inputs(progress=progress) | more for label, own in shots.items()}
+    found = {}
+    for view, name in sorted(pairs):
+        label = view.partition("@")[2]
+        found[view, name] = of_picture(shots[label].settings, runs[label], view, name)
+        found[view, name] |= _beside(shots[label], name, progress)
+    return found
+
+
+def _beside(shot: Shot, name: str, progress: Progress) -> dict[str, Any]:
+    """What a pass shows of other runs than its own."""
+    each = passes.known()[name]
+    if not each.compares and not (shot.settings.fire.fronts and "fire" in each.aspects):
+        return {}
+    cache = shot.settings.cache
+    found = {label: content.inputs(run, cache, (), progress) for label, run in shot.neighbours().items()}
+    return {"beside": found} if found else {}

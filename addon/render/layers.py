@@ -7,7 +7,8 @@ are not ours stay as they are, and so do ours once they are made: what an artist
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
+from contextlib import contextmanager
 
 import bpy
 
@@ -105,6 +106,30 @@ def select(scene: bpy.types.Scene, names: Iterable[str]) -> None:
     chosen = {f"pass {name}" for name in names}
     for layer in scene.view_layers:
         layer.use = layer.get(owned.MARK) in chosen
+
+
+@contextmanager
+def plain(scene: bpy.types.Scene, names: Iterable[str]) -> Iterator[None]:
+    """Within, layers of passes that show shapes alone draw all in black: no material costs any time.
+
+    Ours that these layers see let nothing through. Where there are materials of an artist's they stay.
+    """
+    shapes = {f"pass {name}" for name in names if passes.known()[name].shapes}
+    found = [layer for layer in scene.view_layers if layer.get(owned.MARK) in shapes]
+    if not found or not all(owned.ours(each) for each in bpy.data.materials if each.users):
+        yield
+        return
+    black, tree = nodes.material("Firetwin Plain")
+    tree.surface(tree.emission((0.0, 0.0, 0.0)))
+    for layer in found:
+        layer.material_override = black
+    try:
+        yield
+    finally:
+        for layer in found:
+            layer.material_override = None
+        bpy.data.materials.remove(black)
+        bpy.data.node_groups.remove(tree.node_tree)
 
 
 def write_exr(scene: bpy.types.Scene, folder: str, pictures: Iterable[Picture]) -> None:

@@ -56,7 +56,7 @@ def render(
                     raise
                 continue  # another took it over, with the files that were being made
             if line.held():
-                _publish(shot, making, part, finished)
+                publish(shot, making, part, finished)
                 made += 1
     progress(total, total, "rendering")
     return made
@@ -113,7 +113,7 @@ class _Frame:
         still = next((name for name in names if layers.still(passes.known()[name])), None)
         if still:
             self.scene.render.filepath = str(self.part / Path(self.pictures[still].file("png")).name)
-        with engine.pixel_centres(self.scene, centres):
+        with engine.pixel_centres(self.scene, centres), layers.plain(self.scene, names):
             bpy.ops.render.render(write_still=still is not None, scene=self.scene.name)
 
     def files(self, picture: Picture, made: set[Picture]) -> dict[str, Path]:
@@ -123,7 +123,7 @@ class _Frame:
         return {path.suffix[1:]: self.part / path.name if picture in made else out / path for path in paths}
 
 
-def _publish(shot: Shot, making: Making, part: Path, pictures: list[Picture]) -> None:
+def publish(shot: Shot, making: Making, part: Path, pictures: list[Picture]) -> None:
     """Look at the files of a complete frame, give them their names, and only then enter them in the store."""
     made = {name: part / Path(name).name for each in pictures for name in each.files()}
     for path in made.values():

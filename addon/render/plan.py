@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 from ..errors import UsageError
 from ..run.content import fingerprint
 from ..shot import frame_list, mount, passes
@@ -16,16 +18,17 @@ from .store import Store
 def pictures(
     shot: Shot, frames: str | None = None, camera: str | None = None, names: str | None = None
 ) -> list[Picture]:
-    """Pictures of the scene file, or those of them that the command line picks, camera by camera.
+    """Pictures of the scene file, or those of them that the command line picks, camera by camera, run by run.
 
-    With them come those of other cameras that they are made from, before them (see `shot.mount`).
+    With them come those of other cameras that they are made from, before them (see `shot.mount`). What
+    compares runs comes last, and what it is made from before it whether or not it was named.
 
     Parameters
     ----------
     frames
         Such as "1-10"; of each camera's own frames, these. None: all.
     camera
-        Only this one.
+        Only this one, in all runs; or as ``camera@run`` in that one.
     names
         Such as "rgb,thermal"; in place of the passes that the scene file gives.
 
@@ -41,21 +44,37 @@ def pictures(
         wanted = frame_list.parse(frames or "", shot.frames.count)
     except ValueError as error:
         raise UsageError(f"--frames: {error}") from None
-    cameras = [shot.camera(camera)] if camera else settings.cameras
-    if not cameras:
+    if camera:
+        shot.camera(camera)  # says which there are
+    elif not settings.cameras:
         raise UsageError(f"{settings.path} has no [[cameras]], so there is nothing to render")
-    chosen = _passes(names) if names is not None else None
-    found = [
-        Picture(c.name, frame, name)
-        for c in cameras
-        for frame in _frames(shot, c, wanted)
-        for name in chosen or [each.name for each in passes.of_camera(settings, c)]
-    ]
-    if not found:
-        raise UsageError(
-            f"--frames {frames}: {' and '.join(c.name for c in cameras)} has none of these frames"
-        )
-    return _with_given(shot, found)
+    views = [view for view in shot.views if camera in (None, view, view.partition("@")[0])]
+    chosen = _passes(names) if names is not None else ()
+    for name, view in itertools.product(chosen, views):
+        if reason := passes.refused(passes.known()[name], shot.camera(view), settings.render.engine):
+            raise UsageError(f"--passes: {reason}")
+    if chosen and not settings.runs and (alone := [name for name in chosen if passes.known()[name].compares]):
+        raise UsageError(f'--passes: "{alone[0]}" compares runs, and {settings.path} has no [[runs]]')
+    drawn, compared = [], []
+    for view in views:
+        camera_of_view = shot.camera(view)
+        listed = _frames(shot, camera_of_view, wanted)
+        asked = chosen or tuple(each.name for each in passes.of_camera(settings, camera_of_view))
+        first = "@" not in view
+        made, last = _in_turn(asked) if first else (passes.in_other_runs(asked), ())
+        drawn += [Picture(view, frame, name) for frame in listed for name in made]
+        compared += [Picture(view, frame, name) for frame in listed for name in last]
+    if not drawn:
+        raise UsageError(f"--frames {frames}: {' and '.join(views)} has none of these frames")
+    return _with_given(shot, drawn) + compared
+
+
+def _in_turn(asked: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Passes of the first run that are made by themselves, and those that compare it with others."""
+    known = passes.known()
+    compared = tuple(name for name in asked if known[name].compares)
+    needed = {need for name in compared for need in known[name].made_from}
+    return tuple(name for name in known if name in needed or name in {*asked} - {*compared}), compared
 
 
 def rounds(shot: Shot, wanted: list[Picture]) -> list[list[Picture]]:
@@ -65,23 +84,33 @@ def rounds(shot: Shot, wanted: list[Picture]) -> list[list[Picture]]:
     return [part for part in parts if part]
 
 
+def seen(shot: Shot, wanted: list[Picture]) -> set[tuple[str, str]]:
+    """Cameras and passes that Blender renders for these pictures: some are made from others' files alone."""
+    pairs = {(each.camera, each.name) for each in wanted}
+    for camera, name in list(pairs):
+        pairs |= set(mount.taken(shot.settings, shot.cameras, camera, passes.known()[name]).values())
+    own = {each.camera for each in wanted}
+    return {(camera, name) for camera, name in pairs if camera in own and passes.known()[name].output}
+
+
 def _with_given(shot: Shot, found: list[Picture]) -> list[Picture]:
     given = [
         Picture(c, each.frame, name) for each in found for c, name in _given(shot, each.camera, each.name)
     ]
     if not given:
         return found
-    cameras, names = [camera.name for camera in shot.cameras], list(passes.known())
+    views, names = shot.views, list(passes.known())
     every = sorted(
-        {*found, *given}, key=lambda each: (cameras.index(each.camera), each.frame, names.index(each.name))
+        {*found, *given}, key=lambda each: (views.index(each.camera), each.frame, names.index(each.name))
     )
     return [each for part in rounds(shot, every) for each in part]
 
 
-def _given(shot: Shot, camera: str, name: str) -> list[tuple[str, str]]:
-    """Other cameras and passes that a pass of a camera is made from."""
+def _given(shot: Shot, view: str, name: str) -> list[tuple[str, str]]:
+    """Other cameras of the same run, and passes, that a pass of a camera is made from."""
+    camera, mark, run = view.partition("@")
     taken = mount.taken(shot.settings, shot.cameras, camera, passes.known()[name])
-    return [pair for pair in taken.values() if pair[0] != camera]
+    return [(c + mark + run, need) for c, need in taken.values() if c != camera]
 
 
 def missing(store: Store, wanted: list[Picture], made_with: Fingerprints, after: int = 0) -> list[Picture]:

@@ -45,7 +45,7 @@ def _film(shot: Shot, making: Making, camera: str, name: str, made_from: dict[st
             made = part / path.name
             frames = [frame for frame, _ in made_from["frames"]]
             _settings(shot, camera, scene, made, len(frames))
-            engine.label(shot.run, scene)
+            engine.label(shot.run_of(camera), scene)
             _strips(shot, scene, out, camera, name, frames)
             with writing(path):
                 bpy.ops.render.render(animation=True, scene=scene.name)
@@ -97,7 +97,7 @@ def _strips(
         label = times.text(shot.moment(number), shot.settings.time.zone)
         for eye, up in enumerate(low):
             _text(editor, label, position, 1, 2 + eye, size, (left, up), "LEFT")
-    if shot.run.synthetic and passes.known()[name].captions:
+    if shot.run_of(camera).synthetic and passes.known()[name].captions:
         for eye, up in enumerate(low):
             place = right, up - 0.03 * around
             _text(editor, "synthetic sample run", 1, len(numbers), 4 + eye, size / 1.5, place, "RIGHT")

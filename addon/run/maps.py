@@ -10,7 +10,8 @@ import matplotlib
 import numpy as np
 from matplotlib.colors import LightSource, LinearSegmentedColormap, LogNorm, Normalize
 from matplotlib.figure import Figure
-from matplotlib.patches import Polygon, Rectangle
+from matplotlib.patches import PathPatch, Polygon, Rectangle
+from matplotlib.path import Path as Outline
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, LogLocator
 from numpy.typing import NDArray
@@ -18,21 +19,28 @@ from numpy.typing import NDArray
 from .. import files
 from ..data import history
 from . import areas, thumbnails, times
-from .observations import Perimeter
+from .observations import Observations
+from .observations.heat import KINDS
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.collections import QuadMesh
+
+    from .observations import Heat
+    from .observations import Polygon as Polygons
 
 FUEL = LinearSegmentedColormap.from_list("fuel", thumbnails.FUEL)
 INTENSITY = LinearSegmentedColormap.from_list("intensity", thumbnails.INTENSITY)
 SEEN = LinearSegmentedColormap.from_list("seen", ["#d4e6f7", "#5aa2dd", "#0b3d75"])
+HEAT = {"intense": "#c2006e", "scattered": "#6a3fc4", "isolated": "#00625f", "possible": "#5f7a7a"}
+NOTHING = Observations()
 DPI = 160
 
 
-def draw(run: Run, out: Path, zone: str, seen: Sequence[Perimeter] = ()) -> list[Path]:
-    """Write ``fuel.png`` and ``intensity.png``, with perimeters that were seen, into the folder `out`.
+def draw(run: Run, out: Path, zone: str, seen: Observations = NOTHING) -> list[Path]:
+    """Write ``fuel.png`` and ``intensity.png``, with what was seen of the fire, into the folder `out`.
 
     Returns
     -------
@@ -56,9 +64,9 @@ def fuel_map(run: Run) -> Figure:
     return figure
 
 
-def intensity_map(run: Run, zone: str, seen: Sequence[Perimeter] = ()) -> Figure:
-    """Largest heat flux (kW/m2) of each model cell of the whole run, over the relief; perimeters as lines."""
-    flux = np.ma.masked_less_equal(thumbnails.strongest(run) / 1e3, 0)
+def intensity_map(run: Run, zone: str, seen: Observations = NOTHING) -> Figure:
+    """Largest heat flux (kW/m2) of each model cell of the whole run, over the relief; what was seen."""
+    flux = np.ma.masked_less(thumbnails.strongest(run), thumbnails.FIRE) / 1e3
     first, last = (times.text(times.moment(run, float(run.times[i])), zone) for i in (0, -1))
     figure, axes = _page(run, "Fire intensity", f"strongest heat flux, {first} to {last}")
     _relief(axes, run, 1.0)
@@ -67,28 +75,60 @@ def intensity_map(run: Run, zone: str, seen: Sequence[Perimeter] = ()) -> Figure
     image = _show(axes, run.latitude, run.longitude, flux, INTENSITY, norm)
     _colour_bar(figure, axes, image, "heat flux, kW/m$^2$ (logarithmic)", "min")
     _burned_before(axes, run)
-    _perimeters(axes, run, zone, seen)
+    _seen(axes, run, zone, seen)
     _places(axes, run)
     return figure
 
 
-def _perimeters(axes: Axes, run: Run, zone: str, seen: Sequence[Perimeter]) -> None:
-    """Outline what was seen burned, each date in a blue of its own, the latest darkest."""
-    if not seen:
+def _seen(axes: Axes, run: Run, zone: str, seen: Observations) -> None:
+    """Outline what was seen burned, each date in a blue of its own, and infrared flights' heat by class."""
+    if not seen.perimeters and not seen.heat:
         return
-    middle = float(run.longitude[0] + run.longitude[-1]) / 2
     before, bounds, lines = axes.get_legend(), (axes.get_xlim(), axes.get_ylim()), []
-    for i, each in enumerate(seen):
-        style = {"facecolor": "none", "edgecolor": SEEN((i + 1) / len(seen)), "linewidth": 1.1, "zorder": 4}
-        rings = [ring for polygon in each.polygons for ring in polygon]
-        drawn = [axes.fill(areas.turned(x, middle), y, **style)[0] for x, y in (ring.T for ring in rings)]
-        drawn[0].set_label(times.text(each.time, zone))
-        lines.append(drawn[0])
+    for i, each in enumerate(seen.perimeters):
+        style = {"edgecolor": SEEN((i + 1) / len(seen.perimeters)), "linewidth": 1.1, "zorder": 4}
+        lines.append(_outline(axes, run, each.polygons, style))
+        lines[-1].set_label(times.text(each.time, zone))
+    for kind in KINDS:
+        if found := [each for each in seen.heat if each.kind == kind]:
+            lines.append(_heat(axes, run, kind, found))
     axes.set(xlim=bounds[0], ylim=bounds[1])
     box = {"framealpha": 0.78, "edgecolor": "none", "fontsize": 8, "title_fontsize": 8}
-    axes.legend(handles=lines, title="seen burned by", loc="upper left", **box)
+    axes.legend(handles=lines, title="seen burned by" if seen.perimeters else "seen", loc="upper left", **box)
     if before:
         axes.add_artist(before)
+
+
+def _outline(axes: Axes, run: Run, polygons: Sequence[Polygons], style: dict) -> PathPatch:
+    """Rings of polygons as lines of one patch, so that holes are none of it."""
+    middle = float(run.longitude[0] + run.longitude[-1]) / 2
+    paths = []
+    for polygon in polygons:
+        for place, (x, y) in enumerate(ring.T for ring in polygon):
+            corners = np.column_stack([areas.turned(x, middle), y])
+            x, y = (corners - corners[0]).T
+            left = np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) > 0  # turns; holes have to the other way
+            corners = corners if left == (place == 0) else corners[::-1]
+            paths.append(Outline([*corners, corners[0]], closed=True))
+    return axes.add_patch(PathPatch(Outline.make_compound_path(*paths), facecolor="none", **style))
+
+
+def _heat(axes: Axes, run: Run, kind: str, found: Sequence[Heat]) -> Artist:
+    """One class of heat of all flights: hatched as the map symbols of the NWCG are, or dots."""
+    drawn: Artist | None = None
+    polygons = [polygon for each in found for polygon in each.polygons]
+    if polygons:
+        hatch = {"intense": "////", "scattered": "...."}.get(kind)
+        style = {"edgecolor": HEAT[kind], "linewidth": 0.7, "hatch": hatch, "zorder": 4}
+        drawn = _outline(axes, run, polygons, style)
+    points = np.concatenate([each.points for each in found])
+    if len(points):
+        middle = float(run.longitude[0] + run.longitude[-1]) / 2
+        x, y = areas.turned(points[:, 0], middle), points[:, 1]
+        style = {"color": HEAT[kind], "marker": "o", "linestyle": "none", "zorder": 5}
+        (drawn,) = axes.plot(x, y, markersize=2.6, **style)
+    drawn.set_label(f"{kind} heat")
+    return drawn
 
 
 def _burned_before(axes: Axes, run: Run) -> None:

@@ -15,7 +15,7 @@ INTENSITY = ("#fff7b0", "#ffe566", "#ffc81e", "#ff9a0a", "#f4560b", "#cf1710", "
 SIDE = 192
 """Pixels of a thumbnail, across and up."""
 
-_FIRE = 1.0  # W/m2, as where arrival times are estimated: real files hold fluxes of 1e-38
+FIRE = 1.0  # W/m2, as where arrival times are estimated: real files hold fluxes of 1e-38
 _BARE = (0.45, 0.43, 0.40)  # where nothing burned
 
 
@@ -27,7 +27,7 @@ def draw(run: Run) -> dict[str, NDArray[np.float32]]:
     high = max(float(flux.max()), 1.0e-6)
     heat = np.log(np.maximum(flux, 1.0e-9 * high) / high) / np.log(300.0) + 1.0
     burning = coloured(np.clip(heat, 0.0, 1.0), INTENSITY)
-    burning[flux < _FIRE] = _BARE
+    burning[flux < FIRE] = _BARE
     return {
         "fuel": _square(coloured(share, FUEL), run.fuel_latitude, run.fuel_longitude),
         "intensity": _square(burning, run.latitude, run.longitude),

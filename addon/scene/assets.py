@@ -61,11 +61,14 @@ def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
     fire.node_group(shot, fire.cards(shot, stage))
     firebrand_material.build(shot, stage)
     for look, name in ((puff_material, "Puffs"), (flow_material, "Flow")):
-        look.build(shot, stage).name = f"Firetwin Smoke {name}"
+        material = look.build(shot, stage)
+        material.name = f"Firetwin Smoke {name}"
+        for node in material.node_tree.nodes:
+            if node.type == "GROUP" and node.node_tree.name.startswith("Firetwin Smoke Shader"):
+                node.node_tree.name = f"Firetwin Smoke Shader {name}"
     camera.build(shot, stage)
     _trees(trees, identify, progress)
-    for material in filter(owned.ours, bpy.data.materials):
-        _mark(material, identify("Materials"), f"{material.name}: see the inputs of its node group")
+    _materials(identify)
     for group in filter(owned.ours, bpy.data.node_groups):
         _mark(group, identify(_KINDS[group.bl_idname]), _inputs(group))
     for thing in (thing for thing in stage.root.all_objects if thing.type == "CAMERA"):
@@ -95,6 +98,26 @@ def _trees(made: bpy.types.Collection, identify: Identify, progress: Progress) -
             thing.scale = (HEIGHTS[model.kind],) * 3
             studio.draw(thing)
         studio.close()
+
+
+def _materials(identify: Identify) -> None:
+    """Mark all materials; those of trees and the like show what has them, as much of it as can be."""
+    things = [thing for thing in bpy.data.objects if thing.asset_data and thing.type == "MESH"]
+    things.sort(key=lambda thing: len(thing.data.materials))
+    for material in filter(owned.ours, bpy.data.materials):
+        _mark(material, identify("Materials"), f"{material.name}: see the inputs of its node group")
+        made = next((thing for thing in things if material.name in thing.data.materials), None)
+        if made is not None:
+            pixels = np.empty(_PICTURE * _PICTURE * 4, np.float32)
+            made.preview.image_pixels_float.foreach_get(pixels)
+            _show(material, pixels)
+
+
+def _show(block: bpy.types.ID, pixels: np.ndarray) -> None:
+    """Make a picture the preview of a block."""
+    preview = block.preview_ensure()
+    preview.image_size = (_PICTURE, _PICTURE)
+    preview.image_pixels_float.foreach_set(pixels)
 
 
 def _about(model: models.Model, high: bool) -> str:
@@ -161,9 +184,7 @@ class _Studio:
         picture = bpy.data.images.load(str(self._path))
         pixels = np.empty(_PICTURE * _PICTURE * 4, np.float32)
         picture.pixels.foreach_get(pixels)
-        preview = thing.preview_ensure()
-        preview.image_size = (_PICTURE, _PICTURE)
-        preview.image_pixels_float.foreach_set(pixels)
+        _show(thing, pixels)
         bpy.data.images.remove(picture)
         scene.collection.objects.unlink(thing)
 

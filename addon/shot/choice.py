@@ -28,6 +28,8 @@ class Choice:
         Render engine and what Cycles renders on, in place of the scene file's.
     smoke
         `smoke.method`, in place of the scene file's.
+    beside
+        Name of one of the scene file's other runs, which is shown in place of the first.
     """
 
     scene: str = ""
@@ -36,6 +38,7 @@ class Choice:
     engine: str = ""
     device: str = ""
     smoke: str = ""
+    beside: str = ""
 
     def plain(self) -> dict[str, str]:
         """The choice as `Choice(**plain)` takes it."""
@@ -57,9 +60,12 @@ class Choice:
         ------
         InputError
             Names the file, line and column of what is wrong, and what to do.
+        UsageError
+            The scene file has no other run of the name.
         """
+        from ..errors import UsageError
         from ..run import readers
-        from . import fit, overview
+        from . import beside, fit, overview
         from .shot import Shot
 
         settings = self.settings()
@@ -67,4 +73,9 @@ class Choice:
         if not self.scene:
             settings = replace(settings, cameras=overview.cameras(run))
         fit.check(settings, run)
-        return Shot(settings, run)
+        shot = Shot(settings, run)
+        beside.check(settings, run, shot.others)
+        if self.beside and self.beside not in shot.others:
+            names = ", ".join(shot.others) or "none"
+            raise UsageError(f'--run: there is no "{self.beside}" in [[runs]]; the scene has {names}')
+        return beside.Beside(shot, self.beside) if self.beside else shot

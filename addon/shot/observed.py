@@ -1,7 +1,9 @@
 """What was seen of the fire (`fire.observed`), as lines on the ground that appear at their dates.
 
 A perimeter is there from its date on; when the next one of its file is, it fades. A satellite's pixel is a
-square of its size for twelve hours, the longest from one overpass by day or night to the next.
+square of its size for twelve hours, the longest from one overpass by day or night to the next. Heat that an
+infrared flight saw is there for a day, as flights come by night, or until the next flight; sources too small
+for a polygon are circles.
 """
 
 from __future__ import annotations
@@ -26,18 +28,24 @@ if TYPE_CHECKING:
 ABOVE = 25.0  # m over the ground: over most crowns, which would hide them
 FOREVER = 1e12  # s
 _SHOWN = 12 * 3600.0  # s, of a detection
+_FLIGHT = 24 * 3600.0  # s, of an infrared flight's heat
+_SOURCE = 30.0  # m, radius of the circle round an isolated source of heat, at least
 _MOST = 60_000  # points of a perimeter
 _STEP = 20.0  # m from point to point, so that lines follow the ground
 
 
 @dataclass(frozen=True)
 class Line:
-    """A closed line: points (n, 3) in the scene (m), model times (s) when it is there, fades and is gone."""
+    """A closed line: points (n, 3) in the scene (m), model times (s) when it is there, fades and is gone.
+
+    `kind` is one of `heat.KINDS`, or "" of perimeters and satellites' pixels.
+    """
 
     points: NDArray[np.float64]
     start: float
     fades: float
     end: float
+    kind: str = ""
 
 
 def files(settings: Settings) -> list[Path]:
@@ -80,7 +88,8 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
 def lines(shot: Shot) -> list[Line]:
     """Every line, in the order of their dates."""
     found = observations.read(files(shot.settings))
-    return sorted([*_perimeters(shot, found), *_pixels(shot, found)], key=lambda line: line.start)
+    every = [*_perimeters(shot, found), *_pixels(shot, found), *_heat(shot, found)]
+    return sorted(every, key=lambda line: line.start)
 
 
 def _perimeters(shot: Shot, found: observations.Observations) -> Iterator[Line]:
@@ -93,6 +102,23 @@ def _perimeters(shot: Shot, found: observations.Observations) -> Iterator[Line]:
         step = max(_STEP, sum(_length(ring) for ring in rings) / _MOST)
         for ring in rings:
             yield Line(_draped(shot, ring, step), start, fades, FOREVER)
+
+
+def _heat(shot: Shot, found: observations.Observations) -> Iterator[Line]:
+    radius = max(_SOURCE, 1.5 * shot.settings.fire.observed_width)
+    turn = np.linspace(0.0, 2.0 * np.pi, 12, endpoint=False)
+    for each in found.heat:
+        start = times.seconds(shot.run, each.time)
+        later = [times.seconds(shot.run, h.time) for h in found.heat if h.time > each.time]
+        end = min([start + _FLIGHT, *later])
+        rings = [ring for polygon in each.polygons for ring in polygon]
+        for longitude, latitude in each.points:
+            north, east = areas.metres_per_degree(latitude)
+            x, y = longitude + radius * np.cos(turn) / east, latitude + radius * np.sin(turn) / north
+            rings.append(np.column_stack([x, y]))
+        step = max(_STEP, sum(_length(ring) for ring in rings) / _MOST)
+        for ring in rings:
+            yield Line(_draped(shot, ring, step), start, end, end, each.kind)
 
 
 def _pixels(shot: Shot, found: observations.Observations) -> Iterator[Line]:

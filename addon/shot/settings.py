@@ -22,6 +22,7 @@ from .nearest import suggestion
 from .schema import Where, key, kind_of, one_of, parts
 
 BANDS = {"lwir": (8.0, 14.0), "mwir": (3.4, 4.1)}  # um, of infrared cameras
+MOST_RUNS = 3  # beside the first
 _LARGEST_SEED = 2**31 - 1  # Cycles takes no larger one
 
 
@@ -177,7 +178,8 @@ class Fire:
         "perimeters or detections to draw by date, a .geojson, .shp, .kml, .gpkg, .csv or a folder of them",
         shows=(),
     )
-    observed_width: float = key(40.0, "of these lines", unit="m", above=0, at_most=5000)
+    observed_width: float = key(40.0, "of these lines and of fronts", unit="m", above=0, at_most=5000)
+    fronts: bool = key(False, "where the fire of the other [[runs]] is, as lines on the ground")
 
 
 @dataclass(frozen=True)
@@ -312,6 +314,16 @@ class Camera:
 
 
 @dataclass(frozen=True)
+class OtherRun:
+    """Another run of the same place and time, seen by the same cameras."""
+
+    name: str = key(
+        "what-if", 'what it is called; camera "drone" is drone@what-if in it', check=_file_name, shows=()
+    )
+    path: Path = key(Path("what-if"), "folder of this other run", shows=())
+
+
+@dataclass(frozen=True)
 class Render:
     """How frames are made."""
 
@@ -406,6 +418,7 @@ class Settings:
     places: Places = key(default_factory=Places, help="labels of towns, lakes and summits in the picture")
     thermal: Thermal = key(default_factory=Thermal, help="the infrared camera of the thermal view")
     render: Render = key(default_factory=Render, help="how frames are made")
+    runs: tuple[OtherRun, ...] = key((), "another run beside the first, same cameras and clock; at most 3")
     cameras: tuple[Camera, ...] = key((), "a camera and what it records", shows=("camera",))
 
     def wrong(self) -> tuple[Where, str] | None:
@@ -420,15 +433,35 @@ class Settings:
                 frame_list.parse(camera.frames, self.time.frames)
             except ValueError as error:
                 return ("cameras", i, "frames"), f"cameras.frames: {error}"
-        return self._leaderless() or self._around()
+        return self._leaderless() or self._impossible() or self._alone()
 
-    def _around(self) -> tuple[Where, str] | None:
-        """What is asked of cameras that see all round and cannot be."""
+    def _alone(self) -> tuple[Where, str] | None:
+        """What is wrong with the other runs, or asked of them and there are none."""
+        names = [each.name for each in self.runs]
+        for i, name in enumerate(names):
+            if name in names[:i]:
+                return ("runs", i, "name"), f'a second run is named "{name}"; names must differ'
+        if len(names) > MOST_RUNS:
+            reason = f"runs has {len(names)} tables; beside the first run at most {MOST_RUNS}"
+            return ("runs", MOST_RUNS), reason
+        for where, listed in (
+            (("render", "passes"), self.render.passes),
+            *((("cameras", i, "passes"), camera.passes) for i, camera in enumerate(self.cameras)),
+        ):
+            if not names and (found := [name for name in listed if passes.known()[name].compares]):
+                return where, f'passes has "{found[0]}", which compares runs; add [[runs]] or leave it out'
+        return None
+
+    def _impossible(self) -> tuple[Where, str] | None:
+        """What is asked of cameras and cannot be."""
         for i, camera in enumerate(self.cameras):
             width, height = camera.resolution or self.render.resolution
             if camera.rig.around and self.render.engine != "cycles":
                 reason = f'camera "{camera.name}" sees all round, which EEVEE cannot; render it with Cycles'
                 return ("cameras", i, "kind"), reason
+            for each in passes.of_camera(self, camera):
+                if reason := passes.refused(each, camera, self.render.engine):
+                    return ("cameras", i, "passes") if camera.passes else ("render", "passes"), reason
             if camera.rig.around and width != height:
                 reason = (
                     f'camera "{camera.name}" needs a square resolution, such as [2048, 2048]: two pictures '

@@ -16,7 +16,7 @@ from ..errors import UsageError
 from ..progress import Progress, silent
 from ..run import content, times
 from ..run.frame import local_frame
-from . import burning, frame_list, frames, path, relief, sun, temperature
+from . import burning, frame_list, frames, passes, path, relief, sun, temperature
 from .fire import Fire
 from .frames import Frames
 from .ground import Ground
@@ -72,13 +72,52 @@ class Shot:
             {"elevation model": content.of_file(model, settings.cache, progress)} if model else {}
         )
 
+    @cached_property
+    def others(self) -> dict[str, Run]:
+        """The scene file's other runs by their names."""
+        from . import beside
+
+        return beside.opened(self.settings)
+
+    @property
+    def title(self) -> str:
+        """What the run is called beside others: as its folder."""
+        return self.settings.run.absolute().name
+
+    def neighbours(self) -> dict[str, Run]:
+        """The runs that this one stands beside, by name."""
+        return dict(self.others)
+
+    @property
+    def views(self) -> list[str]:
+        """All cameras by name, in the first run and then in the others (see `passes.view_of`)."""
+        names = [camera.name for camera in self.settings.cameras]
+        labels = [each.name for each in self.settings.runs]
+        return names + [passes.view_of(name, label) for label in labels for name in names]
+
+    def run_of(self, view: str) -> Run:
+        """The run that a view is of."""
+        return self.others.get(view.partition("@")[2], self.run)
+
+    def in_run(self, view: str) -> Shot:
+        """The shot, with all cameras, of the run that a view is of."""
+        from .beside import Beside
+
+        label = view.partition("@")[2]
+        return Beside(self, label) if label else self
+
     def of(self, name: str) -> Shot:
-        """The same shot with this camera alone: what it films depends on no other."""
+        """The same shot with this camera alone: what it films depends on no other but that it follows.
+
+        As ``camera@run`` it is of that run.
+        """
+        if "@" in name:
+            return self.of(name.partition("@")[0]).in_run(name)
         camera = self.camera(name)
         render = replace(self.settings.render, resolution=self.resolution(camera))
         shot = Shot(replace(self.settings, cameras=(camera,), render=render), self.run)
         shot.relief, shot.fire, shot.bare_ground = self.relief, self.fire, self.bare_ground
-        shot.cameras = self.cameras
+        shot.cameras, shot.others = self.cameras, self.others
         return shot
 
     def part(self, listed: list[int]) -> Shot:
@@ -95,17 +134,20 @@ class Shot:
         return shot
 
     def camera(self, name: str) -> Camera:
-        """The camera of this name.
+        """The camera of this name; in another run it has the name of that view.
 
         Raises
         ------
         UsageError
             There is none.
         """
+        known, _, _ = name.partition("@")
         for camera in self.settings.cameras:
             if camera.name == name:
                 return camera
-        names = ", ".join(camera.name for camera in self.settings.cameras) or "none"
+            if camera.name == known and name in self.views:
+                return replace(camera, name=name)
+        names = ", ".join(self.views) or "none"
         raise UsageError(f'--camera: there is no "{name}"; the scene has {names}')
 
     def resolution(self, camera: Camera) -> tuple[int, int]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import time
 import zoneinfo
 from datetime import UTC, datetime
 
@@ -117,12 +118,10 @@ def _fly(
     if not smooth:
         _stand(region, start, end, 1.0)
         return
-    passed = 0.0
+    began = time.monotonic()  # a slow window shows fewer pictures, and is there as soon
 
     def step() -> float | None:
-        nonlocal passed
-        passed += _STEP
-        part = min(passed / _SECONDS, 1.0)
+        part = min((time.monotonic() - began) / _SECONDS, 1.0)
         try:
             _stand(region, start, end, part * part * (3.0 - 2.0 * part))
         except ReferenceError:  # the window or the file is another one

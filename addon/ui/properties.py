@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..shot.settings import Settings
-from . import camera_list, keys, render, run, scene_file, sections, time
+from . import camera_list, keys, other_runs, render, run, scene_file, sections, time
 
 _BLEND_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
 _SETTINGS = sections.properties(sections.single() + sections.sections(), Settings)
@@ -36,6 +36,7 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annota
         default="",
         options=_BLEND_RELATIVE,
     )
+    runs: bpy.props.CollectionProperty(type=other_runs.FIRETWIN_PG_otherrun, name="Other runs")
     cameras: bpy.props.CollectionProperty(type=camera_list.FIRETWIN_PG_camera, name="Cameras")
     camera_index: bpy.props.IntProperty(name="Camera", description="The camera chosen in the list")
     output: bpy.props.StringProperty(
@@ -101,9 +102,11 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annota
 def copy(source: bpy.types.Scene, target: bpy.types.Scene) -> None:
     """Give another scene's panel the same settings, choices and facts, while a work goes on."""
     scene_file.fill(target, scene_file.settings(source))
-    own = (name for name in FIRETWIN_PG_scene.__annotations__ if name not in ("cameras", "model_time"))
+    own = (
+        name for name in FIRETWIN_PG_scene.__annotations__ if name not in ("runs", "cameras", "model_time")
+    )
     for name in own:
         setattr(target.firetwin, name, getattr(source.firetwin, name))
 
 
-classes = (*sections.groups(), *camera_list.classes, FIRETWIN_PG_scene)
+classes = (*sections.groups(), *other_runs.classes, *camera_list.classes, FIRETWIN_PG_scene)

@@ -16,7 +16,7 @@ from ..errors import Error
 from ..shot import file
 from ..shot.schema import wrong
 from ..shot.settings import Settings
-from . import by_hand, camera_list, keys, sections
+from . import by_hand, camera_list, keys, other_runs, sections
 
 
 def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Settings:
@@ -30,7 +30,8 @@ def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Setting
     panel = scene.firetwin
     cache = panel.cache or output(panel, "cache") or own_folder() / "cache"
     run, cache = (Path(bpy.path.abspath(str(path))) for path in (panel.run, cache))
-    whole = Settings(path=path, run=run, cache=cache, cameras=camera_list.cameras(panel))
+    listed = {"cameras": camera_list.cameras(panel), "runs": other_runs.runs(panel)}
+    whole = Settings(path=path, run=run, cache=cache, **listed)
     whole = sections.take(panel, sections.single() + sections.sections(), whole)
     if found := wrong(whole):
         raise Error(keys.sentence(found[1]))
@@ -42,6 +43,7 @@ def fill(scene: bpy.types.Scene, whole: Settings) -> None:
     panel = scene.firetwin
     sections.put(panel, sections.single() + sections.sections(), whole)
     camera_list.fill(panel, whole.cameras)
+    other_runs.fill(panel, whole.runs)
     panel.cache = str(whole.cache.absolute())
     panel.run = str(whole.run.absolute())
 

@@ -1,7 +1,7 @@
 """The settings in the .blend file: a group of properties per section of a scene file, made of the schema.
 
-`scene.firetwin.forest.budget` is the key `budget` of [forest]. A list of tables other than the cameras is
-kept as the text of its tables.
+`scene.firetwin.forest.budget` is the key `budget` of [forest]. A list of tables other than the cameras and
+the other runs is kept as the text of its tables.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from ..shot.settings import Settings
 from . import changed, keys
 from .tables import from_text, to_text
 
-NOT_HERE = ("path", "run", "cache", "cameras")
+NOT_HERE = ("path", "run", "cache", "runs", "cameras")
 """Of `Settings`, what is no section: the panel keeps it in its own way."""
 
 

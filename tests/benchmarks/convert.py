@@ -1,10 +1,11 @@
 """How fast are a model's files made into a run, and in how much memory? Needs the extra "models".
 
-    python tests/benchmarks/convert.py [--frames 20] [--side 2000] [--compressed] [--turn 0] [--folder DIR]
+    python tests/benchmarks/convert.py [--frames 20] [--side 2000] [--compressed] [--turn 0] [--flux]
 
 Files of the Community Fire Behavior Model's structure (heat flux, wind along both axes of the grid, burned
-share, level function) are written, then converted in a process of their own. Prints megabytes of numbers a
-second, of the fields that move and of all that is read, by the clock and by processor time, and peak memory.
+share, level function) are written, or with --flux CF netCDF files of ten heat fluxes each; then converted in
+a process of their own. Prints megabytes of numbers a second, of the fields that move and of all that is read,
+by the clock and by processor time, and peak memory.
 """
 
 from __future__ import annotations
@@ -39,19 +40,23 @@ def main() -> None:
     parser.add_argument("--side", type=int, default=2000)
     parser.add_argument("--compressed", action="store_true", help="deflate, as some runs are stored")
     parser.add_argument("--turn", type=float, default=0.0, help="degrees that the grid is turned by")
+    parser.add_argument("--flux", action="store_true", help="a CF series of heat fluxes alone")
     parser.add_argument("--folder", type=Path, help="where the files go (a temporary one)")
     options = parser.parse_args()
     folder = Path(tempfile.mkdtemp(dir=options.folder))
     try:
-        paths = [str(write(folder, frame, options)) for frame in range(options.frames)]
+        if options.flux:
+            paths = [str(series(folder, frame, options)) for frame in range(0, options.frames, 10)]
+        else:
+            paths = [str(write(folder, frame, options)) for frame in range(options.frames)]
         before, begun = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
         words = [sys.executable, "-c", CHILD, json.dumps([paths, str(folder / "run")])]
         done = subprocess.run(words, check=True, capture_output=True, text=True)
         seconds = time.perf_counter() - begun
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         busy = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        moving = 3 * 4 * options.frames * options.side**2 / 1e6
-        read = moving * 4 / 3
+        moving = (1 if options.flux else 3) * 4 * options.frames * options.side**2 / 1e6
+        read = moving if options.flux else moving * 4 / 3
         print(
             f"{options.frames} times of {options.side} x {options.side}: {moving:.0f} MB of fields written,"
         )
@@ -63,6 +68,31 @@ def main() -> None:
         print(f"peak memory {int(done.stdout) / 1e3:.0f} MB")
     finally:
         shutil.rmtree(folder)
+
+
+def series(folder: Path, first: int, options: argparse.Namespace) -> Path:
+    """Ten times of a heat flux, as CF files are: one variable with its axes."""
+    side, path = options.side, folder / f"flux_{first:06}.nc"
+    x = np.arange(side) * 10.0 + np.zeros((side, 1))
+    times = range(first, min(first + 10, options.frames))
+    with netCDF4.Dataset(path, "w") as file:
+        for name, size in (("time", len(times)), ("latitude", side), ("longitude", side)):
+            file.createDimension(name, size)
+            units = {
+                "time": "seconds since 2020-07-01",
+                "latitude": "degrees_north",
+                "longitude": "degrees_east",
+            }
+            variable = file.createVariable(name, "f8", (name,))
+            variable.units = units[name]
+            low = {"time": 0.0, "latitude": 39.0, "longitude": -120.0}[name]
+            variable[:] = 30.0 * np.array(times) if name == "time" else low + 1e-4 * np.arange(side)
+        deflate = {"zlib": True, "complevel": 1} if options.compressed else {}
+        flux = file.createVariable("heat_flux", "f4", ("time", "latitude", "longitude"), **deflate)
+        for row, frame in enumerate(times):
+            level = x - 90.0 * frame - 200.0 + 40.0 * np.sin(np.arange(side) / 90.0)[:, None]
+            flux[row] = np.where(level < 0, 5e4 * np.exp(level / 100.0), 0.0)
+    return path
 
 
 def write(folder: Path, frame: int, options: argparse.Namespace) -> Path:

@@ -29,7 +29,7 @@ import bpy  # noqa: F401 (Blender's own libraries come first)
 import numpy as np
 from firetwin.bench.harness import Bench
 from firetwin.bench.volume import bundled_openvdb
-from firetwin.scene.smoke import flow_frames
+from firetwin.scene.smoke import bake, flow_frames
 from firetwin.scene.smoke.baker import Baker
 from firetwin.shot import file
 from firetwin.shot.shot import Shot
@@ -76,6 +76,7 @@ target_latitude = {flank[2]}
 target_longitude = {flank[3]}
 target_height = 300.0
 """
+CAMERAS = ("head", "flank")
 BEGIN = datetime(2014, 9, 17, 16, 12)
 FLANK = (38.94090, -120.58700, 38.92470, -120.56620)  # from 2.6 km upwind of the western flank
 
@@ -83,19 +84,23 @@ Array = NDArray[np.float64]
 
 
 def solve(shot: Shot, out: Path) -> None:
-    """Solve the flow and keep its finest wind of every `KEPT`-th frame, in cells' middles."""
-    solved = Baker(shot).flow
+    """Solve a shot of one camera; of every `KEPT`-th frame keep its finest wind, in cells' middles."""
+    solved, (camera,) = Baker(shot).flow, shot.settings.cameras
     for frame in range(1, shot.frames.count + 1):
-        place = out / f"wind_{frame:06d}.npz"
+        place = wind(out, camera.name, frame)
         if (frame - 1) % KEPT or place.exists():
             continue
         if solved.parts[-1].moment(frame).exists():
             sys.exit(f"{out}/cache holds frame {frame} but not its wind: remove the cache")
         solved.ready(frame)
-        solver = solved._live.solvers[-1]
-        np.savez(place, wind=solver.velocity().astype(np.float16))
-        print(f"solved to frame {frame}", flush=True)
+        np.savez(place, wind=solved._live.solvers[-1].velocity().astype(np.float16))
+        print(f"{camera.name}: solved to frame {frame}", file=sys.stderr)
     solved.solve([shot.frames.count])
+
+
+def wind(out: Path, name: str, frame: int) -> Path:
+    """Where the wind of a camera's flow in a frame is kept."""
+    return out / f"wind_{name}_{frame:06d}.npz"
 
 
 def density(openvdb, path: Path) -> Grid:
@@ -109,19 +114,19 @@ def density(openvdb, path: Path) -> Grid:
 
 def compared(shot: Shot, name: str, out: Path, apart: int, count: int) -> tuple[Array, Array]:
     """Ways (n, 2) of all patches in a camera's first pictures, as they have them and as the flow has."""
-    view = next(view for view in shot.paths if view.camera.name == name)
+    shot = shot.of(name)
+    (view,) = shot.paths
     resolution = shot.settings.render.resolution
     openvdb, baker = bundled_openvdb(Bench()), Baker(shot)
-    layers = flow_frames.layers(shot, baker.flow)
+    layers, folder = flow_frames.layers(shot, baker.flow), bake.folder(shot)
     half = PATCH // 2
     columns, rows = (np.arange(half, side - half, EVERY) for side in resolution)
     centre = np.stack(np.meshgrid(columns, rows), -1).reshape(-1, 2).astype(float)
     inner = np.stack(np.meshgrid(*[np.linspace(-half + 4, half - 4, 3)] * 2), -1).reshape(-1, 2)
     found = [], []
     for frame in range(1, count + 1 - apart, KEPT):
-        with np.load(out / f"wind_{frame:06d}.npz") as kept:
+        with np.load(wind(out, name, frame)) as kept:
             winds = SolvedWind(layers[-1].part, kept["wind"].astype(np.float32))
-        folder = _volumes(out, layers[-1], frame)
         grids = [density(openvdb, layer.file(folder, frame)) for layer in layers]
         pixels = (centre[:, None] + inner).reshape(-1, 2)
         seconds = apart * shot.frames.step
@@ -141,11 +146,6 @@ def picture(out: Path, name: str, frame: int) -> Path:
     return out / "film" / name / "rgb" / f"{name}_rgb_{frame:06d}.png"
 
 
-def _volumes(out: Path, layer, frame: int) -> Path:
-    """The folder in which a frame's volumes are."""
-    return max(out.glob(f"cache/**/{layer.file(Path(), frame).name}"), key=lambda p: p.stat().st_mtime).parent
-
-
 def pops(out: Path, name: str, count: int) -> dict[str, float]:
     """Mean change of brightness from frame to frame: the median, and the largest over it."""
     pictures = [luminance(picture(out, name, frame)) for frame in range(1, count + 1)]
@@ -161,8 +161,8 @@ def summary(seen: Array, way: Array) -> dict[str, float]:
         "median_way_px": float(np.median(long)),
         "median_error_px": float(np.median(off)),
         "median_error_percent": float(100.0 * np.median(off) / np.median(long)),
-        "mean_seen_px": [float(v) for v in np.median(seen, axis=0)],
-        "mean_flow_px": [float(v) for v in np.median(way, axis=0)],
+        "median_seen_px": [float(v) for v in np.median(seen, axis=0)],
+        "median_flow_px": [float(v) for v in np.median(way, axis=0)],
         "seen_over_flow": float(np.sum(seen * way) / np.sum(way * way)),
     }
 
@@ -199,11 +199,12 @@ def main() -> None:
     settings = file.read(scene)
     shot = Shot(settings, run.open(settings.run))
     if not wanted.measure:
-        solve(shot, wanted.out)
+        for name in CAMERAS:
+            solve(shot.of(name), wanted.out)
         film = [sys.executable, "-m", "firetwin", "render", scene, "--out", wanted.out / "film", "--resume"]
-        subprocess.run(film, check=True)
+        subprocess.run(film, check=True, stdout=sys.stderr)
     report = {}
-    for camera in ("head", "flank"):
+    for camera in CAMERAS:
         every = range(1, shot.frames.count + 1)
         there = next((n - 1 for n in every if not picture(wanted.out, camera, n).exists()), len(every))
         if there <= max(wanted.apart, 1):

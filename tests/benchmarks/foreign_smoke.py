@@ -53,10 +53,13 @@ target_height = 900.0
 
 
 def _linked(model: Path, out: Path, but: set[str]) -> None:
-    """The run with all its fields but some; they stay where they are."""
+    """The run with all its fields but some; they are linked where one disk holds both, else copied."""
     for path in model.glob("*.npy"):
         if path.stem not in but:
-            (out / path.name).symlink_to(path.resolve())
+            try:
+                (out / path.name).hardlink_to(path)
+            except OSError:
+                shutil.copy(path, out)
     shutil.copy(model / "run.toml", out)
 
 
@@ -131,7 +134,8 @@ def main() -> None:
         scene.write_text(text, encoding="utf-8")
         picture = film / "seen" / "rgb" / "seen_rgb_000001.png"
         if not picture.exists():
-            subprocess.run([sys.executable, "-m", "firetwin", "render", scene, "--out", film], check=True)
+            command = [sys.executable, "-m", "firetwin", "render", scene, "--out", film]
+            subprocess.run(command, check=True, stdout=sys.stderr)
         print(picture, flush=True)
 
 

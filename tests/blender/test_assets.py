@@ -57,13 +57,18 @@ def test_trees_materials_and_groups_are_assets_in_catalogues(settings, few, libr
     red, green, _, seen = np.moveaxis(pixels.reshape(16, 16, 4), -1, 0)
     assert 0.1 < (seen > 0.5).mean() < 0.9  # a tree amid nothing
     assert green[seen > 0.5].mean() > red[seen > 0.5].mean()  # a living one: it stands alone, and is not dead
+    rock = found["Firetwin Rock"]
+    rock.preview.image_pixels_float.foreach_get(pixels)
+    assert 0.1 < (pixels[3::4] > 0.5).mean() < 0.9  # what is made of it
     assert tree.scale.z == assets.HEIGHTS["small"]  # of a model a metre tall
 
 
 def test_the_catalogue_is_one_that_blender_reads():
     lines = [line for line in job.catalogue().splitlines() if line and not line.startswith("#")]
     assert lines[0] == "VERSION 1"
-    assert [line.split(":")[0] for line in lines[1:]] == [job.identifier(name) for name in job.CATALOGUES]
+    assert [line.split(":")[0] for line in lines[1:]] == [
+        job.identifier(name) for name in ("Firetwin", *job.CATALOGUES)
+    ]
     assert all(len(line.split(":")) == 3 for line in lines[1:])
 
 

@@ -184,3 +184,15 @@ def test_layers_leave_out_what_their_sensor_does_not_see(plain):
     assert left_out("rgb") == set()
     assert left_out("thermal") == {"Firetwin Places"}
     assert left_out("depth") == {"Firetwin Smoke", "Firetwin Fire", "Firetwin Places"}
+
+
+def test_depth_is_drawn_without_materials_unless_one_is_an_artists(plain):
+    depth, normal = (plain.view_layers[name] for name in ("depth", "normal"))
+    with layers.plain(plain, ["depth", "normal"]):
+        black = depth.material_override.name
+        assert normal.material_override is None
+    assert depth.material_override is None
+    assert black not in bpy.data.materials
+    bpy.data.objects["Firetwin Card"].data.materials.append(bpy.data.materials.new("Lace"))
+    with layers.plain(plain, ["depth"]):
+        assert depth.material_override is None

@@ -11,6 +11,7 @@ import pytest
 from astral import Observer
 from astral.sun import azimuth, elevation
 from firetwin.blender import compat, owned
+from firetwin.render import engine
 from firetwin.run import frame
 from firetwin.scene.light import build as light
 from firetwin.scene.light import exposure, sky
@@ -75,6 +76,22 @@ def test_a_scene_that_is_not_ours_keeps_its_world_and_its_colours(shot, scene):
     assert (view.view_transform, view.look, view.exposure) == ("Standard", "None", 0.25)
     assert not compat.fcurves(scene)
     assert bpy.data.objects["Firetwin Sun"].data.energy > 1.0
+
+
+def test_the_shade_between_trees_is_filled_by_day_and_by_no_world_but_ours(settings, run, stage, scene):
+    day, night = (datetime(2014, 9, 17, hour, tzinfo=UTC) for hour in (21, 8))
+    found = []
+    for moment in (day, night):
+        film = replace(settings, time=replace(settings.time, start=moment, end=None, frames=1))
+        light.build(Shot(film, run), stage)
+        engine.apply(film, scene)
+        assert scene.cycles.use_fast_gi
+        found.append(scene.world.light_settings.ao_factor)
+    assert 0.05 < found[0] < 0.15
+    assert found[1] < 0.005
+    scene.world = bpy.data.worlds.new("mine")
+    engine.apply(settings, scene)
+    assert not scene.cycles.use_fast_gi
 
 
 def test_a_world_of_the_artist_stays_in_a_scene_of_ours(shot, stage, scene):

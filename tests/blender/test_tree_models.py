@@ -339,3 +339,14 @@ def test_a_far_tree_has_a_sunlit_side_and_burns_as_a_near_one(shot, stage, scene
         assert lit[far] > 1.15
         assert abs(np.log(lit[far] / lit[near])) < np.log(2.5)  # 1.7 in Blender 4.5, 2.2 in 5.2
         assert np.abs(np.log(colour[far] / colour[near])).max() < np.log(1.8)
+
+
+def test_only_models_that_points_draw_have_a_mesh(shot, stage):
+    points = {"model": np.array([4, 9, 9, 30]), "snag_model": np.array([4, 50, 50, 50])}
+    wanted = library.drawn(points)
+    assert {4, 9, 30, 50} <= wanted
+    assert {6, 10} <= wanted  # of 4 and 9 the viewport draws level 2
+    made = library.tree_models(shot, stage, wanted)
+    full = {number for number, thing in enumerate(made.objects) if len(thing.data.vertices)}
+    assert full == wanted
+    assert len(made.objects) == len(models.every()) * library.LEVELS

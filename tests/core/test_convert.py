@@ -5,6 +5,7 @@ import sys
 import threading
 import time
 import warnings
+from types import SimpleNamespace
 
 import model_files as made
 import numpy as np
@@ -203,6 +204,17 @@ def test_patience_ends_with_what_is_silent_alone():
         assert watch.over
 
 
+def test_each_word_of_a_process_is_heard():
+    class Child:
+        stdin, wait = io.StringIO(), staticmethod(lambda: 0)
+        stdout = iter(['{"sign": true}', '{"progress": [1, 2]}', '{"tell": "a"}', '{"result": 5}'])
+
+    heard, told = [], []
+    watch = SimpleNamespace(heard=lambda: heard.append(1))
+    assert worker._converse(Child, {}, lambda *_: None, told.append, watch) == {"result": 5}
+    assert (len(heard), told) == (4, ["a"])
+
+
 def test_reading_says_that_it_goes_on(tmp_path, monkeypatch):
     """A sign for each part that is read, so that neither many files nor slow ones are taken for a hang."""
     paths, _ = made.cfbm(tmp_path, count=5)
@@ -337,3 +349,36 @@ def test_a_task_without_blender(monkeypatch):
     with pytest.raises(Error) as caught:
         worker.run("firetwin.jobs.convert:nothing", {}, blender=False)
     assert "Blender" not in str(caught.value)
+
+
+def test_what_is_no_models_output_is_told_apart(tmp_path):
+    """One line each, by what is wrong; a damaged file of a model is not said to be of another kind."""
+    arrival = np.hypot(*np.mgrid[-8:9, -8:9])
+    (tmp_path / "empty").mkdir()
+    (cut,) = made.wrf(tmp_path, times=(60,))[0]
+    cut.write_bytes(cut.read_bytes()[:-5000])
+    for name, data in (("zero.nc", b""), ("text.nc", b"words"), ("c.npz", b"words"), ("notes.txt", b"words")):
+        (tmp_path / name).write_bytes(data)
+    np.savez(tmp_path / "b.npz", other=arrival)
+    made.lcp(tmp_path / "d.lcp", np.ones((3, 3, 8), np.int16))
+    made.ascii_grid(tmp_path / "fire.asc", arrival)
+    bad = made.ascii_grid(tmp_path / "x_arrival.asc", arrival)
+    bad.write_text(bad.read_text().replace("-9999\n", "-9999\n1.0 abc ", 1))
+    absurd = made.forefire(tmp_path / "a.nc", np.full((5, 5), -9999.0))
+
+    def one(name, tell):
+        files = [str(path) for path in readers.gathered([tmp_path / name])]
+        convert.in_process(files, str(tmp_path / "out"), ["2020-07-01", "", "", 0.0], tell=tell)
+
+    for name, words in {
+        "empty": "folder without files", "zero.nc": "is empty", "text.nc": "does not begin as a .nc",
+        "c.npz": "does not begin as a .npz", "notes.txt": "no fire model that is known: WRF-SFIRE",
+        "b.npz": "no array time_of_arrival", "d.lcp": "a landscape alone", "fire.asc": "does not say what",
+        "x_arrival.asc": "x_arrival.asc:7:5: 'abc' is no number", cut.name: "cannot be read as netCDF",
+        absurd.name: "nothing burns in it",
+    }.items():  # fmt: skip
+        told = []
+        with pytest.raises(InputError, match=words) as caught:
+            one(name, told.append)
+        assert str(caught.value).startswith(str(tmp_path / name))
+        assert not any("latitude, longitude and time" in text for text in told)

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from firetwin.errors import InputError
+from firetwin.errors import InputError, UsageError
 from firetwin.render import dataset, fingerprint, plan, whole
 from firetwin.render.picture import Picture
 from firetwin.render.store import Store, describe
@@ -353,6 +353,18 @@ def test_a_fused_view_is_made_again_when_a_sensor_of_its_mount_changes():
     unused = replace(MOUNT[3], rig=replace(MOUNT[3].rig, focal_length=10.0))
     assert made_with(*MOUNT) != made_with(*MOUNT[:2], other, *MOUNT[3:])
     assert made_with(*MOUNT) == made_with(*MOUNT[:3], unused, *MOUNT[4:])
+
+
+def test_masks_in_eevee_are_refused_in_the_file_and_on_the_command_line(shot, tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text('[render]\nengine = "eevee"\npasses = ["masks"]\n' + SCENE.split("[[cameras]]\nkind")[0])
+    with pytest.raises(InputError, match=r"scene\.toml:3:1: .*cannot record masks with EEVEE"):
+        file.read(scene)
+    made = shot(DRONE)
+    made.settings = replace(made.settings, render=replace(made.settings.render, engine="eevee"))
+    assert plan.pictures(made, "1", names="rgb")
+    with pytest.raises(UsageError, match=r"--passes: .*cannot record masks with EEVEE"):
+        plan.pictures(made, "1", names="masks")
 
 
 def test_what_is_told_beside_the_panels_is_true(shot, monkeypatch):

@@ -41,9 +41,10 @@ import model_files as made
 import numpy as np
 import pytest
 from firetwin.jobs import convert
-from firetwin.run import observations
+from firetwin.run import maps, observations
 from firetwin.run.models import fuels, raster
 from firetwin_core import run as runs
+from matplotlib.collections import QuadMesh
 
 
 @pytest.fixture
@@ -90,6 +91,9 @@ def test_a_trace_of_heat_is_no_fire(tmp_path, converted):
     assert (most > 0).all()
     assert not found[most < 1.0].any()
     assert found[most > 5e4].all()
+    (axes, *_) = maps.intensity_map(bare, "UTC").axes
+    (mesh,) = (each for each in axes.collections if isinstance(each, QuadMesh))
+    np.testing.assert_array_equal(mesh.get_array().mask, np.load(tmp_path / "run/heat_flux.npy").max(0) < 1.0)
 
 
 def test_fuel_14_is_none(tmp_path, converted):

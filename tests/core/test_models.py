@@ -124,6 +124,8 @@ def test_wrf_sfire_turned(tmp_path, converted):
     paths, truth = made.wrf(tmp_path, turn=20.0)
     run = converted(paths)
     assert "turned or curved" in said(run)
+    load = np.asarray(run.surface_fuel)
+    assert load[0, 0] == load[1, 1] == np.float32(fuels.SFIRE[0])  # beyond the model's cells it goes on
     values = np.setdiff1d(run.heat_flux(1), np.append(truth["GRNHFX"][1], 0))
     assert values.size == 0
     u, v = truth["U10"][1].ravel(), truth["V10"][1].ravel()
@@ -452,6 +454,23 @@ def test_many_netcdf_files_are_each_read_for_what_is_theirs(tmp_path, converted)
     np.testing.assert_array_equal(run.elevation, 700.0)
 
 
+def test_chunks_of_several_times_are_unpacked_once(tmp_path):
+    """As libraries choose them where time does not grow."""
+    from firetwin.run.models import netcdf
+
+    with made.netCDF4.Dataset(tmp_path / "a.nc", "w") as f:
+        for dim, size in (("t", 8), ("y", 60), ("x", 50)):
+            f.createDimension(dim, size)
+        f.createVariable("flux", "f4", ("t", "y", "x"), zlib=True, chunksizes=(4, 32, 32))[:] = 1.0
+    file = netcdf.File(tmp_path / "a.nc")
+    file.read("flux", 3)
+    size, count, _ = file.variables["flux"].get_var_chunk_cache()
+    assert size >= 4 * 64 * 64 * 4
+    assert count >= 4
+    assert size < 2 << 20
+    file.close()
+
+
 def test_a_netcdf_of_no_known_model_says_how_to_map_it(tmp_path, converted):
     path, _ = cf(tmp_path / "a.nc")
     with pytest.raises(InputError, match=r"hfx, la, lo, t.*\[fields\] heat_flux"):
@@ -466,5 +485,5 @@ def test_a_start_that_nothing_says_is_asked_for(tmp_path, converted):
     path = made.ascii_grid(tmp_path / "x_Arrival Time.asc", arrival / 60)
     with pytest.raises(InputError, match="--start"):
         converted([path])
-    with pytest.raises(Error, match="no fire model that is known"):
+    with pytest.raises(Error, match="a raster does not say what it holds"):
         converted([made.ascii_grid(tmp_path / "other.asc", arrival)])

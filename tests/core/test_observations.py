@@ -162,20 +162,23 @@ BAD = {
     "words.geojson": ('{"type": "Polygon", "coordinates": [["a", "b", "c"]]}', "longitudes and latitudes"),
     "crs.geojson": ('{"type": "Polygon", "crs": {"properties": {"name": "EPSG:3310"}}}', "EPSG:3310.*4326"),
     "crs_none.geojson": ('{"type": "Point", "crs": {"properties": null}}', "no polygons"),
-    "digits.geojson": (f'{{"type": {"1" * 5000}}}', "is damaged: .*digits"),
+    "digits.geojson": (f'{{"type": {"1" * 5000}}}', "is damaged or incomplete: .*digits"),
     "large.geojson": (
         f'{{"type": "Polygon", "coordinates": [[[1{"0" * 400}, 1], [2, 2], [3, 1]]]}}',
         "longitudes and latitudes",
     ),
     "line.geojson": ('{"type": "LineString", "coordinates": [[0, 0], [1, 1]]}', "no polygons"),
     "cut.kml": ("<kml><Document>", "cut.kml:1:16: not valid XML"),
-    "deep.kml": (f"<kml>{'<Folder>' * 3000}{'</Folder>' * 3000}</kml>", "is damaged: .*recursion"),
+    "deep.kml": (
+        f"<kml>{'<Folder>' * 3000}{'</Folder>' * 3000}</kml>",
+        "is damaged or incomplete: .*recursion",
+    ),
     "bomb.kml": ('<!DOCTYPE a [<!ENTITY b "c">]><kml/>', "entities"),
     "a.kmz": ("not a zip", "no KMZ"),
     "a.gpkg": ("not a base at all, but long enough to be looked at by SQLite" * 9, "no GeoPackage"),
     "a.csv": ("lat,lon\n1,2\n", "no column latitude"),
     "b.csv": (FIRMS + "38.9,-120.6,340.1,0.5,0.4,2014-13-17,930,N,VIIRS,n,0\n", "b.csv:6: acq_date"),
-    "c.csv": (FIRMS + f"{'9' * 200000},", "is damaged: field larger"),
+    "c.csv": (FIRMS + f"{'9' * 200000},", "is damaged or incomplete: field larger"),
     "a.shp": ("not a shapefile", r"no .prj"),
 }
 

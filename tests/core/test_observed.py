@@ -65,7 +65,7 @@ def test_another_file_makes_other_pictures(scene):
 def test_perimeters_are_on_the_map_and_in_its_legend(scene):
     settings = Choice(scene=str(scene)).settings()
     run, found = readers.open(settings.run), observations.read(observed.files(settings))
-    (axes, *_) = maps.intensity_map(run, "UTC", found.perimeters).axes
+    (axes, *_) = maps.intensity_map(run, "UTC", found).axes
     outlines = [each for each in axes.patches if to_hex(each.get_edgecolor()) == to_hex(maps.SEEN(1.0))]
     assert len(outlines) == 1
     assert np.ptp(outlines[0].get_path().vertices[:, 0]) == pytest.approx(0.005)

@@ -11,7 +11,7 @@ import pytest
 from firetwin.errors import InputError
 from firetwin.shot import file, frame_list, places, schema
 from firetwin.shot.rigs import kinds
-from firetwin.shot.settings import Camera, Ground, Settings, Time
+from firetwin.shot.settings import Camera, Ground, OtherRun, Settings, Time
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -205,7 +205,8 @@ def test_the_text_of_settings_holds_every_key_and_explains_it_once():
         for kind, parts in keyed.items()
     ]
     texts = Counter((part.name, part.key.described()) for _, part in schema.walk(Settings))
-    text = file.text(Settings(cameras=tuple(Camera(f"c{i}", rig) for i, rig in enumerate(rigs))))
+    cameras = tuple(Camera(f"c{i}", rig) for i, rig in enumerate(rigs))
+    text = file.text(Settings(cameras=cameras, runs=(OtherRun(),)))
     assert max(len(line) for line in text.splitlines()) <= 130
     for _, part in schema.walk(Settings):
         name = part.key.tag or part.name
@@ -319,9 +320,11 @@ def test_settings_come_back_from_their_text(tmp_path_factory, whole):
         dataclasses.replace(camera, rig=dataclasses.replace(camera.rig, **moved(camera.rig, folder, "track")))
         for camera in back.cameras
     )
+    runs = tuple(dataclasses.replace(run, **moved(run, folder, "path")) for run in back.runs)
     back = dataclasses.replace(
         back,
         path=whole.path,
+        runs=runs,
         ground=ground,
         places=places,
         fire=fire,

@@ -264,11 +264,14 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
         return {name for name in passes.known() if key(changed, name) != key(SETTINGS, name)}
 
     everything = set(passes.known())
-    lit = {"rgb", "thermal", "thermal_map", "edl", "overlay", "fused"}  # four are made from two
+    compared = {"split", "difference"}
+    lit = {"rgb", "thermal", "thermal_map", "edl", "overlay", "fused"} | compared  # six are made from two
     assert changes() == set()
     assert changes(seed=2) == everything
     assert changes(time=replace(SETTINGS.time, frames=5)) == everything
-    assert changes(time=replace(SETTINGS.time, fps=5, zone="UTC")) == {"fused"}  # tells the time
+    assert (
+        changes(time=replace(SETTINGS.time, fps=5, zone="UTC")) == {"fused"} | compared
+    )  # they tell the time
     assert changes(ground=s.Ground(apron=1.0)) == everything
     assert changes(render=s.Render(resolution=(64, 36))) == everything
     assert changes(render=s.Render(samples=7)) == lit
@@ -397,7 +400,7 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
         after = keys()
         return {name for name in before if before[name] != after[name]}
 
-    shown = {"rgb", "thermal", "thermal_map", "edl", "overlay", "fused", "masks"}
+    shown = {"rgb", "thermal", "thermal_map", "edl", "overlay", "fused", "masks", "split", "difference"}
     assert changed("scene/smoke/material.py") == shown
     assert changed("scene/fire/flames.py") == shown
     assert changed("scene/ground/build.py") == set(passes.known())

@@ -100,7 +100,8 @@ def _opened(words: Page) -> Iterator[object]:
     path = str(Path(settings().run) / "run.toml")
     yield from timed("Open run, once it is there", lambda: call(again, filepath=path))
     page_picture("2-run")
-    words.next("Time", "Start", "2014-09-17 16:00-07:00", "End", "2014-09-17 16:20-07:00")
+    words.next("Time", "Start", "2014-09-17 16:00-07:00", "End", "2014-09-17 16:20-07:00", "Frames", "24")
+    settings().time.frames = 24
     settings().time.start, settings().time.end = "2014-09-17 16:00-07:00", "2014-09-17 16:20-07:00"
     yield 1
 
@@ -109,7 +110,7 @@ def _built(words: Page) -> Iterator[object]:
     words.next("Scene", "Preview", "Build scene")
     call(bpy.ops.firetwin.quality, level="preview")
     yield 0.5
-    yield from timed("Build scene at Preview, 48 frames, two cameras", lambda: call(bpy.ops.firetwin.build))
+    yield from timed("Build scene at Preview, 24 frames, two cameras", lambda: call(bpy.ops.firetwin.build))
     watch = Watch()
     bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)
     watch.say("the built scene drawn in the 3D view")
@@ -123,7 +124,11 @@ def _go(words: Page, place: str) -> Iterator[object]:
     words.next(place)
     settings().go_to = place
     call(bpy.ops.firetwin.go)
-    yield 4
+    region = view().spaces.active.region_3d
+    yield soon(lambda: abs(region.view_distance - 2500.0) < 1.0)
+    yield 1
+    bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)  # what is keyed is what was drawn last
+    check(region.view_perspective == "PERSP" and abs(region.view_distance - 2500.0) < 1.0, f"at {place}")
 
 
 def _flown(words: Page) -> Iterator[object]:

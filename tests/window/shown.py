@@ -115,7 +115,7 @@ def browser() -> Iterator[object]:
     space.show_region_ui = False
     for name in _catalogues(folder):
         space.params.catalog_id = name[0]
-        yield 6
+        yield 30  # pictures of trees come one after the other
         picture(f"23-assets-{name[1].lower().replace(' ', '-')}")
     libraries = bpy.context.preferences.filepaths.asset_libraries
     libraries.remove(libraries["Firetwin"])

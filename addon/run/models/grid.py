@@ -177,7 +177,8 @@ def _place(grid: Grid) -> Placed:
         off = max(off, float(away[~outside[part]].max(initial=0.0)))
     text = (
         f"its grid is turned or curved: {ny} x {nx} cells of {side:.4g} m along parallels and meridians take "
-        f"the values of the nearest cells, which lie {off:.2g} m off at most"
+        f"the values of the nearest cells, which lie {off:.2g} m off at most; beyond the model's own cells "
+        "ground and fuels go on as at its edge and nothing burns"
     )
     return Placed(rows, columns, index, outside, text)
 

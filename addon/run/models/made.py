@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import input_error
+from ...errors import Error, input_error
 from . import fuels, heat
 from .beside import Land
 from .grid import Grid
@@ -81,7 +81,10 @@ def model(
     told.append(
         "a spot's heat comes out at a rate that falls evenly to 0 at three mean burning times of its fuel"
     )
-    release = heat.Release.of(maps.arrival, joules, lasts, options.interval)
+    try:
+        release = heat.Release.of(maps.arrival, joules, lasts, options.interval)
+    except Error as error:
+        raise input_error(files[0], 0, 0, str(error)) from None
     ground = maps.elevation if maps.elevation is not None else land.elevation(grid, options.projection)
     return Model(
         source=source,

@@ -16,6 +16,7 @@ from . import classic, headway, needed
 _MAGIC = (b"\x89HDF\r\n\x1a\n", b"CDF\x01", b"CDF\x02", b"CDF\x05")
 _OPEN = 8  # files at once
 _LARGEST = 1 << 31  # bytes of one part
+_CACHE = 1 << 28  # bytes of unpacked chunks that are kept
 
 
 def is_netcdf(path: Path) -> bool:
@@ -54,6 +55,7 @@ class File:
             self.data = library.Dataset(str(path))
             self.data.set_auto_maskandscale(False)
             self.variables: dict[str, Any] = dict(self.data.variables)
+            self._cached: set[str] = set()
             self.dimensions = {name: len(each) for name, each in self.data.dimensions.items()}
             if self.data.disk_format == "NETCDF3":
                 size, need = path.stat().st_size, classic.needed(path)
@@ -69,7 +71,8 @@ class File:
         except Error:
             raise
         except Exception as error:
-            why = " ".join(str(error).split()) or type(error).__name__
+            text = getattr(error, "strerror", None) or str(error) or type(error).__name__
+            why = " ".join(str(text).split())
             raise self.error(f"cannot be read as netCDF ({why}); it is damaged or incomplete") from error
 
     def error(self, reason: str) -> InputError:
@@ -109,6 +112,9 @@ class File:
                 size *= len(range(length)[each]) if isinstance(each, slice) else 1
             if size > _LARGEST:
                 raise self.error(f"{name} has {shape}, more at a time than any model writes")
+            if name not in self._cached:
+                self._cached.add(name)
+                _keep_chunks(variable)
             return _plain(variable, np.asarray(variable[index if index else Ellipsis]))
 
     def attribute(self, name: str, variable: str = "", otherwise: Any = None) -> Any:
@@ -120,6 +126,19 @@ class File:
     def close(self) -> None:
         """Done with it."""
         self.data.close()
+
+
+def _keep_chunks(variable: Any) -> None:
+    """Where a chunk holds several times, keep all chunks of a time, so that each is unpacked once."""
+    chunks = variable.chunking()
+    if not isinstance(chunks, list) or len(chunks) < 3 or chunks[0] < 2:
+        return
+    counts = [-(-length // chunk) for length, chunk in zip(variable.shape[1:], chunks[1:], strict=True)]
+    need = (
+        int(np.prod(counts, dtype=np.float64) * np.prod(chunks, dtype=np.float64)) * variable.dtype.itemsize
+    )
+    if need <= _CACHE:
+        variable.set_var_chunk_cache(size=need + (1 << 20), nelems=10 * int(np.prod(counts)) + 1)
 
 
 class Files:

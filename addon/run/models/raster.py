@@ -175,8 +175,12 @@ def _read_ascii(path: Path) -> Raster:
         nx, ny, side = int(head["ncols"]), int(head["nrows"]), head["cellsize"]
         if not (0 < nx * ny <= _LARGEST and nx > 0 and side > 0):
             raise _error(path, f"has {ny} rows, {nx} columns and cells of {side}, which makes no sense")
+        lines = len(head)
         rest = file.read()
-    values = np.array(rest.split(), np.float32)
+    try:
+        values = np.array(rest.split(), np.float32)
+    except ValueError:
+        raise _wrong_word(path, rest, lines) from None
     if values.size != nx * ny:
         raise _error(path, f"has {values.size} values where its head says {ny} x {nx}; it is incomplete")
     values = values.reshape(ny, nx)
@@ -184,6 +188,17 @@ def _read_ascii(path: Path) -> Raster:
     corner = [head.get(f"{axis}llcorner", head.get(f"{axis}llcenter", 0.0) - side / 2) for axis in "xy"]
     x, y = corner[0] + side * (np.arange(nx) + 0.5), corner[1] + side * (ny - np.arange(ny) - 0.5)
     return Raster(path, _without(values), x, y, _beside(path))
+
+
+def _wrong_word(path: Path, text: str, above: int) -> InputError:
+    """Where the first word is that is no number."""
+    for number, line in enumerate(text.splitlines(), above + 1):
+        for found in re.finditer(r"\S+", line):
+            try:
+                float(found[0])
+            except ValueError:
+                return input_error(path, number, found.start() + 1, f"{found[0][:40]!r} is no number")
+    return _error(path, "holds something that is no number")
 
 
 def _without(values: NDArray[np.float32]) -> NDArray[np.float32]:

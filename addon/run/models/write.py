@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ... import files
-from ...errors import input_error, writing
+from ...errors import Error, input_error, writing
 from ...progress import Progress, size
 from .model import LONGEST, Model
 
@@ -27,8 +27,6 @@ _OFTEN = 1 << 29  # bytes between two entries in the journal
 _SECONDS = 15.0
 _FILL = {
     "heat_flux": 0.0,
-    "surface_fuel": 0.0,
-    "canopy_fuel": 0.0,
     "smoke_3d": 0.0,
     "fuel_arrival_time": np.nan,
 }
@@ -72,7 +70,10 @@ def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
             model.files[0], 0, 0, "its times make no sense: they do not ascend, or end centuries later"
         )
     part = part_of(out)
-    placed = model.grid.placed
+    try:
+        placed = model.grid.placed
+    except Error as error:
+        raise input_error(model.files[0], 0, 0, str(error)) from None
     shapes = {
         name: (len(model.times), *([model.levels[name]] if name in model.levels else []), *placed.shape)
         for name in model.moving

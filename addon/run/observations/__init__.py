@@ -1,4 +1,4 @@
-"""What was seen of a fire: dated perimeters and satellites' detections, from the files that people have.
+"""What was seen of a fire: dated perimeters, infrared flights' heat and satellites' detections.
 
 Each format is a module here, found by the end of a file's name. Their features come as `Feature`; dates are
 found by `dates`. Nothing but `shapefile` needs more than Python and NumPy.
@@ -16,10 +16,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Error, input_error
-from . import dates
+from . import dates, heat
 from .feature import Feature, Polygon
 
-__all__ = ["FOLDER", "Detections", "Feature", "Observations", "Perimeter", "Polygon", "beside", "read"]
+__all__ = [
+    "FOLDER",
+    "Detections",
+    "Feature",
+    "Heat",
+    "Observations",
+    "Perimeter",
+    "Polygon",
+    "beside",
+    "read",
+]
 
 FOLDER = "observations"
 """Folder in that of a run, whose files are read without being named."""
@@ -55,6 +65,31 @@ class Perimeter:
 
 
 @dataclass(frozen=True)
+class Heat:
+    """What an infrared flight saw of one class.
+
+    Attributes
+    ----------
+    time
+        UTC.
+    kind
+        One of `heat.KINDS`.
+    polygons
+        As those of a perimeter.
+    points
+        (n, 2) degrees east and north of sources too small for a polygon.
+    source
+        Name of the file.
+    """
+
+    time: datetime
+    kind: str
+    polygons: tuple[Polygon, ...]
+    points: NDArray[np.float64]
+    source: str
+
+
+@dataclass(frozen=True)
 class Detections:
     """Pixels in which satellites saw fire.
 
@@ -82,11 +117,12 @@ class Detections:
 
 @dataclass(frozen=True)
 class Observations:
-    """All that was read, perimeters by their time, and what had to be assumed."""
+    """All that was read, perimeters and heat by their time, and what had to be assumed."""
 
     perimeters: tuple[Perimeter, ...] = ()
     detections: tuple[Detections, ...] = ()
     assumptions: tuple[str, ...] = field(default=())
+    heat: tuple[Heat, ...] = ()
 
 
 def beside(folder: str | Path) -> list[Path]:
@@ -108,7 +144,7 @@ def is_one(path: str | Path) -> bool:
 def read(paths: Iterable[str | Path]) -> Observations:
     """Read files; ``FILE@2014-09-18T04:00-07:00`` says when a file without dates was true.
 
-    Polygons of one moment in one file are one perimeter.
+    Polygons of one moment in one file are one perimeter; those of heat within it are none.
 
     Raises
     ------
@@ -116,6 +152,7 @@ def read(paths: Iterable[str | Path]) -> Observations:
         A file is missing, of no known format, damaged, without dates or without anything to compare with.
     """
     perimeters: list[Perimeter] = []
+    warm: list[Heat] = []
     detections: list[Detections] = []
     assumptions: dict[str, None] = {}
     for name in paths:
@@ -129,13 +166,16 @@ def read(paths: Iterable[str | Path]) -> Observations:
             raise input_error(path, 0, 0, (error.strerror or str(error)).lower()) from None
         except Exception as error:  # Python's, or a library's: what is in the file is not what it should be
             reason = " ".join(str(error).split()) or type(error).__name__
-            raise input_error(path, 0, 0, f"is damaged: {reason}") from error
+            raise input_error(path, 0, 0, f"is damaged or incomplete: {reason}") from error
         if isinstance(found, Detections):
             detections.append(found)
         else:
-            perimeters += _perimeters(path, found, moment, assumptions)
+            burned, hot = _sorted(path, found, moment, assumptions)
+            perimeters += burned
+            warm += hot
     perimeters.sort(key=lambda each: each.time)
-    return Observations(tuple(perimeters), tuple(detections), tuple(assumptions))
+    warm.sort(key=lambda each: each.time)
+    return Observations(tuple(perimeters), tuple(detections), tuple(assumptions), tuple(warm))
 
 
 def _reader(path: Path) -> object:
@@ -146,18 +186,36 @@ def _reader(path: Path) -> object:
     return importlib.import_module(f".{name}", __name__)
 
 
-def _perimeters(
+def _sorted(
     path: Path, features: Sequence[Feature], moment: datetime | None, assumptions: dict[str, None]
-) -> list[Perimeter]:
-    found: dict[datetime, list[Polygon]] = {}
-    burned = [feature for feature in features if feature.polygons]
-    if not burned:
+) -> tuple[list[Perimeter], list[Heat]]:
+    """Perimeters, of polygons that are said to be such or of no class, and heat, by moment and class."""
+    burned: dict[datetime, list[Polygon]] = {}
+    hot: dict[tuple[datetime, str], list[Feature]] = {}
+    left = 0
+    for feature in features:
+        kind = heat.kind(path, feature)
+        if kind in heat.KINDS and (feature.polygons or len(feature.points)):
+            hot.setdefault((moment or dates.of(path, feature, assumptions), kind), []).append(feature)
+        elif kind in ("", heat.PERIMETER) and feature.polygons:
+            when = moment or dates.of(path, feature, assumptions)
+            burned.setdefault(when, []).extend(feature.polygons)
+        else:
+            left += 1
+    if not burned and not hot:
         raise input_error(path, 0, 0, "holds no polygons, so nothing says where it had burned")
-    for feature in burned:
-        when = moment or dates.of(path, feature, assumptions)
-        found.setdefault(when, []).extend(feature.polygons)
-    if len(burned) < len(features):
-        assumptions[f"{path.name}: {len(features) - len(burned)} features without polygons are left out"] = (
-            None
+    if burned and hot:
+        assumptions[f"{path.name}: heat within its perimeter is drawn and not compared"] = None
+    if left:
+        assumptions[f"{path.name}: {left} features that are neither perimeter nor heat are left out"] = None
+    perimeters = [Perimeter(when, tuple(polygons), path.name) for when, polygons in burned.items()]
+    return perimeters, [
+        Heat(
+            when,
+            kind,
+            tuple(polygon for each in found for polygon in each.polygons),
+            np.concatenate([each.points for each in found]),
+            path.name,
         )
-    return [Perimeter(when, tuple(polygons), path.name) for when, polygons in found.items()]
+        for (when, kind), found in hot.items()
+    ]

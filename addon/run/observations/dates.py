@@ -18,9 +18,11 @@ NAMES = (
         "perdattime",
         "datecurrent",
     ),
+    *("polygondatetime", "pointdatetime", "polygondat", "pointdatet", "datecurren", "createdate"),
     *("date_time", "datetime", "timestamp", "time", "t", "when", "end", "date", "perimeterdate", "perdate"),
 )
-"""Properties that hold it, small letters, the surest first: ForeFire's, NIFC's, GeoMAC's, then plain ones."""
+"""Properties that hold it, small letters, the surest first: ForeFire's, NIFC's, GeoMAC's, NWCG's (of which
+shapefiles keep ten letters), then plain ones."""
 
 _FORMS = (
     *("%m/%d/%Y %I:%M:%S %p", "%m/%d/%Y %I:%M %p", "%m/%d/%Y %H:%M:%S", "%m/%d/%Y %H:%M"),

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import input_error
-from .feature import Feature, Polygon, ring
+from .feature import Feature, Polygon, degrees, ring
 
 
 def read(path: Path) -> list[Feature]:
@@ -56,7 +56,21 @@ def _feature(path: Path, place: str, feature: Any, said: dict[str, Any]) -> Feat
         tuple(_polygons(path, place, feature.get("geometry"))),
         said | (properties if isinstance(properties, dict) else {}),
         place,
+        degrees(path, place, list(_points(feature.get("geometry")))),
     )
+
+
+def _points(geometry: Any) -> Iterator[Any]:
+    if not isinstance(geometry, dict):
+        return
+    parts = geometry.get("coordinates")
+    if geometry.get("type") == "Point" and parts:
+        yield parts
+    elif geometry.get("type") == "MultiPoint" and isinstance(parts, list):
+        yield from parts
+    elif geometry.get("type") == "GeometryCollection" and isinstance(geometry.get("geometries"), list):
+        for each in geometry["geometries"]:
+            yield from _points(each)
 
 
 def _polygons(path: Path, place: str, geometry: Any) -> Iterator[Polygon]:

@@ -1,4 +1,4 @@
-"""GeoPackage (OGC 12-128): SQLite tables of features, their polygons as well-known binary."""
+"""GeoPackage (OGC 12-128): SQLite tables of features, their polygons and points as well-known binary."""
 
 from __future__ import annotations
 
@@ -12,9 +12,10 @@ from typing import Any
 import numpy as np
 
 from ...errors import input_error
-from .feature import Feature, Polygon, ring
+from .feature import Feature, Polygon, Ring, degrees, ring
 from .projection import to_degrees
 
+Part = tuple[str, Polygon | Ring]
 _ENVELOPES = (0, 32, 48, 48, 64)  # bytes, by the flag's three bits
 
 
@@ -48,21 +49,24 @@ def _rows(path: Path, base: sqlite3.Connection, table: sqlite3.Row) -> Iterator[
     for number, row in enumerate(base.execute(f'SELECT * FROM "{name}"'), 1):
         place = f"row {number} of {table['name']}"
         blob = row[table["shape"]]
+        polygons, points = [], []
         try:
-            polygons = [] if blob is None else list(_polygons(blob))
+            for kind, found in [] if blob is None else _parts(blob):
+                (polygons if kind == "polygon" else points).append(found)
         except _NoPolygonError:
-            polygons = []
+            polygons, points = [], []
         except (struct.error, ValueError, IndexError, TypeError):
             raise input_error(path, 0, 0, f"{place} has a damaged geometry") from None
-        degrees = tuple(
+        outlines = tuple(
             tuple(ring(path, place, to_degrees(path, system, each)) for each in rings) for rings in polygons
         )
         properties = {key: row[key] for key in row.keys() if key != table["shape"]}  # noqa: SIM118
-        yield Feature(degrees, properties, place)
+        spots = degrees(path, place, to_degrees(path, system, np.array(points).reshape(-1, 2)))
+        yield Feature(outlines, {"layer": table["name"]} | properties, place, spots)
 
 
-def _polygons(blob: bytes) -> Iterator[Polygon]:
-    """The polygons of a geometry: two bytes "GP", version, flags, srs, an envelope, well-known binary."""
+def _parts(blob: bytes) -> Iterator[Part]:
+    """Of a geometry: two bytes "GP", version, flags, srs, an envelope, well-known binary."""
     if blob[:2] != b"GP":
         raise ValueError("no geometry of a GeoPackage")
     flags = blob[3]
@@ -82,7 +86,7 @@ class _Binary:
         self.at += 4
         return found
 
-    def geometry(self) -> Iterator[Polygon]:
+    def geometry(self) -> Iterator[Part]:
         self.order = "<" if self.blob[self.at] else ">"
         self.at += 1
         kind = self.number()
@@ -93,8 +97,13 @@ class _Binary:
         if kind % 1000 == 3:
             rings = tuple(self.ring(2 + more) for _ in range(self.number()))
             if rings:
-                yield rings
-        elif kind % 1000 in (6, 7):
+                yield "polygon", rings
+        elif kind % 1000 == 1:
+            found = np.frombuffer(self.blob, f"{self.order}f8", 2 + more, self.at)
+            self.at += (2 + more) * 8
+            if np.isfinite(found[:2]).all():  # else an empty one
+                yield "point", found[:2].astype(np.float64)
+        elif kind % 1000 in (4, 6, 7):
             for _ in range(self.number()):
                 yield from self.geometry()
         else:
@@ -108,4 +117,4 @@ class _Binary:
 
 
 class _NoPolygonError(ValueError):
-    """A geometry of points or lines."""
+    """A geometry of lines."""

@@ -1,4 +1,4 @@
-"""KML and KMZ: placemarks with polygons, and their TimeStamp or the end of their TimeSpan."""
+"""KML and KMZ: placemarks with polygons or points, their folders, and TimeStamp or the end of TimeSpan."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from ...errors import input_error
-from .feature import Feature, Polygon, Ring, ring
+from .feature import Feature, Polygon, Ring, degrees, ring
 
 _LARGEST = 1 << 28  # bytes of text: a perimeter is far smaller, a bomb far larger
 
@@ -51,13 +51,31 @@ def _unpacked(path: Path) -> bytes:
 def _placemarks(path: Path, folder: ElementTree.Element, inherited: dict[str, str]) -> Iterator[Feature]:
     """Placemarks of a folder and those in it; a folder's time is that of what says none."""
     known = inherited | _time(folder)
+    if _tag(folder) == "Folder" and (called := _name(folder)):
+        known["folder"] = f"{called}/{known['folder']}" if "folder" in known else called
     for child in folder:
         if _tag(child) == "Placemark":
-            name = next((each.text for each in child if _tag(each) == "name" and each.text), "")
+            name = _name(child)
             place = f'placemark "{name}"' if name else "a placemark"
-            yield Feature(tuple(_polygons(path, place, child)), known | _time(child) | _data(child), place)
+            said = known | ({"name": name} if name else {}) | _time(child) | _data(child)
+            yield Feature(tuple(_polygons(path, place, child)), said, place, _points(path, place, child))
         elif _tag(child) in ("Document", "Folder"):
             yield from _placemarks(path, child, known)
+
+
+def _name(thing: ElementTree.Element) -> str:
+    return next((each.text.strip() for each in thing if _tag(each) == "name" and each.text), "")
+
+
+def _points(path: Path, place: str, placemark: ElementTree.Element) -> Ring:
+    texts = (
+        each.text or ""
+        for point in placemark.iter()
+        if _tag(point) == "Point"
+        for each in point
+        if _tag(each) == "coordinates"
+    )
+    return degrees(path, place, [text.strip().split(",") for text in texts])
 
 
 def _time(thing: ElementTree.Element) -> dict[str, str]:

@@ -1,13 +1,14 @@
-"""Shapefiles: polygons in the .shp, dates in the .dbf, and the reference system in the .prj beside it."""
+"""Shapefiles: polygons or points in the .shp, dates in the .dbf, the reference system in the .prj."""
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
 
 from ...errors import input_error
-from .feature import Feature, Polygon, ring
+from .feature import Feature, Polygon, degrees, ring
 from .projection import to_degrees
 
 
@@ -30,7 +31,8 @@ def read(path: Path) -> list[Feature]:
     except OSError:
         reason = "has no .prj beside it, so nothing says what its coordinates are"
         raise input_error(path, 0, 0, reason) from None
-    with shapefile.Reader(str(path)) as reader:
+    with warnings.catch_warnings(), shapefile.Reader(str(path)) as reader:
+        warnings.simplefilter("ignore")  # of damage, which ends in an error
         return [_feature(path, system, i, each) for i, each in enumerate(reader.iterShapeRecords(), 1)]
 
 
@@ -43,4 +45,8 @@ def _feature(path: Path, system: str, number: int, found: object) -> Feature:
         for rings in parts:
             flat = [np.array([point[:2] for point in each], np.float64) for each in rings]
             polygons.append(tuple(ring(path, place, to_degrees(path, system, each)) for each in flat))
-    return Feature(tuple(polygons), found.record.as_dict() if found.record else {}, place)
+    points = np.empty((0, 2))
+    if found.shape.shapeTypeName.startswith(("POINT", "MULTIPOINT")):
+        flat = np.array([point[:2] for point in found.shape.points], np.float64).reshape(-1, 2)
+        points = degrees(path, place, to_degrees(path, system, flat))
+    return Feature(tuple(polygons), found.record.as_dict() if found.record else {}, place, points)

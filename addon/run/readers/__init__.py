@@ -9,6 +9,7 @@ may end it.
 from __future__ import annotations
 
 import importlib
+import zipfile
 from pathlib import Path
 from types import ModuleType
 
@@ -41,14 +42,15 @@ def open(path: str | Path) -> Run:
 
 def foreign(path: Path) -> bool:
     """Whether this looks like a fire model's output, by first bytes alone: nothing of it is parsed."""
+    if not path.is_dir():
+        return _one(path)
+    return not folder.sniff(path) and any(_one(each) for each in path.iterdir() if each.is_file())
+
+
+def _one(path: Path) -> bool:
     from ..models import netcdf, raster
 
-    def one(path: Path) -> bool:
-        return netcdf.is_netcdf(path) or raster.is_raster(path) or path.suffix.lower() in (".lcp", ".npz")
-
-    if not path.is_dir():
-        return one(path)
-    return not folder.sniff(path) and any(one(each) for each in path.iterdir() if each.is_file())
+    return netcdf.is_netcdf(path) or raster.is_raster(path) or path.suffix.lower() in (".lcp", ".npz")
 
 
 def gathered(paths: list[Path]) -> list[Path]:
@@ -67,6 +69,8 @@ def gathered(paths: list[Path]) -> list[Path]:
         found += [each for each in inner if each not in found]
         if len(found) > _MANY:
             raise input_error(path, 0, 0, f"holds more than {_MANY:,} files; give those of one run")
+    if not found:
+        raise input_error(paths[0], 0, 0, "is a folder without files; give that of a model's output")
     return found
 
 
@@ -75,19 +79,43 @@ def reader(paths: list[Path]) -> ModuleType:
 
     Raises
     ------
-    Error
+    InputError
         None does.
     """
-    broken = None
+    broken: dict[Path, Error] = {}
     for name in MODELS:
         module = importlib.import_module(f".{name}", __name__)
         for path in paths:
             try:
-                if module.sniff(path):
+                if path not in broken and module.sniff(path):
                     return module
             except Error as error:  # another file may be whole
-                broken = broken or error
-    if broken:
-        raise broken
-    where = str(paths[0]) if paths else "nothing"
-    raise Error(f"{where}: is of no fire model that is known; the README lists those that are")
+                broken[path] = error
+    raise next(iter(broken.values()), None) or input_error(paths[0], 0, 0, _why(paths))
+
+
+def _why(paths: list[Path]) -> str:
+    """What is most likely wrong with files of which none is of a known model."""
+    from ..models import raster
+
+    first = paths[0]
+    if first.stat().st_size == 0:
+        return "is empty; the copy or the model's run was most likely cut short"
+    kind = first.suffix.lower()
+    if (kind in (".nc", ".tif", ".tiff") and not _one(first)) or (
+        kind == ".npz" and not zipfile.is_zipfile(first)
+    ):
+        return f"does not begin as a {first.suffix} file does; it is damaged or something else"
+    if any(path.suffix.lower() == ".lcp" for path in paths):
+        return "a landscape alone is no fire: give the arrival times of a fire on it, too"
+    if kind == ".npz":
+        return "has no array time_of_arrival, by which pyretechnics' output is known"
+    if raster.is_raster(first):
+        return (
+            "a raster does not say what it holds: call arrival times time_of_arrival_0000001_0003600.tif as "
+            "ELMFIRE does (s), or FIRE_Arrival Time.asc as FlamMap does (min)"
+        )
+    return (
+        "is of no fire model that is known: WRF-SFIRE, CFBM, ForeFire, ELMFIRE, FARSITE, FlamMap, "
+        "pyretechnics or netCDF with latitude and longitude"
+    )

@@ -81,7 +81,7 @@ def read(paths: list[Path], options: Options) -> Model:
     land.complete(still, grid, grid, options.projection)
     return Model(
         source="Community Fire Behavior Model",
-        name=f"Community Fire Behavior Model, {moments[0]:%Y-%m-%d %H:%M} UTC",
+        name="Community Fire Behavior Model run",
         start=moments[0],
         times=times,
         grid=grid,

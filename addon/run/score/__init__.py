@@ -63,6 +63,7 @@ def score(
     return {
         "run": {"name": run.name, "path": run.path, "synthetic": run.synthetic, "event": run.event},
         "against": sorted({each.source for each in seen} | {each.source for each in observations.detections}),
+        "other_run": None if other is None else other.name,
         "zone": zone,
         "domain": {"area": grid.domain, "cells": list(grid.arrival.shape), "cell": list(grid.cell)},
         "projection": grid.projection.definition,

@@ -20,7 +20,7 @@ _ALL: tuple[Column, ...] = (
     *((name, 10, lambda v: f"{v:.3f}") for name in ("sorensen", "jaccard", "kappa", "precision", "recall")),
     *((name, 8, lambda v: f"{v:.3f}") for name in ("sdi", "adi")),
 )
-_TITLES = {"area": "run", "observed_area": "seen", "area_bias": "bias"}
+_TITLES = {"area": "run", "area_bias": "bias"}
 
 
 def page(found: dict[str, Any]) -> str:
@@ -48,7 +48,8 @@ def _dates(found: dict[str, Any]) -> Iterator[str]:
         if not rows:
             continue
         yield ""
-        yield f"{title:<26}" + "".join(f"{_TITLES.get(name, name):>{w}}" for name, w, _ in _ALL)
+        titles = _TITLES | {"observed_area": theirs(found)}
+        yield f"{title:<26}" + "".join(f"{titles.get(name, name):>{w}}" for name, w, _ in _ALL)
         for row in rows:
             yield f"  {local(row['time'], found['zone']):<24}" + _cells(row[key]["polygons"])
             yield f"  {'  +-, polygons or cells':<24}" + _cells(row[key]["error"])
@@ -71,7 +72,7 @@ def _distances(found: dict[str, Any]) -> Iterator[str]:
 
 def _more(found: dict[str, Any]) -> Iterator[str]:
     if found["arrival"]:
-        yield from ("", arrival(found["arrival"]))
+        yield from ("", arrival(found))
     if found["detections"]:
         yield ""
         yield f"{'Detections':<26}{'seen':>8}{'inside':>8}{'in a pixel':>12}{'never':>8}{'median lag':>12}"
@@ -87,23 +88,30 @@ def _more(found: dict[str, Any]) -> Iterator[str]:
         yield f"{'Burned area, acres':<26}{'run':>10}{'+-':>8}{'reported':>10}{'difference':>12}  source"
     for row in covered:
         apart = abs(row["polygons"] - row["run"]) / ACRE
+        share = round(100 * row["difference"], 1) + 0.0  # no "-0.0"
         yield (
             f"  {local(row['time'], found['zone']):<24}{row['run'] / ACRE:>10,.0f}{apart:>8,.0f}"
-            f"{row['reported'] / ACRE:>10,.0f}{100 * row['difference']:>+10.1f} %  {row['source']}"
+            f"{row['reported'] / ACRE:>10,.0f}{share:>+10.1f} %  {row['source']}"
         )
     notes = said(found)
     yield from ["", "To know", *(f"  - {text}" for text in notes)] if notes else []
 
 
-def arrival(found: dict[str, Any]) -> str:
+def theirs(found: dict[str, Any]) -> str:
+    """What areas are called that the run is compared with: no other run is something that was seen."""
+    return "other" if found["other_run"] else "seen"
+
+
+def arrival(scores: dict[str, Any]) -> str:
     """Errors of arrival times in a line."""
+    found, alone = scores["arrival"], "in the other" if scores["other_run"] else "seen"
     if not found["cells"]:
         return "Arrival times: no cell burned in both"
     bias, mae, rmse = (found[name] / 3600 for name in ("bias", "mae", "rmse"))
     return (
         f"Arrival times of {found['cells']:,} cells ({found['observed']}): bias {bias:+.2f} h, "
         f"mean absolute error {mae:.2f} h, RMSE {rmse:.2f} h; burned in the run alone {found['run_only']:,}, "
-        f"seen alone {found['seen_only']:,}"
+        f"{alone} alone {found['seen_only']:,}"
     )
 
 

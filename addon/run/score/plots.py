@@ -89,9 +89,9 @@ def growth(run: Run, found: dict[str, Any], other: Run | None = None) -> str:
         axes.set_ylabel("burned area, acres")
         axes.set_ylim(bottom=0)
         axes.yaxis.set_major_formatter(lambda value, _: f"{value:,.0f}")
-        axes.secondary_yaxis(
-            "right", functions=(lambda a: a * acre / 1e4, lambda h: h * 1e4 / acre)
-        ).set_ylabel("ha")
+        right = axes.secondary_yaxis("right", functions=(lambda a: a * acre / 1e4, lambda h: h * 1e4 / acre))
+        right.set_ylabel("ha")
+        right.yaxis.set_major_formatter(lambda value, _: f"{value:,.0f}")
         axes.xaxis.set_major_formatter(ConciseDateFormatter(axes.xaxis.get_major_locator(), tz=zone))
         axes.grid(axis="y", color="#d8dde3", linewidth=0.7)
         axes.spines[["top", "right"]].set_visible(False)

@@ -14,7 +14,7 @@ from .. import times
 from . import plots, shapes
 from .grid import Grid
 from .overlap import HELP
-from .page import arrival, local, said
+from .page import arrival, local, said, theirs
 
 ACRE = history.SQUARE_METRES_PER_ACRE
 _HELP = HELP | {"apart": "mean distance of the two perimeters from each other, and the largest (Hausdorff)"}
@@ -53,7 +53,7 @@ def html(run: Run, found: dict[str, Any], seen: Any, other: Run | None = None) -
     body = "\n".join(
         part
         for parts in (
-            _head(run, found),
+            _head(run, found, other),
             _growth(run, found, other),
             _maps(run, grid, found, seen, other),
             _scores(found),
@@ -70,16 +70,19 @@ def html(run: Run, found: dict[str, Any], seen: Any, other: Run | None = None) -
     )
 
 
-def _head(run: Run, found: dict[str, Any]) -> Iterator[str]:
+def _head(run: Run, found: dict[str, Any], other: Run | None) -> Iterator[str]:
     zone = found["zone"]
     first, last = (times.text(times.moment(run, float(run.times[i])), zone) for i in (0, -1))
     names = ", ".join(found["against"])
     yield f"<h1>{escape(run.name)}</h1>"
     yield f'<p class="soft">{first} to {last} &middot; against {escape(names or "reported areas")}</p>'
-    if run.synthetic:
+    made_up = [each.name for each in (run, other) if each is not None and each.synthetic]
+    if made_up:
+        who = "Both runs are" if len(made_up) > 1 else f"{escape(made_up[0])} is"
         yield (
-            '<p class="warn"><b>This run is synthetic:</b> made up, not the output of a fire model. '
-            "Its scores say how the tools work, and nothing of how well any model forecasts.</p>"
+            f'<p class="warn"><b>{"This run is" if run.synthetic and not other else who} synthetic:</b> '
+            "made up, not the output of a fire model. Scores say how the tools work, and nothing of how well "
+            "any model forecasts.</p>"
         )
 
 
@@ -90,11 +93,9 @@ def _growth(run: Run, found: dict[str, Any], other: Run | None) -> Iterator[str]
 def _maps(run: Run, grid: Grid, found: dict[str, Any], seen: Any, other: Run | None) -> Iterator[str]:
     if not found["dates"]:
         return
-    yield "<h2>Hits, misses and false alarms</h2>"
+    yield f"<h2>{'Where the two burned' if other else 'Hits, misses and false alarms'}</h2>"
     yield _key(
-        (plots.HITS, "burned in both: hits"),
-        (plots.FALSE_ALARMS, "burned in this run alone: false alarms"),
-        (plots.MISSES, f"burned in {escape(other.name)} alone" if other else "seen burned alone: misses"),
+        *zip((plots.HITS, plots.FALSE_ALARMS, plots.MISSES), _kinds(run, other), strict=True),
     )
     theirs = None if other is None else (other, Grid.of(other))
     pairs = [_pair(run, grid, row, seen, theirs) for row in found["dates"]]
@@ -105,10 +106,17 @@ def _maps(run: Run, grid: Grid, found: dict[str, Any], seen: Any, other: Run | N
         yield (
             f'<figure><img alt="map" src="{plots.overlap(run, grid, here, there, frame)}">'
             f"<figcaption><b>{local(row['time'], found['zone'])}</b><br>"
-            f"Sorensen {_number(scores['sorensen'])}, "
-            f"area {_signed(scores['area_bias'])}, {escape(row['source'])}</figcaption></figure>"
+            f"Sorensen {_number(scores['sorensen'])}, area {_signed(scores['area_bias'])}"
+            f"{'' if other else ', ' + escape(row['source'])}</figcaption></figure>"
         )
     yield "</div>"
+
+
+def _kinds(run: Run, other: Run | None) -> tuple[str, str, str]:
+    """What the colours of maps mean; between two runs nothing is right or wrong."""
+    if other is None:
+        return "burned in both: hits", "burned in this run alone: false alarms", "seen burned alone: misses"
+    return "burned in both", f"only in {escape(run.name)}", f"only in {escape(other.name)}"
 
 
 def _pair(
@@ -140,8 +148,13 @@ def _scores(found: dict[str, Any]) -> Iterator[str]:
         if not rows:
             continue
         yield f'<h2>{title}</h2><p class="soft">{text} Small: how far polygons and cells differ.</p>'
-        head = ("date", "run, acres", "seen, acres", *_SHOWN, "apart, m")
+        head = ("date", "run, acres", f"{theirs(found)}, acres", *_SHOWN, "apart, m")
         yield _table(head, (_score_row(row, row[key], found["zone"]) for row in rows))
+    if found["dates"] and found["other_run"]:
+        yield (
+            '<p class="soft">Hits burned in both, false alarms in this run alone, misses in the other alone: '
+            "between two runs none of it is right or wrong.</p>"
+        )
     if found["dates"]:
         yield "<dl>" + "".join(f"<dt>{n}</dt><dd>{escape(text)}</dd>" for n, text in _HELP.items()) + "</dl>"
 
@@ -189,7 +202,7 @@ def _reported(run: Run, grid: Grid, found: dict[str, Any]) -> Iterator[str]:
 
 def _more(found: dict[str, Any]) -> Iterator[str]:
     if found["arrival"]:
-        yield f"<h2>Arrival times</h2><p>{escape(arrival(found['arrival']))}.</p>"
+        yield f"<h2>Arrival times</h2><p>{escape(arrival(found))}.</p>"
     if found["detections"]:
         yield "<h2>Detections by satellites</h2>"
         yield (
@@ -244,4 +257,4 @@ def _number(value: float | None) -> str:
 
 
 def _signed(value: float | None) -> str:
-    return "-" if value is None else f"{100 * value:+.1f} %"
+    return "-" if value is None else f"{round(100 * value, 1) + 0.0:+.1f} %"

@@ -138,7 +138,7 @@ def of_front(
     if not (since <= 0.0).any():
         return shapely.Polygon()
     field = mirrored(np.pad(since, 1, constant_values=np.nan))
-    x, y = (_wider(axis) for axis in (longitude, latitude))
+    x, y = (wider(axis) for axis in (longitude, latitude))
     front = contourpy.contour_generator(x, y, field, fill_type=contourpy.FillType.OuterOffset)
     polygons, offsets = front.filled(-_NEVER, 0.0)
     found = []
@@ -160,7 +160,7 @@ def mirrored(since: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.maximum(found, np.where(missing, 1e-3, -_NEVER / 2))
 
 
-def _wider(axis: NDArray[np.float64]) -> NDArray[np.float64]:
+def wider(axis: NDArray[np.float64]) -> NDArray[np.float64]:
     """Middles of cells with one more at either end."""
     edges = areas.edges(axis)
     return np.concatenate([[2 * edges[0] - axis[0]], axis, [2 * edges[-1] - axis[-1]]])

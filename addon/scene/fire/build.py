@@ -12,7 +12,7 @@ from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import clock
 from ..forest.stand import Stand
-from . import firebrand_nodes, flames, lamp_objects, material, observed
+from . import firebrand_nodes, flames, fronts, lamp_objects, material, observed
 
 CARDS = 4
 SHOWN = 1.0, 0.25, 0.02, 1.0  # red, green, blue and alpha in the solid view
@@ -20,12 +20,13 @@ _NAMES = {"length": "flame_length", "width": "flame_width"}
 
 
 def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Object | None:
-    """Build "Firetwin Flames", "Firetwin Firebrands" and the lamps, where flames are on, and observed lines.
+    """Build "Firetwin Flames", "Firetwin Firebrands" and the lamps, where flames are on, and lines.
 
     The points carry the attributes of `flames.Points` (`length` as `flame_length`, `width` as `flame_width`).
     """
     collection = stage.part("Fire")
     observed.build(shot, stage, collection)
+    fronts.build(shot, stage, collection)
     if not shot.settings.fire.flames:
         return None
     points = flames.cells(shot) if shot.settings.fire.emitters == "cells" else flames.front(shot, grown)

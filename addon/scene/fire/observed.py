@@ -14,22 +14,33 @@ from ...shot.shot import Shot
 from .. import glow, haze
 
 _FRESH, _FADED = (0.02, 0.55, 1.0), (0.10, 0.22, 0.45)  # no flame and no ground is blue
-_LIGHT = 0.14  # radiance over that of flames
+_HEAT = {
+    "intense": (1.0, 0.02, 0.65),
+    "scattered": (0.42, 0.08, 1.0),
+    "isolated": (0.75, 0.95, 1.0),
+    "possible": (0.25, 0.40, 0.60),
+}  # nor magenta, violet or white
+LIGHT = 0.14  # radiance over that of flames
 _DIM = 0.3  # of it that is left when the next perimeter is there
 
 
 def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> bpy.types.Object | None:
     """Build "Firetwin Observed" where the settings name a file; it lights nothing and casts no shadow.
 
-    Its corners carry `seen_start`, `seen_fades` and `seen_end`, model times in s.
+    Its corners carry `seen_start`, `seen_fades` and `seen_end`, model times in s, and `seen_colour`.
     """
     lines = observed.lines(shot)
     if not lines:
         return None
     thing = owned.add(collection, "Observed", _mesh(lines, shot.settings.fire.observed_width))
     thing.data.materials.append(_material(shot, stage))
-    thing.visible_shadow = thing.visible_diffuse = thing.visible_glossy = thing.visible_volume_scatter = False
+    seen_only(thing)
     return thing
+
+
+def seen_only(thing: bpy.types.Object) -> None:
+    """Lines are seen and nothing more."""
+    thing.visible_shadow = thing.visible_diffuse = thing.visible_glossy = thing.visible_volume_scatter = False
 
 
 def _mesh(lines: list[Line], width: float) -> bpy.types.Mesh:
@@ -44,13 +55,24 @@ def _mesh(lines: list[Line], width: float) -> bpy.types.Mesh:
         mesh.attributes.new(f"seen_{name}", "FLOAT", "POINT").data.foreach_set(
             "value", values.astype(np.float32)
         )
+    colours = [(*_HEAT.get(line.kind, _FRESH), 1.0) for line in lines]
+    values = np.repeat(np.array(colours, np.float32), [len(each) for each in ribbons], axis=0)
+    mesh.attributes.new("seen_colour", "FLOAT_COLOR", "POINT").data.foreach_set("color", values.ravel())
     mesh.update()
     return mesh
 
 
 def ribbon(points: NDArray[np.float64], width: float) -> NDArray[np.float32]:
     """Corners (2 n, 3) of a flat band along a closed line (n, 3): its left ones, then its right ones."""
-    along = (np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0))[:, :2]
+    here = np.arange(len(points))
+    return band(points, np.roll(here, 1), np.roll(here, -1), width)
+
+
+def band(
+    points: NDArray[np.float64], before: NDArray[np.int64], after: NDArray[np.int64], width: float
+) -> NDArray[np.float32]:
+    """The same of points (n, 3) on closed lines, given which point is before and after each (n,)."""
+    along = (points[after] - points[before])[:, :2]
     length = np.maximum(np.hypot(*along.T), 1e-6)
     aside = np.column_stack([-along[:, 1], along[:, 0], np.zeros(len(along))]) / length[:, None]
     return np.concatenate([points + aside * width / 2, points - aside * width / 2]).astype(np.float32)
@@ -66,12 +88,13 @@ def _material(shot: Shot, stage: Stage) -> bpy.types.Material:
     material, tree = nodes.material("Firetwin Observed", _FRESH)
     time = nodes.model_time(tree)
     start, fades, end = (tree.attribute(f"seen_{name}") for name in ("start", "fades", "end"))
+    colour = tree.attribute("seen_colour", output="Color")
     there = (1.0 - (start > time)) * (end > time)
     fresh = fades > time
     part, _air = haze.fraction(tree, stage)
-    strength = (_DIM + fresh * (1.0 - _DIM)) * (1.0 - part) * (_LIGHT * glow.brightness(shot))
+    strength = (_DIM + fresh * (1.0 - _DIM)) * (1.0 - part) * (LIGHT * glow.brightness(shot))
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": (1.0, 1.0, 1.0)})
-    line = tree.mix_shader(there, clear, tree.emission(tree.mix_colour(fresh, _FADED, _FRESH), strength))
+    line = tree.mix_shader(there, clear, tree.emission(tree.mix_colour(fresh, _FADED, colour), strength))
     tree.surface(nodes.switch(tree, nodes.THERMAL, line, clear))
     material.cycles.emission_sampling = "NONE"
     return material

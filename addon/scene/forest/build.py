@@ -21,7 +21,7 @@ from ...shot.rigs.satellite import HEIGHT
 from ...shot.shot import Shot
 from .. import clock
 from . import fate, models, openings, preview, seen, understorey
-from .library import grass_models, levelled, tree_models
+from .library import drawn, grass_models, levelled, tree_models
 from .stand import Stand
 
 GRASS_DISTANCE = 400.0  # m
@@ -34,16 +34,17 @@ _TALLEST, _GRASS = 31.0, 10.0  # m; as tall as any tree of Algorithm 2, and as o
 def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Object]:
     """Build "Firetwin Trees", "Firetwin Understorey" and "Firetwin Grass", each where one sees something."""
     collection = stage.part("Forest")
-    made, below = [], understorey.grow(shot)
-    if grown is not None or len(below.size):
-        library = tree_models(shot, stage)
+    made, below, plants = [], understorey.grow(shot), {}
     if grown is not None:
         points = algorithm2(shot) if shot.settings.forest.density == "paper" else _stand(shot, grown)
         points["number"] = 1.0 + np.arange(len(points["position"]))
-        made.append(_instances(shot, collection, "Trees", levelled(shot, points), library))
+        plants["Trees"] = levelled(shot, points), BARE_AFTER
     if len(below.size):
-        points = levelled(shot, _below(shot, below))
-        made.append(_instances(shot, collection, "Understorey", points, library, _GONE_AFTER))
+        plants["Understorey"] = levelled(shot, _below(shot, below)), _GONE_AFTER
+    if plants:
+        library = tree_models(shot, stage, set().union(*(drawn(points) for points, _ in plants.values())))
+    for name, (points, bare_after) in plants.items():
+        made.append(_instances(shot, collection, name, points, library, bare_after))
     if shot.settings.forest.grass:
         library = grass_models(shot, stage)
         made.append(_instances(shot, collection, "Grass", _grass(shot), library))

@@ -29,7 +29,7 @@ from ...blender import owned
 from ...blender.owned import Stage
 from ...errors import Error
 from ...shot.shot import Shot
-from . import levels, material, models
+from . import levels, material, models, preview
 from .levels import LEVELS
 from .shape import Shape
 
@@ -39,23 +39,42 @@ Look = tuple[bpy.types.Material, ...]
 Kind = tuple[str, str]  # class and state
 
 
-def tree_models(shot: Shot, stage: Stage) -> bpy.types.Collection:
-    """A collection outside of the scene of all models in all levels, numbered as `models.instance` says."""
+def tree_models(shot: Shot, stage: Stage, drawn: set[int] | None = None) -> bpy.types.Collection:
+    """A collection outside of the scene of all models in all levels, numbered as `models.instance` says.
+
+    Parameters
+    ----------
+    drawn
+        Numbers of those that are there to be drawn: of ours others have no mesh. None: all.
+    """
     leaf = material.foliage(shot, stage)
     wood, char = (material.bark(shot, stage, charred=charred) for charred in (False, True))
     stone, straw = material.rock(shot, stage), material.grass(shot, stage)
     swapped, count = _artists(), defaultdict(int)
     library = owned.library("Tree Models")
     looks = {"rock": (stone, stone), "tuft": (straw, wood)}
+    nothing: bpy.types.Mesh | None = None
     for k, model in enumerate(models.every()):
         look = (char, char) if model.state == "snag" else looks.get(model.kind, (leaf, wood))
         theirs, turn = swapped.get((model.kind, model.state)), count[model.kind, model.state]
         count[model.kind, model.state] += 1
         for level in range(LEVELS):
             name = f"Tree {k:02d} {level}"
-            data = _of_level(theirs, level, turn) if theirs else _mesh(name, model.make(level), look)
+            if theirs:
+                data = _of_level(theirs, level, turn)
+            elif drawn is None or int(models.instance(k, level)) in drawn:
+                data = _mesh(name, model.make(level), look)
+            else:
+                data = nothing = nothing or bpy.data.meshes.new("Firetwin No Tree")
             owned.add(library, name, data)
     return library
+
+
+def drawn(points: dict[str, NDArray]) -> set[int]:
+    """Numbers of the models of points of trees, burned or not, as renders and the viewport draw them."""
+    model, level = np.divmod(np.unique(np.concatenate([points["model"], points["snag_model"]])), LEVELS)
+    coarse = models.instance(model, np.maximum(level, preview.LEVEL))
+    return {*models.instance(model, level).tolist(), *coarse.tolist()}
 
 
 def grass_models(shot: Shot, stage: Stage) -> bpy.types.Collection:

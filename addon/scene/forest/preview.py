@@ -22,7 +22,7 @@ from .levels import LEVELS
 
 MOST = 8000  # trees; what redraws in a few ms
 _WIDEST = 2.5  # times its width, that a crown stands for others
-_LEVEL = 2  # coarse enough for thousands, still a tree
+LEVEL = 2  # coarse enough for thousands, still a tree
 
 Points = dict[str, NDArray]
 
@@ -44,7 +44,7 @@ def parts(
     some["width"] = some["width"] * min(np.sqrt(count / MOST), _WIDEST)
     for key in ("model", "snag_model") if levelled else ():
         model, level = np.divmod(some[key], LEVELS)
-        some[key] = models.instance(model, np.maximum(level, _LEVEL))
+        some[key] = models.instance(model, np.maximum(level, LEVEL))
     bare = some["arrival_time"] + bare_after
     turns = (bare > shot.frames.first) & (bare <= shot.frames.last)
     some["model"] = np.where(bare <= shot.frames.first, some["snag_model"], some["model"])

@@ -18,6 +18,8 @@ from .sky import NIGHT_SKY, State
 _KEYS = 25  # the sky changes at this many moments of the shot
 _SKY = 0.12  # strength of the sky texture; more drowns the sunlit side of smoke
 _DUST = 0.3  # of the sky texture; 1 makes it pale and greenish
+_FILL = 0.35  # of the sky's mean radiance, added wherever what is near leaves a place open; by eye
+_NEAR = 15.0  # m
 _TRANSFORM, _LOOK = "AgX", "AgX - Medium High Contrast"
 _INSTEAD = ("Filmic", "Standard")  # view transforms where there is no AgX, the better first
 
@@ -87,10 +89,20 @@ def _world(scene: bpy.types.Scene, frames: NDArray[np.float64], states: list[Sta
     shader = nodes.switch(tree, nodes.THERMAL, seen, cold)
     none = tree.output("ShaderNodeBackground", {"Color": (0.0, 1.0, float(masks.SKY)), "Strength": 1.0})
     tree.surface(nodes.switch(tree, nodes.MASKS, shader, none))
+    _fill(world, frames, states)
     compat.set_sky(sky, states[0].sky[0], states[0].sky[1], _DUST)
     place = f'nodes["{sky.name}"]'
     _key(world.node_tree, f"{place}.sun_elevation", frames, np.array([s.sky[0] for s in states]))
     _key(world.node_tree, f"{place}.sun_rotation", frames, np.unwrap([s.sky[1] for s in states]))
+
+
+def _fill(world: bpy.types.World, frames: NDArray[np.float64], states: list[State]) -> None:
+    """Light in the shade between trees, in place of what goes from crown to crown more than once.
+
+    Cycles adds it as ambient occlusion ("Fast GI"): as much as the sky is bright, nothing at night.
+    """
+    world.light_settings.distance = _NEAR
+    _key(world, "light_settings.ao_factor", frames, _FILL * np.array([s.sky_mean for s in states]))
 
 
 def _thermal_sky(world: bpy.types.World, radiance: float) -> None:

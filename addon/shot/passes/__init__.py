@@ -8,7 +8,7 @@ from __future__ import annotations
 import functools
 import importlib
 import pkgutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -51,6 +51,8 @@ class Pass:
         Of each number in its EXR.
     pixel_centres
         Its rays go through the middle of each pixel.
+    shapes
+        It shows where surfaces are and nothing of what they are like.
     filmed
         Its PNG files make a film.
     captions
@@ -59,15 +61,21 @@ class Pass:
         Aspects that its own rendering shows (see `schema.chosen`).
     needs
         Other passes whose files its own are made from.
+    compares
+        It is about all of a scene's runs, and made when what it is made from is finished.
+    across
+        Other passes whose files of every run its own are made from, in a pass that compares.
     mount
         It takes these also from the sensors of its camera's mount (see `shot.mount`).
+    flat
+        Cameras that see all round have it not.
     sources
         Files and folders of the package that decide its files, beside its own module, the helpers of passes
         (`_NAME.py`) and what all depend on.
     finish
         Makes the files that Blender does not, or goes on with those that it made. Called with the pass's
-        files by suffix; those of the passes that it needs, by need and suffix; the shot; the camera's name;
-        and the frame.
+        files by suffix; those of the passes that it needs, by need (of another run ``need@run``) and suffix;
+        the shot; the camera's name; and the frame.
     """
 
     name: str
@@ -84,17 +92,26 @@ class Pass:
     channels: str = "grey"
     bits: int = 32
     pixel_centres: bool = False
+    shapes: bool = False
     filmed: bool = False
     captions: bool = True
     needs: tuple[str, ...] = ()
+    compares: bool = False
+    across: tuple[str, ...] = ()
     mount: bool = False
+    flat: bool = False
     sources: tuple[str, ...] = ()
     finish: Finish | None = None
 
     @property
     def aspects(self) -> frozenset[str]:
         """Aspects that its files depend on: its own and those of the passes that they are made from."""
-        return self.shows.union(*(known()[name].aspects for name in self.needs))
+        return self.shows.union(*(known()[name].aspects for name in self.made_from))
+
+    @property
+    def made_from(self) -> tuple[str, ...]:
+        """The passes that it needs, of its own run or of all."""
+        return tuple(dict.fromkeys((*self.needs, *self.across)))
 
 
 @functools.cache
@@ -113,6 +130,30 @@ def helps() -> dict[str, str]:
 def file_of(camera: str, name: str, frame: int, suffix: str) -> str:
     """A file of a camera's frame in a pass, relative to the output folder."""
     return f"{camera}/{name}/{camera}_{name}_{frame:06d}.{suffix}"
+
+
+def view_of(camera: str, run: str) -> str:
+    """What a camera is called in another run."""
+    return f"{camera}@{run}"
+
+
+def in_other_runs(names: Iterable[str]) -> tuple[str, ...]:
+    """What a camera with these passes records in another run than the first, in order."""
+    asked = [known()[name] for name in names]
+    wanted = {name for each in asked for name in (each.across if each.compares else (each.name,))}
+    return tuple(name for name in known() if name in wanted)
+
+
+def refused(each: Pass, camera: Camera, engine: str) -> str:
+    """Why a camera cannot record a pass with an engine; empty: it can."""
+    if each.masks and engine == "eevee":
+        return (
+            f'camera "{camera.name}" cannot record {each.name} with EEVEE, which keeps 11 bits of a number, '
+            "and numbers of trees have more; render it with Cycles"
+        )
+    if each.flat and camera.rig.around:
+        return f'camera "{camera.name}" sees all round, which has no {each.name}'
+    return ""
 
 
 def of_camera(settings: Settings, camera: Camera) -> tuple[Pass, ...]:

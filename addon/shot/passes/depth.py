@@ -40,6 +40,7 @@ PASS = Pass(
     leaves_out=("smoke", "fire"),
     samples=1,
     pixel_centres=True,
+    shapes=True,
     shows=frozenset({"time", "camera", "picture", "ground", "forest"}),
     finish=finish,
 )

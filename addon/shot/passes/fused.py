@@ -115,6 +115,7 @@ PASS = Pass(
     shows=frozenset({"time", "camera", "film", "ground", "thermal"}),
     needs=("rgb", "thermal", "depth"),
     mount=True,
+    flat=True,
     sources=("shot/rigs/mounted.py", "shot/rigs/minimap.py"),
     finish=finish,
 )

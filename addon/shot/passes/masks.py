@@ -15,7 +15,7 @@ The EXR holds `class`; `clear`, the part 0..1 of what is behind smoke that comes
 the number of the tree from 1 on (0: none), the same in all frames of a camera that are built together (see
 [render] chunk). The PNG shows each class in one colour. One ray goes through the middle of each pixel and
 nothing is filtered, so numbers are whole. Where smoke lets nothing through, what is behind is not known:
-instance 0. EEVEE's pixels hold fewer digits: its classes are right and its instances are not.
+instance 0. EEVEE's pixels hold 11 bits (half floats), which are too few for numbers of trees: it is refused.
 """
 
 from __future__ import annotations
@@ -67,7 +67,8 @@ def finish(files: Files, _needed: Mapping[str, Files], _shot: Shot, _camera: str
 PASS = Pass(
     name="masks",
     order=27,
-    help="Class of each pixel (fire, smoke, tree, burned, ground, sky) and number of each tree, EXR and PNG",
+    help="Class of each pixel (fire, smoke, tree, burned, ground, sky) and number of each tree, EXR and PNG; "
+    "numbers hold within one camera's frames that are built together ([render] chunk)",
     files=("exr", "png"),
     output="Image",
     leaves_out=("lamps",),

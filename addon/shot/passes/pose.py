@@ -7,6 +7,10 @@ count from the upper left corner of the picture, u to the right and v down, the 
 planar depth; in a parallel projection d is left out, and fx and fy are pixels per metre. Lenses distort
 nothing. The camera in Blender is within 0.05 pixels of it. `files` are those of the camera's passes in the
 scene file, as seen from the sidecar.
+
+Where a camera sees all round, the picture of the left eye, `eye` pixels high, lies above the right one's. An
+eye sees the direction (x, y, z) at u = cx + fx atan2(x, -z) and v = cy - fy asin(y) of its picture; fx and fy
+are pixels per radian, and the eyes are `interocular` metres apart.
 """
 
 from __future__ import annotations
@@ -95,14 +99,17 @@ def pose(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
 def intrinsics(view: Path, frame: int, width: int, height: int) -> dict[str, Any]:
     """How it projects."""
     across, up = view.halves[frame - 1] / (view.meet or 1.0)
+    eye = height // 2 if view.around else height
+    flat = "perspective" if view.perspective or view.meet else "parallel"
     return {
-        "projection": "perspective" if view.perspective or view.meet else "parallel",
+        "projection": "equirectangular" if view.around else flat,
         "width": width,
         "height": height,
+        **({"eye": eye, "interocular": view.apart} if view.around else {}),
         "fx": 0.5 * width / float(across),
-        "fy": 0.5 * height / float(up),
+        "fy": 0.5 * eye / float(up),
         "cx": 0.5 * width,
-        "cy": 0.5 * height,
+        "cy": 0.5 * eye,
         "distortion": {"model": "none", **dict.fromkeys(("k1", "k2", "k3", "p1", "p2"), 0.0)},
     }
 

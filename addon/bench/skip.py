@@ -1,0 +1,124 @@
+"""What a shot leaves out -> cost against error: a drone's picture built and drawn, beside all that there is.
+
+Each is built and drawn in a process of its own, without smoke, with as many trees in reach. Times are of the
+processor, memory is the most that the process held less what starting Blender takes, and the error is the
+mean FLIP (Andersson et al. 2020) against the picture of all; beside it stands what another grain makes of
+that. At real sizes, for a lookout and a satellite too, `tests/benchmarks/skipping.py` measures the same.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from importlib.util import find_spec
+from pathlib import Path
+
+from ..data import sample
+from ..jobs import worker
+from ..progress import Progress, Tell, silent, untold
+from ..shot import settings
+from ..shot.rigs.drone import CameraKey, Drone
+from .harness import OURS, Bench
+from .step import MOMENT
+from .timing import Times
+
+VIEW = CameraKey(0.0, 38.977, -120.572, 150.0, "head")
+RESOLUTION, SAMPLES = (160, 90), 4
+REACH = 500.0  # m to which trees stand: all of a forest's within more would not fit into a minute
+MODEL_TIMES = 3  # of the sample; arrival times are all there
+ALL, GRAIN = "all there is", "all there is, other grain"
+TIMES, LESS, ERROR = 3.0, 3.0, 0.02  # wanted: so much faster, in so much less memory, FLIP at most
+
+
+def run(bench: Bench) -> None:
+    """Build and draw both, then compare."""
+    if find_spec("bpy") is None:
+        bench.skip("bpy is not installed (pip install 'firetwin[blender]')")
+        return
+    flip = bench.rival("flip_evaluator")
+    if flip is None:
+        return
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        sample.write(folder / "run", MODEL_TIMES, "npy")
+        found = {
+            tool: worker.run(f"{__name__}:draw", {"folder": name, "skip": tool == OURS, "tool": tool})
+            for tool in (OURS, ALL)
+        }
+        error = {
+            tool: flip.evaluate(picture(name, ALL), picture(name, tool), "LDR")[1] for tool in (OURS, GRAIN)
+        }
+    size = f"a drone's frame of {RESOLUTION[0]} by {RESOLUTION[1]} pixels"
+    for step in ("build", "render"):
+        for tool, each in found.items():
+            bench.row(
+                f"{size}: {step}",
+                tool,
+                Times((each[step],)),
+                RESOLUTION[0] * RESOLUTION[1],
+                "pixel",
+                error=error.get(tool) if step == "render" else None,
+                error_unit="FLIP",
+                threads=os.cpu_count() or 1,
+                bytes=round(each["bytes"]) if step == "render" else None,
+            )
+    ours, whole = found[OURS], found[ALL]
+    seconds = [each["build"] + each["render"] for each in (whole, ours)]
+    bench.target("building and drawing takes less than of all there is", seconds[0] / seconds[1], TIMES, "x")
+    bench.target("and less memory", whole["bytes"] / ours["bytes"], LESS, "x")
+    bench.row(f"{size}: render", GRAIN, None, 1, "pixel", error=error[GRAIN], error_unit="FLIP")
+    bench.target("off the picture of all there is by", error[OURS], ERROR, "FLIP", most=True)
+
+
+def picture(folder: str, tool: str) -> str:
+    """Where a tool's picture is written."""
+    return str(Path(folder) / f"{tool.replace(' ', '_').replace(',', '')}.png")
+
+
+def scene_file(folder: Path, skip: bool) -> settings.Settings:
+    """One frame of the sample from a drone, with or without what it cannot see."""
+    return settings.Settings(
+        path=folder / "scene.toml",
+        run=folder / "run",
+        cache=folder / "cache",
+        time=settings.Time(start=MOMENT, frames=1),
+        forest=settings.Forest(draw_distance=REACH),
+        smoke=settings.Smoke(enabled=False),
+        cameras=(settings.Camera("drone", Drone(keys=(VIEW,))),),
+        render=settings.Render(resolution=RESOLUTION, samples=SAMPLES, passes=("rgb",), skip=skip),
+    )
+
+
+# What follows runs in the worker process, where Blender is.
+
+
+def draw(
+    folder: str, skip: bool, tool: str, progress: Progress = silent, tell: Tell = untold
+) -> dict[str, float]:
+    """Build and draw a scene -> processor seconds of both, and bytes; all there is also with other grain."""
+    import resource
+    import time
+
+    import bpy
+    from firetwin_core import run as runs
+
+    from ..jobs import setting
+    from ..shot.shot import Shot
+
+    def held() -> float:
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024.0
+
+    file = scene_file(Path(folder), skip)
+    before, begun = held(), time.process_time()
+    stage = setting.build_scene(Shot(file, runs.open(file.run)), progress, tell)
+    built = time.process_time()
+    stage.scene.camera = stage.camera("drone")
+    stage.scene.frame_set(1)
+    stage.scene.render.filepath = picture(folder, tool)
+    bpy.ops.render.render(write_still=True, scene=stage.scene.name)
+    found = {"build": built - begun, "render": time.process_time() - built, "bytes": held() - before}
+    if not skip:
+        stage.scene.cycles.seed = 1
+        stage.scene.render.filepath = picture(folder, GRAIN)
+        bpy.ops.render.render(write_still=True, scene=stage.scene.name)
+    return found

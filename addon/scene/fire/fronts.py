@@ -1,0 +1,75 @@
+"""Fronts of the other runs in the scene: flat ribbons on the ground that glow, one for each moment."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from firetwin_core.run import Run
+
+from ...blender import nodes, owned
+from ...blender.owned import Stage
+from ...shot import fronts
+from ...shot.shot import Shot
+from .. import clock, glow, haze
+from . import observed
+
+
+def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> None:
+    """Build "Firetwin Front NAME" for each of the runs that the shot's stands beside, if the settings ask.
+
+    Corners carry `seen_start` and `seen_end`, model times in s; geometry nodes leave those of the moment.
+    """
+    if not shot.settings.fire.fronts:
+        return
+    colours = fronts.colours(shot.whole)
+    for name, run in shot.whole.neighbours().items():
+        thing = owned.add(collection, f"Front {name}", _mesh(shot, name, run))
+        thing.data.materials.append(_material(shot, stage, name, colours[name]))
+        thing.modifiers.new("Firetwin Front", "NODES").node_group = _of_the_moment(shot, name)
+        observed.seen_only(thing)
+
+
+def _mesh(shot: Shot, name: str, run: Run) -> bpy.types.Mesh:
+    found = fronts.lines(shot, run)
+    count = len(found.points)
+    before = np.empty(count, np.int64)
+    before[found.after] = np.arange(count)
+    corners = observed.band(found.points, before, found.after, shot.settings.fire.observed_width)
+    here = np.arange(count)
+    faces = np.column_stack([here, found.after, found.after + count, here + count]).astype(np.int32)
+    mesh = bpy.data.meshes.new(f"Firetwin Front {name}")
+    mesh.vertices.add(2 * count)
+    mesh.vertices.foreach_set("co", corners.ravel())
+    mesh.loops.add(4 * count)
+    mesh.loops.foreach_set("vertex_index", faces.ravel())
+    mesh.polygons.add(count)
+    mesh.polygons.foreach_set("loop_start", np.arange(0, 4 * count, 4, dtype=np.int32))
+    for which in ("start", "end"):
+        values = np.tile(getattr(found, which), 2).clip(-1e12, 1e12).astype(np.float32)
+        mesh.attributes.new(f"seen_{which}", "FLOAT", "POINT").data.foreach_set("value", values)
+    mesh.update(calc_edges=True)
+    return mesh
+
+
+def _of_the_moment(shot: Shot, name: str) -> bpy.types.NodeTree:
+    """Ribbons of all moments -> that of this one."""
+    tree, entry = nodes.geometry(f"Firetwin Front {name}")
+    time = clock.geometry_time(tree, shot)
+    start, end = (
+        tree.output("GeometryNodeInputNamedAttribute", {"Name": f"seen_{which}"}, data_type="FLOAT")
+        for which in ("start", "end")
+    )
+    other = tree.math("ADD", start > time, 1.0 - (end > time), clamp=True)
+    tree.geometry(tree.output("GeometryNodeDeleteGeometry", {"Geometry": entry, "Selection": other > 0.5}))
+    return tree.node_tree
+
+
+def _material(shot: Shot, stage: Stage, name: str, colour: str) -> bpy.types.Material:
+    shown = tuple((int(colour[at : at + 2], 16) / 255.0) ** 2.2 for at in (1, 3, 5))
+    material, tree = nodes.material(f"Firetwin Front {name}", shown)
+    part, _air = haze.fraction(tree, stage)
+    strength = (1.0 - part) * (observed.LIGHT * glow.brightness(shot))
+    clear = tree.output("ShaderNodeBsdfTransparent", {"Color": (1.0, 1.0, 1.0)})
+    tree.surface(nodes.switch(tree, nodes.THERMAL, tree.emission(shown, strength), clear))
+    material.cycles.emission_sampling = "NONE"
+    return material

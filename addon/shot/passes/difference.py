@@ -1,0 +1,100 @@
+"""Where one run has burned by the moment and another has not, on the ground of the visible picture.
+
+The picture of the first run, without its colours, is tinted where the ground that is seen (by the depth) has
+burned: in both runs, in the first alone, or in the other alone. Fronts are those of the scores: even between
+two cells' middles. Ground outside of a run's grid is left grey, as nothing is known of it. Smoke hides no
+tint. Of two or three other runs each has a part of the picture (see `split`), compared with the first.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from . import Files, Pass
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ..shot import Shot
+
+BOTH = "#f0a03c"
+_TINT = 0.6  # of a colour in the picture
+_GREY = 0.75  # of the picture's own brightness
+
+
+def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
+    """Tint the picture."""
+    from firetwin_core import sensor
+
+    from ...errors import Error
+    from .. import fronts
+    from . import _view
+
+    try:
+        from . import _beside
+    except ModuleNotFoundError as error:
+        raise Error(f"the difference pass needs {error.name}, not in Blender: pip install it") from None
+    rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
+    planar = sensor.read_image(needed["depth"]["exr"])[..., 0]
+    points = _view.points(_view.of(shot, camera), frame, planar)
+    names, colours = [shot.title, *shot.others], fronts.colours(shot)
+    pictures, keys = [], []
+    for label, kinds in zip(shot.others, classes(shot, points, frame), strict=True):
+        shades = [BOTH, colours[shot.title], colours[label]]
+        pictures.append(tinted(rgb, kinds, shades))
+        keys.append(list(zip(shades, ("burned in both", f"only {names[0]}", f"only {label}"), strict=True)))
+    sensor.write_image(files["png"], _beside.sheet(pictures, keys, _beside.foot(shot, frame)))
+
+
+def classes(shot: Shot, points: NDArray[np.float64], frame: int) -> list[NDArray[np.uint8]]:
+    """Of each other run (h, w) at scene points (h, w, 3): 1 burned in both, 2 in the first, 3 in it alone.
+
+    0 is all else: not burned, no ground, or ground outside of either grid.
+    """
+    import numpy as np
+
+    from ...run import times
+    from ..fronts import reach
+
+    ground = np.isfinite(points).all(axis=-1)
+    latitude, longitude, _ = shot.local_frame.reverse(points[ground])
+    moment, found = shot.moment(frame), []
+    burned = {}
+    for label, run in {"": shot.run, **shot.others}.items():
+        burned[label] = reach(run).burned(latitude, longitude, times.seconds(run, moment))
+    first = burned.pop("")
+    for other in burned.values():
+        kinds = np.zeros(ground.shape, np.uint8)
+        known = np.isfinite(first) & np.isfinite(other)
+        here, there = first == 1.0, other == 1.0
+        kinds[ground] = np.where(known, np.where(here, np.where(there, 1, 2), np.where(there, 3, 0)), 0)
+        found.append(kinds)
+    return found
+
+
+def tinted(rgb: NDArray, kinds: NDArray[np.uint8], shades: list[str]) -> NDArray[np.float32]:
+    """The picture (h, w, 3) without its colours, but with those of classes 1 to 3 (h, w)."""
+    import numpy as np
+
+    grey = _GREY * (rgb @ np.array([0.2126, 0.7152, 0.0722]))[..., None]
+    colour = np.array([[0.0] * 3, *([int(s[at : at + 2], 16) / 255.0 for at in (1, 3, 5)] for s in shades)])
+    share = np.where(kinds > 0, _TINT, 0.0)[..., None]
+    return (grey * (1.0 - share) + colour[kinds] * share).astype(np.float32)
+
+
+PASS = Pass(
+    name="difference",
+    order=75,
+    help="Where the first run has burned and others in [[runs]] have not, tinted in its picture",
+    files=("png",),
+    output="",
+    filmed=True,
+    captions=False,
+    shows=frozenset({"time", "camera", "film", "picture", "ground"}),
+    compares=True,
+    needs=("rgb", "depth"),
+    finish=finish,
+)

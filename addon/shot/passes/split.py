@@ -1,0 +1,53 @@
+"""Split screen: the visible pictures of all runs at the same moment, with their names and what has burned.
+
+Of two runs each has a half, which shows the middle half of its own picture: the same landscape in both. Of
+three or four each has a quarter and all of its picture, half as large.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from . import Files, Pass, view_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ..shot import Shot
+
+
+def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
+    """Put the pictures side by side."""
+    from firetwin_core import sensor
+
+    from ...errors import Error
+    from ...run import info, times
+    from .. import fronts
+
+    try:
+        from . import _beside
+    except ModuleNotFoundError as error:
+        raise Error(f"the split pass needs {error.name}, which is not in Blender: pip install it") from None
+    moment, colours = shot.moment(frame), fronts.colours(shot)
+    names = ["rgb", *(view_of("rgb", label) for label in shot.others)]
+    pictures = [sensor.read_image(needed[name]["png"])[..., :3] for name in names]
+    keys = []
+    for label, run in {shot.title: shot.run, **shot.others}.items():
+        acres = info.burned(run, [times.seconds(run, moment)])[0] / info.ACRE
+        keys.append([(colours[label], f"{label}  {acres:,.0f} acres")])
+    sensor.write_image(files["png"], _beside.sheet(pictures, keys, _beside.foot(shot, frame)))
+
+
+PASS = Pass(
+    name="split",
+    order=70,
+    help="The pictures of all runs in [[runs]] side by side, with names and time",
+    files=("png",),
+    output="",
+    filmed=True,
+    captions=False,
+    shows=frozenset({"time", "camera", "film", "picture"}),
+    compares=True,
+    across=("rgb",),
+    finish=finish,
+)

@@ -1,0 +1,28 @@
+"""The other runs of the scene file in the .blend file: `scene.firetwin.runs`, an item for each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import bpy
+
+from ..shot.schema import parts
+from ..shot.settings import OtherRun
+from . import sections
+
+FIRETWIN_PG_otherrun = sections.group(OtherRun)
+
+
+def runs(panel: bpy.types.PropertyGroup) -> tuple[OtherRun, ...]:
+    """All of them in their order."""
+    return tuple(sections.take(item, parts(OtherRun), OtherRun()) for item in panel.runs)
+
+
+def fill(panel: bpy.types.PropertyGroup, found: Iterable[OtherRun]) -> None:
+    """Let the list hold these runs alone."""
+    panel.runs.clear()
+    for each in found:
+        sections.put(panel.runs.add(), parts(OtherRun), each)
+
+
+classes = (FIRETWIN_PG_otherrun,)
