@@ -23,6 +23,7 @@ SUBJECTS = (
     "volume",
     "smoke",
     "step",
+    "scrub",
     "scattering",
     "plume",
     "flow",

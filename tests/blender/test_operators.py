@@ -8,7 +8,7 @@ import panel_scene
 import pytest
 from bl_operators.presets import AddPresetBase
 from bpy_extras.io_utils import ExportHelper, ImportHelper
-from firetwin.jobs import assets, render, sample, standing
+from firetwin.jobs import assets, convert, render, sample, standing
 from firetwin.ui import flying, queue, working
 from mathutils import Euler, Matrix
 from panel_scene import state
@@ -83,6 +83,7 @@ CHANGES = {
     "inspect": {},
     "open": {"filepath": "{folder}/other/run.toml"},
     "sample": {"folder": "{folder}/king"},
+    "convert": {"filepath": "{folder}/other"},
     "quality": {"level": "final"},
     "window": {"key": "start", "moment": "2014-09-17T21:10:00Z"},
     "reset": {"section": "time", "key": "frames"},
@@ -123,6 +124,7 @@ def call(name, options, folder):
 def test_undo_and_redo_go_round_every_operator(panel, blend, tmp_path, monkeypatch):
     """What an operator changes comes back with undo and again with redo; others change nothing."""
     assert {*CHANGES, *KEEPS, *LISTENS} == set(OPERATORS)
+    monkeypatch.setattr(convert, "beside", lambda paths, *_, **__: (paths[0], True))
     monkeypatch.setattr(sample, "run", lambda folder, **_: shutil.copytree(blend.parent / "other", folder))
     for job in (render, assets):
         monkeypatch.setattr(job, "run", lambda *_, **__: 1)

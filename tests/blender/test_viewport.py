@@ -7,6 +7,7 @@ from firetwin.blender import viewport
 from firetwin.render import layers
 from firetwin.scene import build
 from firetwin.scene.forest import preview
+from firetwin.scene.forest.levels import LEVELS
 from firetwin.scene.ground import solid
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
@@ -40,6 +41,33 @@ def test_others_stand_in_for_a_large_forest(near_shot, scene, few):
     assert all(thing.hide_render and not thing.hide_viewport for thing in shown)
     assert drawn(["Firetwin Trees"]) == 0
     assert drawn([thing.name for thing in shown]) == some
+    place, living, burned = (array(full, name) for name in ("position", "model", "snag_model"))
+    for model, at in standing(shown):  # the same models as those they stand for
+        nearest = np.argmin(np.linalg.norm(place - at, axis=1))
+        assert model in {living[nearest] // LEVELS, burned[nearest] // LEVELS}
+    models = shown[0].modifiers[0].node_group.nodes["Collection Info"].inputs["Collection"].default_value
+    assert len(models.objects) < 60  # of more than a hundred
+
+
+def standing(things):
+    """Numbers of models and places of 20 of the instances of these objects."""
+    return [
+        (int(item.object.original.name.split()[2]), np.array(item.matrix_world.translation))
+        for item in bpy.context.evaluated_depsgraph_get().object_instances
+        if item.is_instance and item.parent.original in things
+    ][:20]
+
+
+def array(thing, name):
+    """An attribute of an object's points."""
+    data = thing.data.attributes[name].data
+    if name == "position":
+        found = np.empty((len(data), 3), np.float32)
+        data.foreach_get("vector", found.ravel())
+    else:
+        found = np.empty(len(data), np.int32)
+        data.foreach_get("value", found)
+    return found
 
 
 def test_only_trees_that_burn_follow_time(near_shot, scene, few):

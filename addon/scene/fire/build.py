@@ -108,7 +108,6 @@ def node_group(shot: Shot, shapes: bpy.types.Collection) -> bpy.types.NodeTree:
     age = clock.geometry_time(tree, shot) - named("arrival_time")
     part = age / named("residence")
     outside = tree.math("ADD", age < 0.0, tree.math("SUBTRACT", 1.0, part < 1.0), clamp=True)
-    alive = tree.output("GeometryNodeDeleteGeometry", {"Geometry": entry, "Selection": outside > 0.5})
     life = part.ramp(0.0, 0.2, 0.25, 1.0) * part.ramp(0.6, 1.0, 1.0, 0.2)
     seed = named("seed")
     camera = tree.output("GeometryNodeInputActiveCamera")
@@ -135,7 +134,8 @@ def node_group(shot: Shot, shapes: bpy.types.Collection) -> bpy.types.NodeTree:
     placed = tree.output(
         "GeometryNodeInstanceOnPoints",
         {
-            "Points": alive,
+            "Points": entry,
+            "Selection": outside < 0.5,
             "Instance": several,
             "Pick Instance": True,
             "Instance Index": shape,

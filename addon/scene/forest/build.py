@@ -155,7 +155,8 @@ def _instances(
     shown = []
     for part, some, follows in preview.parts(shot, points, bare_after, name != "Grass"):
         title = f"{part} {name} in Viewport".strip()
-        group = node_group(shot, f"Firetwin {title}", library, bare_after if follows else None)
+        few = preview.used(title, library, some)
+        group = node_group(shot, f"Firetwin {title}", few, bare_after if follows else None)
         shown.append(_object(collection, title, some, group))
     preview.stand_in(full, shown)
     return full

@@ -1,0 +1,92 @@
+"""A frame change in Blender's viewport: the sample's ground, forest, fire and light at their full size.
+
+Processor time of one view layer, as a window shows it; smoke is left out, which is read from files. Beside it
+stands the scene without one of its objects, which tells what that object takes.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from datetime import UTC, datetime
+from importlib.util import find_spec
+from pathlib import Path
+
+from ..jobs import worker
+from ..progress import Progress, Tell, silent, untold
+from ..shot import settings
+from ..shot.rigs.drone import CameraKey, Drone
+from ..shot.shot import Shot
+from .harness import OURS, Bench
+from .timing import LEAST, Times
+
+START, END = datetime(2014, 9, 17, 23, 0, tzinfo=UTC), datetime(2014, 9, 17, 23, 24, tzinfo=UTC)
+VIEW = CameraKey(0.0, 38.984, -120.558, 600.0, "head")
+FRAMES = 48
+MODEL_TIMES = 25  # of the sample; fire and forest hang on the fuel's arrival times, which are all there
+LIMIT = 5.0  # ms
+
+
+def run(bench: Bench) -> None:
+    """Build the scene in a process of its own, and change its frame there."""
+    if find_spec("bpy") is None:
+        bench.skip("bpy is not installed (pip install 'firetwin[blender]')")
+        return
+    times = 5 * LEAST if bench.full else 2 * LEAST
+    with tempfile.TemporaryDirectory() as folder:
+        found = worker.run(f"{__name__}:change_in_blender", {"folder": folder, "times": times})
+    for what, seconds in found.items():
+        bench.row("the sample's scene", what, Times(tuple(seconds)), 1, "frame")
+    milliseconds = [1e3 * each for each in found[OURS]]
+    bench.target("a frame change in the viewport takes", milliseconds, LIMIT, "ms", most=True)
+
+
+def scene_file(folder: Path) -> settings.Settings:
+    """The first half hour of the run up the canyon, from a drone, without smoke."""
+    return settings.Settings(
+        path=folder / "scene.toml",
+        run=folder / "sample",
+        cache=folder / "cache",
+        time=settings.Time(start=START, end=END, frames=FRAMES),
+        smoke=settings.Smoke(enabled=False),
+        cameras=(settings.Camera(rig=Drone(keys=(VIEW,))),),
+    )
+
+
+# What follows runs in the worker process, where Blender is.
+
+
+def change_in_blender(
+    folder: str, times: int, progress: Progress = silent, tell: Tell = untold
+) -> dict[str, list[float]]:
+    """Processor seconds of each frame change: of all, and without each object whose nodes follow time."""
+    import bpy
+    from firetwin_core import run as runs
+
+    from ..data import sample
+    from ..scene import build
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene, file = bpy.context.scene, scene_file(Path(folder))
+    sample.write(file.run, MODEL_TIMES, "npy")
+    build.build(Shot(file, runs.open(file.run)), scene)
+    found = {OURS: _changes(times)}
+    shown = [thing for thing in scene.objects if thing.modifiers and not thing.hide_viewport]
+    for thing in shown:
+        thing.hide_viewport = True
+        found[f"without {thing.name.removeprefix('Firetwin ')}"] = _changes(times)
+        thing.hide_viewport = False
+    return found
+
+
+def _changes(times: int) -> list[float]:
+    """Processor seconds of so many frame changes over the whole shot, after one that is not counted."""
+    import time
+
+    import bpy
+
+    scene, found = bpy.context.scene, []
+    for number in range(times + 1):
+        start = time.process_time()
+        scene.frame_set(1 + 7 * number % FRAMES)
+        found.append(time.process_time() - start)
+    return found[1:]
