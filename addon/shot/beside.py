@@ -107,6 +107,7 @@ class Beside(Shot):
             replace(
                 settings,
                 run=own.path,
+                runs=(),
                 time=replace(settings.time, start=begin, end=end if shown.count > 1 else None),
                 render=replace(settings.render, passes=_alone(settings.render.passes)),
                 cameras=tuple(_renamed(camera, label) for camera in settings.cameras),

@@ -2,8 +2,10 @@
 
 import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import bpy
+import firetwin
 import numpy as np
 import pytest
 from firetwin.blender import owned
@@ -15,6 +17,7 @@ from firetwin.scene.fire import build as fire
 from firetwin.shot.choice import Choice
 from firetwin.shot.settings import OtherRun
 from firetwin.shot.shot import Shot
+from firetwin.ui import other_runs
 from firetwin_core import sensor
 from scene_text import TINY
 
@@ -97,6 +100,21 @@ def test_the_difference_shows_what_the_late_run_has_not_burned(film):
     amber = tint & (rgb[..., 0] > rgb[..., 1] + 0.05) & (rgb[..., 1] > rgb[..., 2])
     ratio = green[8:].sum() / amber[8:].sum()
     assert 0.6 < ratio < 1.1  # circles of 1/3 and 1/4: 0.78 on level ground
+
+
+def test_runs_are_added_and_removed_in_the_sidebar(scene):
+    firetwin.register()
+    try:
+        panel = scene.firetwin
+        for _ in range(3):
+            bpy.ops.firetwin.run_add()
+        assert [item.name for item in panel.runs] == ["what-if", "what-if-2", "what-if-3"]
+        assert not bpy.ops.firetwin.run_add.poll()
+        bpy.ops.firetwin.run_remove(index=0)
+        panel.runs[1].path = "/somewhere"
+        assert other_runs.runs(panel)[1] == OtherRun("what-if-3", Path("/somewhere"))
+    finally:
+        firetwin.unregister()
 
 
 def test_a_front_is_drawn_at_its_moment_alone(run, settings, late_folder):

@@ -124,6 +124,14 @@ def test_what_cannot_be_is_said(scene, old, new, words):
         Choice(scene=str(scene)).shot()
 
 
+def test_one_of_the_runs_is_built_by_its_name(scene):
+    shot = Choice(scene=str(scene), beside="wide").shot()
+    assert (shot.run.name, shot.views) == ("Wide", ["drone@wide", "ir@wide"])
+    assert shot.neighbours().keys() == {"a"}
+    with pytest.raises(UsageError, match=r'--run: there is no "none" in .*; the scene has wide'):
+        Choice(scene=str(scene), beside="none").shot()
+
+
 def names(pictures):
     return [f"{each.camera} {each.frame} {each.name}" for each in pictures]
 
