@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..shot.settings import MOST_RUNS
-from . import job
+from . import job, working
 from .text import paragraph
 
 
@@ -21,8 +21,9 @@ class FIRETWIN_OT_run_add(bpy.types.Operator):
         if len(context.scene.firetwin.runs) >= MOST_RUNS:
             cls.poll_message_set(f"At most {MOST_RUNS} beside the first")
             return False
-        return job.Job.current is None
+        return working.editable(cls, context)
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         panel = context.scene.firetwin
         taken = {item.name for item in panel.runs}
@@ -43,8 +44,9 @@ class FIRETWIN_OT_run_remove(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return job.Job.current is None
+        return working.editable(cls, context)
 
+    @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.scene.firetwin.runs.remove(self.index)
         return {"FINISHED"}

@@ -97,6 +97,8 @@ CHANGES = {
     "camera_aim": {"target": "point"},
     "camera_path": {},
     "f12_files": {},
+    "run_add": {},
+    "run_remove": {},
 }
 KEEPS = {
     "copy": {"message": "this"},
@@ -134,6 +136,8 @@ def test_undo_and_redo_go_round_every_operator(panel, blend, tmp_path, monkeypat
     bpy.ops.ed.undo_push(message="opened")
     bpy.context.scene.firetwin.light.haze = 0.7
     for name, options in CHANGES.items():
+        if name == "run_remove":
+            bpy.context.scene.firetwin.runs.add().name = "other"
         bpy.ops.ed.undo_push(message=f"before {name}")
         before = state()
         assert call(name, options, blend.parent) == {"FINISHED"}, name
@@ -144,6 +148,7 @@ def test_undo_and_redo_go_round_every_operator(panel, blend, tmp_path, monkeypat
         bpy.ops.ed.redo()
         assert state() == after, name
         bpy.ops.ed.undo()
+    bpy.context.scene.firetwin.runs.clear()
     bpy.ops.ed.undo_push(message="the rest")
     before = state()
     for name, options in KEEPS.items():

@@ -3,6 +3,7 @@
 import bpy
 import firetwin
 from firetwin.blender import compat
+from firetwin.errors import Error
 from firetwin.shot import file
 from firetwin.ui import scene_file
 from scene_text import BARE, TINY
@@ -44,6 +45,14 @@ def build(run, folder):
     return folder / "scene.blend"
 
 
+def settings(scene):
+    """What the panel of a scene says, as a scene file, or why it cannot be one."""
+    try:
+        return file.text(scene_file.settings(scene))
+    except Error as error:
+        return str(error)
+
+
 def state():
     """What an artist could lose: blocks, places, curves, constraints, lenses, settings; not what is seen."""
     blocks = {
@@ -64,7 +73,8 @@ def state():
     scenes = {
         scene.name: (
             scene.camera.name if scene.camera else None,
-            file.text(scene_file.settings(scene)),
+            settings(scene),
+            scene.firetwin.runs.keys(),
             scene.firetwin.first_time,
             [node.mute for node in tree.nodes] if (tree := compat.compositor(scene)) else [],
         )
