@@ -96,7 +96,6 @@ def draw(
     folder: str, skip: bool, tool: str, progress: Progress = silent, tell: Tell = untold
 ) -> dict[str, float]:
     """Build and draw a scene -> processor seconds of both, and bytes; all there is also with other grain."""
-    import resource
     import time
 
     import bpy
@@ -105,20 +104,26 @@ def draw(
     from ..jobs import setting
     from ..shot.shot import Shot
 
-    def held() -> float:
-        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024.0
-
     file = scene_file(Path(folder), skip)
-    before, begun = held(), time.process_time()
+    before, begun = _most(), time.process_time()
     stage = setting.build_scene(Shot(file, runs.open(file.run)), progress, tell)
     built = time.process_time()
     stage.scene.camera = stage.camera("drone")
     stage.scene.frame_set(1)
     stage.scene.render.filepath = picture(folder, tool)
     bpy.ops.render.render(write_still=True, scene=stage.scene.name)
-    found = {"build": built - begun, "render": time.process_time() - built, "bytes": held() - before}
+    found = {"build": built - begun, "render": time.process_time() - built, "bytes": _most() - before}
     if not skip:
         stage.scene.cycles.seed = 1
         stage.scene.render.filepath = picture(folder, GRAIN)
         bpy.ops.render.render(write_still=True, scene=stage.scene.name)
     return found
+
+
+def _most() -> float:
+    """Bytes that this process has held at the most; NaN where the system does not say as Linux does."""
+    status = Path("/proc/self/status")
+    if not status.is_file():
+        return float("nan")
+    (line,) = (each for each in status.read_text().splitlines() if each.startswith("VmHWM"))
+    return 1024.0 * float(line.split()[1])
