@@ -1,4 +1,4 @@
-"""Split screen: the visible pictures of all runs at the same moment, with their names and what has burned.
+"""Split screen: all runs' visible pictures at the same moment, with names, what has burned, and whose fronts show.
 
 Of two runs each has a half, which shows the middle half of its own picture: the same landscape in both. Of
 three or four each has a quarter and all of its picture, half as large.
@@ -28,13 +28,14 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
         from . import _beside
     except ModuleNotFoundError as error:
         raise Error(f"the split pass needs {error.name}, which is not in Blender: pip install it") from None
-    moment, colours = shot.moment(frame), fronts.colours(shot)
+    moment, colours, drawn = shot.moment(frame), fronts.colours(shot), shot.settings.fire.fronts
     names = ["rgb", *(view_of("rgb", label) for label in shot.others)]
     pictures = [sensor.read_image(needed[name]["png"])[..., :3] for name in names]
     keys = []
     for label, run in {shot.title: shot.run, **shot.others}.items():
         acres = info.burned(run, [times.seconds(run, moment)])[0] / info.ACRE
-        keys.append([(colours[label], f"{label}  {acres:,.0f} acres")])
+        others = [(colours[other], f"front of {other}") for other in colours if other != label]
+        keys.append([(colours[label], f"{label}  {acres:,.0f} acres"), *(others if drawn else ())])
     sensor.write_image(files["png"], _beside.sheet(pictures, keys, _beside.foot(shot, frame)))
 
 
