@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import importlib.util
 import os
 import platform
 import statistics
@@ -189,6 +190,17 @@ class Bench:
             why = "is not installed (pip install 'firetwin[bench]')" if missing else "cannot be imported"
             self.skip(f"{name} {why}")
             return None
+
+    def blender(self) -> bool:
+        """Whether Blender's module is there; notes that it is missing."""
+        if there := importlib.util.find_spec("bpy") is not None:
+            return there
+        self.skip("bpy is not installed (pip install 'firetwin[blender]')")
+        return False
+
+    def flip(self) -> ModuleType | None:
+        """FLIP, which compares pictures that Blender renders, where both are there."""
+        return self.rival("flip_evaluator") if self.blender() else None
 
     def skip(self, reason: str) -> None:
         """Note what was left out."""

@@ -11,7 +11,6 @@ from __future__ import annotations
 import os
 import tempfile
 from datetime import UTC, datetime
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -51,10 +50,7 @@ LIMIT = 0.15  # FLIP, of a picture half of which is smoke
 
 def run(bench: Bench) -> None:
     """Render every way, then compare."""
-    if find_spec("bpy") is None:
-        bench.skip("bpy is not installed (pip install 'firetwin[blender]')")
-        return
-    flip = bench.rival("flip_evaluator")
+    flip = bench.flip()
     if flip is None:
         return
     with tempfile.TemporaryDirectory() as folder:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import tempfile
 from datetime import UTC, datetime
-from importlib.util import find_spec
 from pathlib import Path
 
 from ..jobs import worker
@@ -28,8 +27,7 @@ LIMIT = 5.0  # ms
 
 def run(bench: Bench) -> None:
     """Build the scene in a process of its own, and change its frame there."""
-    if find_spec("bpy") is None:
-        bench.skip("bpy is not installed (pip install 'firetwin[blender]')")
+    if not bench.blender():
         return
     times = 5 * LEAST if bench.full else 2 * LEAST
     with tempfile.TemporaryDirectory() as folder:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import os
 import tempfile
-from importlib.util import find_spec
 from pathlib import Path
 
 from ..data import sample
@@ -32,10 +31,7 @@ TIMES, LESS, ERROR = 3.0, 3.0, 0.02  # wanted: so much faster, in so much less m
 
 def run(bench: Bench) -> None:
     """Build and draw both, then compare."""
-    if find_spec("bpy") is None:
-        bench.skip("bpy is not installed (pip install 'firetwin[blender]')")
-        return
-    flip = bench.rival("flip_evaluator")
+    flip = bench.flip()
     if flip is None:
         return
     with tempfile.TemporaryDirectory() as name:

@@ -10,6 +10,7 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
+import firetwin  # noqa: E402
 from firetwin.blender import compat, nodes, owned  # noqa: E402
 from firetwin.scene.smoke import boxes  # noqa: E402
 from firetwin.shot import settings as scene_settings  # noqa: E402
@@ -181,3 +182,12 @@ def plate(scene):
     scene.render.resolution_x = scene.render.resolution_y = 4
     scene.cycles.samples = 1
     return mesh
+
+
+@pytest.fixture
+def panel():
+    """The panel of a new file, as Blender starts with."""
+    bpy.ops.wm.read_factory_settings()
+    firetwin.register()
+    yield bpy.context.scene.firetwin
+    firetwin.unregister()

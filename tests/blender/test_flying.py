@@ -3,6 +3,7 @@
 import bpy
 import firetwin
 import numpy as np
+import panel_scene
 import pytest
 from firetwin.blender import owned
 from firetwin.scene.camera import below, hand
@@ -11,25 +12,14 @@ from firetwin.shot.lenses import LENSES
 from firetwin.shot.rigs.poses import Poses
 from firetwin.ui import aims, camera_list, flying, go
 from mathutils import Euler, Matrix
-from scene_text import BARE, DRONE, NO_SMOKE, THREE_FRAMES, TINY
 
-SCENE = THREE_FRAMES + BARE + NO_SMOKE + TINY + DRONE
 EYE = Matrix.Translation((-500.0, -2500.0, 2400.0)) @ Euler((1.2, 0.0, -0.2)).to_matrix().to_4x4()
 
 
 @pytest.fixture(scope="module")
 def blend(run_folder, tmp_path_factory):
     """A scene that the panel built, as a file: opening it takes less than building it for each test."""
-    folder = tmp_path_factory.mktemp("flying")
-    bpy.ops.wm.read_factory_settings()
-    firetwin.register()
-    (folder / "scene.toml").write_text(SCENE.format(run=run_folder))
-    settings = bpy.context.scene.firetwin
-    settings.scene_file, settings.output = str(folder / "scene.toml"), str(folder / "out")
-    bpy.ops.firetwin.build()
-    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"))
-    firetwin.unregister()
-    return folder / "scene.blend"
+    return panel_scene.build(run_folder, tmp_path_factory.mktemp("flying"))
 
 
 @pytest.fixture

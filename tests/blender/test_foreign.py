@@ -1,21 +1,11 @@
 """A fire model's own files are opened in Blender: a run is made of them, once, and opened."""
 
 import bpy
-import firetwin
 import numpy as np
 import pytest
 from firetwin.jobs import convert
 
 SAID = {"start": "2020-07-01T20:00:00Z", "at": "39,-120"}
-
-
-@pytest.fixture
-def panel():
-    """The panel of a new file, as Blender starts with."""
-    bpy.ops.wm.read_factory_settings()
-    firetwin.register()
-    yield bpy.context.scene.firetwin
-    firetwin.unregister()
 
 
 @pytest.fixture

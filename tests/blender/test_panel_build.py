@@ -6,7 +6,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import bpy
-import firetwin
 import numpy as np
 import pytest
 from firetwin.blender import owned
@@ -15,15 +14,6 @@ from firetwin.shot import file
 from firetwin.shot.choice import Choice
 from firetwin.ui import job, quality, scene_file, working
 from firetwin.ui import time as model_time
-
-
-@pytest.fixture
-def panel():
-    """The panel of a new file, as Blender starts with."""
-    bpy.ops.wm.read_factory_settings()
-    firetwin.register()
-    yield bpy.context.scene.firetwin
-    firetwin.unregister()
 
 
 @pytest.fixture

@@ -6,6 +6,9 @@ from pathlib import Path
 import firetwin_core as core
 import hypothesis
 import pytest
+from firetwin.jobs import convert
+from firetwin_core import run as runs
+from firetwin_core.run import Run
 from numpy.typing import NDArray
 from small_run import RUN_TOML, small_fields, write_field
 
@@ -34,3 +37,15 @@ def all_threads():
     """Give the cores back after a test of set_threads."""
     yield
     core.set_threads(0)
+
+
+@pytest.fixture
+def converted(tmp_path: Path) -> Callable[..., Run]:
+    """Convert a fire model's files in this process and open the run."""
+
+    def make(paths, start="", at="", projection="", interval=0.0):
+        out = tmp_path / "run"
+        convert.in_process([str(path) for path in paths], str(out), [start, at, projection, interval])
+        return runs.open(out)
+
+    return make

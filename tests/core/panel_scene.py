@@ -6,18 +6,11 @@ from firetwin.blender import compat
 from firetwin.errors import Error
 from firetwin.shot import file
 from firetwin.ui import scene_file
-from scene_text import BARE, TINY
+from scene_text import BARE, NO_SMOKE, THREE_FRAMES, TINY
 
 SCENE = (
-    """\
-run = "{run}"
-[time]
-start = 2014-09-17T21:00:00Z
-end = 2014-09-17T22:00:00Z
-frames = 3
-[smoke]
-enabled = false
-"""
+    THREE_FRAMES
+    + NO_SMOKE
     + BARE
     + "trees = false\n"
     + TINY

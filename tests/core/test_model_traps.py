@@ -40,23 +40,10 @@ from pathlib import Path
 import model_files as made
 import numpy as np
 import pytest
-from firetwin.jobs import convert
 from firetwin.run import maps, observations
 from firetwin.run.models import fuels, raster
 from firetwin_core import run as runs
 from matplotlib.collections import QuadMesh
-
-
-@pytest.fixture
-def converted(tmp_path):
-    """Convert in this process and open the run."""
-
-    def make(paths, start="", at="", projection="", interval=0.0):
-        out = tmp_path / "run"
-        convert.in_process([str(path) for path in paths], str(out), [start, at, projection, interval])
-        return runs.open(out)
-
-    return make
 
 
 def said(run):

@@ -17,18 +17,6 @@ from firetwin_core import run as runs
 START = made.START.replace(tzinfo=UTC)
 
 
-@pytest.fixture
-def converted(tmp_path):
-    """Convert in this process and open the run."""
-
-    def make(paths, start="", at="", projection="", interval=0.0):
-        out = tmp_path / "run"
-        convert.in_process([str(path) for path in paths], str(out), [start, at, projection, interval])
-        return runs.open(out)
-
-    return make
-
-
 def source(run):
     return tomllib.loads((Path(run.path) / "run.toml").read_text())["source"]
 

@@ -1,4 +1,4 @@
-"""Split screen: all runs' visible pictures at the same moment, with names, what has burned, and whose fronts show.
+"""Split screen: all runs' visible pictures at one moment, with names, what has burned and whose fronts show.
 
 Of two runs each has a half, which shows the middle half of its own picture: the same landscape in both. Of
 three or four each has a quarter and all of its picture, half as large.
