@@ -1,5 +1,7 @@
 """A fire model's own files are opened in Blender: a run is made of them, once, and opened."""
 
+import os
+
 import bpy
 import numpy as np
 import pytest
@@ -48,7 +50,7 @@ def test_the_field_run_takes_a_models_folder_too(panel, file, monkeypatch, tmp_p
     (tmp_path / "netCDF4.py").write_text("raise ImportError")
     (tmp_path / "model").mkdir()
     (tmp_path / "model" / "wrfout_d01").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(99))
-    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{__import__('os').environ['PYTHONPATH']}")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
     panel.run = str(tmp_path / "model")
     assert "needs the Python package netCDF4; install it with: " in panel.problem
     assert "-m pip install netCDF4 pyproj pyshp rasterio" in panel.problem

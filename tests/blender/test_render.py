@@ -206,7 +206,7 @@ def test_a_gpu_that_is_not_there_is_one_line_before_anything_is_built(firetwin, 
     assert out == ""
     assert "building" not in err
     last = err.splitlines()[-1]
-    assert 'scene.toml:15:1: device = "gpu", but Cycles finds no GPU' in last
+    assert 'scene.toml:16:1: device = "gpu", but Cycles finds no GPU' in last
     assert "log of Blender" not in last
 
 

@@ -19,7 +19,9 @@ stay theirs; what burns and varies is there as attributes of the instancer that 
 
 from __future__ import annotations
 
+import functools
 from collections import defaultdict
+from collections.abc import Callable
 
 import bpy
 import numpy as np
@@ -47,15 +49,11 @@ def tree_models(shot: Shot, stage: Stage, drawn: set[int] | None = None) -> bpy.
     drawn
         Numbers of those that are there to be drawn: of ours others have no mesh. None: all.
     """
-    leaf = material.foliage(shot, stage)
-    wood, char = (material.bark(shot, stage, charred=charred) for charred in (False, True))
-    stone, straw = material.rock(shot, stage), material.grass(shot, stage)
+    looks = _looks(shot, stage)
     swapped, count = _artists(), defaultdict(int)
     library = owned.library("Tree Models")
-    looks = {"rock": (stone, stone), "tuft": (straw, wood)}
     nothing: bpy.types.Mesh | None = None
     for k, model in enumerate(models.every()):
-        look = (char, char) if model.state == "snag" else looks.get(model.kind, (leaf, wood))
         theirs, turn = swapped.get((model.kind, model.state)), count[model.kind, model.state]
         count[model.kind, model.state] += 1
         for level in range(LEVELS):
@@ -63,11 +61,33 @@ def tree_models(shot: Shot, stage: Stage, drawn: set[int] | None = None) -> bpy.
             if theirs:
                 data = _of_level(theirs, level, turn)
             elif drawn is None or int(models.instance(k, level)) in drawn:
-                data = _mesh(name, model.make(level), look)
+                data = _mesh(name, model.make(level), looks(model))
             else:
                 data = nothing = nothing or bpy.data.meshes.new("Firetwin No Tree")
             owned.add(library, name, data)
     return library
+
+
+def _looks(shot: Shot, stage: Stage) -> Callable[[models.Model], Look]:
+    """What leaves and wood of a model are made of, each material made with its first use."""
+    makers = {
+        "leaf": material.foliage,
+        "wood": functools.partial(material.bark, charred=False),
+        "char": functools.partial(material.bark, charred=True),
+        "stone": material.rock,
+        "straw": material.grass,
+    }
+    kinds = {"rock": ("stone", "stone"), "tuft": ("straw", "wood")}
+
+    @functools.cache
+    def made(name: str) -> bpy.types.Material:
+        return makers[name](shot, stage)
+
+    def look(model: models.Model) -> Look:
+        both = ("char", "char") if model.state == "snag" else kinds.get(model.kind, ("leaf", "wood"))
+        return tuple(made(name) for name in both)
+
+    return look
 
 
 def drawn(points: dict[str, NDArray]) -> set[int]:
