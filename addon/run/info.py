@@ -256,7 +256,7 @@ def _acreages(info: dict[str, Any]) -> list[str]:
         when = times.text(datetime.fromisoformat(row["time"]), info["zone"])
         lines.append(
             f"  {when:<24}{row['run'] / ACRE:>10,.0f}{row['reported'] / ACRE:>10,.0f}"
-            f"{row['difference'] * 100:>+10.1f} %  {row['source']}"
+            f"{round(row['difference'] * 100, 1) + 0.0:>+10.1f} %  {row['source']}"
         )
     outside = len(info["reported"]) - len(rows)
     if outside:

@@ -162,7 +162,7 @@ def _burned(found: dict[str, Any]) -> list[tuple[str, str, str]]:
         (
             times.text(datetime.fromisoformat(each["time"]), found["zone"]),
             f"{each['reported'] / info.ACRE:,.0f} acres",
-            f"{each['run'] / info.ACRE:,.0f} acres ({each['difference']:+.1%})",
+            f"{each['run'] / info.ACRE:,.0f} acres ({round(each['difference'], 3) + 0.0:+.1%})",
         )
         for each in found["reported"]
         if each["run"] is not None
