@@ -180,21 +180,26 @@ def new_compositor(scene: bpy.types.Scene) -> bpy.types.NodeTree:
 
 
 def no_compositor(scene: bpy.types.Scene) -> None:
-    """Leave a scene without a compositor."""
+    """Leave a scene without its empty compositor, which goes if nothing else shows it."""
     if hasattr(scene, "compositing_node_group"):
+        tree = scene.compositing_node_group
         scene.compositing_node_group = None
+        if not bpy.data.user_map(subset=[tree])[tree]:  # in files of 4.5 it has a user too many
+            bpy.data.node_groups.remove(tree)
     else:
         scene.use_nodes = False
         owned.unmark(scene.node_tree)
 
 
+END = "CompositorNodeComposite" if hasattr(bpy.types, "CompositorNodeComposite") else "NodeGroupOutput"
+"""The node of a compositor that shows and saves its picture."""
+
+
 def composite(tree: bpy.types.NodeTree, image: bpy.types.NodeSocket) -> bpy.types.Node:
     """Make `image` the picture that a new compositor shows and saves; returns the node that does it."""
-    if hasattr(bpy.types, "CompositorNodeComposite"):
-        output = tree.nodes.new("CompositorNodeComposite")
-    else:
+    if END == "NodeGroupOutput":
         tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
-        output = tree.nodes.new("NodeGroupOutput")
+    output = tree.nodes.new(END)
     tree.links.new(image, output.inputs[0])
     return output
 

@@ -21,7 +21,6 @@ from . import groups
 from .picture import Picture
 
 _SOURCE, _BETWEEN = "CompositorNodeRLayers", ("CompositorNodeGlare", "CompositorNodeSeparateColor")
-_ENDS = "CompositorNodeComposite", "NodeGroupOutput"
 
 
 def build(settings: Settings, stage: Stage) -> None:
@@ -65,12 +64,12 @@ def complete(settings: Settings, stage: Stage, parts: Collection[str]) -> None:
 
 def remove(scene: bpy.types.Scene) -> None:
     """Take away our view layers, as long as one is left, and what we made in the compositor."""
+    mend(scene)
     for layer in [layer for layer in scene.view_layers if owned.ours(layer)]:
         if len(scene.view_layers) > 1:
             scene.view_layers.remove(layer)
         else:
             owned.unmark(layer)
-    mend(scene)
     tree = compat.compositor(scene)
     if tree is not None and owned.ours(tree):
         for node in [node for node in tree.nodes if owned.ours(node)]:
@@ -94,7 +93,7 @@ def mend(scene: bpy.types.Scene) -> None:
         each = passes.known()[node[owned.MARK].removeprefix("exr ")]
         tree.nodes.remove(node)
         _file(tree, each, _image(tree, each))
-    ends = [node for node in tree.nodes if node.bl_idname in _ENDS]
+    ends = [node for node in tree.nodes if node.bl_idname == compat.END]
     if not any(map(owned.ours, ends)):
         for node in ends:
             if any(link.to_node == node and owned.ours(link.from_node) for link in tree.links):
