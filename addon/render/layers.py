@@ -83,7 +83,7 @@ def remove(scene: bpy.types.Scene) -> None:
 def mend(scene: bpy.types.Scene) -> None:
     """Make anew what Blender has lost of our compositor when it opened a file of another version.
 
-    These are the files of passes, and our mark on the node that shows the picture.
+    These are the files of passes, and our mark on what shows our picture.
     """
     compat.drop_copies()
     tree = compat.compositor(scene)
@@ -93,11 +93,9 @@ def mend(scene: bpy.types.Scene) -> None:
         each = passes.known()[node[owned.MARK].removeprefix("exr ")]
         tree.nodes.remove(node)
         _file(tree, each, _image(tree, each))
-    ends = [node for node in tree.nodes if node.bl_idname == compat.END]
-    if not any(map(owned.ours, ends)):
-        for node in ends:
-            if any(link.to_node == node and owned.ours(link.from_node) for link in tree.links):
-                owned.mark(node)
+    for link in list(tree.links):
+        if link.to_node.bl_idname == compat.END and owned.ours(link.from_node):
+            owned.mark(link.to_node)
 
 
 def select(scene: bpy.types.Scene, names: Iterable[str]) -> None:
