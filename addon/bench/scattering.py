@@ -8,7 +8,6 @@ lets light go on forwards, as smoke does, and counts all of the smoke.
 
 from __future__ import annotations
 
-import os
 import tempfile
 from datetime import UTC, datetime
 from pathlib import Path
@@ -24,7 +23,7 @@ from ..shot import settings
 from ..shot.rigs.drone import CameraKey, Drone
 from ..shot.shot import Shot
 from .harness import OURS, Bench
-from .step import MODEL_TIMES, picture
+from .step import MODEL_TIMES, picture, rows
 from .timing import Times
 
 if TYPE_CHECKING:
@@ -61,17 +60,8 @@ def run(bench: Bench) -> None:
             )[1]
             for name in seconds
         }
-    for name, taken in seconds.items():
-        bench.row(
-            f"smoke in {RESOLUTION[0]} by {RESOLUTION[1]} pixels",
-            name,
-            Times((taken,)),
-            RESOLUTION[0] * RESOLUTION[1],
-            "pixel",
-            error=None if name == REFERENCE else errors[name],
-            error_unit="FLIP",
-            threads=os.cpu_count() or 1,
-        )
+    taken = {name: Times((each,)) for name, each in seconds.items()}
+    rows(bench, RESOLUTION, taken, errors, REFERENCE)
     bench.target("light in smoke, off that of 32 bounces by", errors[OURS], LIMIT, "FLIP", most=True)
 
 

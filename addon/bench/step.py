@@ -54,21 +54,32 @@ def run(bench: Bench) -> None:
             name: flip.evaluate(picture(folder, reference(name)), picture(folder, name), "LDR")[1]
             for name in found
         }
-    pixels = RESOLUTION[0] * RESOLUTION[1]
-    for name, seconds in found.items():
-        bench.row(
-            f"smoke in {RESOLUTION[0]} by {RESOLUTION[1]} pixels",
-            name,
-            Times(tuple(seconds)) if bench.full else None,
-            pixels,
-            "pixel",
-            error=None if name == FINEST else errors[name],
-            error_unit="FLIP",
-            threads=os.cpu_count() or 1,
-        )
+    taken = {name: Times(tuple(seconds)) if bench.full else None for name, seconds in found.items()}
+    rows(bench, RESOLUTION, taken, errors, FINEST)
     bench.target(
         "a picture of smoke off that with a quarter of the step by", errors[OURS], LIMIT, "FLIP", most=True
     )
+
+
+def rows(
+    bench: Bench,
+    size: tuple[int, int],
+    taken: dict[str, Times | None],
+    errors: dict[str, float],
+    exact: str,
+) -> None:
+    """A row for each way to render smoke in so many pixels: times, and FLIP beside the `exact` one."""
+    for name, times in taken.items():
+        bench.row(
+            f"smoke in {size[0]} by {size[1]} pixels",
+            name,
+            times,
+            size[0] * size[1],
+            "pixel",
+            error=None if name == exact else errors[name],
+            error_unit="FLIP",
+            threads=os.cpu_count() or 1,
+        )
 
 
 def reference(name: str) -> str:
