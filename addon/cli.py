@@ -323,6 +323,6 @@ complete keys, show what they mean and underline mistakes."""
 
 BENCH = """\
 Every tool is measured in this run, on this machine, in turn with its rivals: the median of five or more
-repetitions, with their range. Takes about three minutes on two cores; --runs 3 says how much the figures
+repetitions, with their range. Takes about seven minutes on two cores; --runs 3 says how much the figures
 differ from run to run. Rivals that are not installed are named and left out (pip install 'firetwin[bench]'
 brings them). Exit status 1 when a target is missed."""
