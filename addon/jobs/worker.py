@@ -119,18 +119,18 @@ def run(
     finally:
         _end(child)
     if "result" in answer:
-        os.unlink(log.name)
+        Path(log.name).unlink(missing_ok=True)  # or somebody tidied up while it worked
         return answer["result"]
     if stop is not None and stop.asked:
-        os.unlink(log.name)
+        Path(log.name).unlink(missing_ok=True)  # or somebody tidied up while it worked
         raise StoppedError
     from ..errors import Error, input_error
 
     if "input_error" in answer:
-        os.unlink(log.name)
+        Path(log.name).unlink(missing_ok=True)  # or somebody tidied up while it worked
         raise input_error(*answer["input_error"])
     if not blender:
-        os.unlink(log.name)
+        Path(log.name).unlink(missing_ok=True)  # or somebody tidied up while it worked
         if "error" in answer:
             raise Error(answer["error"])
         if watch.over:

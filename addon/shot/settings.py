@@ -254,7 +254,7 @@ class Thermal:
     """The infrared camera of the thermal view, ideal unless it is given flaws."""
 
     band: str = key(
-        "lwir", "wavelengths that it sees", choices={"lwir": "8 to 14 um", "mwir": "3.4 to 4.1 um"}
+        "lwir", "wavelengths that it sees", choices={"lwir": "8 to 14 µm", "mwir": "3.4 to 4.1 µm"}
     )
     palette: str = key(
         "white-hot",
@@ -264,7 +264,7 @@ class Thermal:
     vapour: float = key(
         10.0,
         "water in the air at sea level, which dims what is far; 0: clear",
-        unit="g/m3",
+        unit="g/m³",
         at_least=0,
         at_most=40,
     )
@@ -381,7 +381,7 @@ class Render:
     )
     thermal_low: float | None = key(
         None,
-        "where the thermal picture's palette begins; left out, the coldest air of the shot",
+        "where the thermal picture's palette begins; left out, the moment's coldest air",
         unit="K",
         above=0,
         shows=("thermal",),

@@ -267,13 +267,8 @@ class Shot:
         return float(east), float(north)
 
     @cached_property
-    def coldest(self) -> float:
-        """K that a tenth of the run's air is colder than in the middle of the shot."""
-        return temperature.coldest(self.run, self.frames.middle)
-
-    @cached_property
     def coldest_moment(self) -> float:
-        """The same in the coldest of 25 moments of the shot."""
+        """K that a tenth of the run's air is colder than, in the coldest of 25 moments of the shot."""
         return min(temperature.coldest(self.run, float(time)) for time in self._moments)
 
     @cached_property

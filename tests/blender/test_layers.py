@@ -11,7 +11,7 @@ from firetwin.render.picture import Picture
 from firetwin.render.sharing import making
 from firetwin.scene import infrared
 from firetwin.scene.build import PARTS
-from firetwin.shot import passes
+from firetwin.shot import passes, temperature
 from firetwin.shot.passes import thermal
 from firetwin_core import sensor
 
@@ -140,7 +140,8 @@ def test_the_denoiser_leaves_temperatures_alone(render, settings, stage, plain):
 def test_the_thermal_picture_shows_its_temperatures(render, settings, shot):
     images = render("thermal")
     kelvin = images[THERMAL][..., 0]
-    low, high = shot.coldest, settings.render.thermal_high
+    low, high = thermal.scale(shot, 2)
+    assert (low, high) == (temperature.coldest(shot.run, shot.frames.time(2)), settings.render.thermal_high)
     expected = sensor.colour(kelvin, low, high, settings.thermal.palette, thermal.KNEE)
     shown = images["drone/thermal/drone_thermal_000002.png"][..., :3]
     assert np.abs(shown - expected).max() <= 0.5 / 255 + 1e-6

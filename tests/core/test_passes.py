@@ -230,10 +230,10 @@ def test_ends_of_scales_are_those_of_the_shot_and_read_once(make_run, monkeypatc
     low, high = shot.warmest
     assert low == pytest.approx(0.0, abs=0.01)
     assert high == pytest.approx(15.0, abs=0.01)
-    assert shot.coldest < 306.0
+    assert shot.coldest_moment < 306.0
     monkeypatch.setattr(temperature, "at", None)
     monkeypatch.setattr(temperature, "mean", None)
-    assert (shot.warmest, shot.coldest) == ((low, high), shot.coldest)
+    assert (shot.warmest, shot.coldest_moment) == ((low, high), shot.coldest_moment)
 
 
 def test_hot_spots_lie_over_the_picture(tmp_path):

@@ -1,4 +1,9 @@
-"""A map round a camera from the run: relief, canopy, what has burned, the camera's way and what it sees."""
+"""A map round a camera: a minimap's picture or the run's relief, and on it what must be seen at once.
+
+That is what has burned, by the moment of the frame: the front a bright line, the last half hour orange, the
+scar dark red; and the camera with its way and what it sees. Fire and scar are the run's, so that smoke in a
+minimap's picture does not hide them.
+"""
 
 from __future__ import annotations
 
@@ -6,11 +11,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.colors import LightSource
 from matplotlib.patches import Polygon, Rectangle
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
+from .. import fronts
 from ..ground import bilinear
 
 if TYPE_CHECKING:
@@ -19,7 +26,8 @@ if TYPE_CHECKING:
 
 _LATELY = 1800.0  # s; what burned since is orange
 _OPEN, _WOODED = np.array([0.86, 0.82, 0.72]), np.array([0.50, 0.60, 0.42])
-_BURNED, _HOT = np.array([0.24, 0.20, 0.18]), np.array([0.98, 0.45, 0.08])
+_SCAR, _HOT = np.array([0.26, 0.07, 0.05, 0.72]), np.array([1.0, 0.45, 0.05, 0.85])  # and how much they cover
+_FRONT = "#ffe14d"
 _LEAST = 2000.0  # m from the middle to the sides
 _ROWS = 200  # of points that are looked up
 _WAY, _EDGE = "#1e62d0", [withStroke(linewidth=2.2, foreground="white")]
@@ -32,19 +40,20 @@ def draw(
     box = axes.get_window_extent()
     here, reach = view.position[frame - 1], 0.5 * swath or _reach(view)
     tall = reach * box.height / box.width
+    columns = max(round(_ROWS * box.width / box.height), 2)
+    east, north = np.linspace(-reach, reach, columns), np.linspace(tall, -tall, _ROWS)
     if photo is None:
-        columns = max(round(_ROWS * box.width / box.height), 2)
-        east, north = np.linspace(-reach, reach, columns), np.linspace(tall, -tall, _ROWS)
-        photo, high = _ground(shot, here, east, north, shot.frames.time(frame)), tall
+        photo, high = _ground(shot, here, east, north), tall
     else:
         high = reach * photo.shape[0] / photo.shape[1]
     axes.imshow(photo, extent=(-reach, reach, -high, high), interpolation="bilinear", aspect="auto")
+    _fire(axes, shot, here, east, north, shot.frames.time(frame))
     axes.set_xlim(-reach, reach)
     axes.set_ylim(-tall, tall)
     way = view.position[:, :2] - here[:2]
     axes.plot(*way.T, color=_WAY, linewidth=1.0, path_effects=_EDGE, zorder=5)
     _sight(axes, view, frame, reach)
-    axes.plot(0.0, 0.0, "o", color=_WAY, markersize=0.02 * box.height, markeredgecolor="white", zorder=7)
+    axes.plot(0.0, 0.0, "o", color=_WAY, markersize=0.03 * box.height, markeredgecolor="white", zorder=7)
     _scale(axes, reach, tall, box.height)
 
 
@@ -54,24 +63,44 @@ def _reach(view: Path) -> float:
     return max(_LEAST, 2.2 * float(away.max()))
 
 
-def _ground(shot: Shot, here: NDArray, east: NDArray, north: NDArray, time: float) -> NDArray:
+def _ground(shot: Shot, here: NDArray, east: NDArray, north: NDArray) -> NDArray:
     """Colours (rows, columns, 3) of the ground at scene metres from `here`, north first."""
-    ground = shot.ground
-    x, y = np.meshgrid(here[0] + east, here[1] + north)
-    latitude, longitude = ground.geodetic(x.ravel(), y.ravel())
-    row, column = ground.indices(latitude, longitude)
-    fields = ground.fields
+    row, column = shot.ground.indices(*_places(shot, here, east, north))
+    fields = shot.ground.fields
     height, canopy = (
-        bilinear(f, row, column).reshape(x.shape) for f in (fields.elevation, fields.canopy_fuel)
+        bilinear(f, row, column).reshape(len(north), -1) for f in (fields.elevation, fields.canopy_fuel)
     )
-    age = time - ground.arrival_at(row, column).reshape(x.shape)
     colour = _OPEN + np.clip(canopy, 0.0, 1.0)[..., None] * (_WOODED - _OPEN)
-    fresh = np.clip(1.0 - age / _LATELY, 0.0, 1.0)[..., None]
-    colour = np.where(age[..., None] > 0.0, _BURNED + fresh * (_HOT - _BURNED), colour)
     shade = LightSource(315, 45).hillshade(
         height, vert_exag=1.5, dx=abs(east[1] - east[0]), dy=abs(north[1] - north[0])
     )
     return np.clip(colour * (0.45 + 0.75 * shade[..., None]), 0.0, 1.0)
+
+
+def _places(shot: Shot, here: NDArray, east: NDArray, north: NDArray) -> tuple[NDArray, NDArray]:
+    """Latitude and longitude (rows * columns) of scene metres from `here`."""
+    x, y = np.meshgrid(here[0] + east, here[1] + north)
+    return shot.ground.geodetic(x.ravel(), y.ravel())
+
+
+def _fire(axes: Axes, shot: Shot, here: NDArray, east: NDArray, north: NDArray, time: float) -> None:
+    """What has burned by a model time (s), and its front, over the ground."""
+    reach, places = fronts.reach(shot.run), _places(shot, here, east, north)
+    burned = reach.burned(*places, time).reshape(len(north), -1) == 1.0
+    age = time - shot.ground.arrival_at(*shot.ground.indices(*places)).reshape(burned.shape)
+    fresh = np.clip(1.0 - np.nan_to_num(age, nan=0.0) / _LATELY, 0.0, 1.0)[..., None]
+    colour = _SCAR + fresh * (_HOT - _SCAR)
+    colour[~burned] = 0.0
+    extent = (east[0], east[-1], north[-1], north[0])
+    axes.imshow(colour, extent=extent, interpolation="nearest", aspect="auto", zorder=2)
+    latitude, longitude, after = reach.line(time)
+    line = shot.local_frame.forward(latitude, longitude, np.zeros(len(after)))[:, :2] - here[:2]
+    size = 0.009 * axes.get_window_extent().height
+    for width, edge in ((2.0 * size, "black"), (size, _FRONT)):
+        pieces = np.stack([line, line[after]], axis=1)
+        axes.add_collection(
+            LineCollection(pieces, colors=edge, linewidths=width, capstyle="round", zorder=3), autolim=False
+        )
 
 
 def _sight(axes: Axes, view: Path, frame: int, reach: float) -> None:
@@ -84,8 +113,8 @@ def _sight(axes: Axes, view: Path, frame: int, reach: float) -> None:
         return
     bearing = np.arctan2(*ahead) + np.arctan(view.halves[frame - 1, 0]) * np.linspace(-1.0, 1.0, 25)
     rim = length * np.stack([np.sin(bearing), np.cos(bearing)], axis=-1)
-    axes.add_patch(Polygon([(0.0, 0.0), *rim], facecolor=_WAY, alpha=0.16, edgecolor="none", zorder=4))
-    axes.add_patch(Polygon([(0.0, 0.0), *rim], fill=False, edgecolor=_WAY, linewidth=0.8, zorder=6))
+    axes.add_patch(Polygon([(0.0, 0.0), *rim], facecolor="white", alpha=0.22, edgecolor="none", zorder=4))
+    axes.add_patch(Polygon([(0.0, 0.0), *rim], fill=False, edgecolor="white", linewidth=1.0, zorder=6))
 
 
 def _scale(axes: Axes, reach: float, tall: float, height: float) -> None:

@@ -1,11 +1,12 @@
 """All of a camera's feeds in one picture: visible, thermal, depth and a map, with time, place and scales.
 
-The picture is as large as the camera's own, whatever that is. Temperatures and distances have the same
-colours in every frame of a shot. What the camera does not record itself comes from the sensors on its mount
-(see `shot.mount`), and all panels are in register: a place is at the same point of each, and a sensor that
-sees less fills its part of the panel and is outlined in the visible picture. The map is the picture of a
-minimap that follows the camera; without one it is drawn from the run, north up, round the camera: relief,
-canopy, what has burned (the last half hour in orange). It shows the camera's way and angle of view.
+The picture is as large as the camera's own, whatever that is. Distances have the same colours in every frame
+of a shot, temperatures those of the thermal pass. What the camera does not record itself comes from the
+sensors on its mount (see `shot.mount`), and all panels are in register: a place is at the same point of each,
+and a sensor that sees less fills its part of the panel and is outlined in the visible picture. The map is the
+picture of a minimap that follows the camera; without one it is drawn from the run, north up, round the camera:
+relief and canopy. Over either lie the front, what has burned (the last half hour in orange), the camera, its
+way and angle of view.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
 
     view = _view.of(shot, camera)
     taken = mount.taken(shot.settings, shot.cameras, camera, PASS)
-    low, high = thermal.scale(shot)
+    low, high = thermal.scale(shot, frame)
     sheet = _sheet.Sheet(*shot.resolution(view.camera))
     sheet.head(_title(shot, camera), facts(shot, camera, frame))
     rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]

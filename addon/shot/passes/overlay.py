@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 START, FULL, OPACITY = 350.0, 450.0, 0.9
 
 
-def finish(files: Files, needed: Mapping[str, Files], shot: Shot, _camera: str, _frame: int) -> None:
+def finish(files: Files, needed: Mapping[str, Files], shot: Shot, _camera: str, frame: int) -> None:
     """Lay the hot spots over the picture."""
     from firetwin_core import sensor
 
     rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
     kelvin = sensor.read_image(needed["thermal"]["exr"])[..., 0]
-    hot = sensor.colour(kelvin, *thermal.scale(shot), "ironbow", thermal.KNEE)
+    hot = sensor.colour(kelvin, *thermal.scale(shot, frame), "ironbow", thermal.KNEE)
     sensor.write_image(files["png"], sensor.overlay(rgb, hot, kelvin, START, FULL, OPACITY))
 
 

@@ -7,6 +7,11 @@ them and add their own light. The lamps that light ground and trees in place of 
 The EXR holds two channels, `radiance` (W m-2 sr-1) and `kelvin`, the temperature of a black body as bright,
 both as [thermal]'s detector measures them; and `signal`, its counts, where it has bits. The PNG shows the
 temperatures by a palette, spread towards the cold end, with a bar of temperatures.
+
+The palette begins at the coldest air of the moment (a tenth of it is colder), which hangs on the run and the
+time alone: nights and noons of one film show their relief alike, and nothing that comes into view or flares
+up changes the colours. In the sample it moves by at most 0.05 K a minute. `thermal_low` holds it in one
+place, where colours are to mean the same all through.
 """
 
 from __future__ import annotations
@@ -51,16 +56,20 @@ def finish(
     low_um, high_um = BANDS[settings.band]
     about = {"Comment": f"kelvin: brightness temperature; radiance: W m-2 sr-1, {low_um:g} to {high_um:g} um"}
     sensor.write_image(files["exr"], np.stack(list(channels.values()), axis=-1), about, list(channels))
-    low, high = scale(shot)
+    low, high = scale(shot, frame)
     shown = sensor.colour(channels["kelvin"], low, high, settings.palette, KNEE)
     _bar.draw(shown, low, high, settings.palette, KNEE)
     sensor.write_image(files["png"], shown)
 
 
-def scale(shot: Shot) -> tuple[float, float]:
-    """Temperatures (K) at the cold and the hot end of the palette, the same in every frame."""
+def scale(shot: Shot, frame: int) -> tuple[float, float]:
+    """Temperatures (K) at the cold and the hot end of the palette in a frame."""
+    from .. import temperature
+
     low, high = shot.settings.render.thermal_low, shot.settings.render.thermal_high
-    return (min(shot.coldest, high - 1.0) if low is None else low), high
+    if low is None:
+        low = min(temperature.coldest(shot.run, shot.frames.time(frame)), high - 1.0)
+    return low, high
 
 
 PASS = Pass(
