@@ -119,18 +119,18 @@ def run(
     finally:
         _end(child)
     if "result" in answer:
-        Path(log.name).unlink(missing_ok=True)  # or somebody tidied up while it worked
+        Path(log.name).unlink(missing_ok=True)  # somebody may have tidied up while it worked
         return answer["result"]
     if stop is not None and stop.asked:
-        Path(log.name).unlink(missing_ok=True)  # or somebody tidied up while it worked
+        Path(log.name).unlink(missing_ok=True)
         raise StoppedError
     from ..errors import Error, input_error
 
     if "input_error" in answer:
-        Path(log.name).unlink(missing_ok=True)  # or somebody tidied up while it worked
+        Path(log.name).unlink(missing_ok=True)
         raise input_error(*answer["input_error"])
     if not blender:
-        Path(log.name).unlink(missing_ok=True)  # or somebody tidied up while it worked
+        Path(log.name).unlink(missing_ok=True)
         if "error" in answer:
             raise Error(answer["error"])
         if watch.over:

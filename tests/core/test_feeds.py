@@ -11,7 +11,7 @@ from firetwin.render.picture import Picture
 from firetwin.render.store import Store, describe
 from firetwin.run import info
 from firetwin.shot import file, mount, passes
-from firetwin.shot.passes import _sheet, masks, pose
+from firetwin.shot.passes import _map, _sheet, masks, pose
 from firetwin.shot.passes import fused as fused_pass
 from firetwin.shot.rigs.drone import CameraKey, Drone
 from firetwin.shot.rigs.lookout import Lookout, LookoutKey
@@ -325,6 +325,43 @@ def test_a_place_is_at_the_same_point_of_every_panel_of_a_mount(shot, tmp_path):
     assert spot(1, lambda panel: panel.min(axis=-1) > 0.9) == pytest.approx(expected, abs=one)
     away = (aim - own.position[2])[:2] / 4000.0
     assert spot(2, is_green) == pytest.approx((0.5 + away[0], 0.5 - away[1] * wide / high), abs=one)
+
+
+@pytest.mark.parametrize("minimap", [False, True])
+def test_the_map_shows_front_and_scar_whatever_its_ground(make_run, tmp_path, minimap):
+    """West of a line has burned long ago, a strip lately, and a minimap sees nothing but white smoke."""
+    rows, columns = 8, 10
+    arrival = np.where(np.arange(columns) < 3, -7200.0, np.where(np.arange(columns) < 5, -60.0, np.nan))
+    fields = {"fuel_arrival_time": np.tile(arrival, (rows, 1)).astype(np.float32)}
+    cameras = (DRONE, Camera("map", Minimap("drone", 3000.0), passes=("rgb",)))[: 2 if minimap else 1]
+    ground, render = Ground(near_radius=0.0, apron=5000.0), Render(resolution=(640, 360))
+    settings = Settings(time=Time(frames=5), ground=ground, cameras=cameras, render=render)
+    made = Shot(settings, runs.open(make_run(**fields)))
+    view = made.of("drone").paths[0]
+    axes = _sheet.Sheet(640, 360).panel(2, "MAP")
+    white = np.ones((50, 90, 3))
+    _map.draw(axes, made, view, 3, *((white, 3000.0) if minimap else ()))
+    canvas = axes.figure.canvas
+    canvas.draw()
+    shown = np.asarray(canvas.buffer_rgba())[..., :3] / 255.0
+
+    def at(column):  # of the fuel grid, beside the camera and its way
+        place = made.local_frame.forward(
+            made.run.fuel_latitude[1:2],
+            np.interp([column], range(columns), made.run.fuel_longitude),
+            [0.0],
+        )
+        x, y = axes.transData.transform(place[0, :2] - view.position[2, :2])
+        return shown[round(shown.shape[0] - y), round(x)]
+
+    scar, late, green = at(1.0), at(3.6), at(7.0)
+    assert scar.max() < 0.6
+    assert scar[0] > scar[2], "dark and red"
+    assert late[0] > 0.75, "orange"
+    assert late[0] - late[2] > 0.4
+    assert np.abs(green - scar).max() > 0.2
+    line = [at(column) for column in np.linspace(3.9, 5.1, 60)]
+    assert any(each[1] > 0.6 and each[2] < 0.45 for each in line), f"no yellow line: {line}"
 
 
 def test_a_fused_view_asks_its_mount_for_what_its_camera_does_not_record(shot):

@@ -9,6 +9,7 @@ import signal
 import struct
 import subprocess
 import sys
+import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -228,6 +229,19 @@ def test_a_worker_that_is_gone_is_no_error_on_windows_either(monkeypatch):
     with worker._Patience(child, 0.0) as watch:
         assert worker._converse(child, {}, progress=None, tell=None, watch=watch) == {}
     worker._end(child)
+
+
+def test_a_log_that_was_tidied_away_does_not_spoil_what_was_done(tmp_path, monkeypatch):
+    (tmp_path / "tidy.py").write_text(
+        "from pathlib import Path\n"
+        "def up(progress, tell):\n"
+        f"    [log.unlink() for log in Path({str(tmp_path)!r}).glob('firetwin-*.log')]\n"
+        "    return 7\n"
+    )
+    path = os.pathsep.join(filter(None, [str(tmp_path), os.environ.get("PYTHONPATH")]))
+    monkeypatch.setenv("PYTHONPATH", path)
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    assert worker.run("tidy:up", {}, blender=False) == 7
 
 
 @pytest.fixture(params=["png", "exr"])

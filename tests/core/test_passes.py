@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from firetwin.shot import passes, temperature
 from firetwin.shot.passes import _bar, _view
+from firetwin.shot.passes import thermal as thermal_pass
 from firetwin.shot.path import Path
 from firetwin.shot.settings import Camera, Render, Settings, Thermal, Time
 from firetwin.shot.shot import Shot
@@ -234,6 +235,22 @@ def test_ends_of_scales_are_those_of_the_shot_and_read_once(make_run, monkeypatc
     monkeypatch.setattr(temperature, "at", None)
     monkeypatch.setattr(temperature, "mean", None)
     assert (shot.warmest, shot.coldest_moment) == ((low, high), shot.coldest_moment)
+
+
+def test_the_thermal_scale_follows_the_air_of_the_moment_alone(make_run):
+    """A night and a noon 20 K warmer: each frame's palette begins at its own air, in whatever shot it is."""
+    night = np.full((3, 4, 5), 285.0, np.float32)
+    run = runs.open(make_run(temperature=night + np.array([0.0, 10.0, 20.0], np.float32)[:, None, None]))
+    made = Shot(Settings(time=Time(frames=3)), run)
+    assert [thermal_pass.scale(made, frame) for frame in (1, 2, 3)] == [
+        (285.0, 800.0),
+        (295.0, 800.0),
+        (305.0, 800.0),
+    ]
+    still = Shot(Settings(time=Time(frames=1, start=made.moment(3))), run)
+    assert thermal_pass.scale(still, 1) == (305.0, 800.0)
+    held = Shot(Settings(time=Time(frames=3), render=Render(thermal_low=280.0)), run)
+    assert {thermal_pass.scale(held, frame) for frame in (1, 2, 3)} == {(280.0, 800.0)}
 
 
 def test_hot_spots_lie_over_the_picture(tmp_path):

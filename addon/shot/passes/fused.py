@@ -3,10 +3,10 @@
 The picture is as large as the camera's own, whatever that is. Distances have the same colours in every frame
 of a shot, temperatures those of the thermal pass. What the camera does not record itself comes from the
 sensors on its mount (see `shot.mount`), and all panels are in register: a place is at the same point of each,
-and a sensor that sees less fills its part of the panel and is outlined in the visible picture. The map is the
-picture of a minimap that follows the camera; without one it is drawn from the run, north up, round the camera:
-relief and canopy. Over either lie the front, what has burned (the last half hour in orange), the camera, its
-way and angle of view.
+and a sensor that sees less fills its part of the panel and is outlined in the visible picture. The map is
+the picture of a minimap that follows the camera; without one it is drawn from the run, north up, round the
+camera: relief and canopy. Over either lie the front, what has burned (the last half hour in orange), the
+camera, its way and angle of view.
 """
 
 from __future__ import annotations
