@@ -3,10 +3,10 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 namespace firetwin::sensor {
@@ -25,26 +25,32 @@ void eye_dome(std::span<const float> depth, std::size_t height, std::size_t widt
   if (!(strength >= 0.0) || !std::isfinite(strength) || radius == 0) {
     throw std::invalid_argument("strength must be 0 or more, radius above 0");
   }
-  constexpr std::array<std::pair<int, int>, 8> around = {
-      {{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {1, 0}, {1, 1}}};
-  std::vector<float> log(depth.size());
-  std::ranges::transform(depth, log.begin(), logarithm);
-  const auto step = static_cast<std::ptrdiff_t>(radius);
-  const auto rows = static_cast<std::ptrdiff_t>(height),
-             columns = static_cast<std::ptrdiff_t>(width);
-  tbb::parallel_for(std::ptrdiff_t{0}, rows, [&](std::ptrdiff_t y) {
-    for (std::ptrdiff_t x = 0; x < columns; ++x) {
-      const auto here = static_cast<std::size_t>(y * columns + x);
-      double sum = 0.0;
-      for (const auto& [down, across] : around) {
-        const std::ptrdiff_t v = y + down * step, u = x + across * step;
-        if (v >= 0 && v < rows && u >= 0 && u < columns) {
-          const auto there = static_cast<std::size_t>(v * columns + u);
-          sum += static_cast<double>(std::max(0.0F, log[here] - log[there]));
+  radius = std::min(radius, std::max(height, width)); // farther out there is nothing
+  // Logarithms with a rim that is farther than all: no neighbour is nearer there.
+  const std::size_t wide = width + 2 * radius;
+  std::vector<float> log((height + 2 * radius) * wide, std::numeric_limits<float>::infinity());
+  tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
+    std::ranges::transform(depth.subspan(y * width, width),
+                           log.begin() + static_cast<std::ptrdiff_t>((y + radius) * wide + radius),
+                           logarithm);
+  });
+  const auto scale = static_cast<float>(strength / 8.0);
+  tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
+    const float* const above = &log[y * wide];
+    const float* const beside = above + radius * wide;
+    const float* const below = beside + radius * wide;
+    const std::span<float> row = shade.subspan(y * width, width);
+    for (std::size_t x = 0; x < width; ++x) { // without branches, so that it is vectorised
+      const float here = beside[x + radius];
+      float sum = 0.0F;
+      for (const float* const line : {above, beside, below}) {
+        for (const std::size_t across : {x, x + radius, x + 2 * radius}) {
+          sum += std::max(0.0F, here - line[across]);
         }
       }
-      shade[here] = static_cast<float>(std::exp(-strength * sum / 8.0));
+      row[x] = -scale * sum;
     }
+    std::ranges::transform(row, row.begin(), [](float power) { return std::exp(power); });
   });
 }
 
