@@ -84,19 +84,26 @@ def test_pixels_have_their_class_and_their_tree(shoot):
     assert np.array_equal(kind[right] == masks.SKY, sky[right])
     assert np.all(instance[right][kind[right] == masks.TREE] > 0)
     assert np.all(instance[np.isin(kind, (masks.SKY, masks.GROUND, masks.BURNED))] == 0)
-    trees = bpy.data.objects["Firetwin Trees"].data.vertices
+    trees = _trees()
     numbers = np.unique(instance[instance > 0]).astype(int)
     assert len(numbers) > 20
-    assert numbers.max() <= len(trees)
+    assert set(numbers) <= set(trees)
     assert (instance[:, :40] > 0).any()  # behind the smoke
     _stand_there(scene, trees, instance[right] * (kind[right] == masks.TREE), found["depth"][right][..., 0])
+
+
+def _trees():
+    """Places of the trees of the scene by their numbers."""
+    data = bpy.data.objects["Firetwin Trees"].data
+    numbers = (each.value for each in data.attributes["number"].data)
+    return {int(number): tuple(point.co) for number, point in zip(numbers, data.vertices, strict=True)}
 
 
 def _stand_there(scene, trees, instance, depth):
     """The tree of a pixel's number is as far away as the pixel."""
     view = np.array(scene.camera.matrix_world.inverted())
     picked = instance > 0
-    place = np.array([(*trees[int(number) - 1].co, 1.0) for number in instance[picked]])
+    place = np.array([(*trees[int(number)], 1.0) for number in instance[picked]])
     far = -(place @ view.T)[:, 2]
     off = np.abs(far - depth[picked])
     assert np.percentile(off, 95) < 30.0, "m; a tree is as high"
@@ -125,3 +132,21 @@ def test_sensors_of_one_mount_agree_to_the_pixel(shoot):
     first, second = (shoot("depth", "masks", camera=name)[1] for name in ("drone", "two"))
     assert np.array_equal(first["depth"], second["depth"])
     assert np.array_equal(first["masks"], second["masks"])
+
+
+def test_a_tree_has_its_number_in_every_camera_and_part_of_a_film(near_settings, run):
+    """A camera elsewhere and another part of the frames see other trees; those that both see agree."""
+
+    def trees(*keys):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        stage = owned.adopt(bpy.context.scene)
+        shot = Shot(replace(near_settings, cameras=(Camera("drone", Drone(keys=keys)),)), run)
+        build.build(shot, stage.scene)
+        return {tuple(np.round(place[:2], 1)): number for number, place in _trees().items()}
+
+    here = trees(KEY)
+    moved = trees(replace(KEY, latitude=KEY.latitude + 0.004))
+    both = set(here) & set(moved)
+    assert len(both) > 100
+    assert set(here) != set(moved)
+    assert [here[place] for place in both] == [moved[place] for place in both]

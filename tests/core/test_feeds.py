@@ -116,6 +116,19 @@ def test_classes_and_numbers_survive_smoke_exactly():
     assert np.all(instance == 0)
 
 
+def test_numbers_of_trees_are_theirs_and_whole_in_32_bits():
+    bits = np.random.default_rng(2).integers(-(2**63), 2**63, 200_000)
+    key = np.stack([bits >> 32, bits & 0xFFFFFFFF])
+    found = masks.numbers(*key)
+    assert found.min() >= 1
+    assert found.max() < 2**24
+    assert np.array_equal(found[::-1], masks.numbers(*key[:, ::-1]))
+    pairs = len(found) - len(np.unique(found))
+    assert pairs == pytest.approx(len(found) ** 2 / 2**25, rel=0.15)
+    cell = np.arange(720 * 720)
+    assert len(np.unique(masks.numbers(cell, 0 * cell).astype(np.float32))) == len(cell)
+
+
 def test_masks_are_written_by_name_and_in_one_colour_each(tmp_path):
     files = {end: tmp_path / f"masks.{end}" for end in ("exr", "png")}
     kinds = np.arange(6)[None].repeat(2, 0)

@@ -3,7 +3,7 @@
 All are instances on points. A point has float attributes `scale` (height, m), `width` (how much wider than
 its model it is), `rotation`, `pitch` and `roll` (radians), `arrival_time`, `elevation`, `canopy_fuel`,
 `tint`, `dead`, `scorch`, `torched`, and the numbers of its models, `model` and `snag_model`; trees also have
-a `number` of their own from 1 on. Only what a camera can see is made.
+a `number` of their own (see `shot.passes.masks`). Only what a camera can see is made.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
 from ...shot import noise
 from ...shot.ground import NEVER, bilinear
+from ...shot.passes import masks
 from ...shot.rigs.satellite import HEIGHT
 from ...shot.shot import Shot
 from .. import clock
@@ -37,7 +38,6 @@ def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Objec
     made, below, plants = [], understorey.grow(shot), {}
     if grown is not None:
         points = algorithm2(shot) if shot.settings.forest.density == "paper" else _stand(shot, grown)
-        points["number"] = 1.0 + np.arange(len(points["position"]))
         plants["Trees"] = levelled(shot, points), BARE_AFTER
     if len(below.size):
         plants["Understorey"] = levelled(shot, _below(shot, below)), _GONE_AFTER
@@ -72,13 +72,15 @@ def algorithm2(shot: Shot) -> dict[str, NDArray]:
     first = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[found.size_class[kept]]
     model = first + found.model[kept]
     width = np.ones(len(cell))
-    return _points(
+    points = _points(
         shot, position[kept], found.scale[kept], width, found.rotation[kept], model, cell, cell * 0
     )
+    return {**points, "number": masks.numbers(cell, cell * 0)}
 
 
 def _stand(shot: Shot, grown: Stand) -> dict[str, NDArray]:
-    return _points(shot, grown.position, grown.height, grown.width, grown.rotation, grown.model, *grown.key.T)
+    shape = grown.position, grown.height, grown.width, grown.rotation, grown.model
+    return {**_points(shot, *shape, *grown.key.T), "number": masks.numbers(*grown.key.T)}
 
 
 def _below(shot: Shot, things: understorey.Things) -> dict[str, NDArray]:

@@ -215,7 +215,8 @@ def _finish(
     """
     seen = infrared.through_air(tree, shot, stage, warmth)
     shader = nodes.thermal_switch(tree, haze.apply(tree, shader, stage), seen)
-    number = tree.attribute("number", "INSTANCER")
+    # Not "Fac", the mean of three equal parts: it is rounded, and numbers need all 24 bits.
+    number, _, _ = tree.separate(tree.attribute("number", "INSTANCER", "Vector"))
     below = (_age(tree) > 0.0) * (masks.BURNED - masks.GROUND) + masks.GROUND
     kind = tree.mix(number > 0.0, below, float(masks.TREE))
     if isinstance(alight, nodes.Value):

@@ -12,10 +12,12 @@ fire   5     flames in the air, on the ground and in crowns, and firebrands
 ====== ===== ==================================================================================
 
 The EXR holds `class`; `clear`, the part 0..1 of what is behind smoke that comes through it; and `instance`,
-the number of the tree from 1 on (0: none), the same in all frames of a camera that are built together (see
-[render] chunk). The PNG shows each class in one colour. One ray goes through the middle of each pixel and
-nothing is filtered, so numbers are whole. Where smoke lets nothing through, what is behind is not known:
-instance 0. EEVEE's pixels hold 11 bits (half floats), which are too few for numbers of trees: it is refused.
+the number of the tree (0: none). A tree has one number in every frame, camera and film of a run with one
+`seed`: it is made of the tree's own identity (see `numbers`), not of its place among those that were built.
+Of n trees in sight about n^2 / 2^25 pairs share a number. The PNG shows each class in one colour. One ray
+goes through the middle of each pixel and nothing is filtered, so numbers are whole. Where smoke lets nothing
+through, what is behind is not known: instance 0. EEVEE's pixels hold 11 bits (half floats), which are too few
+for numbers of trees: it is refused.
 """
 
 from __future__ import annotations
@@ -50,6 +52,17 @@ def classes(pixels: NDArray) -> tuple[NDArray, NDArray, NDArray]:
     return kind, low + 4096.0 * (code // 8), clear
 
 
+def numbers(key: NDArray, second: NDArray) -> NDArray:
+    """Numbers (n,) from 1 to 2^24 - 1, which 32-bit floats hold, of trees by the two integers of each.
+
+    Those of a stand are the halves of 64 random bits. Of one tree for each cell they are the cell and 0: no
+    two of these share a number in runs of up to 2^24 - 1 cells.
+    """
+    import numpy as np
+
+    return 1 + (np.asarray(key, np.int64) ^ np.asarray(second, np.int64)) % (2**24 - 1)
+
+
 def finish(files: Files, _needed: Mapping[str, Files], _shot: Shot, _camera: str, _frame: int) -> None:
     """Tell classes, instances and smoke apart, and paint the classes."""
     import numpy as np
@@ -68,7 +81,7 @@ PASS = Pass(
     name="masks",
     order=27,
     help="Class of each pixel (fire, smoke, tree, burned, ground, sky) and number of each tree, EXR and PNG; "
-    "numbers hold within one camera's frames that are built together ([render] chunk)",
+    "a tree has one number in all frames, cameras and films",
     files=("exr", "png"),
     output="Image",
     leaves_out=("lamps",),
