@@ -79,8 +79,7 @@ void strew(const std::array<std::int32_t, 3>& cell, std::uint32_t seed, Worley::
 
 using Lanes = float __attribute__((vector_size(8 * sizeof(float))));
 
-FIRETWIN_CLONES("avx512f", "avx2")
-float nearest(const Worley::Points& points, float x, float y, float z) {
+inline float nearest(const Worley::Points& points, float x, float y, float z) {
   Lanes least = Lanes{} + 9.0F;
   for (std::size_t n = 0; n < Worley::points; n += 8) {
     Lanes dx, dy, dz;
@@ -93,11 +92,11 @@ float nearest(const Worley::Points& points, float x, float y, float z) {
     const Lanes square = dx * dx + dy * dy + dz * dz;
     least = square < least ? square : least;
   }
-  float result = least[0];
-  for (int lane = 1; lane < 8; ++lane) {
-    result = std::min(result, least[lane]);
-  }
-  return result;
+  Lanes other = __builtin_shufflevector(least, least, 4, 5, 6, 7, 0, 1, 2, 3);
+  least = other < least ? other : least;
+  other = __builtin_shufflevector(least, least, 2, 3, 0, 1, 6, 7, 4, 5);
+  least = other < least ? other : least;
+  return std::min(least[0], least[1]);
 }
 
 } // namespace
@@ -109,6 +108,7 @@ void perlin(const Row& x, const Row& y, const Row& z, std::uint32_t seed, Row& n
   }
 }
 
+FIRETWIN_CLONES("avx512f", "avx2")
 void Worley::at(const Row& x, const Row& y, const Row& z, std::uint32_t seed, Row& distance) {
   for (std::size_t n = 0; n < distance.size(); ++n) {
     const float x0 = std::floor(x[n]), y0 = std::floor(y[n]), z0 = std::floor(z[n]);
@@ -121,7 +121,10 @@ void Worley::at(const Row& x, const Row& y, const Row& z, std::uint32_t seed, Ro
       seed_ = seed;
       strewn_ = true;
     }
-    distance[n] = std::sqrt(nearest(points_, x[n] - x0, y[n] - y0, z[n] - z0));
+    distance[n] = nearest(points_, x[n] - x0, y[n] - y0, z[n] - z0);
+  }
+  for (float& each : distance) {
+    each = std::sqrt(each);
   }
 }
 
