@@ -18,7 +18,7 @@ constexpr float crisp_reach[] = {0.8F, 7.0F};    // of noise in the amount
 constexpr float whole[] = {5.5F,
                            8.5F}; // amount near by that noise of least and of full reach tears
 constexpr float lump_slope = 1.4F;
-constexpr float cloud_depth = 500.0F;              // m above condensation over which smoke turns to cloud
+constexpr float cloud_depth = 500.0F; // m above condensation over which smoke turns to cloud
 constexpr float cloud_ages[] = {600.0F, 1600.0F}; // s, between which droplets evaporate
 
 float ramp(float low, float high, float x) {
@@ -101,7 +101,7 @@ void Detail::find_vigour(const Moment& m, const Values& amount) {
                          cap * ramp(cloud_ages[1], cloud_ages[0], m.age[n]);
     const float droplets = cloud_amount * cap;
     vigour[n] = std::max(std::min(lively, 1.0F) * ramp(5.0F, 6.8F, near[n] + droplets),
-                          ramp(6.0F, 7.6F, dense[n]));
+                         ramp(6.0F, 7.6F, dense[n]));
   }
   blur(vigour, shape_, {1.0, 1.0, 1.0});
   for (float& value : vigour) {

@@ -58,6 +58,7 @@ struct Brick {
   }
 };
 
+/// All zeros at first: where there is nothing, nothing is written.
 struct Painted {
   std::span<float> density; ///< extinction, 1/m
   std::span<float> fresh;   ///< 1 where smoke is young, 0 where it is old or none
@@ -82,11 +83,11 @@ public:
 
 private:
   class Brush;
-  static constexpr float unit = 1.0e-9F;              // kg/m3
-  static constexpr float least = 1.2F;                // amount without any smoke to see
-  static constexpr std::array core{6.3F, 8.0F};       // of a vigorous core at least, thin and thick
-  static constexpr float cloud_amount = 2.5F;         // of droplets in the amount
-  static constexpr float terrain_fade = 1000.0F;      // m over which levels forget finer ground
+  static constexpr float unit = 1.0e-9F;         // kg/m3
+  static constexpr float least = 1.2F;           // amount without any smoke to see
+  static constexpr std::array core{6.3F, 8.0F};  // of a vigorous core at least, thin and thick
+  static constexpr float cloud_amount = 2.5F;    // of droplets in the amount
+  static constexpr float terrain_fade = 1000.0F; // m over which levels forget finer ground
 
   using Values = std::vector<float>; ///< [nz][ny][nx]
   void find_vigour(const Moment& moment, const Values& amount);
@@ -99,13 +100,13 @@ private:
   double spacing_;
   std::array<double, 2> corner_;
   std::vector<float> levels_;
-  std::vector<float> sinking_; ///< [nz] how much of the ground finer than the flow's a level follows
-  Columns heights_; ///< m
-  Columns ground_;  ///< of one level, m
-  Columns amount_; ///< ln(smoke / 1 ug/m3), at least 0
-  Columns vigour_; ///< 0 to 1
-  Columns reach_;  ///< of crisp noise in the amount
-  Columns solid_;  ///< 0 where smoke is thin all round, 1 where it is thick
+  std::vector<float> sinking_; ///< [nz] how much of finer ground than the flow's a level follows
+  Columns heights_;            ///< m
+  Columns ground_;             ///< of one level, m
+  Columns amount_;             ///< ln(smoke / 1 ug/m3), at least 0
+  Columns vigour_;             ///< 0 to 1
+  Columns reach_;              ///< of crisp noise in the amount
+  Columns solid_;              ///< 0 where smoke is thin all round, 1 where it is thick
   Columns age_, glow_;
   std::array<Columns, Drift::parts> drift_; ///< of the phases that show
   std::array<float, Drift::phases> weights_;

@@ -35,7 +35,8 @@ Detail::Brush::Brush(const Detail& d, const Brick& b, const Painted& out)
   places_.low.resize(voxels);
   places_.part.resize(voxels);
   voxel_.resize(voxels);
-  for (auto* values : {&high_up_, &above_, &amount_, &vigour_, &cloud_, &reach_, &solid_, &value_}) {
+  for (auto* values :
+       {&high_up_, &above_, &amount_, &vigour_, &cloud_, &reach_, &solid_, &value_}) {
     values->resize(voxels);
   }
 }
@@ -102,15 +103,17 @@ void Detail::Brush::find_voxels(Index i, Index j) {
   const float surface = b.surface[column_];
   const auto top = static_cast<std::size_t>(std::min(last_ + 1, high_));
   auto k = static_cast<std::size_t>(std::max(first_ - 1, Index{0}));
-  const float bottom = k > 0 ? height_[k] : surface - static_cast<float>(b.voxel);
+  const float ground = surface - static_cast<float>(b.voxel);
+  const float bottom = k > 0 ? std::max(height_[k], ground) : ground;
+  const double below = std::floor((static_cast<double>(bottom) - b.origin[2]) / b.voxel) - 1.0;
   places_.count = 0;
-  for (Index m = 0; m < b.shape[2]; ++m) {
+  for (auto m = static_cast<Index>(std::max(below, 0.0)); m < b.shape[2]; ++m) {
     if (wanted != nullptr && wanted[m / Brick::block] == 0) {
       m += Brick::block - 1 - m % Brick::block;
       continue;
     }
     const auto height = static_cast<float>(b.origin[2] + static_cast<double>(m) * b.voxel);
-    if (height < bottom || height < surface - static_cast<float>(b.voxel)) {
+    if (height < bottom) {
       continue;
     }
     while (k + 1 < top && height_[k + 1] < height) {
@@ -151,8 +154,11 @@ void Detail::Brush::paint_surface() {
   find(d.age_, value_);
   for (std::size_t n = 0; n < count; ++n) {
     cloud_[n] = vigour_[n] * d.capped(high_up_[n]);
-    out_.fresh[first + static_cast<std::size_t>(voxel_[n])] =
+    const float fresh =
         (1.0F - cloud_[n]) * smoothstep(d.look_.ages[1], d.look_.ages[0], value_[n]);
+    if (fresh > 0.0F) { // a page of memory that is not written is none: a third of them
+      out_.fresh[first + static_cast<std::size_t>(voxel_[n])] = fresh;
+    }
   }
   if (!out_.glow.empty()) {
     find(d.glow_, value_);
@@ -178,7 +184,8 @@ void Detail::Brush::find_amount() {
   }
 }
 
-/// Paints voxels, as many at once as make a Row; the last wait for others.
+/// Paints voxels that are not clear whatever the noise, as many at once as make a Row; the last
+/// wait for others.
 void Detail::Brush::wait() {
   for (std::size_t p = 0; p < Drift::parts; ++p) {
     if (detail_.shows(p / 3)) {
@@ -198,8 +205,8 @@ void Detail::Brush::wait() {
 void Detail::Brush::wait_for(std::size_t n) {
   Waiting& w = waiting_;
   const std::size_t lane = w.count++;
-  w.voxel[lane] = column_ * static_cast<std::size_t>(brick_.shape[2]) +
-                  static_cast<std::size_t>(voxel_[n]);
+  w.voxel[lane] =
+      column_ * static_cast<std::size_t>(brick_.shape[2]) + static_cast<std::size_t>(voxel_[n]);
   w.share[lane] = brick_.share[column_];
   w.above[lane] = above_[n];
   w.amount[lane] = amount_[n];
@@ -241,20 +248,22 @@ void Detail::Brush::finish() {
 
 float Detail::Brush::extinction(std::size_t n, float raise) const {
   const float v = waiting_.vigour[n], amount = waiting_.amount[n], solid = waiting_.solid[n];
+  // Exponentials of what counts nothing are left out: a twelfth of the whole time.
   const auto dense = [](float low, float high, float raised, float held, float gain) {
-    return std::exp(held) * gain * smoothstep(low, high, raised);
+    const float left = gain * smoothstep(low, high, raised);
+    return left > 0.0F ? std::exp(held) * left : 0.0F;
   };
   const float low = mix(soft_cut[0], crisp_cut[0], v), high = mix(soft_cut[1], crisp_cut[1], v);
   const float raised = amount + waiting_.reach[n] * raise, veiled = amount + soft_reach * raise;
   const float held = mix(raised, std::max(amount, mix(core[0], core[1], solid)), v);
   const float lumps = dense(low, high, raised, held, mix(soft_gain, crisp_gain, v));
   const float veil =
-      v * (1.0F - solid) * dense(soft_cut[0], soft_cut[1], veiled, veiled, veil_gain);
+      dense(soft_cut[0], soft_cut[1], veiled, veiled, veil_gain * v * (1.0F - solid));
   const float rooted =
       mix(root, 1.0F, smoothstep(root_heights[0], root_heights[1], waiting_.above[n]));
   const Look& look = detail_.look_;
   const float full = (lumps + veil) * unit * per_kg * static_cast<float>(look.opacity) * rooted;
-  return look.thickest * (1.0F - std::exp(-full / look.thickest));
+  return full > 0.0F ? look.thickest * (1.0F - std::exp(-full / look.thickest)) : 0.0F;
 }
 
 void Detail::paint(const Brick& b, const Painted& out) const {

@@ -56,8 +56,8 @@ private:
 
   // Of the column's voxels with smoke.
   Places places_;
-  std::vector<Index> voxel_;                 ///< from the brick's bottom up
-  std::vector<float> high_up_, above_;       ///< m in the ground's datum, and over the ground
+  std::vector<Index> voxel_;           ///< from the brick's bottom up
+  std::vector<float> high_up_, above_; ///< m in the ground's datum, and over the ground
   std::vector<float> amount_, vigour_, cloud_, reach_, solid_, value_;
 
   Lumps lumps_;

@@ -65,9 +65,9 @@ void along(const std::vector<float>& values, const Shape& s, int axis, Index rea
     std::vector<const float*> rows(static_cast<std::size_t>(2 * reach + 1));
     for (Index j = 0; j < s.ny; ++j) {
       const auto row = [&](Index level, Index at) {
-        return values.data() + (std::clamp(level, Index{0}, s.nz - 1) * s.ny +
-                                std::clamp(at, Index{0}, s.ny - 1)) *
-                                   s.nx;
+        return values.data() +
+               (std::clamp(level, Index{0}, s.nz - 1) * s.ny + std::clamp(at, Index{0}, s.ny - 1)) *
+                   s.nx;
       };
       if (axis == 2) {
         const float* here = row(k, j);

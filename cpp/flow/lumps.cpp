@@ -55,7 +55,7 @@ Lumps::Lumps(double size, double finest, const std::array<std::uint32_t, Drift::
 
 void Lumps::at(const Origins& places, std::size_t phase, const Row& vigour, Row& noise) {
   const auto [least, most] = std::minmax_element(vigour.begin(), vigour.end());
-  const bool veils = *least < lively, lumps = *most > calm;
+  const bool veils = *least<lively, lumps = *most> calm;
   Row crisp{}, soft{}, found, x, y, z;
   float share = 1.0F;
   double size = size_;

@@ -24,7 +24,7 @@ inline float slope(std::uint32_t h, float x, float y, float z) {
 }
 
 inline float share(std::uint32_t h, std::uint32_t shift) {
-  return static_cast<float>(static_cast<std::int32_t>(h >> shift & 1023U)) / 1023.0F;
+  return static_cast<float>(static_cast<std::int32_t>(h >> shift & 1023U)) * (1.0F / 1023.0F);
 }
 
 inline float perlin_at(float x, float y, float z, std::uint32_t seed) {
