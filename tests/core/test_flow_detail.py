@@ -132,8 +132,9 @@ def test_blocks_that_nobody_wants_stay_empty():
         assert np.array_equal(np.where(there, one, 0.0), other)
 
 
-def test_cells_far_away_change_nothing():
-    """More of the same to the east; rows of cells are then long enough to be filtered many at a time."""
+@pytest.mark.parametrize("west", [False, True])
+def test_cells_far_away_change_nothing(west):
+    """More of the same to a side; rows of cells are then long enough to be filtered many at a time."""
     rng = np.random.default_rng(3)
     fields = moment(
         age=rng.uniform(0.0, 900.0, (N, N, N)),
@@ -142,14 +143,17 @@ def test_cells_far_away_change_nothing():
         blur=(1.5, 1.0, 0.7),
     )
 
-    def to(columns):
-        """With the last column of cells repeated."""
+    def among(columns, west):
+        """Painted where these cells are the last or, with none to the west, the first of so many columns."""
+        first = columns - N if west else 0
+        place = np.clip(np.arange(columns) - first, 0, N - 1)
         names = ("heights", "smoke", "age", "rise", "warmth", "drift")
-        wide = {name: fields[name].take(np.minimum(np.arange(columns), N - 1), axis=2) for name in names}
-        return painted(**fields | wide | {"ground": np.zeros((N, columns))})
+        wide = {name: fields[name].take(place, axis=2) for name in names}
+        more = {"ground": np.zeros((N, columns)), "corner": (-first * SPACING, 0.0)}
+        return painted(**fields | wide | more)
 
-    for one, other in zip(to(2 * N)[:2], to(3 * N)[:2], strict=True):
-        assert one.max() > 0.0
+    for one, other in zip(among(2 * N, west)[:2], among(3 * N, west)[:2], strict=True):
+        assert one[40:].max() > 0.0
         assert np.array_equal(one, other)
 
 
