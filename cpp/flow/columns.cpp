@@ -15,8 +15,10 @@ void mix_columns(const std::array<const float*, 4>& from, std::array<float, 2> p
                  float* __restrict out) {
   const float *a = from[0], *b = from[1], *c = from[2], *d = from[3];
   const float north = part[0], east = part[1];
-  for (Index k = 0; k < n; ++k) {
-    out[k] = mix(mix(a[k], b[k], east), mix(c[k], d[k], east), north);
+  for (Index k = 0; k < n; k += lanes) {
+    for (Index l = k; l < k + lanes; ++l) {
+      out[l] = mix(mix(a[l], b[l], east), mix(c[l], d[l], east), north);
+    }
   }
 }
 
@@ -25,26 +27,32 @@ void add_row(const std::array<const float*, 4>& from, const std::array<float, 4>
              Index n, float* __restrict out) {
   const float *a = from[0], *b = from[1], *c = from[2], *d = from[3];
   const auto [wa, wb, wc, wd] = weight;
-  for (Index k = 0; k < n; ++k) {
-    out[k] += row * (a[k] * wa + b[k] * wb + c[k] * wc + d[k] * wd);
+  for (Index k = 0; k < n; k += lanes) {
+    for (Index l = k; l < k + lanes; ++l) {
+      out[l] += row * (a[l] * wa + b[l] * wb + c[l] * wc + d[l] * wd);
+    }
   }
 }
 
 FIRETWIN_CLONES("avx512f", "avx2")
 void mix_levels(const std::int32_t* __restrict low, const float* __restrict part, Index n,
                 const float* __restrict levels, float* __restrict out) {
-  for (Index i = 0; i < n; ++i) {
-    out[i] = mix(levels[low[i]], levels[low[i] + 1], part[i]);
+  for (Index i = 0; i < n; i += lanes) {
+    for (Index l = i; l < i + lanes; ++l) {
+      out[l] = mix(levels[low[l]], levels[low[l] + 1], part[l]);
+    }
   }
 }
 
 FIRETWIN_CLONES("avx512f", "avx2")
 void curve_levels(const std::int32_t* __restrict low, const float* __restrict part, Index n,
                   const float* __restrict levels, float* __restrict out) {
-  for (Index i = 0; i < n; ++i) {
-    const float* v = levels + low[i];
-    const auto weight = catmull_rom(part[i]);
-    out[i] = weight[0] * v[-1] + weight[1] * v[0] + weight[2] * v[1] + weight[3] * v[2];
+  for (Index i = 0; i < n; i += lanes) {
+    for (Index l = i; l < i + lanes; ++l) {
+      const float* v = levels + low[l];
+      const auto weight = catmull_rom(part[l]);
+      out[l] = weight[0] * v[-1] + weight[1] * v[0] + weight[2] * v[1] + weight[3] * v[2];
+    }
   }
 }
 
@@ -69,7 +77,7 @@ Standing::Standing(float at_column, float at_row, const Shape& shape) {
 }
 
 Columns::Columns(const float* values, const Shape& shape, Index step)
-    : shape_(shape), values_(shape.size()) {
+    : shape_(shape), values_(shape.size() + lanes) {
   each(shape.ny, [&](Index row) {
     for (Index from = 0; from < shape.nx; from += lanes) { // so many stay in the cache
       const Index to = std::min(from + lanes, shape.nx);
@@ -92,7 +100,7 @@ void Columns::linear(const Standing& at, Index first, Index last, float* out) co
 }
 
 void Columns::cubic(const Standing& at, Index first, Index last, float* out) const {
-  std::fill(out + first, out + last + 1, 0.0F);
+  std::fill(out + first, out + first + whole_lanes(last + 1 - first), 0.0F);
   for (std::size_t j = 0; j < 4; ++j) {
     std::array<const float*, 4> from{};
     for (std::size_t i = 0; i < 4; ++i) {

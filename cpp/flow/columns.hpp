@@ -33,7 +33,8 @@ public:
   const float* column(Index row, Index column) const {
     return values_.data() + (row * shape_.nx + column) * shape_.nz;
   }
-  /// Levels `first` to `last`, these included, of a column between others: linear.
+  /// Levels `first` to `last`, these included, of a column between others: linear. Makes whole
+  /// lanes of them: `out` has room for so many more.
   void linear(const Standing& at, Index first, Index last, float* out) const;
   /// The same, cubic.
   void cubic(const Standing& at, Index first, Index last, float* out) const;
@@ -43,7 +44,8 @@ private:
   std::vector<float> values_;
 };
 
-/// Places along a column: `part` of the way from level `low` to the next.
+/// Places along a column: `part` of the way from level `low` to the next; in whole lanes, as are
+/// the values found at them. Those beyond `count` are any places.
 struct Places {
   std::vector<std::int32_t> low;
   std::vector<float> part;

@@ -25,13 +25,13 @@ constexpr double finest = 1.7; // lumps, voxels
 Detail::Brush::Brush(const Detail& d, const Brick& b, const Painted& out)
     : detail_(d), brick_(b), out_(out), at_(0.0F, 0.0F, d.shape_),
       lumps_(d.look_.size, finest * b.voxel, d.seeds_) {
-  const auto levels = static_cast<std::size_t>(d.shape_.nz);
+  const auto levels = static_cast<std::size_t>(d.shape_.nz + lanes);
   height_.resize(levels);
   level_.resize(levels + 2);
   for (auto& part : drift_) {
     part.resize(levels);
   }
-  const auto voxels = static_cast<std::size_t>(b.shape[2]);
+  const auto voxels = static_cast<std::size_t>(whole_lanes(b.shape[2]));
   places_.low.resize(voxels);
   places_.part.resize(voxels);
   voxel_.resize(voxels);
@@ -82,10 +82,9 @@ bool Detail::Brush::find_levels() {
 }
 
 void Detail::Brush::find_heights() {
-  float ground = 0.0F;
-  detail_.ground_.linear(at_, 0, 0, &ground);
+  detail_.ground_.linear(at_, 0, 0, height_.data());
+  const float higher = brick_.surface[column_] - height_[0];
   detail_.heights_.linear(at_, low_, high_, height_.data());
-  const float higher = brick_.surface[column_] - ground;
   for (auto k = static_cast<std::size_t>(low_); k <= static_cast<std::size_t>(high_); ++k) {
     height_[k] += higher * detail_.sinking_[k];
   }
