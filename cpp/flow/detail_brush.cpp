@@ -98,15 +98,14 @@ void Detail::Brush::find_voxels(Index i, Index j) {
       b.wanted.empty()
           ? nullptr
           : b.wanted.data() + (i / Brick::block * blocks[1] + j / Brick::block) * blocks[2];
-  const float* amount = level_.data() + 1;
-  const float surface = b.surface[column_];
   const auto top = static_cast<std::size_t>(std::min(last_ + 1, high_));
   auto k = static_cast<std::size_t>(std::max(first_ - 1, Index{0}));
-  const float ground = surface - static_cast<float>(b.voxel);
+  const float ground = b.surface[column_] - static_cast<float>(b.voxel);
   const float bottom = k > 0 ? std::max(height_[k], ground) : ground;
   const double below = std::floor((static_cast<double>(bottom) - b.origin[2]) / b.voxel) - 1.0;
+  const double first = std::min(std::max(0.0, below), static_cast<double>(b.shape[2]));
   places_.count = 0;
-  for (auto m = static_cast<Index>(std::max(below, 0.0)); m < b.shape[2]; ++m) {
+  for (auto m = static_cast<Index>(first); m < b.shape[2]; ++m) {
     if (wanted != nullptr && wanted[m / Brick::block] == 0) {
       m += Brick::block - 1 - m % Brick::block;
       continue;
@@ -122,20 +121,26 @@ void Detail::Brush::find_voxels(Index i, Index j) {
     if (way > 1.0F) {
       break;
     }
-    const float held = std::max(way, 0.0F), level = static_cast<float>(k) + held;
-    const Index low = std::min(static_cast<Index>(level), detail_.shape_.nz - 2);
-    const float part = level - static_cast<float>(low);
-    if (mix(amount[low], amount[low + 1], part) < least) {
-      continue;
-    }
-    const auto n = static_cast<std::size_t>(places_.count++);
-    places_.low[n] = static_cast<std::int32_t>(low);
-    places_.part[n] = part;
-    voxel_[n] = m;
-    high_up_[n] = height;
-    above_[n] = way < 0.0F ? std::max(height - surface, 0.0F)
-                           : mix(detail_.levels_[k], detail_.levels_[k + 1], held);
+    add_voxel(m, height, k, way);
   }
+}
+
+/// If it is in smoke: `way` from a level to the next, less than 0 below the lowest.
+void Detail::Brush::add_voxel(Index voxel, float height, std::size_t k, float way) {
+  const float* amount = level_.data() + 1;
+  const float held = std::max(way, 0.0F), level = static_cast<float>(k) + held;
+  const Index low = std::min(static_cast<Index>(level), detail_.shape_.nz - 2);
+  const float part = level - static_cast<float>(low);
+  if (mix(amount[low], amount[low + 1], part) < least) {
+    return;
+  }
+  const auto n = static_cast<std::size_t>(places_.count++);
+  places_.low[n] = static_cast<std::int32_t>(low);
+  places_.part[n] = part;
+  voxel_[n] = voxel;
+  high_up_[n] = height;
+  above_[n] = way < 0.0F ? std::max(height - brick_.surface[column_], 0.0F)
+                         : mix(detail_.levels_[k], detail_.levels_[k + 1], held);
 }
 
 /// Values at the voxels, between levels linear.

@@ -33,6 +33,7 @@ private:
   bool find_levels();
   void find_heights();
   void find_voxels(Index i, Index j);
+  void add_voxel(Index voxel, float height, std::size_t k, float way);
   void find(const Columns& of, std::vector<float>& values);
   void find_amount();
   void paint_surface();
