@@ -1,9 +1,9 @@
 #pragma once
 
 #include "base/vector.hpp"
+#include "flow/columns.hpp"
 #include "flow/drift.hpp"
 #include "flow/filters.hpp"
-#include "flow/noise.hpp"
 
 #include <array>
 #include <cstdint>
@@ -58,6 +58,7 @@ struct Brick {
   }
 };
 
+/// All zeros at first: where there is nothing, nothing is written.
 struct Painted {
   std::span<float> density; ///< extinction, 1/m
   std::span<float> fresh;   ///< 1 where smoke is young, 0 where it is old or none
@@ -81,29 +82,33 @@ public:
   bool glows() const { return !glow_.empty(); }
 
 private:
-  struct Column;
-  void find_vigour(const Moment& moment);
+  class Brush;
+  static constexpr float unit = 1.0e-9F;         // kg/m3
+  static constexpr float least = 1.2F;           // amount without any smoke to see
+  static constexpr std::array core{6.3F, 8.0F};  // of a vigorous core at least, thin and thick
+  static constexpr float cloud_amount = 2.5F;    // of droplets in the amount
+  static constexpr float terrain_fade = 1000.0F; // m over which levels forget finer ground
+
+  using Values = std::vector<float>; ///< [nz][ny][nx]
+  void find_vigour(const Moment& moment, const Values& amount);
+  void find_reach(const Moment& moment, const Values& amount);
+  void find_drift(const Moment& moment);
   float capped(float height) const;
-  void find_reach();
-  void find_smoky();
-  bool begin(Column& column) const;
-  bool smoky(const Column& column, float level) const;
-  void paint_column(Column& column, const Brick& brick, Index i, Index j, const Painted& out) const;
-  float vigour(const Column& column, float level) const;
-  float extinction(Column& column, float level, float above, float vigour, float cloud) const;
-  float lumps(Column& column, const Vector& place, std::size_t phase, float vigour) const;
-  float noise(Column& column, float level, float above, float vigour) const;
+  bool shows(std::size_t phase) const { return weights_[phase] > 0.02F; }
 
   Shape shape_;
   double spacing_;
   std::array<double, 2> corner_;
-  std::vector<float> levels_, heights_, ground_;
-  std::vector<float> amount_; ///< ln(smoke / 1 ug/m3), at least 0
-  std::vector<float> vigour_; ///< 0 to 1
-  std::vector<float> reach_;  ///< of crisp noise in the amount
-  std::vector<float> solid_;  ///< 0 where smoke is thin all round, 1 where it is thick
-  std::vector<float> age_, glow_, drift_;
-  std::vector<std::uint8_t> smoky_; ///< whether there is smoke to see within a cell
+  std::vector<float> levels_;
+  std::vector<float> sinking_; ///< [nz] how much of finer ground than the flow's a level follows
+  Columns heights_;            ///< m
+  Columns ground_;             ///< of one level, m
+  Columns amount_;             ///< ln(smoke / 1 ug/m3), at least 0
+  Columns vigour_;             ///< 0 to 1
+  Columns reach_;              ///< of crisp noise in the amount
+  Columns solid_;              ///< 0 where smoke is thin all round, 1 where it is thick
+  Columns age_, glow_;
+  std::array<Columns, Drift::parts> drift_; ///< of the phases that show
   std::array<float, Drift::phases> weights_;
   std::array<std::uint32_t, Drift::phases> seeds_{};
   Look look_;

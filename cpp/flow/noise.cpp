@@ -1,104 +1,131 @@
 #include "flow/noise.hpp"
 
+#include "base/clones.hpp"
 #include "base/noise.hpp"
 #include "flow/between.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 
 namespace firetwin::flow {
 namespace {
 
-/// A point's cell and its place in it.
-struct Place {
-  explicit Place(float at)
-      : cell(static_cast<std::int32_t>(std::floor(at))), part(at - std::floor(at)) {}
-  std::int32_t cell;
-  float part;
-};
-
-/// Mixes a cell's three numbers into 32 even bits.
-std::uint32_t bits(std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t seed) {
-  return finished(static_cast<std::uint32_t>(i) * 0x9E3779B1U ^
-                  static_cast<std::uint32_t>(j) * 0x85EBCA77U ^
-                  static_cast<std::uint32_t>(k) * 0xC2B2AE3DU ^ seed * 0x27D4EB2FU);
-}
+constexpr std::uint32_t along_x = 0x9E3779B1U, along_y = 0x85EBCA77U, along_z = 0xC2B2AE3DU,
+                        of_seed = 0x27D4EB2FU;
 
 /// Slope times place, of one of twelve slopes along the diagonals of a cube's faces.
-float slope(std::uint32_t h, float x, float y, float z) {
+inline float slope(std::uint32_t h, float x, float y, float z) {
   const std::uint32_t which = h & 15U;
   const float u = which < 8 ? x : y;
-  const float v = which < 4 ? y : which == 12 || which == 14 ? x : z;
+  const float w = (which & 13U) == 12 ? x : z;
+  const float v = which < 4 ? y : w;
   return ((which & 1U) != 0 ? -u : u) + ((which & 2U) != 0 ? -v : v);
 }
 
-float share(std::uint32_t h, int shift) {
-  return static_cast<float>(h >> shift & 1023U) / 1023.0F;
+inline float share(std::uint32_t h, std::uint32_t shift) {
+  return static_cast<float>(static_cast<std::int32_t>(h >> shift & 1023U)) * (1.0F / 1023.0F);
+}
+
+inline float perlin_at(float x, float y, float z, std::uint32_t seed) {
+  const float x0 = std::floor(x), y0 = std::floor(y), z0 = std::floor(z);
+  const float a = x - x0, b = y - y0, c = z - z0;
+  const std::uint32_t i = static_cast<std::uint32_t>(static_cast<std::int32_t>(x0)) * along_x,
+                      j = static_cast<std::uint32_t>(static_cast<std::int32_t>(y0)) * along_y,
+                      k = static_cast<std::uint32_t>(static_cast<std::int32_t>(z0)) * along_z;
+  const std::uint32_t i1 = i + along_x, j1 = j + along_y;
+  const float u = fade(a), v = fade(b);
+  const auto level = [&](std::uint32_t kk, float cc) {
+    const float front = mix(slope(finished(i ^ j ^ kk), a, b, cc),
+                            slope(finished(i1 ^ j ^ kk), a - 1.0F, b, cc), u);
+    const float back = mix(slope(finished(i ^ j1 ^ kk), a, b - 1.0F, cc),
+                           slope(finished(i1 ^ j1 ^ kk), a - 1.0F, b - 1.0F, cc), u);
+    return mix(front, back, v);
+  };
+  const std::uint32_t own = seed * of_seed;
+  return mix(level(k ^ own, c), level((k + along_z) ^ own, c - 1.0F), fade(c));
+}
+
+/// The cubes round one, each as many times along x, y and z; the last have no points.
+struct Around {
+  std::array<std::int32_t, Worley::points> x{}, y{}, z{};
+  constexpr Around() {
+    for (std::size_t n = 0; n < 27; ++n) {
+      const auto at = static_cast<std::int32_t>(n);
+      x[n] = at % 3 - 1;
+      y[n] = at / 3 % 3 - 1;
+      z[n] = at / 9 - 1;
+    }
+  }
+};
+
+FIRETWIN_CLONES("avx512f", "avx2")
+void strew(const std::array<std::int32_t, 3>& cell, std::uint32_t seed, Worley::Points& points) {
+  static constexpr Around around;
+  constexpr float far_away = 99.0F;
+  for (std::size_t n = 0; n < Worley::points; ++n) {
+    const std::uint32_t h =
+        finished(static_cast<std::uint32_t>(cell[0] + around.x[n]) * along_x ^
+                 static_cast<std::uint32_t>(cell[1] + around.y[n]) * along_y ^
+                 static_cast<std::uint32_t>(cell[2] + around.z[n]) * along_z ^ seed * of_seed);
+    points.x[n] = static_cast<float>(around.x[n]) + share(h, 0);
+    points.y[n] = static_cast<float>(around.y[n]) + share(h, 10);
+    points.z[n] = static_cast<float>(around.z[n]) + share(h, 20);
+  }
+  for (std::size_t n = 27; n < Worley::points; ++n) {
+    points.x[n] = points.y[n] = points.z[n] = far_away;
+  }
+}
+
+using Lanes = float __attribute__((vector_size(8 * sizeof(float))));
+
+inline float nearest(const Worley::Points& points, float x, float y, float z) {
+  Lanes least = Lanes{} + 9.0F;
+  for (std::size_t n = 0; n < Worley::points; n += 8) {
+    Lanes dx, dy, dz;
+    std::memcpy(&dx, points.x.data() + n, sizeof dx);
+    std::memcpy(&dy, points.y.data() + n, sizeof dy);
+    std::memcpy(&dz, points.z.data() + n, sizeof dz);
+    dx -= x;
+    dy -= y;
+    dz -= z;
+    const Lanes square = dx * dx + dy * dy + dz * dz;
+    least = square < least ? square : least;
+  }
+  Lanes other = __builtin_shufflevector(least, least, 4, 5, 6, 7, 0, 1, 2, 3);
+  least = other < least ? other : least;
+  other = __builtin_shufflevector(least, least, 2, 3, 0, 1, 6, 7, 4, 5);
+  least = other < least ? other : least;
+  return std::min(least[0], least[1]);
 }
 
 } // namespace
 
-float perlin(float x, float y, float z, std::uint32_t seed) {
-  const Place a(x), b(y), c(z);
-  std::array<float, 2> level{};
-  for (int k = 0; k < 2; ++k) {
-    std::array<float, 2> row{};
-    for (int j = 0; j < 2; ++j) {
-      const auto corner = [&](int i) {
-        return slope(bits(a.cell + i, b.cell + j, c.cell + k, seed), a.part - static_cast<float>(i),
-                     b.part - static_cast<float>(j), c.part - static_cast<float>(k));
-      };
-      row[static_cast<std::size_t>(j)] = mix(corner(0), corner(1), fade(a.part));
-    }
-    level[static_cast<std::size_t>(k)] = mix(row[0], row[1], fade(b.part));
+FIRETWIN_CLONES("avx512f", "avx2")
+void perlin(const Row& x, const Row& y, const Row& z, std::uint32_t seed, Row& noise) {
+  for (std::size_t n = 0; n < noise.size(); ++n) {
+    noise[n] = perlin_at(x[n], y[n], z[n], seed);
   }
-  return mix(level[0], level[1], fade(c.part));
 }
 
-void Worley::strew(const std::array<std::int32_t, 3>& cell, std::uint32_t seed) {
-  constexpr float far_away = 99.0F;
-  std::array<float, points> x, y, z;
-  x.fill(far_away);
-  y.fill(far_away);
-  z.fill(far_away);
-  std::size_t n = 0;
-  for (std::int32_t k = -1; k < 2; ++k) {
-    for (std::int32_t j = -1; j < 2; ++j) {
-      for (std::int32_t i = -1; i < 2; ++i, ++n) {
-        const std::uint32_t h = bits(cell[0] + i, cell[1] + j, cell[2] + k, seed);
-        x[n] = static_cast<float>(i) + share(h, 0);
-        y[n] = static_cast<float>(j) + share(h, 10);
-        z[n] = static_cast<float>(k) + share(h, 20);
-      }
+FIRETWIN_CLONES("avx512f", "avx2")
+void Worley::at(const Row& x, const Row& y, const Row& z, std::uint32_t seed, Row& distance) {
+  for (std::size_t n = 0; n < distance.size(); ++n) {
+    const float x0 = std::floor(x[n]), y0 = std::floor(y[n]), z0 = std::floor(z[n]);
+    const std::array<std::int32_t, 3> cell{static_cast<std::int32_t>(x0),
+                                           static_cast<std::int32_t>(y0),
+                                           static_cast<std::int32_t>(z0)};
+    if (!strewn_ || cell != cell_ || seed != seed_) {
+      strew(cell, seed, points_);
+      cell_ = cell;
+      seed_ = seed;
+      strewn_ = true;
     }
+    distance[n] = nearest(points_, x[n] - x0, y[n] - y0, z[n] - z0);
   }
-  std::memcpy(x_.data(), x.data(), sizeof x);
-  std::memcpy(y_.data(), y.data(), sizeof y);
-  std::memcpy(z_.data(), z.data(), sizeof z);
-  cell_ = cell;
-  seed_ = seed;
-  strewn_ = true;
-}
-
-float Worley::at(float x, float y, float z, std::uint32_t seed) {
-  const Place a(x), b(y), c(z);
-  const std::array<std::int32_t, 3> cell{a.cell, b.cell, c.cell};
-  if (!strewn_ || cell != cell_ || seed != seed_) {
-    strew(cell, seed);
+  for (float& each : distance) {
+    each = std::sqrt(each);
   }
-  Lanes nearest = Lanes{} + 9.0F;
-  for (std::size_t n = 0; n < x_.size(); ++n) {
-    const Lanes dx = x_[n] - a.part, dy = y_[n] - b.part, dz = z_[n] - c.part;
-    const Lanes square = dx * dx + dy * dy + dz * dz;
-    nearest = square < nearest ? square : nearest;
-  }
-  float least = nearest[0];
-  for (int lane = 1; lane < 8; ++lane) {
-    least = std::min(least, nearest[lane]);
-  }
-  return std::sqrt(least);
 }
 
 } // namespace firetwin::flow

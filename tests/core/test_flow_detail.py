@@ -132,6 +132,76 @@ def test_blocks_that_nobody_wants_stay_empty():
         assert np.array_equal(np.where(there, one, 0.0), other)
 
 
+@pytest.mark.parametrize("west", [False, True])
+def test_cells_far_away_change_nothing(west):
+    """More of the same to a side; rows of cells are then long enough to be filtered many at a time."""
+    rng = np.random.default_rng(3)
+    fields = moment(
+        age=rng.uniform(0.0, 900.0, (N, N, N)),
+        warmth=rng.uniform(0.0, 1.0, (N, N, N)),
+        drift=rng.uniform(-200.0, 200.0, (N, N, N, 2, 3)),
+        blur=(1.5, 1.0, 0.7),
+    )
+
+    def among(columns, west):
+        """Painted where these cells are the last or, with none to the west, the first of so many columns."""
+        first = columns - N if west else 0
+        place = np.clip(np.arange(columns) - first, 0, N - 1)
+        names = ("heights", "smoke", "age", "rise", "warmth", "drift")
+        wide = {name: fields[name].take(place, axis=2) for name in names}
+        more = {"ground": np.zeros((N, columns)), "corner": (-first * SPACING, 0.0)}
+        return painted(**fields | wide | more)
+
+    for one, other in zip(among(2 * N, west)[:2], among(3 * N, west)[:2], strict=True):
+        assert one[40:].max() > 0.0
+        assert np.array_equal(one, other)
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    cells=st.lists(st.tuples(*(st.integers(0, N - 1),) * 3), min_size=1, max_size=6),
+    slope=st.floats(-0.3, 0.3),
+    wanted=st.booleans(),
+)
+def test_all_smoke_is_found_and_nothing_else(cells, slope, wanted):
+    """Also in layers with clear air between them, at the ground and at the top."""
+    smoke = np.zeros((N, N, N))
+    for cell in cells:
+        smoke[cell] = 1e-6
+    middle = (np.arange(N) + 0.5) * SPACING
+    ground = np.broadcast_to(slope * middle, (N, N))
+    blocks = np.random.default_rng(len(cells)).random((3, 3, 3)) < 0.5 if wanted else None
+    fresh = painted(
+        smoke=smoke,
+        age=np.zeros((N, N, N)),
+        ground=ground,
+        heights=moment()["heights"] + ground,
+        surface=0.0,
+        wanted=blocks,
+    )[1]
+    x = np.arange(48) * VOXEL
+    east = np.clip(x / SPACING - 0.5, 0.0, N - 1.0)
+    higher = np.interp(east, np.arange(N), -ground[0])
+    levels = moment()["levels"]
+    amount = np.log(np.maximum(smoke / 1e-9, 1.0))
+    for i in range(2, 46, 3):
+        a = min(int(east[i]), N - 2)
+        column = amount[:, :, a] + (amount[:, :, a + 1] - amount[:, :, a]) * (east[i] - a)
+        heights = levels + np.interp(east[i], np.arange(N), ground[0]) + higher[i] * np.exp(-levels / 1000.0)
+        z = np.arange(40) * VOXEL
+        level = np.interp(z, heights, np.arange(N))
+        for j in range(2, 46, 5):
+            b = min(int(east[j]), N - 2)
+            here = np.interp(
+                level, np.arange(N), column[:, b] + (column[:, b + 1] - column[:, b]) * (east[j] - b)
+            )
+            there = (here >= 1.2) & (z >= -VOXEL) & (z <= heights[-1])
+            if blocks is not None:
+                there &= blocks[i // 16, j // 16].repeat(16)[:40]
+            sure = (np.abs(here - 1.2) > 1e-3) & (np.abs(z - heights[-1]) > 1e-2)
+            assert np.array_equal((fresh[i, j] > 0.0)[sure], there[sure])
+
+
 def test_vapour_makes_rising_smoke_white_and_thicker_from_its_height_on():
     young = {"age": np.full((N, N, N), 60.0), "rise": np.full((N, N, N), 5.0), "thickest": 1.0}
     below, above = slice(4, 16), slice(28, 32)  # condensation at 600 m, cloud from 1100 m on

@@ -188,7 +188,7 @@ class Detail:
 
     The logarithm of the smoke is raised and lowered by noise that travels with the air, and what falls below a
     threshold is cut away: crisp lumps where smoke is vigorous (rises, is warm, fresh or dense), veils elsewhere.
-    The formulas and what was chosen by eye are in cpp/flow/detail.hpp and detail.cpp.
+    The formulas and what was chosen by eye are in cpp/flow/detail.hpp, detail.cpp and detail_brush.cpp.
 
     Arrays are (nz, ny, nx) on square cells of `spacing` m from `corner` (x, y) m: a solver's, or a block of its
     cells that reaches down to the ground. `levels` (nz,) m are the cells' middles above ground, `heights` the same

@@ -1,0 +1,295 @@
+#include "flow/detail_brush.hpp"
+
+#include "base/smoothstep.hpp"
+#include "flow/between.hpp"
+#include "flow/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace firetwin::flow {
+namespace {
+
+constexpr float per_kg = 4000.0F; // m2/kg
+constexpr float soft_cut[] = {2.4F, 6.2F}, crisp_cut[] = {5.2F, 6.2F};
+constexpr float soft_gain = 1.5F, crisp_gain = 3.5F, veil_gain = 1.0F;
+constexpr float soft_reach = 1.5F; // of noise in the amount
+constexpr float most_noise = 1.2F; // that is reckoned with where smoke ends
+constexpr float root = 0.12F;      // share of the extinction at the ground
+constexpr float root_heights[] = {10.0F, 130.0F};
+constexpr double finest = 1.7; // lumps, voxels
+
+} // namespace
+
+Detail::Brush::Brush(const Detail& d, const Brick& b, const Painted& out)
+    : detail_(d), brick_(b), out_(out), at_(0.0F, 0.0F, d.shape_),
+      lumps_(d.look_.size, finest * b.voxel, d.seeds_) {
+  const auto levels = static_cast<std::size_t>(d.shape_.nz + lanes);
+  height_.resize(levels);
+  level_.resize(levels + 2);
+  for (auto& part : drift_) {
+    part.resize(levels);
+  }
+  const auto voxels = static_cast<std::size_t>(whole_lanes(b.shape[2]));
+  places_.low.resize(voxels);
+  places_.part.resize(voxels);
+  voxel_.resize(voxels);
+  for (auto* values :
+       {&high_up_, &above_, &amount_, &vigour_, &cloud_, &reach_, &solid_, &value_}) {
+    values->resize(voxels);
+  }
+}
+
+void Detail::Brush::column(Index i, Index j) {
+  if (!stand(i, j) || !find_levels()) {
+    return;
+  }
+  find_heights();
+  find_voxels(i, j);
+  if (places_.count > 0) {
+    paint_surface();
+    find_amount();
+    wait();
+  }
+}
+
+/// False outside of the flow.
+bool Detail::Brush::stand(Index i, Index j) {
+  const Detail& d = detail_;
+  x_ = brick_.origin[0] + static_cast<double>(i) * brick_.voxel;
+  y_ = brick_.origin[1] + static_cast<double>(j) * brick_.voxel;
+  column_ = static_cast<std::size_t>(i * brick_.shape[1] + j);
+  const double column = (x_ - d.corner_[0]) / d.spacing_ - 0.5;
+  const double row = (y_ - d.corner_[1]) / d.spacing_ - 0.5;
+  at_ = Standing(static_cast<float>(column), static_cast<float>(row), d.shape_);
+  return column >= 0.0 && row >= 0.0 && column <= static_cast<double>(d.shape_.nx - 1) &&
+         row <= static_cast<double>(d.shape_.ny - 1);
+}
+
+/// Between which levels there is smoke to see; false if there is none.
+bool Detail::Brush::find_levels() {
+  const Index top = detail_.shape_.nz - 1;
+  float* amount = level_.data() + 1;
+  detail_.amount_.linear(at_, 0, top, amount);
+  for (last_ = top; last_ >= 0 && amount[last_] < least; --last_) {
+  }
+  for (first_ = 0; first_ < last_ && amount[first_] < least; ++first_) {
+  }
+  low_ = std::max(first_ - 2, Index{0});
+  high_ = std::min(last_ + 2, top);
+  return last_ >= 0;
+}
+
+void Detail::Brush::find_heights() {
+  detail_.ground_.linear(at_, 0, 0, height_.data());
+  const float higher = brick_.surface[column_] - height_[0];
+  detail_.heights_.linear(at_, low_, high_, height_.data());
+  for (auto k = static_cast<std::size_t>(low_); k <= static_cast<std::size_t>(high_); ++k) {
+    height_[k] += higher * detail_.sinking_[k];
+  }
+}
+
+/// Those that are wanted, over the ground and in smoke.
+void Detail::Brush::find_voxels(Index i, Index j) {
+  const Brick& b = brick_;
+  const auto blocks = b.blocks();
+  const std::uint8_t* wanted =
+      b.wanted.empty()
+          ? nullptr
+          : b.wanted.data() + (i / Brick::block * blocks[1] + j / Brick::block) * blocks[2];
+  const auto top = static_cast<std::size_t>(std::min(last_ + 1, high_));
+  auto k = static_cast<std::size_t>(std::max(first_ - 1, Index{0}));
+  const float ground = b.surface[column_] - static_cast<float>(b.voxel);
+  const float bottom = k > 0 ? std::max(height_[k], ground) : ground;
+  const double below = std::floor((static_cast<double>(bottom) - b.origin[2]) / b.voxel) - 1.0;
+  const double first = std::min(std::max(0.0, below), static_cast<double>(b.shape[2]));
+  places_.count = 0;
+  for (auto m = static_cast<Index>(first); m < b.shape[2]; ++m) {
+    if (wanted != nullptr && wanted[m / Brick::block] == 0) {
+      m += Brick::block - 1 - m % Brick::block;
+      continue;
+    }
+    const auto height = static_cast<float>(b.origin[2] + static_cast<double>(m) * b.voxel);
+    if (height < bottom) {
+      continue;
+    }
+    while (k + 1 < top && height_[k + 1] < height) {
+      ++k;
+    }
+    const float way = (height - height_[k]) / (height_[k + 1] - height_[k]);
+    if (way > 1.0F) {
+      break;
+    }
+    add_voxel(m, height, k, way);
+  }
+}
+
+/// If it is in smoke: `way` from a level to the next, less than 0 below the lowest.
+void Detail::Brush::add_voxel(Index voxel, float height, std::size_t k, float way) {
+  const float* amount = level_.data() + 1;
+  const float held = std::max(way, 0.0F), level = static_cast<float>(k) + held;
+  const Index low = std::min(static_cast<Index>(level), detail_.shape_.nz - 2);
+  const float part = level - static_cast<float>(low);
+  if (mix(amount[low], amount[low + 1], part) < least) {
+    return;
+  }
+  const auto n = static_cast<std::size_t>(places_.count++);
+  places_.low[n] = static_cast<std::int32_t>(low);
+  places_.part[n] = part;
+  voxel_[n] = voxel;
+  high_up_[n] = height;
+  above_[n] = way < 0.0F ? std::max(height - brick_.surface[column_], 0.0F)
+                         : mix(detail_.levels_[k], detail_.levels_[k + 1], held);
+}
+
+/// Values at the voxels, between levels linear.
+void Detail::Brush::find(const Columns& of, std::vector<float>& values) {
+  of.linear(at_, low_, high_, level_.data() + 1);
+  linear_between(places_, level_.data() + 1, values.data());
+}
+
+/// What does not depend on noise: how fresh smoke is, and the flames' light on it.
+void Detail::Brush::paint_surface() {
+  const Detail& d = detail_;
+  const auto count = static_cast<std::size_t>(places_.count);
+  const std::size_t first = column_ * static_cast<std::size_t>(brick_.shape[2]);
+  find(d.vigour_, vigour_);
+  find(d.age_, value_);
+  for (std::size_t n = 0; n < count; ++n) {
+    cloud_[n] = vigour_[n] * d.capped(high_up_[n]);
+    const float fresh =
+        (1.0F - cloud_[n]) * smoothstep(d.look_.ages[1], d.look_.ages[0], value_[n]);
+    if (fresh > 0.0F) { // a page of memory that is not written is none: a third of them
+      out_.fresh[first + static_cast<std::size_t>(voxel_[n])] = fresh;
+    }
+  }
+  if (!out_.glow.empty()) {
+    find(d.glow_, value_);
+    for (std::size_t n = 0; n < count; ++n) {
+      out_.glow[first + static_cast<std::size_t>(voxel_[n])] = value_[n];
+    }
+  }
+}
+
+/// What noise is added to, and how much of it.
+void Detail::Brush::find_amount() {
+  const auto count = static_cast<std::size_t>(places_.count);
+  find(detail_.reach_, reach_);
+  find(detail_.solid_, solid_);
+  float* levels = level_.data() + 1;
+  detail_.amount_.cubic(at_, low_, high_, levels);
+  levels[low_ - 1] = levels[low_];
+  levels[high_ + 1] = levels[high_];
+  cubic_between(places_, levels, amount_.data());
+  for (std::size_t n = 0; n < count; ++n) {
+    amount_[n] = std::max(amount_[n], 0.0F) + cloud_amount * cloud_[n];
+    reach_[n] = mix(soft_reach, reach_[n], vigour_[n]);
+  }
+}
+
+/// Paints voxels that are not clear whatever the noise, as many at once as make a Row; the last
+/// wait for others.
+void Detail::Brush::wait() {
+  for (std::size_t p = 0; p < Drift::parts; ++p) {
+    if (detail_.shows(p / 3)) {
+      detail_.drift_[p].linear(at_, low_, high_, drift_[p].data());
+    }
+  }
+  for (std::size_t n = 0; n < static_cast<std::size_t>(places_.count); ++n) {
+    const float thin = vigour_[n] * (1.0F - solid_[n]);
+    const float low = mix(soft_cut[0], crisp_cut[0], vigour_[n]);
+    if (amount_[n] + most_noise * reach_[n] >= low ||
+        (thin >= 0.02F && amount_[n] + most_noise * soft_reach >= soft_cut[0])) {
+      wait_for(n);
+    }
+  }
+}
+
+void Detail::Brush::wait_for(std::size_t n) {
+  Waiting& w = waiting_;
+  const std::size_t lane = w.count++;
+  w.voxel[lane] =
+      column_ * static_cast<std::size_t>(brick_.shape[2]) + static_cast<std::size_t>(voxel_[n]);
+  w.share[lane] = brick_.share[column_];
+  w.above[lane] = above_[n];
+  w.amount[lane] = amount_[n];
+  w.reach[lane] = reach_[n];
+  w.vigour[lane] = vigour_[n];
+  w.solid[lane] = solid_[n];
+  const auto low = static_cast<std::size_t>(places_.low[n]);
+  const auto moved = [&](std::size_t part) {
+    return mix(drift_[part][low], drift_[part][low + 1], places_.part[n]);
+  };
+  for (std::size_t p = 0; p < Drift::phases; ++p) {
+    if (detail_.shows(p)) {
+      w.origin[p][0][lane] = x_ - static_cast<double>(moved(3 * p));
+      w.origin[p][1][lane] = y_ - static_cast<double>(moved(3 * p + 1));
+      w.origin[p][2][lane] = static_cast<double>(above_[n] - moved(3 * p + 2));
+    }
+  }
+  if (w.count == w.voxel.size()) {
+    finish();
+  }
+}
+
+void Detail::Brush::finish() {
+  Waiting& w = waiting_;
+  Row raise{}, noise;
+  for (std::size_t p = 0; p < Drift::phases && w.count > 0; ++p) {
+    if (detail_.shows(p)) {
+      lumps_.at(w.origin[p], p, w.vigour, noise);
+      for (std::size_t lane = 0; lane < noise.size(); ++lane) {
+        raise[lane] += detail_.weights_[p] * noise[lane];
+      }
+    }
+  }
+  for (std::size_t lane = 0; lane < w.count; ++lane) {
+    out_.density[w.voxel[lane]] = w.share[lane] * extinction(lane, raise[lane]);
+  }
+  w.count = 0;
+}
+
+float Detail::Brush::extinction(std::size_t n, float raise) const {
+  const float v = waiting_.vigour[n], amount = waiting_.amount[n], solid = waiting_.solid[n];
+  // Exponentials of what counts nothing are left out: a twelfth of the whole time.
+  const auto dense = [](float low, float high, float raised, float held, float gain) {
+    const float left = gain * smoothstep(low, high, raised);
+    return left > 0.0F ? std::exp(held) * left : 0.0F;
+  };
+  const float low = mix(soft_cut[0], crisp_cut[0], v), high = mix(soft_cut[1], crisp_cut[1], v);
+  const float raised = amount + waiting_.reach[n] * raise, veiled = amount + soft_reach * raise;
+  const float held = mix(raised, std::max(amount, mix(core[0], core[1], solid)), v);
+  const float lumps = dense(low, high, raised, held, mix(soft_gain, crisp_gain, v));
+  const float veil =
+      dense(soft_cut[0], soft_cut[1], veiled, veiled, veil_gain * v * (1.0F - solid));
+  const float rooted =
+      mix(root, 1.0F, smoothstep(root_heights[0], root_heights[1], waiting_.above[n]));
+  const Look& look = detail_.look_;
+  const float full = (lumps + veil) * unit * per_kg * static_cast<float>(look.opacity) * rooted;
+  return full > 0.0F ? look.thickest * (1.0F - std::exp(-full / look.thickest)) : 0.0F;
+}
+
+void Detail::paint(const Brick& b, const Painted& out) const {
+  const auto columns = static_cast<std::size_t>(b.shape[0] * b.shape[1]);
+  const std::size_t count = columns * static_cast<std::size_t>(b.shape[2]);
+  const auto [nx, ny, nz] = b.blocks();
+  const auto blocks = static_cast<std::size_t>(nx * ny * nz);
+  if (out.density.size() != count || out.fresh.size() != count || b.surface.size() != columns ||
+      b.share.size() != columns || (!b.wanted.empty() && b.wanted.size() != blocks) ||
+      out.glow.size() != (glow_.empty() ? 0 : count)) {
+    throw std::invalid_argument(
+        "surface, share, what is wanted and what is painted must have the brick's shape");
+  }
+  each(b.shape[0], [&](Index i) {
+    Brush brush(*this, b, out);
+    for (Index j = 0; j < b.shape[1]; ++j) {
+      if (b.share[static_cast<std::size_t>(i * b.shape[1] + j)] > 0.0F) {
+        brush.column(i, j);
+      }
+    }
+    brush.finish();
+  });
+}
+
+} // namespace firetwin::flow
