@@ -2,8 +2,8 @@
 
 A frame is one file, or two: the nest's part, and the rest with larger voxels; where they meet, one fades into
 the other. Grids: `density`, the extinction in 1/m; `fresh`, 1 where smoke is young and 0 where it is old;
-`sun` and `sky`, how much of their light comes there, see `LIGHT`; and `glow`, the light of flames, 1 amid 1 GW of
-them, in the dark.
+`sun` and `sky`, how much of their light comes there, see `LIGHT`; and `glow`, the light of flames, 1 amid
+1 GW of them, in the dark.
 """
 
 from __future__ import annotations
@@ -26,9 +26,10 @@ from .flow import Flow, Part
 
 GRIDS = ("density", "fresh", "sun", "sky", "glow")
 LIGHT = 0.65 / 4, 0.5
-"""Parts of the optical depth that dim `sun` and `sky`. Light that smoke scatters forwards goes on as if it had not
-been: 0.36 of 0.86 to 0.95 with an asymmetry of 0.6 (Joseph, Wiscombe and Weinman 1976), so 0.65 is left; the fourth
-root of that light is kept, whose half floats reach four times as deep."""
+"""Parts of the optical depth that dim `sun` and `sky`. Light that smoke scatters forwards goes on as if it
+had not been: 0.36 of 0.86 to 0.95 for an asymmetry of 0.6 (Joseph, Wiscombe and Weinman 1976), so 0.65 is left.
+The fourth root of that light is kept, which half floats hold four times as deep.
+"""
 THICKEST = 0.03  # 1/m, at which extinction levels off: more is as opaque and takes shorter steps
 _NEAR = (20.0, 36.0)  # m, voxels of the nest: the smallest and the largest
 _PIXELS = 4.0  # that a voxel is wide where it lies between them: finer smoke shows no better, and costs more
@@ -127,7 +128,7 @@ class Painter:
         return np.concatenate([self.layer.part.ground[None], self.layer.part.heights()])
 
     def _brick(self, moment: moments.Moment) -> tuple[tuple[float, float, float], Array, Array, Array, int]:
-        """Centre of the first voxel; of each column the ground, part that is there and part of that drawn; height."""
+        """Centre of the first voxel; of columns the ground, what is there and what of it is drawn; voxels up."""
         box, voxel = self.layer.part.box, self.layer.voxel
         _nz, rows, columns = moment.fields["smoke"].shape
         low = np.array(box.corner) + np.array(moment.low) * box.spacing

@@ -16,7 +16,7 @@ from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import haze, infrared
 from ..light import exposure
-from . import material, sunlit
+from . import flow_frames, material, sunlit
 
 _FRESH, _OLD = (0.44, 0.36, 0.29), (0.95, 0.945, 0.94)  # albedo: of soot and char, and of aged haze and cloud
 _MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
@@ -37,7 +37,10 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     thinner = density * tree.input("Light Density", _LIGHT, "Part of the smoke that dims light", "Light")
     lit = _solved if shot.settings.smoke.lighting == "solved" else _traced
     visible = lit(tree, shot, stage, density, thinner, albedo, even)
-    tree.volume(infrared.smoke(tree, shot, stage, visible, density))
+    shader = infrared.smoke(tree, shot, stage, visible, density)
+    # A mix by 0 or 1 evaluates one side only, and more than half of all steps find no smoke.
+    clear = tree.output("ShaderNodeVolumeAbsorption", {"Density": 0.0})
+    tree.volume(tree.mix_shader(density > 0.5 * flow_frames.THIN, clear, shader))
     made.cycles.volume_sampling = "DISTANCE"
     made.cycles.emission_sampling = "NONE"
     return made

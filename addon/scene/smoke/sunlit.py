@@ -1,9 +1,9 @@
 """Light of sun and sky in smoke, as the material of a solved flow has it from the grids `sun` and `sky`.
 
-Light that was scattered once comes from the sun along its way, spread as Henyey and Greenstein (1941, "Diffuse
-radiation in the galaxy") say. Light that was scattered oftener comes as through thinner smoke, evenly from all
-round and dimmed by the albedo each time, after M. Wrenninge, C. Kulla and V. Lundqvist (2013, "Oz: The Great and
-Volumetric"): a half and a quarter of the optical depth count.
+Light that was scattered once comes from the sun along its way, spread as L. G. Henyey and J. L. Greenstein say
+(1941, "Diffuse radiation in the galaxy"). Light that was scattered oftener comes as through thinner smoke, evenly
+from all round and dimmed by the albedo each time, after M. Wrenninge, C. Kulla and V. Lundqvist (2013, "Oz: The
+Great and Volumetric"): a half and a quarter of the optical depth count.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ...shot.shot import Shot
 from ..light.build import key, moments
 from ..light.sky import State
 
-_OFTENER = 0.5, 0.25  # light scattered twice and oftener, for one scattered once
+_OFTENER = 0.5, 0.3  # weights beside light scattered once, of a ball and a plume beside 24 and 32 bounces
 _GROUND = 0.07  # albedo of forest and ash, which light smoke from below (assumed)
 _SUN, _SKY, _TOWARDS = "Sunlight", "Skylight", "Towards the Sun"
 
