@@ -1,4 +1,4 @@
-"""Light inside smoke: one bounce in the material's way beside 32 bounces, FLIP and time.
+"""Light inside smoke: solved once for the frame, or one bounce traced, beside 32 bounces; FLIP and time.
 
 The smoke is a plume in the wind, solved, painted and lit as a shot's, and drawn by Cycles in a process of its
 own. Pictures are compared by the mean FLIP (Andersson et al. 2020, "FLIP: A Difference Evaluator for
@@ -9,6 +9,7 @@ lets light go on forwards, as smoke does, and counts all of the smoke.
 from __future__ import annotations
 
 import tempfile
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,7 +20,7 @@ from numpy.typing import NDArray
 
 from ..jobs import worker
 from ..progress import Progress, Tell, silent, untold
-from ..shot import settings
+from ..shot import settings, sun
 from ..shot.rigs.drone import CameraKey, Drone
 from ..shot.shot import Shot
 from .harness import OURS, Bench
@@ -38,11 +39,12 @@ SPACING, SHAPE, LEVELS, DEPTH, VOXEL = 80.0, (40, 64), 36, 60.0, 40.0  # m, rows
 WIND, POWER, SMOKE = 6.0, 6e9, 1.2e-9  # m/s, W, kg/J
 FORWARD = 0.6  # anisotropy of smoke, which the material's one bounce stands in for
 REFERENCE, OTHER_GRAIN = "32 bounces", "ours, other grain"
-WAYS = {  # bounces, part of the smoke that dims light, anisotropy; None: as the material has it
-    OURS: (1, None, None),
-    "1 bounce, all of the smoke": (1, 1.0, FORWARD),
-    REFERENCE: (32, 1.0, FORWARD),
-    OTHER_GRAIN: (1, None, None),
+WAYS = {  # lighting; bounces, part of the smoke that dims light, anisotropy (None: as the material has it)
+    OURS: ("solved", 1, None, None),
+    "1 bounce, thinner for light": ("traced", 1, None, None),
+    "1 bounce, all of the smoke": ("traced", 1, 1.0, FORWARD),
+    REFERENCE: ("traced", 32, 1.0, FORWARD),
+    OTHER_GRAIN: ("solved", 1, None, None),
 }
 LIMIT = 0.15  # FLIP, of a picture half of which is smoke
 
@@ -122,21 +124,19 @@ def render_in_blender(folder: str, progress: Progress = silent, tell: Tell = unt
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
-    _build(scene_file(Path(folder)), scene)
-    tree = bpy.data.materials["Firetwin Smoke"].node_tree
-    inputs = next(node for node in tree.nodes if node.type == "GROUP").inputs
-    light, forward = inputs["Light Density"], inputs["Anisotropy"]
-    usual = light.default_value, forward.default_value
+    looks = _build(scene_file(Path(folder)), scene)
     scene.cycles.samples, draft = 1, scene.cycles.samples
     bpy.ops.render.render()  # loads what later ones find loaded
     scene.cycles.samples = draft
     seconds = {}
-    for done, (name, (bounces, part, even)) in enumerate(WAYS.items()):
+    for done, (name, (lighting, bounces, part, even)) in enumerate(WAYS.items()):
         progress(done, len(WAYS))
+        inputs = _show(looks[lighting])
         scene.cycles.volume_bounces = bounces
         scene.cycles.max_bounces = max(scene.cycles.max_bounces, bounces)
-        light.default_value = usual[0] if part is None else part
-        forward.default_value = usual[1] if even is None else even
+        for socket, value in (("Light Density", part), ("Anisotropy", even)):
+            if value is not None:
+                inputs[socket].default_value = value
         scene.cycles.seed = int(name == OTHER_GRAIN)
         scene.render.filepath = picture(folder, name)
         start = time.perf_counter()
@@ -145,8 +145,18 @@ def render_in_blender(folder: str, progress: Progress = silent, tell: Tell = unt
     return seconds
 
 
-def _build(file: settings.Settings, scene: bpy.types.Scene) -> None:
-    """Build sun, camera and the plume where the camera looks."""
+def _show(look: bpy.types.Material) -> bpy.types.NodeInputs:
+    """Give all smoke a copy of this material; its inputs."""
+    import bpy
+
+    look = look.copy()
+    for smoke in bpy.data.volumes:
+        smoke.materials[0] = look
+    return next(node for node in look.node_tree.nodes if node.type == "GROUP").inputs
+
+
+def _build(file: settings.Settings, scene: bpy.types.Scene) -> dict[str, bpy.types.Material]:
+    """Build sun, camera and the plume where the camera looks; the smoke's material for each lighting."""
     from firetwin_core import run as runs
 
     from ..blender import owned
@@ -155,7 +165,7 @@ def _build(file: settings.Settings, scene: bpy.types.Scene) -> None:
     from ..scene import clock
     from ..scene.camera import build as camera
     from ..scene.light import build as light
-    from ..scene.smoke import bake, flow_frames
+    from ..scene.smoke import bake, flow_frames, flow_material
     from ..scene.smoke import build as smoke
     from ..scene.smoke.flow import Flow
 
@@ -172,7 +182,9 @@ def _build(file: settings.Settings, scene: bpy.types.Scene) -> None:
     place.mkdir(parents=True)
     for layer in flow_frames.layers(shot, Flow(shot)):
         part = 1.0 if layer.name == "smoke" else 0.0
-        grids = {"density": part * density, "fresh": fresh}
+        toward = sun.light(*shot.sun(shot.frames.first))
+        sunlight, skylight, _ = volume.lit(part * density, VOXEL, toward, *flow_frames.LIGHT)
+        grids = {"density": part * density, "fresh": fresh, "sun": sunlight, "sky": skylight}
         volume.write(str(layer.file(place, 1)), grids, VOXEL, origin, tolerance=1e-6)
     stage = owned.adopt(scene)
     clock.build(shot, stage)
@@ -180,3 +192,8 @@ def _build(file: settings.Settings, scene: bpy.types.Scene) -> None:
     light.build(shot, stage)
     camera.build(shot, stage)
     engine.apply(file, scene)
+    looks = {}
+    for lighting in ("solved", "traced"):
+        lit = replace(file, smoke=replace(file.smoke, lighting=lighting))
+        looks[lighting] = flow_material.build(Shot(lit, shot.run), stage)
+    return looks

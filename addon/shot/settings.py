@@ -212,6 +212,14 @@ class Smoke:
     extinction: float = key(
         0.0, "in thick smoke; less is faster, 0 chooses it like the voxels", unit="1/m", at_least=0
     )
+    lighting: str = key(
+        "solved",
+        "of a flow's smoke",
+        choices={
+            "solved": "once for each frame",
+            "traced": "by Cycles: grainier, follows a sun moved by hand",
+        },
+    )
     complete: bool = key(False, "also smoke that no camera sees, and its temperature and flames as grids")
 
 

@@ -95,6 +95,12 @@ template <class T> std::span<T> writable(Array<T>& array) {
   return {array.mutable_data(), static_cast<std::size_t>(array.size())};
 }
 
+/// NumPy's zeros of float32, which take no memory where nothing is written.
+inline Array<float> zeros(const std::vector<pybind11::ssize_t>& shape) {
+  namespace py = pybind11;
+  return py::module_::import("numpy").attr("zeros")(shape, "float32").cast<Array<float>>();
+}
+
 /// Hands a vector's memory to NumPy.
 template <class T> Array<T> give(std::vector<T>&& values, std::vector<pybind11::ssize_t> shape) {
   auto owner = std::make_unique<std::vector<T>>(std::move(values));

@@ -74,12 +74,8 @@ py::tuple paint(const Detail& detail, const std::array<double, 3>& origin, doubl
   const auto ground = to_array<float>(surface, "surface", {-1, -1});
   const auto part = to_array<float>(share, "share", {ground.shape(0), ground.shape(1)});
   const std::vector<py::ssize_t> shape{ground.shape(0), ground.shape(1), layers};
-  // NumPy's zeros take no memory where nothing is painted.
-  const auto empty = [&] {
-    return py::module_::import("numpy").attr("zeros")(shape, "float32").cast<Array<float>>();
-  };
-  auto density = empty(), fresh = empty();
-  auto glow = detail.glows() ? empty() : new_array<float>({0, 0, 0});
+  auto density = zeros(shape), fresh = zeros(shape);
+  auto glow = detail.glows() ? zeros(shape) : new_array<float>({0, 0, 0});
   flow::Brick brick{origin, voxel, {shape[0], shape[1], shape[2]}, view(ground), view(part), {}};
   const auto blocks = brick.blocks();
   const auto asked = wanted.is_none() ? Array<std::uint8_t>(py::ssize_t{0})

@@ -6,6 +6,7 @@
 #include "volume/levels.hpp"
 #include "volume/puffs.hpp"
 #include "volume/smoke.hpp"
+#include "volume/sunlight.hpp"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -155,6 +156,39 @@ Frame write(const Path& path, const std::map<std::string, py::object>& grids, do
                              metadata.value_or(io::Metadata{}));
 }
 
+volume::Brick brick(const Array<float>& values, double voxel_size, const Vector& origin) {
+  return {view(values), {values.shape(0), values.shape(1), values.shape(2)}, voxel_size, origin};
+}
+
+using Beyond = std::tuple<py::object, double, Vector>; // optical depths, voxel size, origin
+
+py::tuple lit(const py::object& extinction, double voxel_size, const Vector& direction,
+              double sun_part, double sky_part, const Vector& origin,
+              const std::optional<Beyond>& beyond) {
+  const auto smoke = to_array<float>(extinction, "extinction", {-1, -1, -1});
+  const volume::Brick inside = brick(smoke, voxel_size, origin);
+  std::optional<Array<float>> outer;
+  std::optional<volume::Brick> outside;
+  if (beyond) {
+    outer = to_array<float>(std::get<0>(*beyond), "beyond", {-1, -1, -1});
+    outside = brick(*outer, std::get<1>(*beyond), std::get<2>(*beyond));
+  }
+  std::vector<float> mean;
+  volume::Brick coarse = volume::halved(inside, mean);
+  auto depth = new_array<float>({coarse.shape[0], coarse.shape[1], coarse.shape[2]});
+  auto sun = zeros({smoke.shape(0), smoke.shape(1), smoke.shape(2)});
+  auto sky = zeros({smoke.shape(0), smoke.shape(1), smoke.shape(2)});
+  const auto depths = writable(depth);
+  const volume::Light light{writable(sun), writable(sky)};
+  {
+    const py::gil_scoped_release release;
+    volume::sun_depth(coarse, direction, outside ? &*outside : nullptr, depths);
+    coarse.values = depths;
+    volume::lit(inside, direction, coarse, {sun_part, sky_part}, light);
+  }
+  return py::make_tuple(sun, sky, py::make_tuple(depth, coarse.voxel, coarse.origin));
+}
+
 template <auto member> auto column(const py::object& self) {
   return lend_column(self.cast<const Puffs&>().*member, self);
 }
@@ -223,6 +257,9 @@ void init_volume(Module module) {
   module.def("write", &write, py::arg("path"), py::arg("grids"), py::arg("voxel_size"),
              py::arg("origin") = Vector{}, py::arg("half") = true, py::arg("tolerance") = 0.0F,
              py::arg("metadata") = py::none(), py::arg("sight") = py::none());
+  module.def("lit", &lit, py::arg("extinction"), py::arg("voxel_size"), py::arg("direction"),
+             py::arg("sun_part"), py::arg("sky_part"), py::arg("origin") = Vector{},
+             py::arg("beyond") = py::none());
 }
 
 } // namespace firetwin::bindings

@@ -1,4 +1,4 @@
-"""What few bounces of light in smoke cost the picture, and what noise does: FLIP and processors' seconds.
+"""What few traced bounces of light in smoke cost the picture, and what noise does: FLIP and processors' seconds.
 
     python tests/benchmarks/scattering.py SCENE.toml [--bounces] [--noise] [--frame 1] [--width 256]
 
@@ -39,7 +39,11 @@ class Bench:
     def __init__(self, scene: Path, frame: int, width: int, folder: Path) -> None:
         settings = file.read(scene)
         size = width, round(width * 9 / 32) * 2
-        settings = replace(settings, render=replace(settings.render, resolution=size, passes=("rgb",)))
+        settings = replace(
+            settings,
+            smoke=replace(settings.smoke, lighting="traced"),
+            render=replace(settings.render, resolution=size, passes=("rgb",)),
+        )
         self.shot = Shot(settings, run.open(settings.run)).of(settings.cameras[0].name)
         self.scene = setting.build_scene(self.shot, lambda *_: None, lambda _: None).scene
         self.scene.camera = next(thing for thing in self.scene.objects if thing.type == "CAMERA")

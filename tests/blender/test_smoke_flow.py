@@ -263,7 +263,7 @@ def test_what_nobody_sees_is_not_painted_and_nothing_else_changes(shot, flowing,
     painter.write(tmp_path / "all.vdb", 1, None, sight, {})
     assert asked[0].any()
     some, whole = grids(tmp_path / "some.vdb")[0], grids(tmp_path / "all.vdb")[0]
-    for name in ("density", "fresh"):
+    for name in ("density", "fresh", "sun", "sky"):
         assert some[name].activeVoxelCount() == whole[name].activeVoxelCount() > 0
         assert some[name].evalActiveVoxelBoundingBox() == whole[name].evalActiveVoxelBoundingBox()
 
@@ -329,7 +329,7 @@ def test_the_scene_shows_both_layers(shot, stage, scene):
     assert set(volumes) == {"Firetwin Smoke", "Firetwin Far Smoke"}
     for volume in volumes.values():
         volume.grids.load()
-        assert {grid.name for grid in volume.grids} >= {"density", "fresh"}
+        assert {grid.name for grid in volume.grids} >= {"density", "fresh", "sun", "sky"}
         assert volume.render.clipping <= 1.01 * flow_frames.THIN  # else what is painted is left out in blocks
 
 
@@ -338,7 +338,8 @@ def test_smoke_has_all_but_gone_where_its_box_ends(shot):
     box = layer.part.box
     painter = flow_frames.Painter(shot, layer, None)
     along = box.corner[0] + np.array([0.0, 600.0, 1000.0, 0.5 * (box.high[0] - box.corner[0])])
-    share = painter._share(along, np.full(4, 0.5 * (box.corner[1] + box.high[1])))
+    share, drawn = painter._shares(along, np.full(4, 0.5 * (box.corner[1] + box.high[1])))
+    assert np.all(drawn == 1.0)
     assert share[:2].tolist() == [0.0, 0.0]
     assert 0.0 < share[2] < 1e-5
     assert share[3] > share[2]

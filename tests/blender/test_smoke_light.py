@@ -1,10 +1,13 @@
-"""Light in solved smoke: one bounce beside many bounces of light that goes forwards, as smoke scatters it."""
+"""Light in a flow's smoke, solved or of one bounce, beside many bounces of light that goes forwards."""
+
+from dataclasses import replace
 
 import bpy
 import numpy as np
 import pytest
 from firetwin.blender import compat, nodes
-from firetwin.scene.smoke import flow_material
+from firetwin.scene.smoke import flow_frames, flow_material
+from firetwin.shot.shot import Shot
 from firetwin_core import sensor, volume
 
 RADIUS, EXTINCTION, VOXEL = 400.0, 0.02, 50.0  # m, 1/m, m
@@ -16,13 +19,13 @@ def ball(shot, stage, scene, tmp_path):
     at = np.arange(-9, 10) * VOXEL
     x, y, z = np.meshgrid(at, at, at, indexing="ij")
     density = np.where(x**2 + y**2 + z**2 < RADIUS**2, EXTINCTION, 0.0).astype(np.float32)
-    path = tmp_path / "ball.vdb"
-    grids = {"density": density, "fresh": np.zeros_like(density)}
-    volume.write(path, grids, VOXEL, (float(at[0]),) * 3, tolerance=1e-6)
     data = bpy.data.volumes.new("ball")
-    data.filepath = str(path)
     data.render.space, data.render.step_size = "WORLD", 25.0
-    data.materials.append(flow_material.build(shot, stage))
+    looks = {}
+    for lighting in ("solved", "traced"):
+        smoke = replace(shot.settings.smoke, lighting=lighting)
+        looks[lighting] = flow_material.build(Shot(replace(shot.settings, smoke=smoke), shot.run), stage)
+    data.materials.append(looks["traced"])
     thing = bpy.data.objects.new("ball", data)
     scene.world = bpy.data.worlds.new("sky")
     sky = nodes.Tree(compat.node_tree(scene.world))
@@ -38,8 +41,23 @@ def ball(shot, stage, scene, tmp_path):
         scene.collection.objects.link(each)
     scene.camera = camera
 
-    def render(bearing, bounces, light=None, anisotropy=None):
+    def fill(lighting, bearing):
+        towards = (-np.sin(np.radians(bearing)), -np.cos(np.radians(bearing)), 0.0)
+        sunlight, skylight, _ = volume.lit(density, VOXEL, towards, *flow_frames.LIGHT)
+        path = tmp_path / f"ball{bearing:.0f}.vdb"
+        grids = {"density": density, "fresh": np.zeros_like(density), "sun": sunlight, "sky": skylight}
+        volume.write(path, grids, VOXEL, (float(at[0]),) * 3, tolerance=1e-6)
+        data.filepath, data.materials[0] = str(path), looks[lighting]
+        tree = next(node for node in looks["solved"].node_tree.nodes if node.type == "GROUP").node_tree
+        tree.animation_data_clear()
+        tree.nodes["Sunlight"].outputs[0].default_value = (9.0, 9.0, 9.0, 1.0)
+        tree.nodes["Skylight"].outputs[0].default_value = (0.27, 0.27, 0.27, 1.0)
+        for socket, part in zip(tree.nodes["Towards the Sun"].inputs, towards, strict=True):
+            socket.default_value = part
+
+    def render(bearing, bounces, light=None, anisotropy=None, lighting="traced"):
         sun.rotation_euler = (np.radians(90.0), 0.0, -np.radians(bearing))
+        fill(lighting, bearing)
         shown = next(node for node in data.materials[0].node_tree.nodes if node.type == "GROUP")
         for name, value in (("Light Density", light), ("Anisotropy", anisotropy)):
             if value is not None:
@@ -68,3 +86,15 @@ def test_one_bounce_is_near_many_of_light_that_goes_forwards(ball, bearing):
     truth = ball(bearing, 24, light=1.0, anisotropy=flow_material.FORWARD)
     assert np.abs(ours - truth).mean() < 0.25 * truth.mean()
     assert np.abs(ours - truth).mean() < 0.75 * np.abs(even - truth).mean()
+
+
+@pytest.mark.parametrize("bearing", [95.0, 140.0])
+def test_solved_light_is_near_many_bounces(ball, bearing):
+    ours = ball(bearing, 0, lighting="solved")
+    truth = ball(bearing, 24, light=1.0, anisotropy=flow_material.FORWARD)
+    assert np.abs(ours - truth).mean() < 0.3 * truth.mean()
+
+
+def test_the_side_away_from_the_sun_is_dark(ball):
+    lit, shaded = (ball(bearing, 0, lighting="solved") for bearing in (0.0, 180.0))
+    assert lit.mean() > 2.5 * shaded.mean() > 0.0

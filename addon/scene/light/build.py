@@ -34,7 +34,7 @@ def build(shot: Shot, stage: Stage) -> list[str]:
     list of str
         Sentences for people: what is not as it should be.
     """
-    frames, states = _moments(shot)
+    frames, states = moments(shot)
     if stage.own and stage.scene.world is not None and owned.ours(stage.scene.world):
         stage.scene.world = None  # so that it goes with the rest of ours
     _lamp(stage.part("Light"), frames, states)
@@ -48,7 +48,7 @@ def build(shot: Shot, stage: Stage) -> list[str]:
     return _colours(stage.scene.view_settings)
 
 
-def _moments(shot: Shot) -> tuple[NDArray[np.float64], list[State]]:
+def moments(shot: Shot) -> tuple[NDArray[np.float64], list[State]]:
     """Frames at which light is worked out, and the light there."""
     moving = shot.frames.count > 1 and shot.frames.last > shot.frames.first
     frames = np.linspace(1.0, shot.frames.count, _KEYS if moving else 1)
@@ -64,9 +64,9 @@ def _lamp(collection: bpy.types.Collection, frames: NDArray[np.float64], states:
     lamp.angle = np.radians(0.53)
     thing = owned.add(collection, "Sun", lamp)
     thing.rotation_mode = "QUATERNION"
-    _key(thing, "rotation_quaternion", frames, np.array([_facing(s.direction) for s in states]))
-    _key(lamp, "energy", frames, np.array([s.power for s in states]))
-    _key(lamp, "color", frames, np.array([s.colour for s in states]))
+    key(thing, "rotation_quaternion", frames, np.array([_facing(s.direction) for s in states]))
+    key(lamp, "energy", frames, np.array([s.power for s in states]))
+    key(lamp, "color", frames, np.array([s.colour for s in states]))
 
 
 def _facing(direction: NDArray[np.float64]) -> tuple[float, ...]:
@@ -92,8 +92,8 @@ def _world(scene: bpy.types.Scene, frames: NDArray[np.float64], states: list[Sta
     _fill(world, frames, states)
     compat.set_sky(sky, states[0].sky[0], states[0].sky[1], _DUST)
     place = f'nodes["{sky.name}"]'
-    _key(world.node_tree, f"{place}.sun_elevation", frames, np.array([s.sky[0] for s in states]))
-    _key(world.node_tree, f"{place}.sun_rotation", frames, np.unwrap([s.sky[1] for s in states]))
+    key(world.node_tree, f"{place}.sun_elevation", frames, np.array([s.sky[0] for s in states]))
+    key(world.node_tree, f"{place}.sun_rotation", frames, np.unwrap([s.sky[1] for s in states]))
 
 
 def _fill(world: bpy.types.World, frames: NDArray[np.float64], states: list[State]) -> None:
@@ -102,7 +102,7 @@ def _fill(world: bpy.types.World, frames: NDArray[np.float64], states: list[Stat
     Cycles adds it as ambient occlusion ("Fast GI"): as much as the sky is bright, nothing at night.
     """
     world.light_settings.distance = _NEAR
-    _key(world, "light_settings.ao_factor", frames, _FILL * np.array([s.sky_mean for s in states]))
+    key(world, "light_settings.ao_factor", frames, _FILL * np.array([s.sky_mean for s in states]))
 
 
 def _thermal_sky(world: bpy.types.World, radiance: float) -> None:
@@ -117,7 +117,7 @@ def _expose(scene: bpy.types.Scene, frames: NDArray[np.float64], exposures: NDAr
     action = scene.animation_data.action if scene.animation_data else None
     if action is not None and not owned.ours(action):
         frames, exposures = frames[:1], exposures[len(exposures) // 2 :][:1]
-    _key(scene, "view_settings.exposure", frames, exposures)
+    key(scene, "view_settings.exposure", frames, exposures)
 
 
 def _colours(view: bpy.types.ColorManagedViewSettings) -> list[str]:
@@ -142,7 +142,7 @@ def _set(thing: bpy.types.bpy_struct, name: str, choice: str) -> bool:
     return True
 
 
-def _key(thing: bpy.types.ID, data_path: str, frames: NDArray[np.float64], values: NDArray) -> None:
+def key(thing: bpy.types.ID, data_path: str, frames: NDArray[np.float64], values: NDArray) -> None:
     """Animate a property (or set it, where there is one moment): values (n,) or (n, channels)."""
     columns = values.reshape(len(frames), -1)
     owner, _, name = data_path.rpartition(".")

@@ -24,6 +24,12 @@ MEAN = (
 )
 """Heights of the sun (degrees), and the irradiance of the sky over pi, luminance, as Cycles 4.5 draws it."""
 
+_AROUND = (
+    (0.000, 0.0005, 0.0038, 0.0208, 0.0741, 0.1425, 0.2156, 0.2804, 0.3152, 0.3088, 0.2912, 0.2725),
+    (0.000, 0.0004, 0.0034, 0.0181, 0.0629, 0.1366, 0.2367, 0.3334, 0.3992, 0.4099, 0.3981, 0.3801),
+    (0.000, 0.0004, 0.0037, 0.0178, 0.0525, 0.1109, 0.2170, 0.3546, 0.4868, 0.5452, 0.5576, 0.5520),
+)  # at the heights of MEAN, mean radiance of the same sky in red, green and blue, all parts counting alike
+
 GLOW = (1.0, 0.16, 0.02)  # colour of smoke that flames light
 _GLOW_LIGHT = 0.018, 0.28  # of that, by day and by night
 
@@ -41,6 +47,8 @@ class State:
         Height and bearing of the sun for the sky texture, radians.
     sky_mean
         Mean radiance of the clear sky by cosine, luminance.
+    around
+        Mean radiance of the clear sky, all parts counting alike.
     haze
         Radiance of haze.
     """
@@ -56,6 +64,7 @@ class State:
         self.colour = shining / shining.max()
         blue = float(noise.smoothstep(-10.0, 12.0, height))
         self.haze = tuple(_NIGHT_HAZE + (_DAY_HAZE - _NIGHT_HAZE) * blue**2)
+        self.around = np.array([np.interp(height, MEAN[0], each) for each in _AROUND]) + NIGHT_SKY
         self.sky_mean = float(np.interp(height, *MEAN)) + NIGHT_SKY.mean()
 
 

@@ -113,19 +113,18 @@ class Baker:
         time = float(self.times[frame - 1])
         metadata = self._metadata(time, "a flow of the air, solved from the model's heat")
         lights = lit if exposure.darkness(self.shot, time) > 0.0 else None
+        beyond: volume.Depths | None = None
         for painter in self.painters:
             place = painter.layer.file(path.parent, frame)
             mine = files.part_of(place)
 
-            def paint(painter: flow_frames.Painter = painter, mine: Path = mine) -> volume.Frame:
-                return painter.write(mine, frame, lights, self._sight(frame), metadata)
-
+            what = mine, frame, lights, self._sight(frame), metadata, beyond
             with writing(place):
                 try:
-                    written = paint()
+                    written, beyond = painter.write(*what)
                 except moments.BrokenError:
                     self.flow.renew(frame)
-                    written = paint()
+                    written, beyond = painter.write(*what)
             _put(mine, place, written.bytes)
         if not self.painters:
             mine = files.part_of(path)

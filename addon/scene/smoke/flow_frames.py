@@ -1,8 +1,9 @@
 """Writes the frames of a solved flow as OpenVDB files, with detail below its cells. Needs no Blender.
 
 A frame is one file, or two: the nest's part, and the rest with larger voxels; where they meet, one fades into
-the other. Grids: `density`, the extinction in 1/m; `fresh`, 1 where smoke is young and 0 where it is old; and
-`glow`, the light of flames, 1 amid 1 GW of them, in the dark.
+the other. Grids: `density`, the extinction in 1/m; `fresh`, 1 where smoke is young and 0 where it is old;
+`sun` and `sky`, how much of their light comes there, see `LIGHT`; and `glow`, the light of flames, 1 amid
+1 GW of them, in the dark.
 """
 
 from __future__ import annotations
@@ -16,13 +17,19 @@ import numpy as np
 from firetwin_core import flow, lod, volume
 from numpy.typing import NDArray
 
+from ...shot import sun
 from ...shot.path import SENSOR
 from ...shot.shot import WIDE_LENS, Shot
 from . import moments
 from .boxes import Box
 from .flow import Flow, Part
 
-GRIDS = ("density", "fresh", "glow")
+GRIDS = ("density", "fresh", "sun", "sky", "glow")
+LIGHT = 0.65 / 4, 0.5
+"""Parts of the optical depth that dim `sun` and `sky`. Light that smoke scatters forwards goes on as if it
+had not been: 0.36 of 0.86 to 0.95 for an asymmetry of 0.6 (Joseph, Wiscombe and Weinman 1976), so 0.65 is left.
+The fourth root of that light is kept, which half floats hold four times as deep.
+"""
 THICKEST = 0.03  # 1/m, at which extinction levels off: more is as opaque and takes shorter steps
 _NEAR = (20.0, 36.0)  # m, voxels of the nest: the smallest and the largest
 _PIXELS = 4.0  # that a voxel is wide where it lies between them: finer smoke shows no better, and costs more
@@ -83,36 +90,45 @@ class Painter:
         lights: tuple[Array, Array] | None,
         sight: lod.Sight | None,
         metadata: dict[str, str],
-    ) -> volume.Frame:
+        beyond: volume.Depths | None = None,
+    ) -> tuple[volume.Frame, volume.Depths]:
         """Write a frame's volume, or of it what is seen.
 
         Parameters
         ----------
         lights
             Positions (n, 3) m and powers (n,) W of flames; without them there is no glow.
+        beyond
+            What dims the sun round this layer: of the layer before.
+
+        Returns
+        -------
+        The frame, and what dims the sun in this layer's smoke, drawn by it or not.
         """
         moment = moments.load(self.layer.part.moment(frame))
-        origin, surface, share, count = self._brick(moment)
-        wanted = _wanted(sight, origin, (*surface.shape, count), self.layer.voxel)
-        density, fresh, glow = self._detail(moment, lights).paint(
-            origin, self.layer.voxel, surface, share, count, wanted
-        )
-        density[density < THIN] = 0.0
-        grids: dict[str, Any] = {"density": density, "fresh": fresh}
+        voxel = self.layer.voxel
+        origin, surface, end, share, count = self._brick(moment)
+        wanted = _wanted(sight, origin, (*surface.shape, count), voxel)
+        density, fresh, glow = self._detail(moment, lights).paint(origin, voxel, surface, end, count, wanted)
+        density[(density > 0.0) & (density < THIN)] = 0.0
+        toward = sun.light(*self.shot.sun(float(self.shot.frames.times[frame - 1])))
+        sunlight, skylight, depths = volume.lit(density, voxel, toward, *LIGHT, origin, beyond)
+        thinner = share < 1.0
+        density[thinner] *= share[thinner][:, None]
+        grids: dict[str, Any] = {"density": density, "fresh": fresh, "sun": sunlight, "sky": skylight}
         if glow is not None:
             grids["glow"] = glow
         metadata = metadata | {f"smoke_{name}_kg": f"{value:.9g}" for name, value in moment.mass.items()}
-        return volume.write(
-            path, grids, self.layer.voxel, origin, tolerance=1e-6, metadata=metadata, sight=sight
-        )
+        written = volume.write(path, grids, voxel, origin, tolerance=1e-6, metadata=metadata, sight=sight)
+        return written, depths
 
     @functools.cached_property
     def _heights(self) -> Array:
         """Of the ground and of cells' middles (1 + nz, rows, columns), m, as the solver has them."""
         return np.concatenate([self.layer.part.ground[None], self.layer.part.heights()])
 
-    def _brick(self, moment: moments.Moment) -> tuple[tuple[float, float, float], Array, Array, int]:
-        """Centre of the first voxel, the ground and the weight of each column, and the voxels on it."""
+    def _brick(self, moment: moments.Moment) -> tuple[tuple[float, float, float], Array, Array, Array, int]:
+        """Centre of the first voxel; of columns the ground, what is there and what of it is drawn; voxels up."""
         box, voxel = self.layer.part.box, self.layer.voxel
         _nz, rows, columns = moment.fields["smoke"].shape
         low = np.array(box.corner) + np.array(moment.low) * box.spacing
@@ -127,7 +143,8 @@ class Painter:
         base = np.floor(lowest / voxel) * voxel
         top = float(heights[: len(seen)][seen].max(initial=lowest)) + 2.0 * box.spacing
         origin = (float(first[0]), float(first[1]), float(base))
-        return origin, surface, self._share(x[:, None], y[None, :]), max(2, int((top - base) / voxel))
+        end, share = self._shares(x[:, None], y[None, :])
+        return origin, surface, end, share, max(2, int((top - base) / voxel))
 
     _surface_step = 40.0  # m
 
@@ -142,13 +159,13 @@ class Painter:
         up = self.shot.bare_ground.up(np.repeat(x, len(y)), np.tile(y, len(x)))
         return up.reshape(len(x), len(y))
 
-    def _share(self, x: Array, y: Array) -> Array:
-        """How much of the smoke at places this layer draws, 0 to 1."""
+    def _shares(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """How much smoke there is at places, for light, and how much of that this layer draws, 0 to 1."""
         box = self.layer.part.box
-        share = _inside(box, x, y, _FADE[0]) if self.layer.fine else _inside(box, x, y, _FADE[1]) ** _THINNING
-        if self.inner is not None:
-            share = share * (1.0 - _inside(self.inner, x, y, _FADE[0]))
-        return share
+        if self.layer.fine:
+            return np.ones((x + y).shape), _inside(box, x, y, _FADE[0])
+        end = _inside(box, x, y, _FADE[1]) ** _THINNING
+        return end, np.ones_like(end) if self.inner is None else 1.0 - _inside(self.inner, x, y, _FADE[0])
 
     def _detail(self, moment: moments.Moment, lights: tuple[Array, Array] | None) -> flow.Detail:
         box, shot = self.layer.part.box, self.shot

@@ -16,7 +16,7 @@ from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import haze, infrared
 from ..light import exposure
-from . import material
+from . import flow_frames, material, sunlit
 
 _FRESH, _OLD = (0.44, 0.36, 0.29), (0.95, 0.945, 0.94)  # albedo: of soot and char, and of aged haze and cloud
 _MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
@@ -30,24 +30,71 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     made, tree = nodes.material("Firetwin Smoke")
     fresh = tree.input("Fresh Colour", _FRESH, "Albedo of fresh smoke, full of soot", "Colour")
     old = tree.input("Old Colour", _OLD, "Albedo of aged haze and cloud", "Colour")
-    middle = tree.input("Inner Colour", _MIDDLE, "Albedo for light by way of other smoke", "Colour")
     thick = tree.input("Density", 1.0, "Factor on how thick smoke is", "Density")
-    even = tree.input("Anisotropy", _ANISOTROPY, "How much light goes on forwards", "Light", -1.0, 1.0)
+    even = tree.input("Anisotropy", _ANISOTROPY, "How much light goes on forwards", "Light", -0.99, 0.99)
     density = tree.attribute("density") * thick
     albedo = tree.mix_colour(tree.attribute("fresh"), old, fresh)
+    thinner = density * tree.input("Light Density", _LIGHT, "Part of the smoke that dims light", "Light")
+    lit = _solved if shot.settings.smoke.lighting == "solved" else _traced
+    visible = lit(tree, shot, stage, density, thinner, albedo, even)
+    shader = infrared.smoke(tree, shot, stage, visible, density)
+    # A mix by 0 or 1 evaluates one side only, and more than half of all steps find no smoke.
+    clear = tree.output("ShaderNodeVolumeAbsorption", {"Density": 0.0})
+    tree.volume(tree.mix_shader(density > 0.5 * flow_frames.THIN, clear, shader))
+    made.cycles.volume_sampling = "DISTANCE"
+    made.cycles.emission_sampling = "NONE"
+    return made
+
+
+def _solved(
+    tree: nodes.Tree,
+    shot: Shot,
+    stage: Stage,
+    density: nodes.Value,
+    thinner: nodes.Value,
+    albedo: nodes.Value,
+    even: nodes.Value,
+) -> nodes.Value:
+    """Smoke that shines by itself, as much as the light in its grids makes it."""
+    part, air = haze.fraction(tree, stage)
+    light = sunlit.source(tree, shot, albedo, even)
+    if glow := _glow(tree, shot):
+        light = tree.vector("ADD", light, tree.vector("SCALE", *glow))
+    seen = tree.add_shader(_black(tree, density), tree.emission(tree.mix_colour(part, light, air), density))
+    shadow = tree.output("ShaderNodeLightPath", name="Is Shadow Ray")
+    return tree.mix_shader(shadow, seen, _black(tree, thinner))
+
+
+def _traced(
+    tree: nodes.Tree,
+    shot: Shot,
+    stage: Stage,
+    density: nodes.Value,
+    thinner: nodes.Value,
+    albedo: nodes.Value,
+    even: nodes.Value,
+) -> nodes.Value:
+    """Smoke whose light Cycles traces."""
+    middle = tree.input("Inner Colour", _MIDDLE, "Albedo for light by way of other smoke", "Colour")
     part, air = haze.fraction(tree, stage)
     light = tree.emission(air, part * density)
-    if exposure.darkness(shot, shot.frames.middle) > 0.0:
-        shine, bright = material.glow_inputs(tree, shot)
-        glow = tree.attribute("glow") * (1.0 - part) * bright
-        light = tree.add_shader(light, tree.emission(shine, glow * density))
+    if glow := _glow(tree, shot):
+        shine, bright = glow
+        light = tree.add_shader(light, tree.emission(shine, bright * (1.0 - part) * density))
     scattered = tree.mix_colour(part, albedo, (0.0, 0.0, 0.0))
     detailed = tree.add_shader(material.smoke(tree, density, scattered, even), light)
     # Most steps belong to rays of light through the smoke; one grid is enough for them.
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
-    thinner = density * tree.input("Light Density", _LIGHT, "Part of the smoke that dims light", "Light")
-    visible = tree.mix_shader(camera, material.smoke(tree, thinner, middle, even), detailed)
-    tree.volume(infrared.smoke(tree, shot, stage, visible, density))
-    made.cycles.volume_sampling = "DISTANCE"
-    made.cycles.emission_sampling = "NONE"
-    return made
+    return tree.mix_shader(camera, material.smoke(tree, thinner, middle, even), detailed)
+
+
+def _black(tree: nodes.Tree, density: nodes.Value) -> nodes.Value:
+    return tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": density})
+
+
+def _glow(tree: nodes.Tree, shot: Shot) -> tuple[nodes.Value, nodes.Value] | None:
+    """Colour and brightness of the flames' light in smoke, where it is dark enough to see it."""
+    if exposure.darkness(shot, shot.frames.middle) <= 0.0:
+        return None
+    shine, bright = material.glow_inputs(tree, shot)
+    return shine, tree.attribute("glow") * bright

@@ -240,3 +240,46 @@ def write(
     InputError
         The folder is missing or cannot be written.
     """
+
+Depths = tuple[NDArray[np.float32], float, tuple[float, float, float]]
+"""Optical depths to the sun in a brick of voxels, their size (m) and the middle of the first (m)."""
+
+def lit(
+    extinction: ArrayLike,
+    voxel_size: float,
+    direction: Sequence[float],
+    sun_part: float,
+    sky_part: float,
+    origin: Sequence[float] = (0.0, 0.0, 0.0),
+    beyond: Depths | None = None,
+) -> tuple[NDArray[np.float32], NDArray[np.float32], Depths]:
+    """Light in smoke, 1 where it is clear and 0 farther than a voxel from any smoke.
+
+    Parameters
+    ----------
+    extinction
+        1/m, (nx, ny, nz).
+    voxel_size
+        m.
+    direction
+        Unit vector (x, y, z) that the sun's light comes from.
+    sun_part, sky_part
+        How much of the optical depth counts.
+    origin
+        m, the centre of voxel (0, 0, 0).
+    beyond
+        Of a larger brick round this one, counted where the sun's way leaves this one.
+
+    Returns
+    -------
+    sun
+        (nx, ny, nz) exp(-sun_part * depth to the sun). The first four voxels of the way are marched one by
+        one; the rest is found on voxels of twice the size, slice by slice from the lit side on, linear
+        between, where the edge of a shadow widens by about half a voxel times the root of the number of
+        slices behind what throws it.
+    sky
+        (nx, ny, nz) of an evenly bright sky: the mean of the like along five ways up, each for a fifth of the
+        sky, on voxels of four times the size.
+    depths
+        To the sun, on voxels of twice the size.
+    """

@@ -1,0 +1,70 @@
+"""Light of sun and sky in smoke, as the material of a solved flow has it from the grids `sun` and `sky`.
+
+Light that was scattered once comes from the sun along its way, spread as L. G. Henyey and J. L. Greenstein say
+(1941, "Diffuse radiation in the galaxy"). Light that was scattered oftener comes as through thinner smoke, evenly
+from all round and dimmed by the albedo each time, after M. Wrenninge, C. Kulla and V. Lundqvist (2013, "Oz: The
+Great and Volumetric"): a half and a quarter of the optical depth count.
+"""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...blender import nodes
+from ...shot.shot import Shot
+from ..light.build import key, moments
+from ..light.sky import State
+
+_OFTENER = 0.5, 0.3  # weights beside light scattered once, of a ball and a plume beside 24 and 32 bounces
+_GROUND = 0.07  # albedo of forest and ash, which light smoke from below (assumed)
+_SUN, _SKY, _TOWARDS = "Sunlight", "Skylight", "Towards the Sun"
+
+
+def source(tree: nodes.Tree, shot: Shot, albedo: nodes.Value, even: nodes.Value) -> nodes.Value:
+    """Radiance that smoke gives off per optical depth of it that a camera looks through."""
+    sun, sky = (tree.attribute(name) for name in ("sun", "sky"))
+    thinner = sun * sun
+    brighter = tree.input("Sunlight", 1.0, "Factor on sunlight that smoke scatters", "Light")
+    around = tree.input(
+        "Skylight", 1.0, "Factor on light of the sky and the ground that smoke scatters", "Light"
+    )
+    once = thinner * thinner * _spread(tree, even)
+    light = tree.vector("MULTIPLY_ADD", albedo, sun * _OFTENER[1], thinner * _OFTENER[0])
+    light = tree.vector("MULTIPLY_ADD", albedo, light, once)
+    sunlight = tree.vector("SCALE", tree.node("ShaderNodeRGB", name=_SUN), brighter / (4.0 * np.pi))
+    light = tree.vector("MULTIPLY", light, sunlight)
+    skylight = tree.vector("SCALE", tree.node("ShaderNodeRGB", name=_SKY), sky * around)
+    light = tree.vector("MULTIPLY", albedo, tree.vector("ADD", light, skylight))
+    _animate(shot, tree.node_tree)
+    return light
+
+
+def _spread(tree: nodes.Tree, even: nodes.Value) -> nodes.Value:
+    """Light that goes from the sun to the camera, 1 where it goes everywhere alike."""
+    towards = tree.node("ShaderNodeCombineXYZ", name=_TOWARDS)
+    cosine = tree.vector(
+        "DOT_PRODUCT", towards, tree.output("ShaderNodeNewGeometry", name="Incoming"), name="Value"
+    )
+    square = even * even
+    return (1.0 - square) * (1.0 + square + 2.0 * even * cosine).power(-1.5)
+
+
+def _animate(shot: Shot, tree: bpy.types.NodeTree) -> None:
+    """Set the sun's and the sky's light over the shot."""
+    frames, states = moments(shot)
+    sun = np.array([s.power * np.array(s.colour) for s in states])
+    sky = np.array([_around(s) for s in states])
+    opaque = np.ones((len(states), 1))
+    for name, colours in ((_SUN, sun), (_SKY, sky)):
+        key(tree, f'nodes["{name}"].outputs[0].default_value', frames, np.hstack([colours, opaque]))
+    towards = np.array([s.direction for s in states])
+    for axis in range(3):
+        key(tree, f'nodes["{_TOWARDS}"].inputs[{axis}].default_value', frames, towards[:, axis])
+
+
+def _around(state: State) -> NDArray[np.float64]:
+    """Mean radiance from all round, half of it the sky's and half the ground's."""
+    sun = state.power * np.array(state.colour) * max(state.direction[2], 0.0) / np.pi
+    return 0.5 * (state.around + _GROUND * (sun + state.sky_mean))
