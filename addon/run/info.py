@@ -194,7 +194,7 @@ def brief(info: dict[str, Any]) -> list[tuple[str, str]]:
             for label, key in (("First", "first"), ("Last", "last"))
         ),
         ("Burned", f"{burned[0]:,.0f} to {burned[1]:,.0f} acres"),
-        ("Heat flux", f"up to {info['heat_flux']['max'] / 1e3:,.4g} kW/m²"),
+        ("Heat flux", f"up to {info['heat_flux']['max'] / 1e3:,.4g} kW/m2"),
     ]
 
 
@@ -230,7 +230,7 @@ def _facts(info: dict[str, Any]) -> list[tuple[str, str]]:
         ("  last", f"{times.text(last, zone)}  ({last:%d %b %H:%M} UTC)"),
         (
             "Heat flux",
-            f"{info['heat_flux']['min'] / 1e3:,.4g} to {info['heat_flux']['max'] / 1e3:,.4g} kW/m²",
+            f"{info['heat_flux']['min'] / 1e3:,.4g} to {info['heat_flux']['max'] / 1e3:,.4g} kW/m2",
         ),
         ("Heat released", _energy(info["energy"])),
         ("Burned at first", _area(info["burned"]["first"])),
@@ -284,7 +284,7 @@ def _span(bounds: list[float], positive: str, negative: str) -> str:
 def _load(fuel: dict[str, float]) -> str:
     return (
         f"above {fuel['above']:g} in {fuel['share'] * 100:.1f} % of cells, "
-        f"mean {fuel['mean']:.2f}, at most {fuel['max']:.2f} kg/m²"
+        f"mean {fuel['mean']:.2f}, at most {fuel['max']:.2f} kg/m2"
     )
 
 

@@ -216,8 +216,8 @@ class Smoke:
         "solved",
         "of a flow's smoke",
         choices={
-            "solved": "once for each frame",
-            "traced": "by Cycles: grainier, follows a sun moved by hand",
+            "solved": "once a frame",
+            "traced": "by Cycles: grainier, follows a moved sun",
         },
     )
     complete: bool = key(False, "also smoke that no camera sees, and its temperature and flames as grids")

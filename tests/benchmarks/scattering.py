@@ -1,4 +1,4 @@
-"""What few traced bounces of light in smoke cost the picture, and what noise does: FLIP and processors' seconds.
+"""What few bounces traced in smoke cost the picture, and what noise does: FLIP and processors' seconds.
 
     python tests/benchmarks/scattering.py SCENE.toml [--bounces] [--noise] [--frame 1] [--width 256]
 

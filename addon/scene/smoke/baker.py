@@ -113,7 +113,7 @@ class Baker:
         time = float(self.times[frame - 1])
         metadata = self._metadata(time, "a flow of the air, solved from the model's heat")
         lights = lit if exposure.darkness(self.shot, time) > 0.0 else None
-        beyond: volume.Depths | None = None
+        beyond: flow_frames.Depths | None = None
         for painter in self.painters:
             place = painter.layer.file(path.parent, frame)
             mine = files.part_of(place)

@@ -27,7 +27,7 @@ from .flow import Flow, Part
 GRIDS = ("density", "fresh", "sun", "sky", "glow")
 LIGHT = 0.65 / 4, 0.5
 """Parts of the optical depth that dim `sun` and `sky`. Light that smoke scatters forwards goes on as if it
-had not been: 0.36 of 0.86 to 0.95 for an asymmetry of 0.6 (Joseph, Wiscombe and Weinman 1976), so 0.65 is left.
+had not been: 0.36 of 0.86 to 0.95 for an asymmetry of 0.6 (Joseph, Wiscombe and Weinman 1976); 0.65 is left.
 The fourth root of that light is kept, which half floats hold four times as deep.
 """
 THICKEST = 0.03  # 1/m, at which extinction levels off: more is as opaque and takes shorter steps
@@ -43,6 +43,8 @@ _BLOCK, _ROUND = 16, 300.0  # voxels; m round a block that count as it: of light
 _GLOW_REACH, _GLOW_CORE, _GLOW_EVERY = 600.0, 250.0, 3  # m, m, cells
 
 Array = NDArray[np.float64]
+Depths = tuple[NDArray[np.float32], float, list[float]]
+"""What dims the sun in a brick: optical depths, voxel size and origin (m), as `volume.lit` gives them."""
 
 
 @dataclass(frozen=True)
@@ -90,8 +92,8 @@ class Painter:
         lights: tuple[Array, Array] | None,
         sight: lod.Sight | None,
         metadata: dict[str, str],
-        beyond: volume.Depths | None = None,
-    ) -> tuple[volume.Frame, volume.Depths]:
+        beyond: Depths | None = None,
+    ) -> tuple[volume.Frame, Depths]:
         """Write a frame's volume, or of it what is seen.
 
         Parameters
@@ -128,7 +130,7 @@ class Painter:
         return np.concatenate([self.layer.part.ground[None], self.layer.part.heights()])
 
     def _brick(self, moment: moments.Moment) -> tuple[tuple[float, float, float], Array, Array, Array, int]:
-        """Centre of the first voxel; of columns the ground, what is there and what of it is drawn; voxels up."""
+        """Centre of the first voxel; of columns the ground, what is there, what of that is drawn; height."""
         box, voxel = self.layer.part.box, self.layer.voxel
         _nz, rows, columns = moment.fields["smoke"].shape
         low = np.array(box.corner) + np.array(moment.low) * box.spacing

@@ -241,9 +241,6 @@ def write(
         The folder is missing or cannot be written.
     """
 
-Depths = tuple[NDArray[np.float32], float, tuple[float, float, float]]
-"""Optical depths to the sun in a brick of voxels, their size (m) and the middle of the first (m)."""
-
 def lit(
     extinction: ArrayLike,
     voxel_size: float,
@@ -251,8 +248,8 @@ def lit(
     sun_part: float,
     sky_part: float,
     origin: Sequence[float] = (0.0, 0.0, 0.0),
-    beyond: Depths | None = None,
-) -> tuple[NDArray[np.float32], NDArray[np.float32], Depths]:
+    beyond: tuple[ArrayLike, float, Sequence[float]] | None = None,
+) -> tuple[NDArray[np.float32], NDArray[np.float32], tuple[NDArray[np.float32], float, list[float]]]:
     """Light in smoke, 1 where it is clear and 0 farther than a voxel from any smoke.
 
     Parameters
@@ -268,7 +265,7 @@ def lit(
     origin
         m, the centre of voxel (0, 0, 0).
     beyond
-        Of a larger brick round this one, counted where the sun's way leaves this one.
+        Depths of a larger brick round this one, as below; they count where the sun's way leaves this one.
 
     Returns
     -------
@@ -281,5 +278,5 @@ def lit(
         (nx, ny, nz) of an evenly bright sky: the mean of the like along five ways up, each for a fifth of the
         sky, on voxels of four times the size.
     depths
-        To the sun, on voxels of twice the size.
+        Optical depths to the sun on voxels of twice the size, that size (m), and the middle of the first (m).
     """
