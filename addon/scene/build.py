@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 
 import bpy
 
@@ -64,7 +65,7 @@ def steps(
     tell
         Is given every sentence that people should read: what could not be built as it should be.
     """
-    uid, grown = scene.session_uid, None
+    uid, grown, shape = scene.session_uid, None, None
 
     def stage() -> owned.Stage:
         return owned.stage(owned.scene(uid))
@@ -78,9 +79,12 @@ def steps(
         clock.frames(shot, stage())
     if shot.settings.forest.trees and _WITH_STAND & set(parts):
         yield "growing the forest"
-        grown = stand.grow(shot)
+        if "ground" in parts:
+            grown, shape = _grown_and_shaped(shot)
+        else:
+            grown = stand.grow(shot)
     builders = {
-        "ground": lambda: ground.build(shot, stage(), grown),
+        "ground": lambda: ground.build(shot, stage(), grown, shape),
         "forest": lambda: forest.build(shot, stage(), grown),
         "fire": lambda: fire.build(shot, stage(), grown),
         "smoke": lambda: smoke.build(shot.whole, stage()),
@@ -92,6 +96,17 @@ def steps(
         if part in parts:
             yield text
             builders[part]()
+
+
+def _grown_and_shaped(shot: Shot) -> tuple[stand.Stand, ground.Shape]:
+    """The stand and the ground's mesh at once: each has much to do that keeps one core busy.
+
+    Neither asks Blender for anything, and both are there before it goes on.
+    """
+    shot.sights.distance([(0.0, 0.0, 0.0)])  # what both need of them is made now
+    with ThreadPoolExecutor(1) as beside:
+        shaping = beside.submit(ground.shape, shot)
+        return stand.grow(shot), shaping.result()
 
 
 def remove(scene: bpy.types.Scene) -> None:

@@ -91,7 +91,7 @@ class Sights:
         return self._made(paths, frame - 1) if paths else None
 
     def _showing(self, pixel: float, perspective: bool = True) -> tuple[int, ...]:
-        """Numbers of the cameras in perspective, if they count, and of others whose pixels are small enough."""
+        """Numbers of the cameras in perspective, if they count, and of others of small enough pixels."""
         return tuple(
             number
             for number, path in enumerate(self.shot.paths)
