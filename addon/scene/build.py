@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 import bpy
+import numpy as np
 
 from ..blender import owned
 from ..shot.shot import Shot
@@ -16,6 +17,7 @@ from .forest import build as forest
 from .forest import stand
 from .ground import build as ground
 from .light import build as light
+from .light import exposure
 from .places import build as places
 from .smoke import build as smoke
 
@@ -101,12 +103,16 @@ def steps(
 def _grown_and_shaped(shot: Shot) -> tuple[stand.Stand, ground.Shape]:
     """The stand and the ground's mesh at once: each has much to do that keeps one core busy.
 
-    Neither asks Blender for anything, and both are there before it goes on.
+    Neither asks Blender for anything, nor does the exposure, which is remembered; all are there before it
+    goes on.
     """
-    shot.sights.distance([(0.0, 0.0, 0.0)])  # what both need of them is made now
+    shot.sights.distance([(0.0, 0.0, 0.0)])  # what they need of them is made now
     with ThreadPoolExecutor(1) as beside:
         shaping = beside.submit(ground.shape, shot)
-        return stand.grow(shot), shaping.result()
+        metering = beside.submit(exposure.at, shot, np.ones(1))
+        grown = stand.grow(shot)
+        metering.result()
+        return grown, shaping.result()
 
 
 def remove(scene: bpy.types.Scene) -> None:
