@@ -167,7 +167,8 @@ class Occluder::Lines {
 public:
   Lines(const Occluder& ground, const Ball& from, const Ball& to)
       : ground_(ground), from_(from), way_(minus(to.centre, from.centre)),
-        grows_(to.radius - from.radius), length_(std::sqrt(way_[0] * way_[0] + way_[1] * way_[1])) {}
+        grows_(to.radius - from.radius), length_(std::sqrt(way_[0] * way_[0] + way_[1] * way_[1])) {
+  }
 
   /// Whether the ground is over all of them at the fraction t, and t is one that is tried below.
   bool blocked(double t) const { return ground_.buries(at(t).ball) && tried(t); }
