@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 
 import bpy
+import numpy as np
 
 from ..blender import owned
 from ..shot.shot import Shot
@@ -15,6 +17,7 @@ from .forest import build as forest
 from .forest import stand
 from .ground import build as ground
 from .light import build as light
+from .light import exposure
 from .places import build as places
 from .smoke import build as smoke
 
@@ -64,7 +67,7 @@ def steps(
     tell
         Is given every sentence that people should read: what could not be built as it should be.
     """
-    uid, grown = scene.session_uid, None
+    uid, grown, shape = scene.session_uid, None, None
 
     def stage() -> owned.Stage:
         return owned.stage(owned.scene(uid))
@@ -78,9 +81,12 @@ def steps(
         clock.frames(shot, stage())
     if shot.settings.forest.trees and _WITH_STAND & set(parts):
         yield "growing the forest"
-        grown = stand.grow(shot)
+        if "ground" in parts:
+            grown, shape = _grown_and_shaped(shot)
+        else:
+            grown = stand.grow(shot)
     builders = {
-        "ground": lambda: ground.build(shot, stage(), grown),
+        "ground": lambda: ground.build(shot, stage(), grown, shape),
         "forest": lambda: forest.build(shot, stage(), grown),
         "fire": lambda: fire.build(shot, stage(), grown),
         "smoke": lambda: smoke.build(shot.whole, stage()),
@@ -92,6 +98,21 @@ def steps(
         if part in parts:
             yield text
             builders[part]()
+
+
+def _grown_and_shaped(shot: Shot) -> tuple[stand.Stand, ground.Shape]:
+    """The stand and the ground's mesh at once: each has much to do that keeps one core busy.
+
+    Neither asks Blender for anything, nor does the exposure, which is remembered; all are there before it
+    goes on.
+    """
+    shot.sights.distance([(0.0, 0.0, 0.0)])  # what they need of them is made now
+    with ThreadPoolExecutor(1) as beside:
+        shaping = beside.submit(ground.shape, shot)
+        metering = beside.submit(exposure.at, shot, np.ones(1))
+        grown = stand.grow(shot)
+        metering.result()
+        return grown, shaping.result()
 
 
 def remove(scene: bpy.types.Scene) -> None:

@@ -121,17 +121,21 @@ def _tolerance(
     tolerance, distance = np.full(len(centre), UNSEEN), np.full(len(centre), np.inf)
     angle, pixel = _views(shot)
 
-    def shown(pixel: float) -> NDArray[np.bool_]:
-        seen = shot.sights.seen(centre, radius, margin=_MARGIN, pixel=pixel).reshape(shape)
-        return shade.with_shade(shot, centre.reshape(*shape, 3), rise.reshape(shape), seen).ravel()
+    def shaded(seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        return shade.with_shade(
+            shot, centre.reshape(*shape, 3), rise.reshape(shape), seen.reshape(shape)
+        ).ravel()
 
+    near = np.zeros(len(centre), bool)
     if angle is not None:
-        seen = shown(0.0)
+        near = shot.sights.seen(centre, radius, margin=_MARGIN)
+        seen = shaded(near)
         distance[seen] = np.maximum(shot.sights.distance(centre[seen]) - radius[seen], _NEAREST)
         drawn = np.maximum(shot.sights.drawn_from(centre[seen]) - radius[seen], _NEAREST)
         tolerance[seen] = np.minimum(angle * drawn, UNSEEN)
     if pixel is not None:
-        seen = shown(np.inf)
+        far = shot.sights.seen(centre, radius, margin=_MARGIN, pixel=np.inf, perspective=False)
+        seen = shaded(near | far)
         tolerance[seen] = np.minimum(tolerance[seen], pixel)
     return tolerance, distance
 

@@ -6,6 +6,7 @@ Its rows and columns continue those of the grid with growing spacing, so that th
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -73,12 +74,14 @@ def extend(
     distance = np.hypot(dy[:, None], dx[None, :])
     spacing = np.maximum(dy[:, None], dx[None, :]) * (GROWTH - 1.0)
     across = tuple(_reflected(side, _positions(side, steps)) for side in (rows, columns))
-    elevation = _heights(fields.elevation, across, y, x, distance, spacing, seed)
     apron = distance > 0.0
-    if known is not None:
-        elevation = np.where(apron, known(latitude, longitude, elevation), elevation)
     yy, xx = (np.broadcast_to(at, distance.shape)[apron] for at in (y[:, None], x[None, :]))
-    ranks = [_rank(xx, yy, size, spacing[apron], seed + use) for size, use in _PATCHES]
+    with ThreadPoolExecutor(1) as beside:
+        ranked = [beside.submit(_rank, xx, yy, size, spacing[apron], seed + use) for size, use in _PATCHES]
+        elevation = _heights(fields.elevation, across, y, x, distance, spacing, seed)
+        if known is not None:
+            elevation = np.where(apron, known(latitude, longitude, elevation), elevation)
+        ranks = [each.result() for each in ranked]
     canopy, surface = (
         _fuel(fields.elevation, fuel, across, elevation, distance, ranks)
         for fuel in (fields.canopy_fuel, fields.surface_fuel)

@@ -44,6 +44,7 @@ class Sights:
         margin: float = 0.0,
         shadows: bool = False,
         pixel: float = 0.0,
+        perspective: bool = True,
     ) -> NDArray[np.bool_]:
         """Which balls (n,) any camera sees; nothing that is visible is left out.
 
@@ -59,11 +60,14 @@ class Sights:
             Whether what throws its shadow on a place that is seen counts as seen.
         pixel
             Cameras with parallel lines of sight count if their pixels are smaller than this, m.
+        perspective
+            Whether cameras in perspective count.
         """
-        showing = self._showing(pixel)
+        showing = self._showing(pixel, perspective)
         if self.whole:
             flat = any(not self.shot.paths[number].perspective for number in showing)
-            return (self.distance(position) - radius <= reach) | flat
+            near = perspective and self.distance(position) - radius <= reach
+            return np.broadcast_to(near | flat, len(np.asarray(position)))
         sight = self._of(showing)
         return lod.seen(position, radius, sight, reach=reach, margin=margin, shadows=shadows)
 
@@ -86,10 +90,12 @@ class Sights:
         paths = [path for path in self.shot.paths if frame - 1 in self.shot.filmed(path)]
         return self._made(paths, frame - 1) if paths else None
 
-    def _showing(self, pixel: float) -> tuple[int, ...]:
-        """Numbers of the cameras in perspective, and of the others whose pixels are small enough."""
+    def _showing(self, pixel: float, perspective: bool = True) -> tuple[int, ...]:
+        """Numbers of the cameras in perspective, if they count, and of others of small enough pixels."""
         return tuple(
-            number for number, path in enumerate(self.shot.paths) if path.perspective or path.pixel < pixel
+            number
+            for number, path in enumerate(self.shot.paths)
+            if (perspective if path.perspective else path.pixel < pixel)
         )
 
     def _of(self, numbers: tuple[int, ...]) -> lod.Sight:

@@ -3,6 +3,7 @@
 #include "base/check.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -112,22 +113,26 @@ void Occluder::build_blocks() {
 }
 
 Occluder::Cells Occluder::cells(double left, double right, double low, double high) const {
+  return {index(left - x_), index(right - x_), index(low - y_), index(high - y_)};
+}
+
+long Occluder::index(double from_corner) const {
   // Held to where the grid may be, so that it fits a long; rounded down without a library's call.
-  const auto index = [](double v) {
-    const double held = std::clamp(v, -2.0, 1e8);
-    const auto whole = static_cast<long>(held);
-    return whole - (held < static_cast<double>(whole));
-  };
-  return {index((left - x_) / cell_), index((right - x_) / cell_), index((low - y_) / cell_),
-          index((high - y_) / cell_)};
+  const double held = std::min(std::max(from_corner / cell_, -2.0), 1e8);
+  const auto whole = static_cast<long>(held);
+  return whole - (held < static_cast<double>(whole));
 }
 
 template <class Visit> void Occluder::visit(Cells c, const Visit& visit) const {
-  std::size_t k = 0;
-  for (; c.right - c.left > 2 || c.high - c.low > 2; ++k) {
-    c = {c.left / 2, c.right / 2, c.low / 2, c.high / 2};
+  // The finest blocks of which at most 3 x 3 cover the cells.
+  const auto most = static_cast<unsigned long>(std::max(c.right - c.left, c.high - c.low));
+  int k = std::max(static_cast<int>(std::bit_width(most)) - 2, 0);
+  const auto wide = [&k](long first, long last) { return (last >> k) - (first >> k) > 2; };
+  while (wide(c.left, c.right) || wide(c.low, c.high)) {
+    ++k;
   }
-  const Blocks& blocks = blocks_[k];
+  c = {c.left >> k, c.right >> k, c.low >> k, c.high >> k};
+  const Blocks& blocks = blocks_[static_cast<std::size_t>(k)];
   for (long row = c.low; row <= c.high; ++row) {
     for (long column = c.left; column <= c.right; ++column) {
       visit(blocks, static_cast<std::size_t>(row * blocks.columns + column));
@@ -162,31 +167,40 @@ class Occluder::Lines {
 public:
   Lines(const Occluder& ground, const Ball& from, const Ball& to)
       : ground_(ground), from_(from), way_(minus(to.centre, from.centre)),
-        grows_(to.radius - from.radius), length_(std::hypot(way_[0], way_[1])) {}
+        grows_(to.radius - from.radius), length_(std::sqrt(way_[0] * way_[0] + way_[1] * way_[1])) {
+  }
 
   /// Whether the ground is over all of them at the fraction t, and t is one that is tried below.
-  bool blocked(double t) const { return ground_.buries(at(t)) && tried(t); }
+  bool blocked(double t) const { return ground_.buries(at(t).ball) && tried(t); }
 
-  /// Whether it is somewhere between the fractions `a` and `b`, and where.
-  bool blocked(double a, double b, double& where) const {
-    const Ball first = at(a), last = at(b);
-    const double top = std::min(first.centre[2] + first.radius, last.centre[2] + last.radius);
-    if (!(ground_.highest(around(first, last)) > top)) {
+  /// Whether it is at a fraction that is tried, and at which.
+  bool blocked_anywhere(double& where) const { return blocked(0.0, 1.0, at(0.0), at(1.0), where); }
+
+private:
+  /// All of them at a fraction of their way, and the cell under the middle one.
+  struct Point {
+    Ball ball;
+    long column, row;
+    double top() const { return ball.centre[2] + ball.radius; }
+  };
+
+  /// Between the fractions `a` and `b`, where lines are at `from` and `to`.
+  bool blocked(double a, double b, const Point& from, const Point& to, double& where) const {
+    if (!(ground_.highest(under(from, to)) > std::min(from.top(), to.top()))) {
       return false;
     }
     const double half = 0.5 * (a + b);
-    const Ball middle = at(half);
-    if (ground_.buries(middle)) {
+    const Point middle = at(half);
+    if (ground_.highest(under(middle, middle)) > middle.top() && ground_.buries(middle.ball)) {
       where = half;
       return true;
     }
     if (is_short(a, b)) {
       return false;
     }
-    return blocked(half, b, where) || blocked(a, half, where);
+    return blocked(half, b, middle, to, where) || blocked(a, half, from, middle, where);
   }
 
-private:
   /// Whether the fractions between `a` and `b` are too near each other to be halved again.
   bool is_short(double a, double b) const {
     const double radius = from_.radius + 0.5 * (a + b) * grows_;
@@ -205,19 +219,18 @@ private:
     return true;
   }
 
-  Ball at(double t) const {
-    return {{from_.centre[0] + t * way_[0], from_.centre[1] + t * way_[1],
-             from_.centre[2] + t * way_[2]},
-            from_.radius + t * grows_};
+  Point at(double t) const {
+    const Ball ball{{from_.centre[0] + t * way_[0], from_.centre[1] + t * way_[1],
+                     from_.centre[2] + t * way_[2]},
+                    from_.radius + t * grows_};
+    return {ball, ground_.index(ball.centre[0] - ground_.x_),
+            ground_.index(ball.centre[1] - ground_.y_)};
   }
-  Cells around(const Ball& a, const Ball& b) const {
-    const auto low = [&](std::size_t i) {
-      return std::min(a.centre[i] - a.radius, b.centre[i] - b.radius);
-    };
-    const auto high = [&](std::size_t i) {
-      return std::max(a.centre[i] + a.radius, b.centre[i] + b.radius);
-    };
-    return ground_.cells(low(0), high(0), low(1), high(1));
+  /// Cells under the middle line between two places. Where the ground in the one cell is no higher
+  /// than all lines' top there, the lowest of all cells that they are over is not either.
+  static Cells under(const Point& a, const Point& b) {
+    return {std::min(a.column, b.column), std::max(a.column, b.column), std::min(a.row, b.row),
+            std::max(a.row, b.row)};
   }
 
   const Occluder& ground_;
@@ -228,7 +241,7 @@ private:
 
 bool Occluder::hides(const Ball& camera, const Ball& thing, double& where) const {
   const Lines lines(*this, camera, thing);
-  return lines.blocked(where) || lines.blocked(0.0, 1.0, where);
+  return lines.blocked(where) || lines.blocked_anywhere(where);
 }
 
 bool Occluder::buries(const Ball& ball) const {

@@ -55,6 +55,8 @@ private:
   void add_quad(std::span<const double> node, std::size_t corner, std::size_t columns, bool rim);
   void build_blocks();
   Cells cells(double left, double right, double low, double high) const;
+  /// Column or row of what is so far (m) from the grid's corner.
+  long index(double from_corner) const;
   /// Calls visit(blocks, i) for the few blocks i that cover these cells.
   template <class Visit> void visit(Cells cells, const Visit& visit) const;
   double lowest(const Ball& ball) const;

@@ -129,7 +129,7 @@ Ball Sight::piece(const Branch& b, const Ball& ball, double from, double to) {
   const double at = 0.5 * (from + to);
   return {{ball.centre[0] - at * b.sun[0], ball.centre[1] - at * b.sun[1],
            ball.centre[2] - at * b.sun[2]},
-          std::hypot(ball.radius, to - at) + to * b.sun_moved};
+          std::sqrt(ball.radius * ball.radius + (to - at) * (to - at)) + to * b.sun_moved};
 }
 
 /// Along the rays of light that go through the thing, until all of them are under the ground.

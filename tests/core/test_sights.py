@@ -56,6 +56,21 @@ def test_frames_that_are_not_filmed_do_not_count(film):
     assert [some.sights.at(frame) is None for frame in (1, 2, 3)] == [False, True, False]
 
 
+def test_satellites_can_be_asked_alone(film):
+    """What they see and what cameras in perspective see is what all see: nobody need be asked twice."""
+    shot = film(Camera("a", ORBIT), Camera("above", Satellite(swath=2000.0)))
+    places = np.random.default_rng(5).uniform((-3e3, -3e3, 1.1e3), (3e3, 3e3, 1.4e3), (3000, 3))
+    near, all_of_them = (shot.sights.seen(places, 5.0, pixel=pixel) for pixel in (0.0, np.inf))
+    flat = shot.sights.seen(places, 5.0, pixel=np.inf, perspective=False)
+    assert (near | flat).tolist() == all_of_them.tolist()
+    assert (near & ~flat).any()
+    assert (flat & ~near).any()
+    assert not shot.sights.seen(places, 5.0, perspective=False).any()
+    whole = film(*shot.settings.cameras, render=Render(skip=False))
+    assert whole.sights.seen(places, 5.0, pixel=np.inf, perspective=False).all()
+    assert not whole.sights.seen(places, 5.0, perspective=False).any()
+
+
 def test_satellites_count_by_their_pixels_and_are_near_to_nothing(film):
     shot = film(Camera("above", Satellite(swath=640.0)))
     width = shot.settings.render.resolution[0]

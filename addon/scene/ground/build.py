@@ -14,15 +14,17 @@ from ...shot.shot import Shot
 from ..forest.stand import Stand
 from . import fields, material, solid
 
+Shape = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]
 
-def build(shot: Shot, stage: Stage, grown: Stand | None) -> bpy.types.Object:
-    """Build "Firetwin Ground".
+
+def build(shot: Shot, stage: Stage, grown: Stand | None, shaped: Shape | None = None) -> bpy.types.Object:
+    """Build "Firetwin Ground", of its `shape` where that is known.
 
     Its mesh carries point attributes: `elevation` (m) and `grid`, where each point is in the images of the
     ground's fields (see `fields`); and `solid_view`, its colours in Blender's solid view.
     """
     collection, ground = stage.part("Ground"), shot.ground
-    row, column, triangles = shape(shot)
+    row, column, triangles = shaped or shape(shot)
     latitude, longitude = ground.places(row, column)
     coarse = ground.frame.forward(latitude, longitude, ground.height(row, column))
     height = ground.height(row, column, ground.detail(*coarse.T))
@@ -36,7 +38,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None) -> bpy.types.Object:
     return owned.add(collection, "Ground", data)
 
 
-def shape(shot: Shot) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]:
+def shape(shot: Shot) -> Shape:
     """Vertices by fractional row and column (n,), and triangles (m, 3): no finer than cameras can tell."""
     ground, wanted = shot.ground, accuracy.wanted(shot)
     return terrain.mesh(
@@ -51,11 +53,14 @@ def shape(shot: Shot) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray
 
 
 def _fill(data: bpy.types.Mesh, positions: NDArray[np.float64], triangles: NDArray[np.int32]) -> None:
-    """Write vertices and triangles into an empty mesh, smooth shaded."""
+    """Write vertices and triangles into an empty mesh, smooth shaded.
+
+    By attributes: Blender copies these at once, but looks at vertices and corners one by one.
+    """
     data.vertices.add(len(positions))
-    data.vertices.foreach_set("co", positions.astype(np.float32).ravel())
+    data.attributes["position"].data.foreach_set("vector", positions.astype(np.float32).ravel())
     data.loops.add(triangles.size)
-    data.loops.foreach_set("vertex_index", triangles.ravel())
+    data.attributes[".corner_vert"].data.foreach_set("value", triangles.ravel())
     data.polygons.add(len(triangles))
     data.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
     data.update(calc_edges=True)

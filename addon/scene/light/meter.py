@@ -159,7 +159,9 @@ def _ends(shot: Shot, start: Array, along: Array) -> Array:
     begin = np.maximum((_HIGHEST - start[:, 2]) / down, 0.0)
     reach = begin[:, None] + _REACH
     way = start[:, None] + reach[..., None] * along[:, None]
-    low = way[..., 2] < shot.bare_ground.up(way[..., 0].ravel(), way[..., 1].ravel()).reshape(way.shape[:2])
+    ground = shot.bare_ground
+    low = way[..., 2] <= ground.fields.elevation.max()  # the rest is in the sky
+    low[low] = way[low][:, 2] < ground.up(*way[low][:, :2].T)
     return np.where(low.any(axis=1), reach[np.arange(len(low)), np.argmax(low, axis=1)], np.inf)
 
 
