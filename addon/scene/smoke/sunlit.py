@@ -1,7 +1,7 @@
 """Light of sun and sky in smoke, as the material of a solved flow has it from the grids `sun` and `sky`.
 
-Light that was scattered once comes from the sun along its way, spread as L. G. Henyey and J. L. Greenstein
-say (1941, "Diffuse radiation in the galaxy"). Light that was scattered oftener comes as if smoke were thinner,
+Light that was scattered once comes from the sun along its way, spread after L. G. Henyey and J. L. Greenstein
+(1941, "Diffuse radiation in the galaxy"). Light that was scattered oftener comes as if smoke were thinner,
 evenly from all round and dimmed by the albedo each time, after M. Wrenninge, C. Kulla and V. Lundqvist (2013,
 "Oz: The Great and Volumetric"): a half and a quarter of the optical depth count.
 """
