@@ -8,6 +8,7 @@ log file. The child ends as soon as the parent's end of the pipe closes, whateve
 from __future__ import annotations
 
 import contextlib
+import functools
 import importlib
 import json
 import os
@@ -98,6 +99,7 @@ def run(
         The process of a task without Blender ended otherwise.
     """
     log = tempfile.NamedTemporaryFile(prefix="firetwin-", suffix=".log", delete=False)  # noqa: SIM115
+    forget = functools.partial(Path(log.name).unlink, missing_ok=True)  # somebody may have tidied up
     package = __package__ or "firetwin"
     code = f"import importlib; importlib.import_module({package + '.worker'!r}).serve({blender})"
     with log:
@@ -119,18 +121,18 @@ def run(
     finally:
         _end(child)
     if "result" in answer:
-        Path(log.name).unlink(missing_ok=True)  # somebody may have tidied up while it worked
+        forget()
         return answer["result"]
     if stop is not None and stop.asked:
-        Path(log.name).unlink(missing_ok=True)
+        forget()
         raise StoppedError
     from ..errors import Error, input_error
 
     if "input_error" in answer:
-        Path(log.name).unlink(missing_ok=True)
+        forget()
         raise input_error(*answer["input_error"])
     if not blender:
-        Path(log.name).unlink(missing_ok=True)
+        forget()
         if "error" in answer:
             raise Error(answer["error"])
         if watch.over:

@@ -194,7 +194,7 @@ def brief(info: dict[str, Any]) -> list[tuple[str, str]]:
             for label, key in (("First", "first"), ("Last", "last"))
         ),
         ("Burned", f"{burned[0]:,.0f} to {burned[1]:,.0f} acres"),
-        ("Heat flux", f"up to {info['heat_flux']['max'] / 1e3:,.4g} kW/m2"),
+        ("Heat flux", f"up to {info['heat_flux']['max'] / 1e3:,.4g} kW/m²"),
     ]
 
 

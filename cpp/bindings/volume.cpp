@@ -173,20 +173,19 @@ py::tuple lit(const py::object& extinction, double voxel_size, const Vector& dir
     outer = to_array<float>(std::get<0>(*beyond), "beyond", {-1, -1, -1});
     outside = brick(*outer, std::get<1>(*beyond), std::get<2>(*beyond));
   }
-  std::vector<float> mean;
-  volume::Brick coarse = volume::halved(inside, mean);
-  auto depth = new_array<float>({coarse.shape[0], coarse.shape[1], coarse.shape[2]});
   auto sun = zeros({smoke.shape(0), smoke.shape(1), smoke.shape(2)});
   auto sky = zeros({smoke.shape(0), smoke.shape(1), smoke.shape(2)});
-  const auto depths = writable(depth);
   const volume::Light light{writable(sun), writable(sky)};
+  volume::OwnBrick depth;
   {
     const py::gil_scoped_release release;
-    volume::sun_depth(coarse, direction, outside ? &*outside : nullptr, depths);
-    coarse.values = depths;
-    volume::lit(inside, direction, coarse, {sun_part, sky_part}, light);
+    depth =
+        volume::lit(inside, direction, outside ? &*outside : nullptr, {sun_part, sky_part}, light);
   }
-  return py::make_tuple(sun, sky, py::make_tuple(depth, coarse.voxel, coarse.origin));
+  const auto [nx, ny, nz] = depth.shape;
+  return py::make_tuple(
+      sun, sky,
+      py::make_tuple(give(std::move(depth.values), {nx, ny, nz}), depth.voxel, depth.origin));
 }
 
 template <auto member> auto column(const py::object& self) {

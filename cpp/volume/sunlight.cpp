@@ -1,5 +1,7 @@
 #include "volume/sunlight.hpp"
 
+#include "base/check.hpp"
+
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -84,6 +86,13 @@ struct Crossing {
 Crossing crossing(float shift) {
   const float low = std::floor(shift);
   return {static_cast<Index>(low), shift - low};
+}
+
+void check_direction(const Vector& direction) {
+  check_finite(direction, "direction");
+  if (std::abs(std::sqrt(dot(direction, direction)) - 1.0) > 1.0e-6) {
+    throw std::invalid_argument("direction must be a unit vector");
+  }
 }
 
 void check(const Brick& brick, std::span<const float> out) {
@@ -175,34 +184,32 @@ Stencil first_steps(const Brick& smoke, const Vector& direction) {
   return found;
 }
 
-} // namespace
-
-Brick halved(const Brick& smoke, std::vector<float>& mean) {
-  Brick coarse{{}, smoke.shape, 2.0 * smoke.voxel, smoke.origin};
+/// The same smoke in voxels of twice the size; what lies beyond the brick is clear.
+OwnBrick halved(const Brick& smoke) {
+  OwnBrick coarse{{}, smoke.shape, 2.0 * smoke.voxel, smoke.origin};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     coarse.shape[axis] = (smoke.shape[axis] + 1) / 2;
     coarse.origin[axis] += 0.5 * smoke.voxel;
   }
   const auto [nx, ny, nz] = coarse.shape;
-  mean.assign(static_cast<std::size_t>(nx * ny * nz), 0.0F);
+  coarse.values.assign(static_cast<std::size_t>(nx * ny * nz), 0.0F);
   tbb::parallel_for(Index{0}, nx, [&, ny, nz](Index i) {
     for (Index x = 2 * i; x < std::min(2 * i + 2, smoke.shape[0]); ++x) {
       for (Index y = 0; y < smoke.shape[1]; ++y) {
         const float* row = smoke.values.data() + (x * smoke.shape[1] + y) * smoke.shape[2];
-        float* out = mean.data() + (i * ny + y / 2) * nz;
+        float* out = coarse.values.data() + (i * ny + y / 2) * nz;
         for (Index z = 0; z < smoke.shape[2]; ++z) {
           out[z / 2] += 0.125F * row[z];
         }
       }
     }
   });
-  coarse.values = mean;
   return coarse;
 }
 
-void sun_depth(const Brick& smoke, const Vector& direction, const Brick* beyond,
-               std::span<float> depth) {
-  check(smoke, depth);
+/// Optical depth from the middles of voxels to a light far away, see `lit`.
+std::vector<float> optical_depth(const Brick& smoke, const Vector& direction, const Brick* beyond) {
+  std::vector<float> depth(smoke.values.size());
   const Slices s = slices(smoke, direction);
   const Crossing over_rows = crossing(s.row_shift), over_columns = crossing(s.column_shift);
   const float* values = smoke.values.data();
@@ -243,20 +250,19 @@ void sun_depth(const Brick& smoke, const Vector& direction, const Brick* beyond,
       }
     });
   }
+  return depth;
 }
-
-namespace {
 
 /// Mean of exp(-part * depth) over five ways up.
 std::vector<float> sky_light(const Brick& smoke, double part) {
   const double flat = std::sqrt(1.0 - ring * ring);
   const std::array<Vector, 5> ways{
       {{0, 0, 1}, {flat, 0, ring}, {-flat, 0, ring}, {0, flat, ring}, {0, -flat, ring}}};
-  std::vector<float> depth(smoke.values.size()), sum(smoke.values.size());
+  std::vector<float> sum(smoke.values.size());
   const auto thinner = static_cast<float>(-part);
   const float share = 1.0F / static_cast<float>(ways.size());
   for (const Vector& way : ways) {
-    sun_depth(smoke, way, nullptr, depth);
+    const std::vector<float> depth = optical_depth(smoke, way, nullptr);
     each_block(sum.size(), [&](std::size_t n) { sum[n] += share * std::exp(thinner * depth[n]); });
   }
   return sum;
@@ -264,15 +270,16 @@ std::vector<float> sky_light(const Brick& smoke, double part) {
 
 } // namespace
 
-void lit(const Brick& smoke, const Vector& direction, const Brick& depth,
-         std::array<double, 2> parts, const Light& light) {
+OwnBrick lit(const Brick& smoke, const Vector& direction, const Brick* beyond,
+             std::array<double, 2> parts, const Light& light) {
   check(smoke, light.sun);
   check(smoke, light.sky);
-  std::vector<float> mean, wide;
-  const Brick middling = halved(smoke, mean);
-  Brick coarse = halved(middling, wide);
-  const std::vector<float> open = sky_light(coarse, parts[1]);
-  coarse.values = open;
+  check_direction(direction);
+  check_above_zero(smoke.voxel, "voxel_size");
+  OwnBrick depth = halved(smoke), open = halved(depth.view());
+  open.values = sky_light(open.view(), parts[1]);
+  depth.values = optical_depth(depth.view(), direction, beyond);
+  const Brick depths = depth.view(), sky = open.view();
   const auto near = near_smoke(smoke);
   const Stencil first = first_steps(smoke, direction);
   const auto fits = [&](std::size_t axis, Index at) {
@@ -303,11 +310,12 @@ void lit(const Brick& smoke, const Vector& direction, const Brick& depth,
             on[axis] += fine_steps * smoke.voxel * direction[axis];
           }
         }
-        light.sun[n] = std::exp(thinner * (sum * step + sample(depth, on)));
-        light.sky[n] = sample(coarse, place);
+        light.sun[n] = std::exp(thinner * (sum * step + sample(depths, on)));
+        light.sky[n] = sample(sky, place);
       }
     }
   });
+  return depth;
 }
 
 } // namespace firetwin::volume

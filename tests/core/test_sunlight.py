@@ -88,3 +88,14 @@ def test_any_number_of_threads_finds_the_same_light(cloud, all_threads):
 def test_flat_arrays_are_refused():
     with pytest.raises(ValueError, match="extinction must have shape"):
         volume.lit(np.ones((4, 4)), 20.0, UP, 1.0, 1.0)
+
+
+@pytest.mark.parametrize("direction", [(0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (np.nan, 0.0, 1.0)])
+def test_what_is_no_direction_is_refused(direction):
+    with pytest.raises(ValueError, match="direction"):
+        volume.lit(np.ones((4, 4, 4)), 20.0, direction, 1.0, 1.0)
+
+
+def test_voxels_without_size_are_refused():
+    with pytest.raises(ValueError, match="voxel_size"):
+        volume.lit(np.ones((4, 4, 4)), 0.0, UP, 1.0, 1.0)

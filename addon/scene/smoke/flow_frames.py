@@ -116,7 +116,8 @@ class Painter:
         toward = sun.light(*self.shot.sun(float(self.shot.frames.times[frame - 1])))
         sunlight, skylight, depths = volume.lit(density, voxel, toward, *LIGHT, origin, beyond)
         thinner = share < 1.0
-        density[thinner] *= share[thinner][:, None]
+        drawn = density[thinner] * share[thinner][:, None]
+        density[thinner] = np.where(drawn < THIN, 0.0, drawn)
         grids: dict[str, Any] = {"density": density, "fresh": fresh, "sun": sunlight, "sky": skylight}
         if glow is not None:
             grids["glow"] = glow

@@ -9,6 +9,8 @@ all of the smoke.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import bpy
 
 from ...blender import nodes
@@ -25,6 +27,16 @@ _ANISOTROPY = FORWARD / (1.0 + FORWARD)  # of what is left when light that goes 
 _LIGHT = 0.5  # of extinction counts for light: 0.7 by theory, less for the bounces that are left out
 
 
+@dataclass(frozen=True)
+class _Smoke:
+    """Extinction (1/m), that for rays of light, albedo and anisotropy."""
+
+    density: nodes.Value
+    thinner: nodes.Value
+    albedo: nodes.Value
+    even: nodes.Value
+
+
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Smoke"."""
     made, tree = nodes.material("Firetwin Smoke")
@@ -36,7 +48,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     albedo = tree.mix_colour(tree.attribute("fresh"), old, fresh)
     thinner = density * tree.input("Light Density", _LIGHT, "Part of the smoke that dims light", "Light")
     lit = _solved if shot.settings.smoke.lighting == "solved" else _traced
-    visible = lit(tree, shot, stage, density, thinner, albedo, even)
+    visible = lit(tree, shot, stage, _Smoke(density, thinner, albedo, even))
     shader = infrared.smoke(tree, shot, stage, visible, density)
     # A mix by 0 or 1 evaluates one side only, and more than half of all steps find no smoke.
     clear = tree.output("ShaderNodeVolumeAbsorption", {"Density": 0.0})
@@ -46,46 +58,32 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     return made
 
 
-def _solved(
-    tree: nodes.Tree,
-    shot: Shot,
-    stage: Stage,
-    density: nodes.Value,
-    thinner: nodes.Value,
-    albedo: nodes.Value,
-    even: nodes.Value,
-) -> nodes.Value:
+def _solved(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.Value:
     """Smoke that shines by itself, as much as the light in its grids makes it."""
     part, air = haze.fraction(tree, stage)
-    light = sunlit.source(tree, shot, albedo, even)
+    light = sunlit.source(tree, shot, smoke.albedo, smoke.even)
     if glow := _glow(tree, shot):
         light = tree.vector("ADD", light, tree.vector("SCALE", *glow))
-    seen = tree.add_shader(_black(tree, density), tree.emission(tree.mix_colour(part, light, air), density))
+    seen = tree.add_shader(
+        _black(tree, smoke.density), tree.emission(tree.mix_colour(part, light, air), smoke.density)
+    )
     shadow = tree.output("ShaderNodeLightPath", name="Is Shadow Ray")
-    return tree.mix_shader(shadow, seen, _black(tree, thinner))
+    return tree.mix_shader(shadow, seen, _black(tree, smoke.thinner))
 
 
-def _traced(
-    tree: nodes.Tree,
-    shot: Shot,
-    stage: Stage,
-    density: nodes.Value,
-    thinner: nodes.Value,
-    albedo: nodes.Value,
-    even: nodes.Value,
-) -> nodes.Value:
+def _traced(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.Value:
     """Smoke whose light Cycles traces."""
     middle = tree.input("Inner Colour", _MIDDLE, "Albedo for light by way of other smoke", "Colour")
     part, air = haze.fraction(tree, stage)
-    light = tree.emission(air, part * density)
+    light = tree.emission(air, part * smoke.density)
     if glow := _glow(tree, shot):
         shine, bright = glow
-        light = tree.add_shader(light, tree.emission(shine, bright * (1.0 - part) * density))
-    scattered = tree.mix_colour(part, albedo, (0.0, 0.0, 0.0))
-    detailed = tree.add_shader(material.smoke(tree, density, scattered, even), light)
+        light = tree.add_shader(light, tree.emission(shine, bright * (1.0 - part) * smoke.density))
+    scattered = tree.mix_colour(part, smoke.albedo, (0.0, 0.0, 0.0))
+    detailed = tree.add_shader(material.smoke(tree, smoke.density, scattered, smoke.even), light)
     # Most steps belong to rays of light through the smoke; one grid is enough for them.
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
-    return tree.mix_shader(camera, material.smoke(tree, thinner, middle, even), detailed)
+    return tree.mix_shader(camera, material.smoke(tree, smoke.thinner, middle, smoke.even), detailed)
 
 
 def _black(tree: nodes.Tree, density: nodes.Value) -> nodes.Value:
