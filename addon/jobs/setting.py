@@ -9,6 +9,8 @@ from ..render import engine, layers
 from ..scene import build
 from ..shot.shot import Shot
 
+KEPT = 512  # MB that Blender keeps of what it has read: smoke of a frame or two, for all of its pictures
+
 
 def empty() -> Stage:
     """A scene with nothing in it, in a Blender that holds nothing else."""
@@ -16,6 +18,8 @@ def empty() -> Stage:
 
     # Not read_factory_settings: its preferences enable no extension, and Blender then deletes their wheels.
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    # Smoke of a film is read frame by frame and not again; Blender's own limit lets it fill 4 GB.
+    bpy.context.preferences.system.memory_cache_limit = KEPT
     return owned.adopt(bpy.context.scene)
 
 

@@ -93,7 +93,20 @@ def test_smoke_that_glows_keeps_its_colour_and_does_not_drown_the_picture(filmed
 
 @pytest.mark.parametrize("away", [4.0, 14.0])
 def test_by_day_it_is_about_that_of_a_clear_day_wherever_the_camera_is(filmed, run, away):
-    assert stops(filmed(away, moment=DAY), run)[0] == pytest.approx(0.5, abs=0.5)
+    assert stops(filmed(away, moment=DAY), run)[0] == pytest.approx(0.6, abs=0.6)
+
+
+def test_young_smoke_is_darker_than_old(filmed, run):
+    shot = Shot(filmed(4.0, moment=DAY), run)
+    smoke = meter._smoke(shot, shot.frames.first)
+    assert np.all(np.diff(smoke.bright) >= 0.0)
+    assert smoke.bright[0] < 0.4 < smoke.bright[-1] == 1.0
+    first = replace(smoke, place=smoke.place[:1], radius=smoke.radius[:1], depth=smoke.depth[:1])
+    south = smoke.place[0] - np.array([0.0, 9000.0, 0.0])
+    north = np.tile([0.0, 1.0, 0.0], (len(south), 1))
+    depth, met, bright = meter._depth(first, south, north, np.inf)
+    assert np.all((depth > 0.0) & (met < 9000.0))
+    assert bright[0] < bright[-1] == 1.0
 
 
 def test_deep_under_smoke_it_is_dark_by_day(filmed, run):

@@ -30,6 +30,8 @@ _SHADOW = np.geomspace(100.0, 6000.0, 14)  # m towards the sun where relief may 
 _CROWNS = 6.0, 25.0  # m above the ground: lower than crowns, and over most of them
 _CLOSED, _BARE = 0.6, 0.4  # kg/m2 of canopy that shades 1 - 1/e of the ground; of that burned trees; by eye
 _CLOUD = 0.3  # of lit smoke: a deep ball of it has 0.27, the sun behind the camera, to 0.46, at its side
+_YOUNG = 20.0, 600.0  # s in which smoke turns from that of soot to white, as `flow.Detail` has it
+_SOOT = 0.3  # of old smoke's light is fresh smoke's, amid other smoke; as pictures have it
 _BLOCK, _FIRES = 600.0, 80  # m, heat this close is one fire; and how many there are at most
 _TIMES = np.array([30.0, 90.0, 180.0, 300.0, 480.0, 720.0, 1080.0, 1600.0])  # s since smoke left its fire
 _HIDES, _FRONT = 0.3, 1.5  # optical depth of a parcel that hides much; its radii from there to its middle
@@ -50,6 +52,8 @@ class Smoke:
     ----------
     place, radius, depth
         (n, m, 3) m, (n, m) m and (n, m) optical depth across.
+    bright
+        (m,) light of it beside that of old smoke.
     light
         Places (k, 3) m and luminous powers (k,) W.
     """
@@ -57,6 +61,7 @@ class Smoke:
     place: Array
     radius: Array
     depth: Array
+    bright: Array
     light: tuple[Array, Array]
 
 
@@ -76,19 +81,20 @@ def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array, Array]:
     shine
         (n,) what flames add to rays in smoke, GW.
     """
-    light, smoke = sky.State(*shot.sun(shot.frames.time(frame))), _smoke(shot, shot.frames.time(frame))
+    time = shot.frames.time(frame)
+    light, smoke = sky.State(*shot.sun(time)), _smoke(shot, time)
     start, along = _rays(view, frame - 1)
     ends = _ends(shot, start, along)
     ground = np.isfinite(ends)
     far = np.where(ground, ends, 0.0)
     place = start + far[:, None] * along
     sunlit = _GROUND / np.pi * light.power * _sunlit(smoke, place, light, 1.0)
-    crowns = 1.0 - (1.0 - _SHADE) * _crowns(shot, view.position[frame - 1], shot.frames.time(frame))
+    crowns = 1.0 - (1.0 - _SHADE) * _crowns(shot, view.position[frame - 1], time)
     clear = np.exp(-shot.settings.light.haze * _haze_depth(start[:, 2], along[:, 2], far))
-    depth, met = _depth(smoke, start, along, ends)
+    depth, met, bright = _depth(smoke, start, along, ends)
     hidden = 1.0 - np.exp(-depth)
     shade = _sunlit(smoke, start + met[:, None] * along, light, _THROUGH)
-    before = hidden * _lit_smoke(light, along) * shade
+    before = hidden * _lit_smoke(light, along) * bright * shade
 
     def seen(facing: Array | float) -> Array:
         lit = facing * sunlit + _GROUND * light.sky_mean
@@ -130,7 +136,7 @@ def _facing(shot: Shot, place: Array, direction: Array) -> Array:
 
 def _sunlit(smoke: Smoke, place: Array, light: sky.State, through: float) -> Array:
     """Part (n,) of sunlight that gets to places (n, 3) through smoke of whose depth a part counts."""
-    depth, _met = _depth(smoke, place, np.broadcast_to(light.direction, place.shape), np.inf)
+    depth, _met, _bright = _depth(smoke, place, np.broadcast_to(light.direction, place.shape), np.inf)
     return np.exp(-through * depth)
 
 
@@ -194,15 +200,16 @@ def _smoke(shot: Shot, time: float) -> Smoke:
     place[..., 2] += rise
     radius = 0.5 * rise + 0.5 * _BLOCK  # Briggs: a plume is half as wide as it has risen
     depth = _EXTINCTION * fires.power[:, None] / (2.0 * radius * speed)
-    return Smoke(place, radius, depth, (shine.position, shine.power))
+    bright = 1.0 - (1.0 - _SOOT) * noise.smoothstep(*_YOUNG[::-1], _TIMES)
+    return Smoke(place, radius, depth, bright, (shine.position, shine.power))
 
 
-def _depth(smoke: Smoke, start: Array, along: Array, ends: Array | float) -> tuple[Array, Array]:
-    """Optical depth (n,) of the smoke along rays, and how far off (n,) the first that hides much is met, m.
+def _depth(smoke: Smoke, start: Array, along: Array, ends: Array | float) -> tuple[Array, Array, Array]:
+    """Smoke along rays: optical depth (n,), how far off (n,) the first that hides much is, m; its light (n,).
 
     Of each fire's parcels the one counts that is thickest on a ray.
     """
-    total, met = np.zeros(len(start)), np.full(len(start), np.inf)
+    total, met, bright = np.zeros(len(start)), np.full(len(start), np.inf), np.ones(len(start))
     rows = np.arange(len(start))
     for place, radius, depth in zip(smoke.place, smoke.radius, smoke.depth, strict=True):
         off = place[None] - start[:, None]
@@ -213,9 +220,10 @@ def _depth(smoke: Smoke, start: Array, along: Array, ends: Array | float) -> tup
         most = np.argmax(thick, axis=1)
         thickest = thick[rows, most]
         front = np.maximum(far[rows, most] - _FRONT * radius[most], 0.0)
-        met = np.where(thickest > _HIDES, np.minimum(met, front), met)
+        first = (thickest > _HIDES) & (front < met)
+        met, bright = np.where(first, front, met), np.where(first, smoke.bright[most], bright)
         total += thickest
-    return total, np.where(np.isfinite(met), met, 0.0)
+    return total, np.where(np.isfinite(met), met, 0.0), bright
 
 
 def _lit_smoke(light: sky.State, along: Array) -> Array:
