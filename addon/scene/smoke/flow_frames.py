@@ -26,6 +26,9 @@ from .boxes import Box
 from .flow import Flow, Part
 
 GRIDS = ("density", "fresh", "sun", "sky", "hidden", "glow")
+"""All of one voxel size: `sky` on voxels of twice the size takes 10 of 40 MB less, but Cycles 4.5 draws each
+grid off by half a voxel of its own, and took 12.6 instead of 10.3 processor seconds for a picture.
+"""
 LIGHT = 0.65 / 4, 0.5
 """Parts of the optical depth that dim `sun` and `sky`. Light that smoke scatters forwards goes on as if it
 had not been: 0.36 of 0.86 to 0.95 for an asymmetry of 0.6 (Joseph, Wiscombe and Weinman 1976); 0.65 is left.

@@ -71,7 +71,7 @@ def _solved(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.
     seen = tree.add_shader(
         _black(tree, smoke.density), tree.emission(tree.mix_colour(part, light, air), smoke.density)
     )
-    # What lakes mirror is seen too. The ground's other rays gather little of what shines, and need not know.
+    # What lakes mirror is seen too. Of what shines, other rays gather 0.02/255 of a picture of the example.
     path = tree.node("ShaderNodeLightPath")
     looks = tree.math("MAXIMUM", *(tree.pick(path, name) for name in ("Is Camera Ray", "Is Glossy Ray")))
     return tree.mix_shader(looks, _black(tree, smoke.thinner), seen)
