@@ -87,8 +87,21 @@ class Sights:
         """What all cameras that film this frame see in it; None where none does, or nothing is skipped."""
         if self.whole:
             return None
-        paths = [path for path in self.shot.paths if frame - 1 in self.shot.filmed(path)]
+        paths = self._filming(frame)
         return self._made(paths, frame - 1) if paths else None
+
+    def eyes(self, frame: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Where a frame is seen from: places (n, 3), m, and unit vectors (m, 3) to cameras of parallel lines.
+
+        Both are empty where no camera films it, or nothing is skipped.
+        """
+        paths = [] if self.whole else self._filming(frame)
+        places = [path.position[frame - 1] for path in paths if path.perspective]
+        back = [path.rotation[frame - 1, :, 2] for path in paths if not path.perspective]
+        return np.reshape(places, (-1, 3)), np.reshape(back, (-1, 3))
+
+    def _filming(self, frame: int) -> list[Path]:
+        return [path for path in self.shot.paths if frame - 1 in self.shot.filmed(path)]
 
     def _showing(self, pixel: float, perspective: bool = True) -> tuple[int, ...]:
         """Numbers of the cameras in perspective, if they count, and of others of small enough pixels."""

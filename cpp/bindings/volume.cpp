@@ -3,6 +3,7 @@
 #include "bindings.hpp"
 #include "broadcast.hpp"
 #include "volume/dense.hpp"
+#include "volume/hidden.hpp"
 #include "volume/levels.hpp"
 #include "volume/puffs.hpp"
 #include "volume/smoke.hpp"
@@ -160,32 +161,64 @@ volume::Brick brick(const Array<float>& values, double voxel_size, const Vector&
   return {view(values), {values.shape(0), values.shape(1), values.shape(2)}, voxel_size, origin};
 }
 
-using Beyond = std::tuple<py::object, double, Vector>; // optical depths, voxel size, origin
+using Placed = std::tuple<py::object, double, Vector>; // values, voxel size, origin
+
+py::tuple placed(volume::OwnBrick&& brick) {
+  const auto [nx, ny, nz] = brick.shape;
+  return py::make_tuple(give(std::move(brick.values), {nx, ny, nz}), brick.voxel, brick.origin);
+}
+
+/// A brick that may be left out, with its array.
+class Beyond {
+public:
+  explicit Beyond(const std::optional<Placed>& given) {
+    if (given) {
+      const auto& [values, voxel_size, origin] = *given;
+      values_ = to_array<float>(values, "beyond", {-1, -1, -1});
+      brick_ = brick(values_, voxel_size, origin);
+    }
+  }
+
+  const volume::Brick* get() const { return brick_ ? &*brick_ : nullptr; }
+
+private:
+  Array<float> values_;
+  std::optional<volume::Brick> brick_;
+};
 
 py::tuple lit(const py::object& extinction, double voxel_size, const Vector& direction,
               double sun_part, double sky_part, const Vector& origin,
-              const std::optional<Beyond>& beyond) {
+              const std::optional<Placed>& beyond) {
   const auto smoke = to_array<float>(extinction, "extinction", {-1, -1, -1});
   const volume::Brick inside = brick(smoke, voxel_size, origin);
-  std::optional<Array<float>> outer;
-  std::optional<volume::Brick> outside;
-  if (beyond) {
-    outer = to_array<float>(std::get<0>(*beyond), "beyond", {-1, -1, -1});
-    outside = brick(*outer, std::get<1>(*beyond), std::get<2>(*beyond));
-  }
+  const Beyond outside(beyond);
   auto sun = zeros({smoke.shape(0), smoke.shape(1), smoke.shape(2)});
   auto sky = zeros({smoke.shape(0), smoke.shape(1), smoke.shape(2)});
   const volume::Light light{writable(sun), writable(sky)};
   volume::OwnBrick depth;
   {
     const py::gil_scoped_release release;
-    depth =
-        volume::lit(inside, direction, outside ? &*outside : nullptr, {sun_part, sky_part}, light);
+    depth = volume::lit(inside, direction, outside.get(), {sun_part, sky_part}, light);
   }
-  const auto [nx, ny, nz] = depth.shape;
-  return py::make_tuple(
-      sun, sky,
-      py::make_tuple(give(std::move(depth.values), {nx, ny, nz}), depth.voxel, depth.origin));
+  return py::make_tuple(sun, sky, placed(std::move(depth)));
+}
+
+py::tuple hidden(const py::object& extinction, double voxel_size, const py::object& places_object,
+                 const py::object& directions_object, double depth, const Vector& origin,
+                 const std::optional<Placed>& beyond) {
+  const auto smoke = to_array<float>(extinction, "extinction", {-1, -1, -1});
+  const auto places = to_array<double>(places_object, "places", {-1, 3});
+  const auto directions = to_array<double>(directions_object, "directions", {-1, 3});
+  const volume::Brick inside = brick(smoke, voxel_size, origin);
+  const Beyond outside(beyond);
+  auto found = zeros({smoke.shape(0), smoke.shape(1), smoke.shape(2)});
+  const std::span<float> out = writable(found);
+  volume::OwnBrick hides;
+  {
+    const py::gil_scoped_release release;
+    hides = volume::hidden(inside, {view(places), view(directions)}, depth, outside.get(), out);
+  }
+  return py::make_tuple(found, placed(std::move(hides)));
 }
 
 template <auto member> auto column(const py::object& self) {
@@ -256,6 +289,9 @@ void init_volume(Module module) {
   module.def("write", &write, py::arg("path"), py::arg("grids"), py::arg("voxel_size"),
              py::arg("origin") = Vector{}, py::arg("half") = true, py::arg("tolerance") = 0.0F,
              py::arg("metadata") = py::none(), py::arg("sight") = py::none());
+  module.def("hidden", &hidden, py::arg("extinction"), py::arg("voxel_size"), py::arg("places"),
+             py::arg("directions"), py::arg("depth"), py::arg("origin") = Vector{},
+             py::arg("beyond") = py::none());
   module.def("lit", &lit, py::arg("extinction"), py::arg("voxel_size"), py::arg("direction"),
              py::arg("sun_part"), py::arg("sky_part"), py::arg("origin") = Vector{},
              py::arg("beyond") = py::none());

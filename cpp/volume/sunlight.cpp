@@ -17,31 +17,6 @@ using Index = std::int64_t;
 constexpr double ring = 0.4;  // sine of the middle of four fifths of the sky
 constexpr int fine_steps = 4; // as far as the middle of the next voxel but one of twice the size
 
-/// Linear between voxels' middles, constant outside.
-float sample(const Brick& brick, const Vector& place) {
-  std::array<Index, 3> low{};
-  std::array<float, 3> part{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double last = static_cast<double>(brick.shape[axis] - 1);
-    const double at = std::clamp((place[axis] - brick.origin[axis]) / brick.voxel, 0.0, last);
-    low[axis] = std::min(static_cast<Index>(at), std::max(brick.shape[axis] - 2, Index{0}));
-    part[axis] = static_cast<float>(at - static_cast<double>(low[axis]));
-  }
-  float sum = 0.0F;
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    float weight = 1.0F;
-    std::array<Index, 3> at = low;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const bool high = (corner >> axis & 1U) != 0;
-      weight *= high ? part[axis] : 1.0F - part[axis];
-      at[axis] = std::min(at[axis] + (high ? 1 : 0), brick.shape[axis] - 1);
-    }
-    const Index n = (at[0] * brick.shape[1] + at[1]) * brick.shape[2] + at[2];
-    sum += weight > 0.0F ? weight * brick.values[static_cast<std::size_t>(n)] : 0.0F;
-  }
-  return sum;
-}
-
 /// How slices lie in memory, and how the ways to the light cross them.
 struct Slices {
   Index count, rows, columns;            ///< slices, and voxels of one
@@ -95,14 +70,6 @@ void check_direction(const Vector& direction) {
   }
 }
 
-void check(const Brick& brick, std::span<const float> out) {
-  const Index count = brick.shape[0] * brick.shape[1] * brick.shape[2];
-  if (count < 1 || brick.values.size() != static_cast<std::size_t>(count) ||
-      out.size() != brick.values.size()) {
-    throw std::invalid_argument("arrays of light and smoke must have the brick's shape");
-  }
-}
-
 /// f(n) for 0 <= n < count, on many threads.
 template <class Function> void each_block(std::size_t count, const Function& f) {
   constexpr std::size_t block = 4096;
@@ -111,40 +78,6 @@ template <class Function> void each_block(std::size_t count, const Function& f) 
       f(n);
     }
   });
-}
-
-/// Which voxels have smoke in them or in one of the 26 around.
-std::vector<std::uint8_t> near_smoke(const Brick& smoke) {
-  const auto [nx, ny, nz] = smoke.shape;
-  std::vector<std::uint8_t> near(smoke.values.size());
-  tbb::parallel_for(Index{0}, nx * ny, [&, nz](Index row) {
-    const float* v = smoke.values.data() + row * nz;
-    std::uint8_t* out = near.data() + row * nz;
-    for (Index k = 0; k < nz; ++k) {
-      if (v[k] > 0.0F) {
-        std::fill(out + std::max(k - 1, Index{0}), out + std::min(k + 2, nz), std::uint8_t{1});
-      }
-    }
-  });
-  // Row by row, so that memory is gone through as it lies: each is widened by its neighbours.
-  const auto widen = [&near, nz](std::uint8_t* first, Index count, Index stride) {
-    std::vector<std::uint8_t> before(static_cast<std::size_t>(nz)), here(before);
-    for (Index n = 0; n < count; ++n) {
-      std::uint8_t* row = first + n * stride;
-      const std::uint8_t* after = n + 1 < count ? row + stride : row;
-      std::copy_n(row, nz, here.begin());
-      for (Index k = 0; k < nz; ++k) {
-        const auto at = static_cast<std::size_t>(k);
-        row[k] = static_cast<std::uint8_t>(before[at] | here[at] | after[k]);
-      }
-      std::swap(before, here);
-    }
-  };
-  tbb::parallel_for(Index{0}, nx,
-                    [&, ny, nz](Index i) { widen(near.data() + i * ny * nz, ny, nz); });
-  tbb::parallel_for(Index{0}, ny,
-                    [&, nx, ny, nz](Index j) { widen(near.data() + j * nz, nx, ny * nz); });
-  return near;
 }
 
 /// What is summed round a voxel, the same round each: places in memory, and their weights.
@@ -182,29 +115,6 @@ Stencil first_steps(const Brick& smoke, const Vector& direction) {
     }
   }
   return found;
-}
-
-/// The same smoke in voxels of twice the size; what lies beyond the brick is clear.
-OwnBrick halved(const Brick& smoke) {
-  OwnBrick coarse{{}, smoke.shape, 2.0 * smoke.voxel, smoke.origin};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    coarse.shape[axis] = (smoke.shape[axis] + 1) / 2;
-    coarse.origin[axis] += 0.5 * smoke.voxel;
-  }
-  const auto [nx, ny, nz] = coarse.shape;
-  coarse.values.assign(static_cast<std::size_t>(nx * ny * nz), 0.0F);
-  tbb::parallel_for(Index{0}, nx, [&, ny, nz](Index i) {
-    for (Index x = 2 * i; x < std::min(2 * i + 2, smoke.shape[0]); ++x) {
-      for (Index y = 0; y < smoke.shape[1]; ++y) {
-        const float* row = smoke.values.data() + (x * smoke.shape[1] + y) * smoke.shape[2];
-        float* out = coarse.values.data() + (i * ny + y / 2) * nz;
-        for (Index z = 0; z < smoke.shape[2]; ++z) {
-          out[z / 2] += 0.125F * row[z];
-        }
-      }
-    }
-  });
-  return coarse;
 }
 
 /// Optical depth from the middles of voxels to a light far away, see `lit`.
@@ -272,10 +182,11 @@ std::vector<float> sky_light(const Brick& smoke, double part) {
 
 OwnBrick lit(const Brick& smoke, const Vector& direction, const Brick* beyond,
              std::array<double, 2> parts, const Light& light) {
-  check(smoke, light.sun);
-  check(smoke, light.sky);
+  check(smoke);
+  if (light.sun.size() != smoke.values.size() || light.sky.size() != smoke.values.size()) {
+    throw std::invalid_argument("arrays of light and smoke must have the brick's shape");
+  }
   check_direction(direction);
-  check_above_zero(smoke.voxel, "voxel_size");
   OwnBrick depth = halved(smoke), open = halved(depth.view());
   open.values = sky_light(open.view(), parts[1]);
   depth.values = optical_depth(depth.view(), direction, beyond);

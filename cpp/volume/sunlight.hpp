@@ -1,31 +1,12 @@
 #pragma once
 
 #include "base/vector.hpp"
+#include "volume/brick.hpp"
 
 #include <array>
-#include <cstdint>
 #include <span>
-#include <vector>
 
 namespace firetwin::volume {
-
-/// Values (nx, ny, nz) in the middles of cubic voxels, z running fastest.
-struct Brick {
-  std::span<const float> values;
-  std::array<std::int64_t, 3> shape;
-  double voxel;  ///< m
-  Vector origin; ///< centre of the first voxel, m
-};
-
-/// The same with values of its own.
-struct OwnBrick {
-  std::vector<float> values;
-  std::array<std::int64_t, 3> shape;
-  double voxel;
-  Vector origin;
-
-  Brick view() const { return {values, shape, voxel, origin}; }
-};
 
 struct Light {
   std::span<float> sun; ///< exp(-part of the optical depth)

@@ -268,6 +268,42 @@ def test_what_nobody_sees_is_not_painted_and_nothing_else_changes(shot, flowing,
         assert some[name].evalActiveVoxelBoundingBox() == whole[name].evalActiveVoxelBoundingBox()
 
 
+def test_smoke_hides_smoke_from_those_cameras_that_film_the_frame(flowing, run, monkeypatch):
+    drone = flowing.cameras[0]
+    above = replace(drone, name="above", rig=rigs.kinds()["satellite"](), frames="2")
+    shot = Shot(replace(flowing, cameras=(replace(drone, frames="1"), above)), run)
+    asked, real = [], flow_frames.volume.hidden
+
+    def hidden(*given):
+        asked.append(given[2:4])
+        return real(*given)
+
+    monkeypatch.setattr(flow_frames.volume, "hidden", hidden)
+    bake.bake(shot, frames=[1])
+    near = asked.copy()
+    bake.bake(shot, frames=[2])
+    far = asked[len(near) :]
+    assert len(near) == len(far) == 2  # layers
+    for places, directions in near:
+        assert places == pytest.approx(shot.paths[0].position[:1])
+        assert directions.shape == (0, 3)
+    for places, directions in far:
+        assert places.shape == (0, 3)
+        assert directions == pytest.approx(np.array([[0.0, 0.0, 1.0]]), abs=1e-9)
+
+
+@pytest.mark.parametrize("change", ["complete", "whole", "nobody"])
+def test_where_no_camera_is_known_nothing_is_hidden(flowing, run, tmp_path, change):
+    if change == "complete":
+        flowing = replace(flowing, smoke=replace(flowing.smoke, complete=True))
+    elif change == "whole":
+        flowing = replace(flowing, render=replace(flowing.render, skip=False))
+    frame = 3 if change == "nobody" else 1
+    found, _ = grids(bake.bake(Shot(flowing, run), frames=[frame]) / f"smoke_{frame:06d}.vdb")
+    assert found["density"].activeVoxelCount() > 0
+    assert "hidden" not in found or found["hidden"].activeVoxelCount() == 0
+
+
 def test_a_close_picture_from_above_has_a_nest(flowing, run):
     def boxes_of(swath):
         camera = replace(flowing.cameras[0], rig=rigs.kinds()["satellite"](swath=swath))

@@ -41,11 +41,17 @@ def ball(shot, stage, scene, tmp_path):
         scene.collection.objects.link(each)
     scene.camera = camera
 
-    def fill(lighting, bearing):
+    def fill(lighting, bearing, hide):
         towards = (-np.sin(np.radians(bearing)), -np.cos(np.radians(bearing)), 0.0)
         sunlight, skylight, _ = volume.lit(density, VOXEL, towards, *flow_frames.LIGHT)
-        path = tmp_path / f"ball{bearing:.0f}.vdb"
+        path = tmp_path / f"ball{bearing:.0f}{hide}.vdb"
         grids = {"density": density, "fresh": np.zeros_like(density), "sun": sunlight, "sky": skylight}
+        if hide == "behind":
+            front = [(0.0, -1.0, 0.0)]
+            grids["hidden"], _ = volume.hidden(density, VOXEL, np.empty((0, 3)), front, flow_frames.DEEP)
+            assert 0.1 < grids["hidden"].sum() / (density > 0.0).sum() < 0.5
+        elif hide == "all":
+            grids["hidden"] = (density > 0.0).astype(np.float32)
         volume.write(path, grids, VOXEL, (float(at[0]),) * 3, tolerance=1e-6)
         data.filepath, data.materials[0] = str(path), looks[lighting]
         tree = next(node for node in looks["solved"].node_tree.nodes if node.type == "GROUP").node_tree
@@ -55,9 +61,9 @@ def ball(shot, stage, scene, tmp_path):
         for socket, part in zip(tree.nodes["Towards the Sun"].inputs, towards, strict=True):
             socket.default_value = part
 
-    def render(bearing, bounces, light=None, anisotropy=None, lighting="traced"):
+    def render(bearing, bounces, light=None, anisotropy=None, lighting="traced", hide=""):
         sun.rotation_euler = (np.radians(90.0), 0.0, -np.radians(bearing))
-        fill(lighting, bearing)
+        fill(lighting, bearing, hide)
         shown = next(node for node in data.materials[0].node_tree.nodes if node.type == "GROUP")
         for name, value in (("Light Density", light), ("Anisotropy", anisotropy)):
             if value is not None:
@@ -98,3 +104,20 @@ def test_solved_light_is_near_many_bounces(ball, bearing):
 def test_the_side_away_from_the_sun_is_dark(ball):
     lit, shaded = (ball(bearing, 0, lighting="solved") for bearing in (0.0, 180.0))
     assert lit.mean() > 2.5 * shaded.mean() > 0.0
+
+
+@pytest.mark.parametrize("lighting", ["solved", "traced"])
+def test_smoke_that_is_hidden_shows_no_less(ball, lighting):
+    whole = ball(95.0, 1, lighting=lighting)
+    assert np.abs(ball(95.0, 1, lighting=lighting, hide="behind") - whole).mean() < 0.01 * whole.mean()
+
+
+@pytest.mark.parametrize("lighting", ["solved", "traced"])
+def test_hidden_smoke_throws_the_same_shadow(ball, scene, lighting):
+    scene.camera.location = 0.0, 500.0, 0.0  # between the smoke and what its shadow falls on
+    bpy.ops.mesh.primitive_plane_add(
+        size=4000.0, location=(0.0, 900.0, 0.0), rotation=(0.5 * np.pi, 0.0, 0.0)
+    )
+    shaded = ball(0.0, 1, lighting=lighting)
+    assert shaded.max() < 0.3 * 9.0 / np.pi
+    assert ball(0.0, 1, lighting=lighting, hide="all") == pytest.approx(shaded, rel=1e-4)

@@ -113,12 +113,12 @@ class Baker:
         time = float(self.times[frame - 1])
         metadata = self._metadata(time, "a flow of the air, solved from the model's heat")
         lights = lit if exposure.darkness(self.shot, time) > 0.0 else None
-        beyond: flow_frames.Depths | None = None
+        eyes = self.sights.eyes(frame) if self.sights else None
+        beyond: flow_frames.Beyond | None = None
         for painter in self.painters:
             place = painter.layer.file(path.parent, frame)
             mine = files.part_of(place)
-
-            what = mine, frame, lights, self._sight(frame), metadata, beyond
+            what = mine, frame, lights, self._sight(frame), metadata, eyes, beyond
             with writing(place):
                 try:
                     written, beyond = painter.write(*what)

@@ -51,12 +51,14 @@ def _parts(shot: Shot) -> list[_Part]:
     if not baker.solved(shot):
         return [_Part("Smoke", first, drawn.voxel, drawn.step, drawn.extinction)]
     thickest = shot.settings.smoke.extinction or flow_frames.THICKEST
+    solved = shot.settings.smoke.lighting == "solved"
+    depth = view.SOLVED_STEP_DEPTH if solved else view.STEP_DEPTH
     found = [
         _Part(
             "Smoke" if layer.name == "smoke" else "Far Smoke",
             layer.file(first.parent, 1),
             layer.voxel,
-            view.STEP_DEPTH / thickest * (1.0 if layer.fine else 2.0),
+            depth / thickest * (1.0 if layer.fine else 2.0),
             thickest,
         )
         for layer in flow_frames.layers(shot, Flow(shot))

@@ -2,8 +2,9 @@
 
 A frame is one file, or two: the nest's part, and the rest with larger voxels; where they meet, one fades into
 the other. Grids: `density`, the extinction in 1/m; `fresh`, 1 where smoke is young and 0 where it is old;
-`sun` and `sky`, how much of their light comes there, see `LIGHT`; and `glow`, the light of flames, 1 amid
-1 GW of them, in the dark.
+`sun` and `sky`, how much of their light comes there, see `LIGHT`; `hidden`, 1 where smoke is so far behind
+other smoke that no camera sees it, see `DEEP`; and `glow`, the light of flames, 1 amid 1 GW of them, in the
+dark.
 """
 
 from __future__ import annotations
@@ -24,12 +25,16 @@ from . import moments
 from .boxes import Box
 from .flow import Flow, Part
 
-GRIDS = ("density", "fresh", "sun", "sky", "glow")
+GRIDS = ("density", "fresh", "sun", "sky", "hidden", "glow")
+"""All of one voxel size: `sky` on voxels of twice the size takes 10 of 40 MB less, but Cycles 4.5 draws each
+grid off by half a voxel of its own, and took 12.6 instead of 10.3 processor seconds for a picture.
+"""
 LIGHT = 0.65 / 4, 0.5
 """Parts of the optical depth that dim `sun` and `sky`. Light that smoke scatters forwards goes on as if it
 had not been: 0.36 of 0.86 to 0.95 for an asymmetry of 0.6 (Joseph, Wiscombe and Weinman 1976); 0.65 is left.
 The fourth root of that light is kept, which half floats hold four times as deep.
 """
+DEEP = 6.0  # optical depth behind which smoke is `hidden`: 0.25 % of its light is left
 THICKEST = 0.03  # 1/m, at which extinction levels off: more is as opaque and takes shorter steps
 _NEAR = (20.0, 36.0)  # m, voxels of the nest: the smallest and the largest
 _PIXELS = 4.0  # that a voxel is wide where it lies between them: finer smoke shows no better, and costs more
@@ -43,8 +48,18 @@ _BLOCK, _ROUND = 16, 300.0  # voxels; m round a block that count as it: of light
 _GLOW_REACH, _GLOW_CORE, _GLOW_EVERY = 600.0, 250.0, 3  # m, m, cells
 
 Array = NDArray[np.float64]
-Depths = tuple[NDArray[np.float32], float, list[float]]
-"""What dims the sun in a brick: optical depths, voxel size and origin (m), as `volume.lit` gives them."""
+Brick = tuple[NDArray[np.float32], float, list[float]]
+"""Values (nx, ny, nz), voxel size and the first voxel's middle (m), as `volume.lit` gives and takes them."""
+Eyes = tuple[Array, Array]
+"""Where smoke is seen from, as `Sights.eyes` gives it."""
+
+
+@dataclass(frozen=True)
+class Beyond:
+    """What a layer is to the one within it: optical depths to the sun, and the smoke that hides (1/m)."""
+
+    depths: Brick | None = None
+    smoke: Brick | None = None
 
 
 @dataclass(frozen=True)
@@ -92,20 +107,23 @@ class Painter:
         lights: tuple[Array, Array] | None,
         sight: lod.Sight | None,
         metadata: dict[str, str],
-        beyond: Depths | None = None,
-    ) -> tuple[volume.Frame, Depths]:
+        eyes: Eyes | None = None,
+        beyond: Beyond | None = None,
+    ) -> tuple[volume.Frame, Beyond]:
         """Write a frame's volume, or of it what is seen.
 
         Parameters
         ----------
         lights
             Positions (n, 3) m and powers (n,) W of flames; without them there is no glow.
+        eyes
+            Where all that see the frame do; left out, no smoke is hidden.
         beyond
-            What dims the sun round this layer: of the layer before.
+            The layer before, round this one.
 
         Returns
         -------
-        The frame, and what dims the sun in this layer's smoke, drawn by it or not.
+        The frame, and what this layer is to the next; smoke dims the sun whether this layer draws it or not.
         """
         moment = moments.load(self.layer.part.moment(frame))
         voxel = self.layer.voxel
@@ -114,16 +132,20 @@ class Painter:
         density, fresh, glow = self._detail(moment, lights).paint(origin, voxel, surface, end, count, wanted)
         density[(density > 0.0) & (density < THIN)] = 0.0
         toward = sun.light(*self.shot.sun(float(self.shot.frames.times[frame - 1])))
-        sunlight, skylight, depths = volume.lit(density, voxel, toward, *LIGHT, origin, beyond)
+        beyond = beyond or Beyond()
+        sunlight, skylight, depths = volume.lit(density, voxel, toward, *LIGHT, origin, beyond.depths)
         thinner = share < 1.0
         drawn = density[thinner] * share[thinner][:, None]
         density[thinner] = np.where(drawn < THIN, 0.0, drawn)
         grids: dict[str, Any] = {"density": density, "fresh": fresh, "sun": sunlight, "sky": skylight}
+        smoke = None
+        if eyes is not None:
+            grids["hidden"], smoke = volume.hidden(density, voxel, *eyes, DEEP, origin, beyond.smoke)
         if glow is not None:
             grids["glow"] = glow
         metadata = metadata | {f"smoke_{name}_kg": f"{value:.9g}" for name, value in moment.mass.items()}
         written = volume.write(path, grids, voxel, origin, tolerance=1e-6, metadata=metadata, sight=sight)
-        return written, depths
+        return written, Beyond(depths, smoke)
 
     @functools.cached_property
     def _heights(self) -> Array:

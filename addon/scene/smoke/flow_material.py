@@ -24,12 +24,15 @@ _FRESH, _OLD = (0.44, 0.36, 0.29), (0.95, 0.945, 0.94)  # albedo: of soot and ch
 _MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
 FORWARD = 0.6  # anisotropy of smoke (Reid et al. 2005: 0.5 to 0.65 in green light)
 _ANISOTROPY = FORWARD / (1.0 + FORWARD)  # of what is left when light that goes on counts as not scattered
+_HIDDEN = (
+    30.0  # times that hidden smoke counts besides, so that camera's rays, which go on to 1e-6, end there
+)
 _LIGHT = 0.5  # of extinction counts for light: 0.7 by theory, less for the bounces that are left out
 
 
 @dataclass(frozen=True)
 class _Smoke:
-    """Extinction (1/m), that for rays of light, albedo and anisotropy."""
+    """Extinction (1/m) for camera's rays and for those of light, albedo and anisotropy."""
 
     density: nodes.Value
     thinner: nodes.Value
@@ -47,8 +50,9 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     density = tree.attribute("density") * thick
     albedo = tree.mix_colour(tree.attribute("fresh"), old, fresh)
     thinner = density * tree.input("Light Density", _LIGHT, "Part of the smoke that dims light", "Light")
+    seen = density * (1.0 + tree.attribute("hidden") * _hiding(tree, thick))
     lit = _solved if shot.settings.smoke.lighting == "solved" else _traced
-    visible = lit(tree, shot, stage, _Smoke(density, thinner, albedo, even))
+    visible = lit(tree, shot, stage, _Smoke(seen, thinner, albedo, even))
     shader = infrared.smoke(tree, shot, stage, visible, density)
     # A mix by 0 or 1 evaluates one side only, and more than half of all steps find no smoke.
     clear = tree.output("ShaderNodeVolumeAbsorption", {"Density": 0.0})
@@ -67,8 +71,10 @@ def _solved(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.
     seen = tree.add_shader(
         _black(tree, smoke.density), tree.emission(tree.mix_colour(part, light, air), smoke.density)
     )
-    shadow = tree.output("ShaderNodeLightPath", name="Is Shadow Ray")
-    return tree.mix_shader(shadow, seen, _black(tree, smoke.thinner))
+    # What lakes mirror is seen too. Of what shines, other rays gather 0.02/255 of a picture of the example.
+    path = tree.node("ShaderNodeLightPath")
+    looks = tree.math("MAXIMUM", *(tree.pick(path, name) for name in ("Is Camera Ray", "Is Glossy Ray")))
+    return tree.mix_shader(looks, _black(tree, smoke.thinner), seen)
 
 
 def _traced(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.Value:
@@ -84,6 +90,15 @@ def _traced(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.
     # Most steps belong to rays of light through the smoke; one grid is enough for them.
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     return tree.mix_shader(camera, material.smoke(tree, smoke.thinner, middle, smoke.even), detailed)
+
+
+def _hiding(tree: nodes.Tree, thick: nodes.Value) -> nodes.Value:
+    """Times that hidden smoke counts besides; 0 where smoke is drawn thinner than it is, and hides less."""
+    factor = tree.input(
+        "Hidden Density", _HIDDEN, "Times that smoke no camera sees counts besides", "Density"
+    )
+    camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
+    return factor * camera * (thick > 0.99)
 
 
 def _black(tree: nodes.Tree, density: nodes.Value) -> nodes.Value:

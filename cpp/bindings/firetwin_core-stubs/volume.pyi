@@ -241,6 +241,47 @@ def write(
         The folder is missing or cannot be written.
     """
 
+def hidden(
+    extinction: ArrayLike,
+    voxel_size: float,
+    places: ArrayLike,
+    directions: ArrayLike,
+    depth: float,
+    origin: Sequence[float] = (0.0, 0.0, 0.0),
+    beyond: tuple[ArrayLike, float, Sequence[float]] | None = None,
+) -> tuple[NDArray[np.float32], tuple[NDArray[np.float32], float, list[float]]]:
+    """Smoke that is behind so much other smoke that nobody sees it.
+
+    Parameters
+    ----------
+    extinction
+        1/m, (nx, ny, nz).
+    voxel_size
+        m.
+    places
+        (n, 3) m, of eyes where lines of sight meet.
+    directions
+        (m, 3) unit vectors towards eyes far away, to which lines of sight are parallel.
+    depth
+        The optical depth behind which smoke is hidden, if it lies before each eye.
+    origin
+        m, the centre of voxel (0, 0, 0).
+    beyond
+        Smoke of a larger brick that is drawn as well, as below; it hides too.
+
+    Returns
+    -------
+    hidden
+        (nx, ny, nz) 1 where smoke is hidden, else 0; 0 all over without eyes.
+    smoke
+        The extinction (1/m) on voxels of four times the size, that size (m), and the middle of the first (m).
+
+    Notes
+    -----
+    The depth is found on the larger voxels, linear between: lines of sight are marched, a step for each of
+    these, to a little more than the depth.
+    """
+
 def lit(
     extinction: ArrayLike,
     voxel_size: float,
