@@ -44,7 +44,8 @@ def _film(shot: Shot, making: Making, camera: str, name: str, made_from: dict[st
         with making.claims.part_folder() as part:
             made = part / path.name
             frames = [frame for frame, _ in made_from["frames"]]
-            _settings(shot, camera, scene, made, len(frames))
+            size = passes.known()[name].size(shot.resolution(shot.camera(camera)))
+            _settings(shot, size, scene, made, len(frames))
             engine.label(shot.run_of(camera), scene)
             _strips(shot, scene, out, camera, name, frames)
             with writing(path):
@@ -59,10 +60,10 @@ def _film(shot: Shot, making: Making, camera: str, name: str, made_from: dict[st
         bpy.data.scenes.remove(scene)
 
 
-def _settings(shot: Shot, camera: str, scene: bpy.types.Scene, path: Path, count: int) -> None:
+def _settings(shot: Shot, size: tuple[int, int], scene: bpy.types.Scene, path: Path, count: int) -> None:
     """H.264 in MP4; the pictures are in display colours, so the film's view transform changes nothing."""
     render = scene.render
-    render.resolution_x, render.resolution_y = shot.resolution(shot.camera(camera))
+    render.resolution_x, render.resolution_y = size
     render.resolution_percentage = 100
     render.fps, render.fps_base = shot.settings.time.fps, 1.0
     scene.frame_start, scene.frame_end = 1, count

@@ -265,9 +265,19 @@ def fused(shot, tmp_path):
     return make
 
 
-@pytest.mark.parametrize("resolution", [(320, 180), (400, 400)])
-def test_panels_lie_where_they_belong_in_any_size(fused, resolution):
-    picture = fused(resolution)
+@pytest.mark.parametrize(
+    ("camera", "resolution"),
+    [
+        ((320, 180), (1280, 720)),
+        ((400, 400), (720, 720)),
+        ((1600, 900), (1600, 900)),
+        ((426, 240), (1278, 720)),
+    ],
+)
+def test_panels_lie_where_they_belong_in_any_size_and_small_cameras_get_a_legible_sheet(
+    fused, camera, resolution
+):
+    picture = fused(camera)
     assert picture.shape == (*resolution[::-1], 3)
     red = np.all(np.abs(picture - [1.0, 0.0, 0.0]) < 0.02, axis=-1)
     rows, columns = (np.flatnonzero(red.any(axis=axis)) for axis in (1, 0))
@@ -318,7 +328,7 @@ def test_a_place_is_at_the_same_point_of_every_panel_of_a_mount(shot, tmp_path):
     sensor.write_image(needed["depth"]["exr"], np.full((360, 640, 2), 800.0))
     passes.known()["fused"].finish({"png": tmp_path / "f.png"}, needed, made.of("drone"), "drone", 3)
     shown = sensor.read_image(tmp_path / "f.png")[..., :3]
-    sheet = _sheet.Sheet(640, 360)
+    sheet = _sheet.Sheet(1280, 720)
     wide, high = sheet.wide * sheet.unit, sheet.high * sheet.unit
     gap, top = 1.5 * sheet.unit, sheet.top * sheet.unit
 

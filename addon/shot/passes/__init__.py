@@ -69,6 +69,8 @@ class Pass:
         It takes these also from the sensors of its camera's mount (see `shot.mount`).
     flat
         Cameras that see all round have it not.
+    rows
+        Of its picture at the least; a camera's of fewer pixels becomes so large, see `size`.
     sources
         Files and folders of the package that decide its files, beside its own module, the helpers of passes
         (`_NAME.py`) and what all depend on.
@@ -100,6 +102,7 @@ class Pass:
     across: tuple[str, ...] = ()
     mount: bool = False
     flat: bool = False
+    rows: int = 0
     sources: tuple[str, ...] = ()
     finish: Finish | None = None
 
@@ -112,6 +115,11 @@ class Pass:
     def made_from(self) -> tuple[str, ...]:
         """The passes that it needs, of its own run or of all."""
         return tuple(dict.fromkeys((*self.needs, *self.across)))
+
+    def size(self, resolution: tuple[int, int]) -> tuple[int, int]:
+        """Columns and rows, both even, of its picture for a camera of so many."""
+        width, height = resolution
+        return resolution if height >= self.rows else (2 * round(width * self.rows / height / 2), self.rows)
 
 
 @functools.cache

@@ -1,12 +1,12 @@
 """All of a camera's feeds in one picture: visible, thermal, depth and a map, with time, place and scales.
 
-The picture is as large as the camera's own, whatever that is. Distances have the same colours in every frame
-of a shot, temperatures those of the thermal pass. What the camera does not record itself comes from the
-sensors on its mount (see `shot.mount`), and all panels are in register: a place is at the same point of each,
-and a sensor that sees less fills its part of the panel and is outlined in the visible picture. The map is
-the picture of a minimap that follows the camera; without one it is drawn from the run, north up, round the
-camera: relief and canopy. Over either lie the front, what has burned (the last half hour in orange), the
-camera, its way and angle of view.
+The picture is as large as the camera's own, and at least 720 rows high, so that it can be read. Distances
+have the same colours in every frame of a shot, temperatures those of the thermal pass. What the camera does
+not record itself comes from the sensors on its mount (see `shot.mount`), and all panels are in register: a
+place is at the same point of each, and a sensor that sees less fills its part of the panel and is outlined in
+the visible picture. The map is the picture of a minimap that follows the camera; without one it is drawn from
+the run, north up, round the camera: relief and canopy. Over either lie the front, what has burned (the last
+half hour in orange), the camera, its way and angle of view.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     view = _view.of(shot, camera)
     taken = mount.taken(shot.settings, shot.cameras, camera, PASS)
     low, high = thermal.scale(shot, frame)
-    sheet = _sheet.Sheet(*shot.resolution(view.camera))
+    sheet = _sheet.Sheet(*PASS.size(shot.resolution(view.camera)))
     sheet.head(_title(shot, camera), facts(shot, camera, frame))
     rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
     kelvin = sensor.read_image(needed["thermal"]["exr"])[..., 0]
@@ -117,6 +117,7 @@ PASS = Pass(
     needs=("rgb", "thermal", "depth"),
     mount=True,
     flat=True,
+    rows=720,
     sources=("shot/rigs/mounted.py", "shot/rigs/minimap.py"),
     finish=finish,
 )
