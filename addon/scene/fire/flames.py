@@ -21,7 +21,7 @@ from ..forest.stand import Stand
 
 SIGHT = 12_000.0  # m; fronts farther than this are the ground's glowing edge alone
 _SPACING = ((2500.0, 8.0), (5000.0, 12.0), (SIGHT, 24.0))  # m from the camera -> m between points
-_FINE = 400_000  # points that stand as near by wherever they are, in the nearest cells; more would not be quick
+_FINE = 400_000  # points, in the nearest cells, that stand as near by wherever they are; more are slow
 _LINE = 1.5  # points abreast: a point flames while the front moves on by this many spacings
 _RESIDENCE = (40.0, 900.0)  # s
 _SIZES = 0.45  # standard deviation of the logarithm of flame lengths
