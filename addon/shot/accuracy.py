@@ -17,7 +17,7 @@ UNSEEN = 50.0  # m; ground that is neither seen nor throws shadows on what is ma
 _BLOCK = 150.0  # m; ground is asked about in squares of about this size
 _MARGIN = 200.0  # m beside the views, from where ground still gives light to what is in them
 _NEAREST = 60.0  # m; ground nearer than this is drawn as if it were so far away
-_SHADED = 0.1  # seen from straight above only light tells of height: errors count so much more
+_EXACT = 0.02  # m; no elevation model is as exact
 _FINEST = 6.0  # m; waves of the relief are 26 m and longer
 _SPACING = 8.0  # errors, between the places where the surface is compared with its mesh
 _LIMIT = 6_000_000  # such places; more than this and they are farther apart
@@ -103,15 +103,20 @@ def _blocks(
 def most(shot: Shot, distance: NDArray[np.float64]) -> NDArray[np.float64]:
     """Bound of the vertical error (m) of ground that is seen, by its distance (m) from the nearest camera."""
     angle, pixel = _views(shot)
-    near = np.zeros(distance.shape) if angle is None else angle * np.maximum(distance, _NEAREST)
+    near = np.zeros(distance.shape) if angle is None else _allowed(angle * np.maximum(distance, _NEAREST))
     return np.minimum(np.maximum(near, pixel or 0.0), UNSEEN)
+
+
+def _allowed(error: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Errors (n,) that cameras in perspective allow, m, within what is possible and what is drawn anyway."""
+    return np.clip(error, _EXACT, UNSEEN)
 
 
 def _views(shot: Shot) -> tuple[float | None, float | None]:
     """Errors that may be seen: of cameras in perspective, m for each m of distance; of others, m."""
     error = shot.settings.ground.error
     angle, pixel = (error * size if np.isfinite(size) else None for size in shot.pixel)
-    return angle, None if pixel is None else _SHADED * pixel
+    return angle, None if pixel is None else max(pixel, _EXACT)
 
 
 def _tolerance(
@@ -132,7 +137,7 @@ def _tolerance(
         seen = shaded(near)
         distance[seen] = np.maximum(shot.sights.distance(centre[seen]) - radius[seen], _NEAREST)
         drawn = np.maximum(shot.sights.drawn_from(centre[seen]) - radius[seen], _NEAREST)
-        tolerance[seen] = np.minimum(angle * drawn, UNSEEN)
+        tolerance[seen] = _allowed(angle * drawn)
     if pixel is not None:
         far = shot.sights.seen(centre, radius, margin=_MARGIN, pixel=np.inf, perspective=False)
         seen = shaded(near | far)

@@ -88,7 +88,7 @@ class Ground:
         at_least=0,
     )
     error: float = key(
-        0.5,
+        0.05,
         "how far the mesh may be above or below the ground that cameras see; more is coarser",
         unit="pixels",
         above=0,

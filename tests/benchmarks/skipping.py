@@ -67,14 +67,14 @@ CAMERAS = {
     "lookout": KEY.format(38.9741, -120.5777, 25.0),
     "satellite": ABOVE,
 }
-ALL = {"error": 0.5, "budget": 200_000, "skip": "false", "seed": 0}
-"""Every tree, and the ground as fine as half a pixel at 60 m wherever it is."""
+ALL = {"error": 0.05, "budget": 200_000, "skip": "false", "seed": 0}
+"""Every tree, and the ground as fine as a twentieth of a pixel at 60 m wherever it is."""
 ROWS = {
     "all": ALL,
     "all, other grain": ALL | {"seed": 1},
-    "fine": {"error": 0.25, "budget": 1_000_000, "skip": "true", "seed": 0},
-    "as it comes": {"error": 0.5, "budget": 200_000, "skip": "true", "seed": 0},
-    "coarse": {"error": 2.0, "budget": 30_000, "skip": "true", "seed": 0},
+    "fine": {"error": 0.02, "budget": 1_000_000, "skip": "true", "seed": 0},
+    "as it comes": {"error": 0.05, "budget": 200_000, "skip": "true", "seed": 0},
+    "coarse": {"error": 0.5, "budget": 30_000, "skip": "true", "seed": 0},
 }
 
 

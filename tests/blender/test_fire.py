@@ -90,6 +90,37 @@ def test_no_frame_has_more_flames_than_the_budget(shot, settings, run):
             assert kept.max() <= 1.5 * near.max()
 
 
+def without_skipping(settings):
+    return replace(settings, render=replace(settings.render, skip=False))
+
+
+def test_flames_in_sight_are_those_that_stand_there_without_skipping(shot, settings, run):
+    some, whole = flames.front(shot), flames.front(Shot(without_skipping(settings), run))
+    seen = shot.sights.seen(whole.position, whole.length)
+    assert np.sum(seen & (shot.sights.distance(whole.position) > 2500.0)) > 100
+    assert len(some.seed) < len(whole.seed)
+    of_both = [
+        {tuple(row) for row in np.column_stack([p.position, p.residence, p.length, p.width])}
+        for p in (whole.take(np.flatnonzero(seen)), some)
+    ]
+    assert of_both[0] <= of_both[1]
+
+
+def test_a_front_of_fewer_flames_is_as_bright(shot, monkeypatch):
+    """Where there would be too many, they stand farther apart, and each is as much wider."""
+
+    def light(points):
+        lit = points.take(points.lit(shot.frames.times[2]))
+        far = shot.sights.distance(lit.position) > 2500.0
+        return np.sum(far), np.sum((lit.width * lit.length)[far])
+
+    many = light(flames.front(shot))
+    monkeypatch.setattr(flames, "_FINE", 0)
+    few = light(flames.front(shot))
+    assert 50 < few[0] < 0.7 * many[0]
+    assert few[1] == pytest.approx(many[1], rel=0.15)
+
+
 def test_scrubbing_moves_the_flames(shot, stage, scene):
     scene.frame_end = shot.frames.count
     thing = fire.build(shot, stage)
@@ -185,7 +216,7 @@ def test_flames_smoke_and_flux_agree_on_the_front(settings, quarters):
 
 
 def test_flames_of_a_part_are_those_of_the_whole_that_burn_in_its_frames(settings, run):
-    shot = Shot(replace(settings, render=replace(settings.render, skip=False)), run)  # near or far alike
+    shot = Shot(without_skipping(settings), run)  # what is out of sight too
     whole, part = flames.front(shot), flames.front(shot.part([2]))
     burning = whole.take(whole.lit(float(shot.frames.times[1])))
     assert 0 < len(part.position) < len(whole.position)

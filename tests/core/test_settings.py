@@ -179,7 +179,7 @@ def test_the_json_schema_is_one():
         "more is coarser",
         "type": "number",
         "exclusiveMinimum": 0,
-        "default": 0.5,
+        "default": 0.05,
     }
     assert found["properties"]["render"]["properties"]["engine"]["enum"] == ["cycles", "eevee"]
 

@@ -106,7 +106,13 @@ def test_without_skipping_all_counts_as_seen_and_is_drawn_as_from_near_by(film):
     assert whole.sights.at(1) is None
     tolerance = [accuracy.wanted(shot).tolerance for shot in (some, whole)]
     assert np.all(tolerance[1] <= tolerance[0] + 1e-6)
-    assert tolerance[1].max() < 0.2 < tolerance[0].max()
+    assert tolerance[1].max() < 0.03 < tolerance[0].max()
+
+
+@pytest.mark.parametrize("rig", [ORBIT, Satellite(swath=1000.0)])
+def test_ground_is_drawn_no_more_exactly_than_heights_are_known(film, rig):
+    shot = film(Camera("a", rig), ground=Ground(near_radius=1500.0, apron=0.0, error=1.0e-6))
+    assert np.unique(accuracy.wanted(shot).tolerance)[0] == np.float32(0.02)
 
 
 @pytest.mark.parametrize("shape", [(1, 1), (1, 4), (4, 1)])

@@ -21,6 +21,7 @@ from ..forest.stand import Stand
 
 SIGHT = 12_000.0  # m; fronts farther than this are the ground's glowing edge alone
 _SPACING = ((2500.0, 8.0), (5000.0, 12.0), (SIGHT, 24.0))  # m from the camera -> m between points
+_FINE = 400_000  # points, in the nearest cells, that stand as near by wherever they are; more are slow
 _LINE = 1.5  # points abreast: a point flames while the front moves on by this many spacings
 _RESIDENCE = (40.0, 900.0)  # s
 _SIZES = 0.45  # standard deviation of the logarithm of flame lengths
@@ -102,37 +103,41 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
     """Flames along the front for every moment of the shot, at most `fire.budget` of them lit at once.
 
     Fireline intensity is H w R (Byram 1959), with the cell's fuel w and the rate of spread R from the slope
-    of the arrival time. Crowns of the stand flare up besides, where it is given.
+    of the arrival time. Crowns of the stand flare up besides, where it is given. Where flames stand farther
+    apart they are as much wider, so that the front is as bright.
     """
     settings, ground, near = shot.settings, shot.ground, shot.near
     first, last = shot.moments[[0, -1]]
-    row, column, spacing, key = _candidates(shot)
+    row, column, spacing, distance, key = _candidates(shot)
     arrival = ground.arrival_at(row, column)
     keep = (arrival <= last) & (arrival > first - _RESIDENCE[1])
-    row, column, spacing, arrival, key = row[keep], column[keep], spacing[keep], arrival[keep], key[keep]
+    row, column, spacing, distance, arrival, key = (
+        value[keep] for value in (row, column, spacing, distance, arrival, key)
+    )
     speed = ground.spread(row, column)
-    residence = np.clip(_LINE * spacing / speed, *_RESIDENCE)
+    residence = _residence(spacing, speed)
     random = np.array([noise.uniform(*key.T, settings.seed + 500 + use) for use in range(3)])
     fuel = bilinear(ground.fields.canopy_fuel + ground.fields.surface_fuel, row, column)
     lit = (arrival + residence > first) & (fuel > 0.05)
-    row, column, arrival, speed, residence, fuel, spacing = (
-        value[lit] for value in (row, column, arrival, speed, residence, fuel, spacing)
+    row, column, arrival, speed, residence, fuel, spacing, distance = (
+        value[lit] for value in (row, column, arrival, speed, residence, fuel, spacing, distance)
     )
     random = random[:, lit]
     place = ground.point(*ground.places(row, column)) if len(row) else np.empty((0, 3))
-    distance = shot.sights.drawn_from(place) if near else np.zeros(len(row))
     intensity = burning.HEAT / 1000.0 * fuel * speed
     uneven = np.exp(_SIZES * noise.normal(random[0], random[1]))
     length = np.clip(flame_length(intensity, settings.fire.flame_length) * uneven, *_LENGTHS)
     thin = lod.Table().multiplier(distance) if len(distance) else np.ones(0)
     wind = float(np.hypot(*shot.wind))
+    finest = _spaced(ground.cell, _SPACING[0][1])[1]
+    fewer = (spacing / finest) ** 2 * _residence(finest, speed) / (residence * thin)
     points = Points(
         place,
         arrival,
         residence,
         intensity,
         length,
-        np.clip(0.45 * length, 0.6 * spacing, 1.6 * spacing) / np.sqrt(thin),
+        np.clip(0.45 * length, 0.6 * finest, 1.6 * finest) * fewer,
         tilt(wind, length),
         kelvin(intensity),
         random[2],
@@ -141,6 +146,11 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
     if grown is not None and settings.fire.torches:
         points = _joined([points, torches(shot, grown)])
     return _within_budget(points, shot, near)
+
+
+def _residence(spacing: Array | float, speed: Array) -> Array:
+    """How long (s) flames last that stand so far apart (m) where the front has a `speed` (m/s)."""
+    return np.clip(_LINE * spacing / speed, *_RESIDENCE)
 
 
 def torches(shot: Shot, grown: Stand) -> Points:
@@ -215,27 +225,28 @@ def _joined(parts: list[Points]) -> Points:
     return Points(*(np.concatenate([getattr(p, field.name) for p in parts]) for field in fields(Points)))
 
 
-def _candidates(shot: Shot) -> tuple[Array, Array, Array, NDArray[np.int64]]:
+def _candidates(shot: Shot) -> tuple[Array, Array, Array, Array, NDArray[np.int64]]:
     """Rows, columns and spacing (m) of jittered points in the cells that the front crosses in the shot.
 
-    With them come integers (n, 2) that random choices for a point hang on: cell and number in it. So a point
-    is the same whatever else is seen.
+    With them come the distance (n,) that they are drawn for, m, and integers (n, 2) that random choices for a
+    point hang on: cell and number in it. So a point is the same whatever else is seen.
     """
     ground, near, (first, last) = shot.ground, shot.near, shot.moments[[0, -1]]
     arrival = ground.arrival
     cells_lit = np.argwhere((arrival >= first - _RESIDENCE[1] - 300.0) & (arrival <= last + 300.0))
     empty = np.empty(0)
     if len(cells_lit) == 0 or not near:
-        return empty, empty, empty, np.empty((0, 2), np.int64)
+        return empty, empty, empty, empty, np.empty((0, 2), np.int64)
     centre = ground.point(*ground.places(cells_lit[:, 0].astype(float), cells_lit[:, 1].astype(float)))
-    distance = shot.sights.drawn_from(centre)
     seen = shot.sights.seen(centre, max(ground.cell) + _AROUND, reach=SIGHT)
+    cells_lit, distance = cells_lit[seen], _drawn_for(shot, centre[seen])
     parts = []
     before = 0.0
-    for limit, spacing in _SPACING:
-        chosen = cells_lit[seen & (distance >= before) & (distance < limit)]
+    for limit, wanted in _SPACING:
+        inside = (distance >= before) & (distance < limit)
+        chosen = cells_lit[inside]
         before = limit
-        count = max(round(max(ground.cell) / spacing), 1)
+        count, spacing = _spaced(ground.cell, wanted)
         number = np.arange(count * count)
         cell = (chosen @ (ground.shape[1], 1))[:, None]
 
@@ -244,19 +255,37 @@ def _candidates(shot: Shot) -> tuple[Array, Array, Array, NDArray[np.int64]]:
             return np.stack([noise.uniform(cell, part, seed + axis) for axis in (0, 1)])
 
         # One shift per cell and one per point: no rows of flames.
-        inside = (np.indices((count, count)).reshape(2, 1, -1) + random(number[:1], 0)) / count
-        inside = inside + (random(number, 2) - 0.5) / count - 0.5
+        at = (np.indices((count, count)).reshape(2, 1, -1) + random(number[:1], 0)) / count
+        at = at + (random(number, 2) - 0.5) / count - 0.5
         parts.append(
             (
-                (chosen[:, :1] + inside[0]).ravel(),
-                (chosen[:, 1:] + inside[1]).ravel(),
-                np.full(len(chosen) * count * count, max(ground.cell) / count),
+                (chosen[:, :1] + at[0]).ravel(),
+                (chosen[:, 1:] + at[1]).ravel(),
+                np.full(len(chosen) * count * count, spacing),
+                np.repeat(distance[inside], count * count),
                 np.stack(np.broadcast_arrays(cell, number), axis=-1).reshape(-1, 2),
             )
         )
-    row, column, spacing, key = (np.concatenate([part[i] for part in parts]) for i in range(4))
+    row, column, spacing, drawn, key = (np.concatenate([part[i] for part in parts]) for i in range(5))
     rows, columns = ground.shape
-    return np.clip(row, 0.0, rows - 1.0), np.clip(column, 0.0, columns - 1.0), spacing, key
+    return np.clip(row, 0.0, rows - 1.0), np.clip(column, 0.0, columns - 1.0), spacing, drawn, key
+
+
+def _spaced(cell: tuple[float, float], wanted: float) -> tuple[int, float]:
+    """How many points stand along a side of a cell, and how far apart (m), where so much (m) is wanted."""
+    count = max(round(max(cell) / wanted), 1)
+    return count, max(cell) / count
+
+
+def _drawn_for(shot: Shot, centre: Array) -> Array:
+    """Distance (n,) that flames of cells (n, 3) are drawn for, m: 0 in the nearest, of `_FINE` points.
+
+    So those in sight are mostly the same whatever else is built, and in each part of a film.
+    """
+    distance = shot.sights.drawn_from(centre)
+    count, _ = _spaced(shot.ground.cell, _SPACING[0][1])
+    distance[np.argsort(distance, kind="stable")[: _FINE // count**2]] = 0.0
+    return distance
 
 
 def _within_budget(points: Points, shot: Shot, views: list[Path]) -> Points:
