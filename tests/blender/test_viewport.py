@@ -1,12 +1,15 @@
 """What the viewport shows in place of what renders draw, and that no render knows of it."""
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 import pytest
 from firetwin.blender import viewport
 from firetwin.render import layers
 from firetwin.scene import build
-from firetwin.scene.forest import preview
+from firetwin.scene.forest import build as forest
+from firetwin.scene.forest import fate, preview
 from firetwin.scene.forest.levels import LEVELS
 from firetwin.scene.ground import solid
 from firetwin.shot.shot import Shot
@@ -47,6 +50,13 @@ def test_others_stand_in_for_a_large_forest(near_shot, scene, few):
         assert model in {living[nearest] // LEVELS, burned[nearest] // LEVELS}
     models = shown[0].modifiers[0].node_group.nodes["Collection Info"].inputs["Collection"].default_value
     assert len(models.objects) < 60  # of more than a hundred
+
+
+def test_burned_grass_stands_for_itself_too(near_shot, monkeypatch):
+    monkeypatch.setattr(fate, "torching_intensity", lambda height: np.full(len(height), -1.0))
+    render = replace(near_shot.settings.render, skip=False)
+    grass = forest._grass(Shot(replace(near_shot.settings, render=render), near_shot.run))
+    assert set(grass["snag_model"]) == set(grass["model"]) == {0, 1}
 
 
 def standing(things):

@@ -104,7 +104,8 @@ def _grass(shot: Shot) -> dict[str, NDArray]:
     cell, position = found.cell[kept], position[kept]
     model = (noise.uniform(cell, 7, seed) < 0.5).astype(np.int64)
     scale, width = found.scale[kept], np.ones(len(cell))
-    return _points(shot, position, scale, width, found.rotation[kept], model, cell, cell * 0 + 1)
+    points = _points(shot, position, scale, width, found.rotation[kept], model, cell, cell * 0 + 1)
+    return points | {"snag_model": model}
 
 
 def _points(
