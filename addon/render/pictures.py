@@ -126,13 +126,14 @@ class _Frame:
 def publish(shot: Shot, making: Making, part: Path, pictures: list[Picture]) -> None:
     """Look at the files of a complete frame, give them their names, and only then enter them in the store."""
     made = {name: part / Path(name).name for each in pictures for name in each.files()}
-    for path in made.values():
+    for picture, name in ((each, name) for each in pictures for name in each.files()):
+        path, size = made[name], passes.known()[picture.name].size(shot.settings.render.resolution)
         if path.suffix == ".png" and path.exists():
             with writing(path):
                 png.forget_times(path)
-                if shot.camera(pictures[0].camera).rig.around:
-                    spherical.still(path, shot.settings.render.resolution, _heading(shot, pictures[0]))
-        whole.picture(path, shot.settings.render.resolution)
+                if shot.camera(picture.camera).rig.around:
+                    spherical.still(path, size, _heading(shot, picture))
+        whole.picture(path, size)
     for picture in pictures:
         entries = {}
         for name in picture.files():

@@ -12,6 +12,7 @@ from firetwin.errors import Error
 from firetwin.jobs import worker
 from firetwin.render.store import Store
 from firetwin.shot import passes
+from firetwin_core import sensor
 from scene_text import DRONE, NO_PLANTS, NO_SMOKE, TINY
 
 FRAMES = 3
@@ -214,6 +215,15 @@ def test_what_renders_is_told(firetwin, tmp_path):
     scene = ("--frames", "2", "--camera", "satellite")
     _, err = firetwin("--out", tmp_path / "out", *scene, render='device = "cpu"')
     assert "firetwin: Cycles renders on the processor\n" in err
+
+
+def test_a_fused_view_of_small_pictures_is_large_enough_to_read_and_so_is_its_film(firetwin, tmp_path):
+    firetwin("--out", tmp_path, "--camera", "drone", "--passes", "fused", "--frames", "1-2")
+    sheet = sensor.read_image(tmp_path / "drone/fused/drone_fused_000001.png")
+    assert sheet.shape[0] == 720
+    probe = ["ffprobe", "-v", "error", "-show_entries", "stream=width,height", "-of", "csv=p=0"]
+    film = subprocess.run([*probe, tmp_path / "drone/drone_fused.mp4"], check=True, capture_output=True)
+    assert film.stdout.decode().strip() == f"{sheet.shape[1]},720"
 
 
 def test_the_blend_file_is_complete_and_needs_no_add_on(firetwin, tmp_path):
