@@ -19,8 +19,9 @@ from ..glow import CLOSE, EMBER, FLAME, brightness
 
 TORCHING = 300.0  # s that a crown is in flames
 _TORCH = 0.1, 0.35  # of the flames' radiance, at the distances CLOSE: crowns near by fill pixels
-_DEAD = 0.07  # part of the trees that stood dead and brown before
-_BROWN = ((0.085, 0.048, 0.022), (0.135, 0.080, 0.040))  # needles killed by drought, beetles or heat
+_DEAD = 0.03  # part of the trees that stood dead and brown before
+_SINGED = 0.7  # how far the green tops of half scorched trees are brown: hot air and soot dull them; by eye
+_BROWN = ((0.060, 0.041, 0.026), (0.118, 0.080, 0.046))  # needles killed by drought, beetles or heat
 _BLACK = ((0.010, 0.008, 0.007), (0.030, 0.024, 0.020))  # needles that burned
 
 
@@ -41,7 +42,10 @@ def foliage(shot: Shot, stage: Stage) -> bpy.types.Material:
     killed = age.smoothstep(20.0, 200.0)
     reach = tree.attribute("scorch", "INSTANCER") * 1.16 - 0.08  # over the whole crown where it is 1
     scorched = tree.separate(place)[2].smoothstep(reach + 0.08, reach - 0.08)
-    spared = tree.mix_colour(scorched * killed, living, brown)
+    singed = tree.attribute("scorch", "INSTANCER").smoothstep(0.12, 0.5) * tree.input(
+        "Singed", _SINGED, "How brown the tops of scorched trees are", "Variety", most=1.0
+    )
+    spared = tree.mix_colour(tree.math("MAXIMUM", scorched, singed) * killed, living, brown)
     charred = _two(tree, "Charred", _BLACK, "needles that burned")
     black = tree.mix_colour(tree.attribute("dead", "INSTANCER"), *charred)
     browned = tree.mix_colour(age.smoothstep(0.0, 60.0), living, brown)
