@@ -42,7 +42,9 @@ def foliage(shot: Shot, stage: Stage) -> bpy.types.Material:
     killed = age.smoothstep(20.0, 200.0)
     reach = tree.attribute("scorch", "INSTANCER") * 1.16 - 0.08  # over the whole crown where it is 1
     scorched = tree.separate(place)[2].smoothstep(reach + 0.08, reach - 0.08)
-    singed = tree.attribute("scorch", "INSTANCER").smoothstep(0.12, 0.5) * tree.input(
+    # Not all alike: some crowns stay green beside brown ones.
+    hot = tree.attribute("scorch", "INSTANCER") - tree.attribute("dead", "INSTANCER") * 0.35
+    singed = hot.smoothstep(0.05, 0.35) * tree.input(
         "Singed", _SINGED, "How brown the tops of scorched trees are", "Variety", most=1.0
     )
     spared = tree.mix_colour(tree.math("MAXIMUM", scorched, singed) * killed, living, brown)
