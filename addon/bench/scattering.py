@@ -185,7 +185,7 @@ def _build(file: settings.Settings, scene: bpy.types.Scene) -> dict[str, bpy.typ
         toward = sun.light(*shot.sun(shot.frames.first))
         sunlight, skylight, _ = volume.lit(part * density, VOXEL, toward, *flow_frames.LIGHT)
         grids = {"density": part * density, "fresh": fresh, "sun": sunlight, "sky": skylight}
-        volume.write(str(layer.file(place, 1)), grids, VOXEL, origin, tolerance=1e-6)
+        volume.write(str(layer.file(place, 1)), grids, VOXEL, origin, tolerance=1e-6, within="density")
     stage = owned.adopt(scene)
     clock.build(shot, stage)
     smoke.build(shot, stage)

@@ -135,7 +135,8 @@ Frame write_levels(const Path& path, const geo::LocalFrame& frame, const py::obj
 
 Frame write(const Path& path, const std::map<std::string, py::object>& grids, double voxel_size,
             const Vector& origin, bool half, float tolerance,
-            const std::optional<io::Metadata>& metadata, const Sight* sight) {
+            const std::optional<io::Metadata>& metadata, const Sight* sight,
+            const std::string& within) {
   std::map<std::string, Array<float>> arrays;
   std::map<std::string, volume::DenseField> fields;
   for (const auto& [name, object] : grids) {
@@ -153,7 +154,7 @@ Frame write(const Path& path, const std::map<std::string, py::object>& grids, do
     arrays[name] = array;
   }
   const py::gil_scoped_release release;
-  return volume::write_dense(path, fields, {voxel_size, origin, half, tolerance, sight},
+  return volume::write_dense(path, fields, {voxel_size, origin, half, tolerance, sight, within},
                              metadata.value_or(io::Metadata{}));
 }
 
@@ -288,7 +289,8 @@ void init_volume(Module module) {
              py::arg("sight") = py::none());
   module.def("write", &write, py::arg("path"), py::arg("grids"), py::arg("voxel_size"),
              py::arg("origin") = Vector{}, py::arg("half") = true, py::arg("tolerance") = 0.0F,
-             py::arg("metadata") = py::none(), py::arg("sight") = py::none());
+             py::arg("metadata") = py::none(), py::arg("sight") = py::none(),
+             py::arg("within") = "");
   module.def("hidden", &hidden, py::arg("extinction"), py::arg("voxel_size"), py::arg("places"),
              py::arg("directions"), py::arg("depth"), py::arg("origin") = Vector{},
              py::arg("beyond") = py::none());

@@ -29,15 +29,20 @@ Frame write_dense(const std::filesystem::path& path,
   check_voxel_size(settings.voxel_size);
   check_finite(settings.origin, "origin");
   check_zero_or_more(static_cast<double>(settings.tolerance), "tolerance");
+  if (!settings.within.empty() && !fields.contains(settings.within)) {
+    throw std::invalid_argument("within must name one of the grids, not \"" + settings.within +
+                                '"');
+  }
   VdbArchive archive;
   double mass = 0.0;
   double hidden = 0.0;
   const double volume = settings.voxel_size * settings.voxel_size * settings.voxel_size;
-  for (const auto& [name, field] : fields) {
+  const auto add = [&](const std::string& name, const openvdb::FloatTree* within) {
+    const DenseField& field = fields.at(name);
     const openvdb::FloatGrid::Ptr grid = fog_grid(name, settings.voxel_size, settings.origin, "");
     grid->setSaveFloatAsHalf(settings.half);
     const bool is_density = name == "density";
-    const DenseLeaves leaves = find_leaves(field, settings, is_density, grid->tree());
+    const DenseLeaves leaves = find_leaves(field, settings, is_density, within, grid->tree());
     if (leaves.bad) {
       refuse(name, field, *leaves.bad);
     }
@@ -45,9 +50,17 @@ Frame write_dense(const std::filesystem::path& path,
       mass = leaves.sum * volume;
       hidden = leaves.hidden * volume;
     }
-    archive.add({grid, [&field = field](const Leaf& leaf, LeafValues& values) {
+    archive.add({grid, [&field](const Leaf& leaf, LeafValues& values) {
                    copy_leaf(field, leaf.origin(), values);
                  }});
+    return grid;
+  };
+  const openvdb::FloatGrid::ConstPtr outer =
+      settings.within.empty() ? nullptr : add(settings.within, nullptr);
+  for (const auto& [name, field] : fields) {
+    if (name != settings.within) {
+      add(name, outer ? &outer->constTree() : nullptr);
+    }
   }
   Frame frame = archive.write(path, metadata);
   frame.mass = mass;

@@ -26,13 +26,15 @@ struct DenseSettings {
   bool half = true;                  ///< precision
   float tolerance = 0.0F;            ///< values this near 0 are left out
   const lod::Sight* sight = nullptr; ///< leaves that do not count are left out, see Seen
+  std::string within;                ///< the field without whose leaves others have none; none: ""
 };
 
 /// Writes dense arrays as sparse fog volumes, each with its own active voxels: those beyond the
 /// tolerance. Leaves of one value become tiles. The frame's mass is the sum of `density` (kg/m3)
 /// over voxels times their volume, where there is such a grid, and `hidden` that of what is left
 /// out because it is not seen.
-/// @throws std::invalid_argument for values that are not finite or too large for half precision
+/// @throws std::invalid_argument when there is no field called `within`, and for values that are
+/// not finite or too large for half precision
 Frame write_dense(const std::filesystem::path& path,
                   const std::map<std::string, DenseField>& fields, const DenseSettings& settings,
                   const io::Metadata& metadata);

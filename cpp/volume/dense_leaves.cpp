@@ -116,13 +116,17 @@ private:
 /// Looks through a field leaf by leaf.
 class Scan {
 public:
-  Scan(const DenseField& field, const DenseSettings& settings, bool wanted)
-      : field_(field), settings_(settings), wanted_(wanted),
+  Scan(const DenseField& field, const DenseSettings& settings, bool wanted,
+       const openvdb::FloatTree* within)
+      : field_(field), settings_(settings), wanted_(wanted), within_(within),
         seen_(settings.sight, settings.voxel_size, settings.origin), blocks_(field, seen_) {}
 
   void column(std::int32_t x, std::int32_t y, Column& column) const {
     for (std::int32_t z = 0; z < field_.shape[2]; z += side) {
       const openvdb::Coord origin(x, y, z);
+      if (within_ != nullptr && !has(*within_, origin)) {
+        continue;
+      }
       const bool counts = blocks_.counts(origin) && seen_.counts(origin, side);
       if (counts || wanted_) {
         leaf(origin, counts, column);
@@ -131,6 +135,11 @@ public:
   }
 
 private:
+  /// Whether a tree has a leaf or a tile there.
+  static bool has(const openvdb::FloatTree& tree, const openvdb::Coord& origin) {
+    return tree.probeConstLeaf(origin) != nullptr || tree.isValueOn(origin);
+  }
+
   void leaf(const openvdb::Coord& origin, bool counts, Column& column) const {
     LeafValues values;
     copy_leaf(field_, origin, values);
@@ -169,6 +178,7 @@ private:
   const DenseField& field_;
   const DenseSettings& settings_;
   bool wanted_;
+  const openvdb::FloatTree* within_;
   Seen seen_;
   Blocks blocks_;
 };
@@ -200,8 +210,8 @@ void copy_leaf(const DenseField& field, const openvdb::Coord& origin, LeafValues
 }
 
 DenseLeaves find_leaves(const DenseField& field, const DenseSettings& settings, bool wanted,
-                        openvdb::FloatTree& tree) {
-  const Scan scan(field, settings, wanted);
+                        const openvdb::FloatTree* within, openvdb::FloatTree& tree) {
+  const Scan scan(field, settings, wanted, within);
   const auto rows = static_cast<std::size_t>((field.shape[1] - 1) / side + 1);
   std::vector<Column> columns(static_cast<std::size_t>((field.shape[0] - 1) / side + 1) * rows);
   tbb::parallel_for(std::size_t{0}, columns.size(), [&](std::size_t i) {

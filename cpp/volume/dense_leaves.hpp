@@ -20,8 +20,9 @@ struct DenseLeaves {
 void copy_leaf(const DenseField& field, const openvdb::Coord& origin, LeafValues& values);
 
 /// Gives a tree the leaves of a field, without values, and tiles. Leaves that do not count are not
-/// looked at, unless their sum is `wanted`.
+/// looked at, unless their sum is `wanted`, nor those that `within`, if there is one, does not
+/// have.
 DenseLeaves find_leaves(const DenseField& field, const DenseSettings& settings, bool wanted,
-                        openvdb::FloatTree& tree);
+                        const openvdb::FloatTree* within, openvdb::FloatTree& tree);
 
 } // namespace firetwin::volume

@@ -149,6 +149,25 @@ def test_what_is_not_seen_is_not_looked_at_but_for_its_mass(tmp_path):
         volume.write(tmp_path / "behind.vdb", {"density": behind}, **more)
 
 
+def test_grids_keep_within_the_blocks_of_one(tmp_path):
+    """Of the others all is there where it has a voxel, or one value all over, and nothing elsewhere."""
+    openvdb = bundled_openvdb()
+    random, path = np.random.default_rng(2), tmp_path / "within.vdb"
+    fields = {name: random.random((28, 20, 16), np.float32) + 0.1 for name in ("after", "smoke", "zero")}
+    fields["smoke"][:] = 0.0
+    fields["smoke"][8:16, :8, 8:16] = 0.5
+    fields["smoke"][27, 19, 3] = 0.1
+    wanted = np.zeros((28, 20, 16), bool)
+    wanted[8:16, :8, 8:16] = wanted[24:, 16:, :8] = True
+    volume.write(path, fields, 10.0, half=False, within="smoke")
+    for name, field in fields.items():
+        found = np.zeros_like(field)
+        openvdb.read(str(path), name).copyToArray(found)
+        np.testing.assert_array_equal(found, np.where(wanted, field, 0))
+    with pytest.raises(ValueError, match='within must name one of the grids, not "haze"'):
+        volume.write(path, fields, 10.0, within="haze")
+
+
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 65505.0])
 def test_what_cannot_be_held_is_named_with_its_place(tmp_path, value):
     fields = boxes()

@@ -144,7 +144,9 @@ class Painter:
         if glow is not None:
             grids["glow"] = glow
         metadata = metadata | {f"smoke_{name}_kg": f"{value:.9g}" for name, value in moment.mass.items()}
-        written = volume.write(path, grids, voxel, origin, tolerance=1e-6, metadata=metadata, sight=sight)
+        written = volume.write(
+            path, grids, voxel, origin, tolerance=1e-6, metadata=metadata, sight=sight, within="density"
+        )
         return written, Beyond(depths, smoke)
 
     @functools.cached_property

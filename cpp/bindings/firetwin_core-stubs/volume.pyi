@@ -199,6 +199,7 @@ def write(
     tolerance: float = 0.0,
     metadata: Mapping[str, str] | None = None,
     sight: Sight | None = None,
+    within: str = "",
 ) -> Frame:
     """Write dense arrays as sparse fog volumes of cubic voxels, to a temporary file that is then renamed.
 
@@ -219,6 +220,9 @@ def write(
     sight
         Blocks of 8^3 voxels that do not count (300 m round them) are left out; what is written stays the same.
         They are not looked at, whatever they hold, but in `density`, for `Frame.hidden`.
+    within
+        Name of a grid: the others are left out of blocks of 8^3 voxels where it has nothing. Of smoke nothing is seen
+        there, yet renderers go step by step through all blocks that any grid has.
 
     Returns
     -------
