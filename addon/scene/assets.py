@@ -57,7 +57,7 @@ def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
     temperature.build(shot, stage)
     infrared.build(shot, stage)
     trees = library.tree_models(shot, stage)
-    forest.node_group(shot, "Firetwin Trees", trees, forest.BARE_AFTER)
+    forest.node_group(shot, "Firetwin Trees", trees)
     fire.node_group(shot, fire.cards(shot, stage))
     firebrand_material.build(shot, stage)
     for look, name in ((puff_material, "Puffs"), (flow_material, "Flow")):

@@ -7,6 +7,7 @@ from firetwin.blender import owned
 from firetwin.scene import build
 from firetwin.scene.forest import build as forest
 from firetwin.scene.forest import models, plot, preview, seen, stand
+from firetwin.scene.forest.material import TORCHING
 from firetwin.shot.ground import NEVER
 from firetwin.shot.rigs.satellite import Satellite
 from firetwin.shot.settings import Camera
@@ -115,7 +116,7 @@ def test_the_paper_mode_has_no_stand(settings, run, stage):
     assert grown.coverage(np.array([0.0, 100.0])).tolist() == [0.0, 0.0]
 
 
-def test_trees_whose_crowns_burn_become_snags_a_quarter_of_an_hour_later(shot, stage, scene):
+def test_trees_whose_crowns_burn_become_snags_as_their_flames_end(shot, stage, scene):
     made = _planted(shot, stage)[0]
     arrival, torched = np.empty((2, len(made.data.vertices)), np.float32)
     made.data.attributes["arrival_time"].data.foreach_get("value", arrival)
@@ -124,7 +125,7 @@ def test_trees_whose_crowns_burn_become_snags_a_quarter_of_an_hour_later(shot, s
         scene.frame_set(frame)
         model = np.array([_number(name) for name in _instances("Firetwin Trees")[2]])
         snag = np.isin(model, models.SNAGS)
-        old = time - arrival > forest.BARE_AFTER
+        old = time - arrival > TORCHING
         assert not snag[~old].any()
         assert np.array_equal(snag[old], torched[old] == 1.0)
     assert old.sum() > 30

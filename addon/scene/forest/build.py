@@ -23,11 +23,10 @@ from ...shot.shot import Shot
 from .. import clock
 from . import fate, models, openings, preview, seen, understorey
 from .library import drawn, grass_models, levelled, tree_models
+from .material import TORCHING
 from .stand import Stand
 
 GRASS_DISTANCE = 400.0  # m
-BARE_AFTER = 900.0  # s after the fire came a burned tree is a snag
-_GONE_AFTER = 300.0  # s, and brush and grass are stems and stubble
 _ALIKE = 110.0, 70.0  # m, patches of trees that are alike in hue, and that died before; by eye
 _TALLEST, _GRASS = 31.0, 10.0  # m; as tall as any tree of Algorithm 2, and as one that would hold a clump
 
@@ -38,13 +37,13 @@ def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Objec
     made, below, plants = [], understorey.grow(shot), {}
     if grown is not None:
         points = algorithm2(shot) if shot.settings.forest.density == "paper" else _stand(shot, grown)
-        plants["Trees"] = levelled(shot, points), BARE_AFTER
+        plants["Trees"] = levelled(shot, points)
     if len(below.size):
-        plants["Understorey"] = levelled(shot, _below(shot, below)), _GONE_AFTER
+        plants["Understorey"] = levelled(shot, _below(shot, below))
     if plants:
-        library = tree_models(shot, stage, set().union(*(drawn(points) for points, _ in plants.values())))
-    for name, (points, bare_after) in plants.items():
-        made.append(_instances(shot, collection, name, points, library, bare_after))
+        library = tree_models(shot, stage, set().union(*map(drawn, plants.values())))
+    for name, points in plants.items():
+        made.append(_instances(shot, collection, name, points, library))
     if shot.settings.forest.grass:
         library = grass_models(shot, stage)
         made.append(_instances(shot, collection, "Grass", _grass(shot), library))
@@ -150,16 +149,15 @@ def _instances(
     name: str,
     points: dict[str, NDArray],
     library: bpy.types.Collection,
-    bare_after: float = BARE_AFTER,
 ) -> bpy.types.Object:
     """Make an object of plants, and those that stand in for it in the viewport."""
-    group = node_group(shot, f"Firetwin {name}", library, bare_after)
+    group = node_group(shot, f"Firetwin {name}", library)
     full = _object(collection, name, points, group)
     shown = []
-    for part, some, follows in preview.parts(shot, points, bare_after, name != "Grass"):
+    for part, some, follows in preview.parts(shot, points, name != "Grass"):
         title = f"{part} {name} in Viewport".strip()
         few = preview.used(title, library, some)
-        group = node_group(shot, f"Firetwin {title}", few, bare_after if follows else None)
+        group = node_group(shot, f"Firetwin {title}", few, burns=follows)
         shown.append(_object(collection, title, some, group))
     preview.stand_in(full, shown)
     return full
@@ -197,9 +195,9 @@ def _drawn(tree: nodes.Tree, shot: Shot) -> nodes.Value | bool:
 
 
 def node_group(
-    shot: Shot, name: str, library: bpy.types.Collection, bare_after: float | None
+    shot: Shot, name: str, library: bpy.types.Collection, *, burns: bool = True
 ) -> bpy.types.NodeTree:
-    """A model on every point, which becomes a snag `bare_after` s after the fire came; None: never."""
+    """A model on every point, which becomes a snag, or bare stems, when its flames end; or never does."""
     tree, given = nodes.geometry(name)
     collection = tree.node("GeometryNodeCollectionInfo", transform_space="ORIGINAL")
     compat.find_socket(collection.inputs, "Collection").default_value = library
@@ -210,9 +208,9 @@ def node_group(
         return tree.output("GeometryNodeInputNamedAttribute", {"Name": key}, data_type=kind)
 
     model = attribute("model", "INT")
-    if bare_after is not None:
+    if burns:
         age = clock.geometry_time(tree, shot) - attribute("arrival_time", "FLOAT")
-        after = tree.input("Bare After", bare_after, "Time (s) from the fire to a bare plant", "Fire")
+        after = tree.input("Bare After", TORCHING, "Time (s) from the fire to a bare plant", "Fire")
         burned = tree.output("FunctionNodeCompare", [age, after], data_type="FLOAT", operation="GREATER_THAN")
         choice = {"Switch": burned, "False": model, "True": attribute("snag_model", "INT")}
         model = tree.output("GeometryNodeSwitch", choice, input_type="INT")
@@ -224,7 +222,7 @@ def node_group(
         "GeometryNodeInstanceOnPoints",
         {
             "Points": tree.pick(given, "Geometry"),
-            "Selection": True if bare_after is None else _drawn(tree, shot),
+            "Selection": _drawn(tree, shot) if burns else True,
             "Instance": collection,
             "Pick Instance": True,
             "Instance Index": model,

@@ -17,7 +17,7 @@ from ...shot.shot import Shot
 from .. import granite, haze, infrared, temperature
 from ..glow import CLOSE, EMBER, FLAME, brightness
 
-TORCHING = 300.0  # s that a crown is in flames
+TORCHING = 300.0  # s that a crown is in flames; then it is gone
 _TORCH = 0.1, 0.35  # of the flames' radiance, at the distances CLOSE: crowns near by fill pixels
 _DEAD = 0.03  # part of the trees that stood dead and brown before
 _SINGED = 0.7  # how far the green tops of half scorched trees are brown: hot air and soot dull them; by eye

@@ -19,6 +19,7 @@ from ...shot import noise
 from ...shot.shot import Shot
 from . import models
 from .levels import LEVELS
+from .material import TORCHING
 
 MOST = 8000  # trees; what redraws in a few ms
 _WIDEST = 2.5  # times its width, that a crown stands for others
@@ -27,13 +28,10 @@ LEVEL = 2  # coarse enough for thousands, still a tree
 Points = dict[str, NDArray]
 
 
-def parts(
-    shot: Shot, points: Points, bare_after: float, levelled: bool
-) -> Iterator[tuple[str, Points, bool]]:
+def parts(shot: Shot, points: Points, levelled: bool) -> Iterator[tuple[str, Points, bool]]:
     """What stands in for plants with these attributes: a name, attributes, and whether it follows time.
 
-    Nothing where there are no more than `MOST`. A plant is bare from `bare_after` s after the fire
-    came; of plants that are `levelled`, models have levels.
+    Nothing where there are no more than `MOST`. Of plants that are `levelled`, models have levels.
     """
     count = len(points["position"])
     if count <= MOST:
@@ -45,7 +43,7 @@ def parts(
     for key in ("model", "snag_model") if levelled else ():
         model, level = np.divmod(some[key], LEVELS)
         some[key] = models.instance(model, np.maximum(level, LEVEL))
-    bare = some["arrival_time"] + bare_after
+    bare = some["arrival_time"] + TORCHING
     turns = (bare > shot.frames.first) & (bare <= shot.frames.last)
     some["model"] = np.where(bare <= shot.frames.first, some["snag_model"], some["model"])
     for name, chosen in (("Burning", turns), ("", ~turns)):
