@@ -439,4 +439,5 @@ def test_what_is_told_beside_the_panels_is_true(shot, monkeypatch):
     assert facts["POSITION"] == [f"{latitude:.5f}° N", f"{-longitude:.5f}° W"]
     assert facts["HEIGHT"][1].startswith(f"{height:,.0f} m ")
     assert facts["VIEW"] == ["65° wide"]
+    assert facts["FILM"] == [f"{made.frames.step * made.settings.time.fps:,.3g}× as fast"]
     assert facts["BURNED"] == [f"{1000.0 + made.frames.time(3):,.0f} acres"]

@@ -104,7 +104,7 @@ def _fire(axes: Axes, shot: Shot, here: NDArray, east: NDArray, north: NDArray, 
 
 
 def _sight(axes: Axes, view: Path, frame: int, reach: float) -> None:
-    """The angle of view, up to what the camera looks at."""
+    """The angle of view: full up to what the camera looks at, and its sides beyond, to the map's edge."""
     if not view.perspective:
         return
     ahead = -view.rotation[frame - 1][:2, 2]
@@ -115,6 +115,8 @@ def _sight(axes: Axes, view: Path, frame: int, reach: float) -> None:
     rim = length * np.stack([np.sin(bearing), np.cos(bearing)], axis=-1)
     axes.add_patch(Polygon([(0.0, 0.0), *rim], facecolor="white", alpha=0.22, edgecolor="none", zorder=4))
     axes.add_patch(Polygon([(0.0, 0.0), *rim], fill=False, edgecolor="white", linewidth=1.0, zorder=6))
+    for side in (rim[0], rim[-1]):
+        axes.plot(*np.stack([side, side * 3.0 * reach / length], axis=1), "w:", linewidth=1.0, zorder=6)
 
 
 def _scale(axes: Axes, reach: float, tall: float, height: float) -> None:

@@ -99,6 +99,9 @@ def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
         ("HEADING", [f"{heading:03.0f}° {_POINTS[round(heading / 45.0) % 8]}", pitch]),
         ("BURNED", [f"{acres:,.0f} acres"]),
     ]
+    pace = shot.frames.step * shot.settings.time.fps
+    if pace > 0.0:
+        found.append(("FILM", [f"{pace:,.3g}× as fast"]))
     if view.perspective:
         across = 2.0 * np.degrees(np.arctan(view.halves[frame - 1, 0]))
         found.insert(4, ("VIEW", [f"{across:.0f}° wide"]))
