@@ -126,7 +126,8 @@ def _go(words: Page, place: str) -> Iterator[object]:
     settings().go_to = place
     call(bpy.ops.firetwin.go)
     region = view().spaces.active.region_3d
-    yield soon(lambda: abs(region.view_distance - 2500.0) < 1.0)
+    where = sys.modules[f"{ui().__name__}.go"].place(bpy.context.scene, place)
+    yield soon(lambda: (region.view_location - where).length < 1.0)
     yield 1
     bpy.ops.wm.redraw_timer(type="DRAW_WIN_SWAP", iterations=1)  # what is keyed is what was drawn last
     check(region.view_perspective == "PERSP" and abs(region.view_distance - 2500.0) < 1.0, f"at {place}")
