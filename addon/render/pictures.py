@@ -92,9 +92,10 @@ class _Frame:
         lacking = {need for need in own - set(names) if plan.missing(store, [self.pictures[need]], made_with)}
         drawn = [known[name] for name in known if name in names or name in lacking]
         made = {self.pictures[each.name] for each in drawn}
-        for centres in (False, True):
-            if group := [each.name for each in drawn if each.output and each.pixel_centres is centres]:
-                self.draw(group, centres)
+        kinds = {(each.pixel_centres, each.through_smoke) for each in drawn if each.output}
+        for kind in sorted(kinds):
+            rays = [each for each in drawn if (each.pixel_centres, each.through_smoke) == kind]
+            self.draw([each.name for each in rays if each.output], *kind)
         for each in drawn:
             if each.finish:
                 pairs = taken.get(each.name, {})
@@ -106,14 +107,15 @@ class _Frame:
                     each.finish(mine, there, self.shot, self.camera, self.frame)
         return [self.pictures[name] for name in names]
 
-    def draw(self, names: list[str], centres: bool) -> None:
+    def draw(self, names: list[str], centres: bool, through_smoke: bool) -> None:
         """Render the view layers of these passes."""
         layers.select(self.scene, names)
         layers.write_exr(self.scene, str(self.part), [self.pictures[name] for name in names])
         still = next((name for name in names if layers.still(passes.known()[name])), None)
         if still:
             self.scene.render.filepath = str(self.part / Path(self.pictures[still].file("png")).name)
-        with engine.pixel_centres(self.scene, centres), layers.plain(self.scene, names):
+        steps = engine.long_steps(self.scene, through_smoke)
+        with steps, engine.pixel_centres(self.scene, centres), layers.plain(self.scene, names):
             bpy.ops.render.render(write_still=still is not None, scene=self.scene.name)
 
     def files(self, picture: Picture, made: set[Picture]) -> dict[str, Path]:

@@ -7,12 +7,14 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.blender import nodes
+from firetwin.render import engine
 from firetwin.scene import build, clock, infrared, temperature
+from firetwin.scene.smoke import flow_material
 from firetwin.shot import temperature as airs
 from firetwin.shot.settings import Thermal
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
-from firetwin_core import sensor
+from firetwin_core import sensor, volume
 
 
 @pytest.fixture
@@ -83,6 +85,36 @@ def test_air_lets_through_what_its_vapour_says(plates, scene, shoot, settings, r
     through = np.exp(-0.21 * mean**0.75)
     air = sensor.radiance(airs.at(run, 0.0).max())
     assert found == pytest.approx(through * 2000.0 + (1.0 - through) * float(air), rel=0.01)
+
+
+def test_heat_comes_through_smoke_by_its_depth_in_long_steps_too(
+    plates, scene, shoot, settings, run, stage, tmp_path
+):
+    """A hot plate under 2 km of smoke: exp(-0.008 x extinction x depth) of it is left, see `infrared`."""
+    clear = replace(settings, thermal=Thermal(vapour=0.0))
+    plates(own(900.0), by=Shot(clear, run))
+    thick, voxel, origin = 0.03, 50.0, (-200.0, -200.0, 125.0)
+    layers = thick * (1.0 + np.sin(np.arange(40) * np.pi / 10.0))
+    grids = {"density": np.broadcast_to(layers, (9, 9, 40)).astype(np.float32)}
+    volume.write(tmp_path / "slab.vdb", grids, voxel, origin)
+    data = bpy.data.volumes.new("slab")
+    data.filepath = str(tmp_path / "slab.vdb")
+    data.render.space, data.render.step_size = "WORLD", 60.0
+    data.materials.append(flow_material.build(Shot(clear, run), stage))
+    scene.collection.objects.link(bpy.data.objects.new("slab", data))
+    scene.camera.location.z, scene.camera.data.clip_end = 3000.0, 1e4
+    depth = thick * 40 * voxel * infrared.SOOT * 2.0 * infrared.GREEN / (8.0 + 14.0)
+    table = sensor.PlanckTable()
+    found = {}
+    for long in (False, True):
+        with engine.long_steps(scene, long):
+            found[long] = table.radiance(shoot(scene, "thermal")[2, 2, 0])
+    assert scene.cycles.volume_step_rate == 1.0
+    left = np.exp(-depth)
+    expected = table.radiance(900.0) * left + table.radiance(300.0) * (1.0 - left)
+    assert 0.3 < depth < 0.6
+    assert found[False] == pytest.approx(expected, rel=0.01)
+    assert found[True] == pytest.approx(found[False], rel=0.01)
 
 
 def test_sunlit_ground_is_warmer_than_shaded_and_crowns_are_near_the_air(plates, scene, shoot, shot):

@@ -301,7 +301,7 @@ def by_hand() -> Iterator[object]:
     check(bpy.context.scene.objects.get("My flight") == thing, "a renamed and keyed camera stays itself")
     settings().output, settings().which = str(FOLDER / "beside"), "all"
     settings().camera = "My-flight"
-    settings().render.samples = 200  # it must not be done before it is paused
+    bpy.context.scene.cycles.samples = 1000  # it must not be done before it is paused
     call(bpy.ops.firetwin.render_background)
     yield 8
     check(queue.current() is not None, "a render goes on beside the window")
@@ -324,7 +324,7 @@ def by_hand() -> Iterator[object]:
     yield 2
     check([item.state for item in queue.items] == ["done", "done"], str([item.text for item in queue.items]))
     yield from alone("FIRETWIN_PT_render", lambda: picture("32-queue-done"))
-    settings().render.samples = 1
+    bpy.context.scene.cycles.samples = 1
 
 
 def undo() -> Iterator[object]:

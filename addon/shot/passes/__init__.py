@@ -51,6 +51,8 @@ class Pass:
         Of each number in its EXR.
     pixel_centres
         Its rays go through the middle of each pixel.
+    through_smoke
+        Smoke is nearly clear in it, and steps through smoke are longer.
     shapes
         It shows where surfaces are and nothing of what they are like.
     filmed
@@ -94,6 +96,7 @@ class Pass:
     channels: str = "grey"
     bits: int = 32
     pixel_centres: bool = False
+    through_smoke: bool = False
     shapes: bool = False
     filmed: bool = False
     captions: bool = True

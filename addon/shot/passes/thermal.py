@@ -80,6 +80,7 @@ PASS = Pass(
     output="Image",
     leaves_out=("lamps",),
     samples=4,
+    through_smoke=True,
     filmed=True,
     shows=frozenset(
         {"time", "camera", "picture", "ground", "forest", "fire", "smoke", "light", "grain", "thermal"}
