@@ -95,7 +95,7 @@ def _fire(axes: Axes, shot: Shot, here: NDArray, east: NDArray, north: NDArray, 
     axes.imshow(colour, extent=extent, interpolation="nearest", aspect="auto", zorder=2)
     latitude, longitude, after = reach.line(time)
     line = shot.local_frame.forward(latitude, longitude, np.zeros(len(after)))[:, :2] - here[:2]
-    size = 0.009 * axes.get_window_extent().height
+    size = 0.006 * axes.get_window_extent().height
     for width, edge in ((2.0 * size, "black"), (size, _FRONT)):
         pieces = np.stack([line, line[after]], axis=1)
         axes.add_collection(

@@ -5,7 +5,7 @@ Sizes are in units of a hundredth of the picture's height (of 16:9), so a sheet 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Mapping
 
 import matplotlib
 import numpy as np
@@ -35,6 +35,7 @@ class Sheet:
     def __init__(self, width: int, height: int) -> None:
         self.width, self.height = width, height
         self.unit = min(width / 178.0, height / 100.0)
+        self.shadow = [withStroke(linewidth=0.5 * self.points(1.0), foreground="#000000b0")]
         across = (width / self.unit - _SIDE - 3.0 * _GAP) / 2.0
         up = (height / self.unit - 8.0 - 3.0 * _GAP) / 2.0
         self.wide = min(across, up * width / height)
@@ -67,7 +68,7 @@ class Sheet:
         axes = self._axes(x, y, self.wide, self.high)
         axes.set_axis_off()
         label = self.text(x + 1.0, y + 0.9, name, 2.1, va="top", weight="bold", zorder=20)
-        label.set_path_effects([withStroke(linewidth=0.5 * self.points(1.0), foreground="#000000b0")])
+        label.set_path_effects(self.shadow)
         return axes
 
     def picture(
@@ -76,9 +77,9 @@ class Sheet:
         name: str,
         pixels: NDArray,
         part: Part = WHOLE,
-        outlined: Iterable[Part] = (),
+        outlined: Mapping[Part, str] | None = None,
     ) -> None:
-        """A panel that shows pixels (h, w, 3) 0..1 of a part of the view, and outlines of smaller parts."""
+        """A panel with pixels (h, w, 3) 0..1 of a part of the view; smaller parts are outlined and named."""
         axes = self.panel(place, name)
         wide, high = part
         axes.imshow(
@@ -89,10 +90,12 @@ class Sheet:
         )
         axes.set_xlim(-1.0, 1.0)
         axes.set_ylim(-1.0, 1.0)
-        for wide, high in outlined:
+        for (wide, high), what in (outlined or {}).items():
             if min(wide, high) < 1.0:
                 corner, edge = (-wide, -high), {"edgecolor": INK, "linewidth": self.points(0.25)}
                 axes.add_patch(Rectangle(corner, 2.0 * wide, 2.0 * high, fill=False, **edge))
+                said = {"size": self.points(1.5), "family": "DejaVu Sans", "color": INK, "va": "bottom"}
+                axes.text(0.015 - wide, 0.02 - high, what, path_effects=self.shadow, **said)
 
     def thermal(
         self, place: int, kelvin: NDArray, low: float, high: float, palette: str, part: Part = WHOLE

@@ -48,7 +48,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     depth = sensor.read_image(needed["depth"]["exr"])[..., 1]
     pixels = {"rgb": rgb, "thermal": kelvin, "depth": depth}
     parts = {need: _part(shot, view, frame, taken[need][0], pixels[need].shape) for need in pixels}
-    sheet.picture(0, "VISIBLE", rgb, parts["rgb"], outlined=set(parts.values()))
+    sheet.picture(0, "VISIBLE", rgb, parts["rgb"], outlined={part: need for need, part in parts.items()})
     sheet.thermal(1, kelvin, low, high, shot.settings.thermal.palette, parts["thermal"])
     sheet.depth(3, depth, _view.SKY, parts["depth"])
     panel = sheet.panel(2, "MAP")
