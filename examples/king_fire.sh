@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # From a fresh checkout to a film of the King Fire: sets up, writes the sample run, draws its maps and renders
-# king_fire.toml. Takes under 20 minutes on two cores the first time; run again, it does only what is missing.
+# king_fire.toml. Takes half an hour on two cores the first time; run again, it does only what is missing.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
