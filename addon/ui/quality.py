@@ -30,11 +30,11 @@ _STEPS: dict[str, tuple[str, tuple[Any, ...]]] = {
     ),
     "film": (
         "Films and daily work: smoke as solved air, pictures of 1280 x 720",
-        (4000.0, 0.5, 200_000, 40_000, 12_000.0, 3000, "flow", 48, (1280, 720), 6),
+        (4000.0, 0.05, 200_000, 40_000, 12_000.0, 3000, "flow", 48, (1280, 720), 6),
     ),
     "final": (
         "The finest: more trees and bushes, pictures of 1920 x 1080, little grain. Hours for a film",
-        (6000.0, 0.35, 400_000, 80_000, 16_000.0, 6000, "flow", 96, (1920, 1080), 24),
+        (6000.0, 0.05, 400_000, 80_000, 16_000.0, 6000, "flow", 96, (1920, 1080), 24),
     ),
 }
 LEVELS = {name: dict(zip(_MOVED, values, strict=True)) for name, (_, values) in _STEPS.items()}
