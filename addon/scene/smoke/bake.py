@@ -27,8 +27,8 @@ from .view import resolution, shot_frames
 
 __all__ = ["Baker", "ahead", "bake", "estimate", "file", "folder", "resolution", "shot_frames"]
 
-_FRAME_MEMORY = 1 << 30  # bytes that a frame may need while it is made: 0.5 GB, of a flow 0.9, were measured
-_MOST_AT_ONCE = 8
+_FRAME_MEMORY = 2 << 30  # bytes that a frame may need while it is made: 0.5 GB, of a flow 1.9, were measured
+_FRAME_PROCESSORS = 4  # a frame keeps two busy: two at once on those took as long, and twice the memory
 _NOT_IN_FILES = ("enabled", "extinction", "voxel_size")  # of [smoke]: how it is drawn; voxels have their own
 
 
@@ -208,7 +208,7 @@ def _at_once(frames: int) -> int:
         free = os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     except (AttributeError, OSError, ValueError):
         free = _FRAME_MEMORY
-    return max(1, min(frames, os.cpu_count() or 1, _MOST_AT_ONCE, free // _FRAME_MEMORY))
+    return max(1, min(frames, (os.cpu_count() or 1) // _FRAME_PROCESSORS, free // _FRAME_MEMORY))
 
 
 def _key(shot: Shot, progress: Progress) -> str:

@@ -130,13 +130,12 @@ class Painter:
         origin, surface, end, share, count = self._brick(moment)
         wanted = _wanted(sight, origin, (*surface.shape, count), voxel)
         density, fresh, glow = self._detail(moment, lights).paint(origin, voxel, surface, end, count, wanted)
-        density[(density > 0.0) & (density < THIN)] = 0.0
+        density[density < THIN] = 0.0
         toward = sun.light(*self.shot.sun(float(self.shot.frames.times[frame - 1])))
         beyond = beyond or Beyond()
         sunlight, skylight, depths = volume.lit(density, voxel, toward, *LIGHT, origin, beyond.depths)
-        thinner = share < 1.0
-        drawn = density[thinner] * share[thinner][:, None]
-        density[thinner] = np.where(drawn < THIN, 0.0, drawn)
+        density *= share[:, :, None]
+        density[density < THIN] = 0.0
         grids: dict[str, Any] = {"density": density, "fresh": fresh, "sun": sunlight, "sky": skylight}
         smoke = None
         if eyes is not None:
