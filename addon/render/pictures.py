@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable
 from pathlib import Path
 
@@ -92,10 +93,12 @@ class _Frame:
         lacking = {need for need in own - set(names) if plan.missing(store, [self.pictures[need]], made_with)}
         drawn = [known[name] for name in known if name in names or name in lacking]
         made = {self.pictures[each.name] for each in drawn}
-        kinds = {(each.pixel_centres, each.through_smoke) for each in drawn if each.output}
-        for kind in sorted(kinds):
-            rays = [each for each in drawn if (each.pixel_centres, each.through_smoke) == kind]
-            self.draw([each.name for each in rays if each.output], *kind)
+        kinds = defaultdict(list)
+        for each in drawn:
+            if each.output:
+                kinds[each.pixel_centres, each.through_smoke].append(each.name)
+        for kind, group in sorted(kinds.items()):
+            self.draw(group, *kind)
         for each in drawn:
             if each.finish:
                 pairs = taken.get(each.name, {})

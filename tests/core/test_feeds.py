@@ -441,3 +441,9 @@ def test_what_is_told_beside_the_panels_is_true(shot, monkeypatch):
     assert facts["VIEW"] == ["65° wide"]
     assert facts["FILM"] == [f"{made.frames.step * made.settings.time.fps:,.3g}× as fast"]
     assert facts["BURNED"] == [f"{1000.0 + made.frames.time(3):,.0f} acres"]
+    made.settings = replace(
+        made.settings, time=replace(made.settings.time, fps=round(11_160 / made.frames.step))
+    )
+    (film,) = dict(fused_pass.facts(made, "drone", 3))["FILM"]
+    assert float(film.split("×")[0].replace(",", "")) == pytest.approx(11_160, rel=0.01)
+    assert film[2] == ","

@@ -101,7 +101,7 @@ def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
     ]
     pace = shot.frames.step * shot.settings.time.fps
     if pace > 0.0:
-        found.append(("FILM", [f"{pace:,.3g}× as fast"]))
+        found.append(("FILM", [f"{float(f'{pace:.3g}'):,g}× as fast"]))  # ",.3g" says 1.12e+04
     if view.perspective:
         across = 2.0 * np.degrees(np.arctan(view.halves[frame - 1, 0]))
         found.insert(4, ("VIEW", [f"{across:.0f}° wide"]))
