@@ -38,6 +38,15 @@ def silent(done: int, total: int, what: str = "") -> None:
     """Report nothing."""
 
 
+def share(progress: Progress, before: int, of: int, work: str) -> Progress:
+    """Progress of some of `of` pieces of a work, `before` of which are done; other work counts alone."""
+
+    def counted(here: int, total: int, what: str = "") -> None:
+        progress(*((before + here, of) if what == work else (here, total)), what)
+
+    return counted
+
+
 class Reporter:
     """Shows progress; work that changes its name ends one bar and begins another."""
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import Error
-from ..progress import READING, Progress, Tell, count, patience, silent, untold
+from ..progress import READING, Progress, Tell, count, patience, share, silent, untold
 from ..shot.choice import Choice
 from ..shot.shot import Shot
 from . import worker
@@ -139,7 +139,7 @@ def in_blender(
                 done = over - frames_of(free)
                 for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
                     wanted = list(group)
-                    _camera(shot.of(camera), making, wanted, share(progress, done, frames), tell)
+                    _camera(shot.of(camera), making, wanted, share(progress, done, frames, "rendering"), tell)
                     done += frames_of(wanted)
         compared.make(shot, making, [each for each in asked if each not in drawn], progress, tell)
         video.make(shot, making, progress)
@@ -169,15 +169,6 @@ def frames_of(pictures: list[Any]) -> int:
     return len({(picture.camera, picture.frame) for picture in pictures})
 
 
-def share(progress: Progress, before: int, frames: int) -> Progress:
-    """Progress of rendering some of so many frames, `before` of which are made; other work counts alone."""
-
-    def counted(here: int, of: int, what: str = "") -> None:
-        progress(*((before + here, frames) if what == "rendering" else (here, of)), what)
-
-    return counted
-
-
 def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell: Tell) -> None:
     """Render the pictures of a shot's one camera; its smoke is baked a frame ahead of them."""
     from ..blender import devices
@@ -194,7 +185,7 @@ def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell
             stage = setting.build_scene(part, progress, tell) if drawn else setting.empty()
             if drawn and shot.settings.render.engine == "cycles" and not done:
                 tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
-            pictures.render(shot, stage, making, group, share(progress, done, frames), ready)
+            pictures.render(shot, stage, making, group, share(progress, done, frames, "rendering"), ready)
             done += frames_of(group)
 
 

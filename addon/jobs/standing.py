@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import Error
-from ..progress import Progress, Tell, count, silent, untold
+from ..progress import Progress, Tell, count, share, silent, untold
 from ..shot.choice import Choice
 from ..shot.shot import Shot
 from . import worker
-from .render import Asked, frames_of, make, share, smoky
+from .render import Asked, frames_of, make, smoky
 
 
 def run(
@@ -113,7 +113,8 @@ def in_blender(
                 raise Error(f'the camera "{camera}" is not in the scene {scene}; build the cameras again')
             wanted, alone = list(group), shot.of(camera)
             engine.size(alone.settings, stage.scene)
-            making_pictures.render(alone, stage, making, wanted, share(progress, done, frames), ready)
+            part = share(progress, done, frames, "rendering")
+            making_pictures.render(alone, stage, making, wanted, part, ready)
             done += frames_of(wanted)
         video.make(shot, making, progress)
 

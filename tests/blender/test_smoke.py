@@ -211,6 +211,28 @@ def test_a_camera_that_records_no_smoke_culls_none_of_anothers(smoky, run):
     assert seen == [False, True, False]
 
 
+@pytest.mark.parametrize("linked", [True, False])
+def test_a_frame_that_one_camera_films_alone_is_that_cameras(smoky, run, tmp_path, monkeypatch, linked):
+    if not linked:
+        monkeypatch.setattr(os, "link", lambda *paths: os.stat(tmp_path / "no such file"))
+    first = replace(smoky.cameras[0], frames="1-3")
+    second = replace(first, name="second", frames="3")
+    both = Shot(replace(smoky, cameras=(first, second), cache=tmp_path), run)
+    told = []
+    place = bake.bake(both, lambda *done: told.append(done))
+    own = bake.folder(both.of(first.name))
+    assert {total for _, total, _ in told} == {3}
+    assert [done for done, *_ in told] == sorted(done for done, *_ in told)
+    assert sorted(path.name for path in own.glob("*.vdb")) == ["smoke_000001.vdb", "smoke_000002.vdb"]
+    for path in own.glob("*.vdb"):
+        assert (place / path.name).samefile(path) == linked
+        assert (place / path.name).read_bytes() == path.read_bytes()
+    files = {path.stat().st_ino: path.stat().st_size for path in tmp_path.glob("*/*.vdb")}
+    assert len(files) == (3 if linked else 5)
+    kept = sum(each.bytes for each in cache.kept(tmp_path))
+    assert kept == pytest.approx(sum(files.values()), abs=len(files))
+
+
 def test_a_cache_that_cannot_be_made_is_named(smoky, run, tmp_path):
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(InputError, match="cache"):

@@ -16,11 +16,11 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import writing
-from ...progress import Progress, Tell, count, silent, size, untold
+from ...progress import Progress, Tell, count, share, silent, size, untold
 from ...run import content
 from ...shot import schema, sources
 from ...shot.shot import Shot
-from . import baker, cache, flow_frames, outlook
+from . import alone, baker, cache, flow_frames, outlook
 from .baker import Baker
 from .flow import Flow
 from .view import resolution, shot_frames
@@ -48,7 +48,8 @@ def file(shot: Shot, frame: int) -> Path:
 def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None = None) -> Path:
     """Write the volumes of the shot (or of those of `frames` that it has) that are not there yet.
 
-    Several frames are made at once, as many as there are processors and memory for.
+    Several frames are made at once, as many as there are processors and memory for. Those that one of several
+    cameras films alone are that camera's own, as its film has them: they are made once for both.
 
     Returns
     -------
@@ -61,7 +62,15 @@ def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None =
     """
     place = _prepared(shot, progress)
     wanted = shot_frames(shot) if frames is None else _of_shot(shot, frames)
-    missing = [frame for frame in wanted if not _in(place, frame).exists()]
+
+    def lacking() -> list[int]:
+        return [frame for frame in wanted if not _in(place, frame).exists()]
+
+    missing = lacking()
+    for one, listed in alone.frames(shot, missing):
+        own = share(progress, len(wanted) - len(missing), len(wanted), "smoke")
+        alone.link(bake(one, own, listed), place, listed)
+        missing = lacking()
     done = len(wanted) - len(missing)
     progress(done, len(wanted), "smoke")
     if not missing:
