@@ -131,8 +131,13 @@ def _most_held() -> float:
     return next(int(line.split()[1]) for line in lines if line.startswith("VmHWM")) / 1024
 
 
-def cut(sample: Path, out: Path, minutes: slice, split: int = 1, own: bool = True) -> Path:
-    """Some of the sample's minutes, each cell in `split` x `split`; with its own arrival times or without."""
+def cut(
+    sample: Path, out: Path, minutes: slice, split: int = 1, own: bool = True, series: bool = False
+) -> Path:
+    """Some of the sample's minutes, each cell in `split` x `split`; with its own arrival times or without.
+
+    Split, it has no series but heat flux unless `series`.
+    """
     out.mkdir()
     toml = (sample / "run.toml").read_text().replace("interval_s = 60.0", _interval(minutes))
     if not own:
@@ -145,7 +150,7 @@ def cut(sample: Path, out: Path, minutes: slice, split: int = 1, own: bool = Tru
         if "itude" in path.stem:
             values = _finer(values, split)
         elif path.stem in SERIES:
-            if split > 1 and path.stem != "heat_flux":
+            if split > 1 and path.stem != "heat_flux" and not series:
                 continue
             values = values[minutes]
         if "itude" not in path.stem and split > 1:
