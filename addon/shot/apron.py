@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,7 @@ _PATCHES = ((1_700.0, 50), (400.0, 58), (300.0, 54))  # m and random numbers of 
 _FORGET = 9_000.0  # m; the heights of the edge fade into the region's within this distance
 _LIKE = 3_000.0  # m; in patches that grow rarer so fast, land is as that at the other side of the edge
 _DEVIATION = 0.304  # of a wave of gradient noise
+_ENOUGH = 720  # rows or columns of a grid that what is said of all of it is taken from
 _SMOOTH = 20  # cells to each side; relief finer than this crosses the edge as it is
 
 
@@ -71,22 +73,52 @@ def extend(
     y, x = _positions(rows, steps) * cell[0], _positions(columns, steps) * cell[1]
     dy = np.maximum(np.maximum(y[count] - y, y - y[count + rows - 1]), 0.0)
     dx = np.maximum(np.maximum(x[count] - x, x - x[count + columns - 1]), 0.0)
-    distance = np.hypot(dy[:, None], dx[None, :])
-    spacing = np.maximum(dy[:, None], dx[None, :]) * (GROWTH - 1.0)
-    across = tuple(_reflected(side, _positions(side, steps)) for side in (rows, columns))
-    apron = distance > 0.0
-    yy, xx = (np.broadcast_to(at, distance.shape)[apron] for at in (y[:, None], x[None, :]))
-    with ThreadPoolExecutor(1) as beside:
-        ranked = [beside.submit(_rank, xx, yy, size, spacing[apron], seed + use) for size, use in _PATCHES]
-        elevation = _heights(fields.elevation, across, y, x, distance, spacing, seed)
-        if known is not None:
-            elevation = np.where(apron, known(latitude, longitude, elevation), elevation)
-        ranks = [each.result() for each in ranked]
-    canopy, surface = (
-        _fuel(fields.elevation, fuel, across, elevation, distance, ranks)
-        for fuel in (fields.canopy_fuel, fields.surface_fuel)
+    row, column = np.nonzero((dy[:, None] > 0.0) | (dx[None, :] > 0.0))
+    points = _Points(
+        y[row],
+        x[column],
+        np.hypot(dy[row], dx[column]),
+        np.maximum(dy[row], dx[column]) * (GROWTH - 1.0),
+        (np.clip(row - count, 0, rows - 1), np.clip(column - count, 0, columns - 1)),
+        (
+            _reflected(rows, _positions(rows, steps))[row],
+            _reflected(columns, _positions(columns, steps))[column],
+        ),
     )
-    return Fields(latitude, longitude, elevation, canopy, surface, count)
+    inside = slice(count, -count)
+    with ThreadPoolExecutor(1) as beside:
+        ranked = [beside.submit(_rank, points, size, seed + use) for size, use in _PATCHES]
+        elevation = np.pad(fields.elevation, count)
+        elevation[row, column] = _heights(fields.elevation, y[inside], x[inside], points, seed)
+        if known is not None:
+            elevation[row, column] = known(latitude, longitude, elevation)[row, column]
+        ranks = [each.result() for each in ranked]
+    fuels = []
+    for fuel in (fields.canopy_fuel, fields.surface_fuel):
+        fuels.append(np.pad(fuel, count))
+        fuels[-1][row, column] = _fuel(fields.elevation, fuel, elevation[row, column], points, ranks)
+    return Fields(latitude, longitude, elevation, *fuels, count)
+
+
+class _Points(NamedTuple):
+    """Points of the apron, n of them.
+
+    Attributes
+    ----------
+    y, x
+        (n,) m from the grid's first row and column.
+    distance, spacing
+        (n,) m from the grid; between points there.
+    edge, across
+        Rows and columns (n,) of the grid: of its nearest point, and of that as far within its edge.
+    """
+
+    y: NDArray[np.float64]
+    x: NDArray[np.float64]
+    distance: NDArray[np.float64]
+    spacing: NDArray[np.float64]
+    edge: tuple[NDArray[np.int64], NDArray[np.int64]]
+    across: tuple[NDArray[np.int64], NDArray[np.int64]]
 
 
 def _continue(axis: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -109,97 +141,92 @@ def _reflected(count: int, position: NDArray[np.float64]) -> NDArray[np.int64]:
 
 def _heights(
     known: NDArray[np.float64],
-    across: tuple[NDArray[np.int64], NDArray[np.int64]],
     y: NDArray[np.float64],
     x: NDArray[np.float64],
-    distance: NDArray[np.float64],
-    spacing: NDArray[np.float64],
+    points: _Points,
     seed: int,
 ) -> NDArray[np.float64]:
     """Edge heights that fade into the region's plane with hills; hills finer than the mesh are left out.
 
-    Relief finer than `_SMOOTH` goes on as it is within the edge (`across`), turned over so that slopes go on.
+    The grid's rows and columns are at `y` and `x`, m. Relief finer than `_SMOOTH` goes on as it is within the
+    edge, turned over so that slopes go on.
     """
-    margin, inside = (len(y) - known.shape[0]) // 2, distance == 0.0
-    yy, xx = np.broadcast_arrays(y[:, None], x[None, :])
-    design = np.stack([np.ones(inside.sum()), yy[inside], xx[inside]], axis=1)
-    normal = design.T @ design
-    plane = np.linalg.lstsq(normal, design.T @ known.ravel(), rcond=None)[0]
-    trend = plane[0] + plane[1] * yy + plane[2] * xx
-    low, high = np.percentile(known, [2, 98])
-    trend = np.clip(trend, low - 200.0, high + 300.0)
-    relief = float(np.std(known.ravel() - trend[inside]))
-    hills, amplitude, away = np.zeros(distance.shape), 1.0, ~inside
+    part = _part(known.shape)
+    some, y, x = known[part], y[part[0]], x[part[1]]
+    design = np.stack(np.broadcast_arrays(1.0, y[:, None], x[None, :]), axis=-1).reshape(-1, 3)
+    plane = np.linalg.lstsq(design.T @ design, design.T @ some.ravel(), rcond=None)[0]
+    low, high = np.percentile(some, [2, 98])
+
+    def trend(y: NDArray, x: NDArray) -> NDArray[np.float64]:
+        return np.clip(plane[0] + plane[1] * y + plane[2] * x, low - 200.0, high + 300.0)
+
+    relief = float(np.std(some - trend(y[:, None], x[None, :])))
+    hills, amplitude = np.zeros(points.x.shape), 1.0
     for octave in range(7):
         size = 14_000.0 / 2.0**octave
-        fine = noise.smoothstep(size / 2.0, size / 4.0, spacing[away])
-        hills[away] += amplitude * fine * noise.perlin(xx[away] / size, yy[away] / size, seed + octave)
+        fine = noise.smoothstep(size / 2.0, size / 4.0, points.spacing)
+        hills += amplitude * fine * noise.perlin(points.x / size, points.y / size, seed + octave)
         amplitude *= 0.5
     smooth = _blurred(known)
     fine = known - smooth
-    like = np.exp(-distance / _LIKE)
-    turned = (
-        2.0 * np.pad(fine, margin, "edge") * noise.smoothstep(1500.0, 0.0, distance) - fine[np.ix_(*across)]
+    like = np.exp(-points.distance / _LIKE)
+    turned = 2.0 * fine[points.edge] * noise.smoothstep(1500.0, 0.0, points.distance) - fine[points.across]
+    far = 1.0 - np.exp(-points.distance / _FORGET)
+    edge = smooth[points.edge]
+    return (
+        edge + far * (trend(points.y, points.x) - edge) + like * turned + (1.0 - like) * 2.2 * relief * hills
     )
-    far = 1.0 - np.exp(-distance / _FORGET)
-    edge = np.pad(smooth, margin, "edge")
-    made = edge + far * (trend - edge) + like * turned + (1.0 - like) * 2.2 * relief * hills
-    made[inside] = known.ravel()
-    return made
+
+
+def _part(shape: tuple[int, ...]) -> tuple[slice, slice]:
+    """Rows and columns of a grid that what is said of all of it is taken from: all, of a large one some."""
+    rows, columns = (max(count // _ENOUGH, 1) for count in shape)
+    return slice(None, None, rows), slice(None, None, columns)
 
 
 def _blurred(field: NDArray[np.float64]) -> NDArray[np.float64]:
     """Means over `_SMOOTH` cells to each side along both axes, twice; beyond its ends it goes on level."""
     window = 2 * _SMOOTH + 1
-    for axis in (0, 1, 0, 1):
-        padded = np.pad(field, [(_SMOOTH + 1, _SMOOTH) if k == axis else (0, 0) for k in (0, 1)], "edge")
-        total = np.cumsum(padded, axis=axis)
-        count = field.shape[axis]
-        field = (total.take(range(window, window + count), axis) - total.take(range(count), axis)) / window
+    for _ in range(4):
+        total = np.cumsum(np.pad(field, [(_SMOOTH + 1, _SMOOTH), (0, 0)], "edge"), axis=0)
+        field = ((total[window:] - total[:-window]) / window).T
     return field
 
 
 def _fuel(
     known_height: NDArray[np.float64],
     known_fuel: NDArray[np.float64],
-    across: tuple[NDArray[np.int64], NDArray[np.int64]],
     height: NDArray[np.float64],
-    distance: NDArray[np.float64],
+    points: _Points,
     ranks: list[NDArray[np.float64]],
 ) -> NDArray[np.float64]:
-    """Fuel and the apron's: as across the edge at first, farther out as at such a height of the grid, patchy.
+    """The apron's fuel (n,): first as across the edge, farther out as at such a height of the grid, patchy.
 
     Not only its mean but all its distribution is that of the grid: as much ground has to be bare.
     `ranks` are 0..1 at the apron's points: of its fuels, its height, and whether it is as across the edge.
     """
-    apron = distance > 0.0
-    edges = np.quantile(known_height, np.linspace(0.0, 1.0, _BANDS + 1))
-    band = np.clip(np.searchsorted(edges, known_height) - 1, 0, _BANDS - 1)
+    part = _part(known_height.shape)
+    some_heights, some_fuels = known_height[part].ravel(), known_fuel[part].ravel()
+    edges = np.quantile(some_heights, np.linspace(0.0, 1.0, _BANDS + 1))
+    band = np.clip(np.searchsorted(edges, some_heights) - 1, 0, _BANDS - 1)
     parts = np.linspace(0.0, 1.0, 65)
-    found = [known_fuel[band == k] for k in range(_BANDS)]
-    quantiles = np.array([np.quantile(fuel if len(fuel) else known_fuel, parts) for fuel in found])
-    which = np.interp(height[apron], 0.5 * (edges[1:] + edges[:-1]), np.arange(_BANDS))
+    found = [some_fuels[band == k] for k in range(_BANDS)]
+    quantiles = np.array([np.quantile(fuel if len(fuel) else some_fuels, parts) for fuel in found])
+    which = np.interp(height, 0.5 * (edges[1:] + edges[:-1]), np.arange(_BANDS))
     which = np.clip(np.round(which + ranks[1] - 0.5), 0, _BANDS - 1).astype(int)
     at = ranks[0] * (len(parts) - 1)
     low = np.minimum(at.astype(int), len(parts) - 2)
     usual = quantiles[which, low] + (at - low) * (quantiles[which, low + 1] - quantiles[which, low])
-    found = known_fuel[np.ix_(*across)]
-    found[apron] = np.where(np.exp(-distance[apron] / _LIKE) > ranks[2], found[apron], usual)
-    return found
+    return np.where(np.exp(-points.distance / _LIKE) > ranks[2], known_fuel[points.across], usual)
 
 
-def _rank(
-    x: NDArray[np.float64],
-    y: NDArray[np.float64],
-    size: float,
-    spacing: NDArray[np.float64],
-    seed: int,
-) -> NDArray[np.float64]:
-    """Noise at places (n,) spread evenly from 0 to 1, in patches of `size` metres.
+def _rank(points: _Points, size: float, seed: int) -> NDArray[np.float64]:
+    """Noise at the apron's points (n,) spread evenly from 0 to 1, in patches of `size` metres.
 
-    Where the grid is too coarse for them (`spacing`, (n,) m) they are larger, else they would be streaks.
+    Where the grid is too coarse for them they are larger, else they would be streaks.
     """
-    largest = np.maximum(size, 4.0 * spacing)
+    x, y = points.x, points.y
+    largest = np.maximum(size, 4.0 * points.spacing)
     total, square = np.zeros(x.shape), np.zeros(x.shape)
     for octave in range(-2, 2 + int(np.ceil(np.log2(largest.max() / size)))):
         wave = size * 2.0**octave

@@ -17,8 +17,10 @@ from .relief import Relief
 from .settings import Settings
 
 NEVER = 1.0e9  # arrival time of places that never burned, s
+UNKNOWN = 1.0e8  # the same in `burn_time`: less, so that little is lost beside a place that burned
 _LEVEL = 0.05  # m
 _SPREAD = (0.01, 5.0)  # m/s
+_RINGS = 3  # cells beyond the last perimeter whose arrival times are made up
 RELIEF = 7.0  # standard deviation of the added relief where slopes are 45 degrees, m
 _OCTAVES = ((210.0, 1.0), (105.0, 0.55), (52.0, 0.27), (26.0, 0.12))  # of the relief: m, weight
 _SHARP = 2.4
@@ -65,7 +67,7 @@ class Ground:
             _ascending(latitude, height / north),
             _ascending(longitude, width / east),
             *(
-                np.nan_to_num(_oriented(field, latitude, longitude))
+                np.nan_to_num(_oriented(field, latitude, longitude), copy=False)
                 for field in (self._relief.fuel, run.canopy_fuel, run.surface_fuel)
             ),
         )
@@ -134,19 +136,30 @@ class Ground:
         centres of two cells as their times say; where it has stopped, half-way.
         """
         margin, reached = self.fields.margin, np.isfinite(arrival)
-        self.arrival = np.pad(np.where(reached, arrival, NEVER), margin, constant_values=NEVER)
+        self.arrival = np.full(self.shape, NEVER)
+        self.burn_time, self.burned = np.full(self.shape, UNKNOWN), np.zeros(self.shape)
+        near = box(reached, more=_RINGS)
+        if near is None:
+            return
+        end = max(end, float(np.max(arrival, initial=end, where=reached)))
+        arrival, reached = arrival[near], reached[near]
         crossing = np.zeros(arrival.shape)
         crossing[reached] = burning.crossing(arrival, *np.nonzero(reached))
-        time, crossing, known = _beyond(np.where(reached, arrival, 0.0), crossing, reached, rings=3)
-        end = max(end, float(np.max(arrival, initial=end, where=reached)))
+        time, crossing, known = _beyond(np.where(reached, arrival, 0.0), crossing, reached)
         part = np.clip(0.5 + (end - time) / np.where(known, crossing, 1.0), 0.0, 1.0)
         burned = np.where(known & (reached | (time > end)), part, 0.0)
         if self.made_up:
             row, column = np.nonzero(burned)
-            patches = noise.fractal(column * self.cell[1], row * self.cell[0], 800.0, 3, self.seed + 70)
+            north, east = (
+                (at + part.start) * size
+                for at, part, size in zip((row, column), near, self.cell, strict=True)
+            )
+            patches = noise.fractal(east, north, 800.0, 3, self.seed + 70)
             burned[row, column] *= 1.0 - noise.smoothstep(0.50, 0.68, patches)  # islands left out, 6 %
-        self.burned = np.pad(burned, margin)
-        self.burn_time = np.pad(np.where(known, time, NEVER), margin, constant_values=NEVER)
+        inner = slice(margin, -margin or None)
+        self.arrival[inner, inner][near] = np.where(reached, arrival, NEVER)
+        self.burn_time[inner, inner][near] = np.where(known, time, UNKNOWN)
+        self.burned[inner, inner][near] = burned
 
     def indices(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
         """Fractional row and column of places, held inside the grid."""
@@ -203,7 +216,7 @@ class Ground:
         place[near] = self.frame.forward_grid(
             self.fields.latitude[near[0]],
             self.fields.longitude[near[1]],
-            height - np.maximum(_widened(bend, 2) + relief, _widened(self._hollows()[near], 1)),
+            height - np.maximum(widened(bend, 2) + relief, widened(self._hollows()[near], 1)),
         )
         return place
 
@@ -221,11 +234,7 @@ class Ground:
         low, high = (f(self.eyes[:, :2], axis=0) for f in (np.min, np.max))
         more = self.near_radius + 4.0 * max(self.cell)
         inside = np.all((place[..., :2] > low - more) & (place[..., :2] < high + more), axis=-1)
-        if not inside.any():
-            return None
-        ends = (np.flatnonzero(inside.any(axis=axis))[[0, -1]] for axis in (1, 0))
-        rows, columns = (slice(int(first), int(last) + 1) for first, last in ends)
-        return rows, columns
+        return box(inside)
 
     def point(self, latitude: ArrayLike, longitude: ArrayLike, above: ArrayLike = 0.0) -> Array:
         """Scene points (n, 3) at a height above the ground (m) at places (degrees)."""
@@ -263,7 +272,7 @@ class Ground:
     def arrival_at(self, row: ArrayLike, column: ArrayLike) -> Array:
         """Arrival time (s) at fractional rows and columns; NEVER in islands and where most never burned."""
         burned = bilinear(self.burned, row, column)
-        return np.where(burned >= 0.5, bilinear(np.minimum(self.burn_time, 1.0e8), row, column), NEVER)
+        return np.where(burned >= 0.5, bilinear(self.burn_time, row, column), NEVER)
 
     def spread(self, row: Array, column: Array) -> Array:
         """Rate of spread (m/s): the inverse of the arrival time's slope over one cell."""
@@ -271,7 +280,7 @@ class Ground:
         for axis, size in enumerate(self.cell):
             shift = (0.5, 0.0) if axis == 0 else (0.0, 0.5)
             times = [
-                bilinear(np.minimum(self.burn_time, 1.0e8), row + sign * shift[0], column + sign * shift[1])
+                bilinear(self.burn_time, row + sign * shift[0], column + sign * shift[1])
                 for sign in (1.0, -1.0)
             ]
             slope.append((times[0] - times[1]) / size)
@@ -304,7 +313,7 @@ def _water(fields: apron.Fields) -> Array:
     """Lakes, 0 or 1: ground without fuel that is as level as only water is, 5 cm over three cells."""
     if min(fields.elevation.shape) < 3:
         return np.zeros(fields.elevation.shape)
-    level = _widened(fields.elevation, 1) + _widened(-fields.elevation, 1) < _LEVEL
+    level = widened(fields.elevation, 1) + widened(-fields.elevation, 1) < _LEVEL
     bare = _fuelless(fields)
     inner = (level & bare).astype(np.float64)
     return np.where(bare & (inner + _neighbours(inner) > 0.0), 1.0, 0.0)
@@ -318,12 +327,21 @@ def _bare(fields: apron.Fields) -> Array:
     return bare
 
 
-def _beyond(
-    time: Array, crossing: Array, known: NDArray[np.bool_], rings: int
-) -> tuple[Array, Array, NDArray[np.bool_]]:
-    """Times and crossings (s) of cells, those of a few rings around them, and which cells these are."""
+def box(chosen: NDArray[np.bool_], more: int = 0) -> tuple[slice, slice] | None:
+    """Rows and columns that hold all that is chosen (ny, nx), and `more` to each side; None: nothing is."""
+    slices = []
+    for axis, count in enumerate(chosen.shape):
+        hit = np.flatnonzero(chosen.any(axis=1 - axis))
+        if len(hit) == 0:
+            return None
+        slices.append(slice(max(int(hit[0]) - more, 0), min(int(hit[-1]) + 1 + more, count)))
+    return slices[0], slices[1]
+
+
+def _beyond(time: Array, crossing: Array, known: NDArray[np.bool_]) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Times and crossings (s) of cells, those of `_RINGS` rings around them, and which cells these are."""
     time, crossing, known = time.copy(), crossing.copy(), known.copy()
-    for _ in range(rings):
+    for _ in range(_RINGS):
         weight = _neighbours(known.astype(np.float64))
         grow = ~known & (weight > 0.0)
         pace = _neighbours(crossing * known)[grow] / weight[grow]
@@ -336,9 +354,8 @@ def _beyond(
 def _neighbours(field: Array) -> Array:
     """Sum over the eight neighbours."""
     padded = np.pad(field, 1)
-    rows, columns = field.shape
-    windows = (padded[i : i + rows, j : j + columns] for i in range(3) for j in range(3))
-    return sum(windows) - field
+    three = padded[:-2] + padded[1:-1] + padded[2:]
+    return three[:, :-2] + three[:, 1:-1] + three[:, 2:] - field
 
 
 def _second_difference(field: Array, axis: int) -> Array:
@@ -347,7 +364,7 @@ def _second_difference(field: Array, axis: int) -> Array:
     return np.diff(padded, 2, axis)
 
 
-def _widened(field: NDArray, reach: int) -> NDArray:
+def widened(field: NDArray, reach: int) -> NDArray:
     """The largest value within `reach` rows and columns."""
     for axis in (0, 1):
         padded = np.pad(field, [(reach, reach) if k == axis else (0, 0) for k in (0, 1)], "edge")

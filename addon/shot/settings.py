@@ -89,7 +89,7 @@ class Ground:
     )
     error: float = key(
         0.05,
-        "how far the mesh may be above or below the ground that cameras see; more is coarser",
+        "how far the mesh may be above or below what cameras see; more is coarser",
         unit="pixels",
         above=0,
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .ground import NEVER, Ground
+from .ground import NEVER, UNKNOWN, Ground, box
 
 Array = NDArray[np.float64]
 
@@ -50,16 +50,18 @@ def smoothed(values: Array) -> Array:
 
 def _burned(ground: Ground) -> tuple[Array, Array, Array, Array]:
     """East, north (m), arrival (s) and rate of spread (m/s) of every cell that burns."""
-    burned = ground.arrival < NEVER
+    near = box(ground.arrival < NEVER, more=1)
+    if near is None:
+        return np.empty(0), np.empty(0), np.empty(0), np.empty(0)
+    arrival, time = ground.arrival[near], ground.burn_time[near]
+    burned = arrival < NEVER
     with np.errstate(divide="ignore"):
-        slope = np.hypot(
-            *np.gradient(np.where(ground.burn_time < NEVER, ground.burn_time, np.nan), *ground.cell)
-        )
-    row, column = np.nonzero(burned)
+        slope = np.hypot(*np.gradient(np.where(time < UNKNOWN, time, np.nan), *ground.cell))
+    row, column = (at + part.start for at, part in zip(np.nonzero(burned), near, strict=True))
     latitude, longitude = ground.places(row, column)
     point = ground.frame.forward(latitude, longitude, ground.fields.elevation[row, column])
     speed = 1.0 / np.clip(np.nan_to_num(slope[burned], nan=10.0), 0.1, 100.0)
-    return point[:, 0], point[:, 1], ground.arrival[burned], np.minimum(speed, 5.0)
+    return point[:, 0], point[:, 1], arrival[burned], np.minimum(speed, 5.0)
 
 
 def _follow(times: Array, place: object) -> tuple[Array, Array]:

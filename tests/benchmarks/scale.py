@@ -136,7 +136,7 @@ def cut(
 ) -> Path:
     """Some of the sample's minutes, each cell in `split` x `split`; with its own arrival times or without.
 
-    Split, it has no series but heat flux unless `series`.
+    Split, it has no series but heat flux unless `series`; heights and arrival times are then bilinear.
     """
     out.mkdir()
     toml = (sample / "run.toml").read_text().replace("interval_s = 60.0", _interval(minutes))
@@ -154,9 +154,24 @@ def cut(
                 continue
             values = values[minutes]
         if "itude" not in path.stem and split > 1:
-            values = np.repeat(np.repeat(values, split, -2), split, -1)
+            whole = np.repeat(np.repeat(values, split, -2), split, -1)
+            smooth = "elevation" in path.stem or "arrival" in path.stem
+            values = _between(values, whole, split) if smooth else whole
         np.save(out / path.name, values)
     return out
+
+
+def _between(values: NDArray, whole: NDArray, split: int) -> NDArray:
+    """Bilinear between the cells' middles; where that is not known, the cell's own."""
+    found = values.astype(np.float64)
+    for axis in (0, 1):
+        count = values.shape[axis]
+        at = np.clip((np.arange(count * split) + 0.5) / split - 0.5, 0, count - 1)
+        low = np.minimum(at.astype(int), max(count - 2, 0))
+        high = np.minimum(low + 1, count - 1)
+        part = np.expand_dims(at - low, 1 - axis)
+        found = found.take(low, axis) * (1.0 - part) + found.take(high, axis) * part
+    return np.where(np.isfinite(found) & np.isfinite(whole), found, whole).astype(values.dtype)
 
 
 def _interval(minutes: slice) -> str:

@@ -86,7 +86,21 @@ def test_lakes_and_deserts_have_no_lone_trees(shot, forest, level):
 def test_what_is_unknown_stays_unknown(shot):
     axes = np.arange(FY, dtype=float), np.arange(FX, dtype=float)
     fuel = np.where(np.arange(FX) < HALF, 1.0, np.nan) * np.ones((FY, 1))
-    assert np.all(np.isnan(openings.with_lone(shot(), fuel, *axes)[:, HALF:]))
+    everywhere = np.ones(fuel.shape, bool)
+    assert np.all(np.isnan(openings.with_lone(shot(), fuel, *axes, everywhere)[:, HALF:]))
+
+
+def test_lone_trees_are_known_where_they_are_asked_for_and_beside(shot):
+    axes = np.arange(FY, dtype=float), np.arange(FX, dtype=float)
+    fuel = np.where(np.random.default_rng(3).uniform(size=(FY, FX)) < 0.02, 1.0, 0.0)
+    some = np.zeros(fuel.shape, bool)
+    some[FY // 2, HALF - 2 : HALF + 2] = True
+    film = shot()
+    whole, part = (openings.with_lone(film, fuel, *axes, at) for at in (np.ones_like(some), some))
+    beside = slice(FY // 2 - 1, FY // 2 + 2), slice(HALF - 3, HALF + 3)
+    assert 0 < np.sum(whole[beside] > 0.0) < whole[beside].size or np.all(whole[beside] > 0.0)
+    assert np.array_equal(part[beside], whole[beside])
+    assert np.all((part == whole) | (part == fuel))
 
 
 def test_trees_are_alike_in_patches_and_evenly_spread():

@@ -21,7 +21,7 @@ from ...shot.passes import masks
 from ...shot.rigs.satellite import HEIGHT
 from ...shot.shot import Shot
 from .. import clock
-from . import fate, models, openings, preview, seen, understorey
+from . import cells, fate, models, openings, preview, seen, understorey
 from .library import drawn, grass_models, levelled, tree_models
 from .material import TORCHING
 from .stand import Stand
@@ -63,7 +63,7 @@ def algorithm2(shot: Shot) -> dict[str, NDArray]:
         shot.relief.fuel,
         shot.local_frame,
         seed=seed,
-        mask=seen.cells(shot, _TALLEST, reach),
+        mask=cells.counting(shot, _TALLEST, reach, *axes, shot.relief.fuel),
     )
     position = seen.settled(shot.ground, found.position)
     kept = np.flatnonzero(seen.visible(shot, position, found.scale, reach))
@@ -94,7 +94,7 @@ def _below(shot: Shot, things: understorey.Things) -> dict[str, NDArray]:
 def _grass(shot: Shot) -> dict[str, NDArray]:
     run, ground, seed = shot.run, shot.ground, shot.settings.seed
     axes = run.fuel_latitude, run.fuel_longitude
-    mask = seen.cells(shot, _GRASS, GRASS_DISTANCE)
+    mask = cells.counting(shot, _GRASS, GRASS_DISTANCE, *axes, shot.relief.fuel)
     found = core.grass(run.surface_fuel, *axes, shot.relief.fuel, ground.frame, seed=seed, mask=mask)
     position = seen.settled(ground, found.position)
     moved = np.abs(position[:, 2] - found.position[:, 2]) > 0.0

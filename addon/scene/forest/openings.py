@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...shot import noise
-from ...shot.ground import bilinear
+from ...shot.ground import bilinear, box, widened
 from ...shot.shot import Shot
 
 LONE_FUEL = 0.02  # kg/m2; stands for the trees of cells without canopy fuel: 57 stems a hectare, up to 15 m
@@ -23,17 +23,24 @@ _GAP, _OPEN = 62.0, 0.88  # m, size of gaps; part of their trees that is missing
 Array = NDArray[np.float64]
 
 
-def with_lone(shot: Shot, fuel: NDArray, row: Array, column: Array) -> NDArray[np.float32]:
+def with_lone(
+    shot: Shot, fuel: NDArray, row: Array, column: Array, where: NDArray[np.bool_]
+) -> NDArray[np.float32]:
     """Canopy fuel (fy, fx) of cells at rows (fy,) and columns (fx,) of the ground, with that of lone trees.
 
-    They stand within `_SEED` cells of others, and not in lakes or where the fuel is unknown.
+    They stand within `_SEED` cells of others, and not in lakes or where the fuel is unknown; known they are
+    in the chosen cells (fy, fx) and the ones beside these.
     """
-    dry = shot.ground.water[np.ix_(np.round(row).astype(int), np.round(column).astype(int))] < 0.5
-    near = fuel > LONE_FUEL
-    for axis in (0, 1):
-        padded = np.pad(near, [(_SEED, _SEED) if k == axis else (0, 0) for k in (0, 1)])
-        near = np.lib.stride_tricks.sliding_window_view(padded, 2 * _SEED + 1, axis).any(-1)
-    return np.where((fuel <= LONE_FUEL) & dry & near, LONE_FUEL, fuel).astype(np.float32)
+    fuel = fuel.astype(np.float32)
+    inside = box(where, more=1 + _SEED)
+    if inside is None:
+        return fuel
+    part = fuel[inside]
+    lines = (np.round(at[along]).astype(int) for at, along in zip((row, column), inside, strict=True))
+    dry = shot.ground.water[np.ix_(*lines)] < 0.5
+    near = widened(part > LONE_FUEL, _SEED)
+    part[(part <= LONE_FUEL) & dry & near] = LONE_FUEL
+    return fuel
 
 
 def kept(shot: Shot, position: Array) -> Array:

@@ -8,12 +8,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from firetwin_core.geo import LocalFrame
 from numpy.typing import NDArray
 
 from ...run import areas
 from ...shot.relief import between
 from ...shot.shot import Shot
-from . import openings, seen
+from . import cells, openings
 
 _CELL = 74.0  # m, least size of a cell beyond the run; its fuels are invented in larger patches
 _OTHER = 7919  # added to the seed: land beyond is no copy of the run's
@@ -29,8 +30,6 @@ class Plot:
         (fy,), (fx,) degrees.
     canopy_fuel, elevation
         (fy, fx) kg/m2, m.
-    place
-        (fy, fx, 3) middles of the cells in the scene, m.
     mask
         (fy, fx) which of them a camera may see a tree of.
     area
@@ -43,10 +42,14 @@ class Plot:
     longitude: NDArray[np.float64]
     canopy_fuel: NDArray
     elevation: NDArray
-    place: NDArray[np.float64]
     mask: NDArray[np.bool_]
     area: float
     seed: int
+
+    def places(self, frame: LocalFrame, chosen: NDArray[np.bool_]) -> NDArray[np.float64]:
+        """Middles (n, 3) of chosen (fy, fx) cells in the scene, m."""
+        row, column = np.nonzero(chosen)
+        return frame.forward(self.latitude[row], self.longitude[column], self.elevation[row, column])
 
 
 def of(shot: Shot, height: float, reach: float) -> list[Plot]:
@@ -60,10 +63,10 @@ def of(shot: Shot, height: float, reach: float) -> list[Plot]:
         How far from cameras trees stand, m.
     """
     run, seed = shot.run, shot.settings.seed
-    place, axes = seen.middles(shot), (run.fuel_latitude, run.fuel_longitude)
-    fuel = openings.with_lone(shot, run.canopy_fuel, *_lines(shot, *axes))
-    mask = seen.cells(shot, height, reach, place) & (fuel > 0.0)
-    own = Plot(*axes, fuel, shot.relief.fuel, place, mask, float(np.prod(shot.ground.cell)), seed)
+    axes, elevation = (run.fuel_latitude, run.fuel_longitude), shot.relief.fuel
+    mask = cells.counting(shot, height, reach, *axes, elevation)
+    fuel = openings.with_lone(shot, run.canopy_fuel, *_lines(shot, *axes), mask)
+    own = Plot(*axes, fuel, elevation, mask & (fuel > 0.0), float(np.prod(shot.ground.cell)), seed)
     beyond = _beyond(shot, height, reach)
     return [own] if beyond is None else [own, beyond]
 
@@ -88,12 +91,11 @@ def _beyond(shot: Shot, height: float, reach: float) -> Plot | None:
     fuel, elevation = (
         between(field, row, column).astype(np.float32) for field in (fields.canopy_fuel, fields.elevation)
     )
-    fuel = openings.with_lone(shot, fuel, row, column)
-    place = shot.local_frame.forward_grid(*axes, elevation)
     out = ~(inside[0][:, None] & inside[1][None, :])
-    mask = seen.cells(shot, height, reach, place, out & (fuel > 0.0))
+    mask = cells.counting(shot, height, reach, *axes, elevation, out)
+    fuel = openings.with_lone(shot, fuel, row, column, mask)
     area = max(ground.cell[0], _CELL) * max(ground.cell[1], _CELL)
-    return Plot(*axes, fuel, elevation, place, mask, area, shot.settings.seed + _OTHER)
+    return Plot(*axes, fuel, elevation, mask & (fuel > 0.0), area, shot.settings.seed + _OTHER)
 
 
 def _lines(

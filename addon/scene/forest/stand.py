@@ -13,7 +13,7 @@ from firetwin_core import forest as core
 from numpy.typing import NDArray
 
 from ...shot import noise
-from ...shot.ground import bilinear
+from ...shot.ground import bilinear, widened
 from ...shot.shot import Shot
 from . import models, openings, plot, seen
 from .plot import Plot
@@ -138,10 +138,10 @@ def _kept(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
     budget, reach = shot.settings.forest.budget, shot.settings.forest.draw_distance
     near, parallel = shot.pixel
     # Neighbours as well: what is kept is bilinear between the cells' middles.
-    besides = [np.lib.stride_tricks.sliding_window_view(np.pad(p.mask, 1), (3, 3)).any((2, 3)) for p in plots]
+    besides = [widened(each.mask, 1) for each in plots]
     pixels, stems = [], []
     for each, beside in zip(plots, besides, strict=True):
-        distance = shot.sights.distance(each.place[beside])
+        distance = shot.sights.distance(each.places(shot.local_frame, beside))
         pixels.append(np.minimum(distance * near if np.isfinite(near) else np.inf, parallel))
         fade = _fade(distance, reach) if parallel > seen.PIXEL else 1.0
         stems.append(core.stems(each.canopy_fuel[beside]) * each.mask[beside] * fade * each.area)

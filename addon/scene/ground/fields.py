@@ -36,19 +36,19 @@ def images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]:
     `stand` (part of the forest that is drawn tree by tree).
     """
     ground = shot.ground
+    size = -(-max(ground.shape) // _LARGEST)
     known = {
         "canopy_fuel": ground.fields.canopy_fuel,
         "bare": ground.bare,
         "water": ground.water,
         "burn_time": np.minimum(ground.burn_time, 1.0e7),
         "burned": ground.burned,
-        "stand": _stand_cover(shot, grown),
     }
-    size = -(-max(ground.shape) // _LARGEST)
+    thin = {name: _thinned(field, size) for name, field in known.items()}
+    thin["stand"] = _stand_cover(shot, grown, size)
     made = {}
     for image in (_FUEL, _FIRE):
-        channels = [known[name] for name, (holder, _) in NAMES.items() if holder == image]
-        made[image] = _image(image, [_thinned(field, size) for field in channels])
+        made[image] = _image(image, [thin[name] for name, (holder, _) in NAMES.items() if holder == image])
     return made
 
 
@@ -76,16 +76,18 @@ class Fields:
         return self._channels[image][channel]
 
 
-def _thinned(field: NDArray[np.float64], size: int) -> NDArray[np.float32]:
+def _thinned(field: NDArray[np.float64], size: int) -> NDArray[np.float64]:
     """Means of size x size points each; beyond its ends a field goes on level."""
     if size == 1:
-        return field.astype(np.float32)
+        return field
     field = np.pad(field, [(0, -count % size) for count in field.shape], "edge")
-    rows, columns = (count // size for count in field.shape)
-    return field.reshape(rows, size, columns, size).mean(axis=(1, 3), dtype=np.float64).astype(np.float32)
+    total = np.zeros([count // size for count in field.shape])
+    for row, column in np.ndindex(size, size):
+        total += field[row::size, column::size]
+    return total / size**2
 
 
-def _image(name: str, channels: list[NDArray[np.float32]]) -> bpy.types.Image:
+def _image(name: str, channels: list[NDArray[np.float64]]) -> bpy.types.Image:
     """An image of numbers, which is saved with the scene."""
     rows, columns = channels[0].shape
     image = bpy.data.images.new(name, columns, rows, alpha=False, float_buffer=True, is_data=True)
@@ -110,16 +112,16 @@ def photos(shot: Shot) -> list[tuple[photo.Picture, bpy.types.Image]]:
     return made
 
 
-def _stand_cover(shot: Shot, grown: Stand | None) -> NDArray[np.float64]:
+def _stand_cover(shot: Shot, grown: Stand | None, size: int) -> NDArray[np.float64]:
     """Part of the forest's trees that stands there one by one, so that the ground need not draw it."""
-    ground = shot.ground
-    cover = np.zeros(ground.shape)
+    fields = shot.ground.fields
+    latitude, longitude = (_thinned(axis[None], size)[0] for axis in (fields.latitude, fields.longitude))
+    elevation = _thinned(fields.elevation, size)
     if grown is None or not shot.near:
-        return cover
-    place = ground.frame.forward_grid(
-        ground.fields.latitude, ground.fields.longitude, ground.fields.elevation
-    )
-    distance = shot.sights.distance(place.reshape(-1, 3)).reshape(ground.shape)
+        return np.zeros(elevation.shape)
+    place = shot.ground.frame.forward_grid(latitude, longitude, elevation)
+    distance = shot.sights.distance(place.reshape(-1, 3)).reshape(elevation.shape)
+    cover = np.zeros(elevation.shape)
     close = distance < grown.radius
     cover[close] = grown.coverage(distance[close])
     return cover

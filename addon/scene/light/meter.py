@@ -209,21 +209,30 @@ def _depth(smoke: Smoke, start: Array, along: Array, ends: Array | float) -> tup
 
     Of each fire's parcels the one counts that is thickest on a ray.
     """
-    total, met, bright = np.zeros(len(start)), np.full(len(start), np.inf), np.ones(len(start))
-    rows = np.arange(len(start))
-    for place, radius, depth in zip(smoke.place, smoke.radius, smoke.depth, strict=True):
-        off = place[None] - start[:, None]
-        far = np.einsum("nmk,nk->nm", off, along)
-        beside = np.maximum((off**2).sum(axis=2) - far**2, 0.0)
-        seen = (far > 0.0) & (far < np.broadcast_to(ends, len(start))[:, None] + radius)
-        thick = seen * depth * np.exp(-beside / radius**2)
-        most = np.argmax(thick, axis=1)
-        thickest = thick[rows, most]
-        front = np.maximum(far[rows, most] - _FRONT * radius[most], 0.0)
-        first = (thickest > _HIDES) & (front < met)
-        met, bright = np.where(first, front, met), np.where(first, smoke.bright[most], bright)
-        total += thickest
-    return total, np.where(np.isfinite(met), met, 0.0), bright
+    n = len(start)
+    if len(smoke.place) == 0:
+        return np.zeros(n), np.zeros(n), np.ones(n)
+    radius = smoke.radius[..., None]
+    far = smoke.place @ along.T - (start * along).sum(axis=1)
+    beside = np.maximum(_squares(smoke.place, start) - far**2, 0.0)
+    seen = (far > 0.0) & (far < ends + radius)
+    thick = seen * smoke.depth[..., None] * np.exp(-beside / radius**2)
+    most = np.argmax(thick, axis=1)
+    thickest, far, radius = (
+        np.take_along_axis(np.broadcast_to(v, thick.shape), most[:, None], axis=1)[:, 0]
+        for v in (thick, far, radius)
+    )
+    front = np.where(thickest > _HIDES, np.maximum(far - _FRONT * radius, 0.0), np.inf)
+    first, rays = np.argmin(front, axis=0), np.arange(n)
+    met = front[first, rays]
+    hides = np.isfinite(met)
+    bright = np.where(hides, smoke.bright[most[first, rays]], 1.0)
+    return thickest.sum(axis=0), np.where(hides, met, 0.0), bright
+
+
+def _squares(some: Array, others: Array) -> Array:
+    """Squares (..., n) of distances of places (..., 3) from others (n, 3)."""
+    return (some**2).sum(axis=-1)[..., None] + (others**2).sum(axis=1) - 2.0 * (some @ others.T)
 
 
 def _lit_smoke(light: sky.State, along: Array) -> Array:
@@ -236,14 +245,13 @@ def _lit_smoke(light: sky.State, along: Array) -> Array:
 def _shine(smoke: Smoke, start: Array, along: Array, ends: Array) -> Array:
     """Most light (n,) of flames on smoke on a ray: sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2)."""
     places, power = smoke.light
-    most = np.zeros(len(start))
-    for place in places:
-        far = np.maximum(((place - start) * along).sum(axis=1), 0.0)
-        nearest = start + np.minimum(far, ends)[:, None] * along
-        square = ((nearest[:, None] - places[None]) ** 2).sum(axis=2)
-        light = np.exp(-np.sqrt(square) / 600.0) / (1.0 + square / 250.0**2)
-        most = np.maximum(most, light @ power / 1.0e9)
-    return most
+    if len(places) == 0:
+        return np.zeros(len(start))
+    far = np.maximum(along @ places.T - (start * along).sum(axis=1)[:, None], 0.0)
+    nearest = start[:, None] + np.minimum(far, ends[:, None])[..., None] * along[:, None]
+    square = np.maximum(_squares(nearest, places), 0.0)
+    light = np.exp(-np.sqrt(square) / 600.0) / (1.0 + square / 250.0**2)
+    return (light @ power).max(axis=1) / 1.0e9
 
 
 def luminance(colour: tuple[float, ...]) -> float:
