@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ..errors import Error
 from ..progress import READING, Progress, Tell, patience, silent, untold
 from ..shot.choice import Choice
 from . import worker
@@ -26,18 +27,25 @@ def run(
     Returns
     -------
     The folders that hold them; none without smoke.
+
+    Raises
+    ------
+    Error
+        The process that wrote them ended.
     """
     with patience(READING):
         shot = choice.shot()
     if not shot.settings.smoke.enabled:
         return []
     task = {"choice": choice.plain(), "together": together}
-    return [
-        Path(place) for place in worker.run(f"{__name__}:in_blender", task, progress, stop=stop, tell=tell)
-    ]
+    try:
+        places = worker.run(f"{__name__}:in_process", task, progress, stop=stop, tell=tell, blender=False)
+    except worker.EndedError as error:
+        raise Error(f"the bake {error}; if memory ran out, larger voxels need less") from None
+    return [Path(place) for place in places]
 
 
-def in_blender(choice: dict[str, str], together: bool, progress: Progress, tell: Tell) -> list[str]:
+def in_process(choice: dict[str, str], together: bool, progress: Progress, tell: Tell) -> list[str]:
     """Bake and return the folders of the volumes."""
     from ..scene.smoke import bake, outlook
 
