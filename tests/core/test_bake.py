@@ -38,5 +38,5 @@ def test_a_bake_that_is_ended_says_how_and_what_may_help(choice, monkeypatch):
         raise worker.EndedError("stopped on signal 9 (SIGKILL)")
 
     monkeypatch.setattr(worker, "run", ended)
-    with pytest.raises(Error, match="the bake stopped on signal 9 .*larger voxels"):
+    with pytest.raises(Error, match=r"the bake stopped on signal 9 .*larger voxels"):
         bake.run(choice)
