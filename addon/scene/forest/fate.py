@@ -12,7 +12,7 @@ from ...shot.ground import bilinear
 from ...shot.shot import Shot
 
 _UNEVEN = 0.4  # standard deviation of the logarithm of intensity from tree to tree (assumed)
-_BASE = 0.25  # of a tree's height: where its crown begins (assumed)
+_BASE = 0.1  # of a tree's height: where branches, or young trees under it, take flames up (assumed)
 _MOISTURE = 100.0  # % of the needles' dry weight (assumed: the least of a dry autumn)
 
 Array = NDArray[np.float64]

@@ -15,10 +15,12 @@ from ...blender.owned import Stage
 from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import granite, haze, infrared, temperature
-from ..glow import CLOSE, EMBER, FLAME, brightness
+from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME, brightness
 
 TORCHING = 300.0  # s that a crown is in flames; then it is gone
-_TORCH = 0.1, 0.35  # of the flames' radiance, at the distances CLOSE: crowns near by fill pixels
+_TORCH = 0.1, 0.9  # of the flames' radiance, at the distances CLOSE: crowns near by fill pixels
+_TONGUES = 0.3  # of their height is how wide flames in crowns are
+_BETWEEN = 0.0, 0.9  # the same of flames that are seen between crowns: far away no gaps are drawn; by eye
 _DEAD = 0.03  # part of the trees that stood dead and brown before
 _SINGED = 0.7  # how far the green tops of half scorched trees are brown: hot air and soot dull them; by eye
 _BROWN = ((0.060, 0.041, 0.026), (0.118, 0.080, 0.046))  # needles killed by drought, beetles or heat
@@ -168,17 +170,25 @@ def _leaves(
     normal: nodes.Value,
     torched: nodes.Value | float,
 ) -> None:
-    """Finish a leaf material of this colour; it goes up in flames where `torched` is 1."""
+    """Finish a leaf material of this colour; it goes up in flames where `torched` is 1.
+
+    Far away trees are few and wide and hide the ground: there others bear the flames that are between them.
+    """
     age = _age(tree)
+    distance = tree.output("ShaderNodeCameraData", name="View Distance")
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour, "Normal": normal})
     through = tree.output("ShaderNodeBsdfTranslucent", {"Color": colour, "Normal": normal})
     clear = tree.input("Translucency", 0.22, "Part of the light that goes through leaves", "Leaves", most=1.0)
     leaf = tree.mix_shader(clear, matt, through)
-    position = tree.output("ShaderNodeNewGeometry", name="Position")
-    flicker = tree.noise(tree.vector("ADD", position, tree.combine(0.0, 0.0, age * -6.0)), 4.0, 2.0)
-    alight = age.smoothstep(0.0, 40.0) * age.smoothstep(TORCHING, 0.4 * TORCHING) * torched
+    x, y, z = tree.separate(tree.output("ShaderNodeNewGeometry", name="Position"))
+    flicker = tree.noise(tree.combine(x, y, (z - age * 6.0) * _TONGUES), 4.0, 2.0)
+    crown = age.smoothstep(0.0, 40.0) * age.smoothstep(TORCHING, 0.4 * TORCHING) * torched
+    lasts = distance.ramp(1500.0, FAR, *FLAMING_TIME)
+    below = age.smoothstep(0.0, 20.0) * (age / lasts).smoothstep(1.0, 0.3) * (1.0 - torched)
+    below = below * distance.ramp(*CLOSE, 0.0, 1.0)
+    alight = crown + below
     flaming = alight * flicker.smoothstep(0.47, 0.69)
-    afar = tree.output("ShaderNodeCameraData", name="View Distance").ramp(*CLOSE, *_TORCH)
+    afar = tree.mix(torched, distance.ramp(*CLOSE, *_BETWEEN), distance.ramp(*CLOSE, *_TORCH))
     ember = tree.input("Ember Colour", EMBER, "Light of a crown that glows", "Fire")
     flame = tree.input("Flame Colour", FLAME, "Light of a crown in flames", "Fire")
     bright = tree.input("Flame Brightness", brightness(shot), "Radiance of a crown in flames", "Fire")

@@ -17,11 +17,9 @@ from ...shot import photo
 from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import granite, haze
-from ..glow import CLOSE, EMBER, FLAME
+from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME
 from . import fields, heat
 
-FLAMING_TIME = 100.0, 300.0  # s that the edge is in flames, seen from nearby and from FAR
-FAR = 9000.0  # m; from there the edge is drawn wider, as a picture's pixels are
 EMBER_TIME = 3600.0  # s in which embers fade to 1/e
 _CROWNS_SEEN = (5000.0, 15_000.0)  # m from the camera at which crowns are full and gone
 _OWN = 1.25  # times the distance to which trees are drawn: from there on the canopy is the ground's

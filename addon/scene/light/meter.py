@@ -104,7 +104,8 @@ def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array, Array]:
 
     facing = np.zeros(len(place))
     facing[ground] = _facing(shot, place[ground], light.direction)
-    return seen(facing), seen(light.direction[2]), hidden * _shine(smoke, start, along, ends)
+    shine = hidden * _shine(smoke, start, along, ends) * _scattered(shot)
+    return seen(facing), seen(light.direction[2]), shine
 
 
 def _crowns(shot: Shot, eye: Array, time: float) -> float:
@@ -240,6 +241,12 @@ def _lit_smoke(light: sky.State, along: Array) -> Array:
     phase = np.arccos(-np.clip(along @ light.direction, -1.0, 1.0))
     sphere = (np.sin(phase) + (np.pi - phase) * np.cos(phase)) * 2.0 / (3.0 * np.pi)
     return _CLOUD * (light.power * sphere / np.pi + light.sky_mean)
+
+
+def _scattered(shot: Shot) -> float:
+    """Part of the flames' light that smoke gives on if it is thin everywhere, as `flow_material` has it."""
+    thickest = shot.settings.smoke.extinction or np.inf
+    return float(sky.THIN + (1.0 - sky.THIN) * noise.smoothstep(*sky.THICK, thickest))
 
 
 def _shine(smoke: Smoke, start: Array, along: Array, ends: Array) -> Array:

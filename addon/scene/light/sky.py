@@ -31,7 +31,9 @@ _AROUND = (
 )  # at the heights of MEAN, mean radiance of the same sky in red, green and blue, all parts counting alike
 
 GLOW = (1.0, 0.16, 0.02)  # colour of smoke that flames light
-_GLOW_LIGHT = 0.018, 0.28  # of that, by day and by night
+_GLOW_LIGHT = 0.018, 0.4  # of that, by day and by night
+THIN = 0.2  # part of that light in thin smoke, where it is scattered once; in thick smoke many times; by eye
+THICK = 0.004, 0.02  # extinctions (1/m) of thin and of thick smoke, as to that
 
 
 class State:

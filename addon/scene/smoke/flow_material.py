@@ -17,7 +17,7 @@ from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import haze, infrared
-from ..light import exposure
+from ..light import exposure, sky
 from . import flow_frames, material, sunlit
 
 _FRESH, _OLD = (0.44, 0.36, 0.29), (0.95, 0.945, 0.94)  # albedo: of soot and char, and of aged haze and cloud
@@ -66,7 +66,7 @@ def _solved(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.
     """Smoke that shines by itself, as much as the light in its grids makes it."""
     part, air = haze.fraction(tree, stage)
     light = sunlit.source(tree, shot, smoke.albedo, smoke.even)
-    if glow := _glow(tree, shot):
+    if glow := _glow(tree, shot, smoke.density):
         light = tree.vector("ADD", light, tree.vector("SCALE", *glow))
     seen = tree.add_shader(
         _black(tree, smoke.density), tree.emission(tree.mix_colour(part, light, air), smoke.density)
@@ -82,7 +82,7 @@ def _traced(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.
     middle = tree.input("Inner Colour", _MIDDLE, "Albedo for light by way of other smoke", "Colour")
     part, air = haze.fraction(tree, stage)
     light = tree.emission(air, part * smoke.density)
-    if glow := _glow(tree, shot):
+    if glow := _glow(tree, shot, smoke.density):
         shine, bright = glow
         light = tree.add_shader(light, tree.emission(shine, bright * (1.0 - part) * smoke.density))
     scattered = tree.mix_colour(part, smoke.albedo, (0.0, 0.0, 0.0))
@@ -105,9 +105,9 @@ def _black(tree: nodes.Tree, density: nodes.Value) -> nodes.Value:
     return tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": density})
 
 
-def _glow(tree: nodes.Tree, shot: Shot) -> tuple[nodes.Value, nodes.Value] | None:
+def _glow(tree: nodes.Tree, shot: Shot, density: nodes.Value) -> tuple[nodes.Value, nodes.Value] | None:
     """Colour and brightness of the flames' light in smoke, where it is dark enough to see it."""
     if exposure.darkness(shot, shot.frames.middle) <= 0.0:
         return None
     shine, bright = material.glow_inputs(tree, shot)
-    return shine, tree.attribute("glow") * bright
+    return shine, tree.attribute("glow") * bright * density.ramp(*sky.THICK, sky.THIN, 1.0)
