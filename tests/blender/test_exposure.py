@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from firetwin.scene import glow
-from firetwin.scene.light import exposure, meter
+from firetwin.scene.light import exposure, meter, sky
 from firetwin.shot import settings as scene_settings
 from firetwin.shot.rigs.drone import CameraKey, Drone
 from firetwin.shot.rigs.satellite import Satellite
@@ -87,8 +87,17 @@ def test_smoke_that_glows_keeps_its_colour_and_does_not_drown_the_picture(filmed
     _, light = exposure.radiance(shot, shot.paths[0], 1)
     exposed = np.sort(light) * 2.0 ** exposure.at(shot, np.array([1]))[0]
     assert exposed[-len(light) // 10 :].mean() < 0.85
-    assert exposed.mean() < 0.21
-    assert exposed[-len(light) // 10 :].mean() > 0.5 or exposed.mean() > 0.19
+    assert exposed.mean() < 0.11
+    assert exposed[-len(light) // 10 :].mean() > 0.5 or exposed.mean() > 0.09
+
+
+def test_smoke_that_is_thin_everywhere_glows_less(filmed, firestorm):
+    shine = []
+    for extinction in (0.0, 0.01, 0.004):
+        shot = Shot(filmed(4.0, extinction=extinction), firestorm)
+        shine.append(meter.measure(shot, shot.paths[0], 1)[2].sum())
+    assert shine[0] > shine[1] > shine[2] > 0.0
+    assert shine[2] == pytest.approx(sky.THIN * shine[0])
 
 
 @pytest.mark.parametrize("away", [4.0, 14.0])

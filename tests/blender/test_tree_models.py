@@ -314,6 +314,29 @@ def test_crowns_live_torch_char_or_are_scorched_from_below(shot, stage, scene, t
     assert high[4, 0] > 1.3 * high[4, 1]
 
 
+def test_far_crowns_bear_the_flames_between_them(shot, stage, scene, tmp_path):
+    """Trees that the front has not reached, stands among, and has long passed, none of them torched."""
+    made, camera = library.tree_models(shot, stage), _lit(scene)
+    age, half = np.array([-1e6, 60.0, 1200.0]), np.full(3, 0.5)
+    model = models.instance(np.full(3, 3), np.ones(3, np.int64))
+    points = {"position": np.arange(3)[:, None] * [[16.0, 0.0, 0.0]], "scale": 40.0 * half}
+    points |= {"rotation": 0.0 * half, "width": 2.0 * half, "model": model, "snag_model": model}
+    points |= dict.fromkeys(("tint", "dead", "elevation", "canopy_fuel"), half)
+    points |= {"scorch": 0.0 * half, "torched": 0.0 * half}
+    points["arrival_time"] = scene.get(nodes.TIME, 0.0) - age
+    forest._instances(shot, stage.part("Chart"), "Chart", points, made)
+    camera.rotation_euler, camera.data.clip_end = (0.5 * np.pi, 0.0, 0.0), 1.0e5
+    camera.data.ortho_scale, scene.render.resolution_x, scene.render.resolution_y = 48, 48, 24
+    red = {}
+    for away in (150.0, 4000.0):
+        camera.location = (16.0, -away, 10.0)
+        pixels = _rendered(scene, tmp_path / f"{away}.exr").reshape(24, 3, 16, 4)
+        red[away] = pixels[..., 0].sum((0, 2)) / pixels[..., 3].sum((0, 2))
+    assert red[150.0][1] < 1.2 * red[150.0][0]
+    assert red[4000.0][1] > 4.0 * red[4000.0][0]
+    assert red[4000.0][2] < 1.2 * red[4000.0][0]
+
+
 def test_a_far_tree_has_a_sunlit_side_and_burns_as_a_near_one(shot, stage, scene, tmp_path):
     """Living, charred and scorched firs in levels 0 and 3, as small as level 3 is, sun from the right."""
     made, camera = library.tree_models(shot, stage), _lit(scene)

@@ -167,7 +167,7 @@ def test_fate_follows_the_cells_intensity(film):
         return fate.of(shot, row, column, height, key)
 
     shot.ground.burn_time[:] = 2000.0 * np.arange(shot.ground.shape[1])
-    mild, fierce = of(0.3), of(4.0)
+    mild, fierce = of(0.1), of(4.0)
     assert np.all(mild.scorch <= fierce.scorch)
     assert np.all(mild.torched <= fierce.torched)
     assert mild.torched.mean() < 0.1 < 0.9 < fierce.torched.mean()
