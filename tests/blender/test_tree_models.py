@@ -223,6 +223,12 @@ def test_each_tree_is_in_the_level_that_its_nearest_view_asks_for(shot):
     assert near[1] == 3 > near[0]
     assert seen["model"].tolist() == [12 + near[0], 15]
     assert seen["snag_model"].tolist() == [48 + near[0], 15]
+    wide = library.levelled(shot, points, wider=1.0e4)
+    assert wide["model"].tolist() == [
+        12,
+        12 + levels.level(2.0e5 * lens / shot.sights.distance(place[1:]))[0],
+    ]
+    assert wide["model"][1] < 15
 
 
 def _artist(name, size, **properties):

@@ -175,8 +175,7 @@ def test_the_json_schema_is_one():
     assert found["properties"]["time"]["properties"]["start"]["format"] == "date-time"
     error = found["properties"]["ground"]["properties"]["error"]
     assert error == {
-        "description": "how far the mesh may be above or below the ground that cameras see, pixels; "
-        "more is coarser",
+        "description": "how far the mesh may be above or below what cameras see, pixels; more is coarser",
         "type": "number",
         "exclusiveMinimum": 0,
         "default": 0.05,

@@ -29,6 +29,7 @@ from .stand import Stand
 GRASS_DISTANCE = 400.0  # m
 _ALIKE = 110.0, 70.0  # m, patches of trees that are alike in hue, and that died before; by eye
 _TALLEST, _GRASS = 31.0, 10.0  # m; as tall as any tree of Algorithm 2, and as one that would hold a clump
+_WIDER = 12.0  # than trees of their height are bushes, and logs; by FLIP from among them (skipping.py)
 
 
 def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Object]:
@@ -39,7 +40,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Objec
         points = algorithm2(shot) if shot.settings.forest.density == "paper" else _stand(shot, grown)
         plants["Trees"] = levelled(shot, points)
     if len(below.size):
-        plants["Understorey"] = levelled(shot, _below(shot, below))
+        plants["Understorey"] = levelled(shot, _below(shot, below), _WIDER)
     if plants:
         library = tree_models(shot, stage, set().union(*map(drawn, plants.values())))
     for name, points in plants.items():

@@ -106,14 +106,15 @@ def grass_models(shot: Shot, stage: Stage) -> bpy.types.Collection:
     return library
 
 
-def levelled(shot: Shot, points: dict[str, NDArray]) -> dict[str, NDArray]:
+def levelled(shot: Shot, points: dict[str, NDArray], wider: float = 1.0) -> dict[str, NDArray]:
     """Points of trees whose models are instances, in the level that the nearest camera of the shot asks for.
 
-    One level for the whole shot: nothing changes its shape while it is seen.
+    One level for the whole shot: nothing changes its shape while it is seen. Things are so much `wider` than
+    trees of their height, and drawn like trees as much taller.
     """
     lens, plain = (1.0 / size for size in shot.pixel)
     near = lens / np.maximum(shot.sights.drawn_from(points["position"]), 1.0)
-    level = levels.level(points["scale"] * np.maximum(near, plain))
+    level = levels.level(wider * points["scale"] * np.maximum(near, plain))
     return {**points, **{key: models.instance(points[key], level) for key in ("model", "snag_model")}}
 
 
