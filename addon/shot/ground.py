@@ -151,8 +151,8 @@ class Ground:
         if self.made_up:
             row, column = np.nonzero(burned)
             north, east = (
-                (at + part.start) * size
-                for at, part, size in zip((row, column), near, self.cell, strict=True)
+                (at + lines.start) * size
+                for at, lines, size in zip((row, column), near, self.cell, strict=True)
             )
             patches = noise.fractal(east, north, 800.0, 3, self.seed + 70)
             burned[row, column] *= 1.0 - noise.smoothstep(0.50, 0.68, patches)  # islands left out, 6 %

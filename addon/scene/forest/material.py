@@ -19,8 +19,8 @@ from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME, brightness
 
 TORCHING = 300.0  # s that a crown is in flames; then it is gone
 _TORCH = 0.1, 0.9  # of the flames' radiance, at the distances CLOSE: crowns near by fill pixels
-_TONGUES = 0.3  # of their height is how wide flames in crowns are
 _BETWEEN = 0.0, 0.9  # the same of flames that are seen between crowns: far away no gaps are drawn; by eye
+_TONGUES = 0.3  # of their height is how wide flames in crowns are
 _DEAD = 0.03  # part of the trees that stood dead and brown before
 _SINGED = 0.7  # how far the green tops of half scorched trees are brown: hot air and soot dull them; by eye
 _BROWN = ((0.060, 0.041, 0.026), (0.118, 0.080, 0.046))  # needles killed by drought, beetles or heat

@@ -104,7 +104,7 @@ def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array, Array]:
 
     facing = np.zeros(len(place))
     facing[ground] = _facing(shot, place[ground], light.direction)
-    shine = hidden * _shine(smoke, start, along, ends) * _scattered(shot)
+    shine = hidden * _shine(smoke, start, along, ends) * _glowing(shot)
     return seen(facing), seen(light.direction[2]), shine
 
 
@@ -243,10 +243,10 @@ def _lit_smoke(light: sky.State, along: Array) -> Array:
     return _CLOUD * (light.power * sphere / np.pi + light.sky_mean)
 
 
-def _scattered(shot: Shot) -> float:
-    """Part of the flames' light that smoke gives on if it is thin everywhere, as `flow_material` has it."""
+def _glowing(shot: Shot) -> float:
+    """Part of the flames' light that smoke gives on if it is thin everywhere, as its material has it."""
     thickest = shot.settings.smoke.extinction or np.inf
-    return float(sky.THIN + (1.0 - sky.THIN) * noise.smoothstep(*sky.THICK, thickest))
+    return float(np.interp(thickest, sky.THICK, (sky.THIN, 1.0)))
 
 
 def _shine(smoke: Smoke, start: Array, along: Array, ends: Array) -> Array:

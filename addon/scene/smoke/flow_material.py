@@ -17,7 +17,7 @@ from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import haze, infrared
-from ..light import exposure, sky
+from ..light import exposure
 from . import flow_frames, material, sunlit
 
 _FRESH, _OLD = (0.44, 0.36, 0.29), (0.95, 0.945, 0.94)  # albedo: of soot and char, and of aged haze and cloud
@@ -110,4 +110,4 @@ def _glow(tree: nodes.Tree, shot: Shot, density: nodes.Value) -> tuple[nodes.Val
     if exposure.darkness(shot, shot.frames.middle) <= 0.0:
         return None
     shine, bright = material.glow_inputs(tree, shot)
-    return shine, tree.attribute("glow") * bright * density.ramp(*sky.THICK, sky.THIN, 1.0)
+    return shine, tree.attribute("glow") * bright * material.glowing(density)

@@ -71,7 +71,8 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     glow = tree.attribute("glow") * (1.0 - part) * bright
 
     def seen(density: nodes.Value) -> nodes.Value:
-        light = tree.add_shader(tree.emission(air, part * density), tree.emission(shine, glow * density))
+        lit = glow * glowing(density) * density
+        light = tree.add_shader(tree.emission(air, part * density), tree.emission(shine, lit))
         return tree.add_shader(smoke(tree, density, scattered, even), light)
 
     # A mix by 0 or 1 evaluates one side only: deep inside, the noise changes nothing and is left out.
@@ -101,6 +102,11 @@ def glow_inputs(tree: nodes.Tree, shot: Shot) -> tuple[nodes.Value, nodes.Value]
     """Colour and brightness of the flames' light on smoke."""
     colour = tree.input("Glow Colour", tuple(sky.GLOW), "Of the flames' light on smoke", "Light")
     return colour, tree.input("Glow", glow_light(shot), "Brightness of the flames' light on smoke", "Light")
+
+
+def glowing(density: nodes.Value) -> nodes.Value:
+    """Part of the flames' light that smoke of this extinction (1/m) gives on, as `meter` counts it."""
+    return density.ramp(*sky.THICK, sky.THIN, 1.0)
 
 
 def smoke(
