@@ -28,43 +28,74 @@ Births::Births(std::uint64_t seed) {
   }
 }
 
+namespace {
+
+/// Of births in a reach, `chance` on average, the part that may be there: 1 - exp(-chance part).
+double solve(double chance) {
+  double part = 1.0;
+  for (int i = 0; i < 5; ++i) {
+    part = -std::expm1(-chance * part);
+  }
+  return part;
+}
+
+/// The same where `last_chance` ends births, not their `latest`.
+const double sparse = solve(Births::last_chance),
+             sparse_end = std::expm1(-Births::last_chance * sparse);
+
+bool is_sparse(double density) {
+  return Births::latest >= Births::last_chance * density;
+}
+
+} // namespace
+
 double Births::reach(double density) {
-  const auto solve = [](double chance) { // part = 1 - exp(-chance part)
-    double part = 1.0;
-    for (int i = 0; i < 5; ++i) {
-      part = -std::expm1(-chance * part);
-    }
-    return part;
-  };
-  static const double sparse = solve(last_chance);
-  return (latest >= last_chance * density ? sparse : solve(latest / density)) / density;
+  return (is_sparse(density) ? sparse : solve(latest / density)) / density;
 }
 
 double Births::older(double time, double density) {
   const double area = reach(density);
-  return std::expm1(-time * area) / std::expm1(-std::min(latest, last_chance * density) * area);
+  return std::expm1(-time * area) / (is_sparse(density) ? sparse_end : std::expm1(-latest * area));
 }
 
 std::size_t Births::Octave::keys(std::uint64_t line, std::int64_t column,
                                  std::span<std::uint64_t, most> out) const {
   // Chance of at most 0, 1, .. births where there is one on average; more than 7 come once in
-  // 100,000 squares and are left out.
-  constexpr std::array<double, most> at_most = {0.367879441, 0.735758882, 0.919698603, 0.981011843,
-                                                0.996340153, 0.999405815, 0.999916759};
+  // 100,000 squares and are left out. Eight numbers are compared as quickly as seven.
+  constexpr std::array<double, most + 1> at_most = {0.367879441, 0.735758882, 0.919698603,
+                                                    0.981011843, 0.996340153, 0.999405815,
+                                                    0.999916759, 1.0};
   const std::uint64_t key = mix(line ^ static_cast<std::uint64_t>(column));
   const double chance = unit(key);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < most; ++i) {
-    out[i] = key + i;
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i <= most; ++i) {
     count += chance >= at_most[i];
   }
-  return count;
+  for (std::size_t i = 0; i < most; ++i) {
+    out[i] = key + i;
+  }
+  return static_cast<std::size_t>(count);
 }
 
 Births::Birth Births::Octave::birth(double column, double row, std::uint64_t key) const {
-  const std::uint64_t bits = mix(key);
-  return {(column + part(bits >> 43)) * side, (row + part(bits >> 22)) * side,
-          begin + (end - begin) * part(bits >> 1), bits};
+  Birth one{};
+  births(row, 1, &column, &key, &one.x, &one.y, &one.time, &one.bits);
+  return one;
+}
+
+FIRETWIN_CLONES("avx512f", "avx2")
+void Births::Octave::births(double row, std::size_t n, const double* column,
+                            const std::uint64_t* key, double* x, double* y, double* time,
+                            std::uint64_t* bits) const {
+  const double across = side, first = begin, more = end - begin;
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint64_t found = mix(key[i]);
+    bits[i] = found;
+    x[i] = (column[i] + part(found >> 43)) * across;
+    y[i] = (row + part(found >> 22)) * across;
+    time[i] = first + more * part(found >> 1);
+  }
 }
 
 /// Nothing here branches on what is random: more is written than counts, and written over.
@@ -82,14 +113,17 @@ void Births::Squares::add(const Octave& octave, std::int64_t at_row, double befo
   if (x.size() < size + births + 1) {
     resize(2 * (size + births + 1));
   }
-  for (std::size_t i = 0; i < births; ++i) {
-    const Birth b = octave.birth(work.column[i], static_cast<double>(at_row), work.key[i]);
-    x[size] = b.x;
-    y[size] = b.y;
-    time[size] = b.time;
-    bits[size] = b.bits;
-    work.place[i] = static_cast<std::uint32_t>(size);
-    size += b.time < before;
+  const std::size_t begin = size;
+  octave.births(static_cast<double>(at_row), births, work.column.data(), work.key.data(), &x[begin],
+                &y[begin], &time[begin], &bits[begin]);
+  for (std::size_t i = begin; i < begin + births; ++i) {
+    const double when = time[i];
+    x[size] = x[i];
+    y[size] = y[i];
+    time[size] = when;
+    bits[size] = bits[i];
+    work.place[i - begin] = static_cast<std::uint32_t>(size);
+    size += when < before;
   }
   work.place[births] = static_cast<std::uint32_t>(size);
   for (std::size_t i = 0; i < width; ++i) {

@@ -92,6 +92,9 @@ private:
     std::size_t keys(std::uint64_t line, std::int64_t column,
                      std::span<std::uint64_t, most> out) const;
     Birth birth(double column, double row, std::uint64_t key) const;
+    /// Those of n keys in the squares of a row; without branches, for many at once.
+    void births(double row, std::size_t n, const double* column, const std::uint64_t* key,
+                double* x, double* y, double* time, std::uint64_t* bits) const;
   };
 
   /// What is needed while a row of squares is worked out; kept for its memory alone.

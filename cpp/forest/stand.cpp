@@ -314,7 +314,7 @@ public:
   void grow() { grow(0, height_, 0, width_); }
 
 private:
-  static constexpr double at_once = 8192.0; ///< births
+  static constexpr double at_once = 16384.0; ///< births
 
   /// Rows from low to high - 1, columns from left to right - 1; those to the left first.
   void grow(std::size_t low, std::size_t high, std::size_t left, std::size_t right) {

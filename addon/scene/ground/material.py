@@ -77,7 +77,8 @@ def build(
         matt = tree.mix_shader(lake, matt, _water(tree, place))
         shader = haze.apply(tree, tree.add_shader(matt, light), stage)
     with tree.frame("Infrared"):
-        warmth = heat.radiance(tree, shot, stage, place, rock, lake, normal, (flaming, embers))
+        facing = tree.output("ShaderNodeNewGeometry", name="Normal")
+        warmth = heat.radiance(tree, shot, stage, place, rock, lake, facing, (flaming, embers))
     with tree.frame("Masks"):
         alight = (flaming > masks.ALIGHT) * (masks.FIRE - masks.BURNED)
         kind = place.burned * (alight + (masks.BURNED - masks.GROUND)) + masks.GROUND
