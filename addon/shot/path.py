@@ -21,6 +21,7 @@ UP = np.array([0.0, 0.0, 1.0])
 _NEAREST = 0.5  # m
 _HIGHEST_AIR = 20_000.0  # m, over any smoke
 _HIGHEST = 1500.0  # m; a camera is not raised more than this to see over a ridge
+_LOOKS = 600  # frames at most whose lines of sight are looked at for ridges
 
 Array = NDArray[np.float64]
 
@@ -131,12 +132,17 @@ def smooth(at: Array, values: Array, moments: Array) -> Array:
 
 
 def hidden(ground: Ground, position: Array, target: Array, margin: float = 40.0) -> Array:
-    """How much higher (frames,) cameras must be to see their target over the ridges between, by `margin`."""
+    """How much higher (frames,) cameras must be to see their target over the ridges between, by `margin`.
+
+    Of a long film that is looked at in `_LOOKS` frames, linear between.
+    """
+    frames = np.arange(len(position))
+    some = np.unique(np.linspace(0, len(frames) - 1, min(len(frames), _LOOKS)).round().astype(int))
     part = np.linspace(0.03, 0.85, 40)[:, None, None]  # of the way; near the target any slope hides it
-    way = position + part * (target - position)
+    way = position[some] + part * (target - position)[some]
     ridge = ground.up(way[..., 0].ravel(), way[..., 1].ravel()).reshape(way.shape[:2])
     needed = (ridge + margin - way[..., 2]) / (1.0 - part[..., 0])
-    return np.clip(needed.max(axis=0), 0.0, _HIGHEST)
+    return np.interp(frames, some, np.clip(needed.max(axis=0), 0.0, _HIGHEST))
 
 
 def eased(short: Array) -> Array:
