@@ -6,8 +6,6 @@ from datetime import timedelta
 import bpy
 import numpy as np
 import pytest
-from firetwin.render import layers
-from firetwin.scene import build
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import firebrands, flames
 from firetwin.shot import burning
@@ -175,20 +173,3 @@ def test_twice_built_is_built_once_and_none_out_of_reach(close, run, stage):
     assert "Firetwin Firebrands" not in bpy.data.objects
     fire.build(Shot(replace(close, fire=Fire(firebrands=0)), run), stage)
     assert "Firetwin Firebrands" not in bpy.data.objects
-
-
-def test_they_glow_and_are_warm(close, run, stage, scene, shoot):
-    build.build(Shot(close, run), scene)
-    layers.build(close, stage)
-    scene.frame_set(12)
-    for thing in bpy.data.objects:
-        thing.hide_render = thing.type in ("MESH", "LIGHT") and thing.name != "Firetwin Firebrands"
-    for node in scene.world.node_tree.nodes:
-        if node.type == "BACKGROUND":
-            node.inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
-            for link in node.inputs["Color"].links:
-                scene.world.node_tree.links.remove(link)
-    rgb, kelvin = shoot(scene, "rgb"), shoot(scene, "thermal")
-    assert np.all(rgb[..., 0] >= rgb[..., 2])
-    assert 1.0e-3 < np.max(rgb) < 100.0  # in pixels of 6 m
-    assert 0.005 < kelvin.max() <= 1300.0  # of what they cover of such pixels

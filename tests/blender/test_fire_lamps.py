@@ -5,7 +5,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from firetwin.blender import compat, nodes, owned
+from firetwin.blender import compat, owned
 from firetwin.render import layers
 from firetwin.scene import build
 from firetwin.scene.fire import build as fire
@@ -50,24 +50,6 @@ def built(settings, run, stage):
 
 def lit():
     return [thing for thing in bpy.data.objects if thing.name.startswith("Firetwin Lamp")]
-
-
-def alone(scene, lamps):
-    """Leave these lamps the only light, in the second frame."""
-    scene.frame_set(2)
-    bpy.data.objects["Firetwin Sun"].hide_render = True
-    bpy.data.objects["Firetwin Flames"].hide_render = True
-    for node in scene.world.node_tree.nodes:
-        if node.type == "BACKGROUND":
-            node.inputs["Strength"].default_value = 0.0
-    for tree in bpy.data.node_groups:
-        for node in tree.nodes:
-            if node.type == "EMISSION":
-                strength = node.inputs["Strength"]
-                for link in strength.links:
-                    tree.links.remove(link)
-                strength.default_value = 0.0
-    assert lamps
 
 
 def test_lamps_stand_for_all_heat_near_the_cameras(near, run):
@@ -143,30 +125,6 @@ def test_lamps_where_smoke_shuts_out_the_sun(near, run, stage, sun_at):
     sun_at(10.0)
     built(replace(near, smoke=replace(near.smoke, enabled=True)), run, stage)
     assert lit()
-
-
-def test_they_come_so_gradually_that_the_first_light_cannot_be_seen(near, run, stage, scene, sun_at, shoot):
-    """A degree under the sun that ends them, no pixel gets a 255th of white from lamps; by night many do."""
-    brightest = []
-    for height in (5.0, -20.0):
-        sun_at(height)
-        built(near, run, stage)
-        alone(scene, lit())
-        brightest.append(np.max(shoot(scene, "rgb")))
-    assert lit()
-    assert brightest[0] < 1.0 / 255.0 < brightest[1]
-
-
-def test_lamps_light_the_ground_and_leave_temperatures_alone(near, run, stage, scene, sun_at, shoot):
-    sun_at(-20.0)
-    built(near, run, stage)
-    scene.frame_set(2)
-    kelvin, light = shoot(scene, "thermal"), shoot(scene, "rgb")
-    for thing in lit():
-        thing.hide_render = True
-    assert np.array_equal(kelvin, shoot(scene, "thermal"))
-    assert np.mean(light - shoot(scene, "rgb")) > 1.0e-3
-    assert scene.view_layers["thermal"][nodes.THERMAL] == 1.0
 
 
 def test_none_are_made_without_a_camera_or_when_off(near, run, stage, sun_at):

@@ -6,19 +6,13 @@ import pytest
 from firetwin.blender import owned
 from firetwin.scene import build
 from firetwin.scene.forest import build as forest
-from firetwin.scene.forest import models, plot, preview, seen, stand
+from firetwin.scene.forest import models, plot, seen, stand
 from firetwin.scene.forest.material import TORCHING
 from firetwin.shot.ground import NEVER
 from firetwin.shot.rigs.satellite import Satellite
 from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import forest as core
-
-
-@pytest.fixture(autouse=True)
-def nothing_stands_in(monkeypatch):
-    """The viewport, which tests look at, shows the forest as renders draw it, however large it is."""
-    monkeypatch.setattr(preview, "MOST", 10**9)
 
 
 def _instances(name):
@@ -148,18 +142,6 @@ def test_the_stand_grows_where_there_is_canopy_and_leaves_cameras_free(near_shot
     assert near_shot.sights.distance(grown.position).min() > stand.CLEARING
     again = stand.grow(near_shot)
     assert np.array_equal(grown.position, again.position)
-
-
-def test_skipping_what_no_camera_sees_does_not_change_the_picture(shot, stage, scene, shoot, monkeypatch):
-    build.build(shot, scene)
-    skipped = shoot(scene, "rgb")
-    count = len(bpy.data.objects["Firetwin Trees"].data.vertices)
-    monkeypatch.setattr(seen, "visible", lambda _shot, places, *_, **_more: np.ones(len(places), bool))
-    build.build(shot, scene)
-    full = shoot(scene, "rgb")
-    assert len(bpy.data.objects["Firetwin Trees"].data.vertices) > 1.5 * count
-    assert np.abs(full - skipped).mean() < 0.01 * full.mean()
-    assert np.quantile(np.abs(full - skipped), 0.98) < 0.05 * full.mean()
 
 
 def test_a_satellite_that_sees_no_tree_sees_no_patch_of_them(near_settings, run, scene):

@@ -5,7 +5,6 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.run import frame
-from firetwin.scene import build
 from firetwin.scene.ground import build as ground_build
 from firetwin.scene.ground import fields
 from firetwin.shot import burning
@@ -119,18 +118,6 @@ def test_ground_between_places_is_the_cores_bilinear_height(shot):
     row, column = ground.indices(latitude, longitude)
     assert height == pytest.approx(ground.height(row, column) + 12.0, abs=1e-6)
     assert ground.up(points[:, 0], points[:, 1]) == pytest.approx(points[:, 2] - 12.0, abs=0.05)
-
-
-def test_embers_glow_only_where_the_scene_file_wants_them(settings, run, stage, scene, shoot):
-    no_flames = replace(settings, fire=replace(settings.fire, flames=False))
-    pictures = []
-    for embers in (True, False):
-        built = build.build(Shot(replace(no_flames, fire=replace(no_flames.fire, embers=embers)), run), scene)
-        built.frame_set(2)
-        built.render.resolution_x, built.render.resolution_y = 320, 180
-        pictures.append(shoot(built, "rgb"))
-    assert np.all(pictures[0] >= pictures[1] - 1e-4)
-    assert np.max(pictures[0] - pictures[1]) > 0.05
 
 
 def test_level_ground_without_fuel_is_a_lake(near_settings, run_folder, tmp_path):

@@ -4,7 +4,7 @@ import itertools
 
 import bpy
 import pytest
-from firetwin.blender import layout, nodes
+from firetwin.blender import layout
 from firetwin.render import groups as compositor
 from firetwin.scene import build
 
@@ -43,16 +43,3 @@ def test_nodes_do_not_overlap_and_lie_right_of_what_they_are_made_of(groups):
         for _, column in columns:
             for upper, lower in itertools.pairwise(column):
                 assert upper.location.y - layout.height(upper) >= lower.location.y, (group.name, upper.name)
-
-
-def test_an_input_is_made_once_and_changes_the_picture(scene, plate, shoot):
-    material, tree = nodes.material("test")
-    twice = [tree.input("Power", 2.0, "How bright it is", "Light", most=10.0) for _ in range(2)]
-    colour = tree.input("Colour", (1.0, 0.5, 0.25), "Of the light", "Light")
-    tree.surface(tree.emission(colour, twice[0] * twice[1]))
-    plate.materials.append(material)
-    assert shoot(scene)[2, 2] == pytest.approx([4.0, 2.0, 1.0], rel=1e-5)
-    group = next(node for node in material.node_tree.nodes if node.type == "GROUP")
-    assert [socket.name for socket in group.inputs] == ["Power", "Colour"]
-    group.inputs["Power"].default_value = 1.0
-    assert shoot(scene)[2, 2] == pytest.approx([1.0, 0.5, 0.25], rel=1e-5)

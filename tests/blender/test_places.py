@@ -5,7 +5,6 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from firetwin.render import layers
 from firetwin.scene import build
 from firetwin.shot.settings import Places
 from firetwin.shot.shot import Shot
@@ -51,19 +50,6 @@ def test_labels_beyond_their_distance_are_gone(labelled, run, scene):
     assert len(instances()) == 1
     build.remove(scene)
     assert not [font for font in bpy.data.fonts if font.users]  # the typeface was lent
-
-
-def test_only_the_visible_picture_has_labels(labelled, run, stage, scene, shoot):
-    pictures = []
-    for enabled in (True, False):
-        settings = replace(labelled, places=replace(labelled.places, enabled=enabled))
-        build.build(Shot(settings, run), scene)
-        layers.build(settings, stage)
-        scene.frame_set(1)
-        pictures.append((shoot(scene, "rgb"), shoot(scene, "thermal")))
-    (shown, warm), (plain, cold) = pictures
-    assert (np.abs(shown - plain).max(axis=-1) > 0.3).sum() > 5
-    assert np.array_equal(warm, cold)
 
 
 def test_off_by_default(settings, run, scene):

@@ -1,12 +1,7 @@
 """What goes wrong around an artist: Esc at any moment, a lost run, a full disk, several scenes, libraries."""
 
-import contextlib
-import os
 import shutil
-import subprocess
 import time
-from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import bpy
@@ -14,17 +9,9 @@ import firetwin
 import panel_scene
 import pytest
 from firetwin.blender import nodes, owned
-from firetwin.errors import InputError
-from firetwin.jobs import build as build_job
-from firetwin.jobs import render as render_job
-from firetwin.jobs import worker
 from firetwin.jobs.worker import StoppedError
 from firetwin.scene.ground import material
-from firetwin.scene.smoke import bake
 from firetwin.shot import file
-from firetwin.shot.choice import Choice
-from firetwin.shot.settings import Smoke
-from firetwin.shot.shot import Shot
 from firetwin.ui import build, camera_list, job, queue, run, scene_file, working
 from panel_scene import state
 
@@ -141,61 +128,6 @@ def test_reading_a_run_that_is_stopped_says_how_to_go_on(panel):
         work.run()
     assert panel.problem.endswith("Read run does it")
     assert panel.facts
-
-
-@pytest.fixture
-def tiny():
-    """A disk of 1 MB that is full, and what fills it."""
-    place = Path("/tmp") / f"firetwin-full-{os.getpid()}"
-    place.mkdir()
-    command = ["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", str(place)]
-    if not shutil.which("mount") or subprocess.run(command, capture_output=True).returncode:
-        place.rmdir()
-        pytest.skip("cannot mount a small disk here")
-    filler = place / "filler"
-    with contextlib.suppress(OSError), filler.open("wb", buffering=0) as full:
-        while full.write(bytes(4096)):
-            pass
-    yield filler
-    subprocess.run(["umount", str(place)], check=True)
-    place.rmdir()
-
-
-def test_a_full_disk_is_a_message_and_what_was_there_stays(panel, blend, run, tiny, tmp_path, monkeypatch):
-    """At every writer: settings, the .blend file, smoke, pictures, a copy for the queue."""
-    place = tiny.parent
-    before = state()
-    assert "the disk is full" in message(bpy.ops.firetwin.export, filepath=str(place / "out.toml"))
-    monkeypatch.setattr("tempfile.tempdir", str(place))
-    panel.output = str(tmp_path)
-    assert "cannot be copied" in message(bpy.ops.firetwin.render_background)
-    monkeypatch.undo()
-    assert not queue.items
-    with pytest.raises(InputError, match="the disk is full"):
-        build_job.save(place / "scene.blend")
-    panel.output = str(blend.parent / "out")
-    assert state() == before
-    whole = file.read(blend.with_suffix(".toml"))
-    smoky = Shot(replace(whole, cache=place / "cache", smoke=Smoke(method="puffs")), run)
-    with pytest.raises(InputError, match="the disk is full"):
-        bake.bake(smoky, frames=[1])
-    firetwin.unregister()
-    monkeypatch.setattr(worker, "run", here)
-    asked = render_job.Asked(place / "film", "1", passes="rgb", resume=True)
-    choice = Choice(str(blend.with_suffix(".toml")))
-    with pytest.raises(InputError, match="the disk is full"):
-        render_job.run(choice, asked)
-    assert not [path for path in place.rglob("*") if path.suffix in (".vdb", ".png", ".blend", ".toml")]
-    tiny.unlink()
-    assert render_job.run(choice, asked) == 1
-    assert (place / "film/drone/rgb/drone_rgb_000001.png").is_file()
-    firetwin.register()
-
-
-def here(task, arguments, progress, tell=lambda text: None, **_):
-    """In place of a process of its own."""
-    module, _, function = task.partition(":")
-    return getattr(__import__(module, fromlist=["x"]), function)(progress=progress, tell=tell, **arguments)
 
 
 def names(scene):

@@ -12,7 +12,6 @@ import pytest
 from firetwin.blender import devices, owned, viewport
 from firetwin.errors import Error, InputError, input_error
 from firetwin.jobs import assets
-from firetwin.jobs.worker import StoppedError
 from firetwin.shot import file, passes
 from firetwin.shot.schema import parts
 from firetwin.ui import (
@@ -484,25 +483,6 @@ def test_model_time_and_frame_are_one(settings, scene_file):
     assert settings.model_time == 1.0
 
 
-def test_render_makes_what_the_command_line_makes(settings, scene_file, tmp_path):
-    settings.scene_file, settings.output = str(scene_file), str(tmp_path / "out")
-    settings.which, settings.frame_list, settings.render.passes = "list", "2", {"rgb"}
-    assert bpy.ops.firetwin.render() == {"FINISHED"}
-    files = sorted(path.name for path in (tmp_path / "out").rglob("*") if path.is_file())
-    assert [name for name in files if name.startswith("drone")] == [
-        "drone_rgb_000002.exr",
-        "drone_rgb_000002.png",
-    ]
-    assert "manifest.json" in files
-    told = [each.text for each in working.told(render.FIRETWIN_OT_render)]
-    assert "rendering 1 picture of drone" in told
-    assert any(text.startswith("Cycles renders on the processor") for text in told)
-    assert told[-1] == f"Rendered 1 picture to {tmp_path / 'out'}"
-    settings.frame_list = "2,9"
-    with pytest.raises(RuntimeError, match=r'Frames: "9" is outside of 1-3'):
-        bpy.ops.firetwin.render()
-
-
 def test_work_in_the_window_goes_step_by_step():
     taken = []
 
@@ -546,21 +526,6 @@ def test_errors_of_a_thread_arrive_where_the_work_is():
     with pytest.raises(InputError) as failed:
         job.Job("Test", steps()).run()
     assert job.words(failed.value) == "a.txt:3:4: is wrong; write it otherwise"
-
-
-def test_a_render_is_stopped_in_the_middle_and_leaves_nothing(settings, scene_file, tmp_path):
-    settings.scene_file, settings.output = str(scene_file), str(tmp_path / "out")
-    settings.which = "all"
-    operator = SimpleNamespace()
-    work = job.Job("Render", render.FIRETWIN_OT_render.steps(operator, bpy.context))
-    while not work.what.startswith("building the scene"):  # the worker is at work
-        assert not work.advance()
-        time.sleep(0.02)
-    work.stop.now()
-    with pytest.raises(StoppedError):
-        work.run()
-    assert not list(tmp_path.rglob(".part-*"))
-    assert not list(tmp_path.rglob("*.png"))
 
 
 class Window:

@@ -6,7 +6,6 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.blender import viewport
-from firetwin.render import layers
 from firetwin.scene import build
 from firetwin.scene.forest import build as forest
 from firetwin.scene.forest import fate, preview
@@ -97,24 +96,6 @@ def test_a_small_forest_stays_as_it_is(near_shot, scene):
     build.build(near_shot, scene)
     assert [thing.name for thing in trees()] == ["Firetwin Trees"]
     assert not trees()[0].hide_viewport
-
-
-def test_renders_do_not_know_of_the_viewport(near_settings, run, stage, scene, shoot, monkeypatch):
-    """The same pixels with what is for the viewport and without, in the picture and in the thermal view."""
-    pictures = []
-    for most in (200, 10**9):
-        monkeypatch.setattr(preview, "MOST", most)
-        shot = Shot(near_settings, run)
-        build.build(shot, scene)
-        layers.build(near_settings, stage)
-        scene.frame_set(2)
-        if most > 200:
-            data = bpy.data.objects["Firetwin Ground"].data
-            data.attributes.remove(data.attributes[solid.NAME])
-        pictures.append((shoot(scene, "rgb"), shoot(scene, "thermal")))
-    assert pictures[0][0].std() > 0.01
-    for one, other in zip(*pictures, strict=True):
-        assert np.array_equal(one, other)
 
 
 def test_the_solid_view_shows_fuel_scar_and_water(settings, run_folder, scene, tmp_path):

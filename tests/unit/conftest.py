@@ -4,16 +4,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import firetwin_core as core
-import hypothesis
 import pytest
 from firetwin.jobs import convert
 from firetwin_core import run as runs
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 from small_run import RUN_TOML, small_fields, write_field
-
-hypothesis.settings.register_profile("firetwin", deadline=None)  # how fast a machine is, is no test
-hypothesis.settings.load_profile("firetwin")
 
 
 @pytest.fixture

@@ -1,0 +1,40 @@
+"""What holds in every room: a test is marked by its folder, and those of unit and blender are quick."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import hypothesis
+import pytest
+
+ROOMS = ("unit", "blender", "render", "system")
+"""Folders of tests, by what they need; see README.md."""
+
+hypothesis.settings.register_profile("firetwin", deadline=None)  # how fast a machine is, is no test
+hypothesis.settings.register_profile("quick", deadline=None, max_examples=10)
+hypothesis.settings.load_profile("firetwin")
+
+
+def pytest_addoption(parser):
+    parser.addini("longest_s", "seconds that an unmarked test of unit or blender may take", default="10")
+
+
+def pytest_collection_modifyitems(items):
+    here = Path(__file__).parent
+    for item in items:
+        room = item.path.relative_to(here).parts[0]
+        if room in ROOMS:
+            item.add_marker(room)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    """Fail a test of unit or blender that takes too long; what it shares with others is not counted."""
+    report = yield
+    quick = item.get_closest_marker("unit") or item.get_closest_marker("blender")
+    longest = float(item.config.getini("longest_s"))
+    slow = item.get_closest_marker("slow")
+    if quick and not slow and report.when == "call" and report.passed and report.duration > longest:
+        report.outcome = "failed"
+        report.longrepr = f"{item.nodeid} took {report.duration:.1f} s; {longest:g} s are the most"
+    return report

@@ -1,0 +1,208 @@
+"""Fixtures for tests with Blender: a small run, settings and a shot of it, and a clean Blender for each test."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from datetime import UTC, datetime
+
+import numpy as np
+import pytest
+
+bpy = pytest.importorskip("bpy")
+
+import firetwin  # noqa: E402
+from firetwin.blender import compat, nodes, owned  # noqa: E402
+from firetwin.scene.smoke import boxes  # noqa: E402
+from firetwin.shot import settings as scene_settings  # noqa: E402
+from firetwin.shot.rigs.drone import CameraKey, Drone  # noqa: E402
+from firetwin.shot.shot import Shot  # noqa: E402
+from firetwin_core import run as runs  # noqa: E402
+from firetwin_core import sensor  # noqa: E402
+
+__all__ = [
+    "few_cells",
+    "near_settings",
+    "near_shot",
+    "panel",
+    "plate",
+    "run",
+    "run_folder",
+    "scene",
+    "settings",
+    "shoot",
+    "shot",
+    "stage",
+]
+
+NY = NX = 24
+FINE = 5
+LATITUDE, LONGITUDE = (38.80, 38.88), (-120.60, -120.50)
+
+
+def _axis(low: float, high: float, count: int) -> np.ndarray:
+    edges = np.linspace(low, high, count + 1)
+    return 0.5 * (edges[1:] + edges[:-1])
+
+
+@pytest.fixture(scope="session")
+def run_folder(tmp_path_factory):
+    """Write a run of 24 x 24 cells of 370 m with fuels on 120 x 120: hills, bare rock, a round fire."""
+    folder = tmp_path_factory.mktemp("run")
+    fy, fx = NY * FINE, NX * FINE
+    y, x = np.meshgrid(np.linspace(-1, 1, fy), np.linspace(-1, 1, fx), indexing="ij")
+    height = 1400 + 300 * np.sin(3 * x + 1) * np.cos(2 * y) + 60 * np.sin(11 * x) * np.sin(9 * y) + 250 * x
+    canopy = np.clip(1.2 + 1.3 * np.sin(5 * x - 2 * y), 0, 2.5)
+    surface = np.clip(0.8 + 0.5 * np.cos(4 * y), 0, 3)
+    rock = np.hypot(x - 0.6, y + 0.6) < 0.15
+    canopy[rock] = surface[rock] = 0.0
+    arrival = 7200.0 * np.hypot(x, y) - 600.0
+    arrival[np.hypot(x, y) > 0.6] = np.nan
+    times = np.arange(11) * 360.0
+    flux = np.zeros((len(times), NY, NX), np.float32)
+    flux[:, 8:16, 8:16] = 5.0e4
+    arrays = {
+        "latitude": _axis(*LATITUDE, NY),
+        "longitude": _axis(*LONGITUDE, NX),
+        "elevation": height.reshape(NY, FINE, NX, FINE).mean((1, 3)),
+        "fuel_latitude": _axis(*LATITUDE, fy),
+        "fuel_longitude": _axis(*LONGITUDE, fx),
+        "fuel_elevation": height,
+        "canopy_fuel": canopy,
+        "surface_fuel": surface,
+        "fuel_arrival_time": arrival,
+        "heat_flux": flux,
+    }
+    for name, array in arrays.items():
+        kind = np.float64 if "itude" in name else np.float32
+        np.save(folder / f"{name}.npy", array.astype(kind))
+    (folder / "run.toml").write_text(
+        'name = "Test"\nsynthetic = true\nstart = 2014-09-17T21:00:00Z\ninterval_s = 360.0\n'
+        'vertical = "orthometric"\n[units]\nelevation = "m"\nfuel_elevation = "m"\nfuel_arrival_time = "s"\n'
+        'heat_flux = "W/m2"\nsurface_fuel = "kg/m2"\ncanopy_fuel = "kg/m2"\n'
+    )
+    return folder
+
+
+@pytest.fixture(scope="session")
+def run(run_folder):
+    return runs.open(run_folder)
+
+
+@pytest.fixture
+def settings(run_folder, tmp_path):
+    """A drone over the run's middle, three frames over an hour, no relief or stand, a small apron."""
+    keys = (
+        CameraKey(0.0, 38.825, -120.56, 400.0, "point", 38.845, -120.55, 0.0),
+        CameraKey(1.0, 38.830, -120.57, 500.0, "point", 38.845, -120.55, 0.0),
+    )
+    return scene_settings.Settings(
+        path=tmp_path / "scene.toml",
+        run=run_folder,
+        cache=tmp_path / "cache",
+        time=scene_settings.Time(
+            start=datetime(2014, 9, 17, 21, 0, tzinfo=UTC),
+            end=datetime(2014, 9, 17, 22, 0, tzinfo=UTC),
+            frames=3,
+        ),
+        ground=scene_settings.Ground(near_radius=0.0, apron=20_000.0),
+        forest=scene_settings.Forest(density="paper"),
+        smoke=scene_settings.Smoke(enabled=False),
+        cameras=(scene_settings.Camera("drone", Drone(keys=keys)),),
+        render=scene_settings.Render(resolution=(64, 36), samples=4, denoise=False),
+    )
+
+
+@pytest.fixture
+def near_settings(settings):
+    """The same with a detailed ground and a stand."""
+    return replace(
+        settings,
+        ground=replace(settings.ground, near_radius=1500.0),
+        forest=replace(settings.forest, density="stand", budget=3000, draw_distance=1500.0),
+    )
+
+
+@pytest.fixture
+def shot(settings, run):
+    return Shot(settings, run)
+
+
+@pytest.fixture
+def near_shot(near_settings, run):
+    return Shot(near_settings, run)
+
+
+@pytest.fixture(autouse=True)
+def scene():
+    """Blender as from the factory, with an empty scene."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    return bpy.context.scene
+
+
+@pytest.fixture
+def stage(scene):
+    """The scene as one of our own."""
+    return owned.adopt(scene)
+
+
+@pytest.fixture
+def shoot(tmp_path):
+    """Render the scene with Cycles: pixels (height, width, 3), scene-linear; of "thermal" layers kelvin."""
+
+    def render(scene, layer: str | None = None) -> np.ndarray:
+        scene.render.engine = "CYCLES"
+        compat.march_through_volumes(scene.cycles)
+        scene.cycles.use_denoising, scene.cycles.samples = False, 4
+        if scene.render.resolution_x > 64:
+            scene.render.resolution_x, scene.render.resolution_y = 64, 36
+        scene.cycles.use_adaptive_sampling = False
+        scene.cycles.pixel_filter_type = "BOX"
+        scene.render.resolution_percentage = 100
+        compat.still_settings(scene.render)
+        scene.render.image_settings.file_format = "OPEN_EXR"
+        scene.render.image_settings.color_depth = "32"
+        if layer is not None and layer not in scene.view_layers:
+            scene.view_layers.new(layer)[nodes.THERMAL] = float(layer == "thermal")
+        for view_layer in scene.view_layers:
+            view_layer.use = layer is None or view_layer.name == layer
+        scene.render.use_compositing = False
+        scene.render.filepath = str(tmp_path / "shot.exr")
+        bpy.ops.render.render(write_still=True)
+        pixels = np.asarray(sensor.read_image(tmp_path / "shot.exr"))[..., :3]
+        return sensor.PlanckTable().brightness_temperature(pixels) if layer == "thermal" else pixels
+
+    return render
+
+
+@pytest.fixture
+def few_cells(monkeypatch):
+    """A flow of smoke on few, large cells, with a nest that begins late."""
+    monkeypatch.setattr(boxes, "_LEVELS", (150.0, 600.0, 10))
+    monkeypatch.setattr(boxes, "_NEST_LEVELS", (120.0, 400.0, 11))
+    monkeypatch.setattr(boxes, "_NEST", 72)
+    monkeypatch.setattr(boxes, "_MARGIN", 2000.0)
+    monkeypatch.setattr(boxes, "LEAD", 40.0)
+
+
+@pytest.fixture
+def plate(scene):
+    """A plate that fills the view of a camera above it."""
+    mesh = bpy.data.meshes.new("plate")
+    mesh.from_pydata([(-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0)], [], [(0, 1, 2, 3)])
+    scene.collection.objects.link(bpy.data.objects.new("plate", mesh))
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    camera.location = (0, 0, 5)
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.resolution_x = scene.render.resolution_y = 4
+    scene.cycles.samples = 1
+    return mesh
+
+
+@pytest.fixture
+def panel():
+    """The panel of a new file, as Blender starts with."""
+    bpy.ops.wm.read_factory_settings()
+    firetwin.register()
+    yield bpy.context.scene.firetwin
+    firetwin.unregister()

@@ -1,0 +1,47 @@
+"""Firebrands: launched by the flames, flown by the core, drawn by geometry nodes at any time."""
+
+from dataclasses import replace
+from datetime import timedelta
+
+import bpy
+import numpy as np
+import pytest
+from firetwin.render import layers
+from firetwin.scene import build
+from firetwin.shot.shot import Shot
+
+FRAMES = 24
+
+
+@pytest.fixture
+def close(settings):
+    """A camera near the front, one second in 24 frames."""
+    begin = settings.time.start + timedelta(minutes=30)
+    return replace(
+        moved(settings, latitude=38.8395, height=150.0),
+        time=replace(settings.time, start=begin, end=begin + timedelta(seconds=1), frames=FRAMES),
+    )
+
+
+def moved(settings, **place):
+    """Settings whose camera stands still elsewhere."""
+    camera = settings.cameras[0]
+    key = replace(camera.rig.keys[0], **place)
+    return replace(settings, cameras=(replace(camera, rig=replace(camera.rig, keys=(key,))),))
+
+
+def test_they_glow_and_are_warm(close, run, stage, scene, shoot):
+    build.build(Shot(close, run), scene)
+    layers.build(close, stage)
+    scene.frame_set(12)
+    for thing in bpy.data.objects:
+        thing.hide_render = thing.type in ("MESH", "LIGHT") and thing.name != "Firetwin Firebrands"
+    for node in scene.world.node_tree.nodes:
+        if node.type == "BACKGROUND":
+            node.inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
+            for link in node.inputs["Color"].links:
+                scene.world.node_tree.links.remove(link)
+    rgb, kelvin = shoot(scene, "rgb"), shoot(scene, "thermal")
+    assert np.all(rgb[..., 0] >= rgb[..., 2])
+    assert 1.0e-3 < np.max(rgb) < 100.0  # in pixels of 6 m
+    assert 0.005 < kelvin.max() <= 1300.0  # of what they cover of such pixels

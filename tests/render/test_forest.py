@@ -1,0 +1,16 @@
+import bpy
+import numpy as np
+from firetwin.scene import build
+from firetwin.scene.forest import seen
+
+
+def test_skipping_what_no_camera_sees_does_not_change_the_picture(shot, stage, scene, shoot, monkeypatch):
+    build.build(shot, scene)
+    skipped = shoot(scene, "rgb")
+    count = len(bpy.data.objects["Firetwin Trees"].data.vertices)
+    monkeypatch.setattr(seen, "visible", lambda _shot, places, *_, **_more: np.ones(len(places), bool))
+    build.build(shot, scene)
+    full = shoot(scene, "rgb")
+    assert len(bpy.data.objects["Firetwin Trees"].data.vertices) > 1.5 * count
+    assert np.abs(full - skipped).mean() < 0.01 * full.mean()
+    assert np.quantile(np.abs(full - skipped), 0.98) < 0.05 * full.mean()
