@@ -4,10 +4,12 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-packages=(
+build_packages=(
   g++ cmake ninja-build pkg-config python3 python3-dev python3-venv
   libopenvdb-dev libboost-dev libimath-dev libblosc-dev libtbb-dev libopenimageio-dev libopenexr-dev
   libgeographiclib-dev libtomlplusplus-dev libfast-float-dev libfftw3-dev
+)
+run_packages=(
   # Libraries that Blender loads.
   libegl1 libgl1 libgl1-mesa-dri libxi6 libxrender1 libxkbcommon0 libxxf86vm1 libxfixes3 libsm6 libice6 libgomp1
 )
@@ -21,7 +23,7 @@ extras="blender"
 for argument in "$@"; do
   case $argument in
     --with-tests)
-      packages+=("${test_packages[@]}")
+      run_packages+=("${test_packages[@]}")
       extras="blender,test,lint"
       ;;
     *)
@@ -33,24 +35,24 @@ done
 
 say() { echo "setup: $*" >&2; }
 
-missing_packages() {
+missing_packages() { # package...
   local package
-  for package in "${packages[@]}"; do
+  for package in "$@"; do
     if [[ $(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null) != installed ]]; then
       echo "$package"
     fi
   done
 }
 
-install_packages() {
+install_packages() { # package...
   if ! command -v apt-get >/dev/null; then
     say "this system has no apt-get; what is needed has these names on Debian, and other names here:"
-    say "  ${packages[*]}"
+    say "  $*"
     say "going on: the build tells what it misses"
     return
   fi
   local missing as_root=()
-  mapfile -t missing < <(missing_packages)
+  mapfile -t missing < <(missing_packages "$@")
   if ((${#missing[@]} == 0)); then
     return
   fi
@@ -86,35 +88,95 @@ find_python() {
   exit 1
 }
 
-# Changes whenever anything that ends up in .venv changes.
+
+# Changes whenever pip has something to install. addon/ and data/ are used where they lie, and C++ is ninja's to watch.
 fingerprint() {
   {
-    echo "$extras"
-    find addon cpp data CMakeLists.txt pyproject.toml LICENSE README.md examples/setup.sh -type f \
-      ! -name '*.pyc' -print0 | sort -z | xargs -0 sha256sum
+    echo "$PWD $extras"
+    sha256sum pyproject.toml examples/setup.sh
   } | sha256sum
 }
 
-build() {
-  local stamp=.venv/firetwin.stamp want
-  want=$(fingerprint)
-  if [[ -f $stamp && $(<"$stamp") == "$want" ]]; then
-    return
-  fi
+make_venv() {
   if [[ ! -x .venv/bin/python ]]; then
     local python
     python=$(find_python)
     say "making .venv with $("$python" --version)"
     "$python" -m venv .venv
   fi
-  say "installing Blender's Python module and the other Python packages (about 350 MB the first time)"
-  .venv/bin/pip install --quiet --disable-pip-version-check "scikit-build-core==1.1.2" "pybind11==3.1.0"
-  say "building Firetwin"
-  .venv/bin/pip install --quiet --disable-pip-version-check --no-build-isolation \
-    --config-settings=build-dir=build/setup ".[$extras]"
-  echo "$want" >"$stamp"
+  "${pip[@]}" "scikit-build-core==1.1.2" "pybind11==3.1.0"
+  rm -rf build/setup # may be of another Python
 }
 
-install_packages
-build
+install_python_packages() {
+  say "installing Blender's Python module and the other Python packages (about 350 MB the first time)"
+  "${pip[@]}" --no-build-isolation --config-settings=wheel.cmake=false ".[$extras]"
+}
+
+compile() {
+  if [[ ! -f build/setup/build.ninja ]]; then
+    say "building the compiled core (a minute or two)"
+    cmake -S . -B build/setup -G Ninja -DCMAKE_BUILD_TYPE=Release -DFIRETWIN_PRECOMPILE=ON \
+      -DFIRETWIN_VERSION="$(sed -n 's/^version = "\(.*\)"/\1/p' pyproject.toml)" \
+      -DPython_EXECUTABLE="$PWD/.venv/bin/python" -Dpybind11_DIR="$(.venv/bin/python -m pybind11 --cmakedir)"
+  fi
+  cmake --build build/setup
+}
+
+# This checkout's addon/ is the package `firetwin`, and its data/ lies in it.
+use_in_place() { # site-packages
+  echo "import _firetwin_checkout" >"$1/firetwin_checkout.pth"
+  cat >"$1/_firetwin_checkout.py" <<PYTHON
+import sys
+from importlib.machinery import PathFinder, SourceFileLoader
+from importlib.util import spec_from_loader
+
+
+class Checkout(PathFinder):
+    root = "$PWD"
+
+    @classmethod
+    def find_spec(cls, name, path=None, target=None):
+        if name != "firetwin":
+            return None
+        loader = SourceFileLoader(name, f"{cls.root}/addon/__init__.py")
+        spec = spec_from_loader(name, loader, is_package=True)
+        spec.submodule_search_locations = [f"{cls.root}/addon", cls.root]
+        return spec
+
+
+sys.meta_path.insert(0, Checkout)
+PYTHON
+}
+# Runs a step whose output matters only if it fails.
+quietly() { # name command...
+  local log=build/$1.log
+  shift
+  if ! "$@" >"$log" 2>&1; then
+    tail -n 30 "$log" >&2
+    say "failed; the whole output is in $log"
+    return 1
+  fi
+}
+
+pip=(.venv/bin/python -m pip install --quiet --disable-pip-version-check)
+mkdir -p build
+install_packages "${build_packages[@]}"
+stamp=.venv/firetwin.stamp
+background=()
+if [[ ! -f $stamp || $(<"$stamp") != "$(fingerprint)" ]]; then
+  make_venv
+  install_python_packages &
+  background+=($!)
+fi
+install_packages "${run_packages[@]}" &
+background+=($!)
+quietly compile compile
+for process in "${background[@]}"; do
+  wait "$process"
+done
+site=$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
+quietly install cmake --install build/setup --component core --prefix "$site"
+use_in_place "$site"
+fingerprint >"$stamp"
 say "ready: .venv/bin/firetwin"
