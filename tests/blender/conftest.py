@@ -1,6 +1,7 @@
 """Tests that need Blender and build scenes: none renders a picture or starts a process."""
 
 import subprocess
+import sys
 
 import bpy
 import pytest
@@ -13,8 +14,12 @@ def no_picture_and_no_process(monkeypatch):
     rendered = []
     bpy.app.handlers.render_init.append(rendered.append)
 
-    def refuse(*_arguments, **_options):
-        pytest.fail("a test that starts a process belongs into tests/system")
+    start = subprocess.Popen.__init__
+
+    def refuse(self, command, *arguments, **options):
+        if sys.executable in command:
+            pytest.fail("a test that starts a process belongs into tests/system")
+        start(self, command, *arguments, **options)  # of a library
 
     monkeypatch.setattr(subprocess.Popen, "__init__", refuse)
     yield

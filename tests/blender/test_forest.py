@@ -14,6 +14,8 @@ from firetwin.shot.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import forest as core
 
+pytestmark = pytest.mark.usefixtures("whole_forest")
+
 
 def _instances(name):
     """Translation (n, 3), scale (n, 3) and name of the model of every instance of an object."""

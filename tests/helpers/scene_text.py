@@ -42,3 +42,24 @@ DRONE = """\
 name = "drone"
 keys = [{{latitude = 38.825, longitude = -120.56, height = 400, target = "fire"}}]
 """
+
+GROUND_ALONE = """\
+run = "run"
+[time]
+frames = 1
+[smoke]
+enabled = false
+[ground]
+near_radius = {near}
+apron = {apron}
+{key}
+[[cameras]]
+name = "drone"
+[[cameras.keys]]
+latitude = 38.904
+longitude = -120.592
+height = 200.0
+target = "point"
+target_latitude = 38.905
+target_longitude = -120.590
+"""

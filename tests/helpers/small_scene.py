@@ -1,4 +1,4 @@
-"""Fixtures for tests with Blender: a small run, settings and a shot of it, and a clean Blender for each test."""
+"""A small run, settings and a shot of it, and a clean Blender for every test that needs one."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ bpy = pytest.importorskip("bpy")
 
 import firetwin  # noqa: E402
 from firetwin.blender import compat, nodes, owned  # noqa: E402
+from firetwin.scene.forest import preview  # noqa: E402
 from firetwin.scene.smoke import boxes  # noqa: E402
 from firetwin.shot import settings as scene_settings  # noqa: E402
 from firetwin.shot.rigs.drone import CameraKey, Drone  # noqa: E402
@@ -32,6 +33,7 @@ __all__ = [
     "shoot",
     "shot",
     "stage",
+    "whole_forest",
 ]
 
 NY = NX = 24
@@ -172,6 +174,12 @@ def shoot(tmp_path):
         return sensor.PlanckTable().brightness_temperature(pixels) if layer == "thermal" else pixels
 
     return render
+
+
+@pytest.fixture
+def whole_forest(monkeypatch):
+    """The viewport, which tests look at, shows the forest as renders draw it, however large it is."""
+    monkeypatch.setattr(preview, "MOST", 10**9)
 
 
 @pytest.fixture

@@ -1,7 +1,10 @@
 import bpy
 import numpy as np
+import pytest
 from firetwin.scene import build
 from firetwin.scene.forest import seen
+
+pytestmark = pytest.mark.usefixtures("whole_forest")
 
 
 def test_skipping_what_no_camera_sees_does_not_change_the_picture(shot, stage, scene, shoot, monkeypatch):

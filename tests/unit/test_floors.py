@@ -1,4 +1,4 @@
-"""The house: who may import whom. `python tests/core/test_floors.py` prints who does, folder by folder."""
+"""The house: who may import whom. `python tests/unit/test_floors.py` prints who does, folder by folder."""
 
 from __future__ import annotations
 

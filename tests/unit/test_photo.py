@@ -6,7 +6,7 @@ from firetwin.errors import InputError
 from firetwin.shot import photo
 from firetwin.shot.choice import Choice
 from firetwin_core import sensor
-from test_relief import BARE
+from scene_text import GROUND_ALONE
 
 BOX = (-120.597, 38.901, -120.587, 38.908)  # west, south, east, north; the run reaches 600 m beyond
 
@@ -25,7 +25,7 @@ def make(make_run, tmp_path):
     make_run()
 
     def scene(key, near=0.0, apron=3000.0):
-        (tmp_path / "scene.toml").write_text(BARE.format(key=key, near=near, apron=apron))
+        (tmp_path / "scene.toml").write_text(GROUND_ALONE.format(key=key, near=near, apron=apron))
         return Choice(scene=str(tmp_path / "scene.toml"))
 
     return scene

@@ -12,28 +12,8 @@ from firetwin.shot.choice import Choice
 from firetwin.shot.relief import ramp
 from hypothesis import given
 from hypothesis import strategies as st
+from scene_text import GROUND_ALONE
 from small_run import FX, FY, NX, NY
-
-BARE = """\
-run = "run"
-[time]
-frames = 1
-[smoke]
-enabled = false
-[ground]
-near_radius = {near}
-apron = {apron}
-{key}
-[[cameras]]
-name = "drone"
-[[cameras.keys]]
-latitude = 38.904
-longitude = -120.592
-height = 200.0
-target = "point"
-target_latitude = 38.905
-target_longitude = -120.590
-"""
 
 
 def plane(latitude, longitude):
@@ -52,7 +32,7 @@ def make(make_run, tmp_path):
     make_run(elevation=np.full((NY, NX), 1100.0, np.float32), fuel_elevation=np.full((FY, FX), 1100.0))
 
     def scene(key='elevation = "dem.tif"', near=0.0, apron=0.0):
-        (tmp_path / "scene.toml").write_text(BARE.format(key=key, near=near, apron=apron))
+        (tmp_path / "scene.toml").write_text(GROUND_ALONE.format(key=key, near=near, apron=apron))
         return Choice(scene=str(tmp_path / "scene.toml"))
 
     return scene

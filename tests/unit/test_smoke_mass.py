@@ -5,7 +5,7 @@ import pytest
 from firetwin_core import volume
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_volume import CELL, briggs, burn, read, smoke, steady
+from plumes import CELL, briggs, burn, read, smoke, steady
 
 
 def burned(cells, time, burn_time):

@@ -4,7 +4,7 @@ import firetwin_core as core
 import numpy as np
 import pytest
 from firetwin_core import lod, volume
-from test_volume import read, smoke
+from plumes import read, smoke
 
 NORTH = np.column_stack([[1, 0, 0], [0, 0, 1], [0, -1, 0]]).astype(float)  # looks north
 

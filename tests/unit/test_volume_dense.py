@@ -11,7 +11,7 @@ from firetwin_core import InputError, lod, volume
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from test_volume import read
+from plumes import read
 
 NORTH = np.column_stack([[1, 0, 0], [0, 0, 1], [0, -1, 0]]).astype(float)  # looks north
 SHAPES = st.tuples(*[st.integers(1, 20)] * 3)

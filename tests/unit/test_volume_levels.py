@@ -4,8 +4,8 @@ import firetwin_core as core
 import numpy as np
 import pytest
 from firetwin_core import Error, InputError, geo, run, volume
+from plumes import read
 from small_run import NT, NX, NY, RUN_TOML, small_fields
-from test_volume import read
 
 ORIGIN = (38.9, -120.55)
 LATITUDE = ORIGIN[0] + 0.0033 * np.arange(-15, 16)  # 366 m

@@ -16,7 +16,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 sys.path.append(str(Path(__file__).parents[1] / "core"))
-from test_scene_file import any_table
+from any_settings import any_table
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
