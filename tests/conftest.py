@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from collections import defaultdict
 from pathlib import Path
 
 import hypothesis
@@ -13,6 +15,11 @@ ROOMS = ("unit", "blender", "render", "system")
 hypothesis.settings.register_profile("firetwin", deadline=None)  # how fast a machine is, is no test
 hypothesis.settings.register_profile("quick", deadline=None, max_examples=10)
 hypothesis.settings.load_profile("firetwin")
+
+
+SECONDS = Path(__file__).parents[1] / "build/tests/seconds.json"
+"""What each test file took when all of it ran last, for tests/touched.py."""
+_seconds: dict[str, float] = defaultdict(float)
 
 
 def pytest_addoption(parser):
@@ -38,3 +45,19 @@ def pytest_runtest_makereport(item, call):
         report.outcome = "failed"
         report.longrepr = f"{item.nodeid} took {report.duration:.1f} s; {longest:g} s are the most"
     return report
+
+
+def pytest_runtest_logreport(report):
+    _seconds[report.nodeid.split("::")[0]] += report.duration
+
+
+def pytest_sessionfinish(session):
+    """Keep what files took, unless single tests were chosen or this is one of several processes."""
+    options = session.config.option
+    chosen = options.keyword or options.markexpr or any("::" in each for each in session.config.args)
+    if chosen or hasattr(session.config, "workerinput"):
+        return
+    known = json.loads(SECONDS.read_text()) if SECONDS.exists() else {}
+    SECONDS.parent.mkdir(parents=True, exist_ok=True)
+    new = {name: round(seconds, 1) for name, seconds in _seconds.items()}
+    SECONDS.write_text(json.dumps(known | new, indent=0, sort_keys=True))

@@ -34,7 +34,7 @@ def platform_of(wheel: Path) -> str | None:
         return None
     for start, end, name in (
         ("manylinux", "x86_64", "linux-x64"),
-        ("linux", "x86_64", "linux-x64"),  # for the machine that built it, as in tests/window.sh
+        ("linux", "x86_64", "linux-x64"),  # for the machine that built it, as in tests/system/window.sh
         ("win", "amd64", "windows-x64"),
         ("macosx", "arm64", "macos-arm64"),
     ):

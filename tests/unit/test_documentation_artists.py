@@ -12,7 +12,7 @@ def followed():
     """What the test in the window presses and types, in its order."""
     calls = [
         node
-        for node in ast.walk(ast.parse((ROOT / "tests/window/page.py").read_text("utf-8")))
+        for node in ast.walk(ast.parse((ROOT / "tests/system/window/page.py").read_text("utf-8")))
         if isinstance(node, ast.Call) and ast.unparse(node.func) in ("words.next", "_go")
     ]
     calls.sort(key=lambda node: node.lineno)

@@ -178,6 +178,19 @@ def test_run_and_shot_never_ask_for_blender(name):
     assert not imports(name) & {"bpy", "mathutils", "bpy_extras"}
 
 
+ABOUT_ALL = {"floors", "touched", "documentation_artists"}
+"""Test files about the project rather than one module of it."""
+
+
+def test_a_test_file_bears_the_name_of_the_module_that_it_tests():
+    sources = [path for folder in ("addon", "cpp", "data") for path in (ROOT / folder).rglob("*")]
+    names = {path.stem.strip("_") for path in sources if "__pycache__" not in path.parts}
+    for path in (ROOT / "tests").glob("*/test_*.py"):
+        words = path.stem.split("_")[1:]
+        starts = {"_".join(words[:count]) for count in range(1, len(words) + 1)}
+        assert starts & names or "_".join(words) in ABOUT_ALL, f"{path}: which module does it test?"
+
+
 if __name__ == "__main__":
     for here, used in reversed(picture().items()):
         print(f"{here:<9} -> {', '.join(f'{name} ({count})' for name, count in sorted(used.items())) or '-'}")

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Runs the README's two commands in fresh Debian folders, as someone does who has just got this checkout.
 #
-#   tests/fresh.sh                       in Debian 12 and 13: an hour or more
-#   tests/fresh.sh trixie                in this release only
-#   tests/fresh.sh trixie tests/run.sh   this command only
+#   tests/system/fresh.sh                       in Debian 12 and 13: an hour or more
+#   tests/system/fresh.sh trixie                in this release only
+#   tests/system/fresh.sh trixie tests/run.sh   this command only
 #
 # A folder is removed when all went well. Exit status 77: such folders cannot be made here.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 suites=(bookworm trixie)
 if (($#)); then
@@ -24,7 +24,7 @@ for suite in "${suites[@]}"; do
   rm -rf --one-file-system "$folder"
   for command in "${commands[@]}"; do
     echo "fresh: $suite: $command" >&2
-    tests/in_debian.sh "$suite" "$folder" "$command"
+    tests/system/in_debian.sh "$suite" "$folder" "$command"
   done
   if [[ " ${commands[*]} " == *" examples/king_fire.sh "* ]]; then
     ls -l "$folder"/firetwin/examples/out/film/drone/*.mp4

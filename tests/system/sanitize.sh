@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Builds the core with AddressSanitizer and UndefinedBehaviourSanitizer and runs tests/core with it.
+# Builds the core with AddressSanitizer and UndefinedBehaviourSanitizer and runs tests/unit with it.
 # Arguments go to pytest. Needs .venv (examples/setup.sh --with-tests), or PYTHON set to another one.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 python=${PYTHON:-.venv/bin/python}
 build=build/sanitize
 
-cmake -S . -B "$build" -G Ninja -DFIRETWIN_SANITIZE=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 \
+cmake -S . -B "$build" -G Ninja -DFIRETWIN_SANITIZE=ON -DFIRETWIN_PRECOMPILE=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 \
   -DPython_EXECUTABLE="$python" -Dpybind11_DIR="$("$python" -m pybind11 --cmakedir)" >/dev/null
 cmake --build "$build" -j 2 >&2
 
@@ -24,8 +24,8 @@ export ASAN_OPTIONS=detect_leaks=0:abort_on_error=1:strict_string_checks=1:detec
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export PYTHONMALLOC=malloc PYTHONPATH=$package LD_PRELOAD=$libraries
 # Tests that measure memory would measure what the sanitizer holds back.
-dense=tests/core/test_volume_dense.py
-exec "$python" -m pytest tests/core -q -p no:cacheprovider "$@" \
+dense=tests/unit/test_volume_dense.py
+exec "$python" -m pytest tests/unit -q -n "$(nproc)" --dist worksteal -o longest_s=600 -p no:cacheprovider "$@" \
   --deselect "$dense::test_memory_does_not_grow_with_the_grid" \
   --deselect "$dense::test_levels_without_smoke_need_no_memory" \
   --deselect "$dense::test_air_without_smoke_needs_no_memory"

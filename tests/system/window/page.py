@@ -18,7 +18,7 @@ from pathlib import Path
 import bpy
 from hands import FOLDER, alone, built, call, check, here, idle, picture, say, settings, soon, tab, ui, view
 
-PAGE = Path(__file__).parents[2] / "examples/artists.md"
+PAGE = Path(__file__).parents[3] / "examples/artists.md"
 _SIDEBAR, _WINDOW = "254x636+767+84", "1050x690+2+28"  # of the screen of 1280 x 800, with the usual sidebar
 
 

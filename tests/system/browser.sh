@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # Opens pages of `firetwin score --report` in a real browser, Debian's Chromium without a display or a network.
 #
-#   tests/browser.sh X.html ...
+#   tests/system/browser.sh X.html ...
 #
-# The browser is kept in build/debian/browser, or in $FIRETWIN_DEBIAN/browser (tests/in_debian.sh), and installed
+# The browser is kept in build/debian/browser, or in $FIRETWIN_DEBIAN/browser (tests/system/in_debian.sh), and installed
 # there at first (about 4 minutes). Of each page build/shared/browser has a picture, X.png, and X.dom, what the
 # browser made of it. Exit status 1: a picture in a page did not load, or the page asks for something from
 # elsewhere; 77: there is no such browser.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 folder=${FIRETWIN_DEBIAN:-build/debian}/browser
 out=build/shared/browser
 
@@ -27,7 +27,7 @@ for page in "$@"; do
   } >"$out/$(basename "$page")"
 done
 # shellcheck disable=SC2016
-tests/in_debian.sh bookworm "$folder" bash -c '
+tests/system/in_debian.sh bookworm "$folder" bash -c '
   set -euo pipefail
   if ! command -v chromium >/dev/null; then
     apt-get update -q

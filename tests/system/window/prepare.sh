@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Inside the Debian folder: installs Blender and what drives it, and builds the wheels for its Python.
-# usage: tests/window/prepare.sh WHEELS
+# usage: tests/system/window/prepare.sh WHEELS
 set -euo pipefail
-wheels=${1:?usage: tests/window/prepare.sh WHEELS}
+wheels=${1:?usage: tests/system/window/prepare.sh WHEELS}
 
 packages=(
   blender libopenexr-3-4-33

@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
 # Makes the Blender extension, build/extension/firetwin-VERSION.zip, and installs, uses and removes it in Blender.
 #
-#   tests/extension.sh                 build the wheels of the core, the zip, and try it
-#   tests/extension.sh --zip           build the wheels of the core and the zip
-#   tests/extension.sh --try ZIP       only try this zip
+#   tests/system/extension.sh                 build the wheels of the core, the zip, and try it
+#   tests/system/extension.sh --zip           build the wheels of the core and the zip
+#   tests/system/extension.sh --try ZIP       only try this zip
 #
 # FIRETWIN_WHEELS names one more folder whose wheels go into the zip, such as that of the core for another Python.
-# For FIRETWIN_BLENDERS and Blender 5.2 see tests/wheels.sh.
+# For FIRETWIN_BLENDERS and Blender 5.2 see tests/system/wheels.sh.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-# shellcheck source=tests/package/blenders.sh
-source tests/package/blenders.sh
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+# shellcheck source=tests/system/package/blenders.sh
+source tests/system/package/blenders.sh
 portable=${FIRETWIN_PORTABLE:-build/portable}
 
 make_zip() {
@@ -30,7 +30,7 @@ make_zip() {
 try() { # python
   local log=build/extension/install.log
   mkdir -p build/extension
-  if ! "$1" tests/package/install.py "$zip" >"$log" 2>&1; then
+  if ! "$1" tests/system/package/install.py "$zip" >"$log" 2>&1; then
     tail -n 30 "$log" >&2
     echo "extension: FAILED: $1; the whole output is in $log" >&2
     exit 1
@@ -39,7 +39,7 @@ try() { # python
 }
 
 case ${1:-} in
-  --try) zip=${2:?usage: tests/extension.sh [--zip | --try ZIP]} ;;
+  --try) zip=${2:?usage: tests/system/extension.sh [--zip | --try ZIP]} ;;
   --zip)
     make_zip
     exit
@@ -50,4 +50,4 @@ case ${1:-} in
     ;;
 esac
 for_each_blender try
-in_other_python tests/extension.sh --try "$zip"
+in_other_python tests/system/extension.sh --try "$zip"

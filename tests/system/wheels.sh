@@ -2,18 +2,18 @@
 # Builds the portable wheels of the core and tries each one beside Blender: imported before it, after it, and with Blender's
 # own libraries loaded first. Prints how fast the core is inside Blender and outside.
 #
-#   tests/wheels.sh                    build, check, try with the Blender of .venv and of build/versions/bpy-5.0
-#   tests/wheels.sh --try FOLDER       only try the wheels in this folder
+#   tests/system/wheels.sh                    build, check, try with the Blender of .venv and of build/versions/bpy-5.0
+#   tests/system/wheels.sh --try FOLDER       only try the wheels in this folder
 #
 # FIRETWIN_BLENDERS names other Pythons with Blender's module, with blanks between. Blender 5.2 needs Python 3.13: where this
-# machine's is another, its turn is in the Debian folder that tests/versions.sh makes, and is skipped without it.
+# machine's is another, its turn is in the Debian folder that tests/system/versions.sh makes, and is skipped without it.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-# shellcheck source=tests/package/blenders.sh
-source tests/package/blenders.sh
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+# shellcheck source=tests/system/package/blenders.sh
+source tests/system/package/blenders.sh
 
 if [[ ${1:-} == --try ]]; then
-  wheels=${2:?usage: tests/wheels.sh [--try FOLDER]}
+  wheels=${2:?usage: tests/system/wheels.sh [--try FOLDER]}
 else
   cpp/portable/build.sh
   wheels=${FIRETWIN_PORTABLE:-build/portable}/wheels
@@ -26,16 +26,16 @@ try() { # python
   log=$folder/log
   python3 -m zipfile --extract "$wheels"/firetwin_core-*-"$tag"-*.whl "$folder/wheel"
   for order in before after preloaded; do
-    if ! "$1" tests/package/wheel.py "$folder/wheel" "$order" >"$log" 2>&1; then
+    if ! "$1" tests/system/package/wheel.py "$folder/wheel" "$order" >"$log" 2>&1; then
       tail -n 30 "$log" >&2
       echo "wheels: FAILED: $1, $order" >&2
       exit 1
     fi
     tail -n 1 "$log"
   done
-  "$1" tests/package/throughput.py "$folder/wheel"
+  "$1" tests/system/package/throughput.py "$folder/wheel"
   rm -rf "$folder"
 }
 
 for_each_blender try
-in_other_python tests/wheels.sh --try "$wheels"
+in_other_python tests/system/wheels.sh --try "$wheels"

@@ -11,7 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-EXAMPLE = Path(__file__).parents[1] / "examples" / "king_fire.toml"
+EXAMPLE = Path(__file__).parents[2] / "examples" / "king_fire.toml"
 FRAME = 24
 SETTINGS = {
     "method": '"puffs"',

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# To be sourced by tests/wheels.sh and tests/extension.sh, in the root of the checkout.
+# To be sourced by tests/system/wheels.sh and tests/system/extension.sh, in the root of the checkout.
 
 # The Pythons with Blender's module that this machine has.
 blenders() {
@@ -8,7 +8,7 @@ blenders() {
     if [[ -x $python ]] && "$python" -c 'import importlib.util, sys; sys.exit(importlib.util.find_spec("bpy") is None)'; then
       echo "$python"
     else
-      echo "skipped: $python has no Blender (examples/setup.sh, tests/versions.sh)" >&2
+      echo "skipped: $python has no Blender (examples/setup.sh, tests/system/versions.sh)" >&2
     fi
   done
 }
@@ -31,13 +31,13 @@ in_other_python() { # script --option folder-or-file
   if [[ -n ${FIRETWIN_INSIDE:-} ]]; then
     return
   fi
-  if [[ ! -x tests/in_debian.sh || ! -x $folder/firetwin/.venv/bin/python ]]; then
-    echo "skipped: Blender 5.2, because there is no $folder with it (tests/versions.sh 5.2 makes it)" >&2
+  if [[ ! -x tests/system/in_debian.sh || ! -x $folder/firetwin/.venv/bin/python ]]; then
+    echo "skipped: Blender 5.2, because there is no $folder with it (tests/system/versions.sh 5.2 makes it)" >&2
     return
   fi
   shared=build/shared/$(basename "$3")
   mkdir -p build/shared
   rm -rf "$shared"
   cp -r "$3" "$shared"
-  tests/in_debian.sh trixie "$folder" env FIRETWIN_INSIDE=1 FIRETWIN_BLENDERS=.venv/bin/python "$1" "$2" "$shared"
+  tests/system/in_debian.sh trixie "$folder" env FIRETWIN_INSIDE=1 FIRETWIN_BLENDERS=.venv/bin/python "$1" "$2" "$shared"
 }

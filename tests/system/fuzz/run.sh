@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
 # Fuzzes the readers: text grids, .npy files, run.toml and whole run folders. Builds into build/fuzz.
 #
-#   tests/fuzz/run.sh                   200,000 executions of each
-#   tests/fuzz/run.sh --runs 10000000   as many of each
-#   tests/fuzz/run.sh --seconds 60      a minute of each
-#   tests/fuzz/run.sh --jobs 2 ...      in so many processes at once, which share the runs and what they find
-#   tests/fuzz/run.sh ... text npy      these only
+#   tests/system/fuzz/run.sh                   200,000 executions of each
+#   tests/system/fuzz/run.sh --runs 10000000   as many of each
+#   tests/system/fuzz/run.sh --seconds 60      a minute of each
+#   tests/system/fuzz/run.sh --jobs 2 ...      in so many processes at once, which share the runs and what they find
+#   tests/system/fuzz/run.sh ... text npy      these only
 #
 # An input that breaks a reader is left in build/fuzz/findings; exit status 1.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+cd "$(dirname "${BASH_SOURCE[0]}")/../../.."
 
 say() { echo "fuzz: $*" >&2; }
 usage() {
-  echo "usage: tests/fuzz/run.sh [--runs N | --seconds N] [--jobs N] [text|npy|toml|run ...]" >&2
+  echo "usage: tests/system/fuzz/run.sh [--runs N | --seconds N] [--jobs N] [text|npy|toml|run ...]" >&2
   exit 2
 }
 
@@ -68,9 +68,9 @@ if [[ -z $compiler ]]; then
 fi
 
 build=build/fuzz
-cmake -S tests/fuzz -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=None >/dev/null
+cmake -S tests/system/fuzz -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=None >/dev/null
 cmake --build "$build" -j 2 --target "${readers[@]/#/fuzz_}" >&2
-python3 tests/fuzz/seeds.py "$build/seeds"
+python3 tests/system/fuzz/seeds.py "$build/seeds"
 
 limit=-runs=$(((runs + jobs - 1) / jobs))
 [[ -z $seconds ]] || limit=-max_total_time=$seconds
@@ -81,7 +81,7 @@ fuzz() {
   export ASAN_OPTIONS=quarantine_size_mb=16:malloc_context_size=4
   exec "$build/fuzz_$1" "$limit" \
     -max_len=1024 -timeout=60 -rss_limit_mb=1024 -entropic=0 -print_final_stats=1 \
-    -dict="tests/fuzz/$1.dict" -artifact_prefix="$build/findings/$1-" \
+    -dict="tests/system/fuzz/$1.dict" -artifact_prefix="$build/findings/$1-" \
     "$build/corpus/$1" "$build/seeds/$1" >"$build/$1.$2.log" 2>&1
 }
 

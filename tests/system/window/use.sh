@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # Inside the Debian folder: the extension in Blender's own command line, then in its window on a screen that only
 # pictures see. Blender's settings and extensions are in a folder of their own.
-# usage: tests/window/use.sh OUT [STEP ...], a folder with firetwin.zip
+# usage: tests/system/window/use.sh OUT [STEP ...], a folder with firetwin.zip
 set -euo pipefail
-cd "${1:?usage: tests/window/use.sh OUT [STEP ...]}"
+cd "${1:?usage: tests/system/window/use.sh OUT [STEP ...]}"
 shift
 steps=("$@")
 if ((${#steps[@]} == 0)); then
   steps=(commands panel quality build sections dialogs look parts scrub render by_hand undo beside file drop page browser)
 fi
-here=/firetwin/tests/window
+here=/firetwin/tests/system/window
 export LIBGL_ALWAYS_SOFTWARE=1 BLENDER_USER_RESOURCES=$PWD/user
 
 say() { echo "window: $*" >&2; }

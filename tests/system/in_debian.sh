@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
 # Runs a command in the checkout's copy inside a Debian of another release, kept in a folder.
 #
-#   tests/in_debian.sh trixie build/debian/trixie tests/run.sh
+#   tests/system/in_debian.sh trixie build/debian/trixie tests/run.sh
 #
 # The folder is made by debootstrap when it is not there (about 2 minutes). Each call brings the copy in
 # FOLDER/firetwin up to date, what was built there stays; build/shared is the same folder inside and outside.
 # Mirror, proxies, certificates and pip's configuration are this machine's. Exit status 77, after a line that
 # says why: this machine cannot do it. Otherwise the command's.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 if (($# < 3)); then
-  echo "usage: tests/in_debian.sh SUITE FOLDER COMMAND [ARGUMENT ...]" >&2
+  echo "usage: tests/system/in_debian.sh SUITE FOLDER COMMAND [ARGUMENT ...]" >&2
   exit 2
 fi
 suite=$1 folder=$2

@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
-# Runs tests/blender in every Blender that Firetwin supports, and compares the pictures they make.
+# Runs tests/blender and tests/render in every Blender that Firetwin supports, and compares the pictures they make.
 #
-#   tests/versions.sh                    tests in Blender 4.5, 5.0 and 5.2
-#   tests/versions.sh --picture          the example's drone frame by each of them, compared by FLIP
-#   tests/versions.sh --files 4.5 5.2    a scene saved by each of them, opened and used by the others, and back
-#   tests/versions.sh 5.2                this version only
-#   tests/versions.sh 5.2 -- -k smoke    arguments for pytest
+#   tests/system/versions.sh                    tests in Blender 4.5, 5.0 and 5.2
+#   tests/system/versions.sh --picture          the example's drone frame by each of them, compared by FLIP
+#   tests/system/versions.sh --files 4.5 5.2    a scene saved by each of them, opened and used by the others, and back
+#   tests/system/versions.sh 5.2                this version only
+#   tests/system/versions.sh 5.2 -- -k smoke    arguments for pytest
 #
 # Blender as a Python module needs Python 3.11 up to 5.0, and 3.13 from 5.1. The version whose Python this
-# machine lacks runs in a folder with the Debian that has it (tests/in_debian.sh), kept in build/debian, or in
+# machine lacks runs in a folder with the Debian that has it (tests/system/in_debian.sh), kept in build/debian, or in
 # $FIRETWIN_DEBIAN. Where that cannot be made, the version is skipped, and the last lines say so.
 # Exit status 1: a test or a comparison failed; 77: nothing failed and something was skipped.
 set -euo pipefail
 shopt -s inherit_errexit
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 known=(4.5 5.0 5.2)
 declare -A suite=([4.5]=bookworm [5.0]=bookworm [5.2]=trixie)
@@ -53,19 +53,18 @@ interpreter() {
     echo .venv/bin/python
     return
   fi
-  local venv=build/versions/bpy-5.0 wheels=build/versions/wheels
+  local venv=build/versions/bpy-5.0
   if [[ ! -f $venv/stamp || $(<"$venv/stamp") != $(<.venv/firetwin.stamp) ]]; then
     say "installing Blender 5.0 in $venv"
-    rm -rf "$wheels"
-    .venv/bin/pip wheel --quiet --no-deps --no-build-isolation --config-settings=build-dir=build/setup \
-      --wheel-dir "$wheels" . >&2
     if [[ ! -x $venv/bin/python ]]; then
       .venv/bin/python -m venv "$venv"
     fi
-    "$venv/bin/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$wheels"/*.whl >&2
-    "$venv/bin/pip" install --quiet --disable-pip-version-check "firetwin[test]" bpy==5.0.1 >&2
+    "$venv/bin/pip" install --quiet --disable-pip-version-check "scikit-build-core==1.1.2" "pybind11==3.1.0" >&2
+    "$venv/bin/pip" install --quiet --disable-pip-version-check --no-build-isolation --config-settings=wheel.cmake=false \
+      ".[test]" bpy==5.0.1 >&2
     cp .venv/firetwin.stamp "$venv/stamp"
   fi
+  cp -r .venv/lib/python3.*/site-packages/{firetwin_core*,*firetwin_checkout*} "$venv"/lib/python3.*/site-packages/
   echo "$venv/bin/python"
 }
 
@@ -76,13 +75,13 @@ run_here() {
   examples/setup.sh --with-tests
   python=$(interpreter "$version")
   if $picture; then
-    "$python" tests/picture.py render "$shared/sample" "$shared/picture/$version"
+    "$python" tests/system/picture.py render "$shared/sample" "$shared/picture/$version"
   elif [[ $files == save ]]; then
-    "$python" tests/between.py save "$shared/sample" "$shared/files"
+    "$python" tests/system/between.py save "$shared/sample" "$shared/files"
   elif [[ $files == open ]]; then
-    "$python" tests/between.py open "$shared/files"
+    "$python" tests/system/between.py open "$shared/files"
   else
-    "$python" -m pytest tests/blender -q -n 2 --dist loadfile "$@"
+    "$python" -m pytest tests/blender tests/render -q -n 2 --dist worksteal "$@"
   fi
 }
 
@@ -147,9 +146,9 @@ for version in "${versions[@]}"; do
   status=0
   folder=()
   if ! has_python "${python[$version]}"; then
-    folder=(tests/in_debian.sh "${suite[$version]}" "$debian/${suite[$version]}")
+    folder=(tests/system/in_debian.sh "${suite[$version]}" "$debian/${suite[$version]}")
   fi
-  "${folder[@]}" tests/versions.sh "${options[@]}" --here "$version" -- "$@" || status=$?
+  "${folder[@]}" tests/system/versions.sh "${options[@]}" --here "$version" -- "$@" || status=$?
   case $status in
     0) passed+=("$version") ;;
     77) skipped+=("$version") ;;
@@ -157,7 +156,7 @@ for version in "${versions[@]}"; do
   esac
 done
 if $picture && ((${#passed[@]} > 1)); then
-  "$flip/bin/python" tests/picture.py compare "${passed[@]/#/$shared/picture/}" || failed+=(comparison)
+  "$flip/bin/python" tests/system/picture.py compare "${passed[@]/#/$shared/picture/}" || failed+=(comparison)
 fi
 
 say "passed: ${passed[*]:-none}; failed: ${failed[*]:-none}; skipped: ${skipped[*]:-none}"

@@ -1,0 +1,128 @@
+"""One small frame of every pass of one run, rendered as the worker process does, and what each must show."""
+
+import numpy as np
+import pytest
+from firetwin.jobs import render as job
+from firetwin.progress import silent, untold
+from firetwin.render import plan
+from firetwin.render.picture import Picture
+from firetwin.render.store import Store
+from firetwin.shot import passes
+from firetwin.shot.choice import Choice
+from firetwin.shot.passes import masks
+from firetwin_core import sensor
+
+NAMES = [name for name, each in passes.known().items() if not each.compares]
+
+SCENE = """\
+run = "{run}"
+[time]
+start = 2014-09-17T21:30:00Z
+frames = 1
+[ground]
+near_radius = 0.0
+apron = 20000.0
+[forest]
+density = "paper"
+budget = 2000
+[smoke]
+method = "puffs"
+voxel_size = 120.0
+[render]
+resolution = [64, 36]
+samples = 2
+denoise = false
+passes = {passes}
+[[cameras]]
+name = "drone"
+keys = [{{at = 0, latitude = 38.825, longitude = -120.56, height = 500, target = "fire"}}]
+"""
+
+
+@pytest.fixture(scope="module")
+def frame(run_folder, tmp_path_factory):
+    """Render it: (image of a pass by name and suffix, files that the plan says)."""
+    folder = tmp_path_factory.mktemp("frame")
+    names = "[" + ", ".join(f'"{name}"' for name in NAMES) + "]"
+    (folder / "scene.toml").write_text(SCENE.format(run=run_folder, passes=names))
+    choice, out = Choice(scene=str(folder / "scene.toml")), folder / "out"
+    pictures = plan.pictures(choice.shot())
+    with Store(out, create=True):
+        pass
+    listed = [[each.camera, each.frame, each.name] for each in pictures]
+    pairs = sorted({(each.camera, each.name) for each in pictures})
+    job.in_blender(choice.plain(), str(out), listed, [list(pair) for pair in pairs], "me", 0, silent, untold)
+
+    def image(name, suffix="exr"):
+        return np.asarray(sensor.read_image(out / Picture("drone", 1, name).file(suffix)))
+
+    return image, [out / path for each in pictures for path in each.files()]
+
+
+def test_every_file_is_there(frame):
+    _image, files = frame
+    assert {path.parent.name for path in files} == set(NAMES)
+    assert not [path for path in files if not path.exists()]
+
+
+def test_flames_are_brighter_and_redder_than_the_rest(frame):
+    image, _files = frame
+    picture, fire = image("rgb"), image("masks")[..., 0] == masks.FIRE
+    assert 5 <= fire.sum() <= 60
+    assert picture[fire, 0].mean() > 8.0 * picture[~fire, 0].mean()
+    assert picture[fire, 0].mean() > 2.0 * picture[fire, 1].mean() > 4.0 * picture[fire, 2].mean()
+
+
+def test_temperatures_are_those_of_sky_ground_and_flames(frame):
+    image, _files = frame
+    kelvin, radiance = np.moveaxis(image("thermal"), -1, 0)
+    kind = image("masks")[..., 0]
+    assert np.median(kelvin[kind == masks.SKY]) == pytest.approx(250.0, abs=2e-3)
+    assert 290.0 < np.median(kelvin[kind == masks.GROUND]) < 320.0
+    assert np.median(kelvin[kind == masks.BURNED]) > np.median(kelvin[kind == masks.GROUND]) + 10.0
+    assert np.median(kelvin[kind == masks.FIRE]) > 400.0
+    assert radiance == pytest.approx(sensor.radiance(kelvin), rel=1e-5)
+    grey = image("thermal", "png")
+    assert np.array_equal(grey[..., 0], grey[..., 2])
+    assert grey[kelvin > 600.0].min() > grey[kelvin < 320.0].max()
+
+
+def test_depth_normals_and_classes_agree_on_where_the_sky_is(frame):
+    image, _files = frame
+    depth, normal, kind = image("depth")[..., 0], image("normal"), image("masks")[..., 0]
+    sky = kind == masks.SKY
+    length = np.linalg.norm(normal, axis=2)
+    assert np.mean((depth > 1e9) == sky) > 0.98
+    assert np.mean((length == 0.0) == sky) > 0.98
+    assert length[~sky & (length > 0.0)] == pytest.approx(1.0, abs=0.02)  # bent by filtering at edges alone
+    assert 500.0 < depth[depth < 1e9].min() < 1000.0  # the drone is 500 m above the ground, and looks ahead
+    assert depth[depth < 1e9].max() < 40_000.0
+
+
+def test_every_class_is_there_in_its_colour(frame):
+    image, _files = frame
+    kind = image("masks")[..., 0].astype(int)
+    assert set(np.unique(kind)) == {
+        masks.SKY,
+        masks.GROUND,
+        masks.BURNED,
+        masks.TREE,
+        masks.SMOKE,
+        masks.FIRE,
+    }
+    colour = np.rint(255.0 * image("masks", "png")).astype(int)
+    assert np.array_equal(colour, np.array(masks.COLOURS)[kind])
+
+
+def test_pictures_made_of_others_show_them(frame):
+    image, _files = frame
+    kelvin = image("thermal")[..., 0]
+    hot, cold = kelvin > 600.0, kelvin < 320.0
+    plain = image("rgb", "png")
+    over = image("overlay", "png")
+    assert np.abs(over - plain)[hot].mean() > np.abs(over - plain)[cold].mean()
+    for name in ("imager_short", "imager_long", "thermal_map"):
+        assert image(name, "png")[hot].mean() > image(name, "png")[cold].mean()
+    assert image("edl", "png")[cold].mean() > 0.05
+    assert image("fused", "png").shape == (720, 1280, 3)
+    assert image("fused", "png").std() > 0.1

@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# Runs what tests/run.sh leaves out, slowest last, as much as fits into 32 minutes, and says what it left out.
+# Libraries and Debian folders are kept in $FIRETWIN_CACHE (~/.cache/firetwin): with them, more fits the next time.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+limit=$((32 * 60))
+cache=${FIRETWIN_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/firetwin}
+export FIRETWIN_PORTABLE=$cache/portable FIRETWIN_DEBIAN=$cache/debian
+mkdir -p "$cache"
+result=0 summary=()
+
+# Runs a command that needs about so many minutes, unless they are no longer there.
+slow() { # minutes command...
+  local needs=$(($1 * 60)) left=$((limit - SECONDS)) from=$SECONDS status=0
+  shift
+  local name=${*/#.venv\/bin\/python -m /}
+  if ((left < needs)); then
+    summary+=("left out: $name needs about $((needs / 60)) min; $((left > 0 ? left / 60 : 0)) are left")
+    return
+  fi
+  echo "== $name"
+  timeout --kill-after=20 "$left" "$@" || status=$?
+  case $status in
+    0) summary+=("passed: $name, $((SECONDS - from)) s") ;;
+    77) summary+=("left out: $name or a part of it cannot run here; why is said above") ;;
+    124 | 137) summary+=("left out: $name had not ended when the time was over; what it built is kept") ;;
+    *)
+      summary+=("FAILED: $name ended with $status")
+      result=1
+      ;;
+  esac
+}
+
+pytest=(.venv/bin/python -m pytest -q -n "$(nproc)" --dist worksteal --max-worker-restart 0)
+slow 2 "${pytest[@]}" tests/render
+slow 3 tests/system/fuzz/run.sh --runs 20000
+slow 3 "${pytest[@]}" tests/system
+if [[ -d $FIRETWIN_PORTABLE/wheels ]]; then
+  slow 3 tests/system/wheels.sh
+  slow 2 tests/system/extension.sh
+fi
+slow 8 tests/system/sanitize.sh
+slow 9 tests/system/versions.sh 5.2
+if [[ ! -d $FIRETWIN_PORTABLE/wheels ]]; then
+  slow 18 tests/system/wheels.sh
+  slow 2 tests/system/extension.sh
+fi
+slow 16 tests/system/window.sh
+printf '%s\n' "== what tests/run.sh leaves out" "${summary[@]}"
+exit "$result"
