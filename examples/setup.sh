@@ -103,9 +103,9 @@ make_venv() {
     python=$(find_python)
     say "making .venv with $("$python" --version)"
     "$python" -m venv .venv
+    rm -rf build/setup # may be of another Python
   fi
   "${pip[@]}" "scikit-build-core==1.1.2" "pybind11==3.1.0"
-  rm -rf build/setup # may be of another Python
 }
 
 install_python_packages() {
@@ -114,11 +114,10 @@ install_python_packages() {
 }
 
 compile() {
-  if [[ ! -f build/setup/build.ninja ]]; then
-    say "building the compiled core (a minute or two)"
+  if [[ ! -f build/setup/build.ninja || $stale == true ]]; then
     cmake -S . -B build/setup -G Ninja -DCMAKE_BUILD_TYPE=Release -DFIRETWIN_PRECOMPILE=ON \
       -DFIRETWIN_VERSION="$(sed -n 's/^version = "\(.*\)"/\1/p' pyproject.toml)" \
-      -DPython_EXECUTABLE="$PWD/.venv/bin/python" -Dpybind11_DIR="$(.venv/bin/python -m pybind11 --cmakedir)"
+      -DPython_EXECUTABLE="$PWD/.venv/bin/python" -Dpybind11_DIR="$(.venv/bin/python -m pybind11 --cmakedir)" || return
   fi
   cmake --build build/setup
 }
@@ -128,11 +127,11 @@ use_in_place() { # site-packages
   echo "import _firetwin_checkout" >"$1/firetwin_checkout.pth"
   cat >"$1/_firetwin_checkout.py" <<PYTHON
 import sys
-from importlib.machinery import PathFinder, SourceFileLoader
+from importlib.machinery import SourceFileLoader
 from importlib.util import spec_from_loader
 
 
-class Checkout(PathFinder):
+class Checkout:
     root = "$PWD"
 
     @classmethod
@@ -145,9 +144,10 @@ class Checkout(PathFinder):
         return spec
 
 
-sys.meta_path.insert(0, Checkout)
+sys.meta_path.append(Checkout)  # last: a copy of the package that PYTHONPATH names comes first
 PYTHON
 }
+
 # Runs a step whose output matters only if it fails.
 quietly() { # name command...
   local log=build/$1.log
@@ -163,14 +163,18 @@ pip=(.venv/bin/python -m pip install --quiet --disable-pip-version-check)
 mkdir -p build
 install_packages "${build_packages[@]}"
 stamp=.venv/firetwin.stamp
-background=()
+background=() stale=false
 if [[ ! -f $stamp || $(<"$stamp") != "$(fingerprint)" ]]; then
+  stale=true
   make_venv
   install_python_packages &
   background+=($!)
 fi
 install_packages "${run_packages[@]}" &
 background+=($!)
+if [[ ! -d build/setup ]]; then
+  say "compiling the core (a minute or two)"
+fi
 quietly compile compile
 for process in "${background[@]}"; do
   wait "$process"
