@@ -1,11 +1,18 @@
 """Tests that need Blender and build scenes: none renders a picture or starts a process."""
 
+import os
 import subprocess
 import sys
 
 import bpy
 import pytest
 from small_scene import *  # noqa: F403
+
+
+@pytest.fixture(autouse=True)
+def no_waiting_for_the_disk(monkeypatch):
+    """No test cuts the power, so files need not be on the disk."""
+    monkeypatch.setattr(os, "fsync", lambda descriptor: None)
 
 
 @pytest.fixture(autouse=True)

@@ -19,8 +19,8 @@ def test_building_twice_makes_the_same_scene_once(near_shot, stage, scene):
     assert all(name.startswith("Firetwin") for name in ours)
 
 
-def test_the_scene_is_grouped(shot, stage, scene):
-    build.build(shot, scene)
+def test_the_scene_is_grouped(built):
+    scene = built.scene
     parts = {child.name for child in bpy.data.collections["Firetwin"].children}
     assert {f"Firetwin {part}" for part in ("Ground", "Forest", "Cameras", "Light")} <= parts
     assert scene.camera.name == "Firetwin Camera drone"
@@ -34,13 +34,14 @@ def test_what_could_not_be_built_as_it_should_be_is_told(shot, stage, scene, mon
     assert told == ["no sun today"]
 
 
-def test_a_scene_of_the_artist_is_as_before_when_ours_is_removed(near_shot, scene):
+def test_a_scene_of_the_artist_is_as_before_when_ours_is_removed(near_shot, scene, request):
     scene.world = bpy.data.worlds.new("mine")
     scene.camera = bpy.data.objects.new("mine", bpy.data.cameras.new("mine"))
     scene.collection.objects.link(scene.camera)
     before = _names(), scene.frame_end, scene.view_settings.view_transform
-    for _ in range(2):
-        build.build(near_shot, scene)
+    build.build(near_shot, scene)
+    request.getfixturevalue("plain_looks")
+    build.build(near_shot, scene)
     assert bpy.data.objects["Firetwin Ground"].users_scene == (scene,)
     build.remove(scene)
     assert (_names(), scene.frame_end, scene.view_settings.view_transform) == before

@@ -15,11 +15,8 @@ from firetwin_core import forest
 from firetwin_core import run as runs
 
 
-def test_scrubbing_a_saved_scene_moves_its_clock_and_camera(shot, stage, scene, tmp_path):
-    build.build(shot, scene)
-    path = str(tmp_path / "scene.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path, use_scripts=False)
+def test_scrubbing_a_saved_scene_moves_its_clock_and_camera(built_file):
+    bpy.ops.wm.open_mainfile(filepath=str(built_file), use_scripts=False)
     seen = []
     for frame in (1, 3):
         bpy.context.scene.frame_set(frame)
@@ -29,7 +26,9 @@ def test_scrubbing_a_saved_scene_moves_its_clock_and_camera(shot, stage, scene, 
     assert (seen[1][1] - seen[0][1]).length > 500.0
 
 
-def test_the_papers_trees_are_there_without_the_run(settings, run_folder, scene, tmp_path, monkeypatch):
+def test_the_papers_trees_are_there_without_the_run(
+    settings, run_folder, scene, plain_looks, tmp_path, monkeypatch
+):
     """As many of each class as the core plants, in a file whose run is gone."""
     monkeypatch.setattr(preview, "MOST", 10**9)  # the viewport, which is looked at, shows all trees
     folder = tmp_path / "run"

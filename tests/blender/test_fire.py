@@ -107,7 +107,7 @@ def test_a_front_of_fewer_flames_is_as_bright(shot, monkeypatch):
     assert few[1] == pytest.approx(many[1], rel=0.15)
 
 
-def test_scrubbing_moves_the_flames(shot, stage, scene):
+def test_scrubbing_moves_the_flames(shot, stage, scene, plain_looks):
     scene.frame_end = shot.frames.count
     thing = fire.build(shot, stage)
     camera = bpy.data.objects.new("eye", bpy.data.cameras.new("eye"))

@@ -40,10 +40,10 @@ def from_height(settings, height):
     return replace(settings, cameras=(replace(camera, rig=replace(camera.rig, keys=(key,))),))
 
 
-def built(settings, run, stage):
-    """Build the whole scene with its view layers."""
+def built(settings, run, stage, parts=("fire", "light", "cameras")):
+    """Build what lights a scene, with its view layers."""
     shot = Shot(settings, run)
-    build.build(shot, stage.scene)
+    build.build(shot, stage.scene, parts)
     layers.build(settings, stage)
     return shot
 
@@ -145,10 +145,10 @@ def test_none_are_made_where_no_camera_is_near_the_fire(settings, run, stage, su
     assert found.heat.shape == (len(found.time), 0)
 
 
-def test_a_run_without_a_scene_file_is_built_by_night(settings, run, stage, sun_at, monkeypatch):
+def test_a_run_without_a_scene_file_is_built_by_night(settings, run, stage, sun_at, plain_looks, monkeypatch):
     monkeypatch.setattr(overview, "_LEAST", 12_000.0)  # as for a large fire, which is seen from far off
     sun_at(-20.0)
-    built(replace(settings, cameras=overview.cameras(run)), run, stage)
+    built(replace(settings, cameras=overview.cameras(run)), run, stage, tuple(build.PARTS))
     assert bpy.data.objects["Firetwin Flames"].users_scene == (stage.scene,)
 
 

@@ -58,7 +58,7 @@ def test_they_are_the_same_for_another_camera(outward, run):
     assert len(keys[0] & keys[1]) > 0.6 * len(keys[0])
 
 
-def test_they_stand_on_the_drawn_ground(outward, stage):
+def test_they_stand_on_the_drawn_ground(outward, stage, plain_looks):
     grown = stand.grow(outward)
     mesh = ground_build.build(outward, stage, grown).data
     tree = BVHTree.FromPolygons(

@@ -156,7 +156,7 @@ def _artist(name, size, **properties):
     return thing
 
 
-def test_an_artists_models_take_the_place_of_their_class(shot, stage):
+def test_an_artists_models_take_the_place_of_their_class(shot, stage, plain_looks):
     fine = _artist("b", 8.0, **{"class": "large", "level": 0})
     fine.data.materials.append(bpy.data.materials.new("theirs"))
     _artist("c", 8.0, **{"class": "large", "level": 2}).modifiers.new("more", "SUBSURF")

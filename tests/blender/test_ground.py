@@ -40,7 +40,7 @@ def _pixels(name):
     return found.reshape(image.size[1], image.size[0], 4)[..., channel]
 
 
-def test_vertices_are_the_local_frame_of_the_fuel_grid(plain, run):
+def test_vertices_are_the_local_frame_of_the_fuel_grid(plain_looks, plain, run):
     ground, mesh = plain
     wanted = frame.local_frame(run).forward_grid(run.fuel_latitude, run.fuel_longitude, run.fuel_elevation)
     place = _vectors(mesh, fields.GRID)
@@ -68,7 +68,7 @@ def test_images_carry_the_runs_fields_and_are_saved(plain, run, tmp_path):
     assert burned.sum() > 0.5 * np.sum(~np.isnan(known))
 
 
-def test_the_apron_reaches_its_width_and_continues_the_edge(plain, settings):
+def test_the_apron_reaches_its_width_and_continues_the_edge(plain_looks, plain, settings):
     ground, mesh = plain
     places = _vertices(mesh)
     assert np.abs(places[:, :2]).max() == pytest.approx(settings.ground.apron, rel=0.05)
@@ -79,7 +79,7 @@ def test_the_apron_reaches_its_width_and_continues_the_edge(plain, settings):
 
 
 @pytest.mark.parametrize("error", [0.25, 2.0])
-def test_the_mesh_is_as_near_to_the_ground_as_cameras_can_tell(near_settings, run, stage, error):
+def test_the_mesh_is_as_near_to_the_ground_as_cameras_can_tell(near_settings, run, stage, plain_looks, error):
     """In pixels, at places that are seen; between those that the mesh is compared with, a little more."""
     changed = replace(near_settings, ground=replace(near_settings.ground, error=error))
     shot = Shot(changed, run)
@@ -100,7 +100,7 @@ def test_the_mesh_is_as_near_to_the_ground_as_cameras_can_tell(near_settings, ru
     assert off.max() < 1.6 * error
 
 
-def test_what_no_camera_sees_is_coarse(near_settings, run, stage):
+def test_what_no_camera_sees_is_coarse(near_settings, run, stage, plain_looks):
     shot = Shot(near_settings, run)
     mesh = ground_build.build(shot, stage, None).data
     centre = np.array([polygon.center for polygon in mesh.polygons])
@@ -155,7 +155,7 @@ def narrow(request, run_folder, tmp_path):
     return runs.open(folder), size
 
 
-def test_a_grid_one_cell_wide_is_drawn_one_cell_wide(narrow, near_settings, stage):
+def test_a_grid_one_cell_wide_is_drawn_one_cell_wide(narrow, near_settings, stage, plain_looks):
     run, size = narrow
     for apron in (0.0, 20_000.0):
         shot = Shot(replace(near_settings, ground=replace(near_settings.ground, apron=apron)), run)

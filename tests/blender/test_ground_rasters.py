@@ -31,7 +31,9 @@ def model(tmp_path):
 
 
 @pytest.mark.parametrize("density", ["paper", "stand"])
-def test_trees_and_ground_stand_on_the_elevation_model(near_settings, run, scene, model, density):
+def test_trees_and_ground_stand_on_the_elevation_model(
+    near_settings, run, scene, plain_looks, model, density
+):
     changed = replace(
         near_settings,
         ground=replace(near_settings.ground, elevation=model),

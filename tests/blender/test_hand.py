@@ -70,7 +70,7 @@ def test_what_is_untouched_stays_as_the_file_says(film, stage, drone):
     assert _pull(film, stage) == film.settings.cameras
 
 
-def test_a_camera_flown_by_hand_comes_back_from_the_file(film, stage, drone, tmp_path):
+def test_a_camera_flown_by_hand_comes_back_from_the_file(film, stage, drone, plain_looks, tmp_path):
     """Within a quarter of a pixel (0.034 degrees): measured place and angle are printed."""
     _fly(drone)
     ground.build(film, stage, None)
@@ -172,7 +172,7 @@ def test_what_a_file_cannot_say_is_told(film, stage, drone):
     assert told == ['camera "drone": a scene file cannot say how a camera of type ortho was changed by hand']
 
 
-def test_the_ground_is_met_where_it_is(film, stage, drone):
+def test_the_ground_is_met_where_it_is(film, stage, drone, plain_looks):
     ground.build(film, stage, None)
     place = film.ground.point(38.84, -120.55, 100.0)[0]
     assert below.height(stage, [place]) == pytest.approx(100.0, abs=3.0)

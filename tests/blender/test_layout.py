@@ -5,14 +5,11 @@ import itertools
 import bpy
 import pytest
 from firetwin.blender import layout
-from firetwin.render import groups as compositor
-from firetwin.scene import build
 
 
 @pytest.fixture
-def groups(shot, scene, stage):
-    build.build(shot, scene)
-    compositor.build(shot.settings, stage)
+def groups(built):
+    """All node groups of a scene that was built."""
     return list(bpy.data.node_groups)
 
 

@@ -233,12 +233,13 @@ def changed(before):
     return differences(before, inventory())
 
 
-def test_nothing_foreign_changes(busy, shot):
+def test_nothing_foreign_changes(busy, shot, request):
     before = inventory()
     build.build(shot, busy)
     assert owned.built(busy)
     assert not owned.ours(busy)
     assert not changed(before)
+    request.getfixturevalue("plain_looks")
     for part in build.PARTS:
         build.build(shot, busy, parts=[part])
         assert not changed(before), part
@@ -268,13 +269,15 @@ def test_the_inventory_sees_what_changes(busy):
         lambda: setattr(bpy.data.scenes["Second"], "world", None),
         lambda: bpy.data.libraries.remove(bpy.data.libraries[0]),
     ]
+    before = inventory()
     for change in changes:
-        before = inventory()
         change()
-        assert changed(before)
+        after = inventory()
+        assert differences(before, after)
+        before = after
 
 
-def test_an_artists_things_in_our_collections_stay(busy, shot):
+def test_an_artists_things_in_our_collections_stay(busy, shot, plain_looks):
     build.build(shot, busy)
     root = next(child for child in busy.collection.children if owned.ours(child))
     trees = next(child for child in root.children if owned.ours(child, "Forest"))
@@ -318,7 +321,7 @@ def test_linked_data_of_ours_is_not_ours(busy, shot):
     assert not owned.built(busy)
 
 
-def test_building_twice_makes_nothing_twice(busy, shot):
+def test_building_twice_makes_nothing_twice(busy, shot, plain_looks):
     build.build(shot, busy)
     counted, names = our_counts(), sorted(busy.objects.keys())
     build.build(shot, busy)
@@ -333,7 +336,7 @@ def all_of(uids):
     return {uid: digest(blocks[uid]) for uid in uids}
 
 
-def test_two_scenes_do_not_disturb_each_other(shot, run):
+def test_two_scenes_do_not_disturb_each_other(shot, run, plain_ground):
     first, second = (owned.adopt(bpy.data.scenes.new(name)) for name in ("First", "Second"))
     hazy = Shot(replace(shot.settings, light=replace(shot.settings.light, haze=3.0)), run)
     build.build(shot, first.scene)
@@ -353,7 +356,7 @@ def test_two_scenes_do_not_disturb_each_other(shot, run):
     assert set(our_blocks()) == uids
 
 
-def test_what_an_artist_adds_to_our_own_scene_stays(scene, stage, shot):
+def test_what_an_artist_adds_to_our_own_scene_stays(scene, stage, shot, plain_looks):
     build.build(shot, scene)
     layers.build(shot.settings, stage)
     tree = compat.compositor(scene)
@@ -379,9 +382,8 @@ def test_what_an_artist_adds_to_our_own_scene_stays(scene, stage, shot):
     assert not our_blocks()
 
 
-def test_a_changed_camera_outlives_another_forest(scene, stage, shot):
-    build.build(shot, scene)
-    camera = stage.camera("drone")
+def test_a_changed_camera_outlives_another_forest(built, shot, plain_looks):
+    scene, camera = built.scene, built.camera("drone")
     camera.animation_data_clear()
     camera.name, camera.location.z, camera.data.lens = "Mine", 4000.0, 85.0
     build.build(shot, scene, parts=["forest"])
@@ -389,8 +391,8 @@ def test_a_changed_camera_outlives_another_forest(scene, stage, shot):
     assert (scene.camera.location.z, scene.camera.data.lens) == (4000.0, 85.0)
 
 
-def test_a_camera_that_was_chosen_stays_chosen(scene, stage, shot):
-    build.build(shot, scene)
+def test_a_camera_that_was_chosen_stays_chosen(built, shot, plain_looks):
+    scene = built.scene
     mine = bpy.data.objects.new("Mine", bpy.data.cameras.new("Mine"))
     scene.collection.objects.link(mine)
     scene.camera = mine
@@ -398,33 +400,33 @@ def test_a_camera_that_was_chosen_stays_chosen(scene, stage, shot):
     assert scene.camera == mine
 
 
-def test_an_artists_copy_of_ours_stays(scene, stage, shot):
-    build.build(shot, scene)
-    original = stage.camera("drone")
+def test_an_artists_copy_of_ours_stays(built, shot, plain_looks):
+    scene, original = built.scene, built.camera("drone")
     original.name = "First"
     copy = original.copy()
     copy.data = original.data.copy()
     original.users_collection[0].objects.link(copy)
     copy.name = "A copy"
-    assert stage.camera("drone") == original
+    assert built.camera("drone") == original
     build.build(shot, scene)
     assert "A copy" in scene.objects
-    assert stage.camera("drone") == original  # with the name that it was given
+    assert built.camera("drone") == original  # with the name that it was given
     assert original.name == "First"
     build.remove(scene)
     assert scene.objects.keys() == ["A copy"]
     assert scene.objects["A copy"].data is not None
 
 
-def test_what_an_artist_animates_in_our_action_stays(scene, stage, shot):
-    build.build(shot, scene)
+def test_what_an_artist_animates_in_our_action_stays(built):
+    scene = built.scene
+    layers.remove(scene)
     scene.keyframe_insert("gravity", index=2, frame=1)
     build.remove(scene)
     assert {curve.data_path for curve in compat.fcurves(scene)} == {"gravity"}
     assert not our_blocks()
 
 
-def test_a_scene_that_shares_ours_keeps_it(scene, shot):
+def test_a_scene_that_shares_ours_keeps_it(scene, shot, plain_looks):
     build.build(shot, scene)
     bpy.ops.scene.new(type="LINK_COPY")
     copy = bpy.context.window.scene

@@ -42,6 +42,8 @@ near_radius = 0.0
 apron = 20000.0
 [forest]
 density = "paper"
+[fire]
+firebrands = 0
 [smoke]
 enabled = false
 [render]
@@ -59,7 +61,7 @@ target = "fire"
 
 
 @pytest.fixture
-def settings():
+def settings(plain_looks):
     """The panel of a new file, as Blender starts with."""
     bpy.ops.wm.read_factory_settings()
     firetwin.register()

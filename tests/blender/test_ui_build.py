@@ -115,7 +115,7 @@ def test_panels_build_what_the_exported_scene_file_builds(opened, tmp_path):
     assert trees_again == trees
 
 
-def test_a_part_built_again_keeps_what_was_changed_by_hand_elsewhere(opened):
+def test_a_part_built_again_keeps_what_was_changed_by_hand_elsewhere(opened, plain_looks):
     bpy.ops.firetwin.build()
     scene = bpy.context.scene
     trees, ground = scene.objects["Firetwin Trees"], scene.objects["Firetwin Ground"]

@@ -8,9 +8,8 @@ import bpy
 import firetwin
 import panel_scene
 import pytest
-from firetwin.blender import nodes, owned
+from firetwin.blender import owned
 from firetwin.jobs.worker import StoppedError
-from firetwin.scene.ground import material
 from firetwin.shot import file
 from firetwin.ui import build, camera_list, job, queue, run, scene_file, working
 from panel_scene import state
@@ -34,12 +33,6 @@ def panel(blend):
     firetwin.unregister()
 
 
-@pytest.fixture
-def quick(monkeypatch):
-    """The ground has a plain material: its nodes are what takes longest to build."""
-    monkeypatch.setattr(material, "build", lambda *_: nodes.material("Firetwin Ground")[0])
-
-
 def stopped_after(count):
     """Build, stopped after so many steps, as the window ends it; the last of them, or None: it was done."""
     bpy.ops.ed.undo_push(message="before")
@@ -56,7 +49,7 @@ def stopped_after(count):
     return work.what
 
 
-def test_a_build_stopped_at_any_step_leaves_the_scene_as_it_was(panel, quick):
+def test_a_build_stopped_at_any_step_leaves_the_scene_as_it_was(panel, plain_looks):
     bpy.context.scene.objects["Firetwin Ground"].location.x = 5.0  # by hand
     panel.light.haze = 0.7
     before, seen = state(), []
@@ -68,7 +61,7 @@ def test_a_build_stopped_at_any_step_leaves_the_scene_as_it_was(panel, quick):
     assert state() != before
 
 
-def test_a_first_build_stopped_in_the_middle_brings_the_startup_scene_back(panel, quick, blend):
+def test_a_first_build_stopped_in_the_middle_brings_the_startup_scene_back(panel, plain_looks, blend):
     bpy.ops.wm.read_homefile(use_factory_startup=True)
     bpy.context.scene.firetwin.scene_file = str(blend.with_suffix(".toml"))
     before = state()
@@ -87,7 +80,7 @@ def message(operator, **options):
     return text
 
 
-def test_a_run_that_vanishes_is_a_message_and_nothing_is_lost(panel, blend, tmp_path):
+def test_a_run_that_vanishes_is_a_message_and_nothing_is_lost(panel, plain_looks, blend, tmp_path):
     folder, scene = blend.parent / "run", bpy.context.scene
     facts, cameras = panel.facts, camera_list.cameras(panel)
     hidden, panel.which, panel.output = folder.rename(blend.parent / "away"), "frame", str(tmp_path)
@@ -135,7 +128,7 @@ def names(scene):
     return {(thing.name, thing.session_uid) for thing in scene.objects}
 
 
-def test_two_scenes_of_one_file_do_not_mix(panel, quick, blend):
+def test_two_scenes_of_one_file_do_not_mix(panel, plain_looks, blend):
     first = bpy.context.scene
     bpy.ops.scene.new(type="NEW")
     second = bpy.context.window.scene
@@ -163,7 +156,7 @@ CAMERA = ("camera_key", "camera_aim", "camera_path", "camera_lens")
 REFUSED = ("inspect", "build", "remove", "camera_add", *CAMERA, "render", "open", "quality")
 
 
-def test_what_is_linked_is_left_alone_and_what_is_appended_is_ours(panel, quick, blend):
+def test_what_is_linked_is_left_alone_and_what_is_appended_is_ours(panel, plain_looks, blend):
     there = file.text(scene_file.settings(bpy.context.scene))
     bpy.ops.wm.read_homefile(use_empty=True)
     with bpy.data.libraries.load(str(blend), link=True) as (known, wanted):

@@ -30,7 +30,7 @@ def drawn(names):
     return sum(item.is_instance and item.parent.original.name in names for item in graph.object_instances)
 
 
-def test_others_stand_in_for_a_large_forest(near_shot, scene, few):
+def test_others_stand_in_for_a_large_forest(near_shot, scene, few, plain_looks):
     build.build(near_shot, scene)
     full = bpy.data.objects["Firetwin Trees"]
     shown = [thing for thing in trees() if thing != full]
@@ -79,7 +79,7 @@ def array(thing, name):
     return found
 
 
-def test_only_trees_that_burn_follow_time(near_shot, scene, few):
+def test_only_trees_that_burn_follow_time(near_shot, scene, few, plain_looks):
     """A frame change makes the nodes of no others run: none of theirs asks for the time or the camera."""
     build.build(near_shot, scene)
     asking = {"GeometryNodeInputSceneTime", "GeometryNodeInputActiveCamera"}
@@ -92,13 +92,13 @@ def test_only_trees_that_burn_follow_time(near_shot, scene, few):
     assert np.all((arrival + 900.0 > near_shot.frames.first) & (arrival + 900.0 <= near_shot.frames.last))
 
 
-def test_a_small_forest_stays_as_it_is(near_shot, scene):
+def test_a_small_forest_stays_as_it_is(near_shot, scene, plain_looks):
     build.build(near_shot, scene)
     assert [thing.name for thing in trees()] == ["Firetwin Trees"]
     assert not trees()[0].hide_viewport
 
 
-def test_the_solid_view_shows_fuel_scar_and_water(settings, run_folder, scene, tmp_path):
+def test_the_solid_view_shows_fuel_scar_and_water(settings, run_folder, scene, plain_looks):
     shot = Shot(settings, runs.open(run_folder))
     build.build(shot, scene, ("ground",))
     data = bpy.data.objects["Firetwin Ground"].data

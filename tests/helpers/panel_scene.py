@@ -12,7 +12,7 @@ SCENE = (
     THREE_FRAMES
     + NO_SMOKE
     + BARE
-    + "trees = false\n"
+    + "trees = false\n[fire]\nfirebrands = 0\n"
     + TINY
     + """\
 [[cameras]]

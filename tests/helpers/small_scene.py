@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import replace
 from datetime import UTC, datetime
 
@@ -12,7 +13,13 @@ bpy = pytest.importorskip("bpy")
 
 import firetwin  # noqa: E402
 from firetwin.blender import compat, nodes, owned  # noqa: E402
+from firetwin.render import layers  # noqa: E402
+from firetwin.scene import build, haze  # noqa: E402
+from firetwin.scene.fire import firebrand_material  # noqa: E402
+from firetwin.scene.fire import material as flame_material  # noqa: E402
+from firetwin.scene.forest import material as tree_material  # noqa: E402
 from firetwin.scene.forest import preview  # noqa: E402
+from firetwin.scene.ground import material as ground_material  # noqa: E402
 from firetwin.scene.smoke import boxes  # noqa: E402
 from firetwin.shot import settings as scene_settings  # noqa: E402
 from firetwin.shot.rigs.drone import CameraKey, Drone  # noqa: E402
@@ -21,10 +28,15 @@ from firetwin_core import run as runs  # noqa: E402
 from firetwin_core import sensor  # noqa: E402
 
 __all__ = [
+    "built",
+    "built_file",
+    "factory",
     "few_cells",
     "near_settings",
     "near_shot",
     "panel",
+    "plain_ground",
+    "plain_looks",
     "plate",
     "run",
     "run_folder",
@@ -93,14 +105,18 @@ def run(run_folder):
 @pytest.fixture
 def settings(run_folder, tmp_path):
     """A drone over the run's middle, three frames over an hour, no relief or stand, a small apron."""
+    return _settings(run_folder, tmp_path)
+
+
+def _settings(run_folder, folder):
     keys = (
         CameraKey(0.0, 38.825, -120.56, 400.0, "point", 38.845, -120.55, 0.0),
         CameraKey(1.0, 38.830, -120.57, 500.0, "point", 38.845, -120.55, 0.0),
     )
     return scene_settings.Settings(
-        path=tmp_path / "scene.toml",
+        path=folder / "scene.toml",
         run=run_folder,
-        cache=tmp_path / "cache",
+        cache=folder / "cache",
         time=scene_settings.Time(
             start=datetime(2014, 9, 17, 21, 0, tzinfo=UTC),
             end=datetime(2014, 9, 17, 22, 0, tzinfo=UTC),
@@ -134,10 +150,16 @@ def near_shot(near_settings, run):
     return Shot(near_settings, run)
 
 
-@pytest.fixture(autouse=True)
-def scene():
-    """Blender as from the factory, with an empty scene."""
+@pytest.fixture(scope="session")
+def factory():
+    """Blender's preferences and add-ons as from the factory."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
+
+
+@pytest.fixture(autouse=True)
+def scene(factory):
+    """Blender as from the factory, with an empty scene."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     return bpy.context.scene
 
 
@@ -145,6 +167,49 @@ def scene():
 def stage(scene):
     """The scene as one of our own."""
     return owned.adopt(scene)
+
+
+@pytest.fixture(scope="session")
+def built_file(factory, run_folder, run, tmp_path_factory):
+    """The small shot built into a scene of our own, with its view layers, as a file."""
+    folder = tmp_path_factory.mktemp("built")
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    stage, settings = owned.adopt(bpy.context.scene), _settings(run_folder, folder)
+    build.build(Shot(settings, run), stage.scene)
+    layers.build(settings, stage)
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "built.blend"))
+    return folder / "built.blend"
+
+
+@pytest.fixture
+def built(scene, built_file):
+    """Our part of that file's scene; opening it makes the `scene` of before invalid."""
+    bpy.ops.wm.open_mainfile(filepath=str(built_file))
+    return owned.stage(bpy.context.scene)
+
+
+def _plain(name, shot, stage, images=None, *_, **__):
+    """A material that shows images, if it is given any, and white light in haze."""
+    material, tree = nodes.material(f"Firetwin {name}")
+    for image in (images or {}).values():
+        tree.node("ShaderNodeTexImage", image=image)
+    tree.surface(haze.apply(tree, tree.emission((1.0, 1.0, 1.0)), stage))
+    return material
+
+
+@pytest.fixture
+def plain_ground(monkeypatch):
+    """The ground has a plain material: its nodes are what takes longest to build."""
+    monkeypatch.setattr(ground_material, "build", functools.partial(_plain, "Ground"))
+
+
+@pytest.fixture
+def plain_looks(plain_ground, monkeypatch):
+    """Ground, plants and fire have plain materials."""
+    for name in ("foliage", "bark", "rock", "grass"):
+        monkeypatch.setattr(tree_material, name, functools.partial(_plain, name.title()))
+    monkeypatch.setattr(flame_material, "build", functools.partial(_plain, "Flames"))
+    monkeypatch.setattr(firebrand_material, "build", functools.partial(_plain, "Firebrands"))
 
 
 @pytest.fixture
