@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from firetwin_core import volume
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from plumes import CELL, briggs, burn, read, smoke, steady
 
@@ -46,8 +46,9 @@ def test_emitted_is_airborne_and_left(time, max_age, interval, burn_time, block,
 
 @settings(deadline=None, max_examples=12)
 @given(time=st.floats(60.0, 6000.0), voxel=st.floats(90.0, 250.0), seed=st.integers(0, 99))
+@example(time=60.0, voxel=197.6875, seed=34)  # few voxels, all rounded down: 3.2e-4
 def test_a_file_holds_the_airborne_mass(tmp_path_factory, time, voxel, seed):
-    """1e-6 before the values become half floats; halves are off by 2^-12 at random, 2e-4 at most in all."""
+    """1e-6 before the values become half floats; these are off by 2^-11 of themselves at most, and so is the sum."""
     path = tmp_path_factory.mktemp("mass") / "smoke.vdb"
     puffs = smoke(time, cells=burn(30, seed), smallest=150.0, max_age=4000.0)
     frame = volume.write_smoke(path, puffs, voxel)
@@ -56,7 +57,7 @@ def test_a_file_holds_the_airborne_mass(tmp_path_factory, time, voxel, seed):
     else:
         assert frame.mass == pytest.approx(puffs.mass.sum(), rel=1e-6)
         dilution = read(path)["dilution"][0].astype(np.float64)
-        assert dilution.sum() * volume.FRESH_SMOKE * voxel**3 == pytest.approx(puffs.mass.sum(), rel=2e-4)
+        assert dilution.sum() * volume.FRESH_SMOKE * voxel**3 == pytest.approx(puffs.mass.sum(), rel=2.0**-11)
 
 
 @pytest.mark.parametrize("voxel", [60.0, 110.0])
