@@ -48,7 +48,7 @@ def test_emitted_is_airborne_and_left(time, max_age, interval, burn_time, block,
 @given(time=st.floats(60.0, 6000.0), voxel=st.floats(90.0, 250.0), seed=st.integers(0, 99))
 @example(time=60.0, voxel=197.6875, seed=34)  # few voxels, all rounded down: 3.2e-4
 def test_a_file_holds_the_airborne_mass(tmp_path_factory, time, voxel, seed):
-    """1e-6 before the values become half floats, which are off by 2^-11 of themselves at most; so is their sum."""
+    """1e-6 before values become half floats, which are off by 2^-11 of themselves at most; so is the sum."""
     path = tmp_path_factory.mktemp("mass") / "smoke.vdb"
     puffs = smoke(time, cells=burn(30, seed), smallest=150.0, max_age=4000.0)
     frame = volume.write_smoke(path, puffs, voxel)
