@@ -108,9 +108,13 @@ make_venv() {
   "${pip[@]}" "scikit-build-core==1.1.2" "pybind11==3.1.0"
 }
 
+# With uv, which takes a fifth of pip's processor time; with pip where uv is not to be had or knows no way to the packages.
 install_python_packages() {
   say "installing Blender's Python module and the other Python packages (about 350 MB the first time)"
-  "${pip[@]}" --no-build-isolation --config-settings=wheel.cmake=false ".[$extras]"
+  local options=(--quiet --no-build-isolation --config-settings=wheel.cmake=false ".[$extras]")
+  if ! { "${pip[@]}" uv && .venv/bin/uv pip install --system-certs --python .venv/bin/python "${options[@]}"; } >build/uv.log 2>&1; then
+    "${pip[@]}" "${options[@]}"
+  fi
 }
 
 compile() {

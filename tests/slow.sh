@@ -14,7 +14,8 @@ result=0 summary=()
 slow() { # minutes command...
   local needs=$(($1 * 60)) left=$((limit - SECONDS)) from=$SECONDS status=0
   shift
-  local name=${*/#.venv\/bin\/python -m /}
+  local name="$*"
+  name=${name#.venv/bin/python -m }
   if ((left < needs)); then
     summary+=("left out: $name needs about $((needs / 60)) min; $((left > 0 ? left / 60 : 0)) are left")
     return
