@@ -362,6 +362,21 @@ def test_an_lcp_is_what_gdal_reads(tmp_path):
         )
 
 
+def test_an_ascii_grid_is_what_gdal_reads(tmp_path):
+    rasterio = pytest.importorskip("rasterio")
+    from firetwin.run.models import raster
+
+    values = np.random.default_rng(4).uniform(0.0, 9.0, (7, 9)).astype(np.float32)
+    values[2, 3] = np.nan
+    path = made.ascii_grid(tmp_path / "a.asc", values, cell=30.0, west=600.0, south=900.0)
+    found = raster.read(path)
+    with rasterio.open(path, driver="AAIGrid") as file:
+        expected = file.read(1)
+        np.testing.assert_array_equal(found.values, np.where(expected == file.nodata, np.nan, expected))
+        corners = [file.xy(0, 0), file.xy(6, 8)]
+    assert [(found.x[i], found.y[i]) for i in (0, -1)] == [pytest.approx(corner) for corner in corners]
+
+
 def test_pyretechnics_itself(tmp_path, converted):
     pytest.importorskip("pyretechnics", reason="pip install 'firetwin[simulate]', which compiles for minutes")
     from pyretechnics.eulerian_level_set import SpreadState, spread_fire_with_phi_field
