@@ -229,3 +229,12 @@ def test_a_blend_file_must_be_named_so_and_its_folder_be_there(scene, tmp_path):
     assert_one_line(
         firetwin("build", scene(), "-o", tmp_path / "file" / "x.blend"), 1, str(tmp_path / "file")
     )
+
+
+def test_a_reader_that_has_gone_is_no_traceback():
+    """As in `firetwin schema | head -1`."""
+    command = [sys.executable, "-m", "firetwin", "schema"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == 1
