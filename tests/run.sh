@@ -32,5 +32,5 @@ pytest tests/blender
 echo "== render: a frame of each pass"
 pytest tests/render/test_passes.py tests/render/test_passes_normal.py tests/render/test_layers.py tests/render/test_beside.py
 if $all; then
-  tests/slow.sh
+  tests/slow.sh $((40 * 60 - SECONDS))
 fi
