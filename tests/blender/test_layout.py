@@ -9,7 +9,7 @@ from firetwin.blender import layout
 
 @pytest.fixture
 def groups(built):
-    """Node groups of materials and shapes of a scene that was built; from 5.0 on the compositor is one too."""
+    """Node groups of materials and shapes of a built scene; from 5.0 on the compositor is a group too."""
     return [group for group in bpy.data.node_groups if group.bl_idname != "CompositorNodeTree"]
 
 
