@@ -19,8 +19,12 @@ def no_waiting_for_the_disk(monkeypatch):
 def no_picture_and_no_process(monkeypatch):
     """What renders belongs into tests/render, what starts a process into tests/system."""
     rendered = []
-    bpy.app.handlers.render_init.append(rendered.append)
 
+    @bpy.app.handlers.persistent
+    def note(*_):
+        rendered.append(True)
+
+    bpy.app.handlers.render_init.append(note)
     start = subprocess.Popen.__init__
 
     def refuse(self, command, *arguments, **options):
@@ -30,7 +34,7 @@ def no_picture_and_no_process(monkeypatch):
 
     monkeypatch.setattr(subprocess.Popen, "__init__", refuse)
     yield
-    if rendered.append in bpy.app.handlers.render_init:  # a new file takes all handlers away
-        bpy.app.handlers.render_init.remove(rendered.append)
+    if note in bpy.app.handlers.render_init:
+        bpy.app.handlers.render_init.remove(note)
     if rendered:
         pytest.fail("a test that renders belongs into tests/render")

@@ -336,6 +336,7 @@ def all_of(uids):
     return {uid: digest(blocks[uid]) for uid in uids}
 
 
+@pytest.mark.slow
 def test_two_scenes_do_not_disturb_each_other(shot, run, plain_ground):
     first, second = (owned.adopt(bpy.data.scenes.new(name)) for name in ("First", "Second"))
     hazy = Shot(replace(shot.settings, light=replace(shot.settings.light, haze=3.0)), run)

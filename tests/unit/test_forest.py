@@ -47,6 +47,7 @@ def positions(plants):
     return geodesy.enu(*place, ORIGIN)
 
 
+@pytest.mark.slow
 def test_every_tree_and_clump_equals_the_transcription():
     grid = fuel_grid(720, 720)
     expected_trees, expected_grass = algorithms.algorithm2(**grid, seed=SEED)
