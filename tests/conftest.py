@@ -17,7 +17,6 @@ hypothesis.settings.register_profile("firetwin", deadline=None)  # how fast a ma
 hypothesis.settings.register_profile("quick", deadline=None, max_examples=10)
 hypothesis.settings.load_profile("firetwin")
 
-
 SECONDS = Path(__file__).parents[1] / "build/tests/seconds.json"
 """What each test file took when all of it ran last, for tests/touched.py."""
 _seconds: dict[str, float] = defaultdict(float)
@@ -51,7 +50,7 @@ def pytest_runtest_call(item):
 def pytest_runtest_makereport(item, call):
     """Fail a test of unit or blender that takes too long; what it shares with others is not counted.
 
-    Too long is 10 s of processor time, which other work on the machine hardly changes, or a minute by the clock.
+    Too long is 10 s of processor time, which other work on the machine hardly changes, or a minute in all.
     """
     report = yield
     quick = item.get_closest_marker("unit") or item.get_closest_marker("blender")
