@@ -6,6 +6,7 @@ import sys
 
 import bpy
 import pytest
+from near_fire import *  # noqa: F403
 from small_scene import *  # noqa: F403
 
 

@@ -1,7 +1,6 @@
 """Firebrands: launched by the flames, flown by the core, drawn by geometry nodes at any time."""
 
 from dataclasses import replace
-from datetime import timedelta
 
 import bpy
 import numpy as np
@@ -11,25 +10,7 @@ from firetwin.scene.fire import firebrands, flames
 from firetwin.shot import burning
 from firetwin.shot.settings import Fire
 from firetwin.shot.shot import Shot
-
-FRAMES = 24
-
-
-@pytest.fixture
-def close(settings):
-    """A camera near the front, one second in 24 frames."""
-    begin = settings.time.start + timedelta(minutes=30)
-    return replace(
-        moved(settings, latitude=38.8395, height=150.0),
-        time=replace(settings.time, start=begin, end=begin + timedelta(seconds=1), frames=FRAMES),
-    )
-
-
-def moved(settings, **place):
-    """Settings whose camera stands still elsewhere."""
-    camera = settings.cameras[0]
-    key = replace(camera.rig.keys[0], **place)
-    return replace(settings, cameras=(replace(camera, rig=replace(camera.rig, keys=(key,))),))
+from near_fire import FRAMES, moved
 
 
 def flown(shot):

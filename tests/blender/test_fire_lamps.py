@@ -11,33 +11,11 @@ from firetwin.scene import build
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import lamp_objects, lamps
 from firetwin.scene.smoke import build as smoke
-from firetwin.shot import overview, sun
+from firetwin.shot import overview
 from firetwin.shot.fire import Fire
 from firetwin.shot.settings import Light, Smoke
 from firetwin.shot.shot import Shot
-
-
-@pytest.fixture
-def sun_at(monkeypatch):
-    """Put the sun at a height (degrees) for lamps and light alike."""
-
-    def place(height):
-        monkeypatch.setattr(sun, "at", lambda run, time: (200.0, height))
-
-    return place
-
-
-@pytest.fixture
-def near(settings):
-    """A camera near the front of the second frame."""
-    return from_height(settings, 150.0)
-
-
-def from_height(settings, height):
-    """Settings with one camera that high over the front of the second frame."""
-    camera = settings.cameras[0]
-    key = replace(camera.rig.keys[0], latitude=38.8395, height=height)
-    return replace(settings, cameras=(replace(camera, rig=replace(camera.rig, keys=(key,))),))
+from near_fire import from_height
 
 
 def built(settings, run, stage, parts=("fire", "light", "cameras")):

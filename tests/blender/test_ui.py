@@ -29,35 +29,7 @@ from firetwin.ui import (
 )
 from firetwin.ui import scene_file as scene_settings
 from firetwin.ui import time as model_time
-
-SCENE = """\
-run = "{run}"
-cache = "cache"
-[time]
-start = 2014-09-17T21:00:00Z
-end = 2014-09-17T22:00:00Z
-frames = 3
-[ground]
-near_radius = 0.0
-apron = 20000.0
-[forest]
-density = "paper"
-[fire]
-firebrands = 0
-[smoke]
-enabled = false
-[render]
-resolution = [64, 36]
-samples = 1
-video = false
-[[cameras]]
-name = "drone"
-[[cameras.keys]]
-latitude = 38.825
-longitude = -120.56
-height = 400.0
-target = "fire"
-"""
+from scene_text import PANEL
 
 
 @pytest.fixture
@@ -73,7 +45,7 @@ def settings(plain_looks):
 @pytest.fixture
 def scene_file(run_folder, tmp_path):
     path = tmp_path / "scene.toml"
-    path.write_text(SCENE.format(run=run_folder))
+    path.write_text(PANEL.format(run=run_folder))
     return path
 
 

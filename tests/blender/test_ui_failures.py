@@ -1,11 +1,9 @@
 """What goes wrong around an artist: Esc at any moment, a lost run, a full disk, several scenes, libraries."""
 
-import shutil
 import time
 from types import SimpleNamespace
 
 import bpy
-import firetwin
 import panel_scene
 import pytest
 from firetwin.blender import owned
@@ -18,19 +16,13 @@ from panel_scene import state
 @pytest.fixture(scope="module")
 def blend(run_folder, tmp_path_factory):
     """A scene that the panel built, as a file, with a copy of the run that may vanish."""
-    folder = tmp_path_factory.mktemp("robust")
-    shutil.copytree(run_folder, folder / "run")
-    return panel_scene.build(folder / "run", folder)
+    return panel_scene.build_with_run(run_folder, tmp_path_factory.mktemp("failures"))
 
 
 @pytest.fixture
 def panel(blend):
     """A built scene of the panel."""
-    firetwin.register()
-    bpy.ops.wm.open_mainfile(filepath=str(blend))
-    yield bpy.context.scene.firetwin
-    queue.clear()
-    firetwin.unregister()
+    yield from panel_scene.opened(blend)
 
 
 def stopped_after(count):

@@ -1,11 +1,13 @@
 """A small scene that the panel builds, and what an artist could lose of the file that is open."""
 
+import shutil
+
 import bpy
 import firetwin
 from firetwin.blender import compat
 from firetwin.errors import Error
 from firetwin.shot import file
-from firetwin.ui import scene_file
+from firetwin.ui import queue, scene_file
 from scene_text import BARE, NO_SMOKE, THREE_FRAMES, TINY
 
 SCENE = (
@@ -36,6 +38,21 @@ def build(run, folder):
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"))
     firetwin.unregister()
     return folder / "scene.blend"
+
+
+def build_with_run(run, folder):
+    """The same from a copy of the run in `folder`, which may vanish."""
+    shutil.copytree(run, folder / "run")
+    return build(folder / "run", folder)
+
+
+def opened(blend):
+    """Open such a file; yields its panel, and puts all away afterwards."""
+    firetwin.register()
+    bpy.ops.wm.open_mainfile(filepath=str(blend))
+    yield bpy.context.scene.firetwin
+    queue.clear()
+    firetwin.unregister()
 
 
 def settings(scene):

@@ -63,3 +63,32 @@ target = "point"
 target_latitude = 38.905
 target_longitude = -120.590
 """
+
+PANEL = """\
+run = "{run}"
+cache = "cache"
+[time]
+start = 2014-09-17T21:00:00Z
+end = 2014-09-17T22:00:00Z
+frames = 3
+[ground]
+near_radius = 0.0
+apron = 20000.0
+[forest]
+density = "paper"
+[fire]
+firebrands = 0
+[smoke]
+enabled = false
+[render]
+resolution = [64, 36]
+samples = 1
+video = false
+[[cameras]]
+name = "drone"
+[[cameras.keys]]
+latitude = 38.825
+longitude = -120.56
+height = 400.0
+target = "fire"
+"""

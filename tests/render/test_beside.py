@@ -6,13 +6,10 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
+import rendered
 from firetwin.blender import owned
-from firetwin.jobs import render as job
-from firetwin.progress import silent, untold
-from firetwin.render import plan
 from firetwin.render.store import Store
 from firetwin.scene.fire import build as fire
-from firetwin.shot.choice import Choice
 from firetwin.shot.settings import OtherRun
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
@@ -47,16 +44,8 @@ def late_folder(run_folder, tmp_path_factory):
 @pytest.fixture(scope="module")
 def film(run_folder, late_folder, tmp_path_factory):
     """One frame of everything, as the worker process makes it."""
-    folder = tmp_path_factory.mktemp("film")
-    (folder / "scene.toml").write_text(SCENE.format(run=run_folder, late=late_folder))
-    choice, out = Choice(scene=str(folder / "scene.toml")), folder / "out"
-    pictures = plan.pictures(choice.shot())
-    with Store(out, create=True):
-        pass
-    listed = [[each.camera, each.frame, each.name] for each in pictures]
-    pairs = sorted({(each.camera, each.name) for each in pictures})
-    job.in_blender(choice.plain(), str(out), listed, [list(pair) for pair in pairs], "me", 0, silent, untold)
-    return choice.shot(), out
+    text = SCENE.format(run=run_folder, late=late_folder)
+    return rendered.everything(tmp_path_factory.mktemp("film"), text)
 
 
 def _read(out, camera, name, suffix):

@@ -1,38 +1,11 @@
 """Lamps in place of flames: few, steady, for ground and trees alone, at night alone."""
 
-from dataclasses import replace
-
 import bpy
 import numpy as np
-import pytest
 from firetwin.blender import nodes
 from firetwin.render import layers
 from firetwin.scene import build
-from firetwin.shot import sun
 from firetwin.shot.shot import Shot
-
-
-@pytest.fixture
-def sun_at(monkeypatch):
-    """Put the sun at a height (degrees) for lamps and light alike."""
-
-    def place(height):
-        monkeypatch.setattr(sun, "at", lambda run, time: (200.0, height))
-
-    return place
-
-
-@pytest.fixture
-def near(settings):
-    """A camera near the front of the second frame."""
-    return from_height(settings, 150.0)
-
-
-def from_height(settings, height):
-    """Settings with one camera that high over the front of the second frame."""
-    camera = settings.cameras[0]
-    key = replace(camera.rig.keys[0], latitude=38.8395, height=height)
-    return replace(settings, cameras=(replace(camera, rig=replace(camera.rig, keys=(key,))),))
 
 
 def built(settings, run, stage):

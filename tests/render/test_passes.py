@@ -2,13 +2,10 @@
 
 import numpy as np
 import pytest
-from firetwin.jobs import render as job
-from firetwin.progress import silent, untold
+import rendered
 from firetwin.render import plan
 from firetwin.render.picture import Picture
-from firetwin.render.store import Store
 from firetwin.shot import passes
-from firetwin.shot.choice import Choice
 from firetwin.shot.passes import masks
 from firetwin_core import sensor
 
@@ -42,21 +39,14 @@ keys = [{{at = 0, latitude = 38.825, longitude = -120.56, height = 500, target =
 @pytest.fixture(scope="module")
 def frame(run_folder, tmp_path_factory):
     """Render it: (image of a pass by name and suffix, files that the plan says)."""
-    folder = tmp_path_factory.mktemp("frame")
     names = "[" + ", ".join(f'"{name}"' for name in NAMES) + "]"
-    (folder / "scene.toml").write_text(SCENE.format(run=run_folder, passes=names))
-    choice, out = Choice(scene=str(folder / "scene.toml")), folder / "out"
-    pictures = plan.pictures(choice.shot())
-    with Store(out, create=True):
-        pass
-    listed = [[each.camera, each.frame, each.name] for each in pictures]
-    pairs = sorted({(each.camera, each.name) for each in pictures})
-    job.in_blender(choice.plain(), str(out), listed, [list(pair) for pair in pairs], "me", 0, silent, untold)
+    text = SCENE.format(run=run_folder, passes=names)
+    shot, out = rendered.everything(tmp_path_factory.mktemp("frame"), text)
 
     def image(name, suffix="exr"):
         return np.asarray(sensor.read_image(out / Picture("drone", 1, name).file(suffix)))
 
-    return image, [out / path for each in pictures for path in each.files()]
+    return image, [out / path for each in plan.pictures(shot) for path in each.files()]
 
 
 def test_every_file_is_there(frame):

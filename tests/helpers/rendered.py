@@ -1,0 +1,22 @@
+"""What a scene file says, rendered in this process as the worker does."""
+
+from firetwin.jobs import render
+from firetwin.progress import silent, untold
+from firetwin.render import plan
+from firetwin.render.store import Store
+from firetwin.shot.choice import Choice
+
+
+def everything(folder, text):
+    """All files of a scene file of this text, written to folder/out: (its shot, that folder)."""
+    (folder / "scene.toml").write_text(text)
+    choice, out = Choice(scene=str(folder / "scene.toml")), folder / "out"
+    pictures = plan.pictures(choice.shot())
+    with Store(out, create=True):
+        pass
+    listed = [[each.camera, each.frame, each.name] for each in pictures]
+    pairs = sorted({(each.camera, each.name) for each in pictures})
+    render.in_blender(
+        choice.plain(), str(out), listed, [list(pair) for pair in pairs], "me", 0, silent, untold
+    )
+    return choice.shot(), out
