@@ -44,14 +44,14 @@ built=false
 if [[ -d $FIRETWIN_PORTABLE/wheels ]]; then
   built=true
   slow 3 tests/system/wheels.sh
-  slow 3 tests/system/extension.sh
+  slow 4 tests/system/extension.sh
 fi
-slow 8 tests/system/sanitize.sh
+slow 10 tests/system/sanitize.sh
 slow 9 tests/system/versions.sh 5.2
 if [[ $built == false ]]; then
   slow 18 tests/system/wheels.sh # with the libraries
   if [[ -d $FIRETWIN_PORTABLE/wheels ]]; then
-    slow 3 tests/system/extension.sh
+    slow 4 tests/system/extension.sh
   else
     summary+=("left out: tests/system/extension.sh needs the wheels")
   fi
