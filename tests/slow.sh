@@ -46,7 +46,6 @@ if [[ -d $FIRETWIN_PORTABLE/wheels ]]; then
   slow 3 tests/system/wheels.sh
   slow 4 tests/system/extension.sh
 fi
-slow 10 tests/system/sanitize.sh
 slow 9 tests/system/versions.sh 5.2
 if [[ $built == false ]]; then
   slow 18 tests/system/wheels.sh # with the libraries
@@ -57,5 +56,6 @@ if [[ $built == false ]]; then
   fi
 fi
 slow 16 tests/system/window.sh
+slow 20 tests/system/sanitize.sh
 printf '%s\n' "== what tests/run.sh leaves out" "${summary[@]}"
 exit "$result"
