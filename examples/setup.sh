@@ -108,7 +108,7 @@ make_venv() {
   "${pip[@]}" "scikit-build-core==1.1.2" "pybind11==3.1.0"
 }
 
-# With uv, which takes a fifth of pip's processor time; with pip where uv is not to be had or knows no way to the packages.
+# With uv, which takes a fifth of pip's processor time; with pip where uv cannot be installed or does not reach the packages.
 install_python_packages() {
   say "installing Blender's Python module and the other Python packages (about 350 MB the first time)"
   local options=(--quiet --no-build-isolation --config-settings=wheel.cmake=false ".[$extras]")
@@ -119,7 +119,7 @@ install_python_packages() {
 
 compile() {
   if [[ ! -f build/setup/build.ninja || $stale == true ]]; then
-    cmake -S . -B build/setup -G Ninja -DCMAKE_BUILD_TYPE=Release -DFIRETWIN_PRECOMPILE=ON \
+    cmake -S . -B build/setup -G Ninja -DCMAKE_BUILD_TYPE=Release -DFIRETWIN_QUICK_BUILD=ON \
       -DFIRETWIN_VERSION="$(sed -n 's/^version = "\(.*\)"/\1/p' pyproject.toml)" \
       -DPython_EXECUTABLE="$PWD/.venv/bin/python" -Dpybind11_DIR="$(.venv/bin/python -m pybind11 --cmakedir)" || return
   fi

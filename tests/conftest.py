@@ -50,7 +50,8 @@ def pytest_runtest_call(item):
 def pytest_runtest_makereport(item, call):
     """Fail a test of unit or blender that takes too long; what it shares with others is not counted.
 
-    Too long is 10 s of processor time, which other work on the machine hardly changes, or a minute in all.
+    Too long is 10 s of processor time, which other work on the machine hardly changes, or 60 s of wall
+    time.
     """
     report = yield
     quick = item.get_closest_marker("unit") or item.get_closest_marker("blender")

@@ -17,7 +17,7 @@ case ${1:-} in
     ;;
 esac
 
-# One process for each processor core; a Blender that hangs as it ends is left behind by its worker.
+# One worker for each processor core. Without workers (-n), Blender can hang when Python ends.
 pytest() {
   .venv/bin/python -m pytest -q -n "$(nproc)" --dist worksteal --max-worker-restart 0 "$@"
 }

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import bpy
 import numpy as np
+import plumes
 import pytest
 from firetwin.blender import compat, owned
 from firetwin.scene.smoke import bake, baker, cache
@@ -30,22 +31,6 @@ def smoky(settings):
 @pytest.fixture
 def shot(smoky, run):
     return Shot(smoky, run)
-
-
-def grids(path):
-    """Name -> values and lowest voxel of each grid of a file."""
-    bpy.utils.expose_bundled_modules()
-    import openvdb
-
-    found = {}
-    for header in openvdb.readAllGridMetadata(str(path)):
-        grid = openvdb.read(str(path), header.name)
-        low, high = (np.array(corner) for corner in grid.evalActiveVoxelBoundingBox())
-        values = np.zeros(np.maximum(high - low + 1, 0), np.float32)
-        if values.size:
-            grid.copyToArray(values, ijk=tuple(int(v) for v in low))
-        found[header.name] = (values, low)
-    return found
 
 
 def test_bake_writes_what_is_missing_and_nothing_else(shot):
@@ -117,7 +102,7 @@ def test_frames_in_parallel_are_the_frames_one_by_one(smoky, run, tmp_path, monk
     def frames(cache, at_once):
         monkeypatch.setattr(bake, "_at_once", lambda frames: at_once)
         place = bake.bake(Shot(replace(smoky, cache=tmp_path / cache), run))
-        return [grids(place / f"smoke_{n:06d}.vdb") for n in (1, 2, 3)]
+        return [plumes.read(place / f"smoke_{n:06d}.vdb") for n in (1, 2, 3)]
 
     for one, other in zip(frames("one", 1), frames("many", 3), strict=True):
         assert one.keys() == other.keys() == {"density", "dilution", "shade", "size", "glow"}
@@ -155,7 +140,7 @@ def test_smoke_of_the_model_is_used_where_the_run_has_it(smoky, run, run_folder,
     whole = replace(smoky, smoke=replace(smoky.smoke, complete=True))
     shot = Shot(whole, model)
     assert bake.folder(shot) != bake.folder(Shot(whole, run))
-    found = grids(bake.bake(shot, frames=[2]) / "smoke_000002.vdb")
+    found = plumes.read(bake.bake(shot, frames=[2]) / "smoke_000002.vdb")
     assert {"density", "dilution", "shade", "size", "temperature"} <= set(found)
     time = shot.frames.times[1]
     expected = 0.1 * (1.0 + np.interp(time, run.times, np.arange(len(run.times))))
@@ -316,13 +301,13 @@ def test_several_may_write_one_volume_at_once(shot, tmp_path):
     path = tmp_path / "smoke_000003.vdb"
     maker = bake.Baker(shot)
     maker.write(path, 3)
-    alone = grids(path)
+    alone = plumes.read(path)
     path.unlink()
     for _ in range(5):
         with ThreadPoolExecutor(4) as pool:
             tasks = [pool.submit(maker.write, path, 3) for _ in range(4)]
         assert all(task.result().active_voxels for task in tasks)
-    for name, (values, low) in grids(path).items():
+    for name, (values, low) in plumes.read(path).items():
         assert np.array_equal(values, alone[name][0])
         assert np.array_equal(low, alone[name][1])
     assert [each.name for each in tmp_path.iterdir() if each.is_file()] == [path.name]

@@ -29,24 +29,12 @@ from firetwin.ui import (
 )
 from firetwin.ui import scene_file as scene_settings
 from firetwin.ui import time as model_time
-from scene_text import PANEL
 
 
 @pytest.fixture
-def settings(plain_looks):
+def settings(plain_looks, panel):
     """The panel of a new file, as Blender starts with."""
-    bpy.ops.wm.read_factory_settings()
-    firetwin.register()
-    yield bpy.context.scene.firetwin
-    if hasattr(bpy.types.Scene, "firetwin"):
-        firetwin.unregister()
-
-
-@pytest.fixture
-def scene_file(run_folder, tmp_path):
-    path = tmp_path / "scene.toml"
-    path.write_text(PANEL.format(run=run_folder))
-    return path
+    return panel
 
 
 def inventory():

@@ -26,6 +26,7 @@ from firetwin.shot.rigs.drone import CameraKey, Drone  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
 from firetwin_core import run as runs  # noqa: E402
 from firetwin_core import sensor  # noqa: E402
+from scene_text import PANEL  # noqa: E402
 
 __all__ = [
     "built",
@@ -41,6 +42,7 @@ __all__ = [
     "run",
     "run_folder",
     "scene",
+    "scene_file",
     "settings",
     "shoot",
     "shot",
@@ -278,4 +280,13 @@ def panel():
     bpy.ops.wm.read_factory_settings()
     firetwin.register()
     yield bpy.context.scene.firetwin
-    firetwin.unregister()
+    if hasattr(bpy.types.Scene, "firetwin"):  # a test may have unregistered it
+        firetwin.unregister()
+
+
+@pytest.fixture
+def scene_file(run_folder, tmp_path):
+    """A scene file of the small run for the panel."""
+    path = tmp_path / "scene.toml"
+    path.write_text(PANEL.format(run=run_folder))
+    return path

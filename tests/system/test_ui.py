@@ -4,7 +4,6 @@ import time
 from types import SimpleNamespace
 
 import bpy
-import firetwin
 import pytest
 from firetwin.jobs.worker import StoppedError
 from firetwin.ui import (
@@ -12,24 +11,12 @@ from firetwin.ui import (
     render,
     working,
 )
-from scene_text import PANEL
 
 
 @pytest.fixture
-def settings():
+def settings(panel):
     """The panel of a new file, as Blender starts with."""
-    bpy.ops.wm.read_factory_settings()
-    firetwin.register()
-    yield bpy.context.scene.firetwin
-    if hasattr(bpy.types.Scene, "firetwin"):
-        firetwin.unregister()
-
-
-@pytest.fixture
-def scene_file(run_folder, tmp_path):
-    path = tmp_path / "scene.toml"
-    path.write_text(PANEL.format(run=run_folder))
-    return path
+    return panel
 
 
 def test_render_makes_what_the_command_line_makes(settings, scene_file, tmp_path):
