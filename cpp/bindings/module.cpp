@@ -53,7 +53,9 @@ PYBIND11_MODULE(firetwin_core, whole) {
   bindings::init_forest(module.def_submodule("forest"));
   bindings::init_particles(module.def_submodule("particles"));
   bindings::init_terrain(module.def_submodule("terrain"));
-  bindings::init_volume(module.def_submodule("volume"));
+  auto volume = module.def_submodule("volume");
+  bindings::init_volume(volume);
+  bindings::init_march(volume);
   bindings::init_sensor(module.def_submodule("sensor"));
   auto flow = module.def_submodule("flow");
   bindings::init_flow(flow);

@@ -222,7 +222,7 @@ py::tuple hidden(const py::object& extinction, double voxel_size, const py::obje
   return py::make_tuple(found, placed(std::move(hides)));
 }
 
-template <auto member> auto column(const py::object& self) {
+template <auto member> auto puffs_column(const py::object& self) {
   return lend_column(self.cast<const Puffs&>().*member, self);
 }
 
@@ -233,11 +233,11 @@ void bind_types(Module& module) {
                                const auto& p = self.cast<const Puffs&>();
                                return lend<float>(p.position, {length(p.size()), 3}, self);
                              })
-      .def_property_readonly("radius", &column<&Puffs::radius>)
-      .def_property_readonly("density", &column<&Puffs::density>)
-      .def_property_readonly("age", &column<&Puffs::age>)
-      .def_property_readonly("mass", &column<&Puffs::mass>)
-      .def_property_readonly("identity", &column<&Puffs::identity>)
+      .def_property_readonly("radius", &puffs_column<&Puffs::radius>)
+      .def_property_readonly("density", &puffs_column<&Puffs::density>)
+      .def_property_readonly("age", &puffs_column<&Puffs::age>)
+      .def_property_readonly("mass", &puffs_column<&Puffs::mass>)
+      .def_property_readonly("identity", &puffs_column<&Puffs::identity>)
       .def_readonly("emitted", &Puffs::emitted)
       .def_readonly("left", &Puffs::left)
       .def("__len__", &Puffs::size);

@@ -12,7 +12,6 @@ from __future__ import annotations
 import functools
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from firetwin_core import flow, lod, volume
@@ -60,6 +59,17 @@ class Beyond:
 
     depths: Brick | None = None
     smoke: Brick | None = None
+
+
+@dataclass(frozen=True)
+class _Painted:
+    """Grids of a layer by name, their voxel size and first voxel's middle (m), depths and mass (kg)."""
+
+    grids: dict[str, NDArray[np.float32]]
+    voxel: float
+    origin: tuple[float, float, float]
+    depths: Brick
+    mass: dict[str, float]
 
 
 @dataclass(frozen=True)
@@ -125,6 +135,42 @@ class Painter:
         -------
         The frame, and what this layer is to the next; smoke dims the sun whether this layer draws it or not.
         """
+        painted = self._paint(frame, lights, sight, beyond)
+        smoke = None
+        if eyes is not None:
+            outer = beyond.smoke if beyond else None
+            hidden, smoke = volume.hidden(
+                painted.grids["density"], painted.voxel, *eyes, DEEP, painted.origin, outer
+            )
+            painted.grids["hidden"] = hidden
+        metadata = metadata | {f"smoke_{name}_kg": f"{value:.9g}" for name, value in painted.mass.items()}
+        written = volume.write(
+            path,
+            painted.grids,
+            painted.voxel,
+            painted.origin,
+            tolerance=1e-6,
+            metadata=metadata,
+            sight=sight,
+            within="density",
+        )
+        return written, Beyond(painted.depths, smoke)
+
+    def bricks(
+        self,
+        frame: int,
+        lights: tuple[Array, Array] | None,
+        sight: lod.Sight | None,
+        beyond: Beyond | None = None,
+    ) -> tuple[volume.Bricks, Beyond]:
+        """The same for rays to be marched through, and no file."""
+        painted = self._paint(frame, lights, sight, beyond)
+        grids = {"glow": None} | painted.grids
+        return volume.Bricks(**grids, voxel_size=painted.voxel, origin=painted.origin), Beyond(painted.depths)
+
+    def _paint(
+        self, frame: int, lights: tuple[Array, Array] | None, sight: lod.Sight | None, beyond: Beyond | None
+    ) -> _Painted:
         moment = moments.load(self.layer.part.moment(frame))
         voxel = self.layer.voxel
         origin, surface, end, share, count = self._brick(moment)
@@ -132,21 +178,14 @@ class Painter:
         density, fresh, glow = self._detail(moment, lights).paint(origin, voxel, surface, end, count, wanted)
         density[density < THIN] = 0.0
         toward = sun.light(*self.shot.sun(float(self.shot.frames.times[frame - 1])))
-        beyond = beyond or Beyond()
-        sunlight, skylight, depths = volume.lit(density, voxel, toward, *LIGHT, origin, beyond.depths)
+        outer = beyond.depths if beyond else None
+        sunlight, skylight, depths = volume.lit(density, voxel, toward, *LIGHT, origin, outer)
         density *= share[:, :, None]
         density[density < THIN] = 0.0
-        grids: dict[str, Any] = {"density": density, "fresh": fresh, "sun": sunlight, "sky": skylight}
-        smoke = None
-        if eyes is not None:
-            grids["hidden"], smoke = volume.hidden(density, voxel, *eyes, DEEP, origin, beyond.smoke)
+        grids = {"density": density, "fresh": fresh, "sun": sunlight, "sky": skylight}
         if glow is not None:
             grids["glow"] = glow
-        metadata = metadata | {f"smoke_{name}_kg": f"{value:.9g}" for name, value in moment.mass.items()}
-        written = volume.write(
-            path, grids, voxel, origin, tolerance=1e-6, metadata=metadata, sight=sight, within="density"
-        )
-        return written, Beyond(depths, smoke)
+        return _Painted(grids, voxel, origin, depths, moment.mass)
 
     @functools.cached_property
     def _heights(self) -> Array:

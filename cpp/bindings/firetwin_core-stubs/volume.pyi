@@ -325,3 +325,214 @@ def lit(
     depths
         Optical depths to the sun on voxels of twice the size, that size (m), and the middle of the first (m).
     """
+
+class Bricks:
+    """Smoke and the light in it on voxels of one size, only where there is smoke: to march rays through.
+
+    Blocks of 8^3 cells, each with the 9^3 voxels at the cells' corners, are kept where extinction is over
+    2.5e-5 /m. Numbers are half floats: off by at most 1/2048 of themselves, and by 3e-8.
+    """
+
+    def __init__(
+        self,
+        density: ArrayLike,
+        fresh: ArrayLike,
+        sun: ArrayLike,
+        sky: ArrayLike,
+        glow: ArrayLike | None,
+        voxel_size: float,
+        origin: Sequence[float],
+    ) -> None:
+        """Pack fields of one shape (nx, ny, nz).
+
+        Parameters
+        ----------
+        density
+            Extinction, 1/m.
+        fresh
+            1 where smoke is young, 0 where it is old.
+        sun, sky
+            As `lit` gives them.
+        glow
+            Light of flames; None: none.
+        voxel_size
+            m.
+        origin
+            m, the centre of voxel (0, 0, 0).
+
+        Raises
+        ------
+        ValueError
+            Shapes differ, or a number makes no sense.
+        """
+
+    @property
+    def voxel_size(self) -> float:
+        """Edge of a voxel, m."""
+    @property
+    def origin(self) -> list[float]:
+        """Centre of voxel (0, 0, 0), m."""
+    @property
+    def shape(self) -> list[int]:
+        """Voxels along x, y and z."""
+    @property
+    def used(self) -> int:
+        """Number of blocks with smoke."""
+    @property
+    def bytes(self) -> int:
+        """Memory that their voxels take."""
+
+class Illumination:
+    """Light that smoke scatters and gives off, and the haze before it. Colours are linear."""
+
+    def __init__(
+        self,
+        *,
+        fresh: Sequence[float],
+        old: Sequence[float],
+        sun: Sequence[float],
+        sky: Sequence[float],
+        toward: Sequence[float],
+        anisotropy: float,
+        oftener: Sequence[float],
+        glow: Sequence[float],
+        thin: float,
+        thick: Sequence[float],
+        air: Sequence[float],
+        haze: float,
+        haze_height: float,
+    ) -> None:
+        """Set all of it.
+
+        Parameters
+        ----------
+        fresh, old
+            Albedo of young and of old smoke.
+        sun
+            Irradiance of the sun.
+        sky
+            Mean radiance from all round.
+        toward
+            Unit vector to the sun.
+        anisotropy
+            g of Henyey and Greenstein's phase function.
+        oftener
+            Weights of light scattered twice and thrice, beside that scattered once.
+        glow
+            Radiance where `glow` is 1; black: there is none.
+        thin, thick
+            Part of the glow that thin smoke gives on, and the extinctions (1/m) between which that rises to all.
+        air, haze, haze_height
+            Radiance of the haze, its extinction (1/m) at height 0, and the height (m) in which it thins to 1/e.
+        """
+
+def march(
+    layers: Sequence[Bricks],
+    origins: ArrayLike,
+    directions: ArrayLike,
+    distances: ArrayLike,
+    light: Illumination,
+    step: float = 0.5,
+    stop: float = 1.0e-3,
+) -> NDArray[np.float32]:
+    """Ray marching: the light that smoke adds to rays, and how much of what is behind it comes through.
+
+    Parameters
+    ----------
+    layers
+        At most four, whose smoke adds up.
+    origins
+        (n, 3) m, or (3,) where all rays begin in one place.
+    directions
+        (n, 3) unit vectors.
+    distances
+        (n, taps) m, in any order: where on the way it is asked what came so far. Infinite: behind all smoke.
+    step
+        In voxels of the finest layer there.
+    stop
+        Transmittance at which a ray ends; what is left counts as more of the same smoke.
+
+    Returns
+    -------
+    (n, taps, 4) radiance of red, green and blue, and transmittance.
+
+    Notes
+    -----
+    Light scattered once is spread after L. G. Henyey and J. L. Greenstein (1941); more is added after
+    M. Wrenninge, C. Kulla and V. Lundqvist (2013, "Oz: The Great and Volumetric"). Steps are even within a
+    block and have no jitter; of the example's smoke half a voxel is 0.1 % off a quarter of it.
+
+    Raises
+    ------
+    ValueError
+        Shapes do not fit, or there are more than four layers.
+    """
+
+def march_infrared(
+    layers: Sequence[Bricks],
+    origins: ArrayLike,
+    directions: ArrayLike,
+    distances: ArrayLike,
+    *,
+    kelvin: ArrayLike,
+    elevation: ArrayLike,
+    corner: Sequence[float],
+    spacing: Sequence[float],
+    lapse: float,
+    radiance: ArrayLike,
+    coldest: float,
+    kelvin_step: float,
+    absorption: float,
+    step: float = 4.0,
+) -> NDArray[np.float32]:
+    """The same in the infrared, where smoke absorbs and emits and scatters nothing.
+
+    Parameters
+    ----------
+    layers, origins, directions, step
+        As of `march`.
+    distances
+        (n,) m, how far each ray goes.
+    kelvin, elevation
+        (rows, columns) K and m: the air at the model's ground, and that ground; rows to the north.
+    corner, spacing
+        x and y of the first of these values, and between them, m.
+    lapse
+        K that air is colder for each metre above that ground.
+    radiance
+        (k,) W m-2 sr-1 of a black body at `coldest` K and every `kelvin_step` K from there on.
+    absorption
+        Times the extinction in green light.
+
+    Returns
+    -------
+    (n, 2) radiance, W m-2 sr-1, and transmittance.
+
+    Raises
+    ------
+    ValueError
+        Shapes do not fit.
+    """
+
+def optical_depth(
+    layers: Sequence[Bricks],
+    origins: ArrayLike,
+    directions: ArrayLike,
+    distances: ArrayLike,
+    step: float = 2.0,
+    enough: float = 20.0,
+) -> NDArray[np.float32]:
+    """Optical depth of smoke along rays in green light, (n,), or of so much of them as is `enough`.
+
+    Parameters
+    ----------
+    layers, origins, directions, step
+        As of `march`.
+    distances
+        (n,) m, how far each ray goes.
+
+    Raises
+    ------
+    ValueError
+        Shapes do not fit.
+    """

@@ -1,0 +1,142 @@
+#include "volume/march.hpp"
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "volume/infrared.hpp"
+#include "volume/optical_depth.hpp"
+
+#include <pybind11/stl.h>
+
+#include <memory>
+
+namespace firetwin::bindings {
+namespace py = pybind11;
+namespace {
+
+using volume::Bricks;
+using volume::Colour;
+using volume::Illumination;
+using volume::Warmth;
+
+std::shared_ptr<Bricks> make_bricks(const py::object& density, const py::object& fresh,
+                                    const py::object& sun, const py::object& sky,
+                                    const py::object& glow, double voxel_size,
+                                    const Vector& origin) {
+  const auto thick = to_array<float>(density, "density", {-1, -1, -1});
+  const std::vector<py::ssize_t> shape{thick.shape(0), thick.shape(1), thick.shape(2)};
+  const auto field = [&](const py::object& object, const char* name) {
+    return to_array<float>(object, name, shape);
+  };
+  const auto young = field(fresh, "fresh"), sunlight = field(sun, "sun"),
+             skylight = field(sky, "sky");
+  const auto light = glow.is_none() ? Array<float>(py::ssize_t{0}) : field(glow, "glow");
+  const Bricks::Fields fields{view(thick), view(young), view(sunlight), view(skylight),
+                              view(light)};
+  const py::gil_scoped_release release;
+  return std::make_shared<Bricks>(fields, std::array<std::int64_t, 3>{shape[0], shape[1], shape[2]},
+                                  voxel_size, origin);
+}
+
+/// Arrays of rays, and what is given with them.
+class RayArrays {
+public:
+  RayArrays(const std::vector<std::shared_ptr<Bricks>>& layers, const py::object& origins,
+            const py::object& directions)
+      : origins_(to_array<double>(origins, "origins")),
+        directions_(to_array<double>(directions, "directions", {-1, 3})) {
+    for (const auto& layer : layers) {
+      layers_.push_back(layer.get());
+    }
+  }
+
+  volume::Layers layers() const { return layers_; }
+  volume::Rays rays() const { return {view(origins_), view(directions_)}; }
+  py::ssize_t size() const { return directions_.shape(0); }
+
+private:
+  std::vector<const Bricks*> layers_;
+  Array<double> origins_, directions_;
+};
+
+using LayerList = std::vector<std::shared_ptr<Bricks>>;
+
+Array<float> march(const LayerList& layers, const py::object& origins, const py::object& directions,
+                   const py::object& distances, const Illumination& light, double step,
+                   float stop) {
+  const RayArrays given(layers, origins, directions);
+  const auto taps = to_array<float>(distances, "distances", {given.size(), -1});
+  auto found = new_array<float>({given.size(), taps.shape(1), 4});
+  const std::span<float> out = writable(found);
+  const py::gil_scoped_release release;
+  volume::march(given.layers(), given.rays(), {view(taps), static_cast<std::size_t>(taps.shape(1))},
+                light, {step, stop}, out);
+  return found;
+}
+
+Array<float> optical_depth(const LayerList& layers, const py::object& origins,
+                           const py::object& directions, const py::object& distances, double step,
+                           float enough) {
+  const RayArrays given(layers, origins, directions);
+  const auto ends = to_array<float>(distances, "distances", {given.size()});
+  auto found = new_array<float>({given.size()});
+  const std::span<float> out = writable(found);
+  const py::gil_scoped_release release;
+  volume::optical_depth(given.layers(), given.rays(), view(ends), step, enough, out);
+  return found;
+}
+
+Array<float> march_infrared(const LayerList& layers, const py::object& origins,
+                            const py::object& directions, const py::object& distances,
+                            const py::object& kelvin, const py::object& elevation,
+                            const std::array<double, 2>& corner,
+                            const std::array<double, 2>& spacing, double lapse,
+                            const py::object& radiance, double coldest, double kelvin_step,
+                            double absorption, double step) {
+  const RayArrays given(layers, origins, directions);
+  const auto ends = to_array<float>(distances, "distances", {given.size()});
+  const auto warm = to_array<float>(kelvin, "kelvin", {-1, -1});
+  const auto high = to_array<float>(elevation, "elevation", {warm.shape(0), warm.shape(1)});
+  const auto table = to_array<float>(radiance, "radiance", {-1});
+  const Warmth air{view(warm),  view(high), {warm.shape(0), warm.shape(1)},
+                   corner,      spacing,    lapse,
+                   view(table), coldest,    kelvin_step,
+                   absorption};
+  auto found = new_array<float>({given.size(), 2});
+  const std::span<float> out = writable(found);
+  const py::gil_scoped_release release;
+  volume::march_infrared(given.layers(), given.rays(), view(ends), air, step, out);
+  return found;
+}
+
+} // namespace
+
+void init_march(Module module) {
+  using namespace py::literals;
+  Class<Bricks, std::shared_ptr<Bricks>>(module, "Bricks")
+      .def(py::init(&make_bricks), "density"_a, "fresh"_a, "sun"_a, "sky"_a, "glow"_a,
+           "voxel_size"_a, "origin"_a)
+      .def_property_readonly("voxel_size", &Bricks::voxel)
+      .def_property_readonly("origin", &Bricks::origin)
+      .def_property_readonly("shape", &Bricks::shape)
+      .def_property_readonly("used", &Bricks::used)
+      .def_property_readonly("bytes", &Bricks::bytes);
+  Class<Illumination>(module, "Illumination")
+      .def(py::init([](const Colour& fresh, const Colour& old, const Colour& sun, const Colour& sky,
+                       const Vector& toward, double anisotropy, const std::array<float, 2>& oftener,
+                       const Colour& glow, float thin, const std::array<float, 2>& thick,
+                       const Colour& air, double haze, double haze_height) {
+             return Illumination{fresh, old,  sun,   sky, toward, anisotropy, oftener,
+                                 glow,  thin, thick, air, haze,   haze_height};
+           }),
+           py::kw_only(), "fresh"_a, "old"_a, "sun"_a, "sky"_a, "toward"_a, "anisotropy"_a,
+           "oftener"_a, "glow"_a, "thin"_a, "thick"_a, "air"_a, "haze"_a, "haze_height"_a);
+  const volume::March defaults;
+  module.def("march", &march, "layers"_a, "origins"_a, "directions"_a, "distances"_a, "light"_a,
+             "step"_a = defaults.step, "stop"_a = defaults.stop);
+  module.def("march_infrared", &march_infrared, "layers"_a, "origins"_a, "directions"_a,
+             "distances"_a, py::kw_only(), "kelvin"_a, "elevation"_a, "corner"_a, "spacing"_a,
+             "lapse"_a, "radiance"_a, "coldest"_a, "kelvin_step"_a, "absorption"_a, "step"_a = 4.0);
+  module.def("optical_depth", &optical_depth, "layers"_a, "origins"_a, "directions"_a,
+             "distances"_a, "step"_a = 2.0, "enough"_a = 20.0F);
+}
+
+} // namespace firetwin::bindings

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "volume/lanes.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+/// Half floats that are not negative, without the processor's own instructions for them: any
+/// processor gives the same numbers.
+namespace firetwin::volume {
+
+/// Nearest half float; what is more than its largest becomes that.
+inline std::uint16_t to_half(float value) {
+  constexpr float scale = 0x1p-112F, largest = 65504.0F;
+  const auto bits = std::bit_cast<std::uint32_t>(std::min(value, largest) * scale);
+  return static_cast<std::uint16_t>((bits + 0xFFFU + (bits >> 13 & 1U)) >> 13);
+}
+
+inline float from_half(std::uint16_t half) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(half) << 13) * 0x1p112F;
+}
+
+/// Eight of them.
+__attribute__((always_inline)) inline void from_halves(const std::uint16_t* halves, Lanes& out) {
+  using Halves = std::uint16_t __attribute__((vector_size(lane_count * sizeof(std::uint16_t))));
+  using Words = std::uint32_t __attribute__((vector_size(lane_count * sizeof(std::uint32_t))));
+  Halves packed;
+  std::memcpy(&packed, halves, sizeof packed);
+  const Words words = __builtin_convertvector(packed, Words) << 13;
+  std::memcpy(&out, &words, sizeof out);
+  out *= 0x1p112F;
+}
+
+} // namespace firetwin::volume

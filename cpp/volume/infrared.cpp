@@ -1,0 +1,99 @@
+#include "volume/infrared.hpp"
+
+#include "volume/optical_depth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace firetwin::volume {
+namespace {
+
+/// Value (rows, columns) at a place, linear between, held outside.
+float field(std::span<const float> values, const Warmth& air, const std::array<double, 2>& place) {
+  std::array<std::int64_t, 2> low{};
+  std::array<float, 2> part{};
+  for (std::size_t axis = 0; axis < 2; ++axis) { // x, y
+    const std::int64_t count = air.shape[1 - axis];
+    const double last = static_cast<double>(count - 1);
+    const double at = std::clamp((place[axis] - air.corner[axis]) / air.spacing[axis], 0.0, last);
+    low[axis] = std::clamp(static_cast<std::int64_t>(at), std::int64_t{0},
+                           std::max(count - 2, std::int64_t{0}));
+    part[axis] = static_cast<float>(at - static_cast<double>(low[axis]));
+  }
+  const auto value = [&](std::int64_t up, std::int64_t right) {
+    const std::int64_t row = std::min(low[1] + up, air.shape[0] - 1);
+    const std::int64_t column = std::min(low[0] + right, air.shape[1] - 1);
+    return values[static_cast<std::size_t>(row * air.shape[1] + column)];
+  };
+  const float south = value(0, 0) + part[0] * (value(0, 1) - value(0, 0));
+  const float north = value(1, 0) + part[0] * (value(1, 1) - value(1, 0));
+  return south + part[1] * (north - south);
+}
+
+/// Radiance of air at a place.
+float radiance(const Warmth& air, const Vector& place) {
+  const std::array<double, 2> flat{place[0], place[1]};
+  const double above = place[2] - static_cast<double>(field(air.elevation, air, flat));
+  const double kelvin = static_cast<double>(field(air.kelvin, air, flat)) - above * air.lapse;
+  const double last = static_cast<double>(air.radiance.size() - 1);
+  const double at = std::clamp((kelvin - air.coldest) / air.kelvin_step, 0.0, last);
+  const auto low = std::min(static_cast<std::size_t>(at), air.radiance.size() - 2);
+  const float part = static_cast<float>(at - static_cast<double>(low));
+  return air.radiance[low] + part * (air.radiance[low + 1] - air.radiance[low]);
+}
+
+/// The first segment that was not gone through, of all layers'; null at the end.
+Crossing* nearest(std::vector<Crossing>& crossings) {
+  Crossing* found = nullptr;
+  for (Crossing& each : crossings) {
+    const bool left = each.at < each.segments.size();
+    if (left &&
+        (found == nullptr || each.segments[each.at].from < found->segments[found->at].from)) {
+      found = &each;
+    }
+  }
+  return found;
+}
+
+/// Radiance and transmittance of the smoke on a ray.
+std::array<float, 2> along(Way& way, const Vector& origin, const Vector& direction,
+                           const Warmth& air, double step) {
+  float light = 0.0F, through = 1.0F;
+  // Layers fade into each other: they are gone through block by block.
+  while (Crossing* crossing = nearest(way.crossings())) {
+    const Segment& segment = crossing->segments[crossing->at++];
+    const double depth = depth_of(*crossing, segment, step);
+    const auto kept = static_cast<float>(std::exp(-depth * air.absorption));
+    if (kept < 1.0F) {
+      const double middle = way.entry() + 0.5 * (segment.from + segment.to);
+      light += through * (1.0F - kept) *
+               radiance(air, {origin[0] + direction[0] * middle, origin[1] + direction[1] * middle,
+                              origin[2] + direction[2] * middle});
+      through *= kept;
+    }
+  }
+  return {light, through};
+}
+
+} // namespace
+
+void march_infrared(Layers layers, const Rays& rays, std::span<const float> distances,
+                    const Warmth& air, double step, std::span<float> out) {
+  check(rays, distances, 1);
+  const auto cells = static_cast<std::size_t>(air.shape[0] * air.shape[1]);
+  if (cells < 1 || air.kelvin.size() != cells || air.elevation.size() != cells ||
+      air.radiance.size() < 2) {
+    throw std::invalid_argument("air needs temperature and elevation of one shape, and radiances");
+  }
+  for_rays(layers, rays.size(), [&](Way& way, std::size_t ray) {
+    const Vector origin = rays.origin(ray), direction = rays.direction(ray);
+    const bool smoky = way.follow(origin, direction, distances[ray]);
+    const auto [light, through] =
+        smoky ? along(way, origin, direction, air, step) : std::array<float, 2>{0.0F, 1.0F};
+    out[2 * ray] = light;
+    out[2 * ray + 1] = through;
+  });
+}
+
+} // namespace firetwin::volume

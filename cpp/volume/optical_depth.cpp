@@ -1,0 +1,37 @@
+#include "volume/optical_depth.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace firetwin::volume {
+
+float depth_of(const Crossing& crossing, const Segment& segment, double step) {
+  const float all = segment.to - segment.from;
+  const int count =
+      std::max(1, static_cast<int>(std::ceil(all / (static_cast<float>(step) * crossing.voxel))));
+  const float length = all / static_cast<float>(count);
+  float sum = 0.0F;
+  for (int s = 0; s < count; ++s) {
+    const float at = segment.from + (static_cast<float>(s) + 0.5F) * length;
+    sum += density(segment.voxels, local(crossing, segment, at));
+  }
+  return sum * length;
+}
+
+void optical_depth(Layers layers, const Rays& rays, std::span<const float> distances, double step,
+                   float enough, std::span<float> out) {
+  check(rays, distances, 1);
+  for_rays(layers, rays.size(), [&](Way& way, std::size_t ray) {
+    float sum = 0.0F;
+    if (way.follow(rays.origin(ray), rays.direction(ray), distances[ray])) {
+      for (const Crossing& crossing : way.crossings()) {
+        for (const Segment& segment : crossing.segments) {
+          sum += sum < enough ? depth_of(crossing, segment, step) : 0.0F;
+        }
+      }
+    }
+    out[ray] = sum;
+  });
+}
+
+} // namespace firetwin::volume
