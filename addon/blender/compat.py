@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -244,8 +246,34 @@ def exr_output(
     return node
 
 
-def over_under(file: bpy.types.ImageFormatSettings) -> None:
-    """Where a scene has two eyes, put both into one file of twice the height, the left one above."""
+@contextmanager
+def raw_file(scene: bpy.types.Scene, path: Path) -> Iterator[None]:
+    """Within, renders write all that view layers record into a multilayer EXR of 32 bits, uncompressed.
+
+    No compositor touches it. Where a scene has two eyes, ``_L`` and ``_R`` are added to the file's name.
+    """
+    render, file = scene.render, scene.render.image_settings
+    media = getattr(file, "media_type", None)
+    names = ("file_format", "color_depth", "exr_codec", "views_format")
+    before = {name: getattr(file, name) for name in names}
+    compositing, place = render.use_compositing, render.filepath
+    if media is not None:
+        file.media_type = "MULTI_LAYER_IMAGE"
+    file.file_format, file.color_depth, file.exr_codec = "OPEN_EXR_MULTILAYER", "32", "NONE"
+    file.views_format = "INDIVIDUAL"
+    render.use_compositing, render.filepath = False, str(path)
+    try:
+        yield
+    finally:
+        if media is not None:
+            file.media_type = media
+        for name in names:
+            setattr(file, name, before[name])
+        render.use_compositing, render.filepath = compositing, place
+
+
+def over_under(file: bpy.types.ImageFormatSettings | bpy.types.Image) -> None:
+    """Where a scene has two eyes, both are in one file of twice the height, the left one above."""
     file.views_format = "STEREO_3D"
     file.stereo_3d_format.display_mode = "TOPBOTTOM"
     file.stereo_3d_format.use_squeezed_frame = False

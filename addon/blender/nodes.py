@@ -24,6 +24,13 @@ from . import compat, layout, owned
 TIME = "firetwin_time"
 THERMAL = "firetwin_thermal"
 MASKS = "firetwin_masks"
+SURFACE = "Firetwin Surface"
+FLAMES = "Firetwin Flames"
+WARMTH = "Firetwin Warmth"
+"""AOVs: of what is solid, see `thermal_switch`; and of flames, see `flames`. Those of all flames before
+what is solid add up, not dimmed by one another (Cycles 4.5)."""
+FIRE = "Firetwin Fire"
+"""Light group of all that gives these AOVs of flames."""
 
 
 class Value:
@@ -268,6 +275,10 @@ class Tree:
         inputs = {"Vector": position, "Scale": 1.0 / size}
         return self.output("ShaderNodeTexVoronoi", inputs, name, **properties)
 
+    def aov(self, name: str, value: Any, colour: bool = True) -> None:
+        """Give a colour (or a number) to the view layers that have an AOV of this name."""
+        self.node("ShaderNodeOutputAOV", {"Color" if colour else "Value": value}, aov_name=name)
+
     def surface(self, shader: Any) -> None:
         """Make `shader` the surface of this material or world."""
         if self.material is not None:
@@ -369,8 +380,30 @@ def switch(tree: Tree, kind: str, shader: Any, other: Any) -> Value:
 
 
 def thermal_switch(tree: Tree, shader: Any, value: Any) -> Value:
-    """`shader`, but a number as pixel value in view layers with `firetwin_thermal` = 1."""
+    """`shader` of a surface, but a number as pixel value in view layers with `firetwin_thermal` = 1.
+
+    View layers with the AOV `SURFACE` get both at once: 1 km over the distance, 1, and the number.
+    """
+    nearness = 1000.0 / tree.output("ShaderNodeCameraData", name="View Distance")
+    tree.aov(SURFACE, tree.combine(nearness, 1.0, value))
     return switch(tree, THERMAL, shader, tree.emission(value, 1.0))
+
+
+def flames(tree: Tree, light: Any, emissivity: Any, warmth: Any) -> None:
+    """Give the AOVs of flames what one adds.
+
+    `FLAMES` is the red of its light, that times its distance (m), and its emissivity; `WARMTH` its emissivity
+    times the radiance (W m-2 sr-1) of a black body as hot.
+    """
+    distance = tree.output("ShaderNodeCameraData", name="View Distance")
+    tree.aov(FLAMES, tree.combine(light, light * distance, emissivity))
+    tree.aov(WARMTH, emissivity * warmth, colour=False)
+
+
+def over(tree: Tree, shader: Any) -> Value:
+    """`shader` of what lies on a surface, too little clear to see that through it, but depth and AOVs do."""
+    trace = tree.output("ShaderNodeBsdfTransparent", {"Color": 3 * (1.0e-3,)})
+    return tree.add_shader(shader, trace)
 
 
 def mask_switch(tree: Tree, shader: Any, kind: Any, number: Any = 0.0) -> Value:

@@ -170,17 +170,17 @@ def frames_of(pictures: list[Any]) -> int:
 
 
 def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell: Tell) -> None:
-    """Render the pictures of a shot's one camera; its smoke is baked a frame ahead of them."""
+    """Render the pictures of a shot's one camera; its smoke is made a frame ahead of them."""
     from ..blender import devices
     from ..render import pictures, plan
-    from ..scene.smoke import bake
+    from ..scene.smoke import ahead
     from . import setting
 
     for text in shot.warnings():
         tell(text)
     frames, done = frames_of(wanted), 0
     drawn = plan.seen(shot, wanted)
-    with bake.ahead(shot, smoky(shot, wanted), progress, tell) as ready:
+    with ahead.smoke(shot, smoky(shot, wanted), progress, tell) as ready:
         for part, group in _parts(shot, wanted):
             stage = setting.build_scene(part, progress, tell) if drawn else setting.empty()
             if drawn and shot.settings.render.engine == "cycles" and not done:

@@ -93,7 +93,7 @@ def in_blender(
     from ..render import engine, layers, sharing, video
     from ..render import pictures as making_pictures
     from ..render.picture import Picture
-    from ..scene.smoke import bake
+    from ..scene.smoke import ahead
 
     bpy.ops.wm.open_mainfile(filepath=blend, load_ui=False)
     stage = owned.stage(bpy.data.scenes[scene])
@@ -106,7 +106,7 @@ def in_blender(
     frames, done = frames_of(todo), 0
     with (
         sharing.making(Path(out), known, owner, after) as making,
-        bake.ahead(shot, smoky(shot, todo), progress, tell) as ready,
+        ahead.smoke(shot, smoky(shot, todo), progress, tell) as ready,
     ):
         for camera, group in itertools.groupby(todo, key=lambda picture: picture.camera):
             if stage.camera(camera) is None:
@@ -120,9 +120,11 @@ def in_blender(
 
 
 def _as_it_stands(shot: Shot, scene: Any) -> Shot:
-    """The shot with the size of pictures that the scene has, those of two eyes one above the other."""
+    """The shot with the scene's engine and size of pictures, those of two eyes one above the other."""
     render, part = scene.render, scene.render.resolution_percentage / 100.0
     sides = render.resolution_x, render.resolution_y * (2 if render.use_multiview else 1)
     size = tuple(2 * max(round(side * part / 2), 8) for side in sides)
+    engine = "cycles" if render.engine == "CYCLES" else "eevee"
     settings = shot.settings
-    return Shot(replace(settings, render=replace(settings.render, resolution=size)), shot.run)
+    as_drawn = replace(settings.render, resolution=size, engine=engine)
+    return Shot(replace(settings, render=as_drawn), shot.run)

@@ -15,7 +15,7 @@ from firetwin_core.run import Run
 from ..blender import compat, owned
 from ..shot.settings import Settings
 
-_TRANSPARENT = 256
+TRANSPARENT = 256
 """Clear surfaces that a ray may pass. In 4.5 the faces of the hull that Cycles puts round smoke, of boxes 8
 voxels wide, count for rays of light: were it the usual dozen, light across the gaps between billows would be
 lost, and smoke black in blocks with straight edges. In the sample run such a ray meets up to 35 faces."""
@@ -69,7 +69,7 @@ def _cycles(settings: Settings, scene: bpy.types.Scene) -> None:
     cycles.glossy_bounces = cycles.transmission_bounces = 0
     cycles.volume_bounces = 1  # the material of smoke stands in for more
     compat.march_through_volumes(cycles)
-    cycles.transparent_max_bounces = _TRANSPARENT
+    cycles.transparent_max_bounces = TRANSPARENT
     cycles.sample_clamp_direct, cycles.sample_clamp_indirect = 0.0, 4.0
     cycles.caustics_reflective = cycles.caustics_refractive = False
     cycles.film_exposure = 1.0
@@ -103,7 +103,7 @@ def pixel_centres(scene: bpy.types.Scene, wanted: bool = True) -> Iterator[None]
     before = scene.cycles.pixel_filter_type, scene.cycles.filter_width, scene.render.filter_size
     chance = scene.cycles.min_transparent_bounces
     scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", DEPTH_FILTER
-    scene.cycles.min_transparent_bounces = _TRANSPARENT
+    scene.cycles.min_transparent_bounces = TRANSPARENT
     scene.render.filter_size = 0.0
     try:
         yield

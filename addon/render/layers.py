@@ -20,7 +20,7 @@ from ..shot.settings import Settings
 from . import groups
 from .picture import Picture
 
-_SOURCE, _BETWEEN = "CompositorNodeRLayers", ("CompositorNodeGlare", "CompositorNodeSeparateColor")
+SOURCE, _BETWEEN = "CompositorNodeRLayers", ("CompositorNodeGlare", "CompositorNodeSeparateColor")
 
 
 def build(settings: Settings, stage: Stage) -> None:
@@ -98,6 +98,20 @@ def mend(scene: bpy.types.Scene) -> None:
             owned.mark(link.to_node)
 
 
+def of_pass(scene: bpy.types.Scene, name: str) -> bpy.types.ViewLayer:
+    """Our view layer of a pass."""
+    return next(layer for layer in scene.view_layers if owned.ours(layer, f"pass {name}"))
+
+
+def exclude(scene: bpy.types.Scene, part: str, but: str = "") -> None:
+    """Leave a part of ours out of the view layers of all passes but one."""
+    for layer in scene.view_layers:
+        if owned.ours(layer) and layer.get(owned.MARK) != f"pass {but}":
+            for child in _parts(layer):
+                if str(child.collection[owned.MARK]).lower() == part:
+                    child.exclude = True
+
+
 def select(scene: bpy.types.Scene, names: Iterable[str]) -> None:
     """Render the view layers of these passes and no others."""
     chosen = {f"pass {name}" for name in names}
@@ -164,13 +178,19 @@ def _layer(scene: bpy.types.Scene, each: Pass) -> bpy.types.ViewLayer:
 
 def _leave_out(layer: bpy.types.ViewLayer, each: Pass, parts: Collection[str] | None) -> None:
     """Exclude the collections that a pass does not see: of these parts, None: of all."""
+    for child in _parts(layer):
+        part = str(child.collection[owned.MARK]).lower()
+        if parts is None or part in parts:
+            child.exclude = part in each.leaves_out or (each.data and part == "places")
+
+
+def _parts(layer: bpy.types.ViewLayer) -> Iterator[bpy.types.LayerCollection]:
+    """Our collections in a view layer, those in excluded ones left out."""
     pending = list(layer.layer_collection.children)
     while pending:
         child = pending.pop()
         if owned.ours(child.collection):
-            part = str(child.collection[owned.MARK]).lower()
-            if parts is None or part in parts:
-                child.exclude = part in each.leaves_out or (each.data and part == "places")
+            yield child
         if not child.exclude:
             pending += child.children
 
@@ -193,7 +213,7 @@ def _compositor(scene: bpy.types.Scene) -> None:
 
 def _record(scene: bpy.types.Scene, tree: bpy.types.NodeTree, each: Pass) -> None:
     """From a pass's view layer to its EXR, and to the picture that is shown."""
-    source = tree.nodes.new(_SOURCE)
+    source = tree.nodes.new(SOURCE)
     source.scene = scene
     source.layer = next(layer.name for layer in scene.view_layers if owned.ours(layer, f"pass {each.name}"))
     image = source.outputs[each.output]
@@ -217,7 +237,7 @@ def _file(tree: bpy.types.NodeTree, each: Pass, image: bpy.types.NodeSocket) -> 
 def _image(tree: bpy.types.NodeTree, each: Pass) -> bpy.types.NodeSocket:
     """What `_record` has made of a pass's view layer."""
     ours = [node for node in tree.nodes if owned.ours(node)]
-    source = next(node for node in ours if node.bl_idname == _SOURCE and node.layer == each.name)
+    source = next(node for node in ours if node.bl_idname == SOURCE and node.layer == each.name)
     image = source.outputs[each.output]
     for link in tree.links:
         if link.from_socket == image and owned.ours(link.to_node) and link.to_node.bl_idname in _BETWEEN:

@@ -13,11 +13,12 @@ from .. import files
 from ..blender.owned import Stage
 from ..errors import writing
 from ..progress import Progress, silent
+from ..scene.smoke.ahead import Smoke
 from ..shot import mount, passes
 from ..shot.passes import _view
 from ..shot.path import compass
 from ..shot.shot import Shot
-from . import engine, layers, plan, png, spherical, whole
+from . import engine, integrated, layers, plan, png, spherical, whole
 from .picture import Picture
 from .sharing import Making
 from .store import describe
@@ -29,15 +30,15 @@ def render(
     making: Making,
     wanted: list[Picture],
     progress: Progress = silent,
-    ready: Callable[[int, list[int]], None] = lambda frame, ahead: None,
+    ready: Callable[[int, list[int]], Smoke | None] = lambda frame, ahead: None,
 ) -> int:
     """Render those of these pictures of a built scene that no other render makes, and enter them.
 
     Parameters
     ----------
     ready
-        Called before each frame, with the frame that comes after it: what the frame shows has to be on the
-        disk when this returns.
+        Called before each frame, with the frames that come after it: what the frame shows has to be on the
+        disk when this returns, or is what it returns (see `scene.smoke.ahead`).
 
     Returns
     -------
@@ -45,12 +46,15 @@ def render(
     """
     engine.label(shot.run, stage.scene)
     total, made = len({(each.camera, each.frame) for each in wanted}), 0
+    marched = integrated.wanted(shot, stage.scene) and bool(plan.seen(shot, wanted))
+    drawing = integrated.Drawing(shot, stage) if marched else None
     with making.claims.part_folder() as part, making.line(wanted) as line:
         while line.step():
             progress(made, total, "rendering")
-            ready(line.frame, line.ahead)
+            smoke = ready(line.frame, line.ahead)
             try:
                 frame = _Frame(shot, stage, making, part, line.camera, line.frame)
+                frame.draw = drawing.of(smoke or (), part) if drawing else frame.draw_layers
                 finished = frame.render(line.names)
             except Exception:
                 if line.held():
@@ -77,6 +81,7 @@ class _Frame:
     ) -> None:
         self.shot, self.scene, self.making, self.part = shot, stage.scene, making, part
         self.camera, self.frame = camera, frame
+        self.draw: Callable[[list[Picture]], None] = self.draw_layers
         self.pictures = {name: Picture(camera, frame, name) for name in passes.known()}
         self.scene.camera = stage.camera(camera)
         self.scene.frame_set(frame)
@@ -93,12 +98,7 @@ class _Frame:
         lacking = {need for need in own - set(names) if plan.missing(store, [self.pictures[need]], made_with)}
         drawn = [known[name] for name in known if name in names or name in lacking]
         made = {self.pictures[each.name] for each in drawn}
-        kinds = defaultdict(list)
-        for each in drawn:
-            if each.output:
-                kinds[each.pixel_centres, each.through_smoke].append(each.name)
-        for kind, group in sorted(kinds.items()):
-            self.draw(group, *kind)
+        self.draw([self.pictures[each.name] for each in drawn if each.output])
         for each in drawn:
             if each.finish:
                 pairs = taken.get(each.name, {})
@@ -110,16 +110,22 @@ class _Frame:
                     each.finish(mine, there, self.shot, self.camera, self.frame)
         return [self.pictures[name] for name in names]
 
-    def draw(self, names: list[str], centres: bool, through_smoke: bool) -> None:
-        """Render the view layers of these passes."""
-        layers.select(self.scene, names)
-        layers.write_exr(self.scene, str(self.part), [self.pictures[name] for name in names])
-        still = next((name for name in names if layers.still(passes.known()[name])), None)
-        if still:
-            self.scene.render.filepath = str(self.part / Path(self.pictures[still].file("png")).name)
-        steps = engine.long_steps(self.scene, through_smoke)
-        with steps, engine.pixel_centres(self.scene, centres), layers.plain(self.scene, names):
-            bpy.ops.render.render(write_still=still is not None, scene=self.scene.name)
+    def draw_layers(self, pictures: list[Picture]) -> None:
+        """Render the view layers of these passes, smoke with them."""
+        kinds = defaultdict(list)
+        for each in pictures:
+            known = passes.known()[each.name]
+            kinds[known.pixel_centres, known.through_smoke].append(each)
+        for (centres, through_smoke), group in sorted(kinds.items()):
+            names = [each.name for each in group]
+            layers.select(self.scene, names)
+            layers.write_exr(self.scene, str(self.part), group)
+            still = next((each for each in group if layers.still(passes.known()[each.name])), None)
+            if still:
+                self.scene.render.filepath = str(self.part / Path(still.file("png")).name)
+            steps = engine.long_steps(self.scene, through_smoke)
+            with steps, engine.pixel_centres(self.scene, centres), layers.plain(self.scene, names):
+                bpy.ops.render.render(write_still=still is not None, scene=self.scene.name)
 
     def files(self, picture: Picture, made: set[Picture]) -> dict[str, Path]:
         """Files of a picture by suffix: where those that are being `made` are, or where finished ones are."""

@@ -62,6 +62,13 @@ def settings(stage: Stage, amount: float, colour: tuple[float, float, float]) ->
     group.nodes["Colour"].outputs[0].default_value = (*colour, 1.0)
 
 
+def state(stage: Stage) -> tuple[tuple[float, ...], float]:
+    """Radiance of the haze's light and its extinction at height 0 (1/m), at the scene's frame."""
+    group = _group(stage)
+    colour = group.nodes["Colour"].outputs[0].default_value
+    return tuple(colour[:3]), float(group.nodes["Extinction"].outputs[0].default_value)
+
+
 def fraction(tree: nodes.Tree, stage: Stage) -> tuple[nodes.Value, nodes.Value]:
     """Part of the light that is haze (0..1, zero for other than camera rays), and the haze's colour.
 

@@ -61,14 +61,18 @@ def smoke(tree: nodes.Tree, shot: Shot, stage: Stage, visible: Any, density: nod
 
     In masks it dims as it does in green light, and no more.
     """
-    low, high = BANDS[shot.settings.thermal.band]
-    absorbed = density * (SOOT * 2.0 * GREEN / (low + high))
+    absorbed = density * absorption(BANDS[shot.settings.thermal.band])
     black = tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": absorbed})
     own = emitted(tree, shot, stage, temperature.air(tree, shot, stage))
     warm = tree.add_shader(black, tree.emission((1.0, 1.0, 1.0), own * absorbed))
     shader = nodes.switch(tree, nodes.THERMAL, visible, warm)
     dims = tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": density})
     return nodes.switch(tree, nodes.MASKS, shader, dims)
+
+
+def absorption(band: tuple[float, float]) -> float:
+    """Of smoke in a band (um), times its extinction in green light."""
+    return SOOT * 2.0 * GREEN / sum(band)
 
 
 def build(shot: Shot, stage: Stage) -> None:

@@ -14,7 +14,7 @@ flames with gaps, so they are drawn at 1000-1200 K.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
@@ -120,18 +120,14 @@ def _named(tree: nodes.Tree, kind: str, name: str) -> nodes.Value:
 
 def _fill(group: bpy.types.NodeTree, shot: Shot) -> None:
     """Write the run's temperatures over a square grid of the scene, its moments above one another."""
-    frames, run = shot.frames, shot.run
+    frames = shot.frames
     moving = frames.last > frames.first
     count = min(_MOMENTS, max(frames.count, 2)) if moving else 1
     times = np.linspace(frames.first, frames.last, count)
-    low, high = _extent(shot)
-    east, north = (low[k] + (high[k] - low[k]) * (np.arange(_SIDE) + 0.5) / _SIDE for k in (0, 1))
-    east, north = (v.ravel() for v in np.meshgrid(east, north))
-    place = temperature.indices(run, *shot.ground.geodetic(east, north))
+    fields = [field(shot, float(time)) for time in times]
     pixels = np.ones((count, _SIDE * _SIDE, 4), np.float32)
-    pixels[..., 1] = bilinear(np.nan_to_num(run.elevation.astype(np.float64)), *place)
-    for index, time in enumerate(times):
-        pixels[index, :, 0] = bilinear(temperature.at(run, float(time)), *place)
+    for index, each in enumerate(fields):
+        pixels[index, :, 0], pixels[index, :, 1] = each.kelvin.ravel(), each.elevation.ravel()
     old = next((node.image for node in group.nodes if node.type == "TEX_IMAGE" and node.image), None)
     image = owned.mark(
         bpy.data.images.new(_IMAGE, _SIDE, _SIDE * count, alpha=False, float_buffer=True, is_data=True)
@@ -143,6 +139,7 @@ def _fill(group: bpy.types.NodeTree, shot: Shot) -> None:
             node.image = image
     if old is not None and old.users == 0:
         bpy.data.images.remove(old)
+    low, high = _extent(shot)
     _set(group, "Corner", (*low, 0.0))
     _set(group, "Scale", (*(1.0 / (high - low)), 0.0))
     group.nodes["Start"].outputs[0].default_value = frames.first
@@ -151,6 +148,35 @@ def _fill(group: bpy.types.NodeTree, shot: Shot) -> None:
     )
     group.nodes["Last"].outputs[0].default_value = count - 1
     _sun(group, shot, count)
+
+
+class Field(NamedTuple):
+    """Air of a moment on a square grid of the scene, rows to the north.
+
+    Attributes
+    ----------
+    kelvin, elevation
+        (n, n) K at the model's ground, and that ground's elevation, m.
+    corner, spacing
+        (2,) x and y of the first value, and between values, m.
+    """
+
+    kelvin: NDArray[np.float64]
+    elevation: NDArray[np.float64]
+    corner: NDArray[np.float64]
+    spacing: NDArray[np.float64]
+
+
+def field(shot: Shot, time: float) -> Field:
+    """The run's air at a model time, s."""
+    low, high = _extent(shot)
+    spacing = (high - low) / _SIDE
+    corner = low + 0.5 * spacing
+    east, north = np.meshgrid(*(corner[k] + spacing[k] * np.arange(_SIDE) for k in (0, 1)))
+    place = temperature.indices(shot.run, *shot.ground.geodetic(east.ravel(), north.ravel()))
+    model = np.nan_to_num(shot.run.elevation.astype(np.float64))
+    kelvin, elevation = (bilinear(values, *place) for values in (temperature.at(shot.run, time), model))
+    return Field(kelvin.reshape(east.shape), elevation.reshape(east.shape), corner, spacing)
 
 
 def _extent(shot: Shot) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -220,6 +220,14 @@ class Smoke:
             "traced": "by Cycles: grainier, follows a moved sun",
         },
     )
+    draw: str = key(
+        "integrated",
+        "how a flow's solved smoke is drawn in rendered frames",
+        choices={
+            "integrated": "along camera rays: no grain, and faster",
+            "volume": "by Cycles, as in Blender's own render",
+        },
+    )
     complete: bool = key(False, "also smoke that no camera sees, and its temperature and flames as grids")
 
 

@@ -120,15 +120,17 @@ void init_march(Module module) {
       .def_property_readonly("used", &Bricks::used)
       .def_property_readonly("bytes", &Bricks::bytes);
   Class<Illumination>(module, "Illumination")
-      .def(py::init([](const Colour& fresh, const Colour& old, const Colour& sun, const Colour& sky,
-                       const Vector& toward, double anisotropy, const std::array<float, 2>& oftener,
-                       const Colour& glow, float thin, const std::array<float, 2>& thick,
-                       const Colour& air, double haze, double haze_height) {
-             return Illumination{fresh, old,  sun,   sky, toward, anisotropy, oftener,
-                                 glow,  thin, thick, air, haze,   haze_height};
+      .def(py::init([](float density, const Colour& fresh, const Colour& old, const Colour& sun,
+                       const Colour& sky, const Vector& toward, double anisotropy,
+                       const std::array<float, 2>& oftener, const Colour& glow, float thin,
+                       const std::array<float, 2>& thick, const Colour& air, double haze,
+                       double haze_height) {
+             return Illumination{density, fresh, old,  sun,   sky, toward, anisotropy,
+                                 oftener, glow,  thin, thick, air, haze,   haze_height};
            }),
-           py::kw_only(), "fresh"_a, "old"_a, "sun"_a, "sky"_a, "toward"_a, "anisotropy"_a,
-           "oftener"_a, "glow"_a, "thin"_a, "thick"_a, "air"_a, "haze"_a, "haze_height"_a);
+           py::kw_only(), "density"_a, "fresh"_a, "old"_a, "sun"_a, "sky"_a, "toward"_a,
+           "anisotropy"_a, "oftener"_a, "glow"_a, "thin"_a, "thick"_a, "air"_a, "haze"_a,
+           "haze_height"_a);
   const volume::March defaults;
   module.def("march", &march, "layers"_a, "origins"_a, "directions"_a, "distances"_a, "light"_a,
              "step"_a = defaults.step, "stop"_a = defaults.stop);

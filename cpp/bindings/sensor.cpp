@@ -194,6 +194,23 @@ Array<float> read_image(const std::filesystem::path& path) {
               {length(image.height), length(image.width), length(image.channels)});
 }
 
+py::dict read_channels(const std::filesystem::path& path) {
+  sensor::Image image;
+  {
+    const py::gil_scoped_release release;
+    image = sensor::read_image(path);
+  }
+  const auto height = length(image.height), width = length(image.width),
+             count = length(image.channels);
+  const py::array all = give(std::move(image.pixels), {height, width, count});
+  py::dict found;
+  for (py::ssize_t n = 0; n < count; ++n) {
+    found[py::str(image.names[static_cast<std::size_t>(n)])] =
+        all[py::make_tuple(py::ellipsis(), n)];
+  }
+  return found;
+}
+
 void write_image(const std::filesystem::path& path, const py::object& pixels,
                  const std::optional<io::Metadata>& metadata,
                  const std::optional<std::vector<std::string>>& channels) {
@@ -242,6 +259,7 @@ void init_sensor(Module module) {
   module.def("eye_dome", &eye_dome, py::arg("depth"), py::arg("strength") = 4.0,
              py::arg("radius") = 1);
   module.def("read_image", &read_image, py::arg("path"));
+  module.def("read_channels", &read_channels, py::arg("path"));
   module.def("write_image", &write_image, py::arg("path"), py::arg("pixels"),
              py::arg("metadata") = py::none(), py::arg("channels") = py::none());
 }

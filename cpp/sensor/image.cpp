@@ -127,7 +127,8 @@ Image read_image(const std::filesystem::path& path) {
   Image image{static_cast<std::size_t>(spec.height),
               static_cast<std::size_t>(spec.width),
               static_cast<std::size_t>(spec.nchannels),
-              {}};
+              {},
+              spec.channelnames};
   image.pixels.resize(image.height * image.width * image.channels);
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
     io::fail(path, "cannot be read: " + input->geterror());

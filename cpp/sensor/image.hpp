@@ -15,6 +15,7 @@ struct Image {
   std::size_t width = 0;
   std::size_t channels = 0;
   std::vector<float> pixels; ///< [height width channels], top row first; integers scaled to 0..1
+  std::vector<std::string> names; ///< of the channels
 };
 
 /// Reads a PNG, OpenEXR, TIFF or JPEG file, told apart by content; no other reader of OpenImageIO

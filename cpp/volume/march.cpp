@@ -29,16 +29,16 @@ Four four(const Colour& colour, float factor = 1.0F) {
 struct Shade {
   Four fresh, old, sun, sky, glow, air;
   float spread = 0.0F; ///< light towards the eye, 1 where it goes everywhere alike
-  float twice, thrice;
+  float density, twice, thrice;
   float thin, thick_from, thick_more;
   bool glows;
 
   explicit Shade(const Illumination& light)
       : fresh(four(light.fresh)), old(four(light.old)),
         sun(four(light.sun, 0.25F / std::numbers::pi_v<float>)), sky(four(light.sky)),
-        glow(four(light.glow)), air(four(light.air)), twice(light.oftener[0]),
-        thrice(light.oftener[1]), thin(light.thin), thick_from(light.thick[0]),
-        thick_more(1.0F / (light.thick[1] - light.thick[0])),
+        glow(four(light.glow)), air(four(light.air)), density(light.density),
+        twice(light.oftener[0]), thrice(light.oftener[1]), thin(light.thin),
+        thick_from(light.thick[0]), thick_more(1.0F / (light.thick[1] - light.thick[0])),
         glows(std::max({light.glow[0], light.glow[1], light.glow[2]}) > 0.0F) {}
 };
 
@@ -121,6 +121,7 @@ void add(const Inside& inside, const Steps& steps, const Shade& shade, float sto
       if (v[0] <= Bricks::thinnest) {
         continue;
       }
+      v[0] *= shade.density;
       const float kept = std::exp(-v[0] * steps.length);
       sum.light += radiance(v, shade, haze) * (sum.through * (1.0F - kept));
       sum.through *= kept;

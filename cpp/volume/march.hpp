@@ -11,6 +11,7 @@ using Colour = std::array<float, 3>; ///< linear red, green and blue
 
 /// Light that smoke scatters and gives off, and the haze before it.
 struct Illumination {
+  float density;                ///< factor on the extinction
   Colour fresh, old;            ///< albedo of young and of old smoke
   Colour sun;                   ///< irradiance
   Colour sky;                   ///< mean radiance from all round

@@ -56,6 +56,7 @@ def _mesh(points: flames.Points) -> bpy.types.Mesh:
 def _light_only(thing: bpy.types.Object) -> None:
     """Flames are seen, but cast no shadow and are not lit or looked up by other light paths."""
     thing.visible_shadow = thing.visible_diffuse = thing.visible_volume_scatter = False
+    thing.lightgroup = nodes.FIRE
 
 
 def cards(shot: Shot, stage: Stage) -> bpy.types.Collection:

@@ -31,6 +31,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": (1.0, 1.0, 1.0)})
     glowing = tree.add_shader(tree.emission(colour, strength), clear)
     warmth = infrared.through_air(tree, shot, stage, infrared.emitted(tree, shot, stage, kelvin))
+    nodes.flames(tree, tree.separate(colour)[0] * strength, cover, warmth)
     warm = tree.mix_shader(cover, clear, tree.emission(warmth, 1.0))
     shader = nodes.switch(tree, nodes.THERMAL, glowing, warm)
     tree.surface(nodes.mask_switch(tree, shader, masks.FIRE))

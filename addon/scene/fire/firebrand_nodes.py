@@ -47,6 +47,7 @@ def _seen_only(thing: bpy.types.Object) -> None:
     """Streaks are seen and nothing more."""
     thing.visible_shadow = thing.visible_diffuse = thing.visible_glossy = False
     thing.visible_volume_scatter = False
+    thing.lightgroup = nodes.FIRE
 
 
 def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: float) -> bpy.types.NodeTree:

@@ -70,6 +70,7 @@ def _material(shot: Shot, stage: Stage, name: str, colour: str) -> bpy.types.Mat
     part, _air = haze.fraction(tree, stage)
     strength = (1.0 - part) * (observed.LIGHT * glow.brightness(shot))
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": (1.0, 1.0, 1.0)})
-    tree.surface(nodes.switch(tree, nodes.THERMAL, tree.emission(shown, strength), clear))
+    line = nodes.over(tree, tree.emission(shown, strength))
+    tree.surface(nodes.switch(tree, nodes.THERMAL, line, clear))
     material.cycles.emission_sampling = "NONE"
     return material

@@ -54,7 +54,8 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     part, _air = haze.fraction(tree, stage)
     behind = 1.0 - shape * 0.5
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(behind, behind, behind)})
-    shader = tree.add_shader(tree.emission(colour, strength * (1.0 - part)), clear)
+    light = strength * (1.0 - part)
+    shader = tree.add_shader(tree.emission(colour, light), clear)
     flame = shape > 0.12
     gap = tree.output("ShaderNodeBsdfTransparent")  # which hides nothing of the heat behind it
     depth = tree.attribute("flame_width", "INSTANCER")
@@ -62,8 +63,8 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     warmth = infrared.emitted(tree, shot, stage, tree.attribute("kelvin", "INSTANCER"))
     warmth = infrared.through_air(tree, shot, stage, warmth)
     hot = tree.mix_shader(emissivity, gap, tree.emission(warmth, 1.0))
-    light = tree.mix_shader(flame, clear, shader)
-    shader = nodes.switch(tree, nodes.THERMAL, light, hot)
+    nodes.flames(tree, tree.separate(colour)[0] * light * flame, emissivity, warmth)
+    shader = nodes.switch(tree, nodes.THERMAL, tree.mix_shader(flame, clear, shader), hot)
     whole = tree.mix_shader(flame, gap, tree.emission((0.0, 1.0, masks.FIRE), 1.0))
     tree.surface(nodes.switch(tree, nodes.MASKS, shader, whole))
     material.cycles.emission_sampling = "NONE"

@@ -95,6 +95,6 @@ def _material(shot: Shot, stage: Stage) -> bpy.types.Material:
     strength = (_DIM + fresh * (1.0 - _DIM)) * (1.0 - part) * (LIGHT * glow.brightness(shot))
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": (1.0, 1.0, 1.0)})
     line = tree.mix_shader(there, clear, tree.emission(tree.mix_colour(fresh, _FADED, colour), strength))
-    tree.surface(nodes.switch(tree, nodes.THERMAL, line, clear))
+    tree.surface(nodes.switch(tree, nodes.THERMAL, nodes.over(tree, line), clear))
     material.cycles.emission_sampling = "NONE"
     return material

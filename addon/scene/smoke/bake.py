@@ -29,7 +29,12 @@ __all__ = ["Baker", "ahead", "bake", "estimate", "file", "folder", "resolution",
 
 _FRAME_MEMORY = 2 << 30  # bytes that a frame may need while it is made: 0.5 GB, of a flow 1.9, were measured
 _FRAME_PROCESSORS = 4  # a frame keeps two busy: two at once on those took as long, and twice the memory
-_NOT_IN_FILES = ("enabled", "extinction", "voxel_size")  # of [smoke]: how it is drawn; voxels have their own
+_NOT_IN_FILES = (
+    "enabled",
+    "extinction",
+    "voxel_size",
+    "draw",
+)  # of [smoke]: how it is drawn; voxels have their own
 
 
 def folder(shot: Shot, progress: Progress = silent) -> Path:

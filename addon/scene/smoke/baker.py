@@ -134,6 +134,23 @@ class Baker:
             _put(mine, path, written.bytes)
         return written
 
+    def bricks(self, frame: int) -> list[volume.Bricks]:
+        """The smoke of a frame of the flow for rays to be marched through, and no file."""
+        self.flow.ready(frame)
+        time = float(self.times[frame - 1])
+        dark = exposure.darkness(self.shot, time) > 0.0
+        what = frame, lights(self.shot.fire, time) if dark else None, self._sight(frame)
+        found: list[volume.Bricks] = []
+        beyond: flow_frames.Beyond | None = None
+        for painter in self.painters:
+            try:
+                made, beyond = painter.bricks(*what, beyond)
+            except moments.BrokenError:
+                self.flow.renew(frame)
+                made, beyond = painter.bricks(*what, beyond)
+            found.append(made)
+        return found
+
     def _sight(self, frame: int) -> lod.Sight | None:
         """What the cameras see in a frame, if only that is wanted."""
         return self.sights.at(frame) if self.sights else None
@@ -163,6 +180,13 @@ class Baker:
 def solved(shot: Shot) -> bool:
     """Whether smoke is a solved flow: chosen, and the run has none of its own."""
     return shot.settings.smoke.method == "flow" and not shot.run.has("smoke_3d")
+
+
+def integrated(shot: Shot) -> bool:
+    """Whether frames of a shot are drawn without smoke in Cycles: it is marched, or there is none."""
+    smoke, marched = shot.settings.smoke, solved(shot) and shot.settings.smoke.lighting == "solved"
+    cycles = shot.settings.render.engine == "cycles"
+    return cycles and smoke.draw == "integrated" and (marched or not smoke.enabled)
 
 
 def _put(mine: Path, path: Path, size: int) -> None:

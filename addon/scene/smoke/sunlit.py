@@ -17,9 +17,9 @@ from ...shot.shot import Shot
 from ..light.build import key, moments
 from ..light.sky import State
 
-_OFTENER = 0.5, 0.3  # weights beside light scattered once, of a ball and a plume beside 24 and 32 bounces
+OFTENER = 0.5, 0.3  # weights beside light scattered once, of a ball and a plume beside 24 and 32 bounces
 _GROUND = 0.07  # albedo of forest and ash, which light smoke from below (assumed)
-_SUN, _SKY, _TOWARDS = "Sunlight", "Skylight", "Towards the Sun"
+NODES = _SUN, _SKY, _TOWARDS = "Sunlight", "Skylight", "Towards the Sun"
 
 
 def source(tree: nodes.Tree, shot: Shot, albedo: nodes.Value, even: nodes.Value) -> nodes.Value:
@@ -31,7 +31,7 @@ def source(tree: nodes.Tree, shot: Shot, albedo: nodes.Value, even: nodes.Value)
         "Skylight", 1.0, "Factor on light of the sky and the ground that smoke scatters", "Light"
     )
     once = thinner * thinner * _spread(tree, even)
-    light = tree.vector("MULTIPLY_ADD", albedo, sun * _OFTENER[1], thinner * _OFTENER[0])
+    light = tree.vector("MULTIPLY_ADD", albedo, sun * OFTENER[1], thinner * OFTENER[0])
     light = tree.vector("MULTIPLY_ADD", albedo, light, once)
     sunlight = tree.vector("SCALE", tree.node("ShaderNodeRGB", name=_SUN), brighter / (4.0 * np.pi))
     light = tree.vector("MULTIPLY", light, sunlight)

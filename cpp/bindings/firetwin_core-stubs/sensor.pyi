@@ -108,6 +108,9 @@ def eye_dome(depth: ArrayLike, strength: float = 4.0, radius: int = 1) -> NDArra
 def read_image(path: str | PathLike[str]) -> NDArray[np.float32]:
     """PNG, EXR, TIFF or JPEG (by content) -> (h, w, channels)."""
 
+def read_channels(path: str | PathLike[str]) -> dict[str, NDArray[np.float32]]:
+    """The same file as one array (h, w) for each channel, by name; of an EXR also those of its layers."""
+
 def write_image(
     path: str | PathLike[str],
     pixels: ArrayLike,

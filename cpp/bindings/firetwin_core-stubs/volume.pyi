@@ -388,6 +388,7 @@ class Illumination:
     def __init__(
         self,
         *,
+        density: float,
         fresh: Sequence[float],
         old: Sequence[float],
         sun: Sequence[float],
@@ -406,6 +407,8 @@ class Illumination:
 
         Parameters
         ----------
+        density
+            Factor on the extinction.
         fresh, old
             Albedo of young and of old smoke.
         sun

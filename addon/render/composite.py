@@ -1,0 +1,152 @@
+"""Pictures from surfaces that Cycles drew and smoke that was marched, in linear light. Needs no Blender.
+
+A ray's smoke is known at taps: what it adds up to there, and the transmittance. A pixel at a silhouette shows
+a near surface and a far one: its taps are the nearest and the farthest depth of its 3 x 3 neighbours, shared
+by the mean nearness (1 / distance) of its rays. Flames have a distance of their own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float32]
+
+SKY = 1.0e9  # m; what is farther is no surface
+_EDGE = 0.02  # transmittance that differs across a silhouette
+_REACH, _ALIKE = 2, 0.1  # pixels round an edge, and how far their depth may differ, of itself
+_BRIGHTER = 4.0  # times that a denoiser may make a light brighter
+
+
+@dataclass(frozen=True)
+class Surfaces:
+    """What Cycles drew of a picture (h, w) without smoke.
+
+    Attributes
+    ----------
+    colour
+        (h, w, 3) radiance of all; denoised, if it is to be.
+    noisy
+        The same before it was denoised.
+    fire
+        (h, w, 3) of that the light of flames, firebrands and labels.
+    distance
+        (h, w) m along the ray through the pixel's middle; over `SKY` where there is nothing.
+    nearness
+        (h, w) mean of 1000 m over the distance of solid surfaces from the camera, 0 for the sky.
+    aside
+        (h, w) m that rays begin beside the camera.
+    solid
+        (h, w) part of rays that met a surface that knows its distance.
+    fire_distance
+        (h, w) m, mean over the flames by their light; 0: none.
+    """
+
+    colour: Array
+    noisy: Array
+    fire: Array
+    distance: Array
+    nearness: Array
+    aside: Array
+    solid: Array
+    fire_distance: Array
+
+
+def taps(surfaces: Surfaces) -> Array:
+    """Distances (h, w, 3), m, where the smoke before a pixel must be known: near, far and flames."""
+    near, far = _around(surfaces.distance, np.minimum), _around(surfaces.distance, np.maximum)
+    return np.stack([near, far, surfaces.fire_distance], axis=-1)
+
+
+def picture(surfaces: Surfaces, seen: Array, marched: Array) -> Array:
+    """Radiance (h, w, 3) of surfaces behind smoke.
+
+    Parameters
+    ----------
+    seen
+        (h, w, 3) m, as `taps` gave it.
+    marched
+        (h, w, 3, 4) at these, as `firetwin_core.volume.march` gives it.
+    """
+    share = _share(surfaces, seen)[..., None]
+    smoke, through = marched[..., :3], marched[..., 3:]
+    near, far, flames = (through[:, :, k] for k in range(3))
+    alight = (surfaces.fire_distance > 0.0)[..., None]
+    fire = np.where(alight, surfaces.fire * _denoised(surfaces), 0.0)
+    solid = surfaces.colour - fire
+    behind = solid * (share * near + (1.0 - share) * far)
+    edge = np.abs(near - far)[..., 0] > _EDGE
+    inner, known = _beside(solid, seen[..., 0], edge)
+    # The near part of an edge has its neighbours' colour: a denoiser has mixed it with what is far, such as
+    # fire that smoke hides.
+    split = share * inner * (near - far) + solid * far
+    behind = np.where((edge & known)[..., None], split, behind)
+    light = share * smoke[:, :, 0] + (1.0 - share) * smoke[:, :, 1]
+    return (np.maximum(behind + fire * flames, 0.0) + light).astype(np.float32)
+
+
+def radiance(surface: Array, flames: Array, warmth: Array, sky: float) -> Array:
+    """Infrared radiance (h, w) before smoke, W m-2 sr-1, from AOVs (see `blender.nodes`).
+
+    Parameters
+    ----------
+    surface, flames
+        (h, w, 3).
+    warmth
+        (h, w).
+    sky
+        Of the clear sky, W m-2 sr-1.
+    """
+    emissivity = flames[..., 2]
+    behind = surface[..., 2] + np.clip(1.0 - surface[..., 1], 0.0, 1.0) * sky
+    # Emissivities of flames behind one another add up past 1: such a pixel is as bright as their mean.
+    return warmth / np.maximum(emissivity, 1.0) + np.clip(1.0 - emissivity, 0.0, 1.0) * behind
+
+
+def _share(surfaces: Surfaces, seen: Array) -> Array:
+    """Part (h, w) of each pixel that is its near surface."""
+    near, far = (1000.0 / np.hypot(seen[..., k], surfaces.aside) for k in (0, 1))
+    apart = near - far
+    share = (surfaces.nearness - far) / np.where(apart > 0.0, apart, 1.0)
+    # An artist's material says nothing of its distance: what the middle ray met is all that is known.
+    unknown = (surfaces.solid < 0.5) & (surfaces.distance < SKY)
+    share = np.where(unknown, surfaces.distance <= seen[..., 0] * (1.0 + _ALIKE), share)
+    return np.where(apart > 1.0e-3 * near, np.clip(share, 0.0, 1.0), 1.0)
+
+
+def _denoised(surfaces: Surfaces) -> Array:
+    """How many times as bright the denoiser made each pixel."""
+    return np.clip(surfaces.colour / np.maximum(surfaces.noisy, 1.0e-6), 0.0, _BRIGHTER)
+
+
+def _around(values: Array, pick: np.ufunc) -> Array:
+    """The least or greatest of each pixel's 3 x 3."""
+    padded = np.pad(values, 1, mode="edge")
+    rows = pick(pick(padded[:-2], padded[1:-1]), padded[2:])
+    return pick(pick(rows[:, :-2], rows[:, 1:-1]), rows[:, 2:])
+
+
+def _beside(colour: Array, near: Array, edge: NDArray[np.bool_]) -> tuple[Array, NDArray[np.bool_]]:
+    """Mean colour round pixels at edges, of pixels as near that are not, and where there are any."""
+    found, known = colour.copy(), np.zeros(edge.shape, bool)
+    rows, columns = np.nonzero(edge)
+    if len(rows) == 0:
+        return found, known
+    height, width = edge.shape
+    total, weight = np.zeros((len(rows), 3), np.float32), np.zeros(len(rows), np.float32)
+    for down in range(-_REACH, _REACH + 1):
+        for across in range(-_REACH, _REACH + 1):
+            row, column = rows + down, columns + across
+            inside = (row >= 0) & (row < height) & (column >= 0) & (column < width)
+            row, column = np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)
+            here = near[rows, columns]
+            alike = inside & ~edge[row, column] & (np.abs(near[row, column] - here) < _ALIKE * here)
+            part = np.float32(np.exp(-0.5 * (down**2 + across**2))) * alike
+            total += part[:, None] * colour[row, column]
+            weight += part
+    there = weight > 0.0
+    found[rows[there], columns[there]] = total[there] / weight[there, None]
+    known[rows[there], columns[there]] = True
+    return found, known

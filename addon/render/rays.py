@@ -1,0 +1,84 @@
+"""Rays through the middles of a picture's pixels, from Blender's camera as it stands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..shot import sphere
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Rays:
+    """Rays of a picture (h, w).
+
+    Attributes
+    ----------
+    origins
+        (h, w, 3) m, or (3,) where all begin in one place.
+    directions
+        (h, w, 3) unit vectors.
+    aside
+        (h, w) m that rays begin beside the camera, at right angles to them.
+    slant
+        (h, w) times that a place on a ray is farther than Cycles' depth of it; None: that is the distance
+        from the camera.
+    """
+
+    origins: Array
+    directions: Array
+    aside: Array
+    slant: Array | None
+
+    def of_depth(self, depth: NDArray[np.float32]) -> NDArray[np.float32]:
+        """Distances (h, w) along the rays of Cycles' depths, m."""
+        if self.slant is None:
+            return self.of_distance(depth)
+        return (depth * self.slant).astype(np.float32)
+
+    def of_distance(self, distance: NDArray[np.float32]) -> NDArray[np.float32]:
+        """The same of distances from the camera."""
+        square = distance.astype(np.float64) ** 2 - self.aside**2
+        return np.sqrt(np.maximum(square, 0.0)).astype(np.float32)
+
+
+def through(camera: bpy.types.Object, scene: bpy.types.Scene, height: int, width: int, eye: float) -> Rays:
+    """Rays of a camera's picture; `eye` is -1 or 1 for the left or the right of two, else 0."""
+    placed = np.array(camera.matrix_world)
+    rotation = placed[:3, :3] / np.linalg.norm(placed[:3, :3], axis=0)
+    place, none = placed[:3, 3], np.zeros((height, width))
+    if camera.data.type == "PANO":
+        return _around(camera, place, rotation, height, width, eye)
+    low, high, axis = _frame(camera, scene)
+    x = low[0] + (high[0] - low[0]) * (np.arange(width) + 0.5) / width
+    y = high[1] - (high[1] - low[1]) * (np.arange(height) + 0.5) / height
+    x, y = np.meshgrid(x, y)
+    if camera.data.type == "ORTHO":
+        origins = place + np.stack([x, y, none], axis=-1) @ rotation.T
+        directions = np.broadcast_to(-rotation[:, 2], origins.shape)
+        return Rays(origins, directions, np.hypot(x, y), none + 1.0)
+    local = np.stack([x / axis, y / axis, none - 1.0], axis=-1)
+    length = np.linalg.norm(local, axis=-1)
+    return Rays(place, (local / length[..., None]) @ rotation.T, none, length)
+
+
+def _frame(camera: bpy.types.Object, scene: bpy.types.Scene) -> tuple[Array, Array, float]:
+    """Lower left and upper right corner of the picture in the camera's space, and how far it is away."""
+    corners = np.array(camera.data.view_frame(scene=scene))
+    return corners.min(axis=0), corners.max(axis=0), float(-corners[0, 2])
+
+
+def _around(
+    camera: bpy.types.Object, place: Array, rotation: Array, height: int, width: int, eye: float
+) -> Rays:
+    """Rays of a picture that holds all directions."""
+    bearing, elevation = sphere.pixels(2 * height, width)
+    bearing, elevation = bearing[:height], elevation[:height]
+    aside = 0.5 * eye * camera.data.stereo.interocular_distance * sphere.merged(elevation)
+    origins = place + (aside[..., None] * sphere.right(bearing)) @ rotation.T
+    return Rays(origins, sphere.direction(bearing, elevation) @ rotation.T, np.abs(aside), None)

@@ -1,0 +1,86 @@
+"""Smoke of frames for rays to be marched through, painted one frame before it is shown."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+
+from firetwin_core import volume
+
+from ...progress import Progress, Tell, silent, untold
+from ...shot.shot import Shot
+from . import bake, baker, outlook
+from .baker import Baker
+
+Smoke = list[volume.Bricks]
+Ready = Callable[[int, Iterable[int]], Smoke]
+
+
+def smoke(
+    shot: Shot, frames: Iterable[int], progress: Progress = silent, tell: Tell = untold
+) -> AbstractContextManager[Callable[..., Smoke | None]]:
+    """What gives pictures their smoke: `bricks` where it is marched, else `bake.ahead`."""
+    make = bricks if baker.integrated(shot) else bake.ahead
+    return make(shot, frames, progress, tell)
+
+
+@contextmanager
+def bricks(
+    shot: Shot, frames: Iterable[int], progress: Progress = silent, tell: Tell = untold
+) -> Iterator[Ready]:
+    """Paint smoke while pictures are made.
+
+    Gives a function ``ready(frame, after)`` that waits until the smoke of a frame is painted and returns it;
+    the first of the frames `after` is painted meanwhile. Frames that are not among `frames` have none. It
+    raises what went wrong with that frame.
+    """
+    line = _Line(shot, set(frames), progress, tell)
+    try:
+        yield line.ready
+    finally:
+        line.close()
+
+
+class _Line:
+    """Frames that stand in line to be painted, by one thread."""
+
+    def __init__(self, shot: Shot, frames: set[int], progress: Progress, tell: Tell) -> None:
+        self.shot, self.frames = shot, frames
+        self.progress, self.tell = progress, tell
+        self.pool = ThreadPoolExecutor(1)
+        self.tasks: dict[int, Future[Smoke]] = {}
+        self.held = ExitStack()
+
+    @functools.cached_property
+    def maker(self) -> Baker:
+        maker = Baker(self.shot)
+        if text := outlook.words(self.shot):
+            self.tell(text)
+        self.held.enter_context(maker.flow.in_use())
+        maker.flow.progress = lambda *done: self.progress(*done)
+        return maker
+
+    def ready(self, frame: int, after: Iterable[int] = ()) -> Smoke:
+        """The smoke of a frame; that of the next is begun, and what nobody waits for any more is let go."""
+        if frame not in self.frames:
+            return []
+        following = next((each for each in after if each in self.frames), None)
+        for number in (frame, following):
+            if number is not None and number not in self.tasks:
+                self.tasks[number] = self.pool.submit(self.maker.bricks, number)
+        for old in set(self.tasks) - {frame, following}:
+            self.tasks.pop(old).cancel()
+        self.progress(0, 1, "smoke of the first picture")
+        found = self.tasks.pop(frame).result()
+        self.progress(1, 1, "smoke of the first picture")
+        self.progress, self.tell = silent, untold
+        return found
+
+    def close(self) -> None:
+        """Let go of frames that nobody waits for any more."""
+        if "maker" in self.__dict__:
+            self.maker.flow.stop.set()
+        self.pool.shutdown(cancel_futures=True)
+        self.held.close()

@@ -1,0 +1,113 @@
+"""What rays that are marched through smoke need to know of the scene: the numbers its materials have."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+from firetwin_core import sensor, volume
+
+from ...blender.owned import Stage, ours
+from ...shot import temperature
+from ...shot.settings import BANDS
+from ...shot.shot import Shot
+from .. import haze, infrared
+from .. import temperature as airs
+from ..light import sky
+from . import sunlit
+
+_TABLE = 180.0, 360.0, 0.5  # K, of the air; and between the temperatures whose radiance is told
+
+
+def material(stage: Stage) -> bpy.types.Material | None:
+    """The material of the scene's smoke."""
+    objects = stage.root.all_objects
+    volumes = [thing.data for thing in objects if thing.type == "VOLUME" and ours(thing)]
+    return next((each.materials[0] for each in volumes if len(each.materials) and each.materials[0]), None)
+
+
+def visible(stage: Stage) -> volume.Illumination:
+    """Light in smoke, at the scene's frame.
+
+    Raises
+    ------
+    KeyError
+        The material of the smoke is another than `flow_material` makes.
+    """
+    group, tree = _group(stage)
+    sun, around, toward = (tree.nodes[name] for name in sunlit.NODES)
+    air, extinction = haze.state(stage)
+    glow = (
+        np.array(_colour(group, "Glow Colour")) * _number(group, "Glow")
+        if "Glow" in group.inputs
+        else 3 * [0.0]
+    )
+    return volume.Illumination(
+        density=_number(group, "Density"),
+        fresh=_colour(group, "Fresh Colour"),
+        old=_colour(group, "Old Colour"),
+        sun=np.array(sun.outputs[0].default_value[:3]) * _number(group, "Sunlight"),
+        sky=np.array(around.outputs[0].default_value[:3]) * _number(group, "Skylight"),
+        toward=[socket.default_value for socket in toward.inputs],
+        anisotropy=_number(group, "Anisotropy"),
+        oftener=sunlit.OFTENER,
+        glow=glow,
+        thin=sky.THIN,
+        thick=sky.THICK,
+        air=np.array(air) * np.array(_colour(group, "Haze Tint")),
+        haze=extinction * _number(group, "Haze"),
+        haze_height=sky.HAZE_HEIGHT,
+    )
+
+
+def toward_sun(stage: Stage) -> list[float]:
+    """Unit vector to the sun, at the scene's frame."""
+    return [socket.default_value for socket in _group(stage)[1].nodes[sunlit.NODES[2]].inputs]
+
+
+def shading(stage: Stage) -> float:
+    """How much of the smoke's extinction dims light that goes through it."""
+    group, _ = _group(stage)
+    return _number(group, "Density") * _number(group, "Light Density")
+
+
+def thickness(stage: Stage) -> float:
+    """Factor on the smoke's extinction."""
+    return _number(_group(stage)[0], "Density")
+
+
+def warm(shot: Shot, stage: Stage, frame: int) -> dict[str, Any]:
+    """What `volume.march_infrared` needs of the air, and of smoke in the band."""
+    low, high = BANDS[shot.settings.thermal.band]
+    kelvin, elevation, corner, spacing = airs.field(shot, float(shot.frames.times[frame - 1]))
+    first, last, step = _TABLE
+    table = sensor.radiance(np.arange(first, last, step), (low, high))
+    return {
+        "kelvin": kelvin,
+        "elevation": elevation,
+        "corner": corner,
+        "spacing": spacing,
+        "lapse": temperature.LAPSE,
+        "radiance": table,
+        "coldest": first,
+        "kelvin_step": step,
+        "absorption": infrared.absorption((low, high)) * thickness(stage),
+    }
+
+
+def _group(stage: Stage) -> tuple[bpy.types.Node, bpy.types.NodeTree]:
+    """The group node of the smoke's material, and what is in it."""
+    found = material(stage)
+    if found is None:
+        raise KeyError("no smoke")
+    node = next(node for node in found.node_tree.nodes if node.type == "GROUP")
+    return node, node.node_tree
+
+
+def _number(group: bpy.types.Node, name: str) -> float:
+    return float(group.inputs[name].default_value)
+
+
+def _colour(group: bpy.types.Node, name: str) -> list[float]:
+    return list(group.inputs[name].default_value)[:3]

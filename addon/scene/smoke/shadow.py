@@ -1,0 +1,161 @@
+"""The shadow of smoke that Cycles does not draw: a surface over the ground that shadow rays alone meet.
+
+It lets as much light through as the smoke over it: of the sun's where a ray goes to the sun, and the mean of
+five ways up, each for a fifth of the sky, for all others. What is taller than it (`_OVER`) gets no shade from
+smoke, nor does a ray know of smoke that lies beside it: next to a column the ground is a little too bright.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from firetwin_core import volume
+from numpy.typing import NDArray
+
+from ...blender import nodes, owned
+from ...blender.owned import Stage
+from ...shot.shot import Shot
+from . import illumination
+from .boxes import Box
+
+NAME = "Smoke Shadow"
+_OVER = 45.0  # m over the ground, as tall as all but the tallest trees
+_MESH = 3  # texels along a side of the mesh
+_TEXEL, _TEXELS = 40.0, 1200  # m at the least; along a side at the most
+_SUN_EVERY, _SKY_EVERY = 2, 8  # texels between places whose light is found
+_MARGIN, _TOP = (2000.0, 20_000.0), 6000.0  # m round the smoke; m over the ground that it casts shadows from
+_SUN_CONE = np.radians(0.6)  # the sun's disc has 0.27
+_RING = 0.4  # sine of the middle of four fifths of the sky
+_STEP = 2.0  # voxels
+_ENDLESS = np.float32(1.0e9)  # m
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Shadow:
+    """The surface in a scene.
+
+    Attributes
+    ----------
+    image
+        Red: the part of the sun's light that comes through, green: of the sky's.
+    places
+        (rows, columns, 3) m, of the image's texels.
+    """
+
+    image: bpy.types.Image
+    material: bpy.types.Material
+    places: Array
+
+    def cast(self, stage: Stage, layers: Sequence[volume.Bricks]) -> None:
+        """Make it the shadow of these layers in the light of the scene's frame."""
+        toward = illumination.toward_sun(stage)
+        part = illumination.shading(stage)
+        direct = _through(layers, self.places[::_SUN_EVERY, ::_SUN_EVERY], [toward], part)
+        around = _through(layers, self.places[::_SKY_EVERY, ::_SKY_EVERY], _ways(), part)
+        pixels = np.ones((*self.places.shape[:2], 4), np.float32)
+        pixels[..., 0] = _repeated(direct, _SUN_EVERY, pixels.shape)
+        pixels[..., 1] = _repeated(around, _SKY_EVERY, pixels.shape)
+        self.image.pixels.foreach_set(pixels.ravel())
+        self.image.update()
+        (group,) = (node for node in self.material.node_tree.nodes if node.type == "GROUP")
+        for socket, value in zip(group.node_tree.nodes["Towards the Sun"].inputs, toward, strict=True):
+            socket.default_value = value
+
+
+def build(shot: Shot, stage: Stage, boxes: Sequence[Box]) -> Shadow:
+    """Build "Firetwin Smoke Shadow" over all that smoke in these boxes casts shadows on."""
+    low, high = _extent(shot, boxes)
+    texel = max(_TEXEL, float(max(high - low)) / _TEXELS)
+    x, y = (np.arange(a + 0.5 * texel, b, texel) for a, b in zip(low, high, strict=True))
+    east, north = np.meshgrid(x, y)
+    up = shot.bare_ground.up(east.ravel(), north.ravel()).reshape(east.shape) + _OVER
+    places = np.stack([east, north, up], axis=-1)
+    image = owned.mark(
+        bpy.data.images.new(f"Firetwin {NAME}", len(x), len(y), alpha=False, float_buffer=True, is_data=True)
+    )
+    material = _material(image, low, texel * np.array([len(x), len(y)]))
+    collection = owned.child(stage.root, NAME)
+    thing = owned.add(collection, NAME, _mesh(places[::_MESH, ::_MESH], material))
+    for ray in ("camera", "diffuse", "glossy", "transmission", "volume_scatter"):
+        setattr(thing, f"visible_{ray}", False)
+    return Shadow(image, material, places)
+
+
+def _extent(shot: Shot, boxes: Sequence[Box]) -> tuple[Array, Array]:
+    """Corners (x, y), m, of what the smoke's shadow can lie on."""
+    heights = [shot.sun(float(shot.frames.times[k]))[1] for k in (0, -1)]
+    steep = np.tan(np.radians(max(min(heights), 1.0)))
+    margin = float(np.clip(_TOP / steep, *_MARGIN))
+    corners = np.array([[box.corner, box.high] for box in boxes])
+    return corners[:, 0].min(axis=0) - margin, corners[:, 1].max(axis=0) + margin
+
+
+def _through(
+    layers: Sequence[volume.Bricks], places: Array, ways: Sequence[Sequence[float]], part: float
+) -> NDArray[np.float32]:
+    """Mean over ways of the light that comes through to places (rows, columns, 3)."""
+    flat = places.reshape(-1, 3)
+    end = np.full(len(flat), _ENDLESS)
+    total = np.zeros(len(flat), np.float32)
+    for way in ways:
+        direction = np.broadcast_to(way, flat.shape)
+        total += np.exp(-part * volume.optical_depth(layers, flat, direction, end, _STEP))
+    return (total / len(ways)).reshape(places.shape[:2])
+
+
+def _ways() -> list[tuple[float, float, float]]:
+    """Unit vectors to the middles of five equal parts of the sky."""
+    flat = float(np.sqrt(1.0 - _RING**2))
+    return [(0.0, 0.0, 1.0), *((flat * c, flat * s, _RING) for c, s in ((1, 0), (-1, 0), (0, 1), (0, -1)))]
+
+
+def _repeated(values: NDArray[np.float32], times: int, shape: tuple[int, ...]) -> NDArray[np.float32]:
+    """Values for every texel, linear between those that were found."""
+    rows, columns = (np.arange(count) / times for count in shape[:2])
+    low, right = (
+        np.minimum(at.astype(int), count - 1) for at, count in zip((rows, columns), values.shape, strict=True)
+    )
+    high, left = (np.minimum(at + 1, count - 1) for at, count in zip((low, right), values.shape, strict=True))
+    v, u = (rows - low)[:, None].astype(np.float32), (columns - right)[None, :].astype(np.float32)
+    below = values[low]
+    row = below + (values[high] - below) * v
+    return row[:, right] + (row[:, left] - row[:, right]) * u
+
+
+def _mesh(places: Array, material: bpy.types.Material) -> bpy.types.Mesh:
+    rows, columns = places.shape[:2]
+    mesh = bpy.data.meshes.new(f"Firetwin {NAME}")
+    corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
+    faces = np.stack([corner, corner + 1, corner + columns + 1, corner + columns], axis=-1)
+    mesh.vertices.add(rows * columns)
+    mesh.vertices.foreach_set("co", places.astype(np.float32).ravel())
+    mesh.loops.add(faces.size)
+    mesh.loops.foreach_set("vertex_index", faces.ravel().astype(np.int32))
+    mesh.polygons.add(len(faces))
+    mesh.polygons.foreach_set("loop_start", np.arange(0, faces.size, 4, dtype=np.int32))
+    mesh.update()
+    mesh.materials.append(material)
+    return mesh
+
+
+def _material(image: bpy.types.Image, low: Array, size: Array) -> bpy.types.Material:
+    """Clear, but darkened by the image over the ground from its corner `low` on."""
+    material, tree = nodes.material(f"Firetwin {NAME}")
+    geometry = tree.node("ShaderNodeNewGeometry")
+    place = tree.vector("SUBTRACT", tree.pick(geometry, "Position"), (*low, 0.0))
+    place = tree.vector("MULTIPLY", place, (*(1.0 / size), 0.0))
+    found = tree.node("ShaderNodeTexImage", {"Vector": place}, image=image, extension="EXTEND")
+    direct, around, _ = tree.separate(tree.pick(found))
+    toward = tree.node("ShaderNodeCombineXYZ")
+    toward.name = "Towards the Sun"
+    along = tree.vector("DOT_PRODUCT", tree.pick(geometry, "Incoming"), toward, name="Value")
+    to_sun = tree.math("ABSOLUTE", along) > float(np.cos(_SUN_CONE))
+    through = tree.mix(to_sun, around, direct)
+    colour = tree.combine(through, through, through)
+    tree.surface(tree.output("ShaderNodeBsdfTransparent", {"Color": colour}))
+    return material
