@@ -63,6 +63,11 @@ class Stage:
             return found
         return child(self.root, name)
 
+    def things(self, name: str) -> list[bpy.types.Object]:
+        """Our objects of a part."""
+        found = (child for child in self.root.children if ours(child, name))
+        return [thing for child in found for thing in child.all_objects if ours(thing)]
+
     def camera(self, name: str) -> bpy.types.Object | None:
         """The object of the camera called `name` in the scene file, whatever it is called by now."""
         found = [thing for thing in self.root.all_objects if ours(thing, f"camera {name}")]

@@ -45,7 +45,8 @@ class Drawing:
         self.image = _show(self.scene)
         _prepare(self.scene)
         self.shadow = _shadow(shot, stage) if shot.settings.smoke.enabled else None
-        layers.exclude(self.scene, "smoke")
+        for thing in stage.things("Smoke"):
+            thing.hide_render = True
         layers.exclude(self.scene, shadow.NAME.lower(), but="rgb")
 
     def of(self, smoke: Sequence[volume.Bricks], part: Path) -> Callable[[list[Picture]], None]:

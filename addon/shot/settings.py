@@ -222,11 +222,8 @@ class Smoke:
     )
     draw: str = key(
         "integrated",
-        "how a flow's solved smoke is drawn in rendered frames",
-        choices={
-            "integrated": "along camera rays: no grain, and faster",
-            "volume": "by Cycles, as in Blender's own render",
-        },
+        "in rendered frames",
+        choices={"integrated": "solved smoke along camera rays", "volume": "by Cycles, as F12 does"},
     )
     complete: bool = key(False, "also smoke that no camera sees, and its temperature and flames as grids")
 

@@ -61,7 +61,7 @@ using LayerList = std::vector<std::shared_ptr<Bricks>>;
 
 Array<float> march(const LayerList& layers, const py::object& origins, const py::object& directions,
                    const py::object& distances, const Illumination& light, double step,
-                   float stop) {
+                   double stop) {
   const RayArrays given(layers, origins, directions);
   const auto taps = to_array<float>(distances, "distances", {given.size(), -1});
   auto found = new_array<float>({given.size(), taps.shape(1), 4});
@@ -74,13 +74,14 @@ Array<float> march(const LayerList& layers, const py::object& origins, const py:
 
 Array<float> optical_depth(const LayerList& layers, const py::object& origins,
                            const py::object& directions, const py::object& distances, double step,
-                           float enough) {
+                           double enough) {
   const RayArrays given(layers, origins, directions);
   const auto ends = to_array<float>(distances, "distances", {given.size()});
   auto found = new_array<float>({given.size()});
   const std::span<float> out = writable(found);
   const py::gil_scoped_release release;
-  volume::optical_depth(given.layers(), given.rays(), view(ends), step, enough, out);
+  volume::optical_depth(given.layers(), given.rays(), view(ends), step, static_cast<float>(enough),
+                        out);
   return found;
 }
 
@@ -138,7 +139,7 @@ void init_march(Module module) {
              "distances"_a, py::kw_only(), "kelvin"_a, "elevation"_a, "corner"_a, "spacing"_a,
              "lapse"_a, "radiance"_a, "coldest"_a, "kelvin_step"_a, "absorption"_a, "step"_a = 4.0);
   module.def("optical_depth", &optical_depth, "layers"_a, "origins"_a, "directions"_a,
-             "distances"_a, "step"_a = 2.0, "enough"_a = 20.0F);
+             "distances"_a, "step"_a = 2.0, "enough"_a = 20.0);
 }
 
 } // namespace firetwin::bindings

@@ -215,7 +215,7 @@ void Marcher::step(float t, float until, const Haze& haze) {
   const float near = haze.at(entry + static_cast<double>(t));
   const float far = haze.at(entry + static_cast<double>(until));
   add(inside_, {t, all / static_cast<float>(count), count, near, (far - near) / all}, shade_,
-      how_.stop, sum_);
+      static_cast<float>(how_.stop), sum_);
 }
 
 void Marcher::record(float* out) {
@@ -249,7 +249,7 @@ void Marcher::ray(const Vector& origin, const Vector& direction, std::size_t num
       } else if (to == never) {
         break; // no smoke is left
       }
-      if (sum_.through < how_.stop) {
+      if (static_cast<double>(sum_.through) < how_.stop) {
         sum_.light *= 1.0F / (1.0F - sum_.through);
         sum_.through = 0.0F;
       }

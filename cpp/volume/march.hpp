@@ -34,8 +34,8 @@ struct Taps {
 
 struct March {
   double step = 0.5; ///< voxels of the finest layer there
-  float stop =
-      1.0e-3F; ///< transmittance at which rays end; what is left counts as more of the same
+  /// Transmittance at which rays end; what is left counts as more of the same.
+  double stop = 1.0e-3;
 };
 
 /// What smoke adds to each ray up to each tap, and the part of light from there that comes through:

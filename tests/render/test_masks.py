@@ -35,6 +35,7 @@ def shoot(near_settings, run, tmp_path):
             near_settings,
             cameras=(Camera("drone", Drone(keys=(KEY,), vibration=0.3)), Camera("two", Mounted("drone"))),
             render=replace(near_settings.render, resolution=(96, 54), samples=1),
+            smoke=replace(near_settings.smoke, draw="volume"),
         )
         shot = Shot(settings, run).of(camera)
         build.build(shot, stage.scene)

@@ -21,7 +21,7 @@ def render(settings, shot, stage, tmp_path):
         mesh.from_pydata([(x, y, slope * y) for x, y in corners], [], [(0, 1, 2, 3)])
         material, tree = nodes.material("Plane")
         shader = tree.output("ShaderNodeBsdfDiffuse", {"Color": (0.2, 0.3, 0.1)})
-        tree.surface(nodes.thermal_switch(tree, shader, (300.0,) * 3))
+        tree.surface(nodes.thermal_switch(tree, shader, tree.math("ADD", 300.0, 0.0)))
         mesh.materials.append(material)
         owned.add(ground, "Plane", mesh)
         card = bpy.data.meshes.new("Card")

@@ -1,0 +1,119 @@
+"""Pictures of surfaces and marched smoke, beside what a pixel of so many rays is by definition."""
+
+import numpy as np
+import pytest
+from firetwin.render import composite
+from hypothesis import given
+from hypothesis import strategies as st
+
+SIZE = 7, 9
+FAR = np.float32(1e10)
+
+
+def surfaces(shown, distance, **changes):
+    """Surfaces of even colour and distance (broadcast to the picture), without fire."""
+    colour = np.array(np.broadcast_to(np.float32(shown), (*SIZE, 3)))
+    distance = np.array(np.broadcast_to(np.float32(distance), SIZE))
+    none = np.zeros(SIZE, np.float32)
+    given = {
+        "colour": colour,
+        "noisy": colour,
+        "fire": np.zeros_like(colour),
+        "distance": distance,
+        "nearness": np.where(distance < 1e9, 1000.0 / distance, 0.0).astype(np.float32),
+        "aside": none,
+        "solid": (distance < 1e9).astype(np.float32),
+        "fire_distance": none,
+    }
+    return composite.Surfaces(**(given | changes))
+
+
+def even_smoke(seen, extinction=1e-3, shine=2.0):
+    """What a march through even smoke gives at distances."""
+    through = np.exp(-extinction * np.minimum(seen, 1e5))[..., None].astype(np.float32)
+    return np.concatenate([np.repeat(shine * (1.0 - through), 3, axis=-1), through], axis=-1)
+
+
+def picture(found, **smoke):
+    seen = composite.taps(found)
+    return composite.picture(found, seen, even_smoke(seen, **smoke))
+
+
+@given(st.floats(0.0, 50.0), st.floats(10.0, 1e4))
+def test_without_smoke_surfaces_are_what_cycles_drew(colour, distance):
+    found = surfaces(colour, distance, fire=np.full((*SIZE, 3), 0.2 * colour, np.float32))
+    assert picture(found, extinction=0.0) == pytest.approx(found.colour, rel=1e-5)
+
+
+def test_a_plane_behind_smoke_is_dimmed_and_veiled():
+    through = np.exp(-1e-3 * 700.0)
+    assert picture(surfaces(3.0, 700.0)) == pytest.approx(3.0 * through + 2.0 * (1.0 - through), rel=1e-5)
+
+
+def test_behind_thick_smoke_nothing_is_seen():
+    assert picture(surfaces(3.0, 700.0), extinction=1.0) == pytest.approx(2.0, rel=1e-5)
+
+
+@pytest.mark.parametrize("part", [0.0, 1 / 3, 2 / 3, 1.0])
+def test_a_pixel_at_a_silhouette_is_shared_by_near_and_far(part):
+    distance = np.full(SIZE, 200.0, np.float32)
+    distance[:, 5:] = 4000.0
+    near, far = np.float32(1.0), np.float32(8.0)
+    nearness = 1000.0 / distance
+    colour = np.where(distance[..., None] < 1000.0, near, far) * np.ones(3, np.float32)
+    nearness[:, 4] = part * 5.0 + (1.0 - part) * 0.25
+    colour[:, 4] = part * near + (1.0 - part) * far
+    found = surfaces(0.0, distance, colour=colour, noisy=colour, nearness=nearness)
+    through = np.exp(-1e-3 * np.array([200.0, 4000.0]))
+    veil = 2.0 * (1.0 - through)
+    expected = part * (near * through[0] + veil[0]) + (1.0 - part) * (far * through[1] + veil[1])
+    assert picture(found)[3, 4] == pytest.approx(expected, rel=1e-4)
+
+
+def test_the_sky_is_the_far_part_of_a_silhouette():
+    distance = np.full(SIZE, 200.0, np.float32)
+    distance[:, 5:] = FAR
+    nearness = np.where(distance < 1e9, 5.0, 0.0).astype(np.float32)
+    nearness[:, 4] = 2.5
+    found = surfaces(1.0, distance, nearness=nearness)
+    near = np.exp(-0.2)
+    assert picture(found)[3, 4] == pytest.approx(0.5 * (near + 2.0 * (1.0 - near)) + 0.5 * 2.0, rel=1e-4)
+
+
+def test_a_material_that_does_not_tell_its_distance_is_where_its_middle_is():
+    distance = np.full(SIZE, 200.0, np.float32)
+    distance[:, 5:] = 4000.0
+    unknown = surfaces(1.0, distance, nearness=np.zeros(SIZE, np.float32), solid=np.zeros(SIZE, np.float32))
+    assert picture(unknown) == pytest.approx(picture(surfaces(1.0, distance)), rel=1e-5)
+
+
+def test_flames_are_dimmed_by_the_smoke_before_them_alone():
+    fire = np.zeros((*SIZE, 3), np.float32)
+    fire[3, 4] = 10.0
+    way = np.zeros(SIZE, np.float32)
+    way[3, 4] = 300.0
+    found = surfaces(1.0 + fire, 3000.0, fire=fire, fire_distance=way)
+    ground = np.exp(-3.0) + 2.0 * (1.0 - np.exp(-3.0))
+    assert picture(found)[3, 4] == pytest.approx(10.0 * np.exp(-0.3) + ground, rel=1e-4)
+    assert picture(found)[3, 3] == pytest.approx(ground, rel=1e-4)
+
+
+def test_flames_are_as_bright_as_the_denoiser_left_them():
+    fire = np.full((*SIZE, 3), 8.0, np.float32)
+    found = surfaces(4.0, 3000.0, noisy=fire, fire=fire, fire_distance=np.full(SIZE, 300.0, np.float32))
+    assert picture(found, shine=0.0) == pytest.approx(4.0 * np.exp(-0.3), rel=1e-4)
+
+
+def test_infrared_radiance_of_flames_is_bounded_by_their_own():
+    surface = np.full((*SIZE, 3), [5.0, 1.0, 50.0], np.float32)
+    flames = np.zeros((*SIZE, 3), np.float32)
+    flames[..., 2] = [0.0, 0.5, 1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0]
+    warmth = flames[..., 2] * 1000.0
+    found = composite.radiance(surface, flames, warmth, 20.0)
+    assert found[0, :5] == pytest.approx([50.0, 525.0, 1000.0, 1000.0, 1000.0])
+
+
+def test_infrared_radiance_of_the_sky_fills_what_is_not_solid():
+    surface = np.full((*SIZE, 3), [0.0, 0.25, 0.25 * 60.0], np.float32)
+    none = np.zeros((*SIZE, 3), np.float32)
+    assert composite.radiance(surface, none, none[..., 0], 20.0) == pytest.approx(0.25 * 60.0 + 0.75 * 20.0)
