@@ -1,0 +1,133 @@
+"""A frame of one render and of marched smoke, beside the same frame with smoke that Cycles walks through."""
+
+from dataclasses import replace
+from datetime import UTC, datetime
+
+import bpy
+import numpy as np
+import pytest
+from firetwin.blender import owned
+from firetwin.render import engine, integrated, layers, pictures
+from firetwin.render.picture import Picture
+from firetwin.render.sharing import making
+from firetwin.scene import build
+from firetwin.scene.smoke import bake, baker
+from firetwin.shot import passes
+from firetwin.shot.rigs.drone import CameraKey, Drone
+from firetwin.shot.settings import Camera, Time
+from firetwin.shot.shot import Shot
+from firetwin_core import sensor
+
+KEY = CameraKey(0.0, 38.815, -120.56, 500.0, "point", 38.842, -120.552, 300.0)
+START = datetime(2014, 9, 17, 21, 30, tzinfo=UTC)
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory):
+    return tmp_path_factory.mktemp("cache")
+
+
+@pytest.fixture
+def film(near_settings, run, few_cells, cache, tmp_path):
+    """Render passes of a frame; returns its EXRs by pass, and the picture in display colours."""
+
+    def make(*names, draw="integrated", grain=0):
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        stage = owned.adopt(bpy.context.scene)
+        settings = replace(
+            near_settings,
+            cache=cache,
+            time=Time(start=START, end=START, frames=1),
+            smoke=replace(near_settings.smoke, enabled=True, spin_up=900.0, draw=draw),
+            cameras=(Camera("drone", Drone(keys=(KEY,))),),
+            render=replace(near_settings.render, resolution=(96, 54), samples=4, seed=grain),
+        )
+        shot = Shot(settings, run)
+        ready = lambda frame, ahead: None  # noqa: E731
+        if draw == "volume":
+            bake.bake(shot)
+        else:
+            smoke = baker.Baker(shot)
+            ready = lambda frame, ahead: smoke.bricks(frame)  # noqa: E731
+        build.build(shot, stage.scene)
+        layers.build(settings, stage)
+        engine.apply(settings, stage.scene)
+        wanted = [Picture("drone", 1, name) for name in names]
+        out = tmp_path / f"{draw}_{grain}_{'_'.join(names)}"
+        out.mkdir()
+        with making(out, {("drone", name): {"pass": name} for name in passes.known()}) as here:
+            pictures.render(shot, stage, here, wanted, ready=ready)
+        return {each.name: sensor.read_image(out / each.file("exr")) for each in wanted}
+
+    return make
+
+
+@pytest.fixture
+def both(film):
+    names = "rgb", "thermal", "depth", "masks"
+    return film(*names), film(*names, draw="volume")
+
+
+def test_marched_smoke_is_the_smoke_that_cycles_walks_through(both):
+    ours, theirs = both
+    clear, same = ours["masks"][..., 1], theirs["masks"][..., 1]
+    assert (same < 0.1).mean() > 0.1, "of the picture, so that there is smoke to compare"
+    assert np.abs(clear - same).mean() < 0.01
+    thick = (clear < 0.02) & (same < 0.02)
+    light, reference = (found["rgb"][thick].mean(axis=0) for found in both)
+    assert light == pytest.approx(reference, rel=0.05)
+    away = clear > 0.98
+    assert ours["rgb"][away].mean() == pytest.approx(theirs["rgb"][away].mean(), rel=0.05)
+
+
+def test_heat_and_depth_are_what_renders_of_their_own_give(both):
+    ours, theirs = both
+    kelvin, reference = (found["thermal"][..., 0] for found in both)
+    cold = (kelvin < 330.0) & (reference < 330.0)
+    off = (kelvin - reference)[cold]
+    assert cold.mean() > 0.5
+    assert np.sqrt(np.mean(off**2)) < 1.5
+    assert abs(off.mean()) < 0.1
+    near, far = (found["depth"][..., 0] for found in both)
+    assert np.mean(np.abs(near - far) < 1e-3 * far) > 0.98
+    assert np.array_equal(ours["masks"][..., 2], theirs["masks"][..., 2])
+
+
+def test_a_pass_is_the_same_whatever_is_made_with_it(film):
+    together = film("rgb", "thermal", "depth")
+    for name in ("thermal", "depth"):
+        assert np.array_equal(film(name)[name], together[name])
+
+
+def test_smoke_has_no_grain(film):
+    first, second = (film("rgb", "masks", grain=grain) for grain in (0, 1))
+    hidden = (first["masks"][..., 1] < 1e-3) & (second["masks"][..., 1] < 1e-3)
+    assert hidden.mean() > 0.1
+    assert np.abs(first["rgb"] - second["rgb"])[hidden].mean() < 2e-4, "what is left is the flames' bloom"
+    assert np.abs(first["rgb"] - second["rgb"])[~hidden].mean() > 1e-3
+
+
+def test_only_shadow_rays_meet_the_shadow_of_smoke(film):
+    film("depth")
+    (thing,) = (each for each in bpy.data.objects if each.name == "Firetwin Smoke Shadow")
+    assert thing.visible_shadow
+    assert not any(
+        getattr(thing, f"visible_{ray}")
+        for ray in ("camera", "diffuse", "glossy", "transmission", "volume_scatter")
+    )
+
+
+def test_settings_decide_how_smoke_is_drawn(near_settings, run):
+    def drawn(engine="cycles", **smoke):
+        settings = replace(
+            near_settings,
+            smoke=replace(near_settings.smoke, **({"enabled": True} | smoke)),
+            render=replace(near_settings.render, engine=engine),
+        )
+        return baker.integrated(Shot(settings, run))
+
+    assert drawn()
+    assert drawn(enabled=False)
+    for other in ({"draw": "volume"}, {"method": "puffs"}, {"lighting": "traced"}, {"engine": "eevee"}):
+        assert not drawn(**other)
+    assert integrated.TOGETHER == ("rgb", "thermal", "depth")
