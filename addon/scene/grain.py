@@ -1,0 +1,40 @@
+"""Noise as fine as a picture can show: octaves smaller than a pixel cost time and are not seen."""
+
+from __future__ import annotations
+
+from copy import copy
+from math import log2
+from typing import Any
+
+from ..blender import nodes
+
+
+class Grain:
+    """Noise at a position, in octaves of `least` pixels' width and more; in all of them without a `pixel`."""
+
+    def __init__(
+        self, tree: nodes.Tree, position: Any, pixel: nodes.Value | None, least: float = 1.0
+    ) -> None:
+        self._tree, self._position, self._pixel = tree, position, pixel
+        self._octaves = None if pixel is None else -tree.math("LOGARITHM", pixel * least, 2.0)
+
+    def coarser(self, least: float) -> Grain:
+        """The same noise at the same place, with other octaves."""
+        return Grain(self._tree, self._position, self._pixel, least)
+
+    def at(self, position: Any) -> Grain:
+        """The same octaves at another place."""
+        other = copy(self)
+        other._position = position
+        return other
+
+    def noise(self, size: float, octaves: float = 2.0, roughness: float = 0.55) -> nodes.Value:
+        """As `Tree.noise`: the octaves that are left are as strong as in the whole noise."""
+        if self._octaves is None:
+            return self._tree.noise(self._position, size, octaves, roughness)
+        low = -log2(size)
+        detail = self._octaves.ramp(low, low + octaves, 0.0, octaves)
+        inputs = {"Vector": self._position, "Scale": 1.0 / size, "Detail": detail, "Roughness": roughness}
+        total = self._tree.output("ShaderNodeTexNoise", inputs, normalize=False)
+        weights = sum(roughness**octave for octave in range(int(octaves) + 1))
+        return self._tree.math("MULTIPLY_ADD", total, 0.5 / weights, 0.5)

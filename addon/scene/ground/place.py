@@ -1,0 +1,80 @@
+"""What the ground's material knows about a point: its place, its fields, and what the fire did there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from ...blender import nodes
+from ...shot.shot import Shot
+from .. import granite
+from ..grain import Grain
+from . import fields
+
+_OWN = 1.25  # times the distance to which trees are drawn: from there on the canopy is the ground's
+_JITTER = 130.0  # s; breaks the straight edges of the mesh's triangles
+
+
+@dataclass
+class Place:
+    """A point of the ground; what is noise in it is as fine as `grain`."""
+
+    grain: Grain
+    position: nodes.Value
+    slope: nodes.Value  # 0 flat, 1 vertical
+    canopy: nodes.Value  # kg/m2
+    bare: nodes.Value  # 0..1, part of the ground nearby without fuel
+    elevation: nodes.Value  # m
+    distance: nodes.Value  # m from the camera
+    near: nodes.Value  # 1 where trees are drawn one by one
+    age: nodes.Value  # s since the fire came, negative before
+    burned: nodes.Value  # 0 or 1
+    pixel: nodes.Value  # m
+    duff: nodes.Value  # -1..1, grain of the soil, of needles and of ash; 0 where pixels are larger
+
+    def coarser(self, least: float) -> Place:
+        """The same with noise of at least so many pixels, for other branches of the shader.
+
+        Cycles works out what branches share before it knows which of them it needs. Noise whose octaves
+        differ is not shared.
+        """
+        return replace(self, grain=self.grain.coarser(least))
+
+
+def of(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -> Place:
+    """A point, with noise in all of its octaves (`whole`) or in those that a picture can show.
+
+    Both in one material cost no more than one of them, as long as they are in different branches of it.
+    """
+    radius = shot.settings.forest.draw_distance
+    geometry = tree.node("ShaderNodeNewGeometry")
+    position = tree.pick(geometry, "Position")
+    slope = 1.0 - tree.separate(tree.pick(geometry, "True Normal"))[2]
+    distance = tree.output("ShaderNodeCameraData", name="View Distance")
+    pixel = granite.pixel(tree, shot, distance)
+    grain = Grain(tree, position, None if whole else pixel)
+    wander = grain.noise(170.0, 2.0) + grain.noise(1100.0, 1.0) - 1.0
+    age = nodes.model_time(tree) - known["burn_time"] + wander * (2.0 * _JITTER)
+    edge = known["burned"] + (grain.noise(120.0, 3.0) - 0.5) * 0.8
+    return Place(
+        grain,
+        position,
+        slope,
+        known["canopy_fuel"],
+        known["bare"],
+        tree.attribute("elevation"),
+        distance,
+        known["stand"] * distance.ramp(max(radius, 1.0), _OWN * max(radius, 1.0), 1.0, 0.0),
+        age,
+        (age > 0.0) * (edge > 0.5),
+        pixel,
+        granite.fine(tree, position, 0.6, 5.0, pixel, 0.72),
+    )
+
+
+def rock(tree: nodes.Tree, place: Place) -> nodes.Value:
+    """Bare rock 0..1: where nothing grows, on cliffs, and in outcrops that grow commoner with height."""
+    ragged = place.grain.noise(260.0, 6.0, 0.66)
+    bare = (place.bare + (ragged - 0.5) * 1.7).smoothstep(0.42, 0.58) * (place.bare > 0.02)
+    cliff = (place.slope + (ragged - 0.5) * 0.35).smoothstep(0.27, 0.36)
+    high = (ragged + place.elevation.ramp(1300.0, 2700.0, -0.12, 0.12)).smoothstep(0.66, 0.74)
+    return tree.math("MAXIMUM", bare, tree.math("MAXIMUM", cliff, high * 0.9))
