@@ -358,10 +358,11 @@ def set_denoising(cycles: Any, wanted: bool) -> None:
 
     Balanced quality takes less than half of high quality's time, 2.6 instead of 6 s of the processor for
     640x360 pixels. Pictures of 3 samples differ by FLIP 0.03, by another grain 0.045; with smoke by 0.04 and
-    0.075.
+    0.075. What it knows of surfaces is made less grainy the fast way: 0.7 s less than the accurate way, and
+    trees and flames stay sharper. Not at all would be as fast, and leave grain.
     """
     try:
-        cycles.denoiser, cycles.denoising_prefilter = "OPENIMAGEDENOISE", "ACCURATE"
+        cycles.denoiser, cycles.denoising_prefilter = "OPENIMAGEDENOISE", "FAST"
         cycles.denoising_quality = "BALANCED"
     except TypeError:
         wanted = False
