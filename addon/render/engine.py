@@ -1,7 +1,7 @@
 """Engine settings: good pictures of smoke and forest for little time.
 
-The values of Cycles are those under "Cost" that change the time and not the picture: light that has bounced
-more than once, or through glass, is not worth its rays in a landscape of ash, leaves and smoke.
+The values of Cycles are those under "Cost" that change the time and not the picture: light that has bounced,
+or through glass, is not worth its rays in a landscape of ash, leaves and smoke.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def _cycles(settings: Settings, scene: bpy.types.Scene) -> None:
     cycles.sampling_pattern = "TABULATED_SOBOL"  # Blender versions start with other ones
     cycles.seed, cycles.use_animated_seed = settings.render.seed, False
     compat.set_denoising(cycles, settings.render.denoise)
-    cycles.max_bounces, cycles.diffuse_bounces = 4, 1
+    cycles.max_bounces = 4
     cycles.glossy_bounces = cycles.transmission_bounces = 0
     cycles.volume_bounces = 1  # the material of smoke stands in for more
     compat.march_through_volumes(cycles)
@@ -76,7 +76,8 @@ def _cycles(settings: Settings, scene: bpy.types.Scene) -> None:
     scene.render.use_persistent_data = False  # saved nothing measurable over three frames, and keeps memory
     cycles.pixel_filter_type, cycles.filter_width = "BLACKMAN_HARRIS", 1.5
     cycles.fast_gi_method = "ADD"  # as much as our world says: `light.build`
-    cycles.use_fast_gi = scene.world is not None and owned.ours(scene.world)
+    filled = cycles.use_fast_gi = scene.world is not None and owned.ours(scene.world)
+    cycles.diffuse_bounces = 0 if filled else 1  # our fill stands in for the first bounce too
     if scene.world is not None:  # the sky has no sun disc: its own, finer map takes 2 s of every frame
         scene.world.cycles.sampling_method = "MANUAL"
         scene.world.cycles.sample_map_resolution = 256

@@ -18,7 +18,7 @@ from .sky import NIGHT_SKY, State
 _KEYS = 25  # the sky changes at this many moments of the shot
 _SKY = 0.12  # strength of the sky texture; more drowns the sunlit side of smoke
 _DUST = 0.3  # of the sky texture; 1 makes it pale and greenish
-_FILL = 0.35  # of the sky's mean radiance, added wherever what is near leaves a place open; by eye
+_FILL = 0.44  # of the sky's mean radiance, added wherever what is near leaves a place open; by eye
 _NEAR = 15.0  # m
 _TRANSFORM, _LOOK = "AgX", "AgX - Medium High Contrast"
 _INSTEAD = ("Filmic", "Standard")  # view transforms where there is no AgX, the better first
@@ -97,7 +97,7 @@ def _world(scene: bpy.types.Scene, frames: NDArray[np.float64], states: list[Sta
 
 
 def _fill(world: bpy.types.World, frames: NDArray[np.float64], states: list[State]) -> None:
-    """Light in the shade between trees, in place of what goes from crown to crown more than once.
+    """Light in the shade between trees, in place of what goes from crown to crown and from the ground.
 
     Cycles adds it as ambient occlusion ("Fast GI"): as much as the sky is bright, nothing at night.
     """
