@@ -23,6 +23,7 @@ SUBJECTS = (
     "volume",
     "smoke",
     "step",
+    "march",
     "scrub",
     "scattering",
     "plume",

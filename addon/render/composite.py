@@ -1,8 +1,9 @@
 """Pictures from surfaces that Cycles drew and smoke that was marched, in linear light. Needs no Blender.
 
 A ray's smoke is known at taps: what it adds up to there, and the transmittance. A pixel at a silhouette shows
-a near surface and a far one: its taps are the nearest and the farthest depth of its 3 x 3 neighbours, shared
-by the mean nearness (1 / distance) of its rays. Flames have a distance of their own.
+a near surface and a far one: its taps are the nearest and the farthest depth of its 3 x 3 neighbours. How
+they share it is told by the mean nearness (1 / distance) of its rays, few as they are, and by its neighbours.
+Flames have a distance of their own.
 """
 
 from __future__ import annotations
@@ -17,6 +18,9 @@ Array = NDArray[np.float32]
 SKY = 1.0e9  # m; what is farther is no surface
 _EDGE = 0.02  # transmittance that differs across a silhouette
 _REACH, _ALIKE = 2, 0.1  # pixels round an edge, and how far their depth may differ, of itself
+_SURE = (
+    15.0  # rays whose mean is as far off the share of a pixel as what its neighbours tell of it; estimated
+)
 _BRIGHTER = 4.0  # times that a denoiser may make a light brighter
 
 
@@ -42,6 +46,8 @@ class Surfaces:
         (h, w) part of rays that met a surface that knows its distance.
     fire_distance
         (h, w) m, mean over the flames by their light; 0: none.
+    rays
+        Of a pixel.
     """
 
     colour: Array
@@ -52,6 +58,7 @@ class Surfaces:
     aside: Array
     solid: Array
     fire_distance: Array
+    rays: int
 
 
 def taps(surfaces: Surfaces) -> Array:
@@ -78,11 +85,11 @@ def picture(surfaces: Surfaces, seen: Array, marched: Array) -> Array:
     solid = surfaces.colour - fire
     behind = solid * (share * near + (1.0 - share) * far)
     edge = np.abs(near - far)[..., 0] > _EDGE
-    inner, known = _beside(solid, seen[..., 0], edge)
+    inner = _beside(solid, seen[..., 0], edge)
     # The near part of an edge has its neighbours' colour: a denoiser has mixed it with what is far, such as
     # fire that smoke hides.
     split = share * inner * (near - far) + solid * far
-    behind = np.where((edge & known)[..., None], split, behind)
+    behind = np.where(edge[..., None], split, behind)
     light = share * smoke[:, :, 0] + (1.0 - share) * smoke[:, :, 1]
     return (np.maximum(behind + fire * flames, 0.0) + light).astype(np.float32)
 
@@ -109,11 +116,26 @@ def _share(surfaces: Surfaces, seen: Array) -> Array:
     """Part (h, w) of each pixel that is its near surface."""
     near, far = (1000.0 / np.hypot(seen[..., k], surfaces.aside) for k in (0, 1))
     apart = near - far
-    share = (surfaces.nearness - far) / np.where(apart > 0.0, apart, 1.0)
+    share = np.clip((surfaces.nearness - far) / np.where(apart > 0.0, apart, 1.0), 0.0, 1.0)
+    sure = surfaces.rays / (surfaces.rays + _SURE)
+    share = sure * share + (1.0 - sure) * _nearer(surfaces.distance, seen)
     # An artist's material says nothing of its distance: what the middle ray met is all that is known.
     unknown = (surfaces.solid < 0.5) & (surfaces.distance < SKY)
     share = np.where(unknown, surfaces.distance <= seen[..., 0] * (1.0 + _ALIKE), share)
-    return np.where(apart > 1.0e-3 * near, np.clip(share, 0.0, 1.0), 1.0)
+    return np.where(apart > 1.0e-3 * near, share, 1.0)
+
+
+def _nearer(distance: Array, seen: Array) -> Array:
+    """Part (h, w) of the 3 x 3 round each pixel that is as near as its near tap, the middle counting most."""
+    padded = np.pad(distance, 1, mode="edge")
+    height, width = distance.shape
+    middle = np.sqrt(seen[..., 0] * np.minimum(seen[..., 1], 1.0e10))
+    total = np.zeros((height, width), np.float32)
+    for down, row in enumerate((1.0, 2.0, 1.0)):
+        for across, column in enumerate((1.0, 2.0, 1.0)):
+            there = padded[down : down + height, across : across + width]
+            total += np.float32(row * column / 16.0) * (there < middle)
+    return total
 
 
 def _denoised(surfaces: Surfaces) -> Array:
@@ -128,25 +150,28 @@ def _around(values: Array, pick: np.ufunc) -> Array:
     return pick(pick(rows[:, :-2], rows[:, 1:-1]), rows[:, 2:])
 
 
-def _beside(colour: Array, near: Array, edge: NDArray[np.bool_]) -> tuple[Array, NDArray[np.bool_]]:
-    """Mean colour round pixels at edges, of pixels as near that are not, and where there are any."""
-    found, known = colour.copy(), np.zeros(edge.shape, bool)
+def _beside(colour: Array, near: Array, edge: NDArray[np.bool_]) -> Array:
+    """Colour (h, w, 3) with that of pixels at edges from round them: the mean of those as near that are not.
+
+    Where there are none it is the darkest of its 3 x 3: what shines there by mistake is fire behind smoke.
+    """
+    found = colour.copy()
     rows, columns = np.nonzero(edge)
     if len(rows) == 0:
-        return found, known
+        return found
     height, width = edge.shape
+    darkest = np.stack([_around(colour[..., channel], np.minimum) for channel in range(3)], axis=-1)
     total, weight = np.zeros((len(rows), 3), np.float32), np.zeros(len(rows), np.float32)
+    here = near[rows, columns]
     for down in range(-_REACH, _REACH + 1):
         for across in range(-_REACH, _REACH + 1):
             row, column = rows + down, columns + across
             inside = (row >= 0) & (row < height) & (column >= 0) & (column < width)
             row, column = np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)
-            here = near[rows, columns]
             alike = inside & ~edge[row, column] & (np.abs(near[row, column] - here) < _ALIKE * here)
             part = np.float32(np.exp(-0.5 * (down**2 + across**2))) * alike
             total += part[:, None] * colour[row, column]
             weight += part
-    there = weight > 0.0
-    found[rows[there], columns[there]] = total[there] / weight[there, None]
-    known[rows[there], columns[there]] = True
-    return found, known
+    mean = total / np.maximum(weight, 1.0e-9)[:, None]
+    found[rows, columns] = np.where(weight[:, None] > 0.0, mean, darkest[rows, columns])
+    return found

@@ -24,6 +24,7 @@ def surfaces(shown, distance, **changes):
         "aside": none,
         "solid": (distance < 1e9).astype(np.float32),
         "fire_distance": none,
+        "rays": 10**9,
     }
     return composite.Surfaces(**(given | changes))
 
@@ -68,6 +69,18 @@ def test_a_pixel_at_a_silhouette_is_shared_by_near_and_far(part):
     veil = 2.0 * (1.0 - through)
     expected = part * (near * through[0] + veil[0]) + (1.0 - part) * (far * through[1] + veil[1])
     assert picture(found)[3, 4] == pytest.approx(expected, rel=1e-4)
+
+
+@pytest.mark.parametrize(("rays", "part"), [(1, 0.75), (15, 0.5), (10**9, 0.25)])
+def test_few_rays_count_little_beside_what_neighbours_tell(rays, part):
+    distance = np.full(SIZE, 200.0, np.float32)
+    distance[:, 5:] = 4000.0
+    nearness = 1000.0 / distance
+    nearness[:, 4] = 0.25 * 5.0 + 0.75 * 0.25
+    found = surfaces(0.0, distance, nearness=nearness, rays=rays)
+    veil = 2.0 * (1.0 - np.exp(-1e-3 * np.array([200.0, 4000.0])))
+    expected = part * veil[0] + (1.0 - part) * veil[1]
+    assert picture(found)[3, 4, 0] == pytest.approx(expected, abs=0.03 * veil[1])
 
 
 def test_the_sky_is_the_far_part_of_a_silhouette():

@@ -1,0 +1,207 @@
+"""Ray marching through smoke beside a quarter of its step, and a frame's passes beside Cycles' own volume.
+
+The frame is a moment of the sample run with solved smoke: picture, infrared and depth, with all that makes
+their files. Its error is the mean FLIP of the picture (Andersson et al. 2020) beside one whose smoke Cycles
+walked through in a quarter of the step, with many rays and no denoiser. Frames of a kind take turns.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from firetwin_core import volume
+from numpy.typing import NDArray
+
+from ..jobs import worker
+from ..progress import Progress, Tell, silent, untold
+from ..shot import settings
+from ..shot.shot import Shot
+from . import step
+from .harness import OURS, Bench
+from .timing import LEAST, Runner, Times
+from .volume import VOXEL, plume
+
+SIDE, SIZE = 144, (320, 180)
+STEPS = {OURS: 0.5, "1 voxel": 1.0, "2 voxels": 2.0, "a quarter of the step": 0.125}
+EXACT = "a quarter of the step"
+LIMIT = 0.005  # of the picture's light
+VOLUME, REFERENCE = "Cycles' volume", "reference"
+FRAME, SAMPLES, MANY = (160, 90), 3, (24, 128)  # pixels; rays, and of the reference
+PASSES = ("rgb", "thermal", "depth")
+
+
+def run(bench: Bench) -> None:
+    """March, then draw frames."""
+    _march(bench)
+    _frame(bench)
+
+
+def _march(bench: Bench) -> None:
+    smoke, rays, light = _smoke(), _rays(), _light()
+
+    def marched(length: float) -> NDArray[np.float32]:
+        return volume.march([smoke], *rays, light, step=length)
+
+    exact = marched(STEPS[EXACT])
+    errors = {
+        name: float(np.abs(marched(length) - exact)[..., :3].mean() / exact[..., :3].mean())
+        for name, length in STEPS.items()
+    }
+    tools = [
+        Runner(name, partial(marched, length), threads, None if name == EXACT else errors[name])
+        for name, length in STEPS.items()
+        for threads in ((1, 2) if name == OURS else (2,))
+    ]
+    bench.race(f"marching {SIZE[0]} by {SIZE[1]} rays", tools, len(rays[1]), "ray", "of the light")
+    bench.target(
+        "a march off that with a quarter of the step by", errors[OURS], LIMIT, "of the light", most=True
+    )
+
+
+def _smoke() -> volume.Bricks:
+    density = plume(SIDE)
+    density *= 0.01 / density.max()
+    even = np.ones_like(density)
+    return volume.Bricks(density, 0.5 * even, 0.8 * even, 0.7 * even, None, VOXEL, (0.0, 0.0, 0.0))
+
+
+def _rays() -> tuple[NDArray, NDArray, NDArray]:
+    """Of a camera that looks down on the smoke."""
+    width, height = SIZE
+    x, y = np.meshgrid(np.linspace(-0.6, 0.6, width), np.linspace(0.34, -0.34, height))
+    local = np.stack([x, np.ones_like(x), y - 0.3], axis=-1).reshape(-1, 3)
+    toward = local / np.linalg.norm(local, axis=1, keepdims=True)
+    middle = 0.5 * SIDE * VOXEL
+    return np.array([middle, -middle, middle]), toward, np.full((len(toward), 1), 1.0e9, np.float32)
+
+
+def _light() -> volume.Illumination:
+    return volume.Illumination(
+        density=1.0,
+        fresh=(0.44, 0.36, 0.29),
+        old=(0.95, 0.945, 0.94),
+        sun=(9.0, 8.0, 7.0),
+        sky=(0.3, 0.35, 0.4),
+        toward=(0.6, 0.0, 0.8),
+        anisotropy=0.375,
+        oftener=(0.5, 0.3),
+        glow=(0.0, 0.0, 0.0),
+        thin=0.1,
+        thick=(0.004, 0.02),
+        air=(0.25, 0.3, 0.38),
+        haze=1.2e-5,
+        haze_height=5000.0,
+    )
+
+
+def _frame(bench: Bench) -> None:
+    flip = bench.flip()
+    if flip is None:
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        task = {"folder": folder, "times": LEAST if bench.full else 1, "rays": MANY[bench.full]}
+        found = worker.run(f"{__name__}:frames_in_blender", task)
+        exact = _picture(Path(folder), REFERENCE)
+        errors = {name: flip.evaluate(exact, _picture(Path(folder), name), "LDR")[1] for name in found}
+    for name, seconds in found.items():
+        bench.row(
+            f"a frame of {FRAME[0]} by {FRAME[1]} pixels, {len(PASSES)} passes",
+            name,
+            Times(tuple(seconds)),
+            FRAME[0] * FRAME[1],
+            "pixel",
+            error=errors[name],
+            error_unit="FLIP",
+            threads=os.cpu_count() or 1,
+        )
+    bench.target(
+        "a frame off its reference by", errors[OURS], errors[VOLUME], "FLIP", most=True, rival=VOLUME
+    )
+
+
+def _picture(folder: Path, name: str) -> str:
+    return str(folder / name / "camera" / "rgb" / "camera_rgb_000001.png")
+
+
+# What follows runs in the worker process, where Blender is.
+
+
+def frames_in_blender(
+    folder: str, times: int, rays: int, progress: Progress = silent, tell: Tell = untold
+) -> dict[str, list[float]]:
+    """Draw a frame either way in turn, `times` over, and its reference; the times (s) of each."""
+    import bpy
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    frames = {name: _Frame(Path(folder), name) for name in (OURS, VOLUME)}
+    seconds: dict[str, list[float]] = {name: [] for name in frames}
+    for done in range(times):
+        progress(done, times)
+        for name, frame in frames.items():
+            seconds[name].append(frame.draw(name))
+    frames[VOLUME].draw(REFERENCE, rays)
+    return seconds
+
+
+class _Frame:
+    """A scene of the sample's smoke, for one way to draw it."""
+
+    def __init__(self, folder: Path, way: str) -> None:
+        from firetwin_core import run as runs
+
+        from ..blender import owned
+        from ..data import sample
+        from ..render import engine, layers
+        from ..scene import build
+        from ..scene.smoke import bake, baker
+
+        file = _file(folder, "volume" if way == VOLUME else "integrated")
+        if not file.run.exists():
+            sample.write(file.run, step.MODEL_TIMES, "npy")
+        self.folder, self.shot = folder, Shot(file, runs.open(file.run))
+        self.smoke: Any = None
+        if way == VOLUME:
+            bake.bake(self.shot)
+        else:
+            self.smoke = baker.Baker(self.shot).bricks(1)
+        self.stage = owned.stage(owned.new_scene())
+        build.build(self.shot, self.stage.scene)
+        layers.build(file, self.stage)
+        engine.apply(file, self.stage.scene)
+
+    def draw(self, name: str, rays: int = 0) -> float:
+        """Seconds that the frame took; with `rays`, of so many and short steps."""
+        import time
+
+        from ..render import pictures
+        from ..render.picture import Picture
+        from ..render.sharing import making
+
+        cycles = self.stage.scene.cycles
+        if rays:
+            cycles.samples, cycles.use_denoising, cycles.volume_step_rate = rays, False, 0.25
+            cycles.seed = 7
+        out = self.folder / name
+        out.mkdir(exist_ok=True)
+        wanted = [Picture("camera", 1, each) for each in (PASSES[:1] if rays else PASSES)]
+        with making(out, {("camera", each): {"pass": each} for each in PASSES}) as here:
+            start = time.perf_counter()
+            pictures.render(self.shot, self.stage, here, wanted, ready=lambda _frame, _after: self.smoke)
+            return time.perf_counter() - start
+
+
+def _file(folder: Path, draw: str) -> settings.Settings:
+    """One frame of the sample's solved smoke from a drone."""
+    puffs = step.scene_file(folder)
+    return replace(
+        puffs,
+        smoke=settings.Smoke(spin_up=300.0, draw=draw),
+        forest=settings.Forest(budget=20_000),
+        render=replace(puffs.render, resolution=FRAME, samples=SAMPLES, denoise=True, passes=PASSES),
+    )

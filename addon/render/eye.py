@@ -1,0 +1,103 @@
+"""What one eye of a camera sees: surfaces that Cycles drew, and smoke that is marched along its rays."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+
+import numpy as np
+from firetwin_core import volume
+from numpy.typing import NDArray
+
+from ..blender import nodes
+from ..blender.owned import Stage
+from ..scene import infrared
+from ..scene.smoke import illumination
+from ..shot.shot import Shot
+from . import composite, rays
+from .surfaces import Channels
+
+Array = NDArray[np.float32]
+
+_STEP = 0.5  # voxels, of the march
+
+
+class Eye:
+    """One eye at a frame of a scene.
+
+    Parameters
+    ----------
+    number
+        -1 for the left and 1 for the right of two, or 0.
+    smoke
+        The frame's layers.
+    """
+
+    def __init__(
+        self, shot: Shot, stage: Stage, channels: Channels, number: int, smoke: Sequence[volume.Bricks]
+    ) -> None:
+        self.shot, self.stage, self.channels, self.smoke = shot, stage, channels, smoke
+        self.shape = next(iter(channels.values())).shape[:2]
+        self.rays = rays.through(stage.scene.camera, stage.scene, *self.shape, number)
+
+    def picture(self) -> Array:
+        """Radiance (h, w, 3) of surfaces behind smoke."""
+        seen = self._surfaces()
+        at = composite.taps(seen)
+        marched = np.zeros((*at.shape, 4), np.float32)
+        marched[..., 3] = 1.0
+        if self.smoke:
+            light = illumination.visible(self.stage)
+            found = volume.march(self.smoke, *self._lines(), at.reshape(-1, 3), light, _STEP)
+            marched = found.reshape(marched.shape)
+        return composite.picture(seen, at, marched)
+
+    def radiance(self, frame: int) -> Array:
+        """Infrared radiance (h, w) of surfaces, air and smoke, W m-2 sr-1."""
+        channels = self.channels
+        bare = composite.radiance(
+            channels[nodes.SURFACE],
+            channels[nodes.FLAMES],
+            channels[nodes.WARMTH][..., 0],
+            infrared.sky(self.shot),
+        )
+        if not self.smoke:
+            return bare
+        air = illumination.warm(self.shot, self.stage, frame)
+        found = volume.march_infrared(self.smoke, *self._lines(), self.distance.ravel(), **air)
+        light, through = np.moveaxis(found.reshape(*self.shape, 2), -1, 0)
+        return bare * through + light
+
+    def transmittance(self) -> Array:
+        """Part (h, w) of green light that comes through smoke from what the middle rays meet."""
+        if not self.smoke:
+            return np.ones(self.shape, np.float32)
+        depth = volume.optical_depth(self.smoke, *self._lines(), self.distance.ravel(), step=_STEP)
+        return np.exp(-depth * illumination.thickness(self.stage)).reshape(self.shape)
+
+    @functools.cached_property
+    def distance(self) -> Array:
+        """Distances (h, w), m, of what the middle rays meet."""
+        return self.rays.of_depth(self.channels["Depth"][..., 0])
+
+    def _surfaces(self) -> composite.Surfaces:
+        channels = self.channels
+        colour, surface = channels["Combined"], channels[nodes.SURFACE]
+        red, way, _ = np.moveaxis(channels[nodes.FLAMES], -1, 0)
+        far = np.where(red > 1.0e-4, way / np.maximum(red, 1.0e-9), 0.0)
+        return composite.Surfaces(
+            colour=colour,
+            noisy=channels.get("Noisy Image", colour),
+            fire=np.maximum(channels[f"Combined_{nodes.FIRE}"], 0.0),
+            distance=self.distance,
+            nearness=surface[..., 0],
+            aside=self.rays.aside,
+            solid=surface[..., 1],
+            fire_distance=self.rays.of_distance(far),
+            rays=self.stage.scene.cycles.samples,
+        )
+
+    def _lines(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Origins and directions of its rays, as `firetwin_core.volume` takes them."""
+        origins = self.rays.origins
+        return origins if origins.ndim == 1 else origins.reshape(-1, 3), self.rays.directions.reshape(-1, 3)

@@ -1,0 +1,63 @@
+"""What Cycles draws of view layers, as arrays: no compositor touches it and no picture file is left."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from pathlib import Path
+
+import bpy
+import numpy as np
+from firetwin_core import sensor
+from numpy.typing import NDArray
+
+from ..blender import compat
+from . import engine, layers
+
+Channels = dict[str, NDArray[np.float32]]
+"""Of a view layer: (h, w, c) by the name of Cycles' pass, without alpha."""
+
+_ORDER = "RGBXYZVA"
+
+
+def draw(
+    scene: bpy.types.Scene, names: Collection[str], folder: Path, centres: bool = False
+) -> list[tuple[int, dict[str, Channels]]]:
+    """Render the view layers of passes with one call.
+
+    Parameters
+    ----------
+    folder
+        For the file that it passes through, about 100 bytes a pixel.
+    centres
+        All rays go through the middles of pixels.
+
+    Returns
+    -------
+    For each eye: -1 for the left and 1 for the right of two, or 0; and its channels by pass.
+    """
+    layers.select(scene, names)
+    file, cycles = folder / "surfaces.exr", scene.cycles
+    chance = cycles.min_transparent_bounces
+    cycles.min_transparent_bounces = engine.TRANSPARENT  # AOVs do not make up for rays that end by chance
+    try:
+        with compat.raw_file(scene, file), engine.pixel_centres(scene, centres), layers.plain(scene, names):
+            bpy.ops.render.render(write_still=True, scene=scene.name)
+    finally:
+        cycles.min_transparent_bounces = chance
+    ends = {-1: "_L", 1: "_R"} if scene.render.use_multiview else {0: ""}
+    return [(eye, _read(file.with_stem(file.stem + end), names)) for eye, end in ends.items()]
+
+
+def _read(path: Path, names: Collection[str]) -> dict[str, Channels]:
+    """Channels of a multilayer EXR, which goes."""
+    found: dict[str, dict[str, list[tuple[str, NDArray[np.float32]]]]] = {name: {} for name in names}
+    for channel, values in sensor.read_channels(path).items():
+        layer, name, *_, part = channel.split(".")
+        found[layer].setdefault(name, []).append((part, values))
+    path.unlink()
+    return {layer: {name: _stacked(each) for name, each in all_.items()} for layer, all_ in found.items()}
+
+
+def _stacked(parts: list[tuple[str, NDArray[np.float32]]]) -> NDArray[np.float32]:
+    ordered = sorted(parts, key=lambda pair: _ORDER.index(pair[0]))
+    return np.stack([values for _, values in ordered[:3]], axis=-1)
