@@ -68,27 +68,37 @@ make_detail(double spacing, const std::array<double, 2>& corner, const py::objec
   return std::make_shared<Detail>(moment, look);
 }
 
-py::tuple paint(const Detail& detail, const std::array<double, 3>& origin, double voxel,
-                const py::object& surface, const py::object& share, Index layers,
-                const py::object& wanted) {
+std::shared_ptr<SparseSmoke> paint_sparse(const Detail& detail, const std::array<double, 3>& origin,
+                                          double voxel, const py::object& surface,
+                                          const py::object& share, Index layers,
+                                          const py::object& wanted, float thinnest) {
   const auto ground = to_array<float>(surface, "surface", {-1, -1});
   const auto part = to_array<float>(share, "share", {ground.shape(0), ground.shape(1)});
-  const std::vector<py::ssize_t> shape{ground.shape(0), ground.shape(1), layers};
-  auto density = zeros(shape), fresh = zeros(shape);
-  auto glow = detail.glows() ? zeros(shape) : new_array<float>({0, 0, 0});
-  flow::Brick brick{origin, voxel, {shape[0], shape[1], shape[2]}, view(ground), view(part), {}};
+  flow::Brick brick{origin,       voxel,      {ground.shape(0), ground.shape(1), layers},
+                    view(ground), view(part), {}};
   const auto blocks = brick.blocks();
   const auto asked = wanted.is_none() ? Array<std::uint8_t>(py::ssize_t{0})
                                       : to_array<std::uint8_t>(wanted, "wanted",
                                                                {blocks[0], blocks[1], blocks[2]});
   brick.wanted = view(asked);
-  const flow::Painted out{writable(density), writable(fresh), writable(glow)};
-  {
-    const py::gil_scoped_release release;
-    detail.paint(brick, out);
-  }
-  return py::make_tuple(density, fresh,
-                        detail.glows() ? py::object(std::move(glow)) : py::object(py::none()));
+  const py::gil_scoped_release release;
+  return std::make_shared<SparseSmoke>(detail.paint(brick, thinnest));
+}
+
+/// The same, dense.
+py::tuple paint(const Detail& detail, const std::array<double, 3>& origin, double voxel,
+                const py::object& surface, const py::object& share, Index layers,
+                const py::object& wanted) {
+  const auto smoke = paint_sparse(detail, origin, voxel, surface, share, layers, wanted, 0.0F);
+  const auto dense = [&](SparseSmoke::Field field) {
+    const auto& shape = smoke->shape();
+    auto array = zeros({shape[0], shape[1], shape[2]});
+    smoke->spread(field, writable(array));
+    return array;
+  };
+  return py::make_tuple(dense(SparseSmoke::density), dense(SparseSmoke::fresh),
+                        detail.glows() ? py::object(dense(SparseSmoke::glow))
+                                       : py::object(py::none()));
 }
 
 } // namespace
@@ -113,7 +123,9 @@ void init_flow_detail(Module module) {
            "opacity"_a = 1.0, "thickest"_a = 0.03F, "ages"_a = std::array<float, 2>{20.0F, 600.0F},
            "condensation"_a = 1.0e6F, "seed"_a = 0)
       .def("paint", &paint, "origin"_a, "voxel"_a, "surface"_a, "share"_a, "layers"_a,
-           "wanted"_a = py::none());
+           "wanted"_a = py::none())
+      .def("paint_sparse", &paint_sparse, "origin"_a, "voxel"_a, "surface"_a, "share"_a, "layers"_a,
+           "wanted"_a = py::none(), "thinnest"_a = 0.0F);
 }
 
 } // namespace firetwin::bindings

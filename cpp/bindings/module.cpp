@@ -56,6 +56,7 @@ PYBIND11_MODULE(firetwin_core, whole) {
   auto volume = module.def_submodule("volume");
   bindings::init_volume(volume);
   bindings::init_march(volume);
+  bindings::init_smoke(volume);
   bindings::init_sensor(module.def_submodule("sensor"));
   auto flow = module.def_submodule("flow");
   bindings::init_flow(flow);

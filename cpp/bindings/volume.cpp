@@ -2,12 +2,12 @@
 #include "base/check.hpp"
 #include "bindings.hpp"
 #include "broadcast.hpp"
+#include "placed.hpp"
 #include "volume/dense.hpp"
 #include "volume/hidden.hpp"
 #include "volume/levels.hpp"
 #include "volume/puffs.hpp"
 #include "volume/smoke.hpp"
-#include "volume/sunlight.hpp"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -158,52 +158,6 @@ Frame write(const Path& path, const std::map<std::string, py::object>& grids, do
                              metadata.value_or(io::Metadata{}));
 }
 
-volume::Brick brick(const Array<float>& values, double voxel_size, const Vector& origin) {
-  return {view(values), {values.shape(0), values.shape(1), values.shape(2)}, voxel_size, origin};
-}
-
-using Placed = std::tuple<py::object, double, Vector>; // values, voxel size, origin
-
-py::tuple placed(volume::OwnBrick&& brick) {
-  const auto [nx, ny, nz] = brick.shape;
-  return py::make_tuple(give(std::move(brick.values), {nx, ny, nz}), brick.voxel, brick.origin);
-}
-
-/// A brick that may be left out, with its array.
-class Beyond {
-public:
-  explicit Beyond(const std::optional<Placed>& given) {
-    if (given) {
-      const auto& [values, voxel_size, origin] = *given;
-      values_ = to_array<float>(values, "beyond", {-1, -1, -1});
-      brick_ = brick(values_, voxel_size, origin);
-    }
-  }
-
-  const volume::Brick* get() const { return brick_ ? &*brick_ : nullptr; }
-
-private:
-  Array<float> values_;
-  std::optional<volume::Brick> brick_;
-};
-
-py::tuple lit(const py::object& extinction, double voxel_size, const Vector& direction,
-              double sun_part, double sky_part, const Vector& origin,
-              const std::optional<Placed>& beyond) {
-  const auto smoke = to_array<float>(extinction, "extinction", {-1, -1, -1});
-  const volume::Brick inside = brick(smoke, voxel_size, origin);
-  const Beyond outside(beyond);
-  auto sun = zeros({smoke.shape(0), smoke.shape(1), smoke.shape(2)});
-  auto sky = zeros({smoke.shape(0), smoke.shape(1), smoke.shape(2)});
-  const volume::Light light{writable(sun), writable(sky)};
-  volume::OwnBrick depth;
-  {
-    const py::gil_scoped_release release;
-    depth = volume::lit(inside, direction, outside.get(), {sun_part, sky_part}, light);
-  }
-  return py::make_tuple(sun, sky, placed(std::move(depth)));
-}
-
 py::tuple hidden(const py::object& extinction, double voxel_size, const py::object& places_object,
                  const py::object& directions_object, double depth, const Vector& origin,
                  const std::optional<Placed>& beyond) {
@@ -293,9 +247,6 @@ void init_volume(Module module) {
              py::arg("within") = "");
   module.def("hidden", &hidden, py::arg("extinction"), py::arg("voxel_size"), py::arg("places"),
              py::arg("directions"), py::arg("depth"), py::arg("origin") = Vector{},
-             py::arg("beyond") = py::none());
-  module.def("lit", &lit, py::arg("extinction"), py::arg("voxel_size"), py::arg("direction"),
-             py::arg("sun_part"), py::arg("sky_part"), py::arg("origin") = Vector{},
              py::arg("beyond") = py::none());
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/sparse_smoke.hpp"
 #include "base/vector.hpp"
 #include "flow/columns.hpp"
 #include "flow/drift.hpp"
@@ -58,13 +59,6 @@ struct Brick {
   }
 };
 
-/// All zeros at first: where there is nothing, nothing is written.
-struct Painted {
-  std::span<float> density; ///< extinction, 1/m
-  std::span<float> fresh;   ///< 1 where smoke is young, 0 where it is old or none
-  std::span<float> glow;    ///< as in the moment; may be empty
-};
-
 /// Detail below the cells of a flow: the logarithm of its smoke is raised and lowered by noise that
 /// travels with the air, and what falls below a threshold is cut away. Vigorous smoke, which rises,
 /// is warm, fresh or dense, gets lumps with crisp edges (Worley's noise); the rest gets soft veils
@@ -78,7 +72,9 @@ class Detail {
 public:
   Detail(const Moment& moment, const Look& look);
 
-  void paint(const Brick& brick, const Painted& out) const;
+  /// Smoke of voxels; what is thinner than `thinnest` (1/m) is clear. It has a glow where the
+  /// moment has one.
+  SparseSmoke paint(const Brick& brick, float thinnest) const;
   bool glows() const { return !glow_.empty(); }
 
 private:

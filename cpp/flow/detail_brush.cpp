@@ -22,7 +22,7 @@ constexpr double finest = 1.7; // lumps, voxels
 
 } // namespace
 
-Detail::Brush::Brush(const Detail& d, const Brick& b, const Painted& out)
+Detail::Brush::Brush(const Detail& d, const Brick& b, Painted& out)
     : detail_(d), brick_(b), out_(out), at_(0.0F, 0.0F, d.shape_),
       lumps_(d.look_.size, finest * b.voxel, d.seeds_) {
   const auto levels = static_cast<std::size_t>(d.shape_.nz + lanes);
@@ -60,6 +60,8 @@ bool Detail::Brush::stand(Index i, Index j) {
   x_ = brick_.origin[0] + static_cast<double>(i) * brick_.voxel;
   y_ = brick_.origin[1] + static_cast<double>(j) * brick_.voxel;
   column_ = static_cast<std::size_t>(i * brick_.shape[1] + j);
+  i_ = i;
+  j_ = j;
   const double column = (x_ - d.corner_[0]) / d.spacing_ - 0.5;
   const double row = (y_ - d.corner_[1]) / d.spacing_ - 0.5;
   at_ = Standing(static_cast<float>(column), static_cast<float>(row), d.shape_);
@@ -153,21 +155,20 @@ void Detail::Brush::find(const Columns& of, std::vector<float>& values) {
 void Detail::Brush::paint_surface() {
   const Detail& d = detail_;
   const auto count = static_cast<std::size_t>(places_.count);
-  const std::size_t first = column_ * static_cast<std::size_t>(brick_.shape[2]);
   find(d.vigour_, vigour_);
   find(d.age_, value_);
   for (std::size_t n = 0; n < count; ++n) {
     cloud_[n] = vigour_[n] * d.capped(high_up_[n]);
     const float fresh =
         (1.0F - cloud_[n]) * smoothstep(d.look_.ages[1], d.look_.ages[0], value_[n]);
-    if (fresh > 0.0F) { // a page of memory that is not written is none: a third of them
-      out_.fresh[first + static_cast<std::size_t>(voxel_[n])] = fresh;
+    if (fresh > 0.0F) {
+      out_.set(SparseSmoke::fresh, place(n), fresh);
     }
   }
-  if (!out_.glow.empty()) {
+  if (out_.glows()) {
     find(d.glow_, value_);
     for (std::size_t n = 0; n < count; ++n) {
-      out_.glow[first + static_cast<std::size_t>(voxel_[n])] = value_[n];
+      out_.set(SparseSmoke::glow, place(n), value_[n]);
     }
   }
 }
@@ -209,8 +210,7 @@ void Detail::Brush::wait() {
 void Detail::Brush::wait_for(std::size_t n) {
   Waiting& w = waiting_;
   const std::size_t lane = w.count++;
-  w.voxel[lane] =
-      column_ * static_cast<std::size_t>(brick_.shape[2]) + static_cast<std::size_t>(voxel_[n]);
+  w.place[lane] = place(n);
   w.share[lane] = brick_.share[column_];
   w.above[lane] = above_[n];
   w.amount[lane] = amount_[n];
@@ -228,7 +228,7 @@ void Detail::Brush::wait_for(std::size_t n) {
       w.origin[p][2][lane] = static_cast<double>(above_[n] - moved(3 * p + 2));
     }
   }
-  if (w.count == w.voxel.size()) {
+  if (w.count == w.place.size()) {
     finish();
   }
 }
@@ -245,7 +245,7 @@ void Detail::Brush::finish() {
     }
   }
   for (std::size_t lane = 0; lane < w.count; ++lane) {
-    out_.density[w.voxel[lane]] = w.share[lane] * extinction(lane, raise[lane]);
+    out_.set(SparseSmoke::density, w.place[lane], w.share[lane] * extinction(lane, raise[lane]));
   }
   w.count = 0;
 }
@@ -270,26 +270,32 @@ float Detail::Brush::extinction(std::size_t n, float raise) const {
   return full > 0.0F ? look.thickest * (1.0F - std::exp(-full / look.thickest)) : 0.0F;
 }
 
-void Detail::paint(const Brick& b, const Painted& out) const {
+SparseSmoke Detail::paint(const Brick& b, float thinnest) const {
   const auto columns = static_cast<std::size_t>(b.shape[0] * b.shape[1]);
-  const std::size_t count = columns * static_cast<std::size_t>(b.shape[2]);
   const auto [nx, ny, nz] = b.blocks();
   const auto blocks = static_cast<std::size_t>(nx * ny * nz);
-  if (out.density.size() != count || out.fresh.size() != count || b.surface.size() != columns ||
-      b.share.size() != columns || (!b.wanted.empty() && b.wanted.size() != blocks) ||
-      out.glow.size() != (glow_.empty() ? 0 : count)) {
-    throw std::invalid_argument(
-        "surface, share, what is wanted and what is painted must have the brick's shape");
+  if (b.surface.size() != columns || b.share.size() != columns ||
+      (!b.wanted.empty() && b.wanted.size() != blocks)) {
+    throw std::invalid_argument("surface, share and what is wanted must have the brick's shape");
   }
-  each(b.shape[0], [&](Index i) {
+  SparseSmoke smoke({b.shape[0], b.shape[1], b.shape[2]}, b.voxel, b.origin, glows());
+  constexpr Index side = SparseSmoke::side;
+  each(smoke.blocks()[0], [&](Index block_i) {
+    Painted out(smoke);
     Brush brush(*this, b, out);
-    for (Index j = 0; j < b.shape[1]; ++j) {
-      if (b.share[static_cast<std::size_t>(i * b.shape[1] + j)] > 0.0F) {
-        brush.column(i, j);
+    for (Index block_j = 0; block_j < smoke.blocks()[1]; ++block_j) {
+      for (Index i = block_i * side; i < std::min((block_i + 1) * side, b.shape[0]); ++i) {
+        for (Index j = block_j * side; j < std::min((block_j + 1) * side, b.shape[1]); ++j) {
+          if (b.share[static_cast<std::size_t>(i * b.shape[1] + j)] > 0.0F) {
+            brush.column(i, j);
+          }
+        }
       }
+      brush.finish();
+      out.move_to(smoke, block_i, block_j, thinnest);
     }
-    brush.finish();
   });
+  return smoke;
 }
 
 } // namespace firetwin::flow

@@ -2,6 +2,7 @@
 
 #include "flow/detail.hpp"
 #include "flow/lumps.hpp"
+#include "flow/painted.hpp"
 
 #include <array>
 #include <cstddef>
@@ -14,7 +15,7 @@ namespace firetwin::flow {
 /// columns.
 class Detail::Brush {
 public:
-  Brush(const Detail& detail, const Brick& brick, const Painted& out);
+  Brush(const Detail& detail, const Brick& brick, Painted& out);
 
   void column(Index i, Index j);
   /// Paints what still waits for others.
@@ -24,11 +25,12 @@ private:
   /// Voxels whose noise is to be found.
   struct Waiting {
     std::size_t count = 0;
-    std::array<std::size_t, static_cast<std::size_t>(lanes)> voxel{};
+    std::array<std::size_t, static_cast<std::size_t>(lanes)> place{}; ///< where it is painted
     Row share{}, above{}, amount{}, reach{}, vigour{}, solid{};
     std::array<Origins, Drift::phases> origin{};
   };
 
+  std::size_t place(std::size_t n) const { return out_.place(i_, j_, voxel_[n]); }
   bool stand(Index i, Index j);
   bool find_levels();
   void find_heights();
@@ -43,11 +45,12 @@ private:
 
   const Detail& detail_;
   const Brick& brick_;
-  const Painted& out_;
+  Painted& out_;
 
   // Of a column.
   double x_ = 0.0, y_ = 0.0;   ///< m
   std::size_t column_ = 0;     ///< in the brick
+  Index i_ = 0, j_ = 0;        ///< the same along x and y
   Standing at_;                ///< in the flow
   Index first_ = 0, last_ = 0; ///< levels with smoke
   Index low_ = 0, high_ = 0;   ///< levels that values between them are found from

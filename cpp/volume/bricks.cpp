@@ -9,13 +9,95 @@
 #include <stdexcept>
 
 namespace firetwin::volume {
+namespace {
 
 using Index = std::int64_t;
+using Place = SparseSmoke::Place;
+static_assert(SparseSmoke::side == Bricks::side);
 
-Bricks::Bricks(const Fields& fields, const std::array<Index, 3>& shape, double voxel,
-               const Vector& origin)
-    : shape_(shape), voxel_(voxel), origin_(origin) {
-  check(Brick{fields.density, shape, voxel, origin});
+/// Whether a block, or a border that it shares, has more smoke than counts as clear.
+bool smoky(const SparseSmoke& smoke, const Drawn& drawn, const Place& block) {
+  constexpr Index side = SparseSmoke::side;
+  for (Index corner = 0; corner < 8; ++corner) {
+    const Place high{corner & 1, corner >> 1 & 1, corner >> 2};
+    const Place at{block[0] + high[0], block[1] + high[1], block[2] + high[2]};
+    const float* values = smoke.block(at, SparseSmoke::density);
+    const auto end = [&](std::size_t axis) { return high[axis] != 0 ? Index{1} : side; };
+    for (Index x = 0; values != nullptr && x < end(0); ++x) {
+      for (Index y = 0; y < end(1); ++y) {
+        const float* row = values + (x * side + y) * side;
+        const float most = *std::max_element(row, row + end(2));
+        const Index column = (at[0] * side + x) * smoke.shape()[1] + at[1] * side + y;
+        if (most > 0.0F &&
+            drawn.density(most, static_cast<std::size_t>(column)) > Bricks::thinnest) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+/// Packs a lit block, its borders with it.
+class Packer {
+public:
+  Packer(const LitSmoke& lit, const Drawn& drawn) : lit_(lit), drawn_(drawn) {}
+
+  void pack(const Place& block, std::uint16_t* out) {
+    gather(block);
+    const auto& shape = lit_.smoke().shape();
+    Place last{};
+    for (std::size_t axis = 0; axis < last.size(); ++axis) {
+      last[axis] = std::min(wide, shape[axis] - block[axis] * SparseSmoke::side) - 1;
+    }
+    for (Index i = 0; i < wide; ++i) {
+      for (Index j = 0; j < wide; ++j, out += wide * static_cast<Index>(Bricks::channels)) {
+        const Index x = std::min(i, last[0]), y = std::min(j, last[1]);
+        const Index column =
+            (block[0] * SparseSmoke::side + x) * shape[1] + block[1] * SparseSmoke::side + y;
+        pack_row(x, y, static_cast<std::size_t>(column), last[2], out);
+      }
+    }
+  }
+
+private:
+  static constexpr Index wide = Bricks::wide;
+  using Voxels = std::array<float, static_cast<std::size_t>(wide* wide* wide)>;
+
+  void gather(const Place& block) {
+    lit_.gather(block, around_);
+    lit_.light(block, around_, light_);
+    const SparseSmoke& smoke = lit_.smoke();
+    Place first{};
+    for (std::size_t axis = 0; axis < first.size(); ++axis) {
+      first[axis] = block[axis] * SparseSmoke::side;
+    }
+    smoke.gather(SparseSmoke::fresh, first, wide, wide, fresh_.data());
+    if (smoke.glows()) {
+      smoke.gather(SparseSmoke::glow, first, wide, wide, glow_.data());
+    }
+  }
+
+  void pack_row(Index x, Index y, std::size_t column, Index last, std::uint16_t* out) const {
+    const float* density = around_.at(x, y);
+    const Index row = x * wide + y;
+    const float *fresh = fresh_.data() + row * wide, *glow = glow_.data() + row * wide;
+    const float *sun = light_.sun.data() + row * BlockLight::row,
+                *sky = light_.sky.data() + row * BlockLight::row;
+    for (Index k = 0; k < wide; ++k, out += Bricks::channels) {
+      const Index z = std::min(k, last);
+      Bricks::write({drawn_.density(density[z], column), fresh[z], sun[z], sky[z], glow[z]}, out);
+    }
+  }
+
+  const LitSmoke& lit_;
+  const Drawn& drawn_;
+  Neighbourhood around_;
+  BlockLight light_;
+  Voxels fresh_{}, glow_{};
+};
+
+void check_fields(const Bricks::Fields& fields) {
   for (const auto values : {fields.fresh, fields.sun, fields.sky}) {
     if (values.size() != fields.density.size()) {
       throw std::invalid_argument("all fields of smoke must have the shape of its density");
@@ -24,60 +106,92 @@ Bricks::Bricks(const Fields& fields, const std::array<Index, 3>& shape, double v
   if (!fields.glow.empty() && fields.glow.size() != fields.density.size()) {
     throw std::invalid_argument("glow must have the shape of the density");
   }
+}
+
+} // namespace
+
+void Bricks::write(const std::array<float, 5>& voxel, std::uint16_t* out) {
+  std::transform(voxel.begin(), voxel.end(), out, to_half);
+  std::fill(out + voxel.size(), out + channels, std::uint16_t{0});
+}
+
+template <class Smoky, class Filler> void Bricks::build(const Smoky& smoky, const Filler& filler) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    blocks_[axis] = std::max((shape[axis] - 2) / side + 1, Index{1});
+    blocks_[axis] = std::max((shape_[axis] - 2) / side + 1, Index{1});
   }
-  const auto found = smoky(fields.density);
-  index_.assign(found.size(), -1);
-  std::int32_t used = 0;
-  for (std::size_t n = 0; n < found.size(); ++n) {
-    index_[n] = found[n] != 0 ? used++ : -1;
-  }
-  pool_.resize(static_cast<std::size_t>(used) * block_size);
-  tbb::parallel_for(Index{0}, blocks_[0] * blocks_[1], [&](Index column) {
+  index_.assign(static_cast<std::size_t>(blocks_[0] * blocks_[1] * blocks_[2]), -1);
+  const auto each_column = [this](const auto& f) {
+    tbb::parallel_for(Index{0}, blocks_[0] * blocks_[1], [&](Index column) {
+      f(column,
+        [&, column](Index k) { return Place{column / blocks_[1], column % blocks_[1], k}; });
+    });
+  };
+  each_column([&](Index column, const auto& place) {
     for (Index k = 0; k < blocks_[2]; ++k) {
-      const auto n = static_cast<std::size_t>(column * blocks_[2] + k);
-      if (index_[n] >= 0) {
-        pack(fields, column / blocks_[1], column % blocks_[1], k,
-             pool_.data() + static_cast<std::size_t>(index_[n]) * block_size);
+      index_[static_cast<std::size_t>(column * blocks_[2] + k)] = smoky(place(k)) ? 0 : -1;
+    }
+  });
+  for (std::int32_t& number : index_) {
+    number = number < 0 ? -1 : static_cast<std::int32_t>(used_++);
+  }
+  pool_ = std::make_unique_for_overwrite<std::uint16_t[]>(used_ * block_size);
+  each_column([&](Index column, const auto& place) {
+    auto fill = filler();
+    for (Index k = 0; k < blocks_[2]; ++k) {
+      const std::int32_t number = index_[static_cast<std::size_t>(column * blocks_[2] + k)];
+      if (number >= 0) {
+        fill(place(k), pool_.get() + static_cast<std::size_t>(number) * block_size);
       }
     }
   });
 }
 
-/// Which blocks hold smoke, their borders with them.
-std::vector<std::uint8_t> Bricks::smoky(std::span<const float> density) const {
-  std::vector<std::uint8_t> found(static_cast<std::size_t>(blocks_[0] * blocks_[1] * blocks_[2]));
-  tbb::parallel_for(Index{0}, blocks_[0] * blocks_[1], [&](Index column) {
-    const Index first_i = column / blocks_[1] * side, first_j = column % blocks_[1] * side;
-    for (Index k = 0; k < blocks_[2]; ++k) {
-      const Index count = std::min(wide, shape_[2] - k * side);
-      float most = 0.0F;
-      for (Index i = first_i; i < std::min(first_i + wide, shape_[0]); ++i) {
-        for (Index j = first_j; j < std::min(first_j + wide, shape_[1]); ++j) {
-          const float* row = density.data() + (i * shape_[1] + j) * shape_[2] + k * side;
-          most = std::max(most, *std::max_element(row, row + count));
-        }
-      }
-      found[static_cast<std::size_t>(column * blocks_[2] + k)] = most > thinnest;
-    }
-  });
-  return found;
+Bricks::Bricks(const Fields& fields, const std::array<Index, 3>& shape, double voxel,
+               const Vector& origin)
+    : shape_(shape), voxel_(voxel), origin_(origin) {
+  check(Brick{fields.density, shape, voxel, origin});
+  check_fields(fields);
+  build([&](const Place& at) { return smoky(fields.density, at); },
+        [&] { return [&](const Place& at, std::uint16_t* out) { pack(fields, at, out); }; });
 }
 
-void Bricks::pack(const Fields& fields, Index bi, Index bj, Index bk, std::uint16_t* out) const {
+Bricks::Bricks(const LitSmoke& lit, const Drawn& drawn)
+    : shape_(lit.smoke().shape()), voxel_(lit.smoke().voxel()), origin_(lit.smoke().origin()) {
+  if (drawn.share.size() != static_cast<std::size_t>(shape_[0] * shape_[1])) {
+    throw std::invalid_argument("share must have the smoke's shape along x and y");
+  }
+  build([&](const Place& at) { return volume::smoky(lit.smoke(), drawn, at); },
+        [&] {
+          return [packer = std::make_unique<Packer>(lit, drawn)](
+                     const Place& at, std::uint16_t* out) { packer->pack(at, out); };
+        });
+}
+
+/// Whether a block of dense smoke, its borders with it, has more than counts as clear.
+bool Bricks::smoky(std::span<const float> density, const Place& at) const {
+  const Index i = at[0] * side, j = at[1] * side, k = at[2] * side;
+  const Index count = std::min(wide, shape_[2] - k);
+  for (Index x = i; x < std::min(i + wide, shape_[0]); ++x) {
+    for (Index y = j; y < std::min(j + wide, shape_[1]); ++y) {
+      const float* row = density.data() + (x * shape_[1] + y) * shape_[2] + k;
+      if (*std::max_element(row, row + count) > thinnest) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+void Bricks::pack(const Fields& fields, const Place& block, std::uint16_t* out) const {
   for (Index i = 0; i < wide; ++i) {
-    const Index x = std::min(bi * side + i, shape_[0] - 1);
+    const Index x = std::min(block[0] * side + i, shape_[0] - 1);
     for (Index j = 0; j < wide; ++j) {
-      const Index y = std::min(bj * side + j, shape_[1] - 1);
+      const Index y = std::min(block[1] * side + j, shape_[1] - 1);
       for (Index k = 0; k < wide; ++k, out += channels) {
-        const Index z = std::min(bk * side + k, shape_[2] - 1);
+        const Index z = std::min(block[2] * side + k, shape_[2] - 1);
         const auto at = static_cast<std::size_t>((x * shape_[1] + y) * shape_[2] + z);
-        out[0] = to_half(fields.density[at]);
-        out[1] = to_half(fields.fresh[at]);
-        out[2] = to_half(fields.sun[at]);
-        out[3] = to_half(fields.sky[at]);
-        out[4] = fields.glow.empty() ? std::uint16_t{0} : to_half(fields.glow[at]);
+        const float glow = fields.glow.empty() ? 0.0F : fields.glow[at];
+        write({fields.density[at], fields.fresh[at], fields.sun[at], fields.sky[at], glow}, out);
       }
     }
   }

@@ -1,14 +1,27 @@
 #pragma once
 
 #include "base/vector.hpp"
+#include "volume/lit_smoke.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace firetwin::volume {
+
+/// What is drawn of smoke that dims the light.
+struct Drawn {
+  std::span<const double> share; ///< [nx][ny] of the density, 0 to 1
+  float thinnest = 0.0F;         ///< 1/m; what is thinner then is clear
+
+  float density(float all, std::size_t column) const {
+    const auto left = static_cast<float>(static_cast<double>(all) * share[column]);
+    return left < thinnest ? 0.0F : left;
+  }
+};
 
 /// Smoke and the light in it on voxels of one size, only where there is smoke: what rays are
 /// marched through.
@@ -38,30 +51,42 @@ public:
   Bricks(const Fields& fields, const std::array<std::int64_t, 3>& shape, double voxel,
          const Vector& origin);
 
+  /// The same of smoke that is sparse already, a block at a time.
+  /// @throws std::invalid_argument
+  Bricks(const LitSmoke& smoke, const Drawn& drawn);
+
   double voxel() const { return voxel_; }
   const Vector& origin() const { return origin_; }
   const std::array<std::int64_t, 3>& shape() const { return shape_; }
   const std::array<std::int64_t, 3>& blocks() const { return blocks_; }
-  std::size_t used() const { return pool_.size() / block_size; }
-  std::size_t bytes() const { return pool_.size() * sizeof(std::uint16_t); }
+  std::size_t used() const { return used_; }
+  std::size_t bytes() const { return used_ * block_size * sizeof(std::uint16_t); }
 
   /// A block's voxels, or null where it is clear.
   const std::uint16_t* block(std::int64_t i, std::int64_t j, std::int64_t k) const {
     const auto at = static_cast<std::size_t>((i * blocks_[1] + j) * blocks_[2] + k);
     return index_[at] < 0 ? nullptr
-                          : pool_.data() + static_cast<std::size_t>(index_[at]) * block_size;
+                          : pool_.get() + static_cast<std::size_t>(index_[at]) * block_size;
   }
 
-private:
-  std::vector<std::uint8_t> smoky(std::span<const float> density) const;
-  void pack(const Fields& fields, std::int64_t i, std::int64_t j, std::int64_t k,
-            std::uint16_t* out) const;
+  /// Packs density, fresh, sun, sky and glow of a voxel.
+  static void write(const std::array<float, 5>& voxel, std::uint16_t* out);
 
-  std::array<std::int64_t, 3> shape_, blocks_;
+private:
+  using Place = std::array<std::int64_t, 3>;
+
+  /// Finds blocks that hold smoke, `smoky(place)`, and fills them; `filler()` gives each column of
+  /// them its own `fill(place, out)`.
+  template <class Smoky, class Filler> void build(const Smoky& smoky, const Filler& filler);
+  bool smoky(std::span<const float> density, const Place& block) const;
+  void pack(const Fields& fields, const Place& block, std::uint16_t* out) const;
+
+  std::array<std::int64_t, 3> shape_, blocks_{};
   double voxel_;
   Vector origin_;
   std::vector<std::int32_t> index_; ///< of each block in the pool, -1: clear
-  std::vector<std::uint16_t> pool_;
+  std::size_t used_ = 0;
+  std::unique_ptr<std::uint16_t[]> pool_;
 };
 
 } // namespace firetwin::volume

@@ -63,12 +63,11 @@ class Beyond:
 
 @dataclass(frozen=True)
 class _Painted:
-    """Grids of a layer by name, their voxel size and first voxel's middle (m), depths and mass (kg)."""
+    """A layer's smoke with the light in it, how much of it is drawn (nx, ny), and the flow's masses (kg)."""
 
-    grids: dict[str, NDArray[np.float32]]
-    voxel: float
+    lit: volume.LitSmoke
+    share: Array
     origin: tuple[float, float, float]
-    depths: Brick
     mass: dict[str, float]
 
 
@@ -136,25 +135,23 @@ class Painter:
         The frame, and what this layer is to the next; smoke dims the sun whether this layer draws it or not.
         """
         painted = self._paint(frame, lights, sight, beyond)
+        voxel, origin = self.layer.voxel, painted.origin
+        grids = painted.lit.grids(painted.share, THIN)
         smoke = None
         if eyes is not None:
             outer = beyond.smoke if beyond else None
-            hidden, smoke = volume.hidden(
-                painted.grids["density"], painted.voxel, *eyes, DEEP, painted.origin, outer
-            )
-            painted.grids["hidden"] = hidden
-        metadata = metadata | {f"smoke_{name}_kg": f"{value:.9g}" for name, value in painted.mass.items()}
+            grids["hidden"], smoke = volume.hidden(grids["density"], voxel, *eyes, DEEP, origin, outer)
         written = volume.write(
             path,
-            painted.grids,
-            painted.voxel,
-            painted.origin,
+            grids,
+            voxel,
+            origin,
             tolerance=1e-6,
-            metadata=metadata,
+            metadata=metadata | {f"smoke_{name}_kg": f"{value:.9g}" for name, value in painted.mass.items()},
             sight=sight,
             within="density",
         )
-        return written, Beyond(painted.depths, smoke)
+        return written, Beyond(painted.lit.depths, smoke)
 
     def bricks(
         self,
@@ -165,8 +162,7 @@ class Painter:
     ) -> tuple[volume.Bricks, Beyond]:
         """The same for rays to be marched through, and no file."""
         painted = self._paint(frame, lights, sight, beyond)
-        grids = {"glow": None} | painted.grids
-        return volume.Bricks(**grids, voxel_size=painted.voxel, origin=painted.origin), Beyond(painted.depths)
+        return painted.lit.bricks(painted.share, THIN), Beyond(painted.lit.depths)
 
     def _paint(
         self, frame: int, lights: tuple[Array, Array] | None, sight: lod.Sight | None, beyond: Beyond | None
@@ -175,17 +171,10 @@ class Painter:
         voxel = self.layer.voxel
         origin, surface, end, share, count = self._brick(moment)
         wanted = _wanted(sight, origin, (*surface.shape, count), voxel)
-        density, fresh, glow = self._detail(moment, lights).paint(origin, voxel, surface, end, count, wanted)
-        density[density < THIN] = 0.0
+        smoke = self._detail(moment, lights).paint_sparse(origin, voxel, surface, end, count, wanted, THIN)
         toward = sun.light(*self.shot.sun(float(self.shot.frames.times[frame - 1])))
-        outer = beyond.depths if beyond else None
-        sunlight, skylight, depths = volume.lit(density, voxel, toward, *LIGHT, origin, outer)
-        density *= share[:, :, None]
-        density[density < THIN] = 0.0
-        grids = {"density": density, "fresh": fresh, "sun": sunlight, "sky": skylight}
-        if glow is not None:
-            grids["glow"] = glow
-        return _Painted(grids, voxel, origin, depths, moment.mass)
+        lit = volume.LitSmoke(smoke, toward, *LIGHT, beyond.depths if beyond else None)
+        return _Painted(lit, share, origin, moment.mass)
 
     @functools.cached_property
     def _heights(self) -> Array:

@@ -3,6 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .volume import SparseSmoke
+
 class Solver:
     """Smoke of a fire as a buoyant flow of the air, on a box that follows the ground.
 
@@ -239,3 +241,14 @@ class Detail:
         (nx, ny) a factor of the extinction. `wanted` says which blocks of 16 voxels along each side, the last
         ones less, are painted; left out, all are.
         """
+    def paint_sparse(
+        self,
+        origin: tuple[float, float, float],
+        voxel: float,
+        surface: ArrayLike,
+        share: ArrayLike,
+        layers: int,
+        wanted: ArrayLike | None = None,
+        thinnest: float = 0.0,
+    ) -> SparseSmoke:
+        """The same, kept only where there is smoke; what is thinner than `thinnest` (1/m) is clear."""

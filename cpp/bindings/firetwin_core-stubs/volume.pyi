@@ -326,6 +326,53 @@ def lit(
         Optical depths to the sun on voxels of twice the size, that size (m), and the middle of the first (m).
     """
 
+class SparseSmoke:
+    """Smoke on voxels of one size, kept only where there is any, in blocks of 8^3.
+
+    `firetwin_core.flow.Detail.paint_sparse` makes it: extinction (1/m), freshness, and a glow if there is one.
+    """
+
+    @property
+    def voxel_size(self) -> float:
+        """Edge of a voxel, m."""
+    @property
+    def origin(self) -> list[float]:
+        """Centre of voxel (0, 0, 0), m."""
+    @property
+    def shape(self) -> list[int]:
+        """Voxels along x, y and z."""
+    @property
+    def used(self) -> int:
+        """Number of blocks that are kept."""
+
+class LitSmoke:
+    """Smoke and the light of sun and sky in it, as `lit` has it of dense smoke, found where it is needed."""
+
+    def __init__(
+        self,
+        smoke: SparseSmoke,
+        direction: Sequence[float],
+        sun_part: float,
+        sky_part: float,
+        beyond: tuple[ArrayLike, float, Sequence[float]] | None = None,
+    ) -> None:
+        """Find how the smoke dims light; the arguments are those of `lit`."""
+    @property
+    def depths(self) -> tuple[NDArray[np.float32], float, list[float]]:
+        """As `lit` returns them."""
+    def bricks(self, share: ArrayLike, thinnest: float) -> Bricks:
+        """What is drawn of it, to march rays through.
+
+        Parameters
+        ----------
+        share
+            (nx, ny) factor of the extinction; all of it dims the light.
+        thinnest
+            1/m; what is thinner then is clear.
+        """
+    def grids(self, share: ArrayLike, thinnest: float) -> dict[str, NDArray[np.float32]]:
+        """The same as dense arrays (nx, ny, nz): density, fresh, sun, sky, and glow if there is one."""
+
 class Bricks:
     """Smoke and the light in it on voxels of one size, only where there is smoke: to march rays through.
 

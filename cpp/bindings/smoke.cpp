@@ -1,0 +1,108 @@
+#include "arrays.hpp"
+#include "base/sparse_smoke.hpp"
+#include "bindings.hpp"
+#include "placed.hpp"
+#include "volume/bricks.hpp"
+#include "volume/lit_smoke.hpp"
+
+#include <pybind11/stl.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace firetwin::bindings {
+namespace py = pybind11;
+namespace {
+
+using volume::Bricks;
+using volume::Drawn;
+using volume::LitSmoke;
+
+std::shared_ptr<LitSmoke> make_lit(std::shared_ptr<SparseSmoke> smoke, const Vector& direction,
+                                   double sun_part, double sky_part,
+                                   const std::optional<Placed>& beyond) {
+  const Beyond outside(beyond);
+  const py::gil_scoped_release release;
+  return std::make_shared<LitSmoke>(std::move(smoke), direction, outside.get(),
+                                    std::array{sun_part, sky_part});
+}
+
+/// Depths that `self` keeps alive.
+py::tuple depths(const py::object& self) {
+  const auto& found = self.cast<const LitSmoke&>().depths();
+  const auto [nx, ny, nz] = found.shape;
+  return py::make_tuple(lend<float>(found.values, {nx, ny, nz}, self), found.voxel, found.origin);
+}
+
+Array<double> share_of(const LitSmoke& lit, const py::object& share) {
+  const auto& shape = lit.smoke().shape();
+  return to_array<double>(share, "share", {shape[0], shape[1]});
+}
+
+std::shared_ptr<Bricks> make_bricks(const LitSmoke& lit, const py::object& share, float thinnest) {
+  const auto part = share_of(lit, share);
+  const py::gil_scoped_release release;
+  return std::make_shared<Bricks>(lit, Drawn{view(part), thinnest});
+}
+
+/// All fields of smoke and its light by name, dense.
+py::dict grids(const LitSmoke& lit, const py::object& share, float thinnest) {
+  const auto part = share_of(lit, share);
+  const SparseSmoke& smoke = lit.smoke();
+  const auto& shape = smoke.shape();
+  py::dict found;
+  const auto add = [&](const char* name) {
+    auto array = zeros({shape[0], shape[1], shape[2]});
+    found[name] = array;
+    return writable(array);
+  };
+  const auto density = add("density"), fresh = add("fresh"), sun = add("sun"), sky = add("sky");
+  const auto glow = smoke.glows() ? add("glow") : std::span<float>{};
+  const py::gil_scoped_release release;
+  const Drawn drawn{view(part), thinnest};
+  smoke.spread(SparseSmoke::density, density,
+               [&](float all, std::size_t column) { return drawn.density(all, column); });
+  smoke.spread(SparseSmoke::fresh, fresh);
+  lit.spread(sun, sky);
+  if (smoke.glows()) {
+    smoke.spread(SparseSmoke::glow, glow);
+  }
+  return found;
+}
+
+py::tuple lit(const py::object& extinction, double voxel_size, const Vector& direction,
+              double sun_part, double sky_part, const Vector& origin,
+              const std::optional<Placed>& beyond) {
+  const auto dense = to_array<float>(extinction, "extinction", {-1, -1, -1});
+  const std::vector<py::ssize_t> shape{dense.shape(0), dense.shape(1), dense.shape(2)};
+  auto smoke = std::make_shared<SparseSmoke>(SparseSmoke::Place{shape[0], shape[1], shape[2]},
+                                             voxel_size, origin, false);
+  smoke->keep_all(view(dense));
+  const auto found = make_lit(smoke, direction, sun_part, sky_part, beyond);
+  auto sun = zeros(shape), sky = zeros(shape);
+  found->spread(writable(sun), writable(sky));
+  return py::make_tuple(sun, sky, depths(py::cast(found)));
+}
+
+} // namespace
+
+void init_smoke(Module module) {
+  using namespace py::literals;
+  Class<SparseSmoke, std::shared_ptr<SparseSmoke>>(module, "SparseSmoke")
+      .def_property_readonly("voxel_size", &SparseSmoke::voxel)
+      .def_property_readonly("origin", &SparseSmoke::origin)
+      .def_property_readonly("shape", &SparseSmoke::shape)
+      .def_property_readonly("used", &SparseSmoke::used);
+  Class<LitSmoke, std::shared_ptr<LitSmoke>>(module, "LitSmoke")
+      .def(py::init(&make_lit), "smoke"_a, "direction"_a, "sun_part"_a, "sky_part"_a,
+           "beyond"_a = py::none())
+      .def_property_readonly("depths", &depths)
+      .def("bricks", &make_bricks, "share"_a, "thinnest"_a)
+      .def("grids", &grids, "share"_a, "thinnest"_a);
+  module.def("lit", &lit, "extinction"_a, "voxel_size"_a, "direction"_a, "sun_part"_a, "sky_part"_a,
+             "origin"_a = Vector{}, "beyond"_a = py::none());
+}
+
+} // namespace firetwin::bindings

@@ -1,0 +1,264 @@
+#include "volume/lit_smoke.hpp"
+
+#include "base/check.hpp"
+#include "base/clones.hpp"
+#include "volume/sunlight.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace firetwin::volume {
+namespace {
+
+using Index = std::int64_t;
+using Place = SparseSmoke::Place;
+using Row = std::array<float, BlockLight::row>;
+
+constexpr int fine_steps = 4; // as far as the middle of the next voxel but one of twice the size
+static_assert(fine_steps <= Neighbourhood::reach && BlockLight::row == Between::lanes);
+
+void check_direction(const Vector& direction) {
+  check_finite(direction, "direction");
+  if (std::abs(std::sqrt(dot(direction, direction)) - 1.0) > 1.0e-6) {
+    throw std::invalid_argument("direction must be a unit vector");
+  }
+}
+
+/// Means of 2^3 voxels; what lies beyond the smoke is clear.
+OwnBrick halved(const SparseSmoke& smoke) {
+  OwnBrick coarse{{}, smoke.shape(), 2.0 * smoke.voxel(), smoke.origin()};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    coarse.shape[axis] = (coarse.shape[axis] + 1) / 2;
+    coarse.origin[axis] += 0.5 * smoke.voxel();
+  }
+  constexpr Index side = SparseSmoke::side;
+  const auto [nx, ny, nz] = coarse.shape;
+  const auto [blocks_x, blocks_y, blocks_z] = smoke.blocks();
+  coarse.values.assign(static_cast<std::size_t>(nx * ny * nz), 0.0F);
+  tbb::parallel_for(Index{0}, blocks_x, [&, ny, nz, blocks_y, blocks_z](Index i) {
+    for (Index at = 0; at < blocks_y * blocks_z; ++at) {
+      const Index j = at / blocks_z, k = at % blocks_z;
+      const float* values = smoke.block({i, j, k}, SparseSmoke::density);
+      if (values == nullptr) {
+        continue;
+      }
+      const Index deep = std::min(side, smoke.shape()[2] - k * side);
+      for (Index x = i * side; x < std::min((i + 1) * side, smoke.shape()[0]); ++x) {
+        for (Index y = j * side; y < std::min((j + 1) * side, smoke.shape()[1]); ++y) {
+          const float* row = values + (x % side * side + y % side) * side;
+          float* out = coarse.values.data() + (x / 2 * ny + y / 2) * nz + k * side / 2;
+          for (Index z = 0; z < deep; ++z) {
+            out[z / 2] += 0.125F * row[z];
+          }
+        }
+      }
+    }
+  });
+  return coarse;
+}
+
+OwnBrick sky_over(const OwnBrick& smoke, double part) {
+  OwnBrick open = volume::halved(smoke.view());
+  open.values = sky_light(open.view(), part);
+  return open;
+}
+
+FIRETWIN_CLONES("avx512f", "avx2")
+void add_weighted(const float* smoke, const std::ptrdiff_t* offsets, const float* weights,
+                  std::size_t count, float* out) {
+  Row sum{};
+  for (std::size_t m = 0; m < count; ++m) {
+    const float* from = smoke + offsets[m];
+    for (std::size_t l = 0; l < sum.size(); ++l) {
+      sum[l] += weights[m] * from[l];
+    }
+  }
+  std::copy(sum.begin(), sum.end(), out);
+}
+
+/// The most smoke in each voxel of a row and those around it.
+FIRETWIN_CLONES("avx512f", "avx2")
+void most_near(const Neighbourhood& around, Index x, Index y, float* out) {
+  Row most{};
+  for (Index i = x - 1; i <= x + 1; ++i) {
+    for (Index j = y - 1; j <= y + 1; ++j) {
+      const float* row = around.at(i, j);
+      for (std::size_t l = 0; l < most.size(); ++l) {
+        const float a = std::max(row[l - 1], row[l]);
+        most[l] = std::max(most[l], std::max(a, row[l + 1]));
+      }
+    }
+  }
+  std::copy(most.begin(), most.end(), out);
+}
+
+/// f(block) for blocks that hold smoke, and those beside them.
+template <class Function> void each_near(const SparseSmoke& smoke, const Function& f) {
+  const auto [nx, ny, nz] = smoke.blocks();
+  tbb::parallel_for(Index{0}, nx * ny, [&, ny, nz](Index column) {
+    for (Index k = 0; k < nz; ++k) {
+      const Place at{column / ny, column % ny, k};
+      bool near = false;
+      for (Index n = 0; n < 27 && !near; ++n) {
+        near = smoke.block({at[0] + n / 9 - 1, at[1] + n / 3 % 3 - 1, at[2] + n % 3 - 1},
+                           SparseSmoke::density) != nullptr;
+      }
+      if (near) {
+        f(at);
+      }
+    }
+  });
+}
+
+} // namespace
+
+/// The sum of smoke along the first `fine_steps` voxels of the way, linear between voxels.
+LitSmoke::Stencil::Stencil(const Vector& direction) {
+  std::map<Place, double> found;
+  for (int step = 0; step < fine_steps; ++step) {
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      Place at{};
+      double weight = 1.0;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double moved = (step + 0.5) * direction[axis], under = std::floor(moved);
+        const bool over = (corner >> axis & 1U) != 0;
+        at[axis] = static_cast<Index>(under) + (over ? 1 : 0);
+        weight *= over ? moved - under : 1.0 - (moved - under);
+      }
+      if (weight > 0.0) {
+        found[at] += weight;
+      }
+    }
+  }
+  for (const auto& [at, weight] : found) {
+    offsets.push_back((at[0] * Neighbourhood::count + at[1]) * Neighbourhood::row + at[2]);
+    weights.push_back(static_cast<float>(weight));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], at[axis]);
+      high[axis] = std::max(high[axis], at[axis]);
+    }
+  }
+}
+
+LitSmoke::LitSmoke(std::shared_ptr<const SparseSmoke> smoke, const Vector& direction,
+                   const Brick* beyond, std::array<double, 2> parts)
+    : smoke_((check_direction(direction), std::move(smoke))),
+      thinner_(static_cast<float>(-parts[0])), depths_(halved(*smoke_)),
+      open_(sky_over(depths_, parts[1])), first_steps_(direction) {
+  depths_.values = optical_depth(depths_.view(), direction, beyond);
+  const auto between = [this](const OwnBrick& values, double steps, const Vector& way) {
+    Vector shift{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      shift[axis] = steps * smoke_->voxel() * way[axis];
+    }
+    return Between(values, smoke_->shape(), smoke_->voxel(), smoke_->origin(), shift);
+  };
+  sky_ = between(open_, 0.0, direction);
+  depth_ = between(depths_, 0.0, direction);
+  depth_beyond_ = between(depths_, fine_steps, direction);
+}
+
+void LitSmoke::gather(const Place& block, Neighbourhood& out) const {
+  Place first{};
+  for (std::size_t axis = 0; axis < first.size(); ++axis) {
+    first[axis] = block[axis] * SparseSmoke::side - Neighbourhood::reach;
+  }
+  smoke_->gather(SparseSmoke::density, first, Neighbourhood::count, Neighbourhood::row,
+                 out.density.data());
+}
+
+/// Optical depths to the sun of a row of voxels from `first` on, whose smoke is `own`.
+void LitSmoke::find_sun(const Place& first, const float* own, float* out) const {
+  // At the brick's sides, where smoke ends, the first steps are as long as the others.
+  const auto fits = [&](std::size_t axis, Index at) {
+    return at + first_steps_.low[axis] >= 0 && at + first_steps_.high[axis] < smoke_->shape()[axis];
+  };
+  const Index last = std::min(first[2] + BlockLight::wide, smoke_->shape()[2]) - 1;
+  const bool row_fits = fits(0, first[0]) && fits(1, first[1]);
+  const bool all_fit = row_fits && fits(2, first[2]) && fits(2, last);
+  Row coarse;
+  if (!all_fit) {
+    depth_->row(first[0], first[1], first[2], coarse.data());
+  }
+  if (!row_fits) {
+    std::copy(coarse.begin(), coarse.end(), out);
+    return;
+  }
+  Row sum;
+  add_weighted(own, first_steps_.offsets.data(), first_steps_.weights.data(),
+               first_steps_.weights.size(), sum.data());
+  depth_beyond_->row(first[0], first[1], first[2], out);
+  const auto step = static_cast<float>(smoke_->voxel());
+  for (std::size_t l = 0; l < sum.size(); ++l) {
+    const bool fine = all_fit || fits(2, first[2] + static_cast<Index>(l));
+    out[l] = fine ? sum[l] * step + out[l] : coarse[l];
+  }
+}
+
+bool LitSmoke::light(const Place& block, const Neighbourhood& around, BlockLight& out) const {
+  constexpr Index side = SparseSmoke::side;
+  const auto& shape = smoke_->shape();
+  const auto [nx, ny, nz] = std::array{std::min(BlockLight::wide, shape[0] - block[0] * side),
+                                       std::min(BlockLight::wide, shape[1] - block[1] * side),
+                                       std::min(BlockLight::wide, shape[2] - block[2] * side)};
+  bool any = false;
+  Row near, depth, sky;
+  for (Index x = 0; x < nx; ++x) {
+    for (Index y = 0; y < ny; ++y) {
+      float* sun_out = out.sun.data() + (x * BlockLight::wide + y) * BlockLight::row;
+      float* sky_out = out.sky.data() + (x * BlockLight::wide + y) * BlockLight::row;
+      std::fill_n(sun_out, BlockLight::wide, 0.0F);
+      std::fill_n(sky_out, BlockLight::wide, 0.0F);
+      most_near(around, x, y, near.data());
+      if (std::none_of(near.begin(), near.begin() + nz, [](float most) { return most > 0.0F; })) {
+        continue;
+      }
+      any = true;
+      const Place first{block[0] * side + x, block[1] * side + y, block[2] * side};
+      find_sun(first, around.at(x, y), depth.data());
+      sky_->row(first[0], first[1], first[2], sky.data());
+      for (Index z = 0; z < nz; ++z) {
+        const auto l = static_cast<std::size_t>(z);
+        if (near[l] > 0.0F) {
+          sun_out[z] = std::exp(thinner_ * depth[l]);
+          sky_out[z] = sky[l];
+        }
+      }
+    }
+  }
+  return any;
+}
+
+void LitSmoke::spread(std::span<float> sun, std::span<float> sky) const {
+  constexpr Index side = SparseSmoke::side;
+  const auto& shape = smoke_->shape();
+  const auto count = static_cast<std::size_t>(shape[0] * shape[1] * shape[2]);
+  if (sun.size() != count || sky.size() != count) {
+    throw std::invalid_argument("arrays of light and smoke must have the brick's shape");
+  }
+  each_near(*smoke_, [&](const Place& block) {
+    Neighbourhood around;
+    BlockLight found;
+    gather(block, around);
+    if (!light(block, around, found)) {
+      return;
+    }
+    const Index nz = std::min(side, shape[2] - block[2] * side);
+    for (Index x = 0; x < std::min(side, shape[0] - block[0] * side); ++x) {
+      for (Index y = 0; y < std::min(side, shape[1] - block[1] * side); ++y) {
+        const Index from = (x * BlockLight::wide + y) * BlockLight::row;
+        const Index to =
+            ((block[0] * side + x) * shape[1] + block[1] * side + y) * shape[2] + block[2] * side;
+        std::copy_n(found.sun.data() + from, nz, sun.data() + to);
+        std::copy_n(found.sky.data() + from, nz, sky.data() + to);
+      }
+    }
+  });
+}
+
+} // namespace firetwin::volume
