@@ -30,31 +30,25 @@ void SparseSmoke::keep(const Place& at, std::span<const float> values) {
   std::copy(values.begin(), values.end(), kept.get());
 }
 
-void SparseSmoke::gather(Field field, const Place& first, Index count, Index row,
+void SparseSmoke::gather(Field field, const Place& at, Index before, Index count,
                          float* out) const {
-  const auto block_of = [](Index voxel) { return (voxel + side) / side - 1; }; // also of -side
-  Place last{};
-  for (std::size_t axis = 0; axis < last.size(); ++axis) {
-    last[axis] = block_of(first[axis] + count - 1);
-  }
-  for (Index i = block_of(first[0]); i <= last[0]; ++i) {
-    const Index x0 = std::max(first[0], i * side), x1 = std::min(first[0] + count, (i + 1) * side);
-    for (Index j = block_of(first[1]); j <= last[1]; ++j) {
-      const Index y0 = std::max(first[1], j * side),
-                  y1 = std::min(first[1] + count, (j + 1) * side);
-      for (Index k = block_of(first[2]); k <= last[2]; ++k) {
-        const Index z0 = std::max(first[2], k * side),
-                    z1 = std::min(first[2] + count, (k + 1) * side);
-        const float* from = block({i, j, k}, field);
-        for (Index x = x0; x < x1; ++x) {
-          for (Index y = y0; y < y1; ++y) {
-            float* to = out + ((x - first[0]) * count + y - first[1]) * row + z0 - first[2];
-            if (from == nullptr) {
-              std::fill_n(to, z1 - z0, 0.0F);
-            } else {
-              std::copy_n(from + ((x - i * side) * side + y - j * side) * side + z0 - k * side,
-                          z1 - z0, to);
-            }
+  static constexpr std::array<float, block_size> clear{};
+  const auto values = [&](Index i, Index j, Index k) {
+    const float* found = block({at[0] + i, at[1] + j, at[2] + k}, field);
+    return found == nullptr ? clear.data() : found;
+  };
+  // Along an axis: from which voxel to which the block before, this one and the one after it reach.
+  const auto first = [&](Index block) { return std::max(block * side, -before); };
+  const auto end = [&](Index block) { return std::min((block + 1) * side, count - before); };
+  for (Index i = -1; i <= 1; ++i) {
+    for (Index j = -1; j <= 1; ++j) {
+      const std::array<const float*, 3> from{values(i, j, -1), values(i, j, 0), values(i, j, 1)};
+      for (Index x = first(i); x < end(i); ++x) {
+        for (Index y = first(j); y < end(j); ++y) {
+          const Index within = ((x - i * side) * side + y - j * side) * side;
+          float* row = out + ((x + before) * count + y + before) * 3 * side;
+          for (Index k = 0; k < 3; ++k) {
+            std::copy_n(from[static_cast<std::size_t>(k)] + within, side, row + k * side);
           }
         }
       }

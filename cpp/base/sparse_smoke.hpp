@@ -56,9 +56,10 @@ public:
   /// Keeps blocks of a dense array of densities in which there are any.
   void keep_all(std::span<const float> dense);
 
-  /// Copies voxels from `first` on, `count` along each side, zero where it is clear or beyond, to
-  /// out[(x * count + y) * row + z]; also from before the first voxel.
-  void gather(Field field, const Place& first, Index count, Index row, float* out) const;
+  /// Copies a block and what is round it, zeros where it is clear or beyond: columns from `before`
+  /// voxels before it on, `count` of them along x and y, and along z the block and the two beside
+  /// it, to out[(x * count + y) * 3 * side].
+  void gather(Field field, const Place& block, Index before, Index count, float* out) const;
   /// Writes what is not clear into a dense array of zeros: `change(value, column)`, columns being
   /// counted along x, then y.
   template <class Change>

@@ -48,6 +48,7 @@ inline float perlin_at(float x, float y, float z, std::uint32_t seed) {
 
 /// The cubes round one, each as many times along x, y and z; the last have no points.
 struct Around {
+  static constexpr std::size_t middle = 13;
   std::array<std::int32_t, Worley::points> x{}, y{}, z{};
   constexpr Around() {
     for (std::size_t n = 0; n < 27; ++n) {
@@ -59,10 +60,12 @@ struct Around {
   }
 };
 
+/// How much farther the points are from any place in the middle cube than its own is, at least:
+/// the difference of two squares of distances is linear, so that it is least in a corner.
 FIRETWIN_CLONES("avx512f", "avx2")
-void strew(const std::array<std::int32_t, 3>& cell, std::uint32_t seed, Worley::Points& points) {
+void strew(const std::array<std::int32_t, 3>& cell, std::uint32_t seed, Worley::Points& points,
+           std::array<float, Worley::points>& farther) {
   static constexpr Around around;
-  constexpr float far_away = 99.0F;
   for (std::size_t n = 0; n < Worley::points; ++n) {
     const std::uint32_t h =
         finished(static_cast<std::uint32_t>(cell[0] + around.x[n]) * along_x ^
@@ -72,7 +75,29 @@ void strew(const std::array<std::int32_t, 3>& cell, std::uint32_t seed, Worley::
     points.y[n] = static_cast<float>(around.y[n]) + share(h, 10);
     points.z[n] = static_cast<float>(around.z[n]) + share(h, 20);
   }
-  for (std::size_t n = 27; n < Worley::points; ++n) {
+  const float x = points.x[Around::middle], y = points.y[Around::middle],
+              z = points.z[Around::middle];
+  for (std::size_t n = 0; n < Worley::points; ++n) {
+    const auto along = [](float p, float own) { // (p - own) (p + own - 2 t), t from 0 to 1
+      return (p - own) * (p + own) - 2.0F * std::max(p - own, 0.0F);
+    };
+    farther[n] = along(points.x[n], x) + along(points.y[n], y) + along(points.z[n], z);
+  }
+}
+
+/// Leaves out points that are the nearest to no place in the middle cube: about half of them.
+void thin_out(const std::array<float, Worley::points>& farther, Worley::Points& points) {
+  constexpr float rounding = 1.0e-4F, far_away = 99.0F;
+  constexpr std::size_t all = 27, together = 8;
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < all; ++n) {
+    points.x[count] = points.x[n];
+    points.y[count] = points.y[n];
+    points.z[count] = points.z[n];
+    count += farther[n] < rounding ? 1 : 0;
+  }
+  points.count = (count + together - 1) / together * together;
+  for (std::size_t n = count; n < points.count; ++n) {
     points.x[n] = points.y[n] = points.z[n] = far_away;
   }
 }
@@ -81,7 +106,7 @@ using Lanes = float __attribute__((vector_size(8 * sizeof(float))));
 
 inline float nearest(const Worley::Points& points, float x, float y, float z) {
   Lanes least = Lanes{} + 9.0F;
-  for (std::size_t n = 0; n < Worley::points; n += 8) {
+  for (std::size_t n = 0; n < points.count; n += 8) {
     Lanes dx, dy, dz;
     std::memcpy(&dx, points.x.data() + n, sizeof dx);
     std::memcpy(&dy, points.y.data() + n, sizeof dy);
@@ -108,20 +133,31 @@ void perlin(const Row& x, const Row& y, const Row& z, std::uint32_t seed, Row& n
   }
 }
 
+const Worley::Points& Worley::around(const std::array<std::int32_t, 3>& cell, std::uint32_t seed) {
+  Points& found =
+      strewn_[static_cast<std::size_t>((cell[0] & 3) | (cell[1] & 3) << 2 | (cell[2] & 15) << 4)];
+  if (found.count == 0 || found.cell != cell || found.seed != seed) {
+    std::array<float, points> farther;
+    strew(cell, seed, found, farther);
+    thin_out(farther, found);
+    found.cell = cell;
+    found.seed = seed;
+  }
+  return found;
+}
+
 FIRETWIN_CLONES("avx512f", "avx2")
 void Worley::at(const Row& x, const Row& y, const Row& z, std::uint32_t seed, Row& distance) {
+  const Points* near = nullptr;
   for (std::size_t n = 0; n < distance.size(); ++n) {
     const float x0 = std::floor(x[n]), y0 = std::floor(y[n]), z0 = std::floor(z[n]);
     const std::array<std::int32_t, 3> cell{static_cast<std::int32_t>(x0),
                                            static_cast<std::int32_t>(y0),
                                            static_cast<std::int32_t>(z0)};
-    if (!strewn_ || cell != cell_ || seed != seed_) {
-      strew(cell, seed, points_);
-      cell_ = cell;
-      seed_ = seed;
-      strewn_ = true;
+    if (near == nullptr || cell != near->cell) {
+      near = &around(cell, seed);
     }
-    distance[n] = nearest(points_, x[n] - x0, y[n] - y0, z[n] - z0);
+    distance[n] = nearest(*near, x[n] - x0, y[n] - y0, z[n] - z0);
   }
   for (float& each : distance) {
     each = std::sqrt(each);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 /// Noise for detail that the flow's cells are too large for. Alike on any machine to rounding.
 namespace firetwin::flow {
@@ -18,21 +19,28 @@ void perlin(const Row& x, const Row& y, const Row& z, std::uint32_t seed, Row& n
 
 /// Distance to the nearest of points strewn one to a unit cube (Worley 1996, "A cellular texture
 /// basis function"), about 0 to 1.2, mean 0.49: lumps with sharp valleys between them. Keeps the
-/// points round the last place, so that places which follow each other closely take little time.
+/// points round the last cubes, so that places which are near each other take little time.
 class Worley {
 public:
+  Worley() : strewn_(kept) {}
+
   void at(const Row& x, const Row& y, const Row& z, std::uint32_t seed, Row& distance);
 
   static constexpr std::size_t points = 32; ///< 27, and some far away that fill the last lanes
+  /// Those that may be the nearest to a place in a cube, and others that make the lanes whole.
   struct Points {
     std::array<float, points> x, y, z;
+    std::size_t count = 0; ///< in whole lanes; 0: none were strewn yet
+    std::array<std::int32_t, 3> cell{};
+    std::uint32_t seed = 0;
   };
 
 private:
-  std::array<std::int32_t, 3> cell_{};
-  std::uint32_t seed_ = 0;
-  bool strewn_ = false;
-  Points points_{};
+  static constexpr std::size_t kept = 256;
+
+  const Points& around(const std::array<std::int32_t, 3>& cell, std::uint32_t seed);
+
+  std::vector<Points> strewn_; ///< by the last bits of their cubes
 };
 
 } // namespace firetwin::flow

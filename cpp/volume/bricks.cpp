@@ -62,26 +62,24 @@ public:
 
 private:
   static constexpr Index wide = Bricks::wide;
-  using Voxels = std::array<float, static_cast<std::size_t>(wide* wide* wide)>;
+  static constexpr Index row_size = Neighbourhood::row;
+  using Voxels = std::array<float, static_cast<std::size_t>(wide * wide * row_size)>;
 
   void gather(const Place& block) {
     lit_.gather(block, around_);
     lit_.light(block, around_, light_);
     const SparseSmoke& smoke = lit_.smoke();
-    Place first{};
-    for (std::size_t axis = 0; axis < first.size(); ++axis) {
-      first[axis] = block[axis] * SparseSmoke::side;
-    }
-    smoke.gather(SparseSmoke::fresh, first, wide, wide, fresh_.data());
+    smoke.gather(SparseSmoke::fresh, block, 0, wide, fresh_.data());
     if (smoke.glows()) {
-      smoke.gather(SparseSmoke::glow, first, wide, wide, glow_.data());
+      smoke.gather(SparseSmoke::glow, block, 0, wide, glow_.data());
     }
   }
 
   void pack_row(Index x, Index y, std::size_t column, Index last, std::uint16_t* out) const {
     const float* density = around_.at(x, y);
     const Index row = x * wide + y;
-    const float *fresh = fresh_.data() + row * wide, *glow = glow_.data() + row * wide;
+    const Index own = row * row_size + SparseSmoke::side;
+    const float *fresh = fresh_.data() + own, *glow = glow_.data() + own;
     const float *sun = light_.sun.data() + row * BlockLight::row,
                 *sky = light_.sky.data() + row * BlockLight::row;
     for (Index k = 0; k < wide; ++k, out += Bricks::channels) {

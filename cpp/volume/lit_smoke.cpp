@@ -81,20 +81,55 @@ void add_weighted(const float* smoke, const std::ptrdiff_t* offsets, const float
   std::copy(sum.begin(), sum.end(), out);
 }
 
-/// The most smoke in each voxel of a row and those around it.
+/// The most smoke in each of a block's voxels and the 26 around it, axis by axis.
+class Nearest {
+public:
+  explicit Nearest(const Neighbourhood& around);
+
+  const Row& row(Index x, Index y) const { return most_[number(x, y)]; }
+
+private:
+  static constexpr Index wide = BlockLight::wide + 2; // one more on each side
+  static std::size_t number(Index x, Index y) {
+    return static_cast<std::size_t>((x + 1) * wide + y + 1);
+  }
+  /// Takes in the rows before and behind; `step` rows in memory.
+  void widen(Index first, Index step);
+
+  std::array<Row, static_cast<std::size_t>(wide* wide)> most_;
+};
+
 FIRETWIN_CLONES("avx512f", "avx2")
-void most_near(const Neighbourhood& around, Index x, Index y, float* out) {
-  Row most{};
-  for (Index i = x - 1; i <= x + 1; ++i) {
-    for (Index j = y - 1; j <= y + 1; ++j) {
-      const float* row = around.at(i, j);
-      for (std::size_t l = 0; l < most.size(); ++l) {
-        const float a = std::max(row[l - 1], row[l]);
-        most[l] = std::max(most[l], std::max(a, row[l + 1]));
-      }
+void most_of_three(const float* a, const float* b, const float* c, float* out) {
+  for (Index l = 0; l < BlockLight::row; ++l) {
+    out[l] = std::max(std::max(a[l], b[l]), c[l]);
+  }
+}
+
+Nearest::Nearest(const Neighbourhood& around) {
+  for (Index x = -1; x < wide - 1; ++x) {
+    for (Index y = -1; y < wide - 1; ++y) {
+      const float* row = around.at(x, y);
+      most_of_three(row - 1, row, row + 1, most_[number(x, y)].data());
     }
   }
-  std::copy(most.begin(), most.end(), out);
+  for (Index n = 0; n < wide; ++n) {
+    widen(n * wide, 1);
+  }
+  for (Index n = 0; n < wide; ++n) {
+    widen(n, wide);
+  }
+}
+
+void Nearest::widen(Index first, Index step) {
+  Row before = most_[static_cast<std::size_t>(first)];
+  for (Index n = 1; n < wide - 1; ++n) {
+    Row& here = most_[static_cast<std::size_t>(first + n * step)];
+    const Row own = here;
+    most_of_three(before.data(), own.data(),
+                  most_[static_cast<std::size_t>(first + (n + 1) * step)].data(), here.data());
+    before = own;
+  }
 }
 
 /// f(block) for blocks that hold smoke, and those beside them.
@@ -164,11 +199,7 @@ LitSmoke::LitSmoke(std::shared_ptr<const SparseSmoke> smoke, const Vector& direc
 }
 
 void LitSmoke::gather(const Place& block, Neighbourhood& out) const {
-  Place first{};
-  for (std::size_t axis = 0; axis < first.size(); ++axis) {
-    first[axis] = block[axis] * SparseSmoke::side - Neighbourhood::reach;
-  }
-  smoke_->gather(SparseSmoke::density, first, Neighbourhood::count, Neighbourhood::row,
+  smoke_->gather(SparseSmoke::density, block, Neighbourhood::reach, Neighbourhood::count,
                  out.density.data());
 }
 
@@ -207,14 +238,15 @@ bool LitSmoke::light(const Place& block, const Neighbourhood& around, BlockLight
                                        std::min(BlockLight::wide, shape[1] - block[1] * side),
                                        std::min(BlockLight::wide, shape[2] - block[2] * side)};
   bool any = false;
-  Row near, depth, sky;
+  const Nearest nearest(around);
+  Row depth, sky;
   for (Index x = 0; x < nx; ++x) {
     for (Index y = 0; y < ny; ++y) {
       float* sun_out = out.sun.data() + (x * BlockLight::wide + y) * BlockLight::row;
       float* sky_out = out.sky.data() + (x * BlockLight::wide + y) * BlockLight::row;
       std::fill_n(sun_out, BlockLight::wide, 0.0F);
       std::fill_n(sky_out, BlockLight::wide, 0.0F);
-      most_near(around, x, y, near.data());
+      const Row& near = nearest.row(x, y);
       if (std::none_of(near.begin(), near.begin() + nz, [](float most) { return most > 0.0F; })) {
         continue;
       }

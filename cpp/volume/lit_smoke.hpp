@@ -14,17 +14,18 @@
 
 namespace firetwin::volume {
 
-/// Voxels of a block, one more on each of its high sides, and so many round them that the light on
-/// them depends on.
+/// Density of a block's voxels, of one more on each of its high sides, and of so many round them
+/// that the light on them depends on.
 struct Neighbourhood {
   static constexpr std::int64_t wide = SparseSmoke::side + 1;
   static constexpr std::int64_t reach = 4;
-  static constexpr std::int64_t count = wide + 2 * reach;
-  static constexpr std::int64_t row = 24; ///< of memory: whole Rows from any of its places
-  std::array<float, count * count * row> density{};
+  static constexpr std::int64_t count = wide + 2 * reach;    ///< along x and y
+  static constexpr std::int64_t row = 3 * SparseSmoke::side; ///< along z
+  /// Vectors may reach beyond the last row.
+  std::array<float, count * count * row + 16> density{};
 
   const float* at(std::int64_t x, std::int64_t y) const {
-    return density.data() + ((x + reach) * count + y + reach) * row + reach;
+    return density.data() + ((x + reach) * count + y + reach) * row + SparseSmoke::side;
   }
 };
 
