@@ -136,7 +136,8 @@ void perlin(const Row& x, const Row& y, const Row& z, std::uint32_t seed, Row& n
 const Worley::Points& Worley::around(const std::array<std::int32_t, 3>& cell, std::uint32_t seed) {
   Points& found =
       strewn_[static_cast<std::size_t>((cell[0] & 3) | (cell[1] & 3) << 2 | (cell[2] & 15) << 4)];
-  if (found.count == 0 || found.cell != cell || found.seed != seed) {
+  if (found.count == 0 || found.cell[0] != cell[0] || found.cell[1] != cell[1] ||
+      found.cell[2] != cell[2] || found.seed != seed) {
     std::array<float, points> farther;
     strew(cell, seed, found, farther);
     thin_out(farther, found);
@@ -148,16 +149,27 @@ const Worley::Points& Worley::around(const std::array<std::int32_t, 3>& cell, st
 
 FIRETWIN_CLONES("avx512f", "avx2")
 void Worley::at(const Row& x, const Row& y, const Row& z, std::uint32_t seed, Row& distance) {
+  struct Axis {
+    std::array<std::int32_t, Row{}.size()> cell;
+    Row part;
+  };
+  std::array<Axis, 3> axes;
+  const std::array<const Row*, 3> places{&x, &y, &z};
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    for (std::size_t n = 0; n < distance.size(); ++n) {
+      const float at = (*places[a])[n], low = std::floor(at);
+      axes[a].cell[n] = static_cast<std::int32_t>(low);
+      axes[a].part[n] = at - low;
+    }
+  }
+  const auto& [i, j, k] = axes;
   const Points* near = nullptr;
   for (std::size_t n = 0; n < distance.size(); ++n) {
-    const float x0 = std::floor(x[n]), y0 = std::floor(y[n]), z0 = std::floor(z[n]);
-    const std::array<std::int32_t, 3> cell{static_cast<std::int32_t>(x0),
-                                           static_cast<std::int32_t>(y0),
-                                           static_cast<std::int32_t>(z0)};
-    if (near == nullptr || cell != near->cell) {
-      near = &around(cell, seed);
+    if (n == 0 || i.cell[n] != i.cell[n - 1] || j.cell[n] != j.cell[n - 1] ||
+        k.cell[n] != k.cell[n - 1]) {
+      near = &around({i.cell[n], j.cell[n], k.cell[n]}, seed);
     }
-    distance[n] = nearest(*near, x[n] - x0, y[n] - y0, z[n] - z0);
+    distance[n] = nearest(*near, i.part[n], j.part[n], k.part[n]);
   }
   for (float& each : distance) {
     each = std::sqrt(each);

@@ -4,10 +4,9 @@ import firetwin_core as core
 import numpy as np
 import pytest
 from firetwin_core import flow
+from flow_moments import DEPTH, SPACING, VOXEL, N, moment
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-N, SPACING, DEPTH, VOXEL = 12, 100.0, 80.0, 25.0
 
 
 def in_wind(wind=(6.0, -3.0), period=120.0):
@@ -16,27 +15,6 @@ def in_wind(wind=(6.0, -3.0), period=120.0):
     solver = flow.Solver(levels, (N, N), SPACING, [0.0, 2000.0], [300.0, 306.0], [wind] * 2, side_width=3)
     solver.set_sources(np.empty((0, 2)), [], [])
     return solver, flow.Drift(solver, period)
-
-
-def moment(**changed):
-    """Smoke in the middle of a box, that is old, calm and cool."""
-    z, y, x = np.meshgrid(*(np.arange(N) - (N - 1) / 2,) * 3, indexing="ij")
-    levels = (np.arange(N) + 0.5) * DEPTH
-    fields = {
-        "spacing": SPACING,
-        "corner": (0.0, 0.0),
-        "levels": levels,
-        "heights": np.broadcast_to(levels[:, None, None], (N, N, N)),
-        "ground": np.zeros((N, N)),
-        "smoke": 3e-6 * np.exp(-(x**2 + y**2 + z**2) / 3.0),
-        "age": np.full((N, N, N), 2000.0),
-        "rise": np.zeros((N, N, N)),
-        "warmth": np.zeros((N, N, N)),
-        "drift": np.zeros((N, N, N, 2, 3)),
-        "weights": (0.6, 0.8),
-        "turns": (0, 0),
-    }
-    return fields | changed
 
 
 def painted(origin=(0.0, 0.0, 0.0), share=1.0, surface=0.0, count=48, wanted=None, **changed):
