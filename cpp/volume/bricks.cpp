@@ -63,7 +63,8 @@ public:
 private:
   static constexpr Index wide = Bricks::wide;
   static constexpr Index row_size = Neighbourhood::row;
-  using Voxels = std::array<float, static_cast<std::size_t>(wide * wide * row_size)>;
+  static constexpr std::size_t voxels = wide * wide * row_size;
+  using Voxels = std::array<float, voxels>;
 
   void gather(const Place& block) {
     lit_.gather(block, around_);
