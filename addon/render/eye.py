@@ -20,6 +20,7 @@ from .surfaces import Channels
 Array = NDArray[np.float32]
 
 _STEP = 0.5  # voxels, of the march
+_PLACES = ((0.25, 0.25), (0.75, 0.75))  # in a pixel, of the rays whose mean its smoke is
 
 
 class Eye:
@@ -38,18 +39,20 @@ class Eye:
     ) -> None:
         self.shot, self.stage, self.channels, self.smoke = shot, stage, channels, smoke
         self.shape = next(iter(channels.values())).shape[:2]
-        self.rays = rays.through(stage.scene.camera, stage.scene, *self.shape, number)
+        self._through = functools.partial(rays.through, stage.scene.camera, stage.scene, *self.shape, number)
+        self.rays = self._through()
 
     def picture(self) -> Array:
         """Radiance (h, w, 3) of surfaces behind smoke."""
         seen = self._surfaces()
         at = composite.taps(seen)
         marched = np.zeros((*at.shape, 4), np.float32)
-        marched[..., 3] = 1.0
+        marched[..., 3] = not self.smoke
         if self.smoke:
-            light = illumination.visible(self.stage)
-            found = volume.march(self.smoke, *self._lines(), at.reshape(-1, 3), light, _STEP)
-            marched = found.reshape(marched.shape)
+            light, ends = illumination.visible(self.stage), at.reshape(-1, 3)
+            for place in _PLACES:
+                found = volume.march(self.smoke, *_lines(self._through(at=place)), ends, light, _STEP)
+                marched += found.reshape(marched.shape) / np.float32(len(_PLACES))
         return composite.picture(seen, at, marched)
 
     def radiance(self, frame: int) -> Array:
@@ -64,7 +67,7 @@ class Eye:
         if not self.smoke:
             return bare
         air = illumination.warm(self.shot, self.stage, frame)
-        found = volume.march_infrared(self.smoke, *self._lines(), self.distance.ravel(), **air)
+        found = volume.march_infrared(self.smoke, *_lines(self.rays), self.distance.ravel(), **air)
         light, through = np.moveaxis(found.reshape(*self.shape, 2), -1, 0)
         return bare * through + light
 
@@ -72,7 +75,7 @@ class Eye:
         """Part (h, w) of green light that comes through smoke from what the middle rays meet."""
         if not self.smoke:
             return np.ones(self.shape, np.float32)
-        depth = volume.optical_depth(self.smoke, *self._lines(), self.distance.ravel(), step=_STEP)
+        depth = volume.optical_depth(self.smoke, *_lines(self.rays), self.distance.ravel(), step=_STEP)
         return np.exp(-depth * illumination.thickness(self.stage)).reshape(self.shape)
 
     @functools.cached_property
@@ -97,7 +100,8 @@ class Eye:
             rays=self.stage.scene.cycles.samples,
         )
 
-    def _lines(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Origins and directions of its rays, as `firetwin_core.volume` takes them."""
-        origins = self.rays.origins
-        return origins if origins.ndim == 1 else origins.reshape(-1, 3), self.rays.directions.reshape(-1, 3)
+
+def _lines(lines: rays.Rays) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Origins and directions of rays, as `firetwin_core.volume` takes them."""
+    origins = lines.origins if lines.origins.ndim == 1 else lines.origins.reshape(-1, 3)
+    return origins, lines.directions.reshape(-1, 3)

@@ -47,16 +47,31 @@ class Rays:
         return np.sqrt(np.maximum(square, 0.0)).astype(np.float32)
 
 
-def through(camera: bpy.types.Object, scene: bpy.types.Scene, height: int, width: int, eye: float) -> Rays:
-    """Rays of a camera's picture; `eye` is -1 or 1 for the left or the right of two, else 0."""
+def through(
+    camera: bpy.types.Object,
+    scene: bpy.types.Scene,
+    height: int,
+    width: int,
+    eye: float,
+    at: tuple[float, float] = (0.5, 0.5),
+) -> Rays:
+    """Rays of a camera's picture.
+
+    Parameters
+    ----------
+    eye
+        -1 or 1 for the left or the right of two, else 0.
+    at
+        Where in its pixel each goes through: to the right and down, 0 to 1.
+    """
     placed = np.array(camera.matrix_world)
     rotation = placed[:3, :3] / np.linalg.norm(placed[:3, :3], axis=0)
     place, none = placed[:3, 3], np.zeros((height, width))
     if camera.data.type == "PANO":
-        return _around(camera, place, rotation, height, width, eye)
+        return _around(camera, place, rotation, (height, width), eye, at)
     low, high, axis = _frame(camera, scene)
-    x = low[0] + (high[0] - low[0]) * (np.arange(width) + 0.5) / width
-    y = high[1] - (high[1] - low[1]) * (np.arange(height) + 0.5) / height
+    x = low[0] + (high[0] - low[0]) * (np.arange(width) + at[0]) / width
+    y = high[1] - (high[1] - low[1]) * (np.arange(height) + at[1]) / height
     x, y = np.meshgrid(x, y)
     if camera.data.type == "ORTHO":
         origins = place + np.stack([x, y, none], axis=-1) @ rotation.T
@@ -74,10 +89,16 @@ def _frame(camera: bpy.types.Object, scene: bpy.types.Scene) -> tuple[Array, Arr
 
 
 def _around(
-    camera: bpy.types.Object, place: Array, rotation: Array, height: int, width: int, eye: float
+    camera: bpy.types.Object,
+    place: Array,
+    rotation: Array,
+    shape: tuple[int, int],
+    eye: float,
+    at: tuple[float, float],
 ) -> Rays:
     """Rays of a picture that holds all directions."""
-    bearing, elevation = sphere.pixels(2 * height, width)
+    height, width = shape
+    bearing, elevation = sphere.pixels(2 * height, width, at)
     bearing, elevation = bearing[:height], elevation[:height]
     aside = 0.5 * eye * camera.data.stereo.interocular_distance * sphere.merged(elevation)
     origins = place + (aside[..., None] * sphere.right(bearing)) @ rotation.T

@@ -19,10 +19,10 @@ def direction(bearing: Array, elevation: Array) -> Array:
     return np.stack([np.sin(bearing) * flat, np.sin(elevation), -np.cos(bearing) * flat], axis=-1)
 
 
-def pixels(height: int, width: int) -> tuple[Array, Array]:
-    """Bearings to the right and elevations (h, w), rad, of the middles of pixels, the same for both eyes."""
-    bearing = ((np.arange(width) + 0.5) / width * 2.0 - 1.0) * np.pi
-    eye = 0.5 * np.pi - (np.arange(height // 2) + 0.5) / (height // 2) * np.pi
+def pixels(height: int, width: int, at: tuple[float, float] = (0.5, 0.5)) -> tuple[Array, Array]:
+    """Bearings to the right and elevations (h, w), rad, of places `at` in pixels, the same for both eyes."""
+    bearing = ((np.arange(width) + at[0]) / width * 2.0 - 1.0) * np.pi
+    eye = 0.5 * np.pi - (np.arange(height // 2) + at[1]) / (height // 2) * np.pi
     return np.meshgrid(bearing, np.tile(eye, 2))
 
 
