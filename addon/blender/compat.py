@@ -272,8 +272,8 @@ def raw_file(scene: bpy.types.Scene, path: Path) -> Iterator[None]:
         render.use_compositing, render.filepath = compositing, place
 
 
-def over_under(file: bpy.types.ImageFormatSettings | bpy.types.Image) -> None:
-    """Where a scene has two eyes, both are in one file of twice the height, the left one above."""
+def over_under(file: bpy.types.ImageFormatSettings) -> None:
+    """Where a scene has two eyes, put both into one file of twice the height, the left one above."""
     file.views_format = "STEREO_3D"
     file.stereo_3d_format.display_mode = "TOPBOTTOM"
     file.stereo_3d_format.use_squeezed_frame = False

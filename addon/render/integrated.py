@@ -67,7 +67,7 @@ class Drawing:
             for number, found in surfaces.draw(self.scene, [first], part)
         ]
         if "rgb" in pictures:
-            self._develop(np.concatenate([eye.picture() for eye in eyes]), pictures["rgb"], part)
+            self._develop([eye.picture() for eye in eyes], pictures["rgb"], part)
         if "thermal" in pictures:
             heat = [eye.radiance(pictures["thermal"].frame) for eye in eyes]
             _write(part, pictures["thermal"], np.concatenate(heat))
@@ -89,7 +89,23 @@ class Drawing:
                 halves.append(pixels)
             _write(part, picture, np.concatenate(halves))
 
-    def _develop(self, light: Array, picture: Picture, part: Path) -> None:
+    def _develop(self, eyes: list[Array], picture: Picture, part: Path) -> None:
+        """Make the pass's files of the light (h, w, 3) that eyes see."""
+        files = {end: part / Path(picture.file(end)).name for end in ("png", "exr")}
+        developed: dict[str, list[Array]] = {end: [] for end in files}
+        two, self.scene.render.use_multiview = self.scene.render.use_multiview, False
+        for light in eyes:
+            self._composite(light, picture, part)
+            if two:
+                for end, file in files.items():
+                    developed[end].append(sensor.read_image(file)[..., :3])
+        self.scene.render.use_multiview = two
+        note = {"Note": self.scene.render.stamp_note_text}
+        for end, halves in developed.items():
+            if two:
+                sensor.write_image(files[end], np.concatenate(halves), note)
+
+    def _composite(self, light: Array, picture: Picture, part: Path) -> None:
         """Give the compositor this light in place of what Cycles drew, and let it write the pass's files."""
         file = part / "light.exr"
         sensor.write_image(file, light)
@@ -142,9 +158,6 @@ def _show(scene: bpy.types.Scene) -> bpy.types.Image:
     tree = compat.compositor(scene)
     image = owned.mark(bpy.data.images.new(f"Firetwin {_PICTURE}", 4, 4, float_buffer=True, is_data=True))
     image.source = "FILE"
-    if scene.render.use_multiview:
-        image.use_multiview = True
-        compat.over_under(image)
     node = next((each for each in tree.nodes if owned.ours(each, _PICTURE)), None)
     if node is None:
         node = owned.mark(tree.nodes.new("CompositorNodeImage"), _PICTURE)
