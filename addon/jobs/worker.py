@@ -21,6 +21,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from .. import memory
 from ..progress import Progress, Tell, duration, silent, untold
 
 _signs: list[Callable[[], None]] = []
@@ -235,7 +236,7 @@ def _command(code: str) -> list[str]:
 
 
 def _environment(eevee: bool) -> dict[str, str]:
-    environment = dict(os.environ)
+    environment = os.environ | memory.few_heaps()
     display = environment.get("DISPLAY") or environment.get("WAYLAND_DISPLAY")
     if eevee and sys.platform == "linux" and not display:
         environment["EGL_PLATFORM"] = "surfaceless"

@@ -9,7 +9,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 
-from .. import files
+from .. import files, memory
 from ..blender.owned import Stage
 from ..errors import writing
 from ..progress import Progress, silent
@@ -20,8 +20,10 @@ from ..shot.path import compass
 from ..shot.shot import Shot
 from . import engine, integrated, layers, plan, png, spherical, whole
 from .picture import Picture
-from .sharing import Making
+from .sharing import Line, Making
 from .store import describe
+
+Ready = Callable[[int, list[int]], Smoke | None]
 
 
 def render(
@@ -30,7 +32,7 @@ def render(
     making: Making,
     wanted: list[Picture],
     progress: Progress = silent,
-    ready: Callable[[int, list[int]], Smoke | None] = lambda frame, ahead: None,
+    ready: Ready = lambda frame, ahead: None,
 ) -> int:
     """Render those of these pictures of a built scene that no other render makes, and enter them.
 
@@ -51,20 +53,36 @@ def render(
     with making.claims.part_folder() as part, making.line(wanted) as line:
         while line.step():
             progress(made, total, "rendering")
-            smoke = ready(line.frame, line.ahead)
-            try:
-                frame = _Frame(shot, stage, making, part, line.camera, line.frame)
-                frame.draw = drawing.of(smoke or (), part) if drawing else frame.draw_layers
-                finished = frame.render(line.names)
-            except Exception:
-                if line.held():
-                    raise
-                continue  # another took it over, with the files that were being made
-            if line.held():
-                publish(shot, making, part, finished)
-                made += 1
+            made += _frame(shot, stage, making, part, line, ready, drawing)
+            memory.give_back()
     progress(total, total, "rendering")
     return made
+
+
+def _frame(
+    shot: Shot,
+    stage: Stage,
+    making: Making,
+    part: Path,
+    line: Line,
+    ready: Ready,
+    drawing: integrated.Drawing | None,
+) -> bool:
+    """Make the frame that stands first in line; whether it was ours to the end. Nothing of it stays."""
+    smoke = ready(line.frame, line.ahead)
+    memory.give_back()
+    try:
+        frame = _Frame(shot, stage, making, part, line.camera, line.frame)
+        frame.draw = drawing.of(smoke or (), part) if drawing else frame.draw_layers
+        finished = frame.render(line.names)
+    except Exception:
+        if line.held():
+            raise
+        return False  # another took it over, with the files that were being made
+    if line.held():
+        publish(shot, making, part, finished)
+        return True
+    return False
 
 
 class _Frame:

@@ -1,0 +1,81 @@
+"""Memory of the worker: few heaps, what is free given back, and the peak as the system counts it."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from firetwin import memory
+from firetwin.jobs import worker
+
+GLIBC = pytest.mark.skipif(not memory._glibc(), reason="the C library is not glibc")
+HOLES = """
+import numpy
+from firetwin import memory
+
+def rss():
+    return int(open("/proc/self/statm").read().split()[1]) * 4096
+
+held = [numpy.ones(12_000) for _ in range(2000)]  # 96 kB each, which glibc takes from its heap
+held = held[1::2]
+full = rss()
+memory.give_back()
+print(full - rss())
+"""
+PEAK = """
+import numpy
+from firetwin import memory
+
+before = memory.peak()
+much = numpy.ones(20_000_000)  # 160 MB
+there = memory.peak()
+del much
+print(there - before, memory.peak() - there)
+"""
+
+
+def _numbers(code):
+    """What a process of its own prints."""
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return map(int, result.stdout.split())
+
+
+@GLIBC
+def test_what_is_free_between_what_is_used_goes_back():
+    """96 MB lie in holes of a heap of 192 MB; left alone, glibc keeps all of it."""
+    (gone,) = _numbers(HOLES)
+    assert gone > 60e6
+
+
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="the system does not say it")
+def test_the_peak_stays_when_memory_is_free_again():
+    grown, shrunk = _numbers(PEAK)
+    assert 150e6 < grown < 250e6
+    assert 0 <= shrunk < 10e6
+
+
+def test_other_systems_have_nothing_to_bound_and_no_way_to_give_back(monkeypatch):
+    def confstr(name):
+        raise ValueError("unrecognized configuration name")
+
+    monkeypatch.setattr(os, "confstr", confstr, raising=False)
+    memory._trim.cache_clear()
+    assert memory.few_heaps() == {}
+    memory.give_back()
+    monkeypatch.delattr(os, "confstr")
+    assert memory.few_heaps() == {}
+    memory._trim.cache_clear()
+
+
+@GLIBC
+def test_the_worker_has_few_heaps_unless_somebody_says_otherwise(tmp_path, monkeypatch):
+    (tmp_path / "heaps.py").write_text(
+        "import os\ndef most(progress, tell):\n    return os.environ['MALLOC_ARENA_MAX']\n"
+    )
+    path = os.pathsep.join(filter(None, [str(tmp_path), os.environ.get("PYTHONPATH")]))
+    monkeypatch.setenv("PYTHONPATH", path)
+    monkeypatch.delenv("MALLOC_ARENA_MAX", raising=False)
+    assert worker.run("heaps:most", {}, blender=False) == "2"
+    monkeypatch.setenv("MALLOC_ARENA_MAX", "5")
+    assert worker.run("heaps:most", {}, blender=False) == "5"
