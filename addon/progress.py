@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Iterator
 
 Progress = Callable[..., None]
-"""Called as ``progress(done, total)`` or ``progress(done, total, "what is done")`` while work goes on."""
+"""Called as ``progress(done, total, "what is done", "a note")`` while work goes on; texts may be left out."""
 
 READING = "reading the scene file and its run"
 
@@ -34,15 +34,15 @@ def patience(text: str, seconds: float = 1.0) -> Iterator[None]:
         timer.cancel()
 
 
-def silent(done: int, total: int, what: str = "") -> None:
+def silent(done: int, total: int, what: str = "", note: str = "") -> None:
     """Report nothing."""
 
 
 def share(progress: Progress, before: int, of: int, work: str) -> Progress:
     """Progress of some of `of` pieces of a work, `before` of which are done; other work counts alone."""
 
-    def counted(here: int, total: int, what: str = "") -> None:
-        progress(*((before + here, of) if what == work else (here, total)), what)
+    def counted(here: int, total: int, what: str = "", note: str = "") -> None:
+        progress(*((before + here, of) if what == work else (here, total)), what, note)
 
     return counted
 
@@ -54,12 +54,12 @@ class Reporter:
         self.what = what
         self.shown: _Bar | _Lines | None = None
 
-    def __call__(self, done: int, total: int, what: str = "") -> None:
+    def __call__(self, done: int, total: int, what: str = "", note: str = "") -> None:
         what = what or self.what
         if self.shown is None or self.shown.what != what:
             self.close()
             self.shown = _Bar(what) if sys.stderr.isatty() else _Lines(what)
-        self.shown.update(done, total)
+        self.shown.update(done, total, note)
 
     def close(self) -> None:
         """Leave the last bar as it is."""
@@ -73,12 +73,14 @@ class _Bar:
         self.what = what
         self.bar = None
 
-    def update(self, done: int, total: int) -> None:
+    def update(self, done: int, total: int, note: str = "") -> None:
         if self.bar is None:
             from tqdm import tqdm
 
-            shape = "{desc}: {percentage:3.0f}%|{bar}| {n_fmt}/{total_fmt} [{elapsed}, {remaining} left]"
+            count = "{n_fmt}/{total_fmt} [{elapsed}, {remaining} left{postfix}]"
+            shape = "{desc}: {percentage:3.0f}%|{bar}| " + count
             self.bar = tqdm(total=total, desc=self.what, initial=done, bar_format=shape, dynamic_ncols=True)
+        self.bar.set_postfix_str(note, refresh=False)  # which puts a comma before it
         self.bar.update(done - self.bar.n)
         if done >= total:
             self.bar.close()
@@ -97,7 +99,7 @@ class _Lines:
         self.first = 0
         self.last = -10.0
 
-    def update(self, done: int, total: int) -> None:
+    def update(self, done: int, total: int, note: str = "") -> None:
         now = time.monotonic()
         if self.started is None:
             self.started, self.first = now, done
@@ -109,7 +111,7 @@ class _Lines:
             line += f", took {duration(now - self.started)}"
         elif done > self.first:
             line += f", {duration((now - self.started) / (done - self.first) * (total - done))} left"
-        say(line)
+        say(f"{line}, {note}" if note else line)
 
 
 def untold(text: str) -> None:

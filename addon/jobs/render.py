@@ -94,8 +94,9 @@ def make(
     pictures = [[picture.camera, picture.frame, picture.name] for picture in undone]
     task = task | {"out": str(store.out.absolute()), "pictures": pictures, "owner": owner}
     eevee = shot.settings.render.engine == "eevee"
+    follow = following(store.out, progress, tell)
     try:
-        worker.run(job, task, progress, eevee=eevee, stop=stop, tell=tell)
+        worker.run(job, task, follow, eevee=eevee, stop=stop, tell=tell)
     except BaseException:
         with contextlib.suppress(Error):  # what stopped the work is what to tell
             claims.leave(store, owner)
@@ -103,6 +104,20 @@ def make(
         raise
     claims.leave(store, owner)
     store.export()
+
+
+def following(out: Path, progress: Progress, tell: Tell) -> Progress:
+    """Progress whose note names a picture in the folder `out`: it shows the path, and tells of the first."""
+    told = False
+
+    def follow(done: int, total: int, what: str = "", note: str = "") -> None:
+        nonlocal told
+        if note and done < total and not told:
+            told = True
+            tell(f"the first picture is there: {out / note}; the film goes on")
+        progress(done, total, what, f"last: {out / note}" if note else "")
+
+    return follow
 
 
 def in_blender(

@@ -38,6 +38,8 @@ def render(
 
     Parameters
     ----------
+    progress
+        Its note is the picture of the last frame, relative to the output folder.
     ready
         Called before each frame, with the frames that come after it: what the frame shows has to be on the
         disk when this returns, or is what it returns (see `scene.smoke.ahead`).
@@ -47,15 +49,16 @@ def render(
     Number of frames that were made.
     """
     engine.label(shot.run, stage.scene)
-    total, made = len({(each.camera, each.frame) for each in wanted}), 0
+    total, made, note = len({(each.camera, each.frame) for each in wanted}), 0, ""
     marched = integrated.wanted(shot, stage.scene) and bool(plan.seen(shot, wanted))
     drawing = integrated.Drawing(shot, stage) if marched else None
     with making.claims.part_folder() as part, making.line(wanted) as line:
         while line.step():
-            progress(made, total, "rendering")
-            made += _frame(shot, stage, making, part, line, ready, drawing)
+            progress(made, total, "rendering", note)
+            if finished := _frame(shot, stage, making, part, line, ready, drawing):
+                made, note = made + 1, _shown(finished)
             memory.give_back()
-    progress(total, total, "rendering")
+    progress(total, total, "rendering", note)
     return made
 
 
@@ -67,8 +70,11 @@ def _frame(
     line: Line,
     ready: Ready,
     drawing: integrated.Drawing | None,
-) -> bool:
-    """Make the frame that stands first in line; whether it was ours to the end. Nothing of it stays."""
+) -> list[Picture]:
+    """Make and enter the frame that stands first in line; its pictures, none where another render took it.
+
+    What it took of memory is free when this returns.
+    """
     smoke = ready(line.frame, line.ahead)
     memory.give_back()
     try:
@@ -78,11 +84,17 @@ def _frame(
     except Exception:
         if line.held():
             raise
-        return False  # another took it over, with the files that were being made
-    if line.held():
-        publish(shot, making, part, finished)
-        return True
-    return False
+        return []  # with the files that were being made
+    if not line.held():
+        return []
+    publish(shot, making, part, finished)
+    return finished
+
+
+def _shown(pictures: list[Picture]) -> str:
+    """Of a frame's files the one to look at first, relative to the output folder."""
+    names = [name for each in pictures for name in each.files()]
+    return next((name for name in names if name.endswith(".png")), names[0])
 
 
 class _Frame:

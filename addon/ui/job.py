@@ -100,7 +100,7 @@ class Job:
         self._shown = False
         return self._step(wait=False)
 
-    def progress(self, done: int, total: int, what: str = "") -> None:
+    def progress(self, done: int, total: int, what: str = "", note: str = "") -> None:
         """How far the thread is."""
         if what and what != self.what:
             self.what, self._since = what, time.monotonic()

@@ -108,7 +108,7 @@ class Item:
         else:
             self.state, self.told = DONE, f"{made} pictures in {asked.out}"
 
-    def _progress(self, done: int, total: int, what: str = "") -> None:
+    def _progress(self, done: int, total: int, what: str = "", note: str = "") -> None:
         if what != self.what or done == 0:
             self._since = time.monotonic()
         self.done, self.total, self.what = done, total, what or self.what

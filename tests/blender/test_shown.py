@@ -16,7 +16,7 @@ def test_a_queue_pauses_goes_on_and_tells_what_failed(scene, tmp_path, monkeypat
     def render(choice, blend, name, asked, progress, tell, stop):
         calls.append((blend.parent.name, asked.resume))
         assert blend.is_file()
-        progress(1, 4, "rendering")
+        progress(1, 4, "rendering", "last: out/a.png")
         for _ in range(400):
             if stop.asked:
                 raise StoppedError

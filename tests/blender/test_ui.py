@@ -470,7 +470,7 @@ def test_work_in_the_window_goes_step_by_step():
 
 def test_the_progress_of_work_says_how_far_it_is():
     work = job.Job("Test", iter(()))
-    work.progress(3, 12, "smoke")
+    work.progress(3, 12, "smoke", "last: out/a.png")
     assert work.text.startswith("Smoke 3 of 12, ")
     assert work.text.endswith(" left")
     assert work.factor == 0.25

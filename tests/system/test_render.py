@@ -116,6 +116,16 @@ def test_all_files_are_made_named_and_listed(film):
     assert all(line.startswith("firetwin: ") for line in said.splitlines())
 
 
+def test_the_first_picture_is_told_and_lines_name_the_last(film):
+    out, (_, said) = film
+    lines = said.splitlines()
+    first = f"firetwin: the first picture is there: {out}/drone/rgb/drone_rgb_000001.png; the film goes on"
+    assert lines.count(first) == 1
+    assert not any("the first picture" in line for line in lines if line != first)
+    (end,) = (line for line in lines if line.startswith("firetwin: rendering: 4 of 4"))
+    assert end.endswith(f", last: {out}/satellite/depth/satellite_depth_000002.exr")
+
+
 def test_the_manifest_tells_what_made_each_file(film):
     out, _ = film
     manifest = json.loads((out / "manifest.json").read_text())
