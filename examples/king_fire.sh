@@ -1,14 +1,35 @@
 #!/usr/bin/env bash
 # From a fresh checkout to a film of the King Fire: sets up, writes the sample run, draws its maps and renders
-# king_fire.toml. Takes half an hour on two cores the first time; run again, it does only what is missing.
+# king_fire.toml. Takes a while the first time; run again, it does only what is missing. With --still it ends
+# after the first picture of the drone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
+
+still=false
+for argument in "$@"; do
+  case $argument in
+    --still) still=true ;;
+    *)
+      echo "usage: examples/king_fire.sh [--still]" >&2
+      exit 2
+      ;;
+  esac
+done
 
 ./sample.sh
 firetwin=../.venv/bin/firetwin
 out=out
+here=$PWD/$out
 
 say() { echo "king_fire: $*" >&2; }
+
+if [[ $still == true ]]; then
+  say "rendering the first picture of king_fire.toml; what is finished already is kept"
+  "$firetwin" render king_fire.toml --out "$out/film" --frames 1 --camera drone --resume >/dev/null
+  say "the first picture, and its depth and temperatures beside it; without --still the film is rendered"
+  echo "$here/film/drone/rgb/drone_rgb_000001.png"
+  exit
+fi
 
 "$firetwin" info "$out/sample" >"$out/info.txt"
 cat "$out/info.txt" >&2
@@ -18,10 +39,11 @@ fi
 say "rendering king_fire.toml; what is finished already is kept"
 "$firetwin" render king_fire.toml --out "$out/film" --resume
 if [[ ! -f $out/king_fire.blend || king_fire.toml -nt $out/king_fire.blend ]]; then
+  say "the film is done: $here/film/drone/drone_rgb.mp4"
+  say "writing its scene as a .blend file; the smoke of all its frames is written for that, which takes minutes"
   "$firetwin" build king_fire.toml -o "$out/king_fire.blend" >/dev/null
 fi
 
-here=$PWD/$out
 cat <<END
 
 The King Fire, 17 September 2014, from a synthetic sample run:
