@@ -175,6 +175,7 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument("--camera", metavar="NAME", help="this camera only (all), drone@RUN in one run")
     render.add_argument("--passes", metavar="LIST", help="such as rgb,thermal (as the scene file says)")
     render.add_argument("--resume", action="store_true", help="keep what is finished and still matches")
+    render.add_argument("--json", action="store_true", help="write JSON for programs: files, and memory")
 
     track = command("track", "write a camera's way as a GPX track", TRACK)
     _scene(track)
@@ -307,7 +308,8 @@ passes:
 {passes}
 
 Without --resume everything asked for is rendered again. Several renders, also of several computers, may write
-to one folder at once: they share the frames."""
+to one folder at once: they share the frames. Memory to expect is told before the first frame; --json gives it
+at the end (bytes), with the peak that was measured, how many pictures were made and which files there are."""
 
 TRACK = """\
 A point per frame: WGS84 degrees, metres above the sea (the datum of the run's elevations) and the model time

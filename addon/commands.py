@@ -8,7 +8,7 @@ import sys
 import time
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .progress import Reporter, count, duration, say, size
 
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from firetwin_core.run import Run
 
     from .jobs.cache import Kept
+    from .jobs.render import Made
     from .shot.choice import Choice
 
 
@@ -161,8 +162,11 @@ def render(arguments: argparse.Namespace) -> None:
     asked = render.Asked(
         arguments.out, arguments.frames, arguments.camera, arguments.passes, arguments.resume
     )
-    render.run(_choice(arguments), asked, Reporter(), say)
-    _list(arguments.out)
+    made = render.run(_choice(arguments), asked, Reporter(), say)
+    if arguments.json:
+        print(json.dumps(_made(arguments.out, made), indent=1))
+    else:
+        _list(arguments.out)
 
 
 def track(arguments: argparse.Namespace) -> None:
@@ -263,13 +267,25 @@ def bench(arguments: argparse.Namespace) -> int:
     return 1 if missed else 0
 
 
-def _list(out: Path) -> None:
-    """Name what there is, a line per folder of pictures and per film."""
-    from .render import manifest
+def _made(out: Path, made: Made) -> dict[str, Any]:
+    """What a render made, for programs; memory in bytes, None where it is not known."""
+    memory = {"expected": made.expected or None, "peak": made.peak or None}
+    return {"folder": str(out), "pictures": made.pictures, "files": _files(out), "memory": memory}
+
+
+def _files(out: Path) -> list[str]:
+    """Finished files, relative to the folder."""
     from .render.store import Store
 
     with Store(out) as store:
-        files = store.names()
+        return store.names()
+
+
+def _list(out: Path) -> None:
+    """Name what there is, a line per folder of pictures and per film."""
+    from .render import manifest
+
+    files = _files(out)
     folders: dict[str, int] = {}
     for name in files:
         if not name.endswith(".mp4"):

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from .. import memory
 from ..errors import Error
 from ..progress import READING, Progress, Tell, count, patience, share, silent, untold
 from ..shot.choice import Choice
@@ -27,19 +28,26 @@ class Asked:
     resume: bool = False
 
 
+@dataclass(frozen=True)
+class Made:
+    """How many pictures a render made, and bytes of memory: the most that was expected, and the peak.
+
+    0 where nothing was rendered, or nobody knows.
+    """
+
+    pictures: int
+    expected: int = 0
+    peak: int = 0
+
+
 def run(
     choice: Choice,
     asked: Asked,
     progress: Progress = silent,
     tell: Tell = untold,
     stop: worker.Stop | None = None,
-) -> int:
-    """Render what is asked for and not finished, then the films.
-
-    Returns
-    -------
-    How many pictures were made.
-    """
+) -> Made:
+    """Render what is asked for and not finished, then the films."""
     from ..render import dataset, films, fingerprint, plan
     from ..render.store import Store
 
@@ -55,7 +63,7 @@ def run(
         if not undone and asked.resume and not any(films.missing(shot, store, made_with)):
             tell(f"{finished} of {count(len(wanted), 'picture')} are finished and match; nothing to render")
             store.export()
-            return 0
+            return Made(0)
     if asked.resume and finished:
         tell(f"{finished} of {count(len(wanted), 'picture')} are finished and match")
     elif finished:
@@ -66,9 +74,9 @@ def run(
         tell(f"rendering {count(len(undone), 'picture')} of {cameras}")
     task = {"choice": choice.plain(), "filmed": [list(pair) for pair in made_with], "after": before}
     with Store(out, create=True) as store:
-        make(f"{__name__}:in_blender", task, undone, store, shot, progress, tell, stop)
+        took = make(f"{__name__}:in_blender", task, undone, store, shot, progress, tell, stop)
         dataset.write(store)
-    return len(undone)
+    return Made(len(undone), **took)
 
 
 def make(
@@ -80,13 +88,17 @@ def make(
     progress: Progress,
     tell: Tell,
     stop: worker.Stop | None,
-) -> None:
+) -> Any:
     """Have a process make pictures; whatever ends it, no others wait for its own and the manifest is written.
 
     Parameters
     ----------
     task
         What the job takes besides `out`, `pictures` and `owner`.
+
+    Returns
+    -------
+    What the job returns.
     """
     from ..render import claims
 
@@ -96,7 +108,7 @@ def make(
     eevee = shot.settings.render.engine == "eevee"
     follow = following(store.out, progress, tell)
     try:
-        worker.run(job, task, follow, eevee=eevee, stop=stop, tell=tell)
+        found = worker.run(job, task, follow, eevee=eevee, stop=stop, tell=tell)
     except BaseException:
         with contextlib.suppress(Error):  # what stopped the work is what to tell
             claims.leave(store, owner)
@@ -104,6 +116,7 @@ def make(
         raise
     claims.leave(store, owner)
     store.export()
+    return found
 
 
 def following(out: Path, progress: Progress, tell: Tell) -> Progress:
@@ -129,10 +142,14 @@ def in_blender(
     after: int,
     progress: Progress,
     tell: Tell,
-) -> None:
+) -> dict[str, int]:
     """Render these pictures, each camera in a scene of its own, then films of these cameras and passes.
 
     Pictures that other renders make at the same time are left to them.
+
+    Returns
+    -------
+    Bytes of memory, `expected` and `peak`, as of `Made`.
     """
     from ..render import compared, fingerprint, plan, sharing, video
     from ..render.picture import Picture
@@ -144,7 +161,7 @@ def in_blender(
     drawn = set(todo)
     if todo:
         _check_device(shot)
-    frames = frames_of(todo)
+    frames, expected = frames_of(todo), 0
     made_with = fingerprint.of_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
     with sharing.making(Path(out), made_with, owner, after) as making:
         over = 0
@@ -154,10 +171,12 @@ def in_blender(
                 done = over - frames_of(free)
                 for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
                     wanted = list(group)
-                    _camera(shot.of(camera), making, wanted, share(progress, done, frames, "rendering"), tell)
+                    own = share(progress, done, frames, "rendering")
+                    expected = max(expected, _camera(shot.of(camera), making, wanted, own, tell))
                     done += frames_of(wanted)
         compared.make(shot, making, [each for each in asked if each not in drawn], progress, tell)
         video.make(shot, making, progress)
+    return {"expected": expected, "peak": memory.peak()}
 
 
 def _check_device(shot: Shot) -> None:
@@ -184,24 +203,32 @@ def frames_of(pictures: list[Any]) -> int:
     return len({(picture.camera, picture.frame) for picture in pictures})
 
 
-def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell: Tell) -> None:
-    """Render the pictures of a shot's one camera; its smoke is made a frame ahead of them."""
+def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell: Tell) -> int:
+    """Render the pictures of a shot's one camera; its smoke is made a frame ahead of them.
+
+    Returns the bytes of memory that were expected for it.
+    """
     from ..blender import devices
-    from ..render import pictures, plan
+    from ..render import expected, pictures, plan
     from ..scene.smoke import ahead
     from . import setting
 
     for text in shot.warnings():
         tell(text)
-    frames, done = frames_of(wanted), 0
-    drawn = plan.seen(shot, wanted)
-    with ahead.smoke(shot, smoky(shot, wanted), progress, tell) as ready:
+    frames, done, most = frames_of(wanted), 0, 0
+    drawn, hazy = plan.seen(shot, wanted), smoky(shot, wanted)
+    with ahead.smoke(shot, hazy, progress, tell) as ready:
         for part, group in _parts(shot, wanted):
             stage = setting.build_scene(part, progress, tell) if drawn else setting.empty()
             if drawn and shot.settings.render.engine == "cycles" and not done:
                 tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
+            load = expected.load(shot, stage, hazy) if drawn else None
+            if load and load.bytes > most:
+                most = load.bytes
+                tell(expected.words(most))
             pictures.render(shot, stage, making, group, share(progress, done, frames, "rendering"), ready)
             done += frames_of(group)
+    return most
 
 
 def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:

@@ -56,7 +56,9 @@ class FIRETWIN_OT_render(Working, bpy.types.Operator):
         asked = render.Asked(out, frames[settings.which], camera, resume=settings.resume)
         chosen = run.choice(settings)
         made = yield Away("starting Blender", functools.partial(render.run, chosen, asked))
-        return f"Rendered {count(made, 'picture')} to {out}" if made else f"All is finished in {out}"
+        if not made.pictures:
+            return f"All is finished in {out}"
+        return f"Rendered {count(made.pictures, 'picture')} to {out}"
 
 
 class FIRETWIN_PT_render(bpy.types.Panel):

@@ -128,8 +128,8 @@ def test_undo_and_redo_go_round_every_operator(panel, blend, tmp_path, monkeypat
     assert {*CHANGES, *KEEPS, *LISTENS} == set(OPERATORS)
     monkeypatch.setattr(convert, "beside", lambda paths, *_, **__: (paths[0], True))
     monkeypatch.setattr(sample, "run", lambda folder, **_: shutil.copytree(blend.parent / "other", folder))
-    for job in (render, assets):
-        monkeypatch.setattr(job, "run", lambda *_, **__: 1)
+    monkeypatch.setattr(render, "run", lambda *_, **__: render.Made(1))
+    monkeypatch.setattr(assets, "run", lambda *_, **__: 1)
     monkeypatch.setattr(standing, "run", lambda *_, **__: 1)
     monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(tmp_path / path))
     (tmp_path / "presets" / "firetwin").mkdir(parents=True)

@@ -8,6 +8,7 @@ import sys
 import time
 
 import pytest
+from firetwin import progress
 from firetwin.errors import Error
 from firetwin.jobs import worker
 from firetwin.render.store import Store
@@ -45,9 +46,10 @@ def command(run_folder, tmp_path_factory):
     """Start `firetwin` on a scene file with other [render] lines: command(arguments) -> process."""
     folder = tmp_path_factory.mktemp("render")
 
-    def start(*arguments, render="", verb="render", frames=FRAMES):
+    def start(*arguments, render="", verb="render", frames=FRAMES, size=""):
         scene = folder / "scene.toml"
-        scene.write_text(SCENE.format(run=run_folder, frames=frames, render=render))
+        text = SCENE.format(run=run_folder, frames=frames, render=render)
+        scene.write_text(text.replace("resolution = [64, 36]\n", size) if size else text)
         return subprocess.Popen(
             [sys.executable, "-m", "firetwin", verb, scene, *map(str, arguments)],
             stdout=subprocess.PIPE,
@@ -124,6 +126,25 @@ def test_the_first_picture_is_told_and_lines_name_the_last(film):
     assert not any("the first picture" in line for line in lines if line != first)
     (end,) = (line for line in lines if line.startswith("firetwin: rendering: 4 of 4"))
     assert end.endswith(f", last: {out}/satellite/depth/satellite_depth_000002.exr")
+
+
+@pytest.mark.parametrize("resolution", [(64, 36), (1280, 720)])
+def test_memory_is_expected_before_and_measured_after(firetwin, tmp_path, resolution):
+    """Within a factor of 1.5 of each other, of a small picture and of one of 400 times the pixels."""
+    size = f"resolution = [{resolution[0]}, {resolution[1]}]\n"
+    asked = ("--out", tmp_path, "--camera", "drone", "--frames", "1", "--json")
+    printed, said = firetwin(*asked, size=size)
+    found = json.loads(printed)
+    assert (found["pictures"], found["folder"]) == (3, str(tmp_path))
+    assert set(found["files"]) == _files("drone", "rgb", (1,), "png", "exr") | _files(
+        "drone", "thermal", (1,), "png", "exr"
+    ) | _files("drone", "depth", (1,), "exr")
+    memory = found["memory"]
+    assert 1 / 1.5 < memory["expected"] / memory["peak"] < 1.5, memory
+    words = f"firetwin: rendering takes about {progress.size(memory['expected'])} of memory at most"
+    assert said.splitlines().count(words) == 1
+    again, _ = firetwin(*asked, "--resume", size=size)
+    assert json.loads(again) == found | {"pictures": 0, "memory": {"expected": None, "peak": None}}
 
 
 def test_the_manifest_tells_what_made_each_file(film):

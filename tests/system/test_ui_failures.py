@@ -90,7 +90,7 @@ def test_a_full_disk_is_a_message_and_what_was_there_stays(panel, blend, run, ti
         render_job.run(choice, asked)
     assert not [path for path in place.rglob("*") if path.suffix in (".vdb", ".png", ".blend", ".toml")]
     tiny.unlink()
-    assert render_job.run(choice, asked) == 1
+    assert render_job.run(choice, asked).pictures == 1
     assert (place / "film/drone/rgb/drone_rgb_000001.png").is_file()
     firetwin.register()
 
