@@ -22,7 +22,7 @@ _KEYS = 13  # at most so many moments of a shot are metered
 _DAY, _CLEAR = 0.5, 0.19  # stops at a clear afternoon's geometric mean, radiance
 _GIVE = 0.6, 0.3  # part of the stops followed below and above that: white smoke is to be white; by eye
 _WHITE = 0.55  # luminance on the picture of the brightest tenth of the glow, at most: above, AgX pales it
-_AMID = 0.09  # of all of it in the mean, at most: amid smoke that glows, flames and trees must show; by eye
+_AMID = 0.1  # of all of it in the mean, at most: amid smoke that glows, flames and trees must show; by eye
 _LEAST, _MOST = -3.0, 4.0  # stops
 _DARK = 1.4, 3.4  # stops without any flames from which, and at which, light is that of flames alone; by eye
 

@@ -31,7 +31,7 @@ _AROUND = (
 )  # at the heights of MEAN, mean radiance of the same sky in red, green and blue, all parts counting alike
 
 GLOW = (1.0, 0.22, 0.04)  # colour of smoke that flames light
-_GLOW_LIGHT = 0.016, 0.36  # of that, by day and by night
+_GLOW_LIGHT = 0.0158, 0.35  # of that, by day and by night
 THIN = 0.03  # part of that light in thin smoke, where it is scattered once; in thick smoke many times; by eye
 THICK = 0.004, 0.02  # extinctions (1/m) of thin and of thick smoke, as to that
 
