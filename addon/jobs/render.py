@@ -14,7 +14,7 @@ from ..errors import Error
 from ..progress import READING, Progress, Tell, count, patience, share, silent, untold
 from ..shot.choice import Choice
 from ..shot.shot import Shot
-from . import worker
+from . import solve, worker
 
 
 @dataclass(frozen=True)
@@ -172,7 +172,9 @@ def in_blender(
                 for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
                     wanted = list(group)
                     own = share(progress, done, frames, "rendering")
-                    expected = max(expected, _camera(shot.of(camera), making, wanted, own, tell))
+                    expected = max(
+                        expected, _camera(Choice(**choice), shot.of(camera), making, wanted, own, tell)
+                    )
                     done += frames_of(wanted)
         compared.make(shot, making, [each for each in asked if each not in drawn], progress, tell)
         video.make(shot, making, progress)
@@ -203,7 +205,9 @@ def frames_of(pictures: list[Any]) -> int:
     return len({(picture.camera, picture.frame) for picture in pictures})
 
 
-def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell: Tell) -> int:
+def _camera(
+    choice: Choice, shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell: Tell
+) -> int:
     """Render the pictures of a shot's one camera; its smoke is made a frame ahead of them.
 
     Returns the bytes of memory that were expected for it.
@@ -217,7 +221,10 @@ def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell
         tell(text)
     frames, done, most = frames_of(wanted), 0, 0
     drawn, hazy = plan.seen(shot, wanted), smoky(shot, wanted)
-    with ahead.smoke(shot, hazy, progress, tell) as ready:
+    with (
+        _solving(choice, shot, hazy, progress) as elsewhere,
+        ahead.smoke(shot, hazy, progress, tell, elsewhere) as ready,
+    ):
         for part, group in _parts(shot, wanted):
             stage = setting.build_scene(part, progress, tell) if drawn else setting.empty()
             if drawn and shot.settings.render.engine == "cycles" and not done:
@@ -229,6 +236,34 @@ def _camera(shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell
             pictures.render(shot, stage, making, group, share(progress, done, frames, "rendering"), ready)
             done += frames_of(group)
     return most
+
+
+@contextlib.contextmanager
+def _solving(
+    choice: Choice, shot: Shot, frames: list[int], progress: Progress
+) -> Iterator[solve.Working | None]:
+    """Have the flow of a shot's one camera solved meanwhile, where any of its moments are missing."""
+    from ..scene.smoke import baker
+    from ..scene.smoke.flow import Flow
+
+    (camera,) = shot.settings.cameras
+    parts = Flow(shot).parts if frames and baker.integrated(shot) else []
+
+    def has(frame: int) -> bool:
+        return all(part.has(frame) for part in parts)
+
+    missing = [frame for frame in frames if not has(frame)]
+    if not missing:
+        yield None
+        return
+
+    def told(*done: Any) -> None:
+        """Tell of it until the first picture can be drawn."""
+        if not has(missing[0]):
+            progress(*done)
+
+    with solve.beside(choice, camera.name, missing, told) as working:
+        yield working
 
 
 def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:

@@ -19,24 +19,38 @@ Ready = Callable[[int, Iterable[int]], Smoke]
 
 
 def smoke(
-    shot: Shot, frames: Iterable[int], progress: Progress = silent, tell: Tell = untold
+    shot: Shot,
+    frames: Iterable[int],
+    progress: Progress = silent,
+    tell: Tell = untold,
+    elsewhere: Callable[[], bool] | None = None,
 ) -> AbstractContextManager[Callable[..., Smoke | None]]:
     """What gives pictures their smoke: `bricks` where it is marched, else `bake.ahead`."""
-    make = bricks if baker.integrated(shot) else bake.ahead
-    return make(shot, frames, progress, tell)
+    if baker.integrated(shot):
+        return bricks(shot, frames, progress, tell, elsewhere)
+    return bake.ahead(shot, frames, progress, tell)
 
 
 @contextmanager
 def bricks(
-    shot: Shot, frames: Iterable[int], progress: Progress = silent, tell: Tell = untold
+    shot: Shot,
+    frames: Iterable[int],
+    progress: Progress = silent,
+    tell: Tell = untold,
+    elsewhere: Callable[[], bool] | None = None,
 ) -> Iterator[Ready]:
     """Paint smoke while pictures are made.
 
     Gives a function ``ready(frame, after)`` that waits until the smoke of a frame is painted and returns it;
     the first of the frames `after` is painted meanwhile. Frames that are not among `frames` have none. It
     raises what went wrong with that frame.
+
+    Parameters
+    ----------
+    elsewhere
+        Whether another process of ours solves the flow; what it leaves unsolved is solved here.
     """
-    line = _Line(shot, set(frames), progress, tell)
+    line = _Line(shot, set(frames), progress, tell, elsewhere)
     try:
         yield line.ready
     finally:
@@ -46,8 +60,15 @@ def bricks(
 class _Line:
     """Frames that stand in line to be painted, by one thread."""
 
-    def __init__(self, shot: Shot, frames: set[int], progress: Progress, tell: Tell) -> None:
-        self.shot, self.frames = shot, frames
+    def __init__(
+        self,
+        shot: Shot,
+        frames: set[int],
+        progress: Progress,
+        tell: Tell,
+        elsewhere: Callable[[], bool] | None,
+    ) -> None:
+        self.shot, self.frames, self.elsewhere = shot, frames, elsewhere
         self.progress, self.tell = progress, tell
         self.pool = ThreadPoolExecutor(1)
         self.tasks: dict[int, Future[Smoke]] = {}
@@ -60,6 +81,8 @@ class _Line:
             self.tell(text)
         self.held.enter_context(maker.flow.in_use())
         maker.flow.progress = lambda *done: self.progress(*done)
+        if self.elsewhere:
+            maker.flow.elsewhere = self.elsewhere
         return maker
 
     def ready(self, frame: int, after: Iterable[int] = ()) -> Smoke:

@@ -14,7 +14,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import threading
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -32,6 +32,7 @@ from .solving import Live, StoppedError
 
 _MADE_BY = [f"scene/smoke/{name}.py" for name in ("air", "boxes", "flow", "moments", "solving", "stability")]
 
+_LOOK = 0.1  # s between two looks at what another process has solved
 Array = NDArray[np.float64]
 
 
@@ -70,6 +71,8 @@ class Flow:
         self.shot = shot
         self.progress = progress
         self.stop = threading.Event()
+        self.elsewhere: Callable[[], bool] = lambda: False
+        """Whether a process that is ours solves it."""
         self._lock = threading.Lock()
         self._live: Live | None = None
 
@@ -113,6 +116,9 @@ class Flow:
             The cache cannot be written.
         """
         with self._lock:
+            while not self._has(frame) and self.elsewhere():
+                if self.stop.wait(_LOOK):
+                    raise StoppedError
             if self._has(frame):
                 return
             progress = progress or self.progress
@@ -146,6 +152,7 @@ class Flow:
 
     def renew(self, frame: int) -> None:
         """Solve a frame's moments anew: what is kept of them turned out broken."""
+        self.elsewhere = lambda: False  # which is beyond it
         with self._lock:
             for part in self.parts:
                 with writing(part.folder):

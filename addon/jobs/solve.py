@@ -1,0 +1,46 @@
+"""Solve the flow of a shot's smoke in a process of its own, while another paints its moments and renders."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections.abc import Callable, Iterator
+
+from ..errors import Error
+from ..progress import Progress, Tell
+from ..shot.choice import Choice
+from . import worker
+
+Working = Callable[[], bool]
+
+
+@contextlib.contextmanager
+def beside(choice: Choice, view: str, frames: list[int], progress: Progress) -> Iterator[Working]:
+    """Solve the flow of a view up to these frames meanwhile; gives whether that goes on.
+
+    The solver's half a gigabyte is another process's. What goes wrong there, who needs a moment meets again
+    as it solves it.
+    """
+    stop = worker.Stop()
+    task = {"choice": choice.plain(), "view": view, "frames": frames}
+
+    def solve() -> None:
+        with contextlib.suppress(Error, worker.StoppedError, worker.EndedError, OSError):
+            worker.run(f"{__name__}:in_process", task, progress, stop=stop, blender=False)
+
+    thread = threading.Thread(target=solve, daemon=True)
+    thread.start()
+    try:
+        yield thread.is_alive
+    finally:
+        stop.now()
+        thread.join()
+
+
+def in_process(choice: dict[str, str], view: str, frames: list[int], progress: Progress, tell: Tell) -> None:
+    """Solve it."""
+    from ..scene.smoke.flow import Flow
+
+    flow = Flow(Choice(**choice).shot().of(view))
+    with flow.in_use():
+        flow.solve(frames, progress)
