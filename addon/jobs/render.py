@@ -232,7 +232,7 @@ def _camera(
             load = expected.load(shot, stage, hazy) if drawn else None
             if load and load.bytes > most:
                 most = load.bytes
-                tell(expected.words(most))
+                tell(expected.words(load))
             pictures.render(shot, stage, making, group, share(progress, done, frames, "rendering"), ready)
             done += frames_of(group)
     return most

@@ -12,14 +12,14 @@ from ..scene.smoke import baker, flow_frames
 from ..scene.smoke.flow import Flow, Part
 from ..shot.shot import Shot
 
-BASE = 0.72e9
-PIXEL, PLANT, FACE, CELL, VOXEL = 790.0, 2550.0, 255.0, 175.0, 12.0
-"""Bytes of Blender, our libraries and flames; of a pixel of a picture, a plant, a face of a mesh, a cell of a
-flow that is being solved, and a voxel of the box in which smoke is painted.
+BASE, SOLVER = 0.72e9, 0.3e9
+PIXEL, PLANT, FACE, CELL, VOXEL = 790.0, 2550.0, 255.0, 175.0, 7.0
+"""Bytes of Blender, our libraries and flames, and of the solver's process; of a pixel of a picture, a plant,
+a face of a mesh, a cell of a flow that is being solved, and a voxel of the box in which smoke is painted.
 
 Fitted to peaks of the first frame of examples/king_fire.toml without smoke, 0.96 to 2.98 GB: all plants, a
-third and none, 640 and 1920 pixels wide, a mesh of a third; and to six frames with smoke from nothing, 3.69
-GB. These and two films whose flow had been solved, voxels of 20 and 40 m, are within 5 % of what is expected.
+third and none, 640 and 1920 pixels wide, a mesh of a third. That of a voxel is the film's, of which a tenth
+of the box holds smoke; where all of it does, smoke takes several times as much.
 """
 
 
@@ -37,7 +37,12 @@ class Load:
     def bytes(self) -> int:
         """Memory at most."""
         of = PIXEL * self.pixels + PLANT * self.plants + FACE * self.faces
-        return round(BASE + of + CELL * self.cells + VOXEL * self.voxels)
+        return round(BASE + of + VOXEL * self.voxels)
+
+    @property
+    def solver(self) -> int:
+        """What the process takes that solves the flow meanwhile, until it is done; 0: there is none."""
+        return round(SOLVER + CELL * self.cells) if self.cells else 0
 
 
 def load(shot: Shot, stage: Stage, frames: Iterable[int] = ()) -> Load | None:
@@ -82,6 +87,7 @@ def _voxels(layer: flow_frames.Layer) -> int:
     return math.prod(math.ceil(side / layer.voxel) for side in sides)
 
 
-def words(count: int) -> str:
+def words(load: Load) -> str:
     """What to tell before a render."""
-    return f"rendering takes about {size(count)} of memory at most"
+    beside = f", and {size(load.solver)} while the smoke's flow is solved" if load.solver else ""
+    return f"rendering takes about {size(load.bytes)} of memory at most{beside}"

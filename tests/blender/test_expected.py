@@ -55,7 +55,7 @@ def test_nothing_is_said_of_smoke_that_cycles_holds(settings, run, built, smoke)
 
 @pytest.mark.parametrize(
     ("what", "each"),
-    [("pixels", 790), ("plants", 2550), ("faces", 255), ("cells", 175), ("voxels", 12)],
+    [("pixels", 790), ("plants", 2550), ("faces", 255), ("cells", 0), ("voxels", 7)],
 )
 def test_each_of_it_adds_to_the_memory(what, each):
     some = expected.Load(pixels=230_400, plants=188_000, faces=853_000, cells=3_200_000, voxels=130_000_000)
@@ -63,5 +63,15 @@ def test_each_of_it_adds_to_the_memory(what, each):
     assert more.bytes - some.bytes == each * 1_000_000
 
 
+def test_the_solver_has_a_process_of_its_own():
+    some = expected.Load(pixels=0, plants=0, faces=0, cells=1_000_000)
+    assert some.solver == 0.3e9 + 175 * 1_000_000
+    assert replace(some, cells=0).solver == 0
+
+
 def test_it_is_told_in_words():
-    assert expected.words(2_440_000_000) == "rendering takes about 2.4 GB of memory at most"
+    load = expected.Load(pixels=230_400, plants=100_000, faces=0, cells=2_000_000)
+    assert expected.words(load) == (
+        "rendering takes about 1.2 GB of memory at most, and 650 MB while the smoke's flow is solved"
+    )
+    assert expected.words(replace(load, cells=0)).endswith("1.2 GB of memory at most")

@@ -52,7 +52,7 @@ def test_what_is_free_between_what_is_used_goes_back():
 def test_the_peak_stays_when_memory_is_free_again():
     grown, shrunk = _numbers(PEAK)
     assert 150e6 < grown < 250e6
-    assert 0 <= shrunk < 10e6
+    assert abs(shrunk) < 5e6, "which the system counts roughly"
 
 
 def test_other_systems_have_nothing_to_bound_and_no_way_to_give_back(monkeypatch):
