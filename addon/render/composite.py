@@ -21,7 +21,6 @@ _REACH, _ALIKE = 2, 0.1  # pixels round an edge, and how far their depth may dif
 _SURE = (
     15.0  # rays whose mean is as far off the share of a pixel as what its neighbours tell of it; estimated
 )
-_BRIGHTER = 4.0  # times that a denoiser may make a light brighter
 
 
 @dataclass(frozen=True)
@@ -80,8 +79,7 @@ def picture(surfaces: Surfaces, seen: Array, marched: Array) -> Array:
     share = _share(surfaces, seen)[..., None]
     smoke, through = marched[..., :3], marched[..., 3:]
     near, far, flames = (through[:, :, k] for k in range(3))
-    alight = (surfaces.fire_distance > 0.0)[..., None]
-    fire = np.where(alight, surfaces.fire * _denoised(surfaces), 0.0)
+    fire = _fire(surfaces)
     solid = surfaces.colour - fire
     behind = solid * (share * near + (1.0 - share) * far)
     edge = np.abs(near - far)[..., 0] > _EDGE
@@ -127,20 +125,29 @@ def _share(surfaces: Surfaces, seen: Array) -> Array:
 
 def _nearer(distance: Array, seen: Array) -> Array:
     """Part (h, w) of the 3 x 3 round each pixel that is as near as its near tap, the middle counting most."""
+    middle = np.sqrt(seen[..., 0] * np.minimum(seen[..., 1], 1.0e10))
     padded = np.pad(distance, 1, mode="edge")
     height, width = distance.shape
-    middle = np.sqrt(seen[..., 0] * np.minimum(seen[..., 1], 1.0e10))
     total = np.zeros((height, width), np.float32)
-    for down, row in enumerate((1.0, 2.0, 1.0)):
-        for across, column in enumerate((1.0, 2.0, 1.0)):
+    for down, row in enumerate((0.25, 0.5, 0.25)):
+        for across, column in enumerate((0.25, 0.5, 0.25)):
             there = padded[down : down + height, across : across + width]
-            total += np.float32(row * column / 16.0) * (there < middle)
+            total += np.float32(row * column) * (there < middle)
     return total
 
 
-def _denoised(surfaces: Surfaces) -> Array:
-    """How many times as bright the denoiser made each pixel."""
-    return np.clip(surfaces.colour / np.maximum(surfaces.noisy, 1.0e-6), 0.0, _BRIGHTER)
+def _fire(surfaces: Surfaces) -> Array:
+    """Of the colour (h, w, 3) the light of flames: as large a part as round there, as denoisers spread it."""
+    part = blurred(surfaces.fire) / np.maximum(blurred(surfaces.noisy), 1.0e-6)
+    alight = (surfaces.fire_distance > 0.0)[..., None]
+    return np.where(alight, surfaces.colour * np.clip(part, 0.0, 1.0), 0.0)
+
+
+def blurred(values: Array) -> Array:
+    """Weighted mean (h, w, c) of each pixel's 3 x 3, the middle counting most."""
+    padded = np.pad(values, ((1, 1), (1, 1), (0, 0)), mode="edge")
+    rows = 0.25 * padded[:-2] + 0.5 * padded[1:-1] + 0.25 * padded[2:]
+    return 0.25 * rows[:, :-2] + 0.5 * rows[:, 1:-1] + 0.25 * rows[:, 2:]
 
 
 def _around(values: Array, pick: np.ufunc) -> Array:

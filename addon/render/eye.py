@@ -86,7 +86,7 @@ class Eye:
     def _surfaces(self) -> composite.Surfaces:
         channels = self.channels
         colour, surface = channels["Combined"], channels[nodes.SURFACE]
-        red, way, _ = np.moveaxis(channels[nodes.FLAMES], -1, 0)
+        red, way, _ = np.moveaxis(composite.blurred(channels[nodes.FLAMES]), -1, 0)
         far = np.where(red > 1.0e-4, way / np.maximum(red, 1.0e-9), 0.0)
         return composite.Surfaces(
             colour=colour,

@@ -394,3 +394,31 @@ def test_voxels_of_smoke_are_as_fine_as_pixels_show(flowing, run, monkeypatch):
     assert voxel(1000) == pytest.approx(4.0 * 5000.0 * lens / 1000)
     assert voxel(100) == 36.0
     assert voxel(8000) == 20.0
+
+
+def test_moments_that_another_process_solves_are_waited_for(shot):
+    """They are taken as they come; what it leaves unsolved is solved here."""
+    solver, waits = flow.Flow(shot), flow.Flow(shot)
+    asked = []
+
+    def working():
+        asked.append(True)
+        if len(asked) == 3:
+            solver.ready(1)
+        return len(asked) < 5
+
+    waits.elsewhere = working
+    waits.ready(1)
+    assert len(asked) == 3
+    assert waits._live is None
+    waits.ready(2)
+    assert len(asked) == 5
+    assert waits._has(2)
+
+
+def test_waiting_for_another_process_can_be_stopped(shot):
+    waits = flow.Flow(shot)
+    waits.elsewhere = lambda: True
+    waits.stop.set()
+    with pytest.raises(flow.StoppedError):
+        waits.ready(1)

@@ -11,7 +11,7 @@ from ...shot import noise, sun
 
 _SUN = 11.1  # W/m2 over the air
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
-_MOON = 0.25  # W/m2, for the exposure of the night: shows ridges and the tops of smoke
+_MOON = 0.15  # W/m2, for the exposure of the night: shows ridges and the tops of smoke
 _MOON_COLOUR = (0.65, 0.78, 1.0)
 NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.1  # radiance
 _DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.03
@@ -30,8 +30,8 @@ _AROUND = (
     (0.000, 0.0004, 0.0037, 0.0178, 0.0525, 0.1109, 0.2170, 0.3546, 0.4868, 0.5452, 0.5576, 0.5520),
 )  # at the heights of MEAN, mean radiance of the same sky in red, green and blue, all parts counting alike
 
-GLOW = (1.0, 0.22, 0.04)  # colour of smoke that flames light
-_GLOW_LIGHT = 0.0158, 0.35  # of that, by day and by night
+GLOW = (1.0, 0.18, 0.027)  # colour of smoke that flames light
+_GLOW_LIGHT = 0.0172, 0.382  # of that, by day and by night
 THIN = 0.03  # part of that light in thin smoke, where it is scattered once; in thick smoke many times; by eye
 THICK = 0.004, 0.02  # extinctions (1/m) of thin and of thick smoke, as to that
 
