@@ -10,6 +10,7 @@ import numpy as np
 from firetwin_core import sensor
 from numpy.typing import NDArray
 
+from .. import memory
 from ..blender import compat
 from . import engine, layers
 
@@ -42,6 +43,7 @@ def draw(
     try:
         with compat.raw_file(scene, file), engine.pixel_centres(scene, centres), layers.plain(scene, names):
             bpy.ops.render.render(write_still=True, scene=scene.name)
+        memory.give_back()
     finally:
         cycles.min_transparent_bounces = chance
     ends = {-1: "_L", 1: "_R"} if scene.render.use_multiview else {0: ""}

@@ -76,6 +76,6 @@ def test_the_worker_has_few_heaps_unless_somebody_says_otherwise(tmp_path, monke
     path = os.pathsep.join(filter(None, [str(tmp_path), os.environ.get("PYTHONPATH")]))
     monkeypatch.setenv("PYTHONPATH", path)
     monkeypatch.delenv("MALLOC_ARENA_MAX", raising=False)
-    assert worker.run("heaps:most", {}, blender=False) == "2"
+    assert worker.run("heaps:most", {}, blender=False) == "1"
     monkeypatch.setenv("MALLOC_ARENA_MAX", "5")
     assert worker.run("heaps:most", {}, blender=False) == "5"
