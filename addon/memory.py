@@ -10,8 +10,9 @@ from collections.abc import Callable
 
 _ARENAS = "MALLOC_ARENA_MAX"
 _MOST = "1"
-"""Heaps of a process. Left alone, glibc makes up to eight for each processor, and each keeps what is free; two
-take 0.17 GB more than one for the example's film, and no less time.
+"""Heaps of a process. Left alone, glibc makes up to eight for each processor, and each keeps what is free.
+
+Two take 0.17 GB more than one for the example's film.
 """
 
 
