@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 THIN, PARTS = 5.0e-5, (0.2, 0.5)
 SLANTED = np.array([0.55, -0.46, 0.70]) / np.linalg.norm([0.55, -0.46, 0.70])
 LIGHT = volume.Illumination(
+    density=1.0,
     fresh=(0.9, 0.8, 0.7),
     old=(0.5, 0.6, 0.7),
     sun=(1.0, 2.0, 3.0),
