@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from ..jobs import worker
 from ..progress import Progress, Tell, silent, untold
 from ..shot import settings
+from ..shot.passes import file_of
 from ..shot.shot import Shot
 from . import step
 from .harness import OURS, Bench
@@ -34,6 +35,7 @@ LIMIT = 0.005  # of the picture's light
 VOLUME, REFERENCE = "Cycles' volume", "reference"
 FRAME, SAMPLES, MANY = (160, 90), 3, (24, 128)  # pixels; rays, and of the reference
 PASSES = ("rgb", "thermal", "depth")
+_CAMERA = settings.Camera().name
 
 
 def run(bench: Bench) -> None:
@@ -126,7 +128,7 @@ def _frame(bench: Bench) -> None:
 
 
 def _picture(folder: Path, name: str) -> str:
-    return str(folder / name / "camera" / "rgb" / "camera_rgb_000001.png")
+    return str(folder / name / file_of(_CAMERA, "rgb", 1, "png"))
 
 
 # What follows runs in the worker process, where Blender is.
@@ -189,8 +191,8 @@ class _Frame:
             cycles.seed = 7
         out = self.folder / name
         out.mkdir(exist_ok=True)
-        wanted = [Picture("camera", 1, each) for each in (PASSES[:1] if rays else PASSES)]
-        with making(out, {("camera", each): {"pass": each} for each in PASSES}) as here:
+        wanted = [Picture(_CAMERA, 1, each) for each in (PASSES[:1] if rays else PASSES)]
+        with making(out, {(_CAMERA, each): {"pass": each} for each in PASSES}) as here:
             start = time.perf_counter()
             pictures.render(self.shot, self.stage, here, wanted, ready=lambda _frame, _after: self.smoke)
             return time.perf_counter() - start

@@ -68,6 +68,12 @@ class Stage:
         found = (child for child in self.root.children if ours(child, name))
         return [thing for child in found for thing in child.all_objects if ours(thing)]
 
+    def evaluated(self, block: Any) -> Any:
+        """A data-block as it is at the scene's frame, also where another scene is the current one."""
+        layers = self.scene.view_layers
+        layer = next((each for each in layers if ours(each)), layers[0])
+        return block.evaluated_get(layer.depsgraph) if layer.depsgraph else block
+
     def camera(self, name: str) -> bpy.types.Object | None:
         """The object of the camera called `name` in the scene file, whatever it is called by now."""
         found = [thing for thing in self.root.all_objects if ours(thing, f"camera {name}")]

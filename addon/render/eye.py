@@ -39,7 +39,9 @@ class Eye:
     ) -> None:
         self.shot, self.stage, self.channels, self.smoke = shot, stage, channels, smoke
         self.shape = next(iter(channels.values())).shape[:2]
-        self._through = functools.partial(rays.through, stage.scene.camera, stage.scene, *self.shape, number)
+        self._through = functools.partial(
+            rays.through, stage.evaluated(stage.scene.camera), stage.scene, *self.shape, number
+        )
         self.rays = self._through()
 
     def picture(self) -> Array:

@@ -72,3 +72,15 @@ def test_the_sky_is_behind_all_smoke(settings, run):
     stage.scene.camera = stage.camera("drone")
     found = rays.through(stage.scene.camera, stage.scene, 9, 16, 0)
     assert found.of_depth(np.full((9, 16), 1.0e10, np.float32)).min() > 1.0e9
+
+
+def test_a_camera_is_where_its_own_scene_has_it(settings, run):
+    """A file may show another scene than the one that is rendered."""
+    shot = Shot(settings, run)
+    stage = owned.stage(owned.new_scene())
+    build.build(shot, stage.scene, parts=("cameras",))
+    assert bpy.context.scene != stage.scene
+    stage.scene.camera = stage.camera("drone")
+    stage.scene.frame_set(2)
+    found = rays.through(stage.evaluated(stage.scene.camera), stage.scene, 9, 16, 0)
+    assert found.origins == pytest.approx(shot.paths[0].position[1], abs=0.01)

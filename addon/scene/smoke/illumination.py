@@ -101,7 +101,8 @@ def _group(stage: Stage) -> tuple[bpy.types.Node, bpy.types.NodeTree]:
     found = material(stage)
     if found is None:
         raise KeyError("no smoke")
-    node = next(node for node in found.node_tree.nodes if node.type == "GROUP")
+    tree = stage.evaluated(found).node_tree
+    node = next(node for node in tree.nodes if node.type == "GROUP")
     return node, node.node_tree
 
 
