@@ -10,13 +10,13 @@ from collections.abc import Callable
 
 _ARENAS = "MALLOC_ARENA_MAX"
 _MOST = "1"
-"""Heaps of a process. Left alone, glibc makes up to eight for each processor, and each keeps what is free.
+"""Arenas of a process. Left alone, glibc makes up to eight for each processor, and each keeps what is free.
 
 Two take 0.17 GB more than one for the example's film.
 """
 
 
-def few_heaps() -> dict[str, str]:
+def few_arenas() -> dict[str, str]:
     """Variables for the environment of a process that works with many threads, which people's own go before.
 
     None where the C library is another than glibc, which has no such thing to bound.

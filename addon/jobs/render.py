@@ -247,19 +247,15 @@ def _solving(
     from ..scene.smoke.flow import Flow
 
     (camera,) = shot.settings.cameras
-    parts = Flow(shot).parts if frames and baker.integrated(shot) else []
-
-    def has(frame: int) -> bool:
-        return all(part.has(frame) for part in parts)
-
-    missing = [frame for frame in frames if not has(frame)]
+    flow = Flow(shot)
+    missing = [frame for frame in frames if not flow.has(frame)] if baker.integrated(shot) else []
     if not missing:
         yield None
         return
 
     def told(*done: Any) -> None:
         """Tell of it until the first picture can be drawn."""
-        if not has(missing[0]):
+        if not flow.has(missing[0]):
             progress(*done)
 
     with solve.beside(choice, camera.name, missing, told) as working:

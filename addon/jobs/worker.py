@@ -236,7 +236,7 @@ def _command(code: str) -> list[str]:
 
 
 def _environment(eevee: bool) -> dict[str, str]:
-    environment = os.environ | memory.few_heaps()
+    environment = os.environ | memory.few_arenas()
     display = environment.get("DISPLAY") or environment.get("WAYLAND_DISPLAY")
     if eevee and sys.platform == "linux" and not display:
         environment["EGL_PLATFORM"] = "surfaceless"

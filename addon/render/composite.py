@@ -13,14 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..shot.passes._view import SKY
+
 Array = NDArray[np.float32]
 
-SKY = 1.0e9  # m; what is farther is no surface
 _EDGE = 0.02  # transmittance that differs across a silhouette
 _REACH, _ALIKE = 2, 0.1  # pixels round an edge, and how far their depth may differ, of itself
-_SURE = (
-    15.0  # rays whose mean is as far off the share of a pixel as what its neighbours tell of it; estimated
-)
+_SURE = 15.0  # rays that tell a pixel's share as well as its neighbours do; estimated
 
 
 @dataclass(frozen=True)

@@ -215,7 +215,7 @@ def _record(scene: bpy.types.Scene, tree: bpy.types.NodeTree, each: Pass) -> Non
     """From a pass's view layer to its EXR, and to the picture that is shown."""
     source = tree.nodes.new(SOURCE)
     source.scene = scene
-    source.layer = next(layer.name for layer in scene.view_layers if owned.ours(layer, f"pass {each.name}"))
+    source.layer = of_pass(scene, each.name).name
     image = source.outputs[each.output]
     if still(each):
         image = compat.bloom(tree, image, Threshold=2.0, Maximum=20.0, Strength=0.25)

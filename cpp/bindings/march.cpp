@@ -115,8 +115,6 @@ void init_march(Module module) {
   Class<Bricks, std::shared_ptr<Bricks>>(module, "Bricks")
       .def(py::init(&make_bricks), "density"_a, "fresh"_a, "sun"_a, "sky"_a, "glow"_a,
            "voxel_size"_a, "origin"_a)
-      .def_property_readonly("voxel_size", &Bricks::voxel)
-      .def_property_readonly("origin", &Bricks::origin)
       .def_property_readonly("shape", &Bricks::shape)
       .def_property_readonly("used", &Bricks::used)
       .def_property_readonly("bytes", &Bricks::bytes);

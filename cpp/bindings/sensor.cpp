@@ -184,29 +184,28 @@ Array<float> eye_dome(const py::object& depth, double strength, std::size_t radi
   return shade;
 }
 
-Array<float> read_image(const std::filesystem::path& path) {
-  sensor::Image image;
-  {
-    const py::gil_scoped_release release;
-    image = sensor::read_image(path);
-  }
+sensor::Image load(const std::filesystem::path& path) {
+  const py::gil_scoped_release release;
+  return sensor::read_image(path);
+}
+
+/// Hands an image's pixels to NumPy.
+Array<float> pixels_of(sensor::Image& image) {
   return give(std::move(image.pixels),
               {length(image.height), length(image.width), length(image.channels)});
 }
 
+Array<float> read_image(const std::filesystem::path& path) {
+  sensor::Image image = load(path);
+  return pixels_of(image);
+}
+
 py::dict read_channels(const std::filesystem::path& path) {
-  sensor::Image image;
-  {
-    const py::gil_scoped_release release;
-    image = sensor::read_image(path);
-  }
-  const auto height = length(image.height), width = length(image.width),
-             count = length(image.channels);
-  const py::array all = give(std::move(image.pixels), {height, width, count});
+  sensor::Image image = load(path);
+  const py::array all = pixels_of(image);
   py::dict found;
-  for (py::ssize_t n = 0; n < count; ++n) {
-    found[py::str(image.names[static_cast<std::size_t>(n)])] =
-        all[py::make_tuple(py::ellipsis(), n)];
+  for (std::size_t n = 0; n < image.names.size(); ++n) {
+    found[py::str(image.names[n])] = all[py::make_tuple(py::ellipsis(), n)];
   }
   return found;
 }

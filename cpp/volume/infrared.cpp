@@ -86,14 +86,16 @@ void march_infrared(Layers layers, const Rays& rays, std::span<const float> dist
       air.radiance.size() < 2) {
     throw std::invalid_argument("air needs temperature and elevation of one shape, and radiances");
   }
-  for_rays(layers, rays.size(), [&](Way& way, std::size_t ray) {
-    const Vector origin = rays.origin(ray), direction = rays.direction(ray);
-    const bool smoky = way.follow(origin, direction, distances[ray]);
-    const auto [light, through] =
-        smoky ? along(way, origin, direction, air, step) : std::array<float, 2>{0.0F, 1.0F};
-    out[2 * ray] = light;
-    out[2 * ray + 1] = through;
-  });
+  for_rays(
+      rays.size(), [layers] { return Way(layers); },
+      [&](Way& way, std::size_t ray) {
+        const Vector origin = rays.origin(ray), direction = rays.direction(ray);
+        const bool smoky = way.follow(origin, direction, distances[ray]);
+        const auto [light, through] =
+            smoky ? along(way, origin, direction, air, step) : std::array<float, 2>{0.0F, 1.0F};
+        out[2 * ray] = light;
+        out[2 * ray + 1] = through;
+      });
 }
 
 } // namespace firetwin::volume

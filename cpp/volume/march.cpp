@@ -3,9 +3,6 @@
 #include "base/clones.hpp"
 #include "volume/half.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,7 +14,6 @@ namespace firetwin::volume {
 namespace {
 
 constexpr float never = std::numeric_limits<float>::max();
-constexpr std::size_t together = 64; // rays
 
 using Four = float __attribute__((vector_size(16)));
 
@@ -272,14 +268,11 @@ void march(Layers layers, const Rays& rays, const Taps& taps, const Illumination
   if (layers.size() > Inside{}.crossing.size() || taps.count < 1) {
     throw std::invalid_argument("a march takes at most four layers, and one tap or more");
   }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays.size(), together),
-                    [&](const auto& range) {
-                      Marcher marcher(layers, taps, light, how);
-                      for (std::size_t ray = range.begin(); ray < range.end(); ++ray) {
-                        marcher.ray(rays.origin(ray), rays.direction(ray), ray,
-                                    out.data() + 4 * taps.count * ray);
-                      }
-                    });
+  for_rays(
+      rays.size(), [&] { return Marcher(layers, taps, light, how); },
+      [&](Marcher& marcher, std::size_t ray) {
+        marcher.ray(rays.origin(ray), rays.direction(ray), ray, out.data() + 4 * taps.count * ray);
+      });
 }
 
 } // namespace firetwin::volume

@@ -21,17 +21,19 @@ float depth_of(const Crossing& crossing, const Segment& segment, double step) {
 void optical_depth(Layers layers, const Rays& rays, std::span<const float> distances, double step,
                    float enough, std::span<float> out) {
   check(rays, distances, 1);
-  for_rays(layers, rays.size(), [&](Way& way, std::size_t ray) {
-    float sum = 0.0F;
-    if (way.follow(rays.origin(ray), rays.direction(ray), distances[ray])) {
-      for (const Crossing& crossing : way.crossings()) {
-        for (const Segment& segment : crossing.segments) {
-          sum += sum < enough ? depth_of(crossing, segment, step) : 0.0F;
+  for_rays(
+      rays.size(), [layers] { return Way(layers); },
+      [&](Way& way, std::size_t ray) {
+        float sum = 0.0F;
+        if (way.follow(rays.origin(ray), rays.direction(ray), distances[ray])) {
+          for (const Crossing& crossing : way.crossings()) {
+            for (const Segment& segment : crossing.segments) {
+              sum += sum < enough ? depth_of(crossing, segment, step) : 0.0F;
+            }
+          }
         }
-      }
-    }
-    out[ray] = sum;
-  });
+        out[ray] = sum;
+      });
 }
 
 } // namespace firetwin::volume

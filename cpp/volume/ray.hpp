@@ -79,14 +79,14 @@ inline std::array<float, 3> local(const Crossing& crossing, const Segment& segme
 /// Extinction there, linear between voxels, 1/m.
 float density(const std::uint16_t* voxels, const std::array<float, 3>& place);
 
-/// f(way, ray) for rays 0 to count - 1 on all threads.
-template <class Function>
-void for_rays(Layers layers, std::size_t count, const Function& function) {
+/// f(follower, ray) for rays 0 to count - 1 on all threads; `make()` gives what follows them.
+template <class Make, class Function>
+void for_rays(std::size_t count, const Make& make, const Function& function) {
   constexpr std::size_t together = 64;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, together), [&](const auto& range) {
-    Way way(layers);
+    auto follower = make();
     for (std::size_t ray = range.begin(); ray < range.end(); ++ray) {
-      function(way, ray);
+      function(follower, ray);
     }
   });
 }

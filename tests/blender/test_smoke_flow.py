@@ -413,7 +413,7 @@ def test_moments_that_another_process_solves_are_waited_for(shot):
     assert waits._live is None
     waits.ready(2)
     assert len(asked) == 5
-    assert waits._has(2)
+    assert waits.has(2)
 
 
 def test_waiting_for_another_process_can_be_stopped(shot):

@@ -61,15 +61,15 @@ def test_other_systems_have_nothing_to_bound_and_no_way_to_give_back(monkeypatch
 
     monkeypatch.setattr(os, "confstr", confstr, raising=False)
     memory._trim.cache_clear()
-    assert memory.few_heaps() == {}
+    assert memory.few_arenas() == {}
     memory.give_back()
     monkeypatch.delattr(os, "confstr")
-    assert memory.few_heaps() == {}
+    assert memory.few_arenas() == {}
     memory._trim.cache_clear()
 
 
 @GLIBC
-def test_the_worker_has_few_heaps_unless_somebody_says_otherwise(tmp_path, monkeypatch):
+def test_the_worker_has_few_arenas_unless_somebody_says_otherwise(tmp_path, monkeypatch):
     (tmp_path / "heaps.py").write_text(
         "import os\ndef most(progress, tell):\n    return os.environ['MALLOC_ARENA_MAX']\n"
     )

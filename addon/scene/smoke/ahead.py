@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import AbstractContextManager, ExitStack, contextmanager
+from contextlib import AbstractContextManager, contextmanager
 
 from firetwin_core import volume
 
 from ...progress import Progress, Tell, silent, untold
 from ...shot.shot import Shot
-from . import bake, baker, outlook
-from .baker import Baker
+from . import bake, baker
 
 Smoke = list[volume.Bricks]
 Ready = Callable[[int, Iterable[int]], Smoke]
@@ -50,15 +47,15 @@ def bricks(
     elsewhere
         Whether another process of ours solves the flow; what it leaves unsolved is solved here.
     """
-    line = _Line(shot, set(frames), progress, tell, elsewhere)
+    line = _Bricks(shot, set(frames), progress, tell, elsewhere)
     try:
         yield line.ready
     finally:
         line.close()
 
 
-class _Line:
-    """Frames that stand in line to be painted, by one thread."""
+class _Bricks(bake.Line):
+    """Frames whose smoke is painted."""
 
     def __init__(
         self,
@@ -68,22 +65,9 @@ class _Line:
         tell: Tell,
         elsewhere: Callable[[], bool] | None,
     ) -> None:
-        self.shot, self.frames, self.elsewhere = shot, frames, elsewhere
-        self.progress, self.tell = progress, tell
-        self.pool = ThreadPoolExecutor(1)
-        self.tasks: dict[int, Future[Smoke]] = {}
-        self.held = ExitStack()
-
-    @functools.cached_property
-    def maker(self) -> Baker:
-        maker = Baker(self.shot)
-        if text := outlook.words(self.shot):
-            self.tell(text)
-        self.held.enter_context(maker.flow.in_use())
-        maker.flow.progress = lambda *done: self.progress(*done)
-        if self.elsewhere:
-            maker.flow.elsewhere = self.elsewhere
-        return maker
+        super().__init__(shot, progress, tell)
+        self.frames = frames
+        self.elsewhere = elsewhere
 
     def ready(self, frame: int, after: Iterable[int] = ()) -> Smoke:
         """The smoke of a frame; that of the next is begun, and what nobody waits for any more is let go."""
@@ -100,10 +84,3 @@ class _Line:
         self.progress(1, 1, "smoke of the first picture")
         self.progress, self.tell = silent, untold
         return found
-
-    def close(self) -> None:
-        """Let go of frames that nobody waits for any more."""
-        if "maker" in self.__dict__:
-            self.maker.flow.stop.set()
-        self.pool.shutdown(cancel_futures=True)
-        self.held.close()

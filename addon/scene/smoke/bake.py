@@ -29,12 +29,8 @@ __all__ = ["Baker", "ahead", "bake", "estimate", "file", "folder", "resolution",
 
 _FRAME_MEMORY = 2 << 30  # bytes that a frame may need while it is made: 0.5 GB, of a flow 1.9, were measured
 _FRAME_PROCESSORS = 4  # a frame keeps two busy: two at once on those took as long, and twice the memory
-_NOT_IN_FILES = (
-    "enabled",
-    "extinction",
-    "voxel_size",
-    "draw",
-)  # of [smoke]: how it is drawn; voxels have their own
+_NOT_IN_FILES = ("enabled", "extinction", "voxel_size", "draw")
+"""Of [smoke]: how it is drawn; voxels have their own."""
 
 
 def folder(shot: Shot, progress: Progress = silent) -> Path:
@@ -125,7 +121,7 @@ def ahead(
     if not wanted or not shot.settings.smoke.enabled:
         yield lambda frame, ahead=None: None
         return
-    line = _Line(shot, wanted, progress, tell)
+    line = _Volumes(shot, wanted, progress, tell)
     with cache.in_use(line.place):
         try:
             yield line.ready
@@ -140,13 +136,19 @@ def estimate(shot: Shot, frames: Iterable[int]) -> int | None:
     return round(sum(sizes.values()) / there * len(_of_shot(shot, frames))) if there else None
 
 
-class _Line:
-    """Frames that stand in line to be made, by one thread."""
+class Line:
+    """Frames whose smoke stands in line to be made, by one thread.
 
-    def __init__(self, shot: Shot, frames: list[int], progress: Progress, tell: Tell) -> None:
-        self.shot, self.frames = shot, frames
-        self.progress, self.tell = progress, tell
-        self.place = _prepared(shot, progress)
+    Attributes
+    ----------
+    elsewhere
+        Whether another process of ours solves the flow; None: none does.
+    """
+
+    elsewhere: Callable[[], bool] | None = None
+
+    def __init__(self, shot: Shot, progress: Progress, tell: Tell) -> None:
+        self.shot, self.progress, self.tell = shot, progress, tell
         self.pool = ThreadPoolExecutor(1)
         self.tasks: dict[int, Future[Any]] = {}
         self.held = ExitStack()
@@ -159,6 +161,8 @@ class _Line:
         if maker.flow:
             self.held.enter_context(maker.flow.in_use())
             maker.flow.progress = lambda *done: self.progress(*done)
+            if self.elsewhere:
+                maker.flow.elsewhere = self.elsewhere
         return maker
 
     def close(self) -> None:
@@ -167,6 +171,14 @@ class _Line:
             self.maker.flow.stop.set()
         self.pool.shutdown(cancel_futures=True)
         self.held.close()
+
+
+class _Volumes(Line):
+    """Frames whose volumes are written."""
+
+    def __init__(self, shot: Shot, frames: list[int], progress: Progress, tell: Tell) -> None:
+        super().__init__(shot, progress, tell)
+        self.frames, self.place = frames, _prepared(shot, progress)
 
     def ready(self, frame: int, ahead: Iterable[int] | None = None) -> None:
         """Wait for a frame and have the next one begun."""

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import firetwin_core
 import numpy as np
@@ -21,6 +22,7 @@ from . import cache, flow_frames, moments, stability
 from .flow import Flow
 from .view import resolution
 
+Made = TypeVar("Made")
 SHOWN = ("density", "dilution", "shade", "size", "glow")  # grids that the material asks for
 _GLOW_BLOCK = 300.0  # m; flames this near each other light the smoke as one
 _GLOW_COUNT = 400
@@ -112,7 +114,7 @@ class Baker:
         self.flow.ready(frame)
         time = float(self.times[frame - 1])
         metadata = self._metadata(time, "a flow of the air, solved from the model's heat")
-        lights = lit if exposure.darkness(self.shot, time) > 0.0 else None
+        lights = lit if self._dark(time) else None
         eyes = self.sights.eyes(frame) if self.sights else None
         beyond: flow_frames.Beyond | None = None
         for painter in self.painters:
@@ -120,11 +122,7 @@ class Baker:
             mine = files.part_of(place)
             what = mine, frame, lights, self._sight(frame), metadata, eyes, beyond
             with writing(place):
-                try:
-                    written, beyond = painter.write(*what)
-                except moments.BrokenError:
-                    self.flow.renew(frame)
-                    written, beyond = painter.write(*what)
+                written, beyond = self._unbroken(frame, functools.partial(painter.write, *what))
             _put(mine, place, written.bytes)
         if not self.painters:
             mine = files.part_of(path)
@@ -138,18 +136,26 @@ class Baker:
         """The smoke of a frame of the flow for rays to be marched through, and no file."""
         self.flow.ready(frame)
         time = float(self.times[frame - 1])
-        dark = exposure.darkness(self.shot, time) > 0.0
-        what = frame, lights(self.shot.fire, time) if dark else None, self._sight(frame)
+        what = frame, lights(self.shot.fire, time) if self._dark(time) else None, self._sight(frame)
         found: list[volume.Bricks] = []
         beyond: flow_frames.Beyond | None = None
         for painter in self.painters:
-            try:
-                made, beyond = painter.bricks(*what, beyond)
-            except moments.BrokenError:
-                self.flow.renew(frame)
-                made, beyond = painter.bricks(*what, beyond)
+            paint = functools.partial(painter.bricks, *what, beyond)
+            made, beyond = self._unbroken(frame, paint)
             found.append(made)
         return found
+
+    def _dark(self, time: float) -> bool:
+        """Whether it is so dark at a model time (s) that smoke shows the flames' light."""
+        return bool(exposure.darkness(self.shot, time) > 0.0)
+
+    def _unbroken(self, frame: int, paint: Callable[[], Made]) -> Made:
+        """What `paint` makes of a frame's moments, which are solved anew where they turn out broken."""
+        try:
+            return paint()
+        except moments.BrokenError:
+            self.flow.renew(frame)
+            return paint()
 
     def _sight(self, frame: int) -> lod.Sight | None:
         """What the cameras see in a frame, if only that is wanted."""

@@ -116,10 +116,10 @@ class Flow:
             The cache cannot be written.
         """
         with self._lock:
-            while not self._has(frame) and self.elsewhere():
+            while not self.has(frame) and self.elsewhere():
                 if self.stop.wait(_LOOK):
                     raise StoppedError
-            if self._has(frame):
+            if self.has(frame):
                 return
             progress = progress or self.progress
             folder = self._folders()[-1]
@@ -133,13 +133,14 @@ class Flow:
                 if self.stop.is_set():
                     raise StoppedError
 
-            with claim.held(folder / "state.lock", lambda: self._has(frame), wait) as mine:
-                if mine and not self._has(frame):
+            with claim.held(folder / "state.lock", lambda: self.has(frame), wait) as mine:
+                if mine and not self.has(frame):
                     if self._live is None or self._live.frame >= frame:
                         self._live = Live(self, frame)
                     self._live.solve(frame, progress, max(frame, last))
 
-    def _has(self, frame: int) -> bool:
+    def has(self, frame: int) -> bool:
+        """Whether a frame's moments are kept, of all parts."""
         return all(part.has(frame) for part in self.parts)
 
     def solve(self, frames: Iterable[int], progress: Progress = silent) -> None:

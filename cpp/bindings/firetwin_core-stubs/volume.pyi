@@ -414,12 +414,6 @@ class Bricks:
         """
 
     @property
-    def voxel_size(self) -> float:
-        """Edge of a voxel, m."""
-    @property
-    def origin(self) -> list[float]:
-        """Centre of voxel (0, 0, 0), m."""
-    @property
     def shape(self) -> list[int]:
         """Voxels along x, y and z."""
     @property
