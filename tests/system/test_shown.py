@@ -17,7 +17,9 @@ from firetwin_core import sensor
 from mathutils import Euler
 from scene_text import BARE, DRONE, NO_SMOKE, THREE_FRAMES, TINY
 
-SCENE = THREE_FRAMES + BARE + NO_SMOKE + TINY + 'passes = ["rgb", "thermal", "depth"]\n' + DRONE
+# Only pictures drawn as volumes are those of F12 to the pixel.
+VOLUME = NO_SMOKE + 'draw = "volume"\n'
+SCENE = THREE_FRAMES + BARE + VOLUME + TINY + 'passes = ["rgb", "thermal", "depth"]\n' + DRONE
 FRAME = 2
 
 
