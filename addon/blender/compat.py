@@ -254,13 +254,17 @@ def raw_file(scene: bpy.types.Scene, path: Path) -> Iterator[None]:
     """
     render, file = scene.render, scene.render.image_settings
     media = getattr(file, "media_type", None)
-    names = ("file_format", "color_depth", "exr_codec", "views_format")
+    names = ["file_format", "color_depth", "exr_codec", "views_format"]
+    if hasattr(file, "use_exr_interleave"):  # else 5.2 writes a part of the file for each pass
+        names.append("use_exr_interleave")
     before = {name: getattr(file, name) for name in names}
     compositing, place = render.use_compositing, render.filepath
     if media is not None:
         file.media_type = "MULTI_LAYER_IMAGE"
     file.file_format, file.color_depth, file.exr_codec = "OPEN_EXR_MULTILAYER", "32", "NONE"
     file.views_format = "INDIVIDUAL"
+    if "use_exr_interleave" in names:
+        file.use_exr_interleave = True
     render.use_compositing, render.filepath = False, str(path)
     try:
         yield
