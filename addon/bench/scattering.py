@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ..jobs import worker
 from ..progress import Progress, Tell, silent, untold
-from ..shot import settings, sun
+from ..shot import settings
 from ..shot.rigs.drone import CameraKey, Drone
 from ..shot.shot import Shot
 from .harness import OURS, Bench
@@ -182,7 +182,7 @@ def _build(file: settings.Settings, scene: bpy.types.Scene) -> dict[str, bpy.typ
     place.mkdir(parents=True)
     for layer in flow_frames.layers(shot, Flow(shot)):
         part = 1.0 if layer.name == "smoke" else 0.0
-        toward = sun.light(*shot.sun(shot.frames.first))
+        toward = shot.light(shot.frames.first)
         sunlight, skylight, _ = volume.lit(part * density, VOXEL, toward, *flow_frames.LIGHT)
         grids = {"density": part * density, "fresh": fresh, "sun": sunlight, "sky": skylight}
         volume.write(str(layer.file(place, 1)), grids, VOXEL, origin, tolerance=1e-6, within="density")

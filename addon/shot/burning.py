@@ -22,6 +22,12 @@ def cell_area(run: Run) -> float:
     return _area(run, run.fuel_latitude, run.fuel_longitude, (run.latitude, run.longitude))
 
 
+def fuel_cell(run: Run) -> tuple[float, float]:
+    """Width and height of a fuel cell, m."""
+    within = run.latitude, run.longitude
+    return areas.cell_size(run.fuel_latitude, run.fuel_longitude, local_frame(run).latitude, within)
+
+
 def model_cell_area(run: Run) -> float:
     """Area of a cell of the model grid, m2."""
     if run.elevation.size == 1:

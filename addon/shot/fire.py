@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ..run import areas
 from ..run.frame import local_frame
 from . import burning, heat
-from .fuel import BURN_OUT_CANOPY, Fuel, gather
+from .fuel import BURN_OUT_CANOPY, DETAIL, Fuel, gather
 from .heat import Array, Sources
 from .relief import Relief
 
@@ -68,14 +68,27 @@ class Fire:
         s before `first` from which on what has burned is asked for, smoke for instance.
     relief
         Heights of the ground; None: the run's.
+    arrival
+        (fy, fx) s, when the front passes the middle of each fuel cell; None: as the run says.
+    detail
+        Fuel cells nearer than this burn as one, m.
     """
 
     def __init__(
-        self, run: Run, first: float, last: float, before: float = 0.0, relief: Relief | None = None
+        self,
+        run: Run,
+        first: float,
+        last: float,
+        before: float = 0.0,
+        relief: Relief | None = None,
+        arrival: Array | None = None,
+        detail: float = DETAIL,
     ) -> None:
         self.relief = relief or Relief(run)
-        self.run, self.first, self.last, self.before = run, first, last, before
+        self.run, self.first, self.last, self.before, self.detail = run, first, last, before, detail
         self.frame = local_frame(run)
+        if arrival is not None:
+            self.arrival = arrival
 
     @cached_property
     def arrival(self) -> Array:
@@ -99,7 +112,7 @@ class Fire:
     def fuel(self) -> Fuel:
         """What burns in the shot, or has burned not long before it."""
         known = None if self.run.has("fuel_arrival_time") else self.arrival
-        return gather(self.run, known, self.first, self.last + _AHEAD, self.before, self.relief)
+        return gather(self.run, known, self.first, self.last + _AHEAD, self.before, self.relief, self.detail)
 
     def sources(self, time: float) -> Sources:
         """Everything that gives heat at `time` (s): together each model cell's flux times its area.

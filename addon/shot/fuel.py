@@ -20,8 +20,9 @@ BURN_OUT_CANOPY = 90.0  # s, foliage and twigs (assumed)
 # (T = weight / 0.8514 with its weights 180 and 900).
 BURN_OUT_SURFACE = (120.0, 300.0)
 _OVER = 14.0  # burn-out times after which what is left, e^-14, is not worth a look
-# m; fuel cells nearer than this burn as one: a finer run of the same fire makes no more of them.
-_DETAIL = 75.0
+DETAIL = (
+    75.0  # m, at a fire of 15 km; fuel cells nearer than this burn as one: a finer run makes no more of them
+)
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -64,7 +65,13 @@ class Fuel:
 
 
 def gather(
-    run: Run, known: Array | None, first: float, last: float, before: float, relief: Relief | None = None
+    run: Run,
+    known: Array | None,
+    first: float,
+    last: float,
+    before: float,
+    relief: Relief | None = None,
+    detail: float = DETAIL,
 ) -> Fuel:
     """Fuel that burns between the model times `first` and `last`, or that `before` s earlier caught fire.
 
@@ -76,13 +83,15 @@ def gather(
         (fy, fx) s, arrival times, NaN where never; none asks the run for its own.
     relief
         Heights of the ground; None: the run's.
+    detail
+        Fuel cells nearer than this burn as one, m.
     """
     heights = relief or Relief(run)
     arrival = blocks.arrival(run, known)
     parts = [_of_rows(run, heights, arrival, rows, (first, last, before)) for rows in blocks.rows(run)]
     every = Fuel(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(Fuel)))
     row, column = np.divmod(every.fuel_cell, len(run.fuel_longitude))
-    found = _pieces(run, every, row, column)
+    found = _pieces(run, every, row, column, detail)
     return found.take(np.argsort(found.begin, kind="stable"))
 
 
@@ -158,9 +167,9 @@ def _model_cell(run: Run, row: Index, column: Index) -> Index:
     return rows * len(run.longitude) + columns
 
 
-def _pieces(run: Run, fuel: Fuel, row: Index, column: Index) -> Fuel:
-    """The same in pieces of `_DETAIL` or larger, none of them in two cells of the model grid."""
-    most = max(round(float(np.sqrt(burning.model_cell_area(run))) / _DETAIL), 1)
+def _pieces(run: Run, fuel: Fuel, row: Index, column: Index, detail: float) -> Fuel:
+    """The same in pieces of `detail` (m) or larger, none of them in two cells of the model grid."""
+    most = max(round(float(np.sqrt(burning.model_cell_area(run))) / detail), 1)
     parts = (
         _part(run.latitude, run.fuel_latitude, most)[row],
         _part(run.longitude, run.fuel_longitude, most)[column],

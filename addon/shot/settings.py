@@ -192,12 +192,19 @@ class Smoke:
         "where the run has none",
         choices={"flow": "air solved once per shot", "puffs": "a quick preview"},
     )
-    spin_up: float = key(
-        1800.0,
-        "how long before the first frame a flow begins",
+    spin_up: float | None = key(
+        None,
+        "how long before the first frame a flow begins; left out, by the fire's size, 1800 for 15 km",
         unit="s",
         at_least=0,
         at_most=172_800,
+    )
+    cell_budget: float = key(
+        3.0,
+        "most cells of air solved for each second of the fire; more are finer and take longer",
+        unit="millions",
+        at_least=0.1,
+        at_most=1000,
     )
     cloud_base: float = key(
         4200.0,

@@ -11,8 +11,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from . import sun
-
 if TYPE_CHECKING:
     from .shot import Shot
 
@@ -72,7 +70,7 @@ def _suns(shot: Shot) -> list[tuple[float, float]]:
     frames = np.unique(np.concatenate([shot.filmed(path) for path in shot.paths]))
     suns: list[tuple[float, float]] = []
     for time in shot.frames.times[frames]:
-        east, north, up = sun.light(*shot.sun(float(time)))
+        east, north, up = shot.light(float(time))
         bearing, height = np.degrees(np.arctan2(east, north)), np.degrees(np.arcsin(up))
         last = suns[-1] if suns else (np.inf, np.inf)
         if height >= _LOWEST and np.hypot(bearing - last[0], height - last[1]) >= _TURN:

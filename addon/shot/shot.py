@@ -16,17 +16,20 @@ from ..errors import UsageError
 from ..progress import Progress, silent
 from ..run import content, times
 from ..run.frame import local_frame
-from . import burning, frame_list, frames, passes, path, relief, sun, temperature
+from . import burning, frame_list, frames, passes, path, relief, scale, sun, temperature
 from .fire import Fire
 from .frames import Frames
+from .fuel import DETAIL
 from .ground import Ground
 from .path import SENSOR, Path
 from .relief import Relief
+from .scale import Scale
 from .settings import Camera, Settings
 from .sight import Sights
 
 _BEFORE = 3600.0  # s before the first frame that ground which burned since counts as burning
 WIDE_LENS = 28.0  # mm; pictures to scale count as taken with it
+_SPIN_UP = 1800.0  # s, of a fire of 15 km
 _NOWHERE = 20_000.0  # m, distance of a fire that no camera looks at
 
 
@@ -45,8 +48,6 @@ class Shot:
         Frames and the model times that they show.
     relief
         Heights of the ground on the run's grids.
-    fire
-        What burns from the first frame to the last; it is there for all cameras.
     cameras
         All of the scene file's, also those that are not filmed here: others may follow them.
     whole
@@ -57,11 +58,7 @@ class Shot:
         self.settings, self.run, self.cameras, self.whole = settings, run, settings.cameras, self
         self.frames: Frames = frames.of(settings.time, run)
         self._filmed: dict[str, NDArray[np.int64]] = {}
-        smoke = settings.smoke
-        since = smoke.spin_up if smoke.method == "flow" else smoke.max_age
-        before = max(since + burning.BURN_TIME, _BEFORE)
         self.relief: Relief = relief.of(settings, run)
-        self.fire = Fire(run, self.frames.first, self.frames.last, before, self.relief)
 
     def inputs(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
         """SHA-256 of each field of the run but some, and of the elevation model."""
@@ -71,6 +68,32 @@ class Shot:
         return found | (
             {"elevation model": content.of_file(model, settings.cache, progress)} if model else {}
         )
+
+    @cached_property
+    def arrival(self) -> NDArray[np.float64]:
+        """(fy, fx) s, when the front passes the middle of each fuel cell; NaN where never."""
+        return self.run.fuel_arrival_time()
+
+    @cached_property
+    def scale(self) -> Scale:
+        """How fine the air over the fire is solved, and its smoke drawn."""
+        long = scale.extent(self.run, self.arrival, self.frames.first, self.frames.last)
+        return scale.choose(long, max(burning.fuel_cell(self.run)), self.settings.smoke.cell_budget)
+
+    @property
+    def spin_up(self) -> float:
+        """How long before the first frame the flow of smoke begins, s."""
+        told = self.settings.smoke.spin_up
+        return self.scale.time(_SPIN_UP) if told is None else told
+
+    @cached_property
+    def fire(self) -> Fire:
+        """What burns from the first frame to the last; it is there for all cameras."""
+        smoke = self.settings.smoke
+        since = self.spin_up if smoke.method == "flow" else smoke.max_age
+        before = max(since + burning.BURN_TIME, _BEFORE)
+        span = self.frames.first, self.frames.last, before
+        return Fire(self.run, *span, self.relief, self.arrival, self.scale.length(DETAIL))
 
     @cached_property
     def others(self) -> dict[str, Run]:
@@ -117,6 +140,7 @@ class Shot:
         render = replace(self.settings.render, resolution=self.resolution(camera))
         shot = Shot(replace(self.settings, cameras=(camera,), render=render), self.run)
         shot.relief, shot.fire, shot.bare_ground = self.relief, self.fire, self.bare_ground
+        shot.scale, shot.arrival = self.scale, self.arrival
         shot.cameras, shot.others = self.cameras, self.others
         return shot
 
@@ -129,6 +153,7 @@ class Shot:
         camera = replace(camera, frames=",".join(map(str, listed)))
         shot = Shot(replace(self.settings, cameras=(camera,)), self.run)
         shot.relief, shot.fire, shot.bare_ground = self.relief, self.fire, self.bare_ground
+        shot.scale, shot.arrival = self.scale, self.arrival
         shot.cameras, shot.whole = self.cameras, self
         shot.paths = [replace(self.paths[0], camera=camera)]
         return shot
@@ -172,6 +197,14 @@ class Shot:
     def sun(self, time: float) -> tuple[float, float]:
         """Bearing and height (degrees) of the sun over the run at a model time (s)."""
         return sun.at(self.run, time)
+
+    def moon(self, time: float) -> sun.Moon:
+        """The moon over the run at a model time (s)."""
+        return sun.moon(self.run, time)
+
+    def light(self, time: float) -> NDArray[np.float64]:
+        """Unit vector to the sun, by night to the moon, at a model time (s)."""
+        return sun.light(*self.sun(time), self.moon(time))
 
     @cached_property
     def built(self) -> NDArray[np.int64]:

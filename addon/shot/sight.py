@@ -8,7 +8,7 @@ import numpy as np
 from firetwin_core import lod
 from numpy.typing import ArrayLike, NDArray
 
-from . import accuracy, sun
+from . import accuracy
 from .ground import Ground
 from .path import Path
 
@@ -145,7 +145,7 @@ class Sights:
         """Where light comes from in frames (m,) from 0: unit vectors (m, 3)."""
         each, number = np.unique(frames, return_inverse=True)
         times = self.shot.frames.times[each]
-        return np.array([sun.light(*self.shot.sun(float(t))) for t in times]).reshape(-1, 3)[number]
+        return np.array([self.shot.light(float(t)) for t in times]).reshape(-1, 3)[number]
 
 
 def _looks(path: Path, frames: NDArray[np.int64]) -> list[tuple[NDArray, NDArray]]:

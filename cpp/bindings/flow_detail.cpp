@@ -35,8 +35,9 @@ make_detail(double spacing, const std::array<double, 2>& corner, const py::objec
             const py::object& age, const py::object& rise, const py::object& warmth,
             const py::object& drift, const std::array<float, Drift::phases>& weights,
             const std::array<std::int64_t, Drift::phases>& turns, const py::object& glow,
-            double size, const std::array<double, 3>& blur, double opacity, float thickest,
-            const std::array<float, 2>& ages, float condensation, std::uint32_t seed) {
+            double size, float scale, const std::array<double, 3>& blur, double opacity,
+            float thickest, const std::array<float, 2>& ages, float condensation,
+            std::uint32_t seed) {
   const auto amount = to_array<float>(smoke, "smoke", {-1, -1, -1});
   const std::vector<py::ssize_t> shape{amount.shape(0), amount.shape(1), amount.shape(2)};
   const auto field = [&](const py::object& object, const char* name) {
@@ -63,7 +64,7 @@ make_detail(double spacing, const std::array<double, 2>& corner, const py::objec
                             view(moved),
                             weights,
                             turns};
-  const flow::Look look{size, blur, opacity, thickest, ages, condensation, seed};
+  const flow::Look look{size, scale, blur, opacity, thickest, ages, condensation, seed};
   const py::gil_scoped_release release;
   return std::make_shared<Detail>(moment, look);
 }
@@ -119,9 +120,9 @@ void init_flow_detail(Module module) {
   Class<Detail, std::shared_ptr<Detail>>(module, "Detail")
       .def(py::init(&make_detail), py::kw_only(), "spacing"_a, "corner"_a, "levels"_a, "heights"_a,
            "ground"_a, "smoke"_a, "age"_a, "rise"_a, "warmth"_a, "drift"_a, "weights"_a, "turns"_a,
-           "glow"_a = py::none(), "size"_a = 340.0, "blur"_a = std::array<double, 3>{},
-           "opacity"_a = 1.0, "thickest"_a = 0.03F, "ages"_a = std::array<float, 2>{20.0F, 600.0F},
-           "condensation"_a = 1.0e6F, "seed"_a = 0)
+           "glow"_a = py::none(), "size"_a = 340.0, "scale"_a = 1.0F,
+           "blur"_a = std::array<double, 3>{}, "opacity"_a = 1.0, "thickest"_a = 0.03F,
+           "ages"_a = std::array<float, 2>{20.0F, 600.0F}, "condensation"_a = 1.0e6F, "seed"_a = 0)
       .def("paint", &paint, "origin"_a, "voxel"_a, "surface"_a, "share"_a, "layers"_a,
            "wanted"_a = py::none())
       .def("paint_sparse", &paint_sparse, "origin"_a, "voxel"_a, "surface"_a, "share"_a, "layers"_a,

@@ -42,20 +42,21 @@ void check(const Moment& m) {
 
 Detail::Detail(const Moment& m, const Look& look)
     : shape_(m.shape), spacing_(m.spacing), corner_(m.corner),
-      levels_(m.levels.begin(), m.levels.end()), weights_(m.weights), look_(look) {
+      levels_(m.levels.begin(), m.levels.end()), weights_(m.weights), look_(look),
+      unit_(unit / look.scale) {
   check(m);
   for (std::size_t p = 0; p < Drift::phases; ++p) {
     seeds_[p] = (look.seed * 2U + static_cast<std::uint32_t>(p)) * 977U +
                 static_cast<std::uint32_t>(m.turns[p]);
   }
   for (const float level : levels_) {
-    sinking_.push_back(std::exp(-level / terrain_fade));
+    sinking_.push_back(std::exp(-level / (look.scale * terrain_fade)));
   }
   Values amount(shape_.size());
   each(shape_.nz, [&](Index k) {
     const auto plane = static_cast<std::size_t>(shape_.ny * shape_.nx);
     for (std::size_t n = static_cast<std::size_t>(k) * plane, end = n + plane; n < end; ++n) {
-      amount[n] = std::log(std::max(m.smoke[n] / unit, 1.0F));
+      amount[n] = std::log(std::max(m.smoke[n] / unit_, 1.0F));
     }
   });
   amount_ = Columns(amount.data(), shape_);
@@ -93,11 +94,12 @@ void Detail::find_vigour(const Moment& m, const Values& amount) {
   blur(dense, shape_, {0.7, 0.7, 0.7});
   spread(dense, shape_, 2);
   Values vigour(shape_.size());
+  const float speed = std::cbrt(look_.scale), time = speed * speed;
   for (std::size_t n = 0; n < vigour.size(); ++n) {
     const float cap = capped(m.heights[n]);
-    const float lively = ramp(lively_rise[0], lively_rise[1], m.rise[n]) +
+    const float lively = ramp(lively_rise[0], lively_rise[1], m.rise[n] / speed) +
                          ramp(lively_warmth[0], lively_warmth[1], m.warmth[n]) +
-                         0.8F * ramp(lively_age, 0.0F, m.age[n]) +
+                         0.8F * ramp(lively_age, 0.0F, m.age[n] / time) +
                          cap * ramp(cloud_ages[1], cloud_ages[0], m.age[n]);
     const float droplets = cloud_amount * cap;
     vigour[n] = std::max(std::min(lively, 1.0F) * ramp(5.0F, 6.8F, near[n] + droplets),

@@ -34,6 +34,7 @@ struct Moment {
 /// How smoke looks below the flow's cells.
 struct Look {
   double size = 340.0;                      ///< of the largest lumps, m
+  float scale = 1.0F;                       ///< of the fire, over the one all this is chosen for
   std::array<double, 3> blur{};             ///< of the drift along levels, rows and columns, cells
   double opacity = 1.0;                     ///< times the extinction of smoke
   float thickest = 0.03F;                   ///< extinction at which thick smoke levels off, 1/m
@@ -67,7 +68,9 @@ struct Brick {
 /// (fresh biomass smoke, Reid et al. 2005, doi 10.5194/acp-5-799-2005) times a gain chosen by eye;
 /// near the ground it is less, so that flames show. Above the height where vapour condenses
 /// vigorous smoke is white and a few times as thick, for water droplets. Thresholds and gains are
-/// chosen by eye.
+/// chosen by eye, on cells of 200 m. A smaller fire has thresholds alike in optical depth: its
+/// lengths go with `Look::scale`, its densities with the inverse, its times and speeds as those of
+/// eddies, with the powers 2/3 and 1/3.
 class Detail {
 public:
   Detail(const Moment& moment, const Look& look);
@@ -79,11 +82,12 @@ public:
 
 private:
   class Brush;
-  static constexpr float unit = 1.0e-9F;         // kg/m3
-  static constexpr float least = 1.2F;           // amount without any smoke to see
-  static constexpr std::array core{6.3F, 8.0F};  // of a vigorous core at least, thin and thick
-  static constexpr float cloud_amount = 2.5F;    // of droplets in the amount
-  static constexpr float terrain_fade = 1000.0F; // m over which levels forget finer ground
+  static constexpr float unit = 1.0e-9F;        // kg/m3, over the scale
+  static constexpr float least = 1.2F;          // amount without any smoke to see
+  static constexpr std::array core{6.3F, 8.0F}; // of a vigorous core at least, thin and thick
+  static constexpr float cloud_amount = 2.5F;   // of droplets in the amount
+  static constexpr float terrain_fade =
+      1000.0F; // m, times the scale, over which levels forget finer ground
 
   using Values = std::vector<float>; ///< [nz][ny][nx]
   void find_vigour(const Moment& moment, const Values& amount);
@@ -99,7 +103,7 @@ private:
   std::vector<float> sinking_; ///< [nz] how much of finer ground than the flow's a level follows
   Columns heights_;            ///< m
   Columns ground_;             ///< of one level, m
-  Columns amount_;             ///< ln(smoke / 1 ug/m3), at least 0
+  Columns amount_;             ///< ln(smoke / unit), at least 0
   Columns vigour_;             ///< 0 to 1
   Columns reach_;              ///< of crisp noise in the amount
   Columns solid_;              ///< 0 where smoke is thin all round, 1 where it is thick
@@ -108,6 +112,7 @@ private:
   std::array<float, Drift::phases> weights_;
   std::array<std::uint32_t, Drift::phases> seeds_{};
   Look look_;
+  float unit_; ///< kg/m3
 };
 
 } // namespace firetwin::flow

@@ -264,9 +264,11 @@ float Detail::Brush::extinction(std::size_t n, float raise) const {
   const float veil =
       dense(soft_cut[0], soft_cut[1], veiled, veiled, veil_gain * v * (1.0F - solid));
   const float rooted =
-      mix(root, 1.0F, smoothstep(root_heights[0], root_heights[1], waiting_.above[n]));
+      mix(root, 1.0F,
+          smoothstep(root_heights[0], root_heights[1], waiting_.above[n] / detail_.look_.scale));
   const Look& look = detail_.look_;
-  const float full = (lumps + veil) * unit * per_kg * static_cast<float>(look.opacity) * rooted;
+  const float full =
+      (lumps + veil) * detail_.unit_ * per_kg * static_cast<float>(look.opacity) * rooted;
   return full > 0.0F ? look.thickest * (1.0F - std::exp(-full / look.thickest)) : 0.0F;
 }
 

@@ -69,7 +69,7 @@ def test_what_frames_say_is_what_was_solved(shot):
 def test_the_smoke_is_that_of_the_heat(shot):
     solved = flow.Flow(shot)
     solved.ready(1)
-    slots = np.arange(0.0, shot.settings.smoke.spin_up, 30.0)
+    slots = np.arange(0.0, shot.spin_up, 30.0)
     box = solved.parts[0].box
     given = 0.0
     for number, slot in enumerate(slots):
@@ -366,7 +366,9 @@ def test_the_scene_shows_both_layers(shot, stage, scene):
     for volume in volumes.values():
         volume.grids.load()
         assert {grid.name for grid in volume.grids} >= {"density", "fresh", "sun", "sky"}
-        assert volume.render.clipping <= 1.01 * flow_frames.THIN  # else what is painted is left out in blocks
+        assert volume.render.clipping <= 1.01 * flow_frames.thinnest(
+            shot.scale
+        )  # else what is painted is left out in blocks
 
 
 def test_smoke_has_all_but_gone_where_its_box_ends(shot):

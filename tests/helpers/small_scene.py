@@ -23,6 +23,7 @@ from firetwin.scene.ground import material as ground_material  # noqa: E402
 from firetwin.scene.smoke import boxes  # noqa: E402
 from firetwin.shot import settings as scene_settings  # noqa: E402
 from firetwin.shot.rigs.drone import CameraKey, Drone  # noqa: E402
+from firetwin.shot.scale import Scale  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
 from firetwin_core import run as runs  # noqa: E402
 from firetwin_core import sensor  # noqa: E402
@@ -257,6 +258,8 @@ def few_cells(monkeypatch):
     monkeypatch.setattr(boxes, "_NEST", 72)
     monkeypatch.setattr(boxes, "_MARGIN", 2000.0)
     monkeypatch.setattr(boxes, "LEAD", 40.0)
+    monkeypatch.setattr(boxes, "_part", lambda shot: 1.0)
+    monkeypatch.setattr(Shot, "scale", Scale())
 
 
 @pytest.fixture

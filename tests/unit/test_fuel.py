@@ -52,7 +52,7 @@ def test_all_that_has_fuel_and_is_reached_burns_once(make_run):
 @pytest.mark.parametrize("load", [0.0, 3.0])  # kg/m2 on the surface: the canopy alone, and slow timber
 def test_what_still_burns_is_found_however_long_ago_it_began(make_run, monkeypatch, pace, load):
     """A window has what all of the fuel, gathered without one, says that burns in it."""
-    monkeypatch.setattr(fuels, "_DETAIL", 1.0)  # so that each cell is a piece
+    monkeypatch.setattr(fuels, "DETAIL", 1.0)  # so that each cell is a piece
     surface = np.full((FY, FX), load, np.float32)
     run = runs.open(make_run(fuel_arrival_time=front(pace), surface_fuel=surface))
     every = fuels.gather(run, None, -np.inf, np.inf, np.inf)

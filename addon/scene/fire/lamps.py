@@ -22,7 +22,9 @@ _NEAR = 150.0  # m; nearer than this the distance from the camera does not make 
 _KEYS = 13  # at most this many moments of the shot
 _BLOCK = 120.0  # m; heat this close together belongs to one lamp in any case
 _ROUNDS = 12
-_HEIGHTS, _RADII = (12.0, 60.0), (6.0, 60.0)  # m
+_HEIGHTS, _RADII, _SHARED = (12.0, 60.0), (6.0, 60.0), 25.0  # m
+_LOWEST = 3.0  # m, of heights, where a fire is small
+# Lengths but `_REACH` and `_LOWEST` are those at a fire of 15 km.
 
 Array = NDArray[np.float64]
 
@@ -65,40 +67,43 @@ def place(shot: Shot) -> Lamps:
     none = Lamps(times, np.empty((0, 3)), np.empty(0), np.empty((len(times), 0)))
     if not near:
         return none
-    parts = [_around(shot.fire.sources(float(t)).luminous(), near) for t in times]
+    parts = [_around(shot.fire.sources(float(t)).luminous(), near, shot.scale.length(_BLOCK)) for t in times]
     position = np.concatenate([part.position for part in parts])
     power = np.concatenate([part.power for part in parts])
     moment = np.repeat(np.arange(len(times)), [len(part.power) for part in parts])
     distance = shot.sights.distance(position)
+    size = shot.scale.length
     power = power * np.clip((_REACH - distance) / (0.3 * _REACH), 0.0, 1.0)
     lit = np.flatnonzero(power > 0.0)
     if len(lit) == 0:
         return none
     position, power, moment, distance = position[lit], power[lit], moment[lit], distance[lit]
-    weight = power / (distance**2 + _NEAR**2)
+    weight = power / (distance**2 + size(_NEAR) ** 2)
     merged = np.full(len(weight), -1)
-    whole = heat.lights(heat.Sources(position, weight, weight, merged, merged), _BLOCK, 1_000_000)
+    whole = heat.lights(heat.Sources(position, weight, weight, merged, merged), size(_BLOCK), 1_000_000)
     centre = _centres(whole.position, whole.power, shot.settings.light.lamps, shot.settings.seed)
     gap = _gaps(position, centre)
-    share = 1.0 / (gap + 25.0**2) ** 3
+    share = 1.0 / (gap + size(_SHARED) ** 2) ** 3
     share /= share.sum(axis=1, keepdims=True)
     total = np.zeros((len(times), len(centre)))
     np.add.at(total, moment, power[:, None] * share)
     spread = np.sqrt(
         (share * gap * weight[:, None]).sum(0) / np.maximum((share * weight[:, None]).sum(0), 1e-300)
     )
-    above = np.clip(0.5 * spread, *_HEIGHTS)
+    above = np.clip(0.5 * spread, *(max(size(each), _LOWEST) for each in _HEIGHTS))
     up = np.maximum(shot.ground.up(centre[:, 0], centre[:, 1]), centre[:, 2]) + above
-    return Lamps(times, np.column_stack([centre[:, :2], up]), np.clip(0.4 * spread, *_RADII), total)
+    return Lamps(
+        times, np.column_stack([centre[:, :2], up]), np.clip(0.4 * spread, *map(size, _RADII)), total
+    )
 
 
-def _around(sources: heat.Sources, near: list[Path]) -> heat.Sources:
+def _around(sources: heat.Sources, near: list[Path], block: float) -> heat.Sources:
     """Sources near the cameras, those close together merged."""
     kept = np.zeros(len(sources.power), bool)
     for view in near:
         low, high = view.position[:, :2].min(0) - _REACH, view.position[:, :2].max(0) + _REACH
         kept |= ((sources.position[:, :2] > low) & (sources.position[:, :2] < high)).all(axis=1)
-    return heat.lights(sources.take(np.flatnonzero(kept)), _BLOCK, len(kept) * 4 + 1)
+    return heat.lights(sources.take(np.flatnonzero(kept)), block, len(kept) * 4 + 1)
 
 
 def moments(shot: Shot) -> Array:

@@ -13,7 +13,7 @@ from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import haze, infrared
 from . import exposure
-from .sky import NIGHT_SKY, State
+from .sky import NIGHT_SKY, State, over
 
 _KEYS = 25  # the sky changes at this many moments of the shot
 _SKY = 0.12  # strength of the sky texture; more drowns the sunlit side of smoke
@@ -38,7 +38,7 @@ def build(shot: Shot, stage: Stage) -> list[str]:
     if stage.own and stage.scene.world is not None and owned.ours(stage.scene.world):
         stage.scene.world = None  # so that it goes with the rest of ours
     _lamp(stage.part("Light"), frames, states)
-    haze.settings(stage, shot.settings.light.haze, _state(shot, shot.frames.middle).haze)
+    haze.settings(stage, shot.settings.light.haze, over(shot, shot.frames.middle).haze)
     if not stage.own:
         return []
     if stage.scene.world is None:
@@ -52,11 +52,7 @@ def moments(shot: Shot) -> tuple[NDArray[np.float64], list[State]]:
     """Frames at which light is worked out, and the light there."""
     moving = shot.frames.count > 1 and shot.frames.last > shot.frames.first
     frames = np.linspace(1.0, shot.frames.count, _KEYS if moving else 1)
-    return frames, [_state(shot, shot.frames.time(frame)) for frame in frames]
-
-
-def _state(shot: Shot, time: float) -> State:
-    return State(*shot.sun(time))
+    return frames, [over(shot, shot.frames.time(frame)) for frame in frames]
 
 
 def _lamp(collection: bpy.types.Collection, frames: NDArray[np.float64], states: list[State]) -> None:

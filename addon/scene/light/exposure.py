@@ -71,7 +71,7 @@ def _metered(shot: Shot) -> _Metered:
 def _smooth(shot: Shot, frames: Array) -> _Metered:
     """Meter frames (k,), smooth over time."""
     if not shot.paths:
-        found = [meter.clear(sky.State(*shot.sun(shot.frames.time(frame)))) for frame in frames]
+        found = [meter.clear(sky.over(shot, shot.frames.time(frame))) for frame in frames]
         stops = np.array([_stops(each, np.zeros(2)) for each in found])
         return _Metered(frames, stops, noise.smoothstep(*_DARK, stops))
     found = [[meter.measure(shot, view, int(frame)) for frame in frames] for view in shot.paths]

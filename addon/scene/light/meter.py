@@ -32,8 +32,10 @@ _CLOSED, _BARE = 0.6, 0.4  # kg/m2 of canopy that shades 1 - 1/e of the ground; 
 _CLOUD = 0.3  # of lit smoke: a deep ball of it has 0.27, the sun behind the camera, to 0.46, at its side
 _YOUNG = 20.0, 600.0  # s in which smoke turns from that of soot to white, as `flow.Detail` has it
 _SOOT = 0.3  # of old smoke's light is fresh smoke's, amid other smoke; as pictures have it
-_BLOCK, _FIRES = 600.0, 80  # m, heat this close is one fire; and how many there are at most
-_TIMES = np.array([30.0, 90.0, 180.0, 300.0, 480.0, 720.0, 1080.0, 1600.0])  # s since smoke left its fire
+_BLOCK, _FIRES = 600.0, 80  # m, heat this close is one fire, at 15 km; and how many there are at most
+_TIMES = np.array(
+    [30.0, 90.0, 180.0, 300.0, 480.0, 720.0, 1080.0, 1600.0]
+)  # s since smoke left its fire, of 15 km
 _HIDES, _FRONT = 0.3, 1.5  # optical depth of a parcel that hides much; its radii from there to its middle
 _THROUGH = 0.5  # of smoke's depth counts for the light on it: `smoke.flow_material`
 _TOP = 3500.0  # m above the fire that smoke rises to at most
@@ -82,7 +84,7 @@ def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array, Array]:
         (n,) what flames add to rays in smoke, GW.
     """
     time = shot.frames.time(frame)
-    light, smoke = sky.State(*shot.sun(time)), _smoke(shot, time)
+    light, smoke = sky.over(shot, time), _smoke(shot, time)
     start, along = _rays(view, frame - 1)
     ends = _ends(shot, start, along)
     ground = np.isfinite(ends)
@@ -191,15 +193,16 @@ def _smoke(shot: Shot, time: float) -> Smoke:
     sources = shot.fire.sources(time)
     if not shot.settings.smoke.enabled:
         sources = sources.take(np.empty(0, np.int64))
-    fires = heat.lights(sources, _BLOCK, _FIRES)
-    shine = heat.lights(sources.luminous(), _BLOCK, _FIRES)
+    block, ages = shot.scale.length(_BLOCK), shot.scale.time(1.0) * _TIMES
+    fires = heat.lights(sources, block, _FIRES)
+    shine = heat.lights(sources.luminous(), block, _FIRES)
     speed = max(float(np.hypot(*shot.wind)), 1.0)
-    drift = np.array([*shot.wind, 0.0])[None, None] * _TIMES[None, :, None]
+    drift = np.array([*shot.wind, 0.0])[None, None] * ages[None, :, None]
     flux = (_BRIGGS[1] * fires.power[:, None]) ** (1.0 / 3.0)
-    rise = np.minimum(_BRIGGS[0] * flux * (speed * _TIMES) ** (2.0 / 3.0) / speed, _TOP)
+    rise = np.minimum(_BRIGGS[0] * flux * (speed * ages) ** (2.0 / 3.0) / speed, _TOP)
     place = fires.position[:, None] + drift
     place[..., 2] += rise
-    radius = 0.5 * rise + 0.5 * _BLOCK  # Briggs: a plume is half as wide as it has risen
+    radius = 0.5 * rise + 0.5 * block  # Briggs: a plume is half as wide as it has risen
     depth = _EXTINCTION * fires.power[:, None] / (2.0 * radius * speed)
     bright = 1.0 - (1.0 - _SOOT) * noise.smoothstep(*_YOUNG[::-1], _TIMES)
     return Smoke(place, radius, depth, bright, (shine.position, shine.power))

@@ -8,10 +8,12 @@ from __future__ import annotations
 import numpy as np
 
 from ...shot import noise, sun
+from ...shot.shot import Shot
 
 _SUN = 11.1  # W/m2 over the air
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
-_MOON = 0.15  # W/m2, for the exposure of the night: shows ridges and the tops of smoke
+# W/m2 of a full moon, and of a sky without one: more than there is, as films of nights have it; by eye
+_MOON, _STARS = 0.3, 0.08
 _MOON_COLOUR = (0.65, 0.78, 1.0)
 NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.1  # radiance
 _DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.03
@@ -37,7 +39,7 @@ THICK = 0.004, 0.02  # extinctions (1/m) of thin and of thick smoke, as to that
 
 
 class State:
-    """Light for a sun at `bearing` and `height` (degrees).
+    """Light for a sun at `bearing` and `height` (degrees), and a moon.
 
     Attributes
     ----------
@@ -55,19 +57,25 @@ class State:
         Radiance of haze.
     """
 
-    def __init__(self, bearing: float, height: float) -> None:
+    def __init__(self, bearing: float, height: float, moon: sun.Moon = sun.NO_MOON) -> None:
         self.sky = (float(np.radians(height)), float(np.radians(bearing)))
         day = float(noise.smoothstep(-1.0, 4.0, height))
         by_sun = height > sun.NIGHT
-        self.direction = sun.light(bearing, height)
+        self.direction = sun.light(bearing, height, moon)
         sunlight = _SUN * np.exp(-_SUN_DEPTH * air_mass(max(height, 0.0))) * day
-        shining = sunlight if by_sun and day > 0.0 else _MOON * np.array(_MOON_COLOUR)
+        moonlight = (_STARS + (_MOON - _STARS) * moon.light) * np.array(_MOON_COLOUR)
+        shining = sunlight if by_sun and day > 0.0 else moonlight
         self.power = float(shining.max())
         self.colour = shining / shining.max()
         blue = float(noise.smoothstep(-10.0, 12.0, height))
         self.haze = tuple(_NIGHT_HAZE + (_DAY_HAZE - _NIGHT_HAZE) * blue**2)
         self.around = np.array([np.interp(height, MEAN[0], each) for each in _AROUND]) + NIGHT_SKY
         self.sky_mean = float(np.interp(height, *MEAN)) + NIGHT_SKY.mean()
+
+
+def over(shot: Shot, time: float) -> State:
+    """Light over a shot's run at a model time (s)."""
+    return State(*shot.sun(time), shot.moon(time))
 
 
 def glow(darkness: float) -> float:

@@ -17,6 +17,8 @@ _HIGH = 1.2  # times that height, where wind no longer turns
 _WARM = 312.0  # K, potential temperature of the mixed layer: 27 degrees C over ground at 1200 m (assumed)
 _MIXED = 3300.0  # m, depth of the layer that a dry September day mixes (assumed)
 _DAY, _ALOFT, _NIGHT = 0.3e-3, 4.5e-3, 12e-3  # K/m: in it, above it, and in a valley's inversion by night
+STABILITY = 9.81 / _WARM * _DAY  # 1/s2, of the layer that a day mixes
+BUOYANCY = 9.81 / (np.pi * 1005.0 * 1.1 * 300.0)  # m4/s3 per W, of a plume in air of 1.1 kg/m3 and 300 K
 _INVERSION = 600.0  # m, its depth (assumed)
 _HEIGHTS = np.array([0.0, 10, 30, 100, 300, 600, 1000, 1800, 2600, 3300, 4000, 4800, 6000, 9000])
 # m, kg/kg: a fifth of what air holds at the ground, as much through the mixed layer, less above (assumed);

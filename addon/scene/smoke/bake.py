@@ -247,11 +247,11 @@ def _key(shot: Shot, progress: Progress) -> str:
         del found["smoke"][name]
     if solved:
         flow = Flow(shot)
-        drawn = [[each.name, each.voxel, flow_frames.THICKEST] for each in flow_frames.layers(shot, flow)]
+        drawn = [[each.name, each.voxel, shot.scale.cell] for each in flow_frames.layers(shot, flow)]
         found["flow"] = [flow.key(), settings.smoke.extinction]
     else:
         drawn = [round(resolution(shot).voxel, 3)]
-        for name in ("method", "spin_up", "cloud_base"):
+        for name in ("method", "spin_up", "cell_budget", "cloud_base"):
             del found["smoke"][name]
     if not complete:  # what is left out depends on what the cameras see, and when
         width, height = settings.render.resolution

@@ -16,6 +16,7 @@ from ... import files
 from ...errors import Error, writing
 from ...shot import burning, heat
 from ...shot.fire import Cells, Fire
+from ...shot.scale import Scale
 from ...shot.shot import Shot
 from ..light import exposure
 from . import cache, flow_frames, moments, stability
@@ -26,6 +27,7 @@ Made = TypeVar("Made")
 SHOWN = ("density", "dilution", "shade", "size", "glow")  # grids that the material asks for
 _GLOW_BLOCK = 300.0  # m; flames this near each other light the smoke as one
 _GLOW_COUNT = 400
+_BLOCK, _INTERVAL = 400.0, 60.0  # m and s in which fuel that burns becomes one puff, at a fire of 15 km
 _FLAME_HEIGHT = 20.0  # m over the ground, where their light comes from
 
 
@@ -56,7 +58,7 @@ class Baker:
 
     def puffs(self, frame: int) -> volume.Puffs:
         """Smoke of a frame."""
-        cells, time = self.cells, float(self.times[frame - 1])
+        cells, time, scale = self.cells, float(self.times[frame - 1]), self.shot.scale
         return volume.puffs(
             time,
             cells.arrival,
@@ -67,7 +69,9 @@ class Baker:
             max_age=self.shot.settings.smoke.max_age,
             burn_time=burning.BURN_TIME,
             stability=stability.under(self.shot.sun(time)[1]),
-            merge_radius=stability.MERGE,
+            interval=scale.time(_INTERVAL),
+            block=scale.length(_BLOCK),
+            merge_radius=scale.length(stability.MERGE),
             seed=self.shot.settings.seed,
             smallest=1.2 * self.resolution.voxel,
         )
@@ -78,7 +82,7 @@ class Baker:
         The file is there when it is complete, also where several threads or processes write it at once.
         """
         time = float(self.times[frame - 1])
-        position, power = lights(self.shot.fire, time)
+        position, power = lights(self.shot.fire, time, self.shot.scale)
         if self.flow:
             return self._write_flow(path, frame, (position, power))
         own = self.shot.run.has("smoke_3d")
@@ -136,7 +140,11 @@ class Baker:
         """The smoke of a frame of the flow for rays to be marched through, and no file."""
         self.flow.ready(frame)
         time = float(self.times[frame - 1])
-        what = frame, lights(self.shot.fire, time) if self._dark(time) else None, self._sight(frame)
+        what = (
+            frame,
+            lights(self.shot.fire, time, self.shot.scale) if self._dark(time) else None,
+            self._sight(frame),
+        )
         found: list[volume.Bricks] = []
         beyond: flow_frames.Beyond | None = None
         for painter in self.painters:
@@ -206,7 +214,7 @@ def _put(mine: Path, path: Path, size: int) -> None:
             raise
 
 
-def lights(model: Fire, time: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def lights(model: Fire, time: float, scale: Scale) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """What lights the smoke from within: positions (n, 3) m and powers (n,) W of luminous heat."""
-    found = heat.lights(model.sources(time).luminous(), _GLOW_BLOCK, _GLOW_COUNT)
-    return found.position + np.array([0.0, 0.0, _FLAME_HEIGHT]), found.power
+    found = heat.lights(model.sources(time).luminous(), scale.length(_GLOW_BLOCK), _GLOW_COUNT)
+    return found.position + np.array([0.0, 0.0, scale.length(_FLAME_HEIGHT)]), found.power

@@ -1,4 +1,7 @@
-"""Where a flow of smoke is solved: a box round what burns, and a finer one where cameras look. No Blender."""
+"""Where a flow of smoke is solved: a box round what burns, and a finer one where cameras look. No Blender.
+
+Lengths and times here are those at cells of `scale.REFERENCE`; they go with the shot's cells.
+"""
 
 from __future__ import annotations
 
@@ -9,23 +12,23 @@ from numpy.typing import NDArray
 
 from ...shot.fire import Fire
 from ...shot.path import Path
+from ...shot.scale import FINER, Scale
 from ...shot.shot import Shot
 from . import air
 
-SPACING = 200.0  # m; coarser than this a column has no turrets, and its far end needs no more
-FINER = 3  # cells of the nest along one of the box's: 67 m
-STEP = 10.0  # s, of the box; what is carried takes substeps
 LEAD = 600.0  # s that the nest is solved before the first frame: its own eddies need them
 _LEVELS, _NEST_LEVELS = (60.0, 270.0, 48), (36.0, 186.0, 56)  # lowest m, growth to the highest, count
 _MARGIN = 5000.0  # m round what burns: air that the fire draws in
 _DOWNWIND = (6000.0, 15_000.0)  # m that smoke is followed
-_WIDEST = 96_000.0  # m along a side; smoke of what burns farther out is left out
+_WIDEST = 130_000.0  # m along a side; smoke of what burns farther out is left out
 _SHARE = 0.01  # of the heat that may lie outside of the middle on each side
 _NEST = 180  # cells along a side: 12 km
 _NEST_ROUND = 6000.0  # m; the nest's middle is that of the heat so near to what a camera looks at
 _NEST_SEEN = 60_000.0  # m; cameras farther away see nothing that the nest adds
 _NEST_SWATH = 20_000.0  # m; pictures from straight above that are wider show more rest than nest
 _SNAP = 1000.0  # m; a nest stays where it is when a camera moves a little
+_TOP = 600.0, 2.0  # m, and times the rise of a plume: how high the box is at least
+_CALM = 1.0  # m/s, the least wind that a plume's rise is reckoned with
 _EVEN = (1, 2, 3, 5)  # sides have no other factors, for the transforms
 
 Array = NDArray[np.float64]
@@ -62,29 +65,33 @@ def whole(shot: Shot) -> Box | None:
 
     It does not depend on the cameras.
     """
-    begin = shot.frames.first - shot.settings.smoke.spin_up
+    length, cell = shot.scale.length, shot.scale.cell
+    begin = shot.frames.first - shot.spin_up
     bounds = [_bounds(shot.fire, time) for time in np.linspace(begin, shot.frames.last, 5)]
     found = np.array([each for each in bounds if each is not None])
     if len(found) == 0:
         return None
-    low, high = found[:, 0].min(axis=0) - _MARGIN, found[:, 1].max(axis=0) + _MARGIN
+    low, high = found[:, 0].min(axis=0) - length(_MARGIN), found[:, 1].max(axis=0) + length(_MARGIN)
     middle = np.array(shot.wind)
     speed = float(np.hypot(*middle))
     if speed > 0.0:
-        time = shot.settings.smoke.spin_up + shot.frames.last - shot.frames.first
-        way = np.clip(1.5 * air.WIND * speed * time, *_DOWNWIND) * middle / speed
+        time = shot.spin_up + shot.frames.last - shot.frames.first
+        most = [length(way) for way in _DOWNWIND]
+        way = np.clip(1.5 * air.WIND * speed * time, *most) * middle / speed
         low, high = low + np.minimum(way, 0.0), high + np.maximum(way, 0.0)
-    middle, half = 0.5 * (low + high), np.minimum(0.5 * (high - low), 0.5 * _WIDEST)
+    middle, half = 0.5 * (low + high), np.minimum(0.5 * (high - low), 0.5 * length(_WIDEST))
     low, high = middle - half, middle + half
-    corner = np.floor(low / SPACING) * SPACING
-    columns, rows = (_even(int(np.ceil(side / SPACING))) for side in high - corner)
-    return Box(_levels(_LEVELS), (rows, columns), SPACING, (float(corner[0]), float(corner[1])))
+    corner = np.floor(low / cell) * cell
+    columns, rows = (_even(int(np.ceil(side / cell))) for side in high - corner)
+    levels = _levels(_LEVELS, shot.scale.ratio, _part(shot))
+    return Box(levels, (rows, columns), cell, (float(corner[0]), float(corner[1])))
 
 
 def nest(shot: Shot, around: Box) -> Box | None:
-    """The finer box round the heat that the cameras look at; None where no camera is near."""
-    near = [view.target.mean(axis=0) for view in shot.paths if _sees_nest(view)]
-    if not near:
+    """The finer box round the heat that the cameras look at; None where no camera is near, or no time."""
+    length = shot.scale.length
+    near = [view.target.mean(axis=0) for view in shot.paths if _sees_nest(view, shot.scale)]
+    if not near or not shot.scale.nested:
         return None
     sources = shot.fire.sources(shot.frames.middle)
     if len(sources.power) == 0:
@@ -92,28 +99,47 @@ def nest(shot: Shot, around: Box) -> Box | None:
     place, power = sources.position[:, :2], sources.power
     target = np.mean(near, axis=0)[:2]
     nearest = place[np.argmin(np.hypot(*(place - target).T))]
-    close = np.hypot(*(place - nearest).T) < _NEST_ROUND
+    close = np.hypot(*(place - nearest).T) < length(_NEST_ROUND)
     middle = np.average(place[close], axis=0, weights=power[close])
-    side = _NEST * SPACING / FINER
-    room = 4.0 * SPACING
-    corner = np.round((middle - 0.5 * side) / _SNAP) * _SNAP
+    fine, snap = around.spacing / FINER, length(_SNAP)
+    side = _NEST * fine
+    room = 4.0 * around.spacing
+    corner = np.round((middle - 0.5 * side) / snap) * snap
     corner = np.clip(corner, np.array(around.corner) + room, np.array(around.high) - side - room)
-    corner = np.round(corner / SPACING) * SPACING
+    corner = np.round(corner / around.spacing) * around.spacing
     if np.any(corner < np.array(around.corner) + room):  # the box is hardly wider than the nest
         return None
-    return Box(_levels(_NEST_LEVELS), (_NEST, _NEST), SPACING / FINER, (float(corner[0]), float(corner[1])))
+    levels = _levels(_NEST_LEVELS, shot.scale.ratio, _part(shot))
+    return Box(levels, (_NEST, _NEST), fine, (float(corner[0]), float(corner[1])))
 
 
-def _sees_nest(view: Path) -> bool:
+def _sees_nest(view: Path, scale: Scale) -> bool:
     """Whether a camera shows what the nest adds."""
     if not view.perspective:
-        return 2.0 * view.half[0] < _NEST_SWATH
-    return np.hypot(*(view.position - view.target).mean(axis=0)[:2]) < _NEST_SEEN
+        return 2.0 * view.half[0] < scale.length(_NEST_SWATH)
+    return np.hypot(*(view.position - view.target).mean(axis=0)[:2]) < scale.length(_NEST_SEEN)
 
 
-def _levels(depths: tuple[float, float, int]) -> tuple[float, ...]:
-    """Levels whose depth grows evenly, m above ground."""
+def _part(shot: Shot) -> float:
+    """Part of the full height that the plume needs: a small fire's would have few levels in it.
+
+    It rises by 2.6 (F / (U s))^(1/3) (G. A. Briggs 1975, "Plume rise predictions", AMS Lectures on Air
+    Pollution), with F = g Q / (pi cp rho T), at the stratification of air by day.
+    """
+    times = np.linspace(shot.frames.first, shot.frames.last, 5)
+    power = max(float(shot.fire.sources(time).power.sum()) for time in times)
+    wind = max(air.WIND * float(np.hypot(*shot.wind)), _CALM)
+    rise = 2.6 * np.cbrt(air.BUOYANCY * power / (wind * air.STABILITY))
+    lowest, growth, count = _LEVELS
+    return min((_TOP[0] + _TOP[1] * rise) / ((lowest + 0.5 * growth) * count), 1.0)
+
+
+def _levels(depths: tuple[float, float, int], ratio: float, part: float) -> tuple[float, ...]:
+    """Levels whose depth grows evenly, m above ground: the lowest as cells are, the highest as it must."""
     lowest, growth, count = depths
+    top = (lowest + 0.5 * growth) * count * part
+    lowest *= ratio
+    growth = max(2.0 * (top / count - lowest), 0.0)
     k = np.arange(count + 1)
     return tuple(float(each) for each in lowest * k + 0.5 * growth / count * k * k)
 

@@ -50,7 +50,7 @@ def _parts(shot: Shot) -> list[_Part]:
     first, drawn = bake.file(shot, 1), view.resolution(shot)
     if not baker.solved(shot):
         return [_Part("Smoke", first, drawn.voxel, drawn.step, drawn.extinction)]
-    thickest = shot.settings.smoke.extinction or flow_frames.THICKEST
+    thickest = shot.settings.smoke.extinction or flow_frames.thickest(shot.scale)
     solved = shot.settings.smoke.lighting == "solved"
     depth = view.SOLVED_STEP_DEPTH if solved else view.STEP_DEPTH
     found = [
@@ -76,7 +76,9 @@ def _hang(
     volume.sequence_mode = "CLIP"
     volume.render.space = "WORLD"
     volume.render.step_size = part.step
-    volume.render.clipping = flow_frames.THIN  # Cycles leaves out what is thinner, in blocks that show
+    volume.render.clipping = flow_frames.thinnest(
+        shot.scale
+    )  # Cycles leaves out what is thinner, in blocks that show
     volume.display.density = part.extinction  # in the solid view, like the render's
     volume.display.wireframe_type = "NONE"
     volume.materials.append(look)

@@ -1,8 +1,8 @@
 """Smoke as a flow of the air, solved once per shot and kept at the moments of its frames. Needs no Blender.
 
-It is solved from `smoke.spin_up` seconds before the first frame on a box round the fire, and from
-`boxes.LEAD` before it also on a finer one where cameras look. What it is made of are the model's own heat and
-the smoke that goes with it; wind, temperature and water around are those of `air`. Nothing that it depends on
+It is solved from `Shot.spin_up` seconds before the first frame on a box round the fire, and a while before
+it also on a finer one where cameras look (see `boxes`). What it is made of are the model's own heat and the
+smoke that goes with it; wind, temperature and water around are those of `air`. Nothing that it depends on
 but the finer box comes from the cameras.
 
 Moments lie in ``<cache>/<key>/moment_000001.npz``, one folder for each box, and beside them `solving.STATE`,
@@ -25,6 +25,7 @@ from ...errors import writing
 from ...progress import Progress, silent
 from ...run import content
 from ...shot import schema, sources
+from ...shot.scale import Scale
 from ...shot.shot import Shot
 from . import boxes, cache, claim, moments
 from .boxes import Box
@@ -48,6 +49,7 @@ class Part:
     mean: float
     top: float
     folder: Path
+    scale: Scale
 
     def heights(self) -> Array:
         """Of cells' middles (nz, rows, columns), m."""
@@ -79,7 +81,7 @@ class Flow:
     @property
     def begin(self) -> float:
         """Model time (s) at which it begins."""
-        return self.shot.frames.first - self.shot.settings.smoke.spin_up
+        return self.shot.frames.first - self.shot.spin_up
 
     @functools.cached_property
     def parts(self) -> list[Part]:
@@ -89,11 +91,12 @@ class Flow:
             return []
         fine = boxes.nest(self.shot, box)
         ground = _ground(self.shot, box, 2)
+        scale = self.shot.scale
         mean, top = float(ground.mean()), box.levels[-1]
-        found = [Part(box, ground, mean, top, self._folder([box]))]
+        found = [Part(box, ground, mean, top, self._folder([box]), scale)]
         if fine is not None:
             ground = _ground(self.shot, fine, 8)
-            found.append(Part(fine, ground, mean, top, self._folder([box, fine])))
+            found.append(Part(fine, ground, mean, top, self._folder([box, fine]), scale))
         return found
 
     def key(self) -> list[str]:
@@ -184,7 +187,7 @@ class Flow:
             "sources": sources.of((), (), *_MADE_BY),
             "run": shot.inputs(("temperature", "smoke_3d")),
             "time": schema.chosen(shot.settings, {"time"}),
-            "spin_up": shot.settings.smoke.spin_up,
+            "spin_up": shot.spin_up,
             "fuel_since": shot.fire.before,
             "seed": shot.settings.seed,
             "boxes": [box.plain() for box in of],

@@ -17,8 +17,9 @@ import numpy as np
 from firetwin_core import flow, lod, volume
 from numpy.typing import NDArray
 
-from ...shot import sun
+from ...shot import noise
 from ...shot.path import SENSOR
+from ...shot.scale import Scale
 from ...shot.shot import WIDE_LENS, Shot
 from . import moments
 from .boxes import Box
@@ -34,17 +35,23 @@ had not been: 0.36 of 0.86 to 0.95 for an asymmetry of 0.6 (Joseph, Wiscombe and
 The fourth root of that light is kept, which half floats hold four times as deep.
 """
 DEEP = 6.0  # optical depth behind which smoke is `hidden`: 0.25 % of its light is left
-THICKEST = 0.03  # 1/m, at which extinction levels off: more is as opaque and takes shorter steps
+_THICKEST = 0.03  # 1/m, at which extinction levels off: more is as opaque and takes shorter steps
 _NEAR = (20.0, 36.0)  # m, voxels of the nest: the smallest and the largest
 _PIXELS = 4.0  # that a voxel is wide where it lies between them: finer smoke shows no better, and costs more
 _FAR = 80.0  # m, of the rest
+_ALONE = 60.0  # m, the least without a nest
 _LUMPS = {True: (340.0, (3.5, 2.5, 2.5)), False: (1100.0, (2.5, 1.5, 1.5))}  # m; blur of the drift, cells
+_SURFACE_STEP = 40.0  # m
 _INSIDE, _FADE = 600.0, (700.0, 4000.0)  # m from a box's side where smoke ends, and in which it fades
+_TORN, _TEARS, _EDGE = 0.8, 6000.0, 3.0  # of that way, m: how ragged smoke ends; and how steeply at the side
 _THINNING = 6  # power of the fade at the far end: what is thick hides as much until a hundredth is left
 _SEEN = 1e-9  # kg/m3; thinner smoke is not looked at
-THIN = 5.0e-5  # 1/m; thinner smoke is left out
+_THIN = 5.0e-5  # 1/m; thinner smoke is left out
+_AGES = 20.0, 600.0  # s, of dark and of white smoke
 _BLOCK, _ROUND = 16, 300.0  # voxels; m round a block that count as it: of light that smoke passes on
-_GLOW_REACH, _GLOW_CORE, _GLOW_EVERY = 600.0, 250.0, 3  # m, m, cells
+_GLOW_POWER, _GLOW_REACH, _GLOW_CORE, _GLOW_EVERY = 1e9, 600.0, 250.0, 3  # W, m, m, cells
+
+# Lengths, times and extinctions are those of a fire on cells of `scale.REFERENCE` m.
 
 Array = NDArray[np.float64]
 Brick = tuple[NDArray[np.float32], float, list[float]]
@@ -90,11 +97,13 @@ def layers(shot: Shot, solved: Flow) -> list[Layer]:
     parts = solved.parts
     if not parts:
         return []
-    wanted = shot.settings.smoke.voxel_size
+    wanted, length = shot.settings.smoke.voxel_size, shot.scale.length
+    far = length(_FAR)
     if len(parts) == 1:
-        return [Layer("smoke", parts[0], wanted or _FAR, False)]
-    near = float(np.clip(_PIXELS * _pixel(shot), *_NEAR))
-    return [Layer("far", parts[0], max(wanted, _FAR), False), Layer("smoke", parts[1], wanted or near, True)]
+        near = min(max(_PIXELS * _pixel(shot), length(_ALONE)), far)
+        return [Layer("smoke", parts[0], wanted or near, False)]
+    near = float(np.clip(_PIXELS * _pixel(shot), *map(length, _NEAR)))
+    return [Layer("far", parts[0], max(wanted, far), False), Layer("smoke", parts[1], wanted or near, True)]
 
 
 def _pixel(shot: Shot) -> float:
@@ -103,11 +112,23 @@ def _pixel(shot: Shot) -> float:
     return shot.fire_distance * (shot.pixel[0] if shot.near else plain)
 
 
+def thickest(scale: Scale) -> float:
+    """Extinction (1/m) at which that of smoke levels off."""
+    return _THICKEST / scale.ratio
+
+
+def thinnest(scale: Scale) -> float:
+    """Extinction (1/m) of smoke that is left out."""
+    return _THIN / scale.ratio
+
+
 class Painter:
     """Writes the volumes of one layer."""
 
     def __init__(self, shot: Shot, layer: Layer, inner: Box | None) -> None:
         self.shot, self.layer, self.inner = shot, layer, inner
+        self.scale = layer.part.scale
+        self._thin = thinnest(self.scale)
 
     def write(
         self,
@@ -136,7 +157,7 @@ class Painter:
         """
         painted = self._paint(frame, lights, sight, beyond)
         voxel, origin = self.layer.voxel, painted.origin
-        grids = painted.lit.grids(painted.share, THIN)
+        grids = painted.lit.grids(painted.share, self._thin)
         smoke = None
         if eyes is not None:
             outer = beyond.smoke if beyond else None
@@ -162,7 +183,7 @@ class Painter:
     ) -> tuple[volume.Bricks, Beyond]:
         """The same for rays to be marched through, and no file."""
         painted = self._paint(frame, lights, sight, beyond)
-        return painted.lit.bricks(painted.share, THIN), Beyond(painted.lit.depths)
+        return painted.lit.bricks(painted.share, self._thin), Beyond(painted.lit.depths)
 
     def _paint(
         self, frame: int, lights: tuple[Array, Array] | None, sight: lod.Sight | None, beyond: Beyond | None
@@ -170,9 +191,11 @@ class Painter:
         moment = moments.load(self.layer.part.moment(frame))
         voxel = self.layer.voxel
         origin, surface, end, share, count = self._brick(moment)
-        wanted = _wanted(sight, origin, (*surface.shape, count), voxel)
-        smoke = self._detail(moment, lights).paint_sparse(origin, voxel, surface, end, count, wanted, THIN)
-        toward = sun.light(*self.shot.sun(float(self.shot.frames.times[frame - 1])))
+        wanted = _wanted(sight, origin, (*surface.shape, count), voxel, self.scale.length(_ROUND))
+        smoke = self._detail(moment, lights).paint_sparse(
+            origin, voxel, surface, end, count, wanted, self._thin
+        )
+        toward = self.shot.light(float(self.shot.frames.times[frame - 1]))
         lit = volume.LitSmoke(smoke, toward, *LIGHT, beyond.depths if beyond else None)
         return _Painted(lit, share, origin, moment.mass)
 
@@ -200,7 +223,10 @@ class Painter:
         end, share = self._shares(x[:, None], y[None, :])
         return origin, surface, end, share, max(2, int((top - base) / voxel))
 
-    _surface_step = 40.0  # m
+    @property
+    def _surface_step(self) -> float:
+        """Between places of the true ground, m."""
+        return self.scale.length(_SURFACE_STEP)
 
     @functools.cached_property
     def _surface(self) -> Array:
@@ -217,9 +243,19 @@ class Painter:
         """How much smoke there is at places, for light, and how much of that this layer draws, 0 to 1."""
         box = self.layer.part.box
         if self.layer.fine:
-            return np.ones((x + y).shape), _inside(box, x, y, _FADE[0])
-        end = _inside(box, x, y, _FADE[1]) ** _THINNING
-        return end, np.ones_like(end) if self.inner is None else 1.0 - _inside(self.inner, x, y, _FADE[0])
+            return np.ones((x + y).shape), self._inside(box, x, y, _FADE[0])
+        torn = _TORN * noise.fractal(x, y, self.scale.length(_TEARS), 6, self.shot.settings.seed, 0.6)
+        end = self._inside(box, x, y, _FADE[1], torn) ** _THINNING
+        return end, np.ones_like(end) if self.inner is None else 1.0 - self._inside(
+            self.inner, x, y, _FADE[0]
+        )
+
+    def _inside(self, box: Box, x: Array, y: Array, fade: float, torn: Array | float = 0.0) -> Array:
+        """0 outside of a box and near its sides, 1 farther in than `fade`; `torn` is added, of that way."""
+        low, high = box.corner, box.high
+        depth = np.minimum(np.minimum(x - low[0], high[0] - x), np.minimum(y - low[1], high[1] - y))
+        way = (depth - self.scale.length(_INSIDE)) / self.scale.length(fade)
+        return np.clip(np.minimum(way + torn, _EDGE * way), 0.0, 1.0)
 
     def _detail(self, moment: moments.Moment, lights: tuple[Array, Array] | None) -> flow.Detail:
         box, shot = self.layer.part.box, self.shot
@@ -228,6 +264,7 @@ class Painter:
         heights = self._heights[: nz + 1, south : south + rows, west : west + columns]
         corner = tuple(low + at * box.spacing for low, at in zip(box.corner, moment.low, strict=True))
         size, blur = _LUMPS[self.layer.fine]
+        scale = self.layer.part.scale
         levels = np.array(box.levels)
         return flow.Detail(
             **moment.fields,
@@ -238,17 +275,23 @@ class Painter:
             ground=heights[0],
             weights=moment.weights,
             turns=moment.turns,
-            glow=None if lights is None else _glow(lights, heights[1:], box.spacing, corner),
-            size=size,
+            glow=None if lights is None else _glow(lights, heights[1:], box.spacing, corner, scale),
+            size=scale.length(size),
+            scale=scale.ratio,
             blur=blur,
             condensation=shot.settings.smoke.cloud_base,
-            thickest=shot.settings.smoke.extinction or THICKEST,
+            thickest=shot.settings.smoke.extinction or thickest(scale),
+            ages=(scale.time(_AGES[0]), scale.time(_AGES[1])),
             seed=shot.settings.seed,
         )
 
 
 def _wanted(
-    sight: lod.Sight | None, origin: tuple[float, float, float], shape: tuple[int, int, int], voxel: float
+    sight: lod.Sight | None,
+    origin: tuple[float, float, float],
+    shape: tuple[int, int, int],
+    voxel: float,
+    around: float,
 ) -> NDArray[np.bool_] | None:
     """Which blocks of a brick anything that is seen lies in; `volume.write` leaves out the others' voxels."""
     if sight is None:
@@ -256,15 +299,8 @@ def _wanted(
     side = _BLOCK * voxel
     blocks = tuple(-(-count // _BLOCK) for count in shape)
     place = np.stack(np.indices(blocks), axis=-1).reshape(-1, 3) * side + origin + 0.5 * (side - voxel)
-    radius = 0.5 * np.sqrt(3.0) * side + _ROUND
+    radius = 0.5 * np.sqrt(3.0) * side + around
     return lod.seen(place, np.full(len(place), radius), sight, shadows=True).reshape(blocks)
-
-
-def _inside(box: Box, x: Array, y: Array, fade: float) -> Array:
-    """0 outside of a box and near its sides, 1 farther in."""
-    low, high = box.corner, box.high
-    depth = np.minimum(np.minimum(x - low[0], high[0] - x), np.minimum(y - low[1], high[1] - y))
-    return np.clip((depth - _INSIDE) / fade, 0.0, 1.0)
 
 
 def _sampled(values: Array, step: float, corner: tuple[float, float], x: Array, y: Array) -> Array:
@@ -278,10 +314,11 @@ def _sampled(values: Array, step: float, corner: tuple[float, float], x: Array, 
 
 
 def _glow(
-    lights: tuple[Array, Array], heights: Array, spacing: float, corner: tuple[float, float]
+    lights: tuple[Array, Array], heights: Array, spacing: float, corner: tuple[float, float], scale: Scale
 ) -> NDArray[np.float32]:
     """Sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2) in cells; every third one, linear between."""
     places, power = lights
+    reach, core = np.float32(scale.length(_GLOW_REACH)), np.float32(scale.length(_GLOW_CORE) ** 2)
     every = [np.unique(np.append(np.arange(0, count, _GLOW_EVERY), count - 1)) for count in heights.shape]
     z = heights[np.ix_(*every)].astype(np.float32)
     y, x = (
@@ -293,9 +330,9 @@ def _glow(
         flat = (x - place[0])[None, None, :] ** 2 + (y - place[1])[None, :, None] ** 2
         square = flat + (z - place[2]) ** 2
         found += (
-            np.float32(watts / 1e9)
-            * np.exp(-np.sqrt(square) / np.float32(_GLOW_REACH))
-            / (1.0 + square / np.float32(_GLOW_CORE**2))
+            np.float32(watts / (_GLOW_POWER * scale.ratio**2))
+            * np.exp(-np.sqrt(square) / reach)
+            / (1.0 + square / core)
         )
     for axis, (at, count) in enumerate(zip(every, heights.shape, strict=True)):
         found = _stretched(found, at, count, axis)

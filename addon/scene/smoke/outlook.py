@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 
 from ...progress import duration, size
+from ...shot.scale import FINER
 from ...shot.shot import Shot
 from . import baker, boxes
 from .flow import Flow, Part
 
-_SPEED = 4e6  # cells a second on 2 cores (tests/benchmarks/solved_smoke.py); half or twice that elsewhere
+_SPEED = 1.5e7  # cells a second on 2 cores (tests/benchmarks/solved_smoke.py); half or twice that elsewhere
 _KEPT = 2.2  # bytes of a moment for each cell of its box, measured with smoke in most of it
 
 
@@ -23,9 +24,9 @@ def words(shot: Shot) -> str:
         return ""
     work = 0.0
     for part in solved.parts:
-        begin, step = solved.begin, boxes.STEP
+        begin, step = solved.begin, shot.scale.step
         if part is not solved.parts[0]:
-            begin, step = max(begin, frames.first - boxes.LEAD), step / boxes.FINER
+            begin, step = max(begin, frames.first - shot.scale.time(boxes.LEAD)), step / FINER
         work += _cells(part) * math.ceil((frames.last - begin) / step)
     room = _KEPT * frames.count * sum(map(_cells, parts))
     return (

@@ -23,6 +23,7 @@ from .boxes import Box
 
 NAME = "Smoke Shadow"
 _OVER = 45.0  # m over the ground, as tall as all but the tallest trees
+_TREES = 12.0  # m, where the fire is small
 _MESH = 3  # texels along a side of the mesh
 _TEXEL, _TEXELS = 40.0, 1200  # m at the least; along a side at the most
 _SUN_EVERY, _SKY_EVERY = 2, 8  # texels between places whose light is found
@@ -70,10 +71,13 @@ class Shadow:
 def build(shot: Shot, stage: Stage, boxes: Sequence[Box]) -> Shadow:
     """Build "Firetwin Smoke Shadow" over all that smoke in these boxes casts shadows on."""
     low, high = _extent(shot, boxes)
-    texel = max(_TEXEL, float(max(high - low)) / _TEXELS)
+    length = shot.scale.length
+    texel = max(length(_TEXEL), float(max(high - low)) / _TEXELS)
     x, y = (np.arange(a + 0.5 * texel, b, texel) for a, b in zip(low, high, strict=True))
     east, north = np.meshgrid(x, y)
-    up = shot.bare_ground.up(east.ravel(), north.ravel()).reshape(east.shape) + _OVER
+    up = shot.bare_ground.up(east.ravel(), north.ravel()).reshape(east.shape) + min(
+        max(length(_OVER), _TREES), _OVER
+    )
     places = np.stack([east, north, up], axis=-1)
     image = owned.mark(
         bpy.data.images.new(f"Firetwin {NAME}", len(x), len(y), alpha=False, float_buffer=True, is_data=True)
@@ -88,9 +92,10 @@ def build(shot: Shot, stage: Stage, boxes: Sequence[Box]) -> Shadow:
 
 def _extent(shot: Shot, boxes: Sequence[Box]) -> tuple[Array, Array]:
     """Corners (x, y), m, of what the smoke's shadow can lie on."""
+    length = shot.scale.length
     heights = [shot.sun(float(shot.frames.times[k]))[1] for k in (0, -1)]
     steep = np.tan(np.radians(max(min(heights), 1.0)))
-    margin = float(np.clip(_TOP / steep, *_MARGIN))
+    margin = float(np.clip(length(_TOP) / steep, *map(length, _MARGIN)))
     corners = np.array([[box.corner, box.high] for box in boxes])
     return corners[:, 0].min(axis=0) - margin, corners[:, 1].max(axis=0) + margin
 

@@ -14,6 +14,7 @@ from ... import files
 from ...errors import writing
 from ...progress import Progress
 from ...shot import burning
+from ...shot.scale import FINER, Scale
 from ...shot.shot import Shot
 from . import air, boxes, cache, moments
 
@@ -26,11 +27,18 @@ CONVECTED = 0.7  # of the heat rises with the air; the rest is radiated (Freebor
 SMOKE = 0.02 / burning.HEAT  # kg/J: a fiftieth of the burned fuel
 _BURN = 30.0  # s between two looks at what burns
 _RAMP = 300.0  # s in which the fire grows to its strength: a sudden one would bang
-_GUSTS = 0.6  # standard deviation of the logarithm of what single flames give off
-_FINE_GUSTS = 0.9, 180.0, 45.0  # the same in the nest, alike within m and s: single runs of flames
+# Standard deviation of the logarithm of what single flames give off, alike within m and s.
+_GUSTS = 0.6, 400.0, 90.0
+_FINE_GUSTS = 0.9, 180.0, 45.0  # the same in the nest: single runs of flames
+_SIDES, _TOP = (
+    (40.0, 8.0),
+    60.0,
+)  # s, in which air at the sides of box and nest, and at the top, comes to rest
+_DRAG = 300.0  # s, in which the lowest level does; as long as that is deep
+_DEPTH = 90.0  # m, over which heat and smoke go in
 _DRIFT = 240.0  # s before the first frame from which detail is carried along; twice what it lasts
 _SAVE = 30.0  # s of work that an interruption may cost
-_LONGEST_STEP = 1.2  # times `boxes.STEP`, where frames are that far apart
+_LONGEST_STEP = 1.2  # times the scale's step, where frames are that far apart
 
 
 class StoppedError(Exception):
@@ -43,6 +51,8 @@ class Live:
     def __init__(self, whole: Flow, frame: int) -> None:
         self.whole = whole
         shot = whole.shot
+        self.scale = shot.scale
+        self.lead, self.slots = shot.scale.time(boxes.LEAD), shot.scale.time(_BURN)
         self.step, self.frame = 0, 0
         self.steps, self.frame_of = _schedule(whole)
         self.work = self._work()
@@ -83,18 +93,18 @@ class Live:
 
     def _work(self) -> NDArray[np.int64]:
         """What the steps up to each cost, in steps of the box alone."""
-        left = self.whole.shot.settings.smoke.spin_up - np.concatenate([[0.0], np.cumsum(self.steps)[:-1]])
+        left = self.whole.shot.spin_up - np.concatenate([[0.0], np.cumsum(self.steps)[:-1]])
         cost = np.ones(len(self.steps))
         if len(self.whole.parts) > 1:
             cells = [np.prod(part.box.shape) * len(part.box.levels) for part in self.whole.parts]
-            each = [_count(dt) * cells[1] / cells[0] for dt in self.steps]
-            cost += np.where(left <= boxes.LEAD + 1e-6, each, 0.0)
+            each = [_count(dt, self.scale) * cells[1] / cells[0] for dt in self.steps]
+            cost += np.where(left <= self.lead + 1e-6, each, 0.0)
         return np.round(np.concatenate([[0.0], np.cumsum(cost)])).astype(np.int64)
 
     def _advance(self, dt: float) -> None:
         self._burn()
         for number, solver in enumerate(self.solvers):
-            count = 1 if number == 0 else _count(dt)
+            count = 1 if number == 0 else _count(dt, self.scale)
             solver.step(dt / count, count)
         for drift in self.drifts:
             drift.advance()
@@ -102,18 +112,18 @@ class Live:
     def _widen(self) -> None:
         """Begin the nest, and the detail's drift, once it is time."""
         left = self.whole.shot.frames.first - self.now
-        if len(self.whole.parts) > len(self.solvers) and left <= boxes.LEAD + 1e-6:
+        if len(self.whole.parts) > len(self.solvers) and left <= self.lead + 1e-6:
             self.solvers.append(self._inner(self.whole.parts[1]))
             self.slot = None
-        if left <= _DRIFT + 1e-6:
-            self.drifts += [flow.Drift(solver) for solver in self.solvers[len(self.drifts) :]]
+        if left <= self.scale.time(_DRIFT) + 1e-6:
+            self.drifts += [self._drift(solver) for solver in self.solvers[len(self.drifts) :]]
 
     def _burn(self) -> None:
         """Have what burns now give off heat and smoke, and the wind blow."""
-        slot = math.floor(self.solvers[0].time / _BURN + 1e-6)
+        slot = math.floor(self.solvers[0].time / self.slots + 1e-6)
         if slot == self.slot:
             return
-        time = self.whole.begin + slot * _BURN
+        time = self.whole.begin + slot * self.slots
         self.solvers[0].set_wind(air.wind(self.winds[min(slot, len(self.winds) - 1)]))
         found = self.whole.shot.fire.sources(time)
         power = found.power * min(1.0, (slot + 1) * _BURN / _RAMP)
@@ -172,8 +182,11 @@ class Live:
             mine = {name[2:]: values for name, values in kept.items() if name[:2] == f"{number}_"}
             solver.restore(mine)
             if "drift" in mine:
-                self.drifts.append(flow.Drift(solver))
+                self.drifts.append(self._drift(solver))
                 self.drifts[-1].restore(float(mine["drift_time"][0]), mine["drift"])
+
+    def _drift(self, solver: flow.Solver) -> flow.Drift:
+        return flow.Drift(solver, self.scale.time(0.5 * _DRIFT))
 
     def _outer(self, part: Part) -> flow.Solver:
         shot, box = self.whole.shot, part.box
@@ -189,8 +202,11 @@ class Live:
             pressure=around.pressure,
             corner=box.corner,
             ground=part.ground,
-            gust_strength=_GUSTS,
+            gust_strength=_GUSTS[0],
+            gust_size=self.scale.length(_GUSTS[1]),
+            gust_time=self.scale.time(_GUSTS[2]),
             seed=shot.settings.seed,
+            **self._around(_SIDES[0]),
         )
 
     def _inner(self, part: Part) -> flow.Solver:
@@ -202,24 +218,34 @@ class Live:
             box.corner,
             ground=part.ground,
             gust_strength=_FINE_GUSTS[0],
-            gust_size=_FINE_GUSTS[1],
-            gust_time=_FINE_GUSTS[2],
+            gust_size=self.scale.length(_FINE_GUSTS[1]),
+            gust_time=self.scale.time(_FINE_GUSTS[2]),
             seed=self.whole.shot.settings.seed,
+            **self._around(_SIDES[1]),
         )
 
+    def _around(self, sides: float) -> dict[str, float]:
+        """How the box's surroundings reach into it, and how high sources are."""
+        return {
+            "side_time": self.scale.time(sides),
+            "top_time": self.scale.time(_TOP),
+            "ground_time": self.scale.length(_DRAG),
+            "source_depth": self.scale.length(_DEPTH),
+        }
 
-def _count(dt: float) -> int:
+
+def _count(dt: float, scale: Scale) -> int:
     """Steps of the nest in one of the box's."""
-    return max(1, round(dt * boxes.FINER / boxes.STEP))
+    return max(1, round(dt * FINER / scale.step))
 
 
 def _schedule(whole: Flow) -> tuple[list[float], dict[int, int]]:
     """Every step's length, s, and which frame is reached after so many steps."""
-    frames = whole.shot.frames
-    lead = math.ceil(whole.shot.settings.smoke.spin_up / boxes.STEP)
-    steps = [whole.shot.settings.smoke.spin_up / lead] * lead if lead else []
+    frames, step = whole.shot.frames, whole.shot.scale.step
+    lead = math.ceil(whole.shot.spin_up / step)
+    steps = [whole.shot.spin_up / lead] * lead if lead else []
     frame_of = {lead: 1}
-    between = max(1, math.ceil(frames.step / (_LONGEST_STEP * boxes.STEP) - 1e-9))
+    between = max(1, math.ceil(frames.step / (_LONGEST_STEP * step) - 1e-9))
     for frame in range(2, frames.count + 1):
         steps += [frames.step / between] * between
         frame_of[len(steps)] = frame
@@ -228,6 +254,7 @@ def _schedule(whole: Flow) -> tuple[list[float], dict[int, int]]:
 
 def _winds(shot: Shot, begin: float) -> list[tuple[float, float]]:
     """The run's wind near the ground at every look at what burns."""
-    count = max(1, math.ceil((shot.frames.last - begin) / _BURN) + 1)
-    found = burning.wind_at(shot.run, begin + _BURN * np.arange(count), shot.fire.surroundings)
+    slot = shot.scale.time(_BURN)
+    count = max(1, math.ceil((shot.frames.last - begin) / slot) + 1)
+    found = burning.wind_at(shot.run, begin + slot * np.arange(count), shot.fire.surroundings)
     return [(float(east), float(north)) for east, north in np.nan_to_num(found)]

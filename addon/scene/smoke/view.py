@@ -11,6 +11,7 @@ from ...shot.settings import Camera, Settings
 from ...shot.shot import Shot
 
 _NEAR, _BEHIND = 0.1, 25_000.0  # part of the fire's distance, and m beyond it, between which smoke shows
+_VOXELS, _EXTINCTION = (50.0, 160.0), (0.009, 0.03)  # m, 1/m, at a fire of 15 km
 STEP_DEPTH = 0.8  # optical depth of a step through thick smoke; much longer steps lose smoke
 SOLVED_STEP_DEPTH = 1.2  # where smoke shines by itself: FLIP 0.019 off steps of 0.2; 0.8 is 0.010 off
 
@@ -37,9 +38,16 @@ class Resolution:
 def resolution(shot: Shot) -> Resolution:
     """The scene file's voxel size and extinction, where it gives them, else those for the cameras."""
     smoke = shot.settings.smoke
-    voxel = smoke.voxel_size or float(np.clip(70.0 * (shot.fire_distance / 4000.0) ** 0.4, 50.0, 160.0))
-    extinction = smoke.extinction or float(np.clip(STEP_DEPTH / (1.2 * voxel), 0.009, 0.03))
+    voxel = smoke.voxel_size or _voxel(shot)
+    thick = np.array(_EXTINCTION) / shot.scale.ratio
+    extinction = smoke.extinction or float(np.clip(STEP_DEPTH / (1.2 * voxel), *thick))
     return Resolution(voxel, STEP_DEPTH / extinction, extinction)
+
+
+def _voxel(shot: Shot) -> float:
+    """Of puffs (m): coarser from afar, and as fine as the fire."""
+    least, most = (shot.scale.length(each) for each in _VOXELS)
+    return float(np.clip(70.0 * (shot.fire_distance / 4000.0) ** 0.4, least, most))
 
 
 def span(shot: Shot) -> tuple[float, float]:

@@ -197,7 +197,7 @@ class Detail:
     in the ground's datum, `ground` (ny, nx) m; `smoke` kg/m3, `age` s, `rise` m/s, `warmth` K, `drift`
     (nz, ny, nx, 2, 3) m with its `weights` and `turns`; `glow`, the light of flames in any unit, or None.
 
-    `size` m of the largest lumps; `blur` of the drift along levels, rows and columns, cells; `opacity` times the
+    `size` m of the largest lumps; `scale` of the fire over that of 200 m cells; `blur` of the drift along levels, rows and columns, cells; `opacity` times the
     extinction; `thickest` 1/m, where that levels off; `ages` s between which smoke turns from dark to white;
     `condensation` m, the height (in the ground's datum) from which vapour turns rising smoke white and thicker.
     """
