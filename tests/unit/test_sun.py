@@ -1,0 +1,39 @@
+"""The moon over a run: full and new at the dates that almanacs have, dark below the horizon."""
+
+from datetime import UTC, datetime
+
+import numpy as np
+import pytest
+from firetwin.run import times
+from firetwin.shot import sun
+from firetwin_core import run as runs
+
+FULL, NEW = datetime(2014, 9, 9, 8, tzinfo=UTC), datetime(2014, 9, 24, 20, tzinfo=UTC)
+"""Hours after full moon (9 September, 1:38) and new moon (24 September, 6:14), when it is up in California."""
+
+
+@pytest.fixture
+def run(make_run):
+    return runs.open(make_run())
+
+
+def moon(run, moment):
+    return sun.moon(run, times.seconds(run, moment))
+
+
+def test_a_full_moon_is_bright_and_a_new_one_is_not(run):
+    assert moon(run, FULL).light > 0.4
+    assert 0.0 < moon(run, NEW).light < 0.01
+
+
+def test_light_comes_from_the_moon_when_the_sun_is_down(run):
+    full = moon(run, FULL)
+    towards = sun.light(300.0, -30.0, full)
+    assert np.allclose(towards, sun.direction(full.bearing, full.height))
+    assert not np.allclose(sun.light(300.0, 5.0, full), towards)
+
+
+def test_a_moon_below_the_horizon_gives_no_light(run):
+    hours = [moon(run, datetime(2014, 9, 9, hour, tzinfo=UTC)) for hour in range(24)]
+    assert {each.light > 0.0 for each in hours} == {True, False}
+    assert all(each == sun.NO_MOON for each in hours if each.light == 0.0)
