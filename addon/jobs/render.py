@@ -233,7 +233,8 @@ def _camera(
             if load and load.bytes > most:
                 most = load.bytes
                 tell(expected.words(load))
-            pictures.render(shot, stage, making, group, share(progress, done, frames, "rendering"), ready)
+            own = share(progress, done, frames, "rendering")
+            pictures.render(shot, stage, making, group, own, ready, tell)
             done += frames_of(group)
     return most
 

@@ -114,7 +114,7 @@ def in_blender(
             wanted, alone = list(group), shot.of(camera)
             engine.size(alone.settings, stage.scene)
             part = share(progress, done, frames, "rendering")
-            making_pictures.render(alone, stage, making, wanted, part, ready)
+            making_pictures.render(alone, stage, making, wanted, part, ready, tell)
             done += frames_of(wanted)
         video.make(shot, making, progress)
 

@@ -20,6 +20,7 @@ from .surfaces import Channels
 Array = NDArray[np.float32]
 
 _STEP = 0.5  # voxels, of the march
+_SPARSE, _HIDES = 16, 3.0  # pixels between rays; optical depth that lets a twentieth through
 _PLACES = ((0.25, 0.25), (0.75, 0.75))  # in a pixel, of the rays whose mean its smoke is
 
 
@@ -79,6 +80,16 @@ class Eye:
             return np.ones(self.shape, np.float32)
         depth = volume.optical_depth(self.smoke, *_lines(self.rays), self.distance.ravel(), step=_STEP)
         return np.exp(-depth * illumination.thickness(self.stage)).reshape(self.shape)
+
+    def smothered(self, near: float) -> float:
+        """Part of the picture in which smoke nearer than `near` m hides what is behind it."""
+        if not self.smoke:
+            return 0.0
+        rays, every = self.rays, (slice(None, None, _SPARSE), slice(None, None, _SPARSE))
+        directions = rays.directions[every].reshape(-1, 3)
+        origins = rays.origins if rays.origins.ndim == 1 else rays.origins[every].reshape(-1, 3)
+        depth = volume.optical_depth(self.smoke, origins, directions, np.full(len(directions), near), _STEP)
+        return float((depth * illumination.thickness(self.stage) > _HIDES).mean())
 
     @functools.cached_property
     def distance(self) -> Array:

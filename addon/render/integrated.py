@@ -30,6 +30,7 @@ TOGETHER = ("rgb", "thermal", "depth")
 
 _AOVS = {nodes.SURFACE: "COLOR", nodes.FLAMES: "COLOR", nodes.WARMTH: "VALUE"}
 _PICTURE = "integrated picture"
+_RIGHT_BEFORE, _HALF = 0.1, 0.5  # of the way to what a camera looks at; of its picture
 
 Array = NDArray[np.float32]
 
@@ -39,6 +40,8 @@ class Drawing:
 
     def __init__(self, shot: Shot, stage: Stage) -> None:
         self.shot, self.stage, self.scene = shot, stage, stage.scene
+        self.blind: list[int] = []
+        """Frames of which smoke right before the camera hides more than half."""
         self.image = _show(self.scene)
         _prepare(self.scene)
         self.shadow = _shadow(shot, stage) if shot.settings.smoke.enabled else None
@@ -68,12 +71,32 @@ class Drawing:
         ]
         if "rgb" in pictures:
             self._develop([eye.picture() for eye in eyes], pictures["rgb"], part)
+            self._look(eyes[0], pictures["rgb"].frame)
         if "thermal" in pictures:
             heat = [eye.radiance(pictures["thermal"].frame) for eye in eyes]
             _write(part, pictures["thermal"], np.concatenate(heat))
         if "depth" in pictures:
             depth = [eye.channels["Depth"][..., 0] for eye in eyes]
             _write(part, pictures["depth"], np.concatenate(depth))
+
+    def _look(self, eye: Eye, frame: int) -> None:
+        """Note a frame that shows little but smoke right before the camera."""
+        (view,) = self.shot.paths
+        if view.perspective:
+            away = float(np.linalg.norm(view.target[frame - 1] - view.position[frame - 1]))
+            if eye.smothered(_RIGHT_BEFORE * away) > _HALF:
+                self.blind.append(frame)
+
+    def words(self) -> list[str]:
+        """What an artist should know of the pictures."""
+        if not self.blind:
+            return []
+        (view,) = self.shot.paths
+        listed = f"frame {self.blind[0]}" if len(self.blind) == 1 else f"{len(self.blind)} frames"
+        return [
+            f'camera "{view.camera.name}" stands in smoke, which hides more than half of its picture in '
+            f"{listed}; move it to windward, or higher"
+        ]
 
     def _others(self, pictures: list[Picture], smoke: Sequence[volume.Bricks], part: Path) -> None:
         """Passes whose rays all go through the middles of pixels."""

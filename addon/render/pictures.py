@@ -12,7 +12,7 @@ import numpy as np
 from .. import files, memory
 from ..blender.owned import Stage
 from ..errors import writing
-from ..progress import Progress, silent
+from ..progress import Progress, Tell, silent, untold
 from ..scene.smoke.ahead import Smoke
 from ..shot import mount, passes
 from ..shot.passes import _view
@@ -33,6 +33,7 @@ def render(
     wanted: list[Picture],
     progress: Progress = silent,
     ready: Ready = lambda frame, ahead: None,
+    tell: Tell = untold,
 ) -> int:
     """Render those of these pictures of a built scene that no other render makes, and enter them.
 
@@ -43,6 +44,8 @@ def render(
     ready
         Called before each frame, with the frames that come after it: what the frame shows has to be on the
         disk when this returns, or is what it returns (see `scene.smoke.ahead`).
+    tell
+        Told what an artist should know of the pictures.
 
     Returns
     -------
@@ -59,6 +62,8 @@ def render(
                 made, note = made + 1, _shown(finished)
             memory.give_back()
     progress(total, total, "rendering", note)
+    for text in drawing.words() if drawing else ():
+        tell(text)
     return made
 
 

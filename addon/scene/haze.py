@@ -55,16 +55,21 @@ def way(tree: nodes.Tree, height: float) -> nodes.Value:
     return distance * (-low).exp() * ((1.0 - (-rise).exp()) / rise)
 
 
-def settings(stage: Stage, amount: float, colour: tuple[float, float, float]) -> None:
-    """Set how much haze there is (1: a dry September day) and the radiance of its light."""
+def settings(stage: Stage, amount: float) -> tuple[bpy.types.NodeTree, str]:
+    """Set how much haze there is (1: a dry September day).
+
+    Returns
+    -------
+    The node group, and the path in it of the radiance of the haze's light.
+    """
     group = _group(stage)
     group.nodes["Extinction"].outputs[0].default_value = sky.HAZE * amount
-    group.nodes["Colour"].outputs[0].default_value = (*colour, 1.0)
+    return group, 'nodes["Colour"].outputs[0].default_value'
 
 
 def state(stage: Stage) -> tuple[tuple[float, ...], float]:
     """Radiance of the haze's light and its extinction at height 0 (1/m), at the scene's frame."""
-    group = _group(stage)
+    group = stage.evaluated(_group(stage))
     colour = group.nodes["Colour"].outputs[0].default_value
     return tuple(colour[:3]), float(group.nodes["Extinction"].outputs[0].default_value)
 

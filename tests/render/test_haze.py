@@ -7,6 +7,11 @@ from firetwin.scene import haze
 from firetwin.scene.light import sky
 
 
+def _red(stage, amount):
+    group, _ = haze.settings(stage, amount)
+    group.nodes["Colour"].outputs[0].default_value = (2.0, 0.0, 0.0, 1.0)
+
+
 def _look(stage, shoot, height, distance, **inputs):
     """Red of a black wall at `height` seen from `distance` above it (level where that is negative).
 
@@ -42,24 +47,24 @@ def _look(stage, shoot, height, distance, **inputs):
 
 
 def test_level_rays_fade_by_the_extinction_at_their_height(stage, shoot):
-    haze.settings(stage, 1.0, (2.0, 0.0, 0.0))
+    _red(stage, 1.0)
     depth = sky.HAZE * 30_000.0 * math.exp(-2000.0 / sky.HAZE_HEIGHT)
     assert _look(stage, shoot, 2000.0, -30_000.0) == pytest.approx(2.0 * (1.0 - math.exp(-depth)), rel=0.01)
 
 
 def test_from_space_the_whole_air_is_one_scale_height_deep(stage, shoot):
-    haze.settings(stage, 1.0, (2.0, 0.0, 0.0))
+    _red(stage, 1.0)
     depth = sky.HAZE * sky.HAZE_HEIGHT
     assert _look(stage, shoot, 0.0, 60_000.0) == pytest.approx(2.0 * (1.0 - math.exp(-depth)), rel=0.01)
 
 
 def test_one_material_may_have_more_haze_of_another_colour(stage, shoot):
-    haze.settings(stage, 1.0, (2.0, 0.0, 0.0))
+    _red(stage, 1.0)
     depth = 3.0 * sky.HAZE * sky.HAZE_HEIGHT
     seen = _look(stage, shoot, 0.0, 60_000.0, Haze=3.0, Haze_Tint=(0.5, 1.0, 1.0, 1.0))
     assert seen == pytest.approx(1.0 - math.exp(-depth), rel=0.01)
 
 
 def test_no_haze_hides_nothing(stage, shoot):
-    haze.settings(stage, 0.0, (2.0, 0.0, 0.0))
+    _red(stage, 0.0)
     assert _look(stage, shoot, 0.0, 60_000.0) == pytest.approx(0.0, abs=1e-6)

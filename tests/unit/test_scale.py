@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from fires import axes, round_fire
 from firetwin.shot import scale
 from firetwin.shot.scale import FINER, REFERENCE, Scale
 from firetwin_core import run as runs
-from fires import axes, round_fire
 from hypothesis import given
 from hypothesis import strategies as st
 

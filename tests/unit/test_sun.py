@@ -9,7 +9,7 @@ from firetwin.shot import sun
 from firetwin_core import run as runs
 
 FULL, NEW = datetime(2014, 9, 9, 8, tzinfo=UTC), datetime(2014, 9, 24, 20, tzinfo=UTC)
-"""Hours after full moon (9 September, 1:38) and new moon (24 September, 6:14), when it is up in California."""
+"""Hours after full moon (9 September, 1:38) and new moon (24 September, 6:14), with it up in California."""
 
 
 @pytest.fixture

@@ -38,7 +38,8 @@ def build(shot: Shot, stage: Stage) -> list[str]:
     if stage.own and stage.scene.world is not None and owned.ours(stage.scene.world):
         stage.scene.world = None  # so that it goes with the rest of ours
     _lamp(stage.part("Light"), frames, states)
-    haze.settings(stage, shot.settings.light.haze, over(shot, shot.frames.middle).haze)
+    group, colour = haze.settings(stage, shot.settings.light.haze)
+    key(group, colour, frames, np.array([(*each.haze, 1.0) for each in states]))
     if not stage.own:
         return []
     if stage.scene.world is None:

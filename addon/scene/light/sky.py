@@ -6,6 +6,7 @@ The values of light are a picture's: a sun of 9 W/m2 at 38 degrees goes with exp
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...shot import noise, sun
 from ...shot.shot import Shot
@@ -17,6 +18,7 @@ _MOON, _STARS = 0.3, 0.08
 _MOON_COLOUR = (0.65, 0.78, 1.0)
 NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.1  # radiance
 _DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.03
+_FULL_DAY = 1.8  # air masses; through more the sun, and haze in its light, is redder
 HAZE = 1.2e-5  # extinction at z = 0 on a dry September day, 1/m: clear mountain air
 HAZE_HEIGHT = 5000.0  # m; it thins by exp(-z / this), between dust (about 2 km) and air (8 km)
 
@@ -67,10 +69,18 @@ class State:
         shining = sunlight if by_sun and day > 0.0 else moonlight
         self.power = float(shining.max())
         self.colour = shining / shining.max()
-        blue = float(noise.smoothstep(-10.0, 12.0, height))
-        self.haze = tuple(_NIGHT_HAZE + (_DAY_HAZE - _NIGHT_HAZE) * blue**2)
+        self.haze = tuple(_haze(height, moon.light))
         self.around = np.array([np.interp(height, MEAN[0], each) for each in _AROUND]) + NIGHT_SKY
         self.sky_mean = float(np.interp(height, *MEAN)) + NIGHT_SKY.mean()
+
+
+def _haze(height: float, moonlight: float) -> NDArray[np.float64]:
+    """Radiance of haze in the light of a sun at `height` degrees, half of which is the sky's."""
+    blue = float(noise.smoothstep(-10.0, 12.0, height))
+    low = np.exp(-_SUN_DEPTH * max(air_mass(max(height, 0.0)) - _FULL_DAY, 0.0))
+    by_day = _DAY_HAZE * 0.5 * (1.0 + low / low.max())
+    by_night = _NIGHT_HAZE * (1.0 + moonlight * _MOON / _STARS)
+    return by_night + (by_day - by_night) * blue**2
 
 
 def over(shot: Shot, time: float) -> State:
