@@ -30,10 +30,17 @@ def words(shot: Shot) -> str:
         work += _cells(part) * math.ceil((frames.last - begin) / step)
     room = _KEPT * frames.count * sum(map(_cells, parts))
     return (
-        f"the air over {duration(frames.last - solved.begin)} of the fire is solved once, which takes about "
+        f"the air over {duration(frames.last - solved.begin)} of the fire is solved once in cells of "
+        f"{_widths(solved.parts)}, which takes about "
         f"{duration(work / _SPEED)} on 2 cores and {size(room)} in {solved.parts[-1].folder.parent}; "
         'smoke.method = "puffs" needs none of it'
     )
+
+
+def _widths(parts: list[Part]) -> str:
+    """Cells of the box, and of the nest if there is one."""
+    outer, *inner = (f"{part.box.spacing:.3g} m" for part in parts)
+    return outer + "".join(f", {each} where cameras look" for each in inner)
 
 
 def _cells(part: Part) -> int:
