@@ -12,6 +12,7 @@ from firetwin.scene.light import exposure, meter, sky
 from firetwin.shot import settings as scene_settings
 from firetwin.shot.rigs.drone import CameraKey, Drone
 from firetwin.shot.rigs.satellite import Satellite
+from firetwin.shot.scale import Scale
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 
@@ -42,6 +43,12 @@ def night_run(run_folder, tmp_path_factory):
 def firestorm(run_folder, tmp_path_factory):
     """Ten King Fires by night."""
     return fire(run_folder, tmp_path_factory.mktemp("storm") / "run", "2014-09-18T06:00:00Z", heat=1.0)
+
+
+@pytest.fixture(autouse=True)
+def large(monkeypatch):
+    """The run's few cells hold the heat of a fire of 15 km."""
+    monkeypatch.setattr(Shot, "scale", Scale())
 
 
 @pytest.fixture

@@ -19,7 +19,7 @@ CELLS, TIMES = 40, 9
 
 
 def fields(side, latitude, wind, interval, places, canopy):
-    """A run of `side` m with a round fire at each of these places (parts of the side), which ends half-way."""
+    """A run of `side` m with a round fire at each of these places (parts of the side)."""
     north, east = areas.metres_per_degree(latitude)
     metres = (np.arange(CELLS) + 0.5) / CELLS * side
     x, y = np.meshgrid(metres, metres)

@@ -58,6 +58,8 @@ class Smoke:
         (m,) light of it beside that of old smoke.
     light
         Places (k, 3) m and luminous powers (k,) W.
+    ratio
+        Lengths of the fire over those at 15 km.
     """
 
     place: Array
@@ -65,6 +67,7 @@ class Smoke:
     depth: Array
     bright: Array
     light: tuple[Array, Array]
+    ratio: float
 
 
 def clear(light: sky.State) -> Array:
@@ -205,7 +208,7 @@ def _smoke(shot: Shot, time: float) -> Smoke:
     radius = 0.5 * rise + 0.5 * block  # Briggs: a plume is half as wide as it has risen
     depth = _EXTINCTION * fires.power[:, None] / (2.0 * radius * speed)
     bright = 1.0 - (1.0 - _SOOT) * noise.smoothstep(*_YOUNG[::-1], _TIMES)
-    return Smoke(place, radius, depth, bright, (shine.position, shine.power))
+    return Smoke(place, radius, depth, bright, (shine.position, shine.power), shot.scale.ratio)
 
 
 def _depth(smoke: Smoke, start: Array, along: Array, ends: Array | float) -> tuple[Array, Array, Array]:
@@ -253,15 +256,19 @@ def _glowing(shot: Shot) -> float:
 
 
 def _shine(smoke: Smoke, start: Array, along: Array, ends: Array) -> Array:
-    """Most light (n,) of flames on smoke on a ray: sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2)."""
+    """Most light (n,) of flames on smoke on a ray: sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2).
+
+    Smaller fires have shorter lengths, and powers that go with their squares, as `flow_frames` has it.
+    """
     places, power = smoke.light
+    reach, core = 600.0 * smoke.ratio, 250.0 * smoke.ratio
     if len(places) == 0:
         return np.zeros(len(start))
     far = np.maximum(along @ places.T - (start * along).sum(axis=1)[:, None], 0.0)
     nearest = start[:, None] + np.minimum(far, ends[:, None])[..., None] * along[:, None]
     square = np.maximum(_squares(nearest, places), 0.0)
-    light = np.exp(-np.sqrt(square) / 600.0) / (1.0 + square / 250.0**2)
-    return (light @ power).max(axis=1) / 1.0e9
+    light = np.exp(-np.sqrt(square) / reach) / (1.0 + square / core**2)
+    return (light @ power).max(axis=1) / (1.0e9 * smoke.ratio**2)
 
 
 def luminance(colour: tuple[float, ...]) -> float:
