@@ -85,6 +85,17 @@ def fraction(tree: nodes.Tree, stage: Stage) -> tuple[nodes.Value, nodes.Value]:
     return tree.pick(node, "Fraction"), tree.pick(node, "Colour")
 
 
+def before_sky(tree: nodes.Tree, stage: Stage, light: nodes.Value, up: nodes.Value) -> nodes.Value:
+    """The sky's radiance through haze, for rays of slope sine `up`; a dry day's is in the sky as it is."""
+    group = _group(stage)
+    more = (group.nodes["Extinction"].outputs[0].default_value - sky.HAZE) * sky.HAZE_HEIGHT
+    if more <= 1.0e-3:
+        return light
+    colour = tree.pick(tree.node("ShaderNodeGroup", node_tree=group), "Colour")
+    part = 1.0 - tree.math("DIVIDE", -more, tree.math("MAXIMUM", up, 0.005)).exp()
+    return tree.mix_colour(part, light, colour)
+
+
 def apply(tree: nodes.Tree, shader: Any, stage: Stage) -> nodes.Value:
     """`shader` as it is seen through the haze between it and the camera."""
     part, colour = fraction(tree, stage)

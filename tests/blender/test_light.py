@@ -74,7 +74,7 @@ def test_a_scene_that_is_not_ours_keeps_its_world_and_its_colours(shot, scene):
     assert bpy.data.objects["Firetwin Sun"].data.energy > 1.0
 
 
-def test_the_shade_between_trees_is_filled_by_day_and_by_no_world_but_ours(settings, run, stage, scene):
+def test_the_shade_between_trees_is_filled_most_by_day_and_by_no_world_but_ours(settings, run, stage, scene):
     day, night = (datetime(2014, 9, 17, hour, tzinfo=UTC) for hour in (21, 8))
     found = []
     for moment in (day, night):
@@ -84,7 +84,7 @@ def test_the_shade_between_trees_is_filled_by_day_and_by_no_world_but_ours(setti
         assert scene.cycles.use_fast_gi
         found.append(scene.world.light_settings.ao_factor)
     assert 0.05 < found[0] < 0.15
-    assert found[1] < 0.005
+    assert 0.0 < found[1] < 0.4 * found[0]
     scene.world = bpy.data.worlds.new("mine")
     engine.apply(settings, scene)
     assert not scene.cycles.use_fast_gi

@@ -20,6 +20,9 @@ _SKY = 0.12  # strength of the sky texture; more drowns the sunlit side of smoke
 _DUST = 0.3  # of the sky texture; 1 makes it pale and greenish
 _FILL = 0.44  # of the sky's mean radiance, added wherever what is near leaves a place open; by eye
 _NEAR = 15.0  # m
+_NIGHT_FILL = (
+    0.06  # of that mean radiance, the least: eyes and films that see by night see the ground; by eye
+)
 _TRANSFORM, _LOOK = "AgX", "AgX - Medium High Contrast"
 _INSTEAD = ("Filmic", "Standard")  # view transforms where there is no AgX, the better first
 
@@ -43,7 +46,7 @@ def build(shot: Shot, stage: Stage) -> list[str]:
     if not stage.own:
         return []
     if stage.scene.world is None:
-        _world(stage.scene, frames, states)
+        _world(stage, frames, states)
     _thermal_sky(stage.scene.world, infrared.sky(shot))
     _expose(stage.scene, frames, exposure.at(shot, frames))
     return _colours(stage.scene.view_settings)
@@ -71,15 +74,26 @@ def _facing(direction: NDArray[np.float64]) -> tuple[float, ...]:
     return tuple(Vector((-direction).tolist()).to_track_quat("-Z", "Y"))
 
 
-def _world(scene: bpy.types.Scene, frames: NDArray[np.float64], states: list[State]) -> None:
+def _airglow(tree: nodes.Tree, up: nodes.Value) -> nodes.Value:
+    """The night sky's light over that at the zenith, for rays of slope sine `up`: a layer 100 km high.
+
+    Van Rhijn (1921, "On the brightness of the sky at night", Publ. Astr. Lab. Groningen 31), and the mean 1.
+    """
+    across = (1.0 - up * up) * (6371.0 / 6471.0) ** 2
+    return tree.math("POWER", 1.0 - across, -0.5) * 0.6
+
+
+def _world(stage: Stage, frames: NDArray[np.float64], states: list[State]) -> None:
     """Make the world: sky texture and a little night sky; constant and cold in thermal view layers."""
-    world = scene.world = owned.mark(bpy.data.worlds.new("Firetwin Sky"))
+    world = stage.scene.world = owned.mark(bpy.data.worlds.new("Firetwin Sky"))
     tree = nodes.Tree(compat.node_tree(world))
     sky = tree.node("ShaderNodeTexSky")
     sky.name = "Sky"
     light = tree.vector("SCALE", sky, name=0)
     compat.find_socket(light.socket.node.inputs, "Scale").default_value = _SKY
-    light = tree.vector("ADD", light, tuple(NIGHT_SKY))
+    up = tree.separate(tree.output("ShaderNodeTexCoord", name="Generated"))[2]
+    light = tree.vector("ADD", light, tree.vector("SCALE", tuple(NIGHT_SKY), _airglow(tree, up)))
+    light = haze.before_sky(tree, stage, light, up)
     seen = tree.output("ShaderNodeBackground", {"Color": light, "Strength": 1.0})
     cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": 0.0})
     cold.socket.node.name = "Thermal Sky"
@@ -96,10 +110,15 @@ def _world(scene: bpy.types.Scene, frames: NDArray[np.float64], states: list[Sta
 def _fill(world: bpy.types.World, frames: NDArray[np.float64], states: list[State]) -> None:
     """Light in the shade between trees, in place of what goes from crown to crown and from the ground.
 
-    Cycles adds it as ambient occlusion ("Fast GI"): as much as the sky is bright, nothing at night.
+    Cycles adds it as ambient occlusion ("Fast GI"): as much as the sky is bright, at night a little.
     """
     world.light_settings.distance = _NEAR
-    key(world, "light_settings.ao_factor", frames, _FILL * np.array([s.sky_mean for s in states]))
+    key(
+        world,
+        "light_settings.ao_factor",
+        frames,
+        _FILL * np.array([max(s.sky_mean, _NIGHT_FILL) for s in states]),
+    )
 
 
 def _thermal_sky(world: bpy.types.World, radiance: float) -> None:
