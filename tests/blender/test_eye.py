@@ -1,0 +1,58 @@
+"""What an eye sees of smoke right before it, and what is said of a camera that stands in it."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from firetwin.render import eye, integrated
+from firetwin.render.rays import Rays
+from firetwin.scene.smoke import illumination
+from firetwin_core import volume
+
+SHAPE = 64, 96
+
+
+@pytest.fixture
+def looking(monkeypatch):
+    """An eye at a place (m) that looks along x; smoke of 0.1 /m fills 400 m from the origin on, y below 0."""
+    monkeypatch.setattr(illumination, "thickness", lambda stage: 1.0)
+    density = np.full((40, 40, 40), 0.1, np.float32)
+    ones = np.ones_like(density)
+    smoke = [volume.Bricks(density, ones, ones, ones, None, voxel_size=10.0, origin=(0.0, -390.0, -200.0))]
+
+    def make(x, y, smoky=True):
+        found = object.__new__(eye.Eye)
+        found.stage, found.smoke = None, smoke if smoky else []
+        directions = np.broadcast_to([1.0, 0.0, 0.0], (*SHAPE, 3))
+        found.rays = Rays(np.array([x, y, 0.0]), directions, np.zeros(SHAPE), None)
+        return found
+
+    return make
+
+
+def test_smoke_right_before_an_eye_hides_its_picture(looking):
+    assert looking(100.0, -200.0).smothered(100.0) == 1.0
+    assert looking(100.0, -200.0).smothered(10.0) == 0.0, "10 m of it let a third through"
+    assert looking(-500.0, -200.0).smothered(100.0) == 0.0, "what is far off is the picture"
+    assert looking(100.0, 300.0).smothered(100.0) == 0.0
+    assert looking(100.0, -200.0, smoky=False).smothered(100.0) == 0.0
+
+
+def test_a_camera_in_smoke_is_told_of(looking):
+    drawing = object.__new__(integrated.Drawing)
+    places = np.array([[100.0, -200.0, 0.0]] * 3)
+    view = SimpleNamespace(
+        perspective=True,
+        position=places,
+        target=places + [1000.0, 0.0, 0.0],
+        camera=SimpleNamespace(name="drone"),
+    )
+    drawing.blind, drawing.shot = [], SimpleNamespace(paths=[view])
+    drawing._look(looking(-500.0, -200.0), 1)
+    assert drawing.words() == []
+    drawing._look(looking(100.0, -200.0), 2)
+    (text,) = drawing.words()
+    assert text.startswith('camera "drone" stands in smoke')
+    assert "in frame 2; move it" in text
+    drawing._look(looking(100.0, -200.0), 3)
+    assert "in 2 frames" in "".join(drawing.words())
