@@ -44,7 +44,7 @@ def test_a_camera_in_smoke_is_told_of(looking):
     view = SimpleNamespace(
         perspective=True,
         position=places,
-        target=places + [1000.0, 0.0, 0.0],
+        target=np.add(places, [1000.0, 0.0, 0.0]),
         camera=SimpleNamespace(name="drone"),
     )
     drawing.blind, drawing.shot = [], SimpleNamespace(paths=[view])

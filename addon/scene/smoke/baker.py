@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -19,7 +20,7 @@ from ...shot.fire import Cells, Fire
 from ...shot.scale import Scale
 from ...shot.shot import Shot
 from ..light import exposure
-from . import cache, flow_frames, moments, stability
+from . import cache, close_up, flow_frames, moments, stability
 from .flow import Flow
 from .view import resolution
 
@@ -42,6 +43,7 @@ class Baker:
         self.sights = None if whole else shot.sights
         self.flow = Flow(shot) if solved(shot) else None
         self.times = shot.frames.times
+        self._close_painter: flow_frames.Painter | None = None
 
     @functools.cached_property
     def cells(self) -> Cells:
@@ -147,11 +149,23 @@ class Baker:
         )
         found: list[volume.Bricks] = []
         beyond: flow_frames.Beyond | None = None
-        for painter in self.painters:
-            paint = functools.partial(painter.bricks, *what, beyond)
+        painters = list(self.painters)
+        window = close_up.window(self.shot, frame, painters[-1].layer.voxel) if painters else None
+        if window is not None and painters[-1].layer.fine:
+            painters.append(self._close(painters[-1].layer, window))
+        for painter in painters:
+            fine = window if painter.layer.fine else None
+            paint = functools.partial(painter.bricks, *what, beyond, fine)
             made, beyond = self._unbroken(frame, paint)
             found.append(made)
         return found
+
+    def _close(self, layer: flow_frames.Layer, window: close_up.Window) -> flow_frames.Painter:
+        """What paints a layer's part in a window."""
+        if self._close_painter is None:
+            close = replace(layer, voxel=window.voxel, close=True)
+            self._close_painter = flow_frames.Painter(self.shot, close, None)
+        return self._close_painter
 
     def _dark(self, time: float) -> bool:
         """Whether it is so dark at a model time (s) that smoke shows the flames' light."""

@@ -23,6 +23,7 @@ from ...shot.scale import Scale
 from ...shot.shot import WIDE_LENS, Shot
 from . import moments
 from .boxes import Box
+from .close_up import Window
 from .flow import Flow, Part
 
 GRIDS = ("density", "fresh", "sun", "sky", "hidden", "glow")
@@ -86,6 +87,8 @@ class Layer:
     part: Part
     voxel: float
     fine: bool
+    close: bool = False
+    """Of the part only what lies in a frame's window."""
 
     def file(self, folder: Path, frame: int) -> Path:
         """Its volume of a frame."""
@@ -123,11 +126,18 @@ def thinnest(scale: Scale) -> float:
 
 
 class Painter:
-    """Writes the volumes of one layer."""
+    """Writes the volumes of one layer.
+
+    Parameters
+    ----------
+    inner
+        The box that a finer layer draws.
+    """
 
     def __init__(self, shot: Shot, layer: Layer, inner: Box | None) -> None:
         self.shot, self.layer, self.inner = shot, layer, inner
         self.scale = layer.part.scale
+        self.window: Window | None = None
         self._thin = thinnest(self.scale)
 
     def write(
@@ -180,8 +190,16 @@ class Painter:
         lights: tuple[Array, Array] | None,
         sight: lod.Sight | None,
         beyond: Beyond | None = None,
+        window: Window | None = None,
     ) -> tuple[volume.Bricks, Beyond]:
-        """The same for rays to be marched through, and no file."""
+        """The same for rays to be marched through, and no file.
+
+        Parameters
+        ----------
+        window
+            What of it is painted again, more finely.
+        """
+        self.window = window
         painted = self._paint(frame, lights, sight, beyond)
         return painted.lit.bricks(painted.share, self._thin), Beyond(painted.lit.depths)
 
@@ -209,8 +227,10 @@ class Painter:
         box, voxel = self.layer.part.box, self.layer.voxel
         _nz, rows, columns = moment.fields["smoke"].shape
         low = np.array(box.corner) + np.array(moment.low) * box.spacing
-        first = np.floor(low / voxel) * voxel
         last = low + np.array([columns, rows]) * box.spacing
+        if self.layer.close:
+            low, last = np.clip([self.window.low, self.window.high], low, last)
+        first = np.floor(low / voxel) * voxel
         nx, ny = (max(2, int(np.ceil(side / voxel))) for side in last - first)
         x, y = first[0] + np.arange(nx) * voxel, first[1] + np.arange(ny) * voxel
         surface = _sampled(self._surface, self._surface_step, box.corner, x, y)
@@ -243,7 +263,9 @@ class Painter:
         """How much smoke there is at places, for light, and how much of that this layer draws, 0 to 1."""
         box = self.layer.part.box
         if self.layer.fine:
-            return np.ones((x + y).shape), self._inside(box, x, y, _FADE[0])
+            close = 0.0 if self.window is None else self.window.share(x, y)
+            drawn = self._inside(box, x, y, _FADE[0])
+            return np.ones((x + y).shape), drawn * (close if self.layer.close else 1.0 - close)
         torn = _TORN * noise.fractal(x, y, self.scale.length(_TEARS), 6, self.shot.settings.seed, 0.6)
         end = self._inside(box, x, y, _FADE[1], torn) ** _THINNING
         return end, np.ones_like(end) if self.inner is None else 1.0 - self._inside(
