@@ -49,7 +49,7 @@ class Part:
     mean: float
     top: float
     folder: Path
-    scale: Scale
+    scale: Scale = Scale()
 
     def heights(self) -> Array:
         """Of cells' middles (nz, rows, columns), m."""
