@@ -49,7 +49,7 @@ class Part:
     mean: float
     top: float
     folder: Path
-    scale: Scale = Scale()
+    scale: Scale
 
     def heights(self) -> Array:
         """Of cells' middles (nz, rows, columns), m."""
