@@ -12,7 +12,7 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ..data import history
-from . import areas, blocks, remembered, times
+from . import areas, blocks, fuel_category, remembered, times
 
 ACRE = history.SQUARE_METRES_PER_ACRE
 
@@ -51,6 +51,7 @@ def _find(run: Run, zone: str) -> dict[str, Any]:
         "fuel_grid": _grid(run.fuel_latitude, run.fuel_longitude),
         "surface_fuel": _fuel(run, "surface_fuel", 0.0),
         "canopy_fuel": _fuel(run, "canopy_fuel", 0.01),
+        "fuel_category": fuel_category.shares(run),
         "times": {
             "count": len(seconds),
             "first": times.iso(times.moment(run, float(seconds[0]))),
@@ -225,6 +226,7 @@ def _facts(info: dict[str, Any]) -> list[tuple[str, str]]:
         ("Fuel grid", _size(fuel)),
         ("Surface fuel", _load(info["surface_fuel"])),
         ("Canopy fuel", _load(info["canopy_fuel"])),
+        *([("Fuel models", _shares(info["fuel_category"]))] if info["fuel_category"] else []),
         ("Times", f"{when['count']:,}{_interval(when)}"),
         ("  first", f"{times.text(first, zone)}  ({first:%d %b %H:%M} UTC)"),
         ("  last", f"{times.text(last, zone)}  ({last:%d %b %H:%M} UTC)"),
@@ -286,6 +288,10 @@ def _load(fuel: dict[str, float]) -> str:
         f"above {fuel['above']:g} in {fuel['share'] * 100:.1f} % of cells, "
         f"mean {fuel['mean']:.2f}, at most {fuel['max']:.2f} kg/m2"
     )
+
+
+def _shares(parts: dict[str, float]) -> str:
+    return ", ".join(f"{name} {part * 100:.0f} %" for name, part in parts.items() if part >= 0.005)
 
 
 def _energy(joules: float) -> str:

@@ -237,8 +237,12 @@ const run::Plane& plane_of(const Run& run, const std::string& field) {
   if (field == "fuel_arrival_time") {
     return run.own_arrival_time();
   }
+  if (field == "fuel_category") {
+    return run.fuel_category();
+  }
   throw py::value_error("no field of the fuel grid is called '" + field +
-                        "'; choose surface_fuel, canopy_fuel, fuel_elevation or fuel_arrival_time");
+                        "'; choose surface_fuel, canopy_fuel, fuel_elevation, fuel_category or "
+                        "fuel_arrival_time");
 }
 
 Array<float> fuel_rows(const Run& run, const std::string& field, py::ssize_t first,

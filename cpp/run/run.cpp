@@ -92,6 +92,9 @@ void Run::read_grids() {
             elevation_);
   emplace(surface_fuel_, "surface_fuel");
   emplace(canopy_fuel_, "canopy_fuel");
+  if (folder_.has("fuel_category")) {
+    emplace(fuel_category_, "fuel_category");
+  }
   if (folder_.has("fuel_elevation")) {
     emplace(fuel_elevation_, "fuel_elevation");
     return;
@@ -221,6 +224,10 @@ const Series& Run::wind_east() const {
 }
 const Series& Run::wind_north() const {
   return need(wind_north_, path(), "wind");
+}
+
+const Plane& Run::fuel_category() const {
+  return need(fuel_category_, path(), "fuel_category");
 }
 
 const LevelSeries& Run::smoke_3d() const {

@@ -48,6 +48,9 @@ public:
   const Plane& canopy_fuel() const { return *canopy_fuel_; }   ///< [fy fx] kg/m2
   /// [fy fx] m: the field of that name, or the elevation resampled bilinearly.
   const Plane& fuel_elevation() const { return *fuel_elevation_; }
+  /// [fy fx] number of the fuel model: Anderson 1 to 14, Scott and Burgan 91 to 204.
+  /// @throws Error when the run has none.
+  const Plane& fuel_category() const;
 
   std::size_t cells() const { return latitude_.size() * longitude_.size(); }
   const Series& heat_flux() const { return *heat_flux_; } ///< W/m2
@@ -87,7 +90,7 @@ private:
   std::optional<float> no_data_;
   std::vector<double> times_, latitude_, longitude_, fuel_latitude_, fuel_longitude_;
   std::vector<float> elevation_;
-  std::optional<Plane> surface_fuel_, canopy_fuel_, fuel_elevation_;
+  std::optional<Plane> surface_fuel_, canopy_fuel_, fuel_elevation_, fuel_category_;
   std::optional<Series> heat_flux_, temperature_, wind_east_, wind_north_;
   std::optional<LevelSeries> smoke_3d_, height_3d_, temperature_3d_;
   std::vector<std::string> warnings_;

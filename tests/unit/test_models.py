@@ -308,6 +308,7 @@ def test_elmfire(tmp_path, converted):
     assert source(run)["model"] == "ELMFIRE"
     assert np.unique(run.canopy_fuel).max() == pytest.approx(0.12 * 10.0)
     assert set(np.unique(run.surface_fuel)) <= {np.float32(0), np.float32(0.247), np.float32(3.138)}
+    assert set(np.unique(run.fuel_rows("fuel_category", 0, len(run.fuel_latitude)))) <= {102, 165, 98}
     assert run.elevation.max() == 900
     burns = np.isfinite(arrival)
     joules = (fuels.loads(number) + 1.2)[burns].mean() * fuels.HEAT  # a m2

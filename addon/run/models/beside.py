@@ -78,6 +78,9 @@ class Land:
             if name not in still:
                 values = find(where, projection)
                 still[name] = lambda values=values: values
+        number = self.category(fuel_grid, projection)
+        if "fuel_category" not in still and number is not None:
+            still["fuel_category"] = lambda: number
 
     def say(self, text: str) -> None:
         """An assumption, said once."""

@@ -26,8 +26,8 @@ class Maps:
         (ny, nx) s since the start, NaN where never.
     intensity, speed, per_area
         W/m, m/s and J/m2 where the fire came; None: not said.
-    surface, canopy, elevation
-        kg/m2, kg/m2 and m; None: what lies beside says it.
+    surface, canopy, elevation, category
+        kg/m2, kg/m2, m and numbers of fuel models; None: what lies beside says it.
     """
 
     arrival: NDArray
@@ -37,6 +37,7 @@ class Maps:
     surface: NDArray | None = None
     canopy: NDArray | None = None
     elevation: NDArray | None = None
+    category: NDArray | None = None
 
 
 def model(
@@ -65,7 +66,7 @@ def model(
     if canopy is None:
         canopy = land.canopy(grid, options.projection)
     fuel = surface + canopy
-    category = land.category(grid, options.projection)
+    category = maps.category if maps.category is not None else land.category(grid, options.projection)
     lasts = fuels.burn_out(category if category is not None else np.full(grid.shape, np.nan))
     if per_area is None:
         joules = heat.of_fuel(fuel)
@@ -85,6 +86,7 @@ def model(
         release = heat.Release.of(maps.arrival, joules, lasts, options.interval)
     except Error as error:
         raise input_error(files[0], 0, 0, str(error)) from None
+    kept = {} if category is None else {"fuel_category": lambda: category}
     ground = maps.elevation if maps.elevation is not None else land.elevation(grid, options.projection)
     return Model(
         source=source,
@@ -98,6 +100,7 @@ def model(
             "surface_fuel": lambda: np.nan_to_num(surface),
             "canopy_fuel": lambda: np.nan_to_num(canopy),
             "fuel_arrival_time": lambda: maps.arrival,
+            **kept,
         },
         moving={"heat_flux": release.flux},
         files=files,

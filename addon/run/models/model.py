@@ -68,8 +68,8 @@ class Model:
     grid, fuel_grid
         Cells of the fields that move, and of fuels and arrival times.
     still
-        ``elevation`` [ny, nx] on `grid`; ``surface_fuel``, ``canopy_fuel``, ``fuel_arrival_time`` and
-        ``fuel_elevation`` [fy, fx] on `fuel_grid`; in a run's units.
+        ``elevation`` [ny, nx] on `grid`; ``surface_fuel``, ``canopy_fuel``, ``fuel_arrival_time``,
+        ``fuel_elevation`` and ``fuel_category`` [fy, fx] on `fuel_grid`; in a run's units.
     moving
         A field's [ny, nx] or [nz, ny, nx] at a time's index; in a run's units.
     mean_s

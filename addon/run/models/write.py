@@ -29,9 +29,10 @@ _FILL = {
     "heat_flux": 0.0,
     "smoke_3d": 0.0,
     "fuel_arrival_time": np.nan,
+    "fuel_category": np.nan,
 }
 _LARGEST = 1 << 31  # bytes of one time of one field
-_FUEL = ("surface_fuel", "canopy_fuel", "fuel_arrival_time", "fuel_elevation")
+_FUEL = ("surface_fuel", "canopy_fuel", "fuel_arrival_time", "fuel_elevation", "fuel_category")
 
 
 def part_of(out: Path) -> Path:

@@ -72,6 +72,7 @@ def read(paths: list[Path], options: Options) -> Model:
     if "nfuel_cat" in first:
         told.append("surface fuel is the model's own load (fgi) of Anderson's model nfuel_cat")
         still["surface_fuel"] = lambda: fuels.loads(get("nfuel_cat", 0), "sfire")
+        still["fuel_category"] = lambda: get("nfuel_cat", 0)
     if "lfn" in first:
         told.append("time of arrival is interpolated in the level function between files")
         still["fuel_arrival_time"] = lambda: arrival.from_levels(times, lambda i: get("lfn", i), shape)

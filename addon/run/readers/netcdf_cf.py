@@ -24,7 +24,7 @@ NAME = "netCDF with latitude, longitude and time"
 
 _MOVING = ("heat_flux", "temperature", "wind_east", "wind_north")
 _LEVELS = ("smoke_3d", "temperature_3d", "height_3d", "wind_east_3d", "wind_north_3d", "wind_up_3d")
-_STILL = ("elevation", "surface_fuel", "canopy_fuel", "fuel_arrival_time")
+_STILL = ("elevation", "surface_fuel", "canopy_fuel", "fuel_arrival_time", "fuel_category")
 
 
 def sniff(path: Path) -> bool:
@@ -61,9 +61,9 @@ def read(paths: list[Path], options: Options) -> Model:
 
     if "heat_flux" not in fields:
         maps = made.Maps(still("fuel_arrival_time").astype(np.float64))
-        for name in ("surface_fuel", "canopy_fuel", "elevation"):
+        for name in ("surface_fuel", "canopy_fuel", "elevation", "fuel_category"):
             if name in fields:
-                setattr(maps, name.removesuffix("_fuel"), still(name))
+                setattr(maps, name.removesuffix("_fuel").removeprefix("fuel_"), still(name))
         return made.model(maps, grid, land, options, "netCDF", ours, told)
 
     frames = sorted(

@@ -49,9 +49,9 @@ def read(paths: list[Path], options: Options) -> Model:
     for name, field, unit in (("fireline_intensity", "intensity", 1e3), ("spread_rate", "speed", 1 / 60.0)):
         if name in found:
             setattr(maps, field, np.where(burned & (found[name] > 0), found[name] * unit, np.nan))
-    for name in ("surface_fuel", "canopy_fuel", "elevation"):
+    for name in ("surface_fuel", "canopy_fuel", "elevation", "fuel_category"):
         if name in found:
-            setattr(maps, name.removesuffix("_fuel"), found[name])
+            setattr(maps, name.removesuffix("_fuel").removeprefix("fuel_"), found[name])
     grid = _grid(path, found, options, told)
     return made.model(maps, grid, beside.find(paths), options, "pyretechnics", [path], told)
 
@@ -79,6 +79,7 @@ def _arrays(path: Path) -> dict[str, NDArray]:
         "surface_fuel",
         "canopy_fuel",
         "elevation",
+        "fuel_category",
     )
     wanted += ("latitude", "longitude", "x", "y", "cell_width", "cell_height")
     try:

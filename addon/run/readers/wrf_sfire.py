@@ -270,6 +270,7 @@ def _still(wrf: _Wrf, model: Model, land: beside.Land, options: Options, told: l
             "surface fuel is WRF-SFIRE's load (fgi) of Anderson's model NFUEL_CAT; a namelist.fire may differ"
         )
         model.still["surface_fuel"] = lambda: fuels.loads(wrf.fire("NFUEL_CAT", 0), "sfire")
+        model.still["fuel_category"] = lambda: wrf.fire("NFUEL_CAT", 0)
     model.still["fuel_arrival_time"] = lambda: _arrival(wrf, model.times, last)
     named = "TIGN_G where the fire is in the last file" if wrf.has("TIGN_G") else "interpolated between files"
     told.append(f"time of arrival is {named}")

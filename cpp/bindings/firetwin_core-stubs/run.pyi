@@ -119,12 +119,13 @@ class Run:
         """Rows `first` to `last`, which is left out, of a field of the fuel grid: (last - first, fx).
 
         Of a .npy in C order only these are read. `field` is surface_fuel, canopy_fuel (kg/m2),
-        fuel_elevation (m) or the run's own fuel_arrival_time (s, NaN where never).
+        fuel_elevation (m), or what only some runs have: fuel_arrival_time (s, NaN where never) and
+        fuel_category (numbers of fuel models, NaN where not said).
 
         Raises
         ------
         ValueError
-            No such field. IndexError: no such rows. InputError: the run has none, or it cannot be read.
+            No such field. IndexError: no such rows. Error: the run has none, or it cannot be read.
         """
     def flux_range(self) -> tuple[float, float]:
         """Smallest and largest finite heat flux of the whole run, W/m2."""

@@ -1,0 +1,67 @@
+"""Numbers of fuel models: as a run's field, and what kind of fuel each is."""
+
+import numpy as np
+import pytest
+from firetwin.run import fuel_category as categories
+from firetwin.run import info
+from firetwin.run.models import fuels
+from firetwin_core import Error, InputError
+from firetwin_core import run as runs
+from small_run import FX, FY
+
+
+def number(*values):
+    """A fuel grid that is filled with these numbers in turn."""
+    return np.resize(np.array(values, np.float32), (FY, FX))
+
+
+def test_a_run_has_the_field_or_not(make_run):
+    kept = number(1, 10, 204, -9999)  # the last is no_data
+    run = runs.open(make_run(fuel_category=kept))
+    assert run.has("fuel_category")
+    found = run.fuel_rows("fuel_category", 2, 5)
+    np.testing.assert_array_equal(found, np.where(kept == -9999, np.nan, kept)[2:5])
+    assert not any("fuel_category" in text for text in run.warnings)
+
+
+def test_a_run_without_it_says_so(make_run):
+    without = runs.open(make_run())
+    assert not without.has("fuel_category")
+    assert categories.shares(without) is None
+    with pytest.raises(Error, match="no fuel_category"):
+        without.fuel_rows("fuel_category", 0, 1)
+
+
+def test_another_shape_is_refused_when_the_run_is_opened(make_run):
+    with pytest.raises(InputError, match="fuel_category"):
+        runs.open(make_run(fuel_category=number(1)[:, 1:]))
+
+
+@pytest.mark.parametrize(
+    ("kind", "numbers"),
+    [
+        (categories.GRASS, [1, 3, 101, 109, 122]),
+        (categories.SHRUB, [4, 6, 141, 149]),
+        (categories.LITTER, [8, 10, 161, 165, 181, 189]),
+        (categories.SLASH, [11, 13, 201, 204]),
+        (categories.UNBURNABLE, [14, 91, 98, 99]),
+        (categories.UNKNOWN, [0, 15, 90, 110, 205, 300, -5, np.nan, np.inf]),
+    ],
+)
+def test_kinds(kind, numbers):
+    assert set(categories.kinds(np.array(numbers, float))) == {kind}
+
+
+def test_every_model_with_a_load_burns():
+    numbers = np.arange(256)
+    burns = fuels.loads(numbers) > 0
+    kinds = categories.kinds(numbers)
+    assert (burns == ~np.isin(kinds, [categories.UNKNOWN, categories.UNBURNABLE])).all()
+
+
+def test_shares_are_of_cells_and_said(make_run):
+    run = runs.open(make_run(fuel_category=number(1, 1, 1, 4)))
+    shares = categories.shares(run)
+    assert shares["grass"] == pytest.approx(0.75)
+    assert shares["shrub"] == pytest.approx(0.25)
+    assert "grass 75 %, shrub 25 %" in info.page(info.gather(run, "UTC"))
