@@ -14,7 +14,7 @@ import firetwin_core
 from ..progress import Progress, silent
 from ..run import content
 from ..run.content import fingerprint
-from ..shot import labels, mount, observed, passes, photo, schema, sources
+from ..shot import labels, land_use, mount, observed, passes, photo, schema, sources
 from ..shot.settings import Settings
 from ..shot.shot import Shot
 from .picture import Picture
@@ -91,7 +91,11 @@ def of_pictures(shot: Shot, pictures: list[Picture], progress: Progress = silent
 
 def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silent) -> Fingerprints:
     """Those of each (camera, pass); what of the runs was never read is read now."""
-    more = photo.inputs(shot.settings, progress) | labels.inputs(shot.settings)
+    more = (
+        photo.inputs(shot.settings, progress)
+        | land_use.inputs(shot.settings, progress)
+        | labels.inputs(shot.settings)
+    )
     more |= observed.inputs(shot.settings, progress)
     shots = {label: shot.in_run(f"@{label}") for label in {view.partition("@")[2] for view, _ in pairs}}
     runs = {label: own.inputs(progress=progress) | more for label, own in shots.items()}

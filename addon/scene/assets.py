@@ -29,10 +29,12 @@ from .smoke import material as puff_material
 
 HEIGHTS = {
     **{"large": 35.0, "medium": 22.0, "small": 8.0, "oak": 14.0},
+    **{"pine": 18.0, "spruce": 18.0, "birch": 15.0},
     **{"brush": 1.2, "log": 0.5, "rock": 0.8, "tuft": 0.4, "twigs": 0.15},
 }
 """m; of one of each class, as assets are drawn."""
 
+_HIGH = 5.0  # m; of classes that are trees
 _PICTURE = 128  # pixels
 _ALONE = {"arrival_time": NEVER, "tint": 0.5, "dead": 0.5, "scorch": 0.0, "torched": 0.0, "elevation": 1500.0}
 _KINDS = {
@@ -86,7 +88,7 @@ def _trees(made: bpy.types.Collection, identify: Identify, progress: Progress) -
         for k, model in enumerate(every):
             progress(k, len(every), "drawing the trees")
             thing = made.objects[f"Firetwin Tree {k:02d} 0"]
-            high = k < len(models.trees())
+            high = HEIGHTS[model.kind] > _HIGH or (model.kind, model.state) == ("brush", "living")
             what = _name(model)
             if model.state == "snag":
                 what = f"{what} Snag" if high else f"Burned {what}"

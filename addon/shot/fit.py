@@ -6,7 +6,7 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ..run import areas, times
-from . import file, frames, observed, photo, relief
+from . import file, frames, land_use, observed, photo, relief
 from .settings import Settings
 
 
@@ -21,6 +21,7 @@ def check(settings: Settings, run: Run) -> None:
     _window(settings, run)
     relief.check(settings, run)
     photo.check(settings, run)
+    land_use.check(settings, run)
     observed.check(settings)
     for index, camera in enumerate(settings.cameras):
         for where, latitude, longitude in camera.rig.places():

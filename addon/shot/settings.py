@@ -17,7 +17,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from . import frame_list, passes, rigs
+from . import biomes, frame_list, passes, rigs
 from .nearest import suggestion
 from .schema import Where, key, kind_of, one_of, parts
 
@@ -110,6 +110,11 @@ class Ground:
         check=_box,
         shows=(),
     )
+    land_use: Path | None = key(
+        None,
+        "fields, tracks, roads, water and buildings to draw, a .geojson or .gpkg of polygons and lines",
+        shows=(),
+    )
     apron: float = key(
         110_000.0,
         "half-width of the ground drawn round the run; smaller shows the edge of the world",
@@ -122,6 +127,33 @@ class Ground:
 class Forest:
     """Trees and grass."""
 
+    biome: str = key(
+        "auto",
+        'kind of land, such as "maquis" or "boreal": its plants and colours; "auto" goes by place and fuel',
+        choices=biomes.choices,
+        shows=("ground", "forest"),
+    )
+    greenness: float | None = key(
+        None,
+        "0 is dry grass, 1 green; left out, by date and hemisphere",
+        at_least=0,
+        at_most=1,
+        shows=("ground", "forest"),
+    )
+    shrub_cover: float | None = key(
+        None,
+        "part of open land under bushes, at least, outside of the Sierra; left out, by fuel and biome",
+        at_least=0,
+        at_most=1,
+        shows=("ground", "forest"),
+    )
+    tree_cover: float | None = key(
+        None,
+        "part of open land under lone trees, outside of the Sierra; left out, the biome's",
+        at_least=0,
+        at_most=1,
+        shows=("ground", "forest"),
+    )
     trees: bool = key(True, "where there is canopy fuel")
     grass: bool = key(True, "clumps where there is surface fuel")
     density: str = key(

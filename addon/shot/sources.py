@@ -20,7 +20,15 @@ from ..run.content import sha256
 from . import rigs
 from .settings import Camera
 
-EVERYWHERE = ("scene", "blender", "run", "shot", "shot/rigs/_key.py", "shot/rigs/_lens.py")
+EVERYWHERE = (
+    "scene",
+    "scene/forest/biomes",
+    "blender",
+    "run",
+    "shot",
+    "shot/rigs/_key.py",
+    "shot/rigs/_lens.py",
+)
 PACKAGE = Path(__file__).parents[1]
 
 

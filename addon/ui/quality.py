@@ -42,7 +42,7 @@ LEVELS = {name: dict(zip(_MOVED, values, strict=True)) for name, (_, values) in 
 
 _ITEMS = [(name, keys.label(name), words) for name, (words, _) in _STEPS.items()]
 
-_NOT_SAVED = {"time": ("start", "end"), "ground": ("elevation", "photo", "photo_extent")}
+_NOT_SAVED = {"time": ("start", "end"), "ground": ("elevation", "photo", "photo_extent", "land_use")}
 """What belongs to a run, and so into no preset."""
 
 

@@ -263,7 +263,7 @@ def test_settings_come_back_from_their_text(tmp_path_factory, whole):
     path = folder / "scene.toml"
     path.write_text(file.text(whole), encoding="utf-8")
     back = file.read(path)
-    ground = dataclasses.replace(back.ground, **moved(back.ground, folder, "elevation", "photo"))
+    ground = dataclasses.replace(back.ground, **moved(back.ground, folder, "elevation", "photo", "land_use"))
     places = dataclasses.replace(back.places, **moved(back.places, folder, "file"))
     fire = dataclasses.replace(back.fire, **moved(back.fire, folder, "observed"))
     cameras = tuple(

@@ -98,9 +98,11 @@ def test_what_a_product_depends_on_is_chosen_by_aspect():
     found = schema.chosen(SETTINGS, {"thermal"})
     assert found["render"] == {"thermal_low": None, "thermal_high": 800.0}
     assert found["thermal"]["band"] == "lwir"
+    found = schema.chosen(SETTINGS, {"ground"})["forest"]  # the colours of what grows on it
+    assert set(found) == {"biome", "greenness", "shrub_cover", "tree_cover"}
     for aspect in ("ground", "forest", "fire", "smoke"):
         found = schema.chosen(SETTINGS, {aspect})
-        assert set(found) == {"seed", aspect, "render"}
+        assert set(found) == {"seed", aspect, "render"} | ({"forest"} if aspect == "ground" else set())
         assert found["render"] == {"skip": True} | ({} if aspect == "smoke" else {"chunk": 480})
     assert set(schema.chosen(SETTINGS, {"light"})) == {"light"}
     assert schema.chosen(SETTINGS, set()) == {}

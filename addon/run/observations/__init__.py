@@ -28,6 +28,7 @@ __all__ = [
     "Perimeter",
     "Polygon",
     "beside",
+    "features",
     "read",
 ]
 
@@ -125,6 +126,26 @@ class Observations:
     heat: tuple[Heat, ...] = ()
 
 
+def features(path: Path) -> list[Feature] | Detections:
+    """All that a file holds, whatever it is.
+
+    Raises
+    ------
+    InputError
+        It is missing, of no known format, or damaged.
+    """
+    reader = _reader(path)
+    try:
+        return reader.read(path)
+    except Error:
+        raise
+    except OSError as error:
+        raise input_error(path, 0, 0, (error.strerror or str(error)).lower()) from None
+    except Exception as error:  # Python's, or a library's: what is in the file is not what it should be
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise input_error(path, 0, 0, f"is damaged or incomplete: {reason}") from error
+
+
 def beside(folder: str | Path) -> list[Path]:
     """Files of observations in a run's folder."""
     return inside(Path(folder) / FOLDER)
@@ -157,16 +178,7 @@ def read(paths: Iterable[str | Path]) -> Observations:
     assumptions: dict[str, None] = {}
     for name in paths:
         path, moment = dates.without(name)
-        reader = _reader(path)
-        try:
-            found = reader.read(path)
-        except Error:
-            raise
-        except OSError as error:
-            raise input_error(path, 0, 0, (error.strerror or str(error)).lower()) from None
-        except Exception as error:  # Python's, or a library's: what is in the file is not what it should be
-            reason = " ".join(str(error).split()) or type(error).__name__
-            raise input_error(path, 0, 0, f"is damaged or incomplete: {reason}") from error
+        found = features(path)
         if isinstance(found, Detections):
             detections.append(found)
         else:

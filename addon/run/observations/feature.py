@@ -1,4 +1,4 @@
-"""A feature of a map: polygons, points and what is written about them."""
+"""A feature of a map: polygons, lines, points and what is written about them."""
 
 from __future__ import annotations
 
@@ -21,13 +21,15 @@ Polygon = tuple[Ring, ...]
 class Feature:
     """Polygons, each its rings, the outer first: (n, 2) degrees east and north; and what a file says of them.
 
-    `points` (n, 2) are those of a feature of points; `place` is where in the file it stands, for messages.
+    `points` (n, 2) are those of a feature of points, `lines` (n, 2) those of one of lines; `place` is where
+    in the file it stands, for messages.
     """
 
     polygons: tuple[Polygon, ...]
     properties: Mapping[str, Any]
     place: str = ""
     points: Ring = field(default_factory=lambda: np.empty((0, 2)))
+    lines: tuple[Ring, ...] = ()
 
 
 def ring(path: Path, place: str, points: Iterable[Any]) -> Ring:

@@ -57,7 +57,21 @@ def _feature(path: Path, place: str, feature: Any, said: dict[str, Any]) -> Feat
         said | (properties if isinstance(properties, dict) else {}),
         place,
         degrees(path, place, list(_points(feature.get("geometry")))),
+        tuple(degrees(path, place, each) for each in _lines(feature.get("geometry"))),
     )
+
+
+def _lines(geometry: Any) -> Iterator[list[Any]]:
+    if not isinstance(geometry, dict):
+        return
+    kind, parts = geometry.get("type"), geometry.get("coordinates")
+    if kind == "LineString" and isinstance(parts, list):
+        yield parts
+    elif kind == "MultiLineString" and isinstance(parts, list):
+        yield from (each for each in parts if isinstance(each, list))
+    elif kind == "GeometryCollection" and isinstance(geometry.get("geometries"), list):
+        for each in geometry["geometries"]:
+            yield from _lines(each)
 
 
 def _points(geometry: Any) -> Iterator[Any]:

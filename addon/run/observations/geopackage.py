@@ -49,20 +49,22 @@ def _rows(path: Path, base: sqlite3.Connection, table: sqlite3.Row) -> Iterator[
     for number, row in enumerate(base.execute(f'SELECT * FROM "{name}"'), 1):
         place = f"row {number} of {table['name']}"
         blob = row[table["shape"]]
-        polygons, points = [], []
+        parts: dict[str, list[Any]] = {"polygon": [], "line": [], "point": []}
         try:
             for kind, found in [] if blob is None else _parts(blob):
-                (polygons if kind == "polygon" else points).append(found)
+                parts[kind].append(found)
         except _NoPolygonError:
-            polygons, points = [], []
+            parts = {kind: [] for kind in parts}
         except (struct.error, ValueError, IndexError, TypeError):
             raise input_error(path, 0, 0, f"{place} has a damaged geometry") from None
         outlines = tuple(
-            tuple(ring(path, place, to_degrees(path, system, each)) for each in rings) for rings in polygons
+            tuple(ring(path, place, to_degrees(path, system, each)) for each in rings)
+            for rings in parts["polygon"]
         )
         properties = {key: row[key] for key in row.keys() if key != table["shape"]}  # noqa: SIM118
-        spots = degrees(path, place, to_degrees(path, system, np.array(points).reshape(-1, 2)))
-        yield Feature(outlines, {"layer": table["name"]} | properties, place, spots)
+        spots = degrees(path, place, to_degrees(path, system, np.array(parts["point"]).reshape(-1, 2)))
+        lines = tuple(degrees(path, place, to_degrees(path, system, each)) for each in parts["line"])
+        yield Feature(outlines, {"layer": table["name"]} | properties, place, spots, lines)
 
 
 def _parts(blob: bytes) -> Iterator[Part]:
@@ -98,12 +100,14 @@ class _Binary:
             rings = tuple(self.ring(2 + more) for _ in range(self.number()))
             if rings:
                 yield "polygon", rings
+        elif kind % 1000 == 2:
+            yield "line", self.ring(2 + more)
         elif kind % 1000 == 1:
             found = np.frombuffer(self.blob, f"{self.order}f8", 2 + more, self.at)
             self.at += (2 + more) * 8
             if np.isfinite(found[:2]).all():  # else an empty one
                 yield "point", found[:2].astype(np.float64)
-        elif kind % 1000 in (4, 6, 7):
+        elif kind % 1000 in (4, 5, 6, 7):
             for _ in range(self.number()):
                 yield from self.geometry()
         else:

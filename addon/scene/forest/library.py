@@ -3,7 +3,8 @@
 An artist's models are the objects of a collection named "Firetwin Models" with these custom properties:
 
 class
-    "large", "medium", "small", "oak", "brush", "log", "rock", "tuft" or "twigs": whose place they take. All
+    "large", "medium", "small", "oak", "brush", "log", "rock", "tuft", "twigs", "pine", "spruce" or "birch":
+    whose place they take. All
     models of that class and state are replaced, by each of the artist's in turn, in the order of their names.
 level
     0 (near, what is meant without it) to 3 (far). A level that is not there is drawn as the next finer one,

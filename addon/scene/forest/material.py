@@ -16,6 +16,7 @@ from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import granite, haze, infrared, temperature
 from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME, brightness
+from . import biomes
 
 TORCHING = 300.0  # s that a crown is in flames; then it is gone
 _TORCH = 0.1, 0.9  # of the flames' radiance, at the distances CLOSE: crowns near by fill pixels
@@ -36,6 +37,12 @@ def foliage(shot: Shot, stage: Stage) -> bpy.types.Material:
     warm = tree.input("Warm Tint", (1.36, 1.22, 1.05), "Factor on the yellowest trees' colour", "Variety")
     lost = tree.input("Dead Share", _DEAD, "Part of the trees that was brown before", "Variety", most=1.0)
     varied = tree.mix_colour(tint, cool, warm)
+    here = biomes.of(shot)
+    if here.biome.deciduous * (1.0 - here.green) > 0.0:
+        fallen = tree.mix_colour(
+            here.biome.deciduous * (1.0 - here.green), (1.0, 1.0, 1.0), here.biome.withered
+        )
+        varied = tree.mix_colour(1.0, varied, fallen, "MULTIPLY")
     green = tree.mix_colour(1.0, leaf, varied, "MULTIPLY")
     brown = tree.mix_colour(tint, *_two(tree, "Scorched", _BROWN, "needles killed by drought or heat"))
     living = tree.mix_colour(tree.attribute("dead", "INSTANCER") < lost, green, brown)
@@ -112,8 +119,11 @@ def grass(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Grass": dry in September, burned to the ground by the fire."""
     material, tree = nodes.material("Firetwin Grass", (0.42, 0.38, 0.16))
     tint = tree.attribute("tint", "INSTANCER")
-    straw = tree.input("Dry Colour", (0.150, 0.115, 0.055), "Of grass that has dried", "Variety")
-    green = tree.input("Green Colour", (0.060, 0.065, 0.028), "Of grass that is still green", "Variety")
+    here = biomes.of(shot)
+    straw = tree.input("Dry Colour", here.biome.grass[0], "Of grass that has dried", "Variety")
+    green = tree.input("Green Colour", here.biome.grass[1], "Of grass that is still green", "Variety")
+    if here.biome.open_land is not None:
+        tint = (tint + 2.0 * here.green - 1.0).clamp()
     dry = tree.mix_colour(tint, straw, green)
     black = tree.mix_colour(tint, *_two(tree, "Charred", _BLACK, "grass that burned"))
     colour = tree.mix_colour(_age(tree).smoothstep(20.0, 200.0), dry, black)

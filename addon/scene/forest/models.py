@@ -1,5 +1,7 @@
 """Models, a metre tall: ten conifers of Algorithm 2's classes, oaks, snags, brush; what lies below; grass.
 
+Trees and bushes of other biomes than the Sierra's come last.
+
 Each is made from its own seed, so a scene's trees are always the same. The levels of a model are the same
 tree drawn with fewer triangles.
 """
@@ -13,7 +15,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from . import floor, levels
+from . import floor, levels, species
 from . import habit as habits
 from .growth import dead, grown, wood
 from .habit import Habit
@@ -31,7 +33,30 @@ BURNED_BRUSH, LOGS, ROCKS, TUFTS, STUBBLE, TWIGS = (
     (26, 27),
     (28, 29),
 )
-KINDS = ("large", "medium", "small", "oak", "brush", "log", "rock", "tuft", "twigs")
+HOLM_OAKS, LIVE_OAKS, STONE_PINES, SPRUCES, PINES, BIRCHES, MAQUIS, BURNED_MAQUIS = (
+    (30, 31),
+    (32, 33),
+    (34, 35),
+    (36, 37),
+    (38, 39),
+    (40, 41),
+    (42, 43, 44),
+    (45, 46, 47),
+)
+KINDS = (
+    "large",
+    "medium",
+    "small",
+    "oak",
+    "brush",
+    "log",
+    "rock",
+    "tuft",
+    "twigs",
+    "pine",
+    "spruce",
+    "birch",
+)
 GRASS = (0, 1)
 REACH = 0.68  # of a tree's height: no part of its model is farther from its middle
 _LEAVES = 1500  # of level 1
@@ -138,9 +163,27 @@ def undergrowth() -> list[Model]:
     ]
 
 
+def elsewhere() -> list[Model]:
+    """Trees and bushes of other biomes than the Sierra's, in the order of their numbers, which go on."""
+    kinds = (
+        *(("oak", species.HOLM_OAK), ("oak", species.LIVE_OAK), ("pine", species.STONE_PINE)),
+        *(("spruce", species.SPRUCE), ("pine", species.SCOTS_PINE), ("birch", species.BIRCH)),
+    )
+    brush = (species.LENTISK, species.CISTUS, species.TREE_HEATH)
+    high = [each for each in kinds for _ in range(2)]
+    return [
+        *(Model(kind, "living", partial(tree, habit, 200 + k)) for k, (kind, habit) in enumerate(high)),
+        *(Model("brush", "living", partial(tree, habit, 220 + k)) for k, habit in enumerate(brush)),
+        *(
+            Model("brush", "snag", partial(floor.burned_brush, habit, 220 + k))
+            for k, habit in enumerate(brush)
+        ),
+    ]
+
+
 def every() -> list[Model]:
     """All of the forest's models but Algorithm 2's grass, in the order of their numbers."""
-    return [*trees(), *undergrowth()]
+    return [*trees(), *undergrowth(), *elsewhere()]
 
 
 def instance(model: NDArray[np.int64], level: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -10,11 +10,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...shot import noise
+from ...shot import land_use, noise
 from ...shot.ground import bilinear, box, widened
 from ...shot.shot import Shot
+from . import biomes, cover
 
 LONE_FUEL = 0.02  # kg/m2; stands for the trees of cells without canopy fuel: 57 stems a hectare, up to 15 m
+_FULL = 0.06  # part of the ground that all of these cover (half-grown oaks; assumed)
+_GROUPED, _HOLLOW = 4.0, 1.2  # how much denser they are in groups and hollows; by eye
+_MEAN = 1.6  # of the logarithm of that, so that the mean is 1: half its variance
+_BARE = 0.5  # part of the ground without fuel from which on nothing stands there
 _SEED = 6  # cells; so far from others trees stand alone
 _LONE = 0.5  # part of these that is there in their clumps
 _EDGE, _RAGGED = 38.0, 0.6  # m, size of an edge's bays; how far they reach, cells
@@ -28,17 +33,20 @@ def with_lone(
 ) -> NDArray[np.float32]:
     """Canopy fuel (fy, fx) of cells at rows (fy,) and columns (fx,) of the ground, with that of lone trees.
 
-    They stand within `_SEED` cells of others, and not in lakes or where the fuel is unknown; known they are
-    in the chosen cells (fy, fx) and the ones beside these.
+    They stand within `_SEED` cells of others, or everywhere where the biome has them everywhere, and not in
+    lakes or where the fuel is unknown; known they are in the chosen cells (fy, fx) and the ones beside these.
     """
     fuel = fuel.astype(np.float32)
     inside = box(where, more=1 + _SEED)
     if inside is None:
         return fuel
     part = fuel[inside]
-    lines = (np.round(at[along]).astype(int) for at, along in zip((row, column), inside, strict=True))
+    lines = [np.round(at[along]).astype(int) for at, along in zip((row, column), inside, strict=True)]
     dry = shot.ground.water[np.ix_(*lines)] < 0.5
-    near = widened(part > LONE_FUEL, _SEED)
+    if biomes.of(shot).biome.species:
+        near = shot.ground.bare[np.ix_(*lines)] < _BARE
+    else:
+        near = widened(part > LONE_FUEL, _SEED)
     part[(part <= LONE_FUEL) & dry & near] = LONE_FUEL
     return fuel
 
@@ -55,7 +63,19 @@ def kept(shot: Shot, position: Array) -> Array:
     stand = noise.smoothstep(0.70, 0.30, empty + _RAGGED * bays)
     stand = stand * (1.0 - _OPEN * noise.smoothstep(0.38, 0.60, gaps))
     lone = _LONE * noise.smoothstep(-0.1, 0.5, bays) * (empty > 0.0)
+    if (biome := biomes.of(shot).biome).species:
+        lone = _scattered(shot, biome.tree_cover, position) * (empty > 0.0)
+    if shot.settings.ground.land_use is not None:
+        wet = np.where(land_use.keeps_out(shot, position), 1.0, wet)
     return np.maximum(stand, lone) * (wet < 0.3)
+
+
+def _scattered(shot: Shot, part: float, position: Array) -> Array:
+    """Part (n,) of the trees of open land that stand so that `part` of it is under them, most in hollows."""
+    x, y = position[:, :2].T
+    groups = noise.fractal(x, y, 4.0 * _GAP, 3, shot.settings.seed + 430)
+    hollow = bilinear(cover.hollows(shot.ground), *shot.ground.under(position))
+    return part / _FULL * np.exp(_GROUPED * groups + _HOLLOW * hollow - _MEAN)
 
 
 def alike(position: Array, size: float, chance: Array, seed: int) -> Array:

@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 from ...shot import noise
 from ...shot.ground import bilinear, widened
 from ...shot.shot import Shot
-from . import models, openings, plot, seen
+from . import biomes, models, openings, plot, seen
 from .plot import Plot
 
 TALLEST = 42.0  # m; the core's largest tree
 CLEARING = 25.0  # m round the cameras where no tree stands, so that there is light and a view
+_PATCH = 90.0  # m, of trees of one species (by eye)
 _CROWN = 5.0  # m, width of a middling tree; where a pixel is wider, fewer trees show as much
 
 
@@ -75,13 +76,15 @@ def grow(shot: Shot) -> Stand:
     chosen[chosen] = seen.visible(shot, position[chosen], found.scale[chosen], reach, found.width[chosen])
     chosen = np.flatnonzero(chosen)
     model = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[found.size_class[chosen]]
-    model, height = _with_oaks(
-        shot, position[chosen], model + found.model[chosen], found.scale[chosen].astype(float), key[chosen]
-    )
+    height, width = found.scale[chosen].astype(float), found.width[chosen]
+    if sorts := biomes.of(shot).biome.species:
+        model, height, width = _of_species(shot, sorts, position[chosen], height, width, key[chosen])
+    else:
+        model, height = _with_oaks(shot, position[chosen], model + found.model[chosen], height, key[chosen])
     return Stand(
         position[chosen],
         height,
-        found.width[chosen],
+        width,
         found.rotation[chosen],
         model,
         key[chosen],
@@ -164,6 +167,37 @@ def _kept(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
 def _part(pixel: NDArray[np.float64], full: float) -> NDArray[np.float64]:
     """Part of the stems to keep where pixels are this large (m): all up to `full`."""
     return np.minimum((full / np.maximum(pixel, 1.0e-6)) ** 2, 1.0)
+
+
+def _of_species(
+    shot: Shot,
+    sorts: tuple[biomes.Species, ...],
+    position: NDArray,
+    height: NDArray,
+    width: NDArray,
+    key: NDArray[np.int64],
+) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+    """Models, heights and widths of a biome's species, which stand in patches."""
+    ground, seed = shot.ground, shot.settings.seed
+    elevation = bilinear(ground.fields.elevation, *ground.under(position))
+    share = np.array([_share(each, elevation) for each in sorts])
+    part = np.cumsum(share, axis=0) / np.maximum(share.sum(axis=0), 1.0e-9)
+    lot = openings.alike(position, _PATCH, noise.uniform(*key.T, seed + 222), seed + 340)
+    number = np.minimum((lot > part).sum(axis=0), len(sorts) - 1)
+    which = noise.uniform(*key.T, seed + 223)
+    model = np.array(
+        [sorts[k].models[int(u * len(sorts[k].models))] for k, u in zip(number, which, strict=True)], np.int64
+    )
+    taller, wider = (
+        np.array([getattr(each, name) for each in sorts])[number] for name in ("height", "width")
+    )
+    return model, height * taller, width * wider
+
+
+def _share(sort: biomes.Species, elevation: NDArray) -> NDArray[np.float64]:
+    if sort.low is None or sort.high is None:
+        return np.full(elevation.shape, sort.share)
+    return sort.share * noise.smoothstep(sort.low, sort.high, elevation)
 
 
 def _with_oaks(

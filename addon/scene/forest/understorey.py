@@ -12,15 +12,16 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...shot import noise
+from ...shot import land_use, noise
 from ...shot.ground import bilinear
 from ...shot.shot import Shot
-from . import models
+from . import biomes, cover, field_lines, models
 
 _PIXELS = 2.0  # least height of what is drawn, pixels; of half of what is as tall
 _BLOCK = 32.0  # m; blocks of the scene that are looked at together
 _FARTHEST = 600.0  # m
 _STEEPEST = 1.2  # slope on which things still lie
+_HEDGE = 30.0  # times denser are bushes of a hedge than those of open land
 _LYING = (*models.LOGS, *models.TWIGS)
 
 Array = NDArray[np.float64]
@@ -46,6 +47,8 @@ class Kind:
         Things per m2 from canopy fuel and surface fuel (kg/m2) and bare rock (0..1).
     patches
         Size of its patches, m; 0 is even.
+    also
+        Factor (n,) on the density at places (n, 2) in the scene, m; None: 1.
     """
 
     models: tuple[int, ...]
@@ -57,6 +60,7 @@ class Kind:
     width: tuple[float, float]
     density: Callable[[Array, Array, Array], Array]
     patches: float = 0.0
+    also: Callable[[Array], Array] | None = None
 
 
 def _floor(surface: Array) -> Array:
@@ -121,6 +125,49 @@ KINDS = {
 }
 
 
+def kinds(shot: Shot) -> dict[str, Kind]:
+    """Those of the shot's biome, by name."""
+    biome = biomes.of(shot).biome
+    if biome.open_land is None:
+        return KINDS
+    return {name: _of_biome(shot, biome, name, kind) for name, kind in KINDS.items()}
+
+
+def _of_biome(shot: Shot, biome: biomes.Biome, name: str, kind: Kind) -> Kind:
+    plants = biome.plants
+    often, taller, wider = (each.get(name, 1.0) for each in (plants.density, plants.height, plants.width))
+    which = plants.models.get(name, (kind.models, kind.burned))
+    return replace(
+        kind,
+        models=which[0],
+        burned=which[1],
+        height=kind.height * taller,
+        limits=(kind.limits[0] * taller, kind.limits[1] * taller),
+        width=(kind.width[0] * wider, kind.width[1] * wider),
+        density=lambda canopy, surface, bare: often * kind.density(canopy, surface, bare),
+        also=_beside(shot, biome, name),
+    )
+
+
+def _beside(shot: Shot, biome: biomes.Biome, name: str) -> Callable[[Array], Array] | None:
+    """Factor (n,) on the density at places (n, 2): bushes by their cover and along hedges, tufts between."""
+    if name not in ("brush", "tuft"):
+        return None
+    covered, land = cover.shrubs(shot), biome.open_land
+
+    def factor(place: Array) -> Array:
+        part = cover.at(shot, covered, place)
+        if name == "tuft":
+            return 1.0 - 0.8 * part
+        thick = 1.4 * part
+        if land is None or min(land.field) <= 0.0:
+            return thick
+        off = field_lines.fields(field_lines.NUMPY, *place.T, land.field)[0]
+        return thick + _HEDGE * (off < 0.5 * land.hedge) * ~land_use.mapped(shot, place)
+
+    return factor
+
+
 @dataclass(frozen=True)
 class Things:
     """Things of the understorey, n of them.
@@ -163,7 +210,9 @@ def grow(shot: Shot) -> Things:
     pixel, _ = shot.pixel
     if budget == 0 or not np.isfinite(pixel):
         return _nothing()
-    parts = [_scattered(shot, number, pixel, budget) for number in range(len(KINDS))]
+    parts = [
+        _scattered(shot, kind, number, pixel, budget) for number, kind in enumerate(kinds(shot).values())
+    ]
     every = Things(*(np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(Things)))
     if len(every.size) > budget:
         every = every.take(np.sort(np.argsort(-every.size, kind="stable")[:budget]))
@@ -177,9 +226,9 @@ def _nothing() -> Things:
     )
 
 
-def _scattered(shot: Shot, number: int, pixel: float, budget: int) -> Things:
+def _scattered(shot: Shot, kind: Kind, number: int, pixel: float, budget: int) -> Things:
     """Things of a kind, level as they are."""
-    kind, seed = list(KINDS.values())[number], shot.settings.seed + 600 + 20 * number
+    seed = shot.settings.seed + 600 + 20 * number
     reach = min(2.0 * kind.limits[1] / (_PIXELS * pixel), _FARTHEST)
     cells, least = _cells(shot, kind.cells, reach, budget)
     width = _BLOCK / kind.cells
@@ -199,6 +248,10 @@ def _scattered(shot: Shot, number: int, pixel: float, budget: int) -> Things:
     if kind.patches:
         waves = noise.fractal(place[:, 0], place[:, 1], kind.patches, 2, seed + 9)
         density = density * 2.0 * noise.smoothstep(-0.45, 0.45, waves)
+    if kind.also is not None:
+        density = density * kind.also(place)
+    if shot.settings.ground.land_use is not None:
+        density = density * ~land_use.keeps_out(shot, place)
     stands = np.flatnonzero(lot(2, cells) < density * width**2)
     cells, place, height, tall = cells[stands], place[stands], height[stands], tall[stands]
     position = np.column_stack([place, shot.ground.up(*place.T)]) if len(place) else np.empty((0, 3))

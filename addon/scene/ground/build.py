@@ -12,7 +12,7 @@ from ...blender.owned import Stage
 from ...shot import accuracy
 from ...shot.shot import Shot
 from ..forest.stand import Stand
-from . import fields, material, solid
+from . import fields, material, roofs, solid
 
 Shape = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]
 
@@ -31,10 +31,13 @@ def build(shot: Shot, stage: Stage, grown: Stand | None, shaped: Shape | None = 
     data = bpy.data.meshes.new("Firetwin Ground")
     _fill(data, ground.frame.forward(latitude, longitude, height), triangles)
     data.attributes.new("elevation", "FLOAT", "POINT").data.foreach_set("value", height.astype(np.float32))
-    place = fields.place(ground.shape, row, column)
+    place = fields.place(ground.shape, row, column, ground.fields.margin)
     data.attributes.new(fields.GRID, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", place.ravel())
     solid.paint(shot, data, row, column)
-    data.materials.append(material.build(shot, stage, fields.images(shot, grown), fields.photos(shot)))
+    data.materials.append(
+        material.build(shot, stage, fields.images(shot, grown), fields.photos(shot), fields.maps(shot))
+    )
+    roofs.build(shot, stage)
     return owned.add(collection, "Ground", data)
 
 

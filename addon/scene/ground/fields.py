@@ -11,13 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...blender import nodes, owned
-from ...shot import photo
+from ...shot import land_use, photo
 from ...shot.shot import Shot
+from ..forest import biomes, cover
 from ..forest.stand import Stand
 
 GRID = "grid"
+_OUT = 40.0  # rows beyond the run, from which on an apron's cells are large: seven times the run's
 _LARGEST = 2048  # pixels of an image's side; of larger grids the means of some points
-_FUEL, _FIRE = "Firetwin Ground Fuel", "Firetwin Ground Fire"
+_FUEL, _FIRE, _COVER = "Firetwin Ground Fuel", "Firetwin Ground Fire", "Firetwin Ground Cover"
 NAMES = {
     "canopy_fuel": (_FUEL, 0),
     "bare": (_FUEL, 1),
@@ -25,6 +27,9 @@ NAMES = {
     "burn_time": (_FIRE, 0),
     "burned": (_FIRE, 1),
     "stand": (_FIRE, 2),
+    "shrub": (_COVER, 0),
+    "hollow": (_COVER, 1),
+    "mapped": (_COVER, 2),
 }
 """In which image and channel each field is."""
 
@@ -33,7 +38,9 @@ def images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]:
     """Make the images, by name: `canopy_fuel` (kg/m2), `bare` (part without fuel), `water` (1 on lakes).
 
     And `burn_time` (arrival in s, continued a little past the last perimeter), `burned` (1 inside it) and
-    `stand` (part of the forest that is drawn tree by tree).
+    `stand` (part of the forest that is drawn tree by tree). Where the biome's open land asks for them also
+    `shrub` (part of it under bushes), `hollow` (-1 on crests, 1 in hollows) and `mapped` (1 where a map says
+    what there is, so that nothing is invented).
     """
     ground = shot.ground
     size = -(-max(ground.shape) // _LARGEST)
@@ -47,16 +54,29 @@ def images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]:
     thin = {name: _thinned(field, size) for name, field in known.items()}
     thin["stand"] = _stand_cover(shot, grown, size)
     made = {}
-    for image in (_FUEL, _FIRE):
-        made[image] = _image(image, [thin[name] for name, (holder, _) in NAMES.items() if holder == image])
+    if biomes.of(shot).biome.open_land is not None:
+        thin |= {"shrub": _thinned(cover.shrubs(shot), size), "hollow": _thinned(cover.hollows(ground), size)}
+        thin["mapped"] = _thinned(cover.mapped(shot), size)
+    for image in dict.fromkeys(NAMES[name][0] for name in thin):
+        made[image] = _image(
+            image, [thin[name] for name, (holder, _) in NAMES.items() if holder == image and name in thin]
+        )
     return made
 
 
-def place(shape: tuple[int, int], row: NDArray, column: NDArray) -> NDArray[np.float32]:
-    """`grid` of fractional rows and columns (n,) of a grid of this shape: (n, 3), the last of them 0."""
+def place(shape: tuple[int, int], row: NDArray, column: NDArray, margin: int = 0) -> NDArray[np.float32]:
+    """`grid` of fractional rows and columns (n,) of a grid of this shape: (n, 3).
+
+    The last of them is 0 within the run, and 1 where on an apron of `margin` rows its cells are large.
+    """
     size = -(-max(shape) // _LARGEST)
     rows, columns = (size * -(-count // size) for count in shape)
-    return np.stack([(column + 0.5) / columns, (row + 0.5) / rows, 0.0 * row], axis=-1).astype(np.float32)
+    beyond = [
+        np.maximum(margin - at, at - (count - 1 - margin))
+        for at, count in zip((row, column), shape, strict=True)
+    ]
+    out = np.clip(np.maximum(*beyond) / _OUT, 0.0, 1.0) if margin else 0.0 * row
+    return np.stack([(column + 0.5) / columns, (row + 0.5) / rows, out], axis=-1).astype(np.float32)
 
 
 class Fields:
@@ -64,6 +84,8 @@ class Fields:
 
     def __init__(self, tree: nodes.Tree, made: dict[str, bpy.types.Image]) -> None:
         at = tree.attribute(GRID, output="Vector")
+        self.beyond = tree.separate(at)[2]
+        self._none = at  # what no image has nobody asks for
         self._channels = {
             name: tree.separate(
                 tree.output("ShaderNodeTexImage", {"Vector": at}, image=image, extension="EXTEND")
@@ -73,6 +95,8 @@ class Fields:
 
     def __getitem__(self, name: str) -> nodes.Value:
         image, channel = NAMES[name]
+        if image not in self._channels:
+            return self._none
         return self._channels[image][channel]
 
 
@@ -101,15 +125,31 @@ def _image(name: str, channels: list[NDArray[np.float64]]) -> bpy.types.Image:
 
 def photos(shot: Shot) -> list[tuple[photo.Picture, bpy.types.Image]]:
     """The user's orthophoto as images, which are saved with the scene; a finer one after a coarser."""
-    made = []
-    for number, picture in enumerate(photo.pictures(shot), 1):
-        rows, columns = picture.pixels.shape[:2]
-        image = bpy.data.images.new(f"Firetwin Photo {number}", columns, rows, alpha=True)
-        image.alpha_mode = "CHANNEL_PACKED"
-        image.pixels.foreach_set((picture.pixels / np.float32(255.0)).ravel())
-        image.pack()
-        made.append((picture, owned.mark(image)))
-    return made
+    return [
+        (picture, _coloured(f"Firetwin Photo {number}", picture))
+        for number, picture in enumerate(photo.pictures(shot), 1)
+    ]
+
+
+def maps(shot: Shot) -> dict[str, list[tuple[photo.Picture, bpy.types.Image]]]:
+    """The user's land use as images, by `land_use.LAYERS`; a finer one after a coarser."""
+    return {
+        layer: [
+            (picture, _coloured(f"Firetwin Land Use {layer.title()} {number}", picture))
+            for number, picture in enumerate(drawn, 1)
+        ]
+        for layer, drawn in land_use.pictures(shot).items()
+    }
+
+
+def _coloured(name: str, picture: photo.Picture) -> bpy.types.Image:
+    """An image of colours, which is saved with the scene."""
+    rows, columns = picture.pixels.shape[:2]
+    image = bpy.data.images.new(name, columns, rows, alpha=True)
+    image.alpha_mode = "CHANNEL_PACKED"
+    image.pixels.foreach_set((picture.pixels / np.float32(255.0)).ravel())
+    image.pack()
+    return owned.mark(image)
 
 
 def _stand_cover(shot: Shot, grown: Stand | None, size: int) -> NDArray[np.float64]:

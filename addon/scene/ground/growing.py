@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from ...blender import nodes
+from ..forest.biomes import Biome, Colour, Here
 from ..grain import Grain
+from . import open_land as lands
 from .place import Place
 
 _CROWNS_SEEN = (5000.0, 15_000.0)  # m from the camera at which crowns are full and gone
-_SHADE, _BETWEEN = (0.009, 0.014, 0.008), (0.010, 0.015, 0.008)  # of dense clumps, and between crowns
+_MEADOW = ((0.070, 0.070, 0.040), (0.110, 0.092, 0.052))  # of high and of low meadows in the dry season
+_SPRING = (0.062, 0.090, 0.030)  # of all of them when they are green
+_ON_ROCK = 0.5  # m that crowns on rock are farther apart
 
 
 @dataclass
@@ -30,42 +36,59 @@ def crowns(tree: nodes.Tree, place: Place, size: float, groups: nodes.Value) -> 
     return Crowns(tree.mix(sharp, 0.52, deep), tree.mix(sharp, 0.5, tint), tree.mix(sharp, 0.25, alone))
 
 
-def far(tree: nodes.Tree, place: Place) -> tuple[nodes.Value, nodes.Value]:
+def far(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
     """Colour and height (m) where trees are part of the ground."""
     grain = place.grain
     fine, patch, groups = _fine(grain), _patch(grain), _groups(grain)
-    seen = crowns(tree, place, 13.0, groups)
+    seen = crowns(tree, place, here.biome.crown, groups)
     cover = place.canopy + (patch - 0.5) * 0.9 + (groups - 0.5) * 1.6 + (fine - 0.5) * 0.6
-    cover = tree.math("MAXIMUM", cover.smoothstep(0.0, 0.7), seen.alone * 0.85)
-    canopy = tree.mix_colour(seen.dark, _canopy(tree, grain, seen.tint), _BETWEEN)
-    open_ground = _open_ground(tree, place, fine, patch, seen.tint)
+    # On the apron fuel's patches are as large as its cells: noise makes edges of all sizes of them.
+    ragged = (patch - 0.5) * 2.2 + (_stands(grain) - 0.5) * 2.6
+    cover = cover + ragged * (place.beyond * place.canopy.smoothstep(0.0, 0.2))
+    if here.biome.open_land is None:
+        cover = tree.math("MAXIMUM", cover.smoothstep(0.0, 0.7), seen.alone * 0.85)
+    else:  # lone trees are too few to be seen
+        cover = cover.smoothstep(0.0, 0.7) * place.canopy.smoothstep(0.01, 0.1)
+    canopy = tree.mix_colour(seen.dark, _canopy(tree, grain, seen.tint, here), here.biome.between)
+    if here.biome.open_land is not None:
+        open_ground, height = lands.look(tree, place, here)
+        wooded = cover * (1.0 - seen.dark) * (0.7 * here.biome.crown)
+        return tree.mix_colour(cover, open_ground, canopy), wooded + (1.0 - cover) * height + fine * 0.5
+    open_ground = _open_ground(tree, place, fine, patch, seen.tint, here)
     return tree.mix_colour(cover, open_ground, canopy), cover * (1.0 - seen.dark) * 9.0 + fine * 2.0
 
 
-def on_rock(tree: nodes.Tree, place: Place) -> tuple[nodes.Value, nodes.Value]:
+def on_rock(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
     """Colour of lone trees on rock, and where they stand (0..1).
 
     They have cells of their own, so that these are worked out on rock alone.
     """
-    seen = crowns(tree, place, 13.5, _groups(place.grain))
-    lit = tree.mix_colour(0.5, _needles(tree, seen.tint), _SHADE)
+    biome = here.biome
+    seen = crowns(tree, place, biome.crown + _ON_ROCK, _groups(place.grain))
+    lit = tree.mix_colour(0.5, _needles(tree, seen.tint, here), biome.shade)
     where = seen.alone * 0.8 * (1.0 - place.burned)
-    return tree.mix_colour(seen.dark, lit, _BETWEEN), where
+    return tree.mix_colour(seen.dark, lit, biome.between), where
 
 
-def close(tree: nodes.Tree, place: Place) -> tuple[nodes.Value, nodes.Value]:
+def close(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
     """Colour and height (m) where trees and brush stand there one by one."""
     fine, patch = _fine(place.grain), _patch(place.grain)
-    tint = tree.separate(tree.cells(place.position, 13.0, "Color"))[0]
-    open_ground = _open_ground(tree, place, fine, patch, tint)
+    height: nodes.Value | None = None
+    if here.biome.open_land is None:
+        tint = tree.separate(tree.cells(place.position, here.biome.crown, "Color"))[0]
+        open_ground = _open_ground(tree, place, fine, patch, tint, here)
+    else:
+        open_ground, height = lands.look(tree, place, here)
     floor = (place.canopy + (patch - 0.5) * 0.5 + (fine - 0.5) * 0.4).smoothstep(0.0, 0.35)
-    litter = tree.mix_colour(fine.smoothstep(0.3, 0.7), (0.019, 0.017, 0.010), (0.062, 0.050, 0.030))
+    litter = tree.mix_colour(fine.smoothstep(0.3, 0.7), *here.biome.litter)
     needles = tree.mix_colour(fine, (0.036, 0.025, 0.015), (0.078, 0.054, 0.033))
     beside = place.pixel.ramp(0.02, 0.20, 1.0, 0.0)  # brush is a colour but where it stands one by one
     litter = tree.mix_colour(beside, litter, needles)
     green = place.grain.noise(5.0, 4.0, 0.65).smoothstep(0.47, 0.60) * (1.0 - beside * 0.85)
-    scrub = tree.mix_colour(green, litter, (0.024, 0.033, 0.014))
-    return tree.mix_colour(floor, open_ground, scrub), fine * 2.0 + place.duff * 0.12
+    scrub = tree.mix_colour(green, litter, here.biome.scrub)
+    if height is None:
+        height = fine * 2.0
+    return tree.mix_colour(floor, open_ground, scrub), height + place.duff * 0.12
 
 
 def _fine(grain: Grain) -> nodes.Value:
@@ -76,10 +99,11 @@ def _patch(grain: Grain) -> nodes.Value:
     return grain.noise(420.0, 4.0, 0.6)
 
 
-def _needles(tree: nodes.Tree, tint: nodes.Value) -> nodes.Value:
+def _needles(tree: nodes.Tree, tint: nodes.Value, here: Here) -> nodes.Value:
     """Colour of crowns in the sun."""
-    deep = tree.input("Forest Dark", (0.026, 0.043, 0.016), "Darkest crowns of the far forest", "Forest")
-    pale = tree.input("Forest Light", (0.072, 0.092, 0.036), "Lightest crowns of the far forest", "Forest")
+    dark, light = (seasonal(here.biome, colour, here.green) for colour in here.biome.needles)
+    deep = tree.input("Forest Dark", dark, "Darkest crowns of the far forest", "Forest")
+    pale = tree.input("Forest Light", light, "Lightest crowns of the far forest", "Forest")
     return tree.mix_colour(tint, deep, pale)
 
 
@@ -87,25 +111,38 @@ def _groups(grain: Grain) -> nodes.Value:
     return grain.noise(120.0, 3.0, 0.7)
 
 
-def _canopy(tree: nodes.Tree, grain: Grain, tint: nodes.Value) -> nodes.Value:
+def _stands(grain: Grain) -> nodes.Value:
+    return grain.noise(1500.0, 5.0, 0.6)
+
+
+def _canopy(tree: nodes.Tree, grain: Grain, tint: nodes.Value, here: Here) -> nodes.Value:
     """Colour of crowns in the sun, stand by stand."""
-    dark = _needles(tree, tint)
-    stands = grain.noise(1500.0, 5.0, 0.6)
-    dark = tree.mix_colour(
-        stands.smoothstep(0.40, 0.62), dark, tree.mix_colour(0.6, dark, (0.034, 0.072, 0.026))
-    )
+    dark = _needles(tree, tint, here)
+    stands = _stands(grain)
+    dark = tree.mix_colour(stands.smoothstep(0.40, 0.62), dark, tree.mix_colour(0.6, dark, here.biome.stands))
     clumps = grain.noise(70.0, 3.0, 0.65).smoothstep(0.36, 0.64)
-    return tree.mix_colour(clumps, tree.mix_colour(0.75, dark, _SHADE), dark)
+    return tree.mix_colour(clumps, tree.mix_colour(0.75, dark, here.biome.shade), dark)
 
 
 def _open_ground(
-    tree: nodes.Tree, place: Place, fine: nodes.Value, patch: nodes.Value, tint: nodes.Value
+    tree: nodes.Tree, place: Place, fine: nodes.Value, patch: nodes.Value, tint: nodes.Value, here: Here
 ) -> nodes.Value:
-    """Colour of meadows, soil and brush."""
+    """Colour of the Sierra's meadows, soil and brush."""
     dry = place.elevation.ramp(500.0, 1500.0, 1.0, 0.0)
-    meadow = tree.mix_colour(dry, (0.070, 0.070, 0.040), (0.110, 0.092, 0.052))
+    meadow = tree.mix_colour(dry, *(between(here.green, colour, _SPRING) for colour in _MEADOW))
     soil = tree.mix_colour(fine, (0.115, 0.080, 0.050), (0.190, 0.140, 0.095))
     brush = place.grain.noise(34.0, 5.0, 0.7) + (patch - 0.5) * 0.7 + dry * -0.12
     shrub = tree.mix_colour(tint, (0.030, 0.038, 0.017), (0.052, 0.058, 0.028))
     open_ground = tree.mix_colour(fine.smoothstep(0.38, 0.62), meadow, tree.mix_colour(0.55, meadow, soil))
     return tree.mix_colour(brush.smoothstep(0.36, 0.52) * 0.92, open_ground, shrub)
+
+
+def between(part: float, first: Colour, second: Colour) -> Colour:
+    """A colour so far between two others."""
+    return tuple(np.add(first, part * np.subtract(second, first)).tolist())
+
+
+def seasonal(biome: Biome, colour: Colour, green: float) -> Colour:
+    """Colour of crowns, of which some shed their leaves."""
+    part = biome.deciduous * (1.0 - green)
+    return tuple(np.multiply(colour, 1.0 + part * (np.array(biome.withered) - 1.0)).tolist())

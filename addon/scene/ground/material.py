@@ -6,7 +6,7 @@ Reflectances are a picture's, chosen by eye against photographs, not measured.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import bpy
 
@@ -16,7 +16,9 @@ from ...shot import photo
 from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import haze
-from . import fields, growing, heat, place, scar, stone
+from ..forest import biomes
+from ..forest.biomes import Here
+from . import fields, growing, heat, open_land, place, scar, stone
 from .place import Place
 
 _FAR, _ON_ROCK = 1.5, 2.0  # pixels, the least size of noise where trees are part of the ground
@@ -27,13 +29,18 @@ def build(
     stage: Stage,
     images: dict[str, bpy.types.Image],
     photos: Sequence[tuple[photo.Picture, bpy.types.Image]] = (),
+    maps: Mapping[str, Sequence[tuple[photo.Picture, bpy.types.Image]]] | None = None,
 ) -> bpy.types.Material:
-    """Build "Firetwin Ground", which reads the fields of these images and is coloured by these photos."""
+    """Build "Firetwin Ground", which reads the fields of these images and is coloured by these photos.
+
+    `maps` are the user's land use by `land_use.LAYERS`.
+    """
     material, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
+    biome = biomes.of(shot)
     with tree.frame("Fields"):
         known = fields.Fields(tree, images)
         lake = known["water"] > 0.5
-    seen = _seen(tree, shot, stage, known, lake, photos)
+    seen = _seen(tree, shot, stage, known, lake, photos, biome, maps or {})
     warmth, kind = _data(tree, shot, stage, known, lake)
     tree.surface(nodes.mask_switch(tree, nodes.thermal_switch(tree, seen, warmth), kind))
     material.cycles.emission_sampling = "NONE"  # as lamps, its small lights would be noise
@@ -47,18 +54,25 @@ def _seen(
     known: fields.Fields,
     lake: nodes.Value,
     photos: Sequence[tuple[photo.Picture, bpy.types.Image]],
+    biome: Here,
+    maps: Mapping[str, Sequence[tuple[photo.Picture, bpy.types.Image]]],
 ) -> nodes.Value:
     """Shader of the picture. Shaders are mixed, not colours: Cycles leaves out one that has no part."""
+    outcrops = biome.biome.outcrops
     with tree.frame("Place and time"):
         here = place.of(tree, known, shot, whole=False)
-        bare = place.rock(tree, here)
+        bare = place.rock(tree, here, outcrops)
     with tree.frame("Rock"):
-        rock = _rock(tree, here)
+        rock = _rock(tree, here, biome)
     with tree.frame("Soil"):
-        ground = tree.mix_shader(bare, _soil(tree, here), rock)
+        ground = tree.mix_shader(bare, _soil(tree, here, biome), rock)
     for picture, image in photos:
         with tree.frame("Photo"):
             ground = _photographed(tree, here, picture, image, ground)
+    for layer, drawn in maps.items():
+        for picture, image in drawn:
+            with tree.frame(f"Land use: {layer}"):
+                ground = _mapped(tree, here, layer, picture, image, ground)
     with tree.frame("Water"):
         ground = tree.mix_shader(lake, ground, _water(tree, here))
     with tree.frame("Flames and embers"):
@@ -67,16 +81,17 @@ def _seen(
         ground = haze.apply(tree, ground, stage)
     with tree.frame("Light of other ground"):
         camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
-        return tree.mix_shader(camera, _plain(tree, known), ground)
+        return tree.mix_shader(camera, _plain(tree, known, biome), ground)
 
 
 def _data(
     tree: nodes.Tree, shot: Shot, stage: Stage, known: fields.Fields, lake: nodes.Value
 ) -> tuple[nodes.Value, nodes.Value]:
     """Infrared radiance, and the class of the masks: of all octaves of noise, however large pixels are."""
+    outcrops = biomes.of(shot).biome.outcrops
     with tree.frame("Place and time of data"):
         here = place.of(tree, known, shot, whole=True)
-        bare = place.rock(tree, here)
+        bare = place.rock(tree, here, outcrops)
         fuel = here.burned * (1.0 - bare)
         flaming, embers = (fuel * part for part in scar.glow(tree, here))
     with tree.frame("Infrared"):
@@ -98,11 +113,11 @@ def _bump(tree: nodes.Tree, height: nodes.Value, strength: float = 0.9) -> nodes
     return tree.output("ShaderNodeBump", {"Strength": strength, "Distance": 1.0, "Height": height})
 
 
-def _soil(tree: nodes.Tree, here: Place) -> nodes.Value:
+def _soil(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
     """What is not rock: seen from afar, and where trees are drawn one by one."""
     made = []
     for grown, there in ((growing.far, here.coarser(_FAR)), (growing.close, here)):
-        colour, height = grown(tree, there)
+        colour, height = grown(tree, there, biome)
         normal = _bump(tree, height)
         char = _grained(tree, there, scar.charred(tree, there))
         green = _matt(tree, _grained(tree, there, colour), normal)
@@ -116,19 +131,33 @@ def _grained(tree: nodes.Tree, here: Place, colour: nodes.Value) -> nodes.Value:
     return tree.mix_colour(1.0, colour, grain, "MULTIPLY")
 
 
-def _rock(tree: nodes.Tree, here: Place) -> nodes.Value:
+def _rock(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
     colour, height = stone.look(tree, here)
+    if biome.biome.open_land is not None:
+        colour, height = _weathered(tree, here, biome, colour, height)
     normal = _bump(tree, height)
     bare = _matt(tree, colour, normal)
-    crowns, where = growing.on_rock(tree, here.coarser(_ON_ROCK))
+    crowns, where = growing.on_rock(tree, here.coarser(_ON_ROCK), biome)
     wooded = tree.mix_shader(where, bare, _matt(tree, crowns, normal))
     return tree.mix_shader(here.near, wooded, bare)
 
 
-def _plain(tree: nodes.Tree, known: fields.Fields) -> nodes.Value:
+def _weathered(
+    tree: nodes.Tree, here: Place, biome: Here, colour: nodes.Value, height: nodes.Value
+) -> tuple[nodes.Value, nodes.Value]:
+    """Rock of another land than the Sierra, and soil in its place where it is not steep."""
+    colour = tree.mix_colour(1.0, colour, biome.biome.rock, "MULTIPLY")
+    flat = here.slope.smoothstep(0.14, 0.05)
+    soil = tree.mix_colour(here.burned * 0.6, open_land.bare(tree, here, biome), (0.045, 0.042, 0.040))
+    return tree.mix_colour(flat, colour, soil), tree.mix(flat, height, here.grain.noise(3.0, 3.0) * 0.4)
+
+
+def _plain(tree: nodes.Tree, known: fields.Fields, biome: Here) -> nodes.Value:
     """The ground as it lights what is near: nobody sees its detail there."""
     canopy = known["canopy_fuel"].smoothstep(0.0, 0.7)
-    green = tree.mix_colour(canopy, (0.080, 0.070, 0.045), (0.030, 0.040, 0.018))
+    land = biome.biome.open_land
+    grass = (0.080, 0.070, 0.045) if land is None else growing.between(biome.green, land.straw, land.green)
+    green = tree.mix_colour(canopy, grass, (0.030, 0.040, 0.018))
     green = tree.mix_colour(known["bare"], green, (0.120, 0.110, 0.100))
     burned = (nodes.model_time(tree) > known["burn_time"]) * (known["burned"] > 0.5)
     colour = tree.mix_colour(burned, green, (0.035, 0.030, 0.027))
@@ -143,12 +172,39 @@ def _photographed(
     ground: nodes.Value,
 ) -> nodes.Value:
     """The ground with the photo's colour where it has any and nothing burned: heights are in its light."""
+    shown = _picture(tree, here, picture, image)
+    counts = tree.pick(shown, "Alpha") * (1.0 - here.burned)
+    return tree.mix_shader(counts, ground, _matt(tree, tree.pick(shown, "Color"), None))
+
+
+def _mapped(
+    tree: nodes.Tree,
+    here: Place,
+    layer: str,
+    picture: photo.Picture,
+    image: bpy.types.Image,
+    ground: nodes.Value,
+) -> nodes.Value:
+    """The ground with a layer of the user's land use: its colour, with grain; what is soft burns."""
+    shown = _picture(tree, here, picture, image)
+    counts = tree.pick(shown, "Alpha")
+    if layer == "water":
+        return tree.mix_shader(counts, ground, _water(tree, here))
+    grain = here.grain.noise(11.0, 5.0, 0.7).ramp(0.25, 0.75, 0.72, 1.28)
+    broad = here.grain.noise(140.0, 3.0, 0.6).ramp(0.3, 0.7, 0.86, 1.14)
+    tone = grain * broad if layer == "soft" else broad
+    colour = tree.mix_colour(1.0, tree.pick(shown, "Color"), tree.combine(tone, tone, tone), "MULTIPLY")
+    if layer == "soft":
+        counts = counts * (1.0 - here.burned)
+    return tree.mix_shader(counts, ground, _matt(tree, colour, None))
+
+
+def _picture(tree: nodes.Tree, here: Place, picture: photo.Picture, image: bpy.types.Image) -> bpy.types.Node:
+    """The node of a picture that lies on the ground."""
     scale = 1.0 / (picture.high - picture.low)
     across = tree.vector("SUBTRACT", here.position, (*picture.low, 0.0))
     at = tree.vector("MULTIPLY", across, (*scale, 0.0))
-    shown = tree.node("ShaderNodeTexImage", {"Vector": at}, image=image, extension="CLIP")
-    counts = tree.pick(shown, "Alpha") * (1.0 - here.burned)
-    return tree.mix_shader(counts, ground, _matt(tree, tree.pick(shown, "Color"), None))
+    return tree.node("ShaderNodeTexImage", {"Vector": at}, image=image, extension="CLIP")
 
 
 def _water(tree: nodes.Tree, here: Place) -> nodes.Value:

@@ -29,6 +29,10 @@ class Place:
     age: nodes.Value  # s since the fire came, negative before
     burned: nodes.Value  # 0 or 1
     pixel: nodes.Value  # m
+    beyond: nodes.Value  # 0 within the run, 1 where the cells of the apron are large
+    shrub: nodes.Value  # 0..1, part of open land under bushes; 0 in the Sierra, where all of it is noise
+    hollow: nodes.Value  # -1 crests to 1 hollows; as well
+    free: nodes.Value  # 1 where no map says what there is, so that fields and tracks may be invented
     duff: nodes.Value  # -1..1, grain of the soil, of needles and of ash; 0 where pixels are larger
 
     def coarser(self, least: float) -> Place:
@@ -67,14 +71,18 @@ def of(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -> Pl
         age,
         (age > 0.0) * (edge > 0.5),
         pixel,
+        known.beyond,
+        known["shrub"],
+        known["hollow"],
+        1.0 - known["mapped"],
         granite.fine(tree, position, 0.6, 5.0, pixel, 0.72),
     )
 
 
-def rock(tree: nodes.Tree, place: Place) -> nodes.Value:
+def rock(tree: nodes.Tree, place: Place, outcrops: float = 1.0) -> nodes.Value:
     """Bare rock 0..1: where nothing grows, on cliffs, and in outcrops that grow commoner with height."""
     ragged = place.grain.noise(260.0, 6.0, 0.66)
     bare = (place.bare + (ragged - 0.5) * 1.7).smoothstep(0.42, 0.58) * (place.bare > 0.02)
     cliff = (place.slope + (ragged - 0.5) * 0.35).smoothstep(0.27, 0.36)
     high = (ragged + place.elevation.ramp(1300.0, 2700.0, -0.12, 0.12)).smoothstep(0.66, 0.74)
-    return tree.math("MAXIMUM", bare, tree.math("MAXIMUM", cliff, high * 0.9))
+    return tree.math("MAXIMUM", bare, tree.math("MAXIMUM", cliff, high * (0.9 * outcrops)))

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...shot.ground import bilinear
 from ...shot.shot import Shot
+from ..forest import biomes
 
 NAME = "solid_view"
 BARE, GRASS, FOREST, WATER = (0.30, 0.28, 0.25), (0.22, 0.17, 0.08), (0.035, 0.070, 0.022), (0.02, 0.09, 0.20)
@@ -35,7 +36,8 @@ def colours(shot: Shot, row: NDArray[np.float64], column: NDArray[np.float64]) -
         return bilinear(np.asarray(field, np.float64), row, column)[:, None]
 
     dense = np.clip(at(ground.fields.canopy_fuel) / _DENSE, 0, 1)
-    shade = np.array(GRASS) + (np.array(FOREST) - GRASS) * dense
+    grass = GRASS if (land := biomes.of(shot).biome.open_land) is None else land.straw
+    shade = np.array(grass) + (np.array(FOREST) - grass) * dense
     shade = shade + (np.array(BARE) - shade) * np.clip(at(ground.bare), 0, 1)
     arrival = ground.arrival_at(row, column)[:, None]
     shade = np.where(arrival <= shot.frames.last, BURNS, shade)

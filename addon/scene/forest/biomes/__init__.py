@@ -1,0 +1,105 @@
+"""Biomes, kinds of land: each module of this folder is one, unless its name begins with "_".
+
+It defines `BIOME`, a `Biome`, and says in the first line of its docstring what it is. Without Blender.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+from dataclasses import dataclass, replace
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from firetwin_core.run import Run
+
+from ....run import blocks, fuel_category, times
+from ....shot import biomes
+from ....shot.shot import Shot
+from ._biome import Biome, Colour, Land, OpenLand, Plants, Season, Species
+
+__all__ = [
+    "Biome",
+    "Colour",
+    "Here",
+    "Land",
+    "OpenLand",
+    "Plants",
+    "Season",
+    "Species",
+    "chosen",
+    "known",
+    "of",
+]
+
+_CANOPY, _NOTHING = 0.01, 0.02  # kg/m2: canopy from which on ground is wooded, load that is no fuel
+_SHRUB = (
+    0.9  # kg/m2 of surface fuel without canopy from which on it counts as shrub, if nothing says (assumed)
+)
+_CHOSEN: WeakKeyDictionary[Run, str] = WeakKeyDictionary()
+
+
+@dataclass(frozen=True)
+class Here:
+    """A shot's biome, as the settings have it.
+
+    Attributes
+    ----------
+    name
+        Of the biome.
+    green
+        0: dry, 1: green.
+    """
+
+    name: str
+    biome: Biome
+    green: float
+
+
+@functools.cache
+def known() -> dict[str, Biome]:
+    """Every biome by name."""
+    return {name: importlib.import_module(f".{name}", __name__).BIOME for name in biomes.names()}
+
+
+def of(shot: Shot) -> Here:
+    """The biome of a shot: the one that is set, or the one that goes best with the run's land."""
+    run, forest = shot.run, shot.settings.forest
+    name = forest.biome if forest.biome != "auto" else _auto(run)
+    biome = known()[name]
+    if forest.tree_cover is not None:
+        biome = replace(biome, tree_cover=forest.tree_cover)
+    if forest.shrub_cover is not None:
+        biome = replace(biome, shrub_cover=forest.shrub_cover)
+    latitude = 0.5 * float(run.latitude[0] + run.latitude[-1])
+    day = times.moment(run, float(shot.frames.first)).timetuple().tm_yday
+    green = biome.season.greenness(day, latitude) if forest.greenness is None else forest.greenness
+    return Here(name, biome, green)
+
+
+def _auto(run: Run) -> str:
+    if run not in _CHOSEN:
+        _CHOSEN[run] = chosen(land(run))
+    return _CHOSEN[run]
+
+
+def chosen(land: Land) -> str:
+    """Name of the biome that goes best with a land."""
+    return max(known(), key=lambda name: known()[name].suits(land))
+
+
+def land(run: Run) -> Land:
+    """What a run says of its land: place, and what its fuel is, by category or else by its loads."""
+    count = np.zeros(3)
+    for first, end in blocks.rows(run):
+        canopy = np.nan_to_num(run.fuel_rows("canopy_fuel", first, end)) > _CANOPY
+        surface = np.nan_to_num(run.fuel_rows("surface_fuel", first, end))
+        kind = np.select([canopy, surface > _SHRUB, surface > _NOTHING], [2, 1, 0], -1)
+        if run.has(fuel_category.FIELD):
+            said = fuel_category.kinds(run.fuel_rows(fuel_category.FIELD, first, end))
+            by_kind = np.array([-1, 0, 1, 2, 2, -1])[said]
+            kind = np.where(said == fuel_category.UNKNOWN, kind, np.where(canopy, 2, by_kind))
+        count += np.bincount(kind[kind >= 0], minlength=3)
+    grass, shrub, wood = count / max(count.sum(), 1.0)
+    middle = (0.5 * float(axis[0] + axis[-1]) for axis in (run.latitude, run.longitude))
+    return Land(*middle, grass, shrub, wood)

@@ -1,0 +1,229 @@
+"""What a biome says: which plants stand where and how large, and the colours of land through the year.
+
+Colours are linear reflectances, chosen by eye against photographs, not measured; so are sizes and shares,
+unless a source is named.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ....shot import noise
+
+Colour = tuple[float, float, float]
+Pair = tuple[Colour, Colour]  # the darkest and the lightest of a thing
+_YEAR = 365.25  # days
+
+
+@dataclass(frozen=True)
+class Land:
+    """What a run says of its land, by which a biome is chosen.
+
+    Attributes
+    ----------
+    latitude, longitude
+        Of its middle, degrees.
+    grass, shrub, wood
+        Parts 0..1 of the ground with fuel that is grass, shrub, and wood (timber litter, slash, any canopy).
+    """
+
+    latitude: float
+    longitude: float
+    grass: float
+    shrub: float
+    wood: float
+
+    def within(self, south: float, north: float, west: float, east: float) -> bool:
+        """Whether its middle lies in a box, degrees."""
+        return south <= self.latitude <= north and west <= self.longitude <= east
+
+
+@dataclass(frozen=True)
+class Season:
+    """How green open land is: `high` on the greenest day of the year, `low` in the dry or cold season.
+
+    Attributes
+    ----------
+    peak
+        Day of the year, in the northern hemisphere; half a year later in the southern.
+    lasts
+        Days from the greenest day until nothing of the green is left, and so long before it.
+    """
+
+    peak: float
+    lasts: float
+    low: float = 0.0
+    high: float = 1.0
+
+    def greenness(self, day: float, latitude: float) -> float:
+        """0: dry, 1: green; of a day of the year at a latitude (degrees)."""
+        peak = self.peak if latitude >= 0.0 else self.peak + 0.5 * _YEAR
+        off = abs((day - peak + 0.5 * _YEAR) % _YEAR - 0.5 * _YEAR)
+        full = float(noise.smoothstep(self.lasts, 0.35 * self.lasts, np.array(off)))
+        return self.low + (self.high - self.low) * full
+
+
+@dataclass(frozen=True)
+class Species:
+    """Trees of a stand that are alike.
+
+    Attributes
+    ----------
+    models
+        Numbers of its models in `models`, each as often.
+    share
+        Part of the trees, beside the shares of the others.
+    height
+        Times the height of a conifer of the same rank in such a stand (`forest.stand` of the core).
+    width
+        Times wider than its model.
+    low, high
+        Heights above the sea (m) between which its share goes from 0 to all, or from all to 0 where `low`
+        is the higher one; None: everywhere.
+    """
+
+    models: tuple[int, ...]
+    share: float
+    height: float = 1.0
+    width: float = 1.0
+    low: float | None = None
+    high: float | None = None
+
+
+@dataclass(frozen=True)
+class OpenLand:
+    """Ground without canopy, seen as colour.
+
+    Attributes
+    ----------
+    bleached, straw, stale
+        Dry grass: palest, middling and darkest.
+    green, lush
+        Grass that grows, and that of wet hollows.
+    soil, shrub
+        Darkest and lightest.
+    bare
+        Part of the ground where soil shows between grass, in the dry season.
+    bush
+        Width of a bush, m.
+    tussock
+        Width of a bunch of grass, m.
+    hollows
+        How much greener and bushier hollows are than crests, 0..1.
+    patch
+        Size of the largest patches, m.
+    tracks
+        Distance between tracks of vehicles and cattle, m; 0: none. They are invented.
+    draws
+        Distance between the shallow valleys that water has cut, m, which are green and bushy; 0: none. They
+        are invented.
+    field
+        Sides of fields or paddocks, m; none where they are 0. They are invented, and so are hedges.
+    tilled
+        0: paddocks differ as they are grazed, 1: fields, some of them ploughed or mown.
+    hedge
+        Width of hedges round fields, m.
+    """
+
+    bleached: Colour
+    straw: Colour
+    stale: Colour
+    green: Colour
+    lush: Colour
+    soil: Pair
+    shrub: Pair
+    bare: float = 0.15
+    bush: float = 5.0
+    tussock: float = 1.1
+    hollows: float = 0.5
+    patch: float = 900.0
+    tracks: float = 0.0
+    draws: float = 0.0
+    field: tuple[float, float] = (0.0, 0.0)
+    tilled: float = 0.0
+    hedge: float = 0.0
+
+
+@dataclass(frozen=True)
+class Plants:
+    """Bushes, tufts and the like near cameras, by `understorey.KINDS`.
+
+    Attributes
+    ----------
+    density
+        Times as many as there, by kind; 1 where it is not named.
+    height, width
+        Times as tall, and as wide for that, as there, by kind.
+    models
+        Numbers of models in place of those there, before and after the fire, by kind.
+    """
+
+    density: Mapping[str, float] = field(default_factory=dict)
+    height: Mapping[str, float] = field(default_factory=dict)
+    width: Mapping[str, float] = field(default_factory=dict)
+    models: Mapping[str, tuple[tuple[int, ...], tuple[int, ...]]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Biome:
+    """A kind of land.
+
+    Attributes
+    ----------
+    suits
+        How well it goes with a run's land: the one of which this is largest is chosen.
+    season
+        Of grass and of leaves that are shed.
+    needles
+        Crowns in the sun, as the ground shows them far away.
+    stands
+        Colour that crowns of some stands have 0.6 of.
+    shade, between
+        Of dense clumps, and between crowns.
+    crown
+        Width of crowns in the far forest, m.
+    deciduous
+        Part of the crowns' green that goes with the season's.
+    withered
+        Factor on the colour of such crowns when all of their green is gone.
+    litter, scrub
+        The floor under trees: dead leaves from afar, and what is green on it.
+    grass
+        Dry and green blades near cameras.
+    species
+        Trees of the stand; none: those of the core, with oaks in the foothills.
+    tree_cover, shrub_cover
+        Part of the open land under lone trees, and under bushes where its fuel is grass.
+    shrub_load
+        Surface fuel (kg/m2) at which bushes begin, and at which they are all of it, where no category says.
+    open_land
+        None: meadows, soil and brush of the Sierra.
+    rock, outcrops
+        Factor on the colour of granite; how common rock is that no map shows, 0..1.
+    plants
+        What is different near cameras.
+    """
+
+    suits: Callable[[Land], float]
+    season: Season
+    needles: Pair
+    stands: Colour
+    shade: Colour
+    between: Colour
+    crown: float = 13.0
+    deciduous: float = 0.0
+    withered: Colour = (1.0, 1.0, 1.0)
+    litter: Pair = ((0.019, 0.017, 0.010), (0.062, 0.050, 0.030))
+    scrub: Colour = (0.024, 0.033, 0.014)
+    grass: Pair = ((0.150, 0.115, 0.055), (0.060, 0.065, 0.028))
+    species: tuple[Species, ...] = ()
+    tree_cover: float = 0.0
+    shrub_cover: float = 0.0
+    shrub_load: tuple[float, float] = (0.7, 1.4)
+    open_land: OpenLand | None = None
+    rock: Colour = (1.0, 1.0, 1.0)
+    outcrops: float = 1.0
+    plants: Plants = field(default_factory=Plants)

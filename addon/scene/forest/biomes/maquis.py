@@ -1,0 +1,52 @@
+"""Mediterranean scrub of evergreen bushes, with holm oaks and pines."""
+
+from .. import models
+from ._biome import Biome, Land, OpenLand, Plants, Season, Species
+
+
+def _suits(land: Land) -> float:
+    basin = land.within(28.0, 47.0, -11.0, 42.0)
+    return (land.shrub + 0.25 * land.wood * basin) * (1.0 if basin else 0.7)
+
+
+BIOME = Biome(
+    suits=_suits,
+    season=Season(peak=110.0, lasts=95.0, low=0.05),
+    needles=((0.024, 0.036, 0.015), (0.064, 0.078, 0.036)),
+    stands=(0.046, 0.058, 0.030),
+    shade=(0.011, 0.015, 0.009),
+    between=(0.020, 0.020, 0.012),
+    crown=7.5,
+    litter=((0.040, 0.030, 0.018), (0.100, 0.078, 0.050)),
+    scrub=(0.030, 0.040, 0.018),
+    grass=((0.145, 0.114, 0.060), (0.060, 0.069, 0.026)),
+    species=(
+        Species(models.HOLM_OAKS, 0.6, height=0.40, width=1.0),
+        Species(models.STONE_PINES, 0.4, height=0.62, width=1.0),
+    ),
+    tree_cover=0.012,
+    shrub_cover=0.30,
+    shrub_load=(0.35, 1.2),
+    open_land=OpenLand(
+        bleached=(0.175, 0.142, 0.084),
+        straw=(0.118, 0.094, 0.050),
+        stale=(0.072, 0.057, 0.033),
+        green=(0.056, 0.065, 0.026),
+        lush=(0.050, 0.070, 0.024),
+        soil=((0.120, 0.080, 0.052), (0.230, 0.178, 0.125)),
+        shrub=((0.016, 0.025, 0.010), (0.048, 0.056, 0.028)),
+        bare=0.30,
+        bush=3.4,
+        hollows=0.6,
+        patch=500.0,
+        tracks=700.0,
+        draws=500.0,
+    ),
+    rock=(1.75, 1.65, 1.45),
+    outcrops=0.8,
+    plants=Plants(
+        density={"brush": 3.2, "tuft": 0.5, "log": 0.2, "twigs": 0.4, "rock": 1.6},
+        height={"brush": 1.35},
+        models={"brush": (models.MAQUIS, models.BURNED_MAQUIS)},
+    ),
+)

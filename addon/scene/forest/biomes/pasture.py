@@ -1,0 +1,56 @@
+"""green fields with hedges, tracks and single trees; all of them are invented."""
+
+from .. import models
+from ._biome import Biome, Land, OpenLand, Plants, Season, Species
+
+
+def _suits(land: Land) -> float:
+    europe, zealand = land.within(43.5, 61.0, -11.0, 25.0), land.within(-47.5, -34.0, 166.0, 179.5)
+    return land.grass * (1.0 if europe or zealand else 0.2)
+
+
+BIOME = Biome(
+    suits=_suits,
+    season=Season(peak=150.0, lasts=150.0, low=0.35),
+    needles=((0.024, 0.042, 0.014), (0.062, 0.088, 0.030)),
+    stands=(0.048, 0.078, 0.026),
+    shade=(0.010, 0.016, 0.008),
+    between=(0.014, 0.020, 0.009),
+    crown=9.0,
+    deciduous=0.8,
+    withered=(1.7, 1.1, 0.7),
+    litter=((0.030, 0.026, 0.014), (0.090, 0.074, 0.042)),
+    scrub=(0.028, 0.044, 0.014),
+    grass=((0.190, 0.160, 0.075), (0.066, 0.100, 0.026)),
+    species=(
+        Species(models.OAKS, 0.75, height=0.55),
+        Species(models.BIRCHES, 0.25, height=0.55),
+    ),
+    tree_cover=0.004,
+    shrub_cover=0.0,
+    shrub_load=(1.0, 2.0),
+    open_land=OpenLand(
+        bleached=(0.165, 0.146, 0.072),
+        straw=(0.118, 0.108, 0.048),
+        stale=(0.078, 0.070, 0.033),
+        green=(0.066, 0.102, 0.024),
+        lush=(0.042, 0.080, 0.018),
+        soil=((0.095, 0.068, 0.044), (0.200, 0.150, 0.100)),
+        shrub=((0.018, 0.032, 0.010), (0.050, 0.070, 0.024)),
+        bare=0.02,
+        bush=4.0,
+        tussock=0.7,
+        hollows=0.4,
+        patch=700.0,
+        tracks=520.0,
+        field=(230.0, 160.0),
+        hedge=4.0,
+        tilled=1.0,
+    ),
+    outcrops=0.0,
+    plants=Plants(
+        density={"brush": 0.05, "tuft": 1.0, "log": 0.02, "twigs": 0.05, "rock": 0.05},
+        height={"tuft": 0.7, "brush": 1.6},
+        width={"tuft": 2.2},
+    ),
+)

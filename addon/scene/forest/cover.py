@@ -1,0 +1,147 @@
+"""Where open land is bushy, hollow or tilled: fields (ny, nx) of the ground's grid, without Blender.
+
+What fuel does not say is invented: hollows are the terrain's, but on level land they are noise.
+"""
+
+from __future__ import annotations
+
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from ...run import fuel_category
+from ...shot import land_use, noise
+from ...shot.ground import Ground, bilinear
+from ...shot.shot import Shot
+from . import biomes
+
+_REACH = 180.0  # m, half-width of the means that a hollow lies below (by eye)
+_DEEP = 9.0  # m below them, from which on it is a hollow altogether (by eye)
+_LEVEL = 420.0  # m, size of hollows that are noise
+_BUSHY = {"grass": 0.0, "shrub": 0.85, "litter": 0.35, "slash": 0.15}
+"""Part of the ground under bushes by kind of fuel, beside the biome's own for grass (assumed)."""
+_AMONG_GRASS = 0.30  # the same of Scott and Burgan's GS, grass and shrub
+
+Array = NDArray[np.float64]
+
+
+_SHRUBS: WeakKeyDictionary[Shot, Array] = WeakKeyDictionary()
+_HOLLOWS: WeakKeyDictionary[Ground, Array] = WeakKeyDictionary()
+
+
+def shrubs(shot: Shot) -> Array:
+    """Part 0..1 of open land under bushes: by the fuel's category, else by its load."""
+    if shot not in _SHRUBS:
+        _SHRUBS[shot] = _shrubs(shot)
+    return _SHRUBS[shot]
+
+
+def _shrubs(shot: Shot) -> Array:
+    here = biomes.of(shot)
+    found = _by_load(shot.ground, here)
+    if shot.run.has(fuel_category.FIELD):
+        found = np.where(np.isnan(said := _by_category(shot, here)), found, said)
+    return found
+
+
+def _by_load(ground: Ground, here: biomes.Here) -> Array:
+    low, high = here.biome.shrub_load
+    return _beside(here, 0.85 * noise.smoothstep(low, high, ground.fields.surface_fuel))
+
+
+def _beside(here: biomes.Here, shrub: Array) -> Array:
+    return np.maximum(shrub, here.biome.shrub_cover)
+
+
+def _by_category(shot: Shot, here: biomes.Here) -> Array:
+    """The same where the run says a category; NaN elsewhere, as on the apron."""
+    number = on_ground(shot, shot.run.fuel_rows(fuel_category.FIELD, 0, len(shot.run.fuel_latitude)))
+    kind = fuel_category.kinds(number)
+    share = np.full(len(fuel_category.NAMES), np.nan)
+    for name, bushy in _BUSHY.items():
+        share[fuel_category.NAMES.index(name)] = bushy
+    share[fuel_category.UNBURNABLE] = 0.0
+    found = np.where((number > 120) & (number < 125), _AMONG_GRASS, share[kind])
+    return np.where(kind == fuel_category.UNBURNABLE, found, _beside(here, found))
+
+
+def mapped(shot: Shot) -> Array:
+    """1 where a map of land use says what there is."""
+    if land_use.of(shot) is None:
+        return np.zeros(shot.ground.shape)
+    fields = shot.ground.fields
+    place = shot.ground.frame.forward_grid(fields.latitude, fields.longitude, fields.elevation)
+    return land_use.mapped(shot, place.reshape(-1, 3)).reshape(shot.ground.shape).astype(np.float64)
+
+
+def on_ground(shot: Shot, field: NDArray) -> Array:
+    """A field (fy, fx) of the run's fuel grid on the ground's; NaN beyond the run."""
+    run: Run = shot.run
+    row, column = (
+        np.interp(wanted, *_ascending(own), left=np.nan, right=np.nan)
+        for wanted, own in (
+            (shot.ground.fields.latitude, run.fuel_latitude),
+            (shot.ground.fields.longitude, run.fuel_longitude),
+        )
+    )
+    found = np.full((len(row), len(column)), np.nan)
+    inside = np.ix_(np.isfinite(row), np.isfinite(column))
+    at = (np.rint(v[np.isfinite(v)]).astype(int) for v in (row, column))
+    found[inside] = field[np.ix_(*at)]
+    return found
+
+
+def _ascending(axis: Array) -> tuple[Array, Array]:
+    """An axis from low to high, and its numbers."""
+    order = np.argsort(axis)
+    return axis[order], order.astype(np.float64)
+
+
+def hollows(ground: Ground) -> Array:
+    """How far ground lies below the means round it, -1 (crests) to 1 (hollows); on level land noise."""
+    if ground not in _HOLLOWS:
+        _HOLLOWS[ground] = _hollows(ground)
+    return _HOLLOWS[ground]
+
+
+def _hollows(ground: Ground) -> Array:
+    height = ground.fields.elevation
+    below = np.zeros(height.shape)
+    for reach in (_REACH, 3.0 * _REACH):
+        cells = [max(round(reach / size), 1) for size in ground.cell]
+        below += _mean(height, cells) - height
+    relief = np.clip(below / _DEEP, -1.0, 1.0)
+    return relief + (1.0 - np.abs(relief)) * 0.6 * _noise(ground)
+
+
+def _noise(ground: Ground) -> Array:
+    """Of the plane, -1..1; on the apron, where the grid is coarse, none."""
+    fields, inner = ground.fields, np.zeros(ground.shape)
+    rows, columns = (np.arange(len(axis)) for axis in (fields.latitude, fields.longitude))
+    made = noise.fractal(
+        columns[None] * ground.cell[1], rows[:, None] * ground.cell[0], _LEVEL, 3, ground.seed + 55
+    )
+    part = tuple(slice(fields.margin, -fields.margin or None) for _ in range(2))
+    inner[part] = np.clip(1.6 * made[part], -1.0, 1.0)
+    return inner
+
+
+def _mean(field: Array, cells: list[int]) -> Array:
+    """Means over so many cells to each side along both axes; beyond its ends a field goes on level."""
+    for axis, reach in enumerate(cells):
+        pad = [(reach + 1, reach) if k == axis else (0, 0) for k in (0, 1)]
+        total = np.cumsum(np.pad(field, pad, "edge"), axis=axis)
+        window = 2 * reach + 1
+        ahead, behind = [slice(None)] * 2, [slice(None)] * 2
+        ahead[axis], behind[axis] = slice(window, None), slice(None, -window)
+        field = (total[tuple(ahead)] - total[tuple(behind)]) / window
+    return field
+
+
+def at(shot: Shot, field: Array, place: Array) -> Array:
+    """Values (n,) of a field at places (n, 2 or 3) in the scene, m."""
+    if len(place) == 0:
+        return np.empty(0)
+    return bilinear(field, *shot.ground.indices(*shot.ground.geodetic(*place[:, :2].T)))

@@ -1,0 +1,169 @@
+"""Biomes: which one a run's land has, what the settings change of it, and that each is whole."""
+
+from datetime import date
+
+import numpy as np
+import pytest
+from firetwin.run import fuel_category as categories
+from firetwin.scene.forest import biomes, cover, field_lines, models, openings, understorey
+from firetwin.scene.forest.biomes import Land, Season
+from firetwin.shot import biomes as named
+from firetwin.shot.rigs.drone import CameraKey, Drone
+from firetwin.shot.settings import Camera, Forest, Ground, Settings
+from firetwin.shot.shot import Shot
+from firetwin_core import run as runs
+from small_run import FX, FY
+
+EVERY = sorted(named.names())
+
+
+@pytest.fixture
+def shot(make_run):
+    """shot(fields=..., **forest): the small run, filmed from 30 m."""
+
+    def made(fields=None, **forest):
+        run = runs.open(make_run(**(fields or {})))
+        key = CameraKey(0.0, 38.902, -120.594, 30.0, "point", 38.905, -120.594, 1.0)
+        settings = Settings(
+            ground=Ground(near_radius=1500.0, apron=0.0),
+            forest=Forest(**forest),
+            cameras=(Camera("one", Drone(keys=(key,))),),
+        )
+        return Shot(settings, run)
+
+    return made
+
+
+def filled(value):
+    return np.full((FY, FX), value, np.float32)
+
+
+@pytest.mark.parametrize(
+    ("land", "name"),
+    [
+        (Land(38.9, -120.5, 0.1, 0.0, 0.9), "sierra_conifer"),  # King Fire
+        (Land(38.6, -98.9, 1.0, 0.0, 0.0), "grassland"),  # Kansas
+        (Land(8.4, 20.6, 1.0, 0.0, 0.0), "grassland"),
+        (Land(46.2, 1.3, 1.0, 0.0, 0.0), "pasture"),  # Limousin
+        (Land(34.4, -118.3, 0.15, 0.85, 0.0), "chaparral"),  # above Los Angeles
+        (Land(43.3, 6.3, 0.15, 0.6, 0.25), "maquis"),  # Provence
+        (Land(57.6, -111.9, 0.1, 0.15, 0.75), "boreal"),  # Alberta
+        (Land(61.0, 15.0, 0.0, 0.2, 0.8), "boreal"),
+        (Land(38.9, -120.5, 0.0, 0.0, 0.0), "sierra_conifer"),  # nothing is known
+    ],
+)
+def test_place_and_fuel_choose_the_biome(land, name):
+    assert biomes.chosen(land) == name
+
+
+def test_every_file_is_a_biome_and_a_choice():
+    assert set(biomes.known()) == set(named.names()) == set(named.choices()) - {"auto"}
+    assert all(len(about) > 10 for about in named.names().values())
+
+
+def test_without_categories_loads_tell_what_land_it_is(shot):
+    assert biomes.of(shot({"canopy_fuel": filled(0.0), "surface_fuel": filled(1.5)})).name == "chaparral"
+
+
+def test_a_category_outweighs_the_load(make_run):
+    number = filled(2.0)
+    number[0], number[1] = np.nan, 98.0
+    folder = make_run(canopy_fuel=filled(0.0), surface_fuel=filled(1.5), fuel_category=number)
+    land = biomes.land(runs.open(folder))
+    assert (land.grass, land.shrub) == pytest.approx((6 / 7, 1 / 7))  # water is no land
+
+
+def test_the_sample_fires_september_is_dry_and_as_it_was():
+    """Exactly 0: the Sierra's colours are those that it had before it was one biome of several."""
+    day = date(2014, 9, 17).timetuple().tm_yday
+    assert biomes.known()["sierra_conifer"].season.greenness(day, 38.9) == 0.0
+    assert biomes.known()["sierra_conifer"].open_land is None
+
+
+def test_seasons_turn_with_the_hemisphere():
+    season = Season(peak=150.0, lasts=100.0, low=0.1, high=0.9)
+    assert season.greenness(150.0, 45.0) == pytest.approx(0.9)
+    assert season.greenness(150.0 + 182.6, 45.0) == pytest.approx(0.1)
+    assert season.greenness(150.0, -45.0) == pytest.approx(0.1)
+    days = np.arange(1, 366)
+    green = np.array([season.greenness(day, 45.0) for day in days])
+    assert np.abs(np.diff(green)).max() < 0.03  # day by day, over new year too
+    assert green[0] == pytest.approx(green[-1], abs=0.03)
+
+
+def test_settings_outweigh_place_date_and_fuel(shot):
+    here = biomes.of(shot(biome="maquis", greenness=0.7, shrub_cover=0.9, tree_cover=0.2))
+    assert (here.name, here.green) == ("maquis", 0.7)
+    assert (here.biome.shrub_cover, here.biome.tree_cover) == (0.9, 0.2)
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_every_biome_names_models_that_live_and_colours_of_land(name):
+    biome, every = biomes.known()[name], models.every()
+    for sort in biome.species:
+        assert all(every[k].state == "living" for k in sort.models)
+    for living, burned in biome.plants.models.values():
+        assert len(living) == len(burned)
+        assert all(every[k].state == "living" for k in living)
+        assert all(every[k].state == "snag" for k in burned)
+    assert set(biome.plants.density) | set(biome.plants.height) <= set(understorey.KINDS)
+    if (land := biome.open_land) is not None:
+        colours = [land.bleached, land.straw, land.stale, land.green, land.lush, *land.soil, *land.shrub]
+        assert 0.0 < np.min(colours) < np.max(colours) < 0.3
+        assert np.mean(land.stale) < np.mean(land.straw) < np.mean(land.bleached)
+        assert land.green[1] > land.green[0] > land.green[2]
+
+
+def test_bushes_grow_with_the_load_and_by_category(make_run):
+    load = np.linspace(0.1, 3.0, FY * FX, dtype=np.float32).reshape(FY, FX)
+    number = np.full((FY, FX), np.nan, np.float32)
+    number[2, :4], number[3, :4], number[4, :4] = 1.0, 4.0, 122.0
+    folder = make_run(canopy_fuel=filled(0.0), surface_fuel=load, fuel_category=number)
+    settings = Settings(ground=Ground(apron=0.0), forest=Forest(biome="grassland"))
+    made = Shot(settings, runs.open(folder))
+    found = cover.shrubs(made)
+    assert found.shape == (FY, FX)
+    assert found[0, 0] == pytest.approx(biomes.of(made).biome.shrub_cover)
+    assert (np.diff(found[5:].ravel()) >= 0).all()
+    assert found[7, 9] > 0.8
+    grass, brush, mixed = found[2, 0], found[3, 0], found[4, 0]
+    assert grass < mixed < brush
+    assert categories.kinds(np.array([1, 4])).tolist() == [categories.GRASS, categories.SHRUB]
+
+
+def test_hollows_are_below_what_is_round_them(shot):
+    y, x = np.mgrid[-1 : 1 : FY * 1j, -1 : 1 : FX * 1j]
+    bowl = (1000.0 + 200.0 * np.hypot(x, y)).astype(np.float32)
+    made = shot({"fuel_elevation": bowl}, biome="grassland")
+    found = cover.hollows(made.ground)
+    assert found[FY // 2, FX // 2] > 0.9
+    assert found.min() >= -1.6
+    assert found.max() <= 1.6
+
+
+def test_fields_are_between_their_edges():
+    rng = np.random.default_rng(3)
+    x, y = rng.uniform(-4000.0, 4000.0, (2, 40_000))
+    off, row, number = field_lines.fields(field_lines.NUMPY, x, y, (230.0, 160.0))
+    assert off.min() >= 0.0
+    assert off.max() <= 80.0 + 1e-9
+    # Places a metre apart that lie in different fields are near an edge of theirs.
+    _, other_row, other_number = field_lines.fields(field_lines.NUMPY, x + 1.0, y, (230.0, 160.0))
+    crossed = (row != other_row) | (number != other_number)
+    assert 0.002 < crossed.mean() < 0.05
+    assert off[crossed].max() < 2.5
+    assert len(np.unique(np.stack([row, number]), axis=1).T) > 400
+
+
+def test_trees_of_open_land_stand_in_groups_and_about_as_many_as_the_cover_says(shot):
+    rng = np.random.default_rng(5)
+    made = shot(
+        {"canopy_fuel": filled(0.0), "surface_fuel": filled(0.5)}, biome="grassland", tree_cover=0.004
+    )
+    place = np.column_stack([rng.uniform(-4e5, 4e5, (20_000, 2)), np.zeros(20_000)])
+    # Only noise counts here: places beyond the run have the hollow of its edge.
+    part = openings._scattered(made, 0.004, place)
+    hollow = cover.hollows(made.ground)
+    level = float(np.exp(openings._HOLLOW * np.median(hollow)))
+    assert 0.25 < part.mean() / (0.004 / openings._FULL) / level < 4.0
+    assert np.quantile(part, 0.99) > 8.0 * np.median(part)

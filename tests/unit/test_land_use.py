@@ -1,0 +1,161 @@
+"""The user's map of land use: what features are, where they are drawn, and what stays free of plants."""
+
+import json
+import sqlite3
+
+import numpy as np
+import pytest
+from firetwin.errors import InputError
+from firetwin.run.observations import features
+from firetwin.shot import land_use
+from firetwin.shot.choice import Choice
+from firetwin_core import run as runs
+from scene_text import GROUND_ALONE
+
+WEST, SOUTH, EAST, NORTH = -120.596, 38.902, -120.588, 38.908
+
+
+@pytest.fixture
+def make(make_run, tmp_path):
+    """make(feature, ...): a shot of the small run with these features of land use."""
+    make_run()
+
+    def scene(*found, name="land.geojson"):
+        (tmp_path / name).write_text(json.dumps({"type": "FeatureCollection", "features": list(found)}))
+        key = f'land_use = "{name}"'
+        (tmp_path / "scene.toml").write_text(GROUND_ALONE.format(key=key, near=0.0, apron=3000.0))
+        return Choice(scene=str(tmp_path / "scene.toml"))
+
+    return scene
+
+
+def box(west, south, east, north, **properties):
+    ring = [[west, south], [east, south], [east, north], [west, north], [west, south]]
+    return _feature("Polygon", [ring], properties)
+
+
+def line(*points, **properties):
+    return _feature("LineString", [list(point) for point in points], properties)
+
+
+def _feature(kind, coordinates, properties):
+    return {
+        "type": "Feature",
+        "properties": properties,
+        "geometry": {"type": kind, "coordinates": coordinates},
+    }
+
+
+@pytest.mark.parametrize(
+    ("properties", "kind"),
+    [
+        ({"kind": "field"}, "field"),
+        ({"building": "yes"}, "building"),
+        ({"building": "no", "landuse": "meadow"}, "meadow"),
+        ({"highway": "primary"}, "road"),
+        ({"highway": "track"}, "track"),
+        ({"waterway": "stream"}, "water"),
+        ({"natural": "water"}, "water"),
+        ({"natural": "peak"}, None),
+        ({"landuse": "vineyard"}, "field"),
+        ({"landuse": "residential"}, None),
+        ({"LANDUSE": "Quarry"}, "bare"),
+        ({"kind": "castle", "name": None}, None),
+        ({}, None),
+    ],
+)
+def test_what_a_feature_is(properties, kind):
+    assert land_use.kind_of(properties) == kind
+
+
+def at(shot, layer, longitude, latitude):
+    """Colour and cover of a layer at a place, of the coarsest picture."""
+    picture = land_use.pictures(shot)[layer][0]
+    place = shot.ground.point(latitude, longitude)[0, :2]
+    size = np.array(picture.pixels.shape[1::-1])
+    x, y = np.floor((place - picture.low) / (picture.high - picture.low) * size).astype(int)
+    return picture.pixels[y, x] / 255.0
+
+
+def test_each_place_has_what_the_map_says_is_there(make):
+    shot = make(
+        box(WEST, SOUTH, -120.592, NORTH, landuse="farmland"),
+        box(-120.5915, 38.903, -120.5895, 38.905, natural="water"),
+        line((WEST, 38.905), (EAST, 38.907), highway="tertiary"),
+        box(EAST, 38.9, -120.58, 38.91, landuse="residential"),
+    ).shot()
+    assert set(land_use.pictures(shot)) == {"soft", "hard", "water"}
+    assert at(shot, "soft", -120.594, 38.904)[3] == 1.0
+    assert at(shot, "soft", -120.590, 38.904)[3] == 0.0
+    assert at(shot, "water", -120.5905, 38.904)[3] == 1.0
+    assert at(shot, "hard", -120.592, 38.906)[3] == 1.0  # half-way along the road
+    assert at(shot, "hard", -120.592, 38.9052)[3] == 0.0
+    road = at(shot, "hard", -120.592, 38.906)[:3]
+    assert road == pytest.approx(land_use.KINDS["road"].colours[0], abs=0.05)
+
+
+def test_roads_are_as_wide_as_they_say(make):
+    shot = make(line((-120.592, SOUTH), (-120.592, NORTH), highway="track", width="12 m")).shot()
+    picture = land_use.pictures(shot)["hard"][0]
+    pixel = (picture.high - picture.low)[0] / picture.pixels.shape[1]
+    row = picture.pixels[picture.pixels.shape[0] // 2, :, 3] / 255.0
+    assert row.sum() * pixel == pytest.approx(12.0, abs=0.5)
+
+
+def test_no_plant_stands_on_water_roads_fields_and_buildings(make):
+    shot = make(
+        box(WEST, SOUTH, -120.594, NORTH, kind="meadow"),
+        box(-120.594, SOUTH, -120.592, NORTH, kind="field"),
+        box(-120.592, SOUTH, -120.590, NORTH, kind="water"),
+        box(-120.590, SOUTH, EAST, NORTH, building="yes"),
+    ).shot()
+    longitude = np.array([-120.595, -120.593, -120.591, -120.589, -120.599])
+    place = shot.ground.point(np.full(5, 38.905), longitude)
+    assert land_use.keeps_out(shot, place).tolist() == [False, True, True, True, False]
+    assert land_use.mapped(shot, place).tolist() == [True, True, True, True, False]
+
+
+def test_without_a_map_there_is_nothing(make_run):
+    from firetwin.shot.settings import Ground, Settings
+    from firetwin.shot.shot import Shot
+
+    shot = Shot(Settings(ground=Ground(apron=0.0)), runs.open(make_run()))
+    assert land_use.pictures(shot) == {}
+    assert not land_use.mapped(shot, np.zeros((3, 3))).any()
+
+
+@pytest.mark.parametrize(
+    ("found", "says"),
+    [
+        ([box(WEST, SOUTH, EAST, NORTH, natural="peak")], "no polygon or line whose kind is one of meadow"),
+        ([box(10.0, 45.0, 10.1, 45.1, kind="field")], "covers 45.000 to 45.100 N.*beside the run"),
+    ],
+)
+def test_a_map_that_shows_nothing_is_refused(make, found, says):
+    with pytest.raises(InputError, match=says):
+        _ = make(*found).shot()
+
+
+def test_another_file_is_refused_by_its_name(make):
+    with pytest.raises(InputError, match=r"is no \.geojson or \.gpkg"):
+        _ = make(box(WEST, SOUTH, EAST, NORTH, kind="field"), name="land.txt").shot()
+
+
+def test_lines_of_a_geopackage_are_read(tmp_path):
+    path = tmp_path / "roads.gpkg"
+    points = np.array([[WEST, SOUTH], [EAST, NORTH]])
+    shape = b"\1" + np.array([2, 2], "<u4").tobytes() + points.astype("<f8").tobytes()
+    blob = b"GP\0\1" + np.array([4326], "<i4").tobytes() + shape
+    with sqlite3.connect(path) as base:
+        base.executescript(
+            """CREATE TABLE gpkg_spatial_ref_sys (srs_name, srs_id INTEGER, organization,
+organization_coordsys_id INTEGER, definition, description);
+INSERT INTO gpkg_spatial_ref_sys VALUES ('', 4326, 'EPSG', 4326, '', '');
+CREATE TABLE gpkg_geometry_columns (table_name, column_name, geometry_type_name, srs_id, z, m);
+INSERT INTO gpkg_geometry_columns VALUES ('roads', 'geom', 'LINESTRING', 4326, 0, 0);
+CREATE TABLE roads (geom, highway);"""
+        )
+        base.execute("INSERT INTO roads VALUES (?, 'primary')", (blob,))
+    (found,) = features(path)
+    assert land_use.kind_of(found.properties) == "road"
+    assert np.array_equal(found.lines[0], points)
