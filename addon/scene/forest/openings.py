@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 from ...shot import land_use, noise
 from ...shot.ground import bilinear, box, widened
 from ...shot.shot import Shot
-from . import biomes, cover
+from . import biomes, cover, field_lines
 
 LONE_FUEL = 0.02  # kg/m2; stands for the trees of cells without canopy fuel: 57 stems a hectare, up to 15 m
 _FULL = 0.06  # part of the ground that all of these cover (half-grown oaks; assumed)
 _GROUPED, _HOLLOW = 4.0, 1.2  # how much denser they are in groups and hollows; by eye
 _MEAN = 1.6  # of the logarithm of that, so that the mean is 1: half its variance
+_ALONG, _AMID = 14.0, 0.25  # times as dense are trees along hedges, and amid fields; by eye
 _BARE = 0.5  # part of the ground without fuel from which on nothing stands there
 _SEED = 6  # cells; so far from others trees stand alone
 _LONE = 0.5  # part of these that is there in their clumps
@@ -75,7 +76,13 @@ def _scattered(shot: Shot, part: float, position: Array) -> Array:
     x, y = position[:, :2].T
     groups = noise.fractal(x, y, 4.0 * _GAP, 3, shot.settings.seed + 430)
     hollow = bilinear(cover.hollows(shot.ground), *shot.ground.under(position))
-    return part / _FULL * np.exp(_GROUPED * groups + _HOLLOW * hollow - _MEAN)
+    found = part / _FULL * np.exp(_GROUPED * groups + _HOLLOW * hollow - _MEAN)
+    land = biomes.of(shot).biome.open_land
+    if land is not None and land.hedge > 0.0:
+        off = field_lines.fields(field_lines.NUMPY, x, y, land.field)[0]
+        found = np.where(off < land.hedge, _ALONG, _AMID) * found
+        found[land_use.mapped(shot, position)] = 0.0
+    return found
 
 
 def alike(position: Array, size: float, chance: Array, seed: int) -> Array:

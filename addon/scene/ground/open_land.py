@@ -6,6 +6,7 @@ Colours are a biome's. What is finer than a pixel is not worked out: it fades in
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 from ...blender import nodes
 from ..forest import field_lines
@@ -33,11 +34,9 @@ def look(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes
     shown = place.pixel.ramp(0.25 * land.tussock, 1.2 * land.tussock, 1.0, 0.0)
     rough = 1.0 + (0.42 - fine) * 0.9 * shown
     colour = _times(tree, colour, rough)
-    bush, tone, dome = _bushes(tree, place, land, wet, middling)
-    green = tree.mix_colour(tone, *land.shrub)
-    under = tree.mix_colour(0.5, land.stale, land.shrub[0])
-    colour = tree.mix_colour(bush, colour, tree.mix_colour(dome.smoothstep(0.0, 0.5), under, green))
-    height = small * 0.8 + (1.0 - fine) * 0.25 * shown + bush * dome * (0.45 * land.bush)
+    there = _bushes(tree, place, land, wet, middling)
+    colour = tree.mix_colour(there.part, colour, _brush(tree, place, land, there, broad, middling))
+    height = small * 0.8 + (1.0 - fine) * 0.25 * shown + there.part * there.dome * (0.45 * land.bush)
     if land.tracks:
         colour = _tracks(tree, place, land, colour)
     if land.hedge:
@@ -88,16 +87,35 @@ def _grass(
     return tree.mix_colour(gaps * (0.85 - 0.5 * here.green), grass, soil)
 
 
+@dataclass
+class Bushes:
+    """Bushes at a place.
+
+    Attributes
+    ----------
+    part, cover
+        0..1: whether a bush is there, and how much of the ground about it is under bushes.
+    tone, dome
+        Of each bush, 0..1; how high of it the place is, from its rim (0) to its top.
+    groups
+        Noise of the groups that they stand in.
+    """
+
+    part: nodes.Value
+    cover: nodes.Value
+    tone: nodes.Value
+    dome: nodes.Value
+    groups: nodes.Value
+
+
 def _bushes(
     tree: nodes.Tree, place: Place, land: OpenLand, wet: nodes.Value, middling: nodes.Value
-) -> tuple[nodes.Value, nodes.Value, nodes.Value]:
-    """Where bushes are (0..1), the tone of each, and how high of it a place is (0 at its rim, 1 on top).
-
-    From afar one is less than a pixel: there it is a mean, in the groups that they stand in.
-    """
-    groups = place.grain.noise(62.0, 4.0, 0.68) + wet * (0.09 * land.hollows)
+) -> Bushes:
+    """From afar a bush is less than a pixel: there it is a mean, in the groups that they stand in."""
+    groups = place.grain.noise(62.0, 4.0, 0.68)
     begin = 0.66 - place.shrub * 0.36
-    cover = (groups - begin).smoothstep(-0.05, 0.08) * (0.60 + 0.40 * place.shrub) + place.shrub * 0.22
+    cover = (groups + wet * (0.09 * land.hollows) - begin).smoothstep(-0.05, 0.08)
+    cover = cover * (0.60 + 0.40 * place.shrub) + place.shrub * 0.22
     cover = tree.math("MINIMUM", cover, 1.0) * place.shrub.smoothstep(0.0, 0.03)
     cells = tree.node("ShaderNodeTexVoronoi", {"Vector": place.position, "Scale": 1.0 / land.bush})
     near = tree.pick(cells, "Distance")
@@ -108,9 +126,25 @@ def _bushes(
     sharp = place.distance.ramp(*_SEEN, 1.0, 0.0) * place.pixel.ramp(
         0.5 * land.bush, 1.5 * land.bush, 1.0, 0.0
     )
-    there = tree.mix(sharp, (cover + (middling - 0.5) * 0.25 * cover) * 0.80, alone)
-    beside = place.pixel.ramp(0.02, 0.16, 0.35, 1.0)  # near by they stand there one by one
-    return there.clamp() * beside, tree.mix(sharp, 0.45, tone), tree.mix(sharp, 0.4, dome.clamp())
+    part = tree.mix(sharp, (cover + (middling - 0.5) * 0.25 * cover) * 0.88, alone)
+    beside = place.pixel.ramp(0.02, 0.16, cover * 0.5 + 0.35, 1.0)  # near by they stand there one by one
+    tones = tree.mix(sharp, 0.40, tone), tree.mix(sharp, 0.38, dome.clamp())
+    return Bushes(part.clamp() * beside, cover, *tones, groups)
+
+
+def _brush(
+    tree: nodes.Tree, place: Place, land: OpenLand, there: Bushes, broad: nodes.Value, middling: nodes.Value
+) -> nodes.Value:
+    """Colour of bushes: sorts in patches, clumps in their own shade, dark below where they are dense."""
+    sorts = (broad * 0.6 + middling * 0.7).smoothstep(0.48, 0.86)
+    green = tree.mix_colour(there.tone, *land.shrub)
+    green = tree.mix_colour(
+        1.0, green, tree.mix_colour(sorts, (0.72, 0.84, 0.76), (1.28, 1.14, 1.10)), "MULTIPLY"
+    )
+    clumps = place.grain.noise(24.0, 4.0, 0.7) * 0.7 + there.groups * 0.3
+    green = _times(tree, green, clumps.ramp(0.32, 0.66, 0.38, 1.42))
+    under = tree.mix_colour(there.cover.smoothstep(0.2, 0.7), land.stale, land.shrub[0])
+    return tree.mix_colour(there.dome.smoothstep(0.0, 0.35), _times(tree, under, 0.75), green)
 
 
 def _maths(tree: nodes.Tree) -> field_lines.Maths:
@@ -133,14 +167,14 @@ def _fields(
     lot = tree.output("ShaderNodeTexWhiteNoise", {"Vector": tree.combine(row, number, 0.0)}, name="Color")
     tone, kind, turn = tree.separate(lot)
     colour = tree.mix_colour(
-        place.free, colour, tree.mix_colour(tone, (0.72, 0.76, 0.74), (1.22, 1.16, 1.10)), "MULTIPLY"
+        place.free, colour, tree.mix_colour(tone, (0.78, 0.84, 0.80), (1.20, 1.12, 1.06)), "MULTIPLY"
     )
     if not land.tilled:
         return colour
     hay = tree.mix_colour(small, land.straw, land.bleached)
-    colour = tree.mix_colour((kind > 0.80) * place.free * 0.75, colour, hay)
+    colour = tree.mix_colour((kind > 0.84) * place.free * 0.6, colour, hay)
     soil = tree.mix_colour(small, *land.soil)
-    colour = tree.mix_colour((kind < 0.10) * place.free * 0.9, colour, soil)
+    colour = tree.mix_colour((kind < 0.06) * place.free * 0.85, colour, soil)
     # Rows of the mower or the plough, which end with the pixel.
     along = tree.mix(turn > 0.5, x, y)
     lines = tree.math("PINGPONG", along, 2.4) / 2.4
@@ -181,5 +215,5 @@ def _tracks(tree: nodes.Tree, place: Place, land: OpenLand, colour: nodes.Value)
     return colour
 
 
-def _times(tree: nodes.Tree, colour: nodes.Value, factor: nodes.Value) -> nodes.Value:
+def _times(tree: nodes.Tree, colour: nodes.Value, factor: nodes.Value | float) -> nodes.Value:
     return tree.mix_colour(1.0, colour, tree.combine(factor, factor, factor), "MULTIPLY")
