@@ -12,12 +12,15 @@ from numpy.typing import NDArray
 
 from ...blender import nodes, owned
 from ...shot import land_use, photo
+from ...shot.ground import Ground
 from ...shot.shot import Shot
 from ..forest import biomes, cover
 from ..forest.stand import Stand
 
 GRID = "grid"
 _OUT = 40.0  # rows beyond the run, from which on an apron's cells are large: seven times the run's
+_SOFT = 12.0  # rows beyond the run within which the apron's edges of forest become soft
+_EDGE = 0.35  # kg/m2 of canopy fuel at which the shader has half forest and half open land
 _LARGEST = 2048  # pixels of an image's side; of larger grids the means of some points
 _FUEL, _FIRE, _COVER = "Firetwin Ground Fuel", "Firetwin Ground Fire", "Firetwin Ground Cover"
 NAMES = {
@@ -45,7 +48,7 @@ def images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]:
     ground = shot.ground
     size = -(-max(ground.shape) // _LARGEST)
     known = {
-        "canopy_fuel": ground.fields.canopy_fuel,
+        "canopy_fuel": _softened(ground),
         "bare": ground.bare,
         "water": ground.water,
         "burn_time": np.minimum(ground.burn_time, 1.0e7),
@@ -77,6 +80,38 @@ def place(shape: tuple[int, int], row: NDArray, column: NDArray, margin: int = 0
     ]
     out = np.clip(np.maximum(*beyond) / _OUT, 0.0, 1.0) if margin else 0.0 * row
     return np.stack([(column + 0.5) / columns, (row + 0.5) / rows, out], axis=-1).astype(np.float32)
+
+
+def _softened(ground: Ground) -> NDArray[np.float64]:
+    """Canopy fuel (ny, nx) kg/m2, on the apron with edges of forest as soft as its cells are large.
+
+    So the shader's noise makes edges of all sizes of them, and not the steps of cells. Where half of what is
+    near is wooded it is `_EDGE`, at which the shader has half forest: as much ground stays wooded.
+    """
+    canopy, margin = ground.fields.canopy_fuel, ground.fields.margin
+    if not margin:
+        return canopy
+    wooded = (canopy > _EDGE).astype(np.float64)
+    part, mean = _blurred(wooded), _blurred(wooded * canopy)
+    mean = np.where(part > 0.0, mean / np.maximum(part, 1.0e-9), 0.0)
+    power = np.log2(np.maximum(mean / _EDGE, 1.05))
+    out = [np.clip(np.maximum(margin - at, at - (n - 1 - margin)) / _SOFT, 0.0, 1.0)
+           for n in canopy.shape for at in (np.arange(n),)]  # fmt: skip
+    beyond = np.maximum(out[0][:, None], out[1][None])
+    return canopy + beyond * (mean * part**power - canopy)
+
+
+def _blurred(field: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Means with the neighbours, three times; beyond its ends a field goes on level."""
+    for _ in range(3):
+        for axis in (0, 1):
+            padded = np.pad(field, [(1, 1) if k == axis else (0, 0) for k in (0, 1)], "edge")
+            ahead, here, behind = (
+                padded[tuple(slice(s, padded.shape[k] - 2 + s) if k == axis else slice(None) for k in (0, 1))]
+                for s in (2, 1, 0)
+            )
+            field = (ahead + here + behind) / 3.0
+    return field
 
 
 class Fields:

@@ -43,7 +43,9 @@ def far(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.
     seen = crowns(tree, place, here.biome.crown, groups)
     cover = place.canopy + (patch - 0.5) * 0.9 + (groups - 0.5) * 1.6 + (fine - 0.5) * 0.6
     # On the apron fuel's patches are as large as its cells: noise makes edges of all sizes of them.
-    ragged = (patch - 0.5) * 2.2 + (_stands(grain) - 0.5) * 2.6
+    broad = _stands(grain) - 0.5
+    ragged = (patch - 0.5) * 2.2 + broad * 2.6
+    hills = (broad + (patch - 0.5) * 0.3) * (place.beyond * place.relief)  # too fine for its mesh
     cover = cover + ragged * (place.beyond * place.canopy.smoothstep(0.0, 0.2))
     if here.biome.open_land is None:
         cover = tree.math("MAXIMUM", cover.smoothstep(0.0, 0.7), seen.alone * 0.85)
@@ -53,9 +55,11 @@ def far(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.
     if here.biome.open_land is not None:
         open_ground, height = lands.look(tree, place, here)
         wooded = cover * (1.0 - seen.dark) * (0.7 * here.biome.crown)
-        return tree.mix_colour(cover, open_ground, canopy), wooded + (1.0 - cover) * height + fine * 0.5
+        height = wooded + (1.0 - cover) * height + fine * 0.5 + hills
+        return tree.mix_colour(cover, open_ground, canopy), height
     open_ground = _open_ground(tree, place, fine, patch, seen.tint, here)
-    return tree.mix_colour(cover, open_ground, canopy), cover * (1.0 - seen.dark) * 9.0 + fine * 2.0
+    height = cover * (1.0 - seen.dark) * 9.0 + fine * 2.0 + hills
+    return tree.mix_colour(cover, open_ground, canopy), height
 
 
 def on_rock(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:

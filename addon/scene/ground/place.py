@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from ...blender import nodes
 from ...shot.shot import Shot
 from .. import granite
@@ -11,6 +13,7 @@ from ..grain import Grain
 from . import fields
 
 _OWN = 1.25  # times the distance to which trees are drawn: from there on the canopy is the ground's
+_HILLS = 1.3  # of the deviation of the run's heights, are hills finer than the apron's mesh (by eye)
 _JITTER = 130.0  # s; breaks the straight edges of the mesh's triangles
 
 
@@ -30,6 +33,7 @@ class Place:
     burned: nodes.Value  # 0 or 1
     pixel: nodes.Value  # m
     beyond: nodes.Value  # 0 within the run, 1 where the cells of the apron are large
+    relief: float  # m, of hills that the apron's mesh is too coarse for
     shrub: nodes.Value  # 0..1, part of open land under bushes; 0 in the Sierra, where all of it is noise
     hollow: nodes.Value  # -1 crests to 1 hollows; as well
     free: nodes.Value  # 1 where no map says what there is, so that fields and tracks may be invented
@@ -72,6 +76,7 @@ def of(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -> Pl
         (age > 0.0) * (edge > 0.5),
         pixel,
         known.beyond,
+        _HILLS * float(np.std(shot.run.elevation[np.isfinite(shot.run.elevation)])),
         known["shrub"],
         known["hollow"],
         1.0 - known["mapped"],

@@ -1,0 +1,71 @@
+"""Biomes and land use in Blender: what the ground's material and the forest have of them."""
+
+import json
+from dataclasses import replace
+
+import bpy
+import numpy as np
+import pytest
+from firetwin.scene.forest import biomes, levels, models, stand
+from firetwin.scene.forest import build as forest
+from firetwin.scene.ground import build as ground
+from firetwin.scene.ground import fields
+from firetwin.shot.shot import Shot
+
+OTHERS = sorted(set(biomes.known()) - {"sierra_conifer"})
+
+
+def of(settings, run, name, **more):
+    return Shot(replace(settings, forest=replace(settings.forest, biome=name, **more)), run)
+
+
+def test_the_sierra_has_the_images_and_plants_that_it_had(near_settings, run, stage):
+    chosen, auto = (of(near_settings, run, name) for name in ("sierra_conifer", "auto"))
+    made = fields.images(auto, None)
+    assert set(made) == {"Firetwin Ground Fuel", "Firetwin Ground Fire"}
+    first, second = stand.grow(chosen), stand.grow(auto)
+    assert np.array_equal(first.model, second.model)
+    assert np.array_equal(first.position, second.position)
+    assert first.model.max() < models.SNAGS[0]
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_every_biome_builds_and_has_its_own_trees(name, near_settings, run, stage):
+    shot = of(near_settings, run, name)
+    grown = stand.grow(shot)
+    made = ground.build(shot, stage, grown)
+    assert made.data.materials[0].name == "Firetwin Ground"
+    assert "Firetwin Ground Cover" in bpy.data.images
+    sorts = biomes.of(shot).biome.species
+    wanted = {k for sort in sorts for k in sort.models}
+    assert len(grown.model) > 50
+    assert set(grown.model.tolist()) <= wanted
+    usual = stand.grow(of(near_settings, run, "sierra_conifer"))
+    assert grown.height.mean() < usual.height.mean()
+    trees = forest.build(shot, stage, grown)[0]
+    drawn = np.empty(len(trees.data.vertices), np.int32)
+    trees.data.attributes["model"].data.foreach_get("value", drawn)
+    assert set((drawn // levels.LEVELS).tolist()) <= wanted
+
+
+def test_roofs_stand_on_their_outlines_as_high_as_they_say(near_settings, run, stage, tmp_path, plain_ground):
+    west, south, east, north = -120.556, 38.8395, -120.555, 38.840
+    ring = [[west, south], [east, south], [east, north], [west, north], [west, south]]
+    house = {
+        "type": "Feature",
+        "properties": {"building": "barn", "height": "9 m"},
+        "geometry": {"type": "Polygon", "coordinates": [ring]},
+    }
+    path = tmp_path / "land.geojson"
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": [house]}))
+    shot = Shot(replace(near_settings, ground=replace(near_settings.ground, land_use=path)), run)
+    ground.build(shot, stage, None)
+    roofs = bpy.data.objects["Firetwin Roofs"]
+    points = np.array([vertex.co for vertex in roofs.data.vertices])
+    assert len(points) == 8
+    corners = shot.ground.point(np.array([south, north]), np.array([west, east]))
+    assert np.ptp(points[:, :2], axis=0) == pytest.approx(np.ptp(corners[:, :2], axis=0), abs=0.5)
+    under = shot.ground.up(*points[4:, :2].T.astype(float))
+    assert points[4:, 2].max() - under.mean() == pytest.approx(9.0, abs=0.1)
+    assert points[:4, 2].max() < under.min()
+    assert len(roofs.data.polygons) == 4 + 2
