@@ -15,8 +15,8 @@ from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import haze, infrared, temperature
 
-_WALL = (0.42, 0.39, 0.34)  # linear reflectances; by eye
-_ROOFS = ((0.20, 0.075, 0.045), (0.24, 0.105, 0.065), (0.13, 0.125, 0.12), (0.19, 0.17, 0.15))
+_WALL = (0.24, 0.22, 0.19)  # linear reflectances; by eye
+_ROOFS = ((0.125, 0.048, 0.030), (0.150, 0.068, 0.043), (0.075, 0.072, 0.070), (0.110, 0.100, 0.088))
 _DEEP = 4.0  # m that walls go on below the ground's middle, so that none hangs over a slope
 
 Array = NDArray[np.float64]
