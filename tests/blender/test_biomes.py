@@ -9,7 +9,7 @@ import pytest
 from firetwin.scene.forest import biomes, levels, models, stand
 from firetwin.scene.forest import build as forest
 from firetwin.scene.ground import build as ground
-from firetwin.scene.ground import fields
+from firetwin.scene.ground import fields, material
 from firetwin.shot.shot import Shot
 
 OTHERS = sorted(set(biomes.known()) - {"sierra_conifer"})
@@ -30,22 +30,24 @@ def test_the_sierra_has_the_images_and_plants_that_it_had(near_settings, run, st
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_every_biome_builds_and_has_its_own_trees(name, near_settings, run, stage):
+def test_every_biome_has_its_own_trees_and_ground(name, near_settings, run, stage):
     shot = of(near_settings, run, name)
     grown = stand.grow(shot)
-    made = ground.build(shot, stage, grown)
-    assert made.data.materials[0].name == "Firetwin Ground"
-    assert "Firetwin Ground Cover" in bpy.data.images
-    sorts = biomes.of(shot).biome.species
-    wanted = {k for sort in sorts for k in sort.models}
     assert len(grown.model) > 50
-    assert set(grown.model.tolist()) <= wanted
-    usual = stand.grow(of(near_settings, run, "sierra_conifer"))
-    assert grown.height.mean() < usual.height.mean()
-    trees = forest.build(shot, stage, grown)[0]
+    assert set(grown.model.tolist()) <= {k for sort in biomes.of(shot).biome.species for k in sort.models}
+    assert grown.height.mean() < stand.grow(of(near_settings, run, "sierra_conifer")).height.mean()
+    made = fields.images(shot, grown)
+    assert "Firetwin Ground Cover" in made
+    look = material.build(shot, stage, made)
+    assert look.name == "Firetwin Ground"
+
+
+def test_trees_of_a_biome_are_drawn(near_settings, run, stage, plain_looks):
+    shot = of(near_settings, run, "boreal")
+    trees = forest.build(shot, stage, stand.grow(shot))[0]
     drawn = np.empty(len(trees.data.vertices), np.int32)
     trees.data.attributes["model"].data.foreach_get("value", drawn)
-    assert set((drawn // levels.LEVELS).tolist()) <= wanted
+    assert set((drawn // levels.LEVELS).tolist()) <= {*models.SPRUCES, *models.PINES, *models.BIRCHES}
 
 
 def test_roofs_stand_on_their_outlines_as_high_as_they_say(near_settings, run, stage, tmp_path, plain_ground):

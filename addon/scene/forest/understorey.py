@@ -139,6 +139,7 @@ def _of_biome(shot: Shot, biome: biomes.Biome, name: str, kind: Kind) -> Kind:
     which = plants.models.get(name, (kind.models, kind.burned))
     return replace(
         kind,
+        cells=round(kind.cells * plants.finer.get(name, 1.0)),
         models=which[0],
         burned=which[1],
         height=kind.height * taller,

@@ -32,7 +32,8 @@ def look(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes
         colour = _fields(tree, place, here, colour, small)
     fine = tree.cells(place.position, land.tussock)
     shown = place.pixel.ramp(0.25 * land.tussock, 1.2 * land.tussock, 1.0, 0.0)
-    rough = 1.0 + (0.42 - fine) * 0.9 * shown
+    shade = place.pixel.ramp(0.02, 0.15, 0.70, 1.0)  # between bunches that stand there one by one
+    rough = (1.0 + (0.42 - fine) * 0.9 * shown) * shade
     colour = _times(tree, colour, rough)
     there = _bushes(tree, place, land, wet, middling)
     colour = tree.mix_colour(there.part, colour, _brush(tree, place, land, there, broad, middling))
@@ -127,9 +128,11 @@ def _bushes(
         0.5 * land.bush, 1.5 * land.bush, 1.0, 0.0
     )
     part = tree.mix(sharp, (cover + (middling - 0.5) * 0.25 * cover) * 0.88, alone)
-    beside = place.pixel.ramp(0.02, 0.16, cover * 0.5 + 0.35, 1.0)  # near by they stand there one by one
+    # Near by they stand there one by one, on what they shed.
+    far = place.pixel.ramp(0.03, 0.20)
+    shed = (place.grain.noise(2.2, 5.0, 0.7) + cover - 0.95).smoothstep(-0.14, 0.14) * 0.8
     tones = tree.mix(sharp, 0.40, tone), tree.mix(sharp, 0.38, dome.clamp())
-    return Bushes(part.clamp() * beside, cover, *tones, groups)
+    return Bushes(tree.mix(far, shed, part.clamp()), cover, tones[0], tones[1] * far, groups)
 
 
 def _brush(

@@ -157,6 +157,8 @@ class Plants:
         Times as many as there, by kind; 1 where it is not named.
     height, width
         Times as tall, and as wide for that, as there, by kind.
+    finer
+        Times as many places for them along a side, by kind: there is at most one in each.
     models
         Numbers of models in place of those there, before and after the fire, by kind.
     """
@@ -164,6 +166,7 @@ class Plants:
     density: Mapping[str, float] = field(default_factory=dict)
     height: Mapping[str, float] = field(default_factory=dict)
     width: Mapping[str, float] = field(default_factory=dict)
+    finer: Mapping[str, float] = field(default_factory=dict)
     models: Mapping[str, tuple[tuple[int, ...], tuple[int, ...]]] = field(default_factory=dict)
 
 

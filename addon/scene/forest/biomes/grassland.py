@@ -46,8 +46,9 @@ BIOME = Biome(
     rock=(1.25, 1.15, 1.0),
     outcrops=0.1,
     plants=Plants(
-        density={"brush": 0.22, "tuft": 1.5, "log": 0.02, "twigs": 0.05, "rock": 0.25},
-        height={"brush": 1.1, "tuft": 1.4},
-        width={"tuft": 2.2},
+        density={"brush": 0.22, "tuft": 3.4, "log": 0.02, "twigs": 0.05, "rock": 0.25},
+        height={"brush": 1.1, "tuft": 1.5},
+        width={"tuft": 2.6},
+        finer={"tuft": 1.5},
     ),
 )

@@ -49,8 +49,9 @@ BIOME = Biome(
     ),
     outcrops=0.0,
     plants=Plants(
-        density={"brush": 0.05, "tuft": 1.0, "log": 0.02, "twigs": 0.05, "rock": 0.05},
+        density={"brush": 0.05, "tuft": 2.2, "log": 0.02, "twigs": 0.05, "rock": 0.05},
         height={"tuft": 0.7, "brush": 1.6},
-        width={"tuft": 2.2},
+        width={"tuft": 2.4},
+        finer={"tuft": 1.5},
     ),
 )
