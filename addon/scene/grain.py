@@ -15,7 +15,7 @@ class Grain:
     def __init__(
         self, tree: nodes.Tree, position: Any, pixel: nodes.Value | None, least: float = 1.0
     ) -> None:
-        self._tree, self._position, self._pixel = tree, position, pixel
+        self._tree, self._position, self._pixel, self.least = tree, position, pixel, least
         self._octaves = None if pixel is None else -tree.math("LOGARITHM", pixel * least, 2.0)
 
     def coarser(self, least: float) -> Grain:

@@ -8,18 +8,75 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ...blender import nodes
+import bpy
+
+from ...blender import nodes, owned
 from ..forest import field_lines
 from ..forest.biomes import Here, OpenLand
+from ..grain import Grain
 from .place import Place
 
+_MARK = "firetwin_biome"
 _RUT, _TRACK = 0.45, 2.6  # m: width of a wheel's rut, and of a track with grass between (by eye)
 _STREAK = (1.0, 0.45, 1.0)  # grass lies in streaks with the wind
 _SEEN = (400.0, 9000.0)  # m from the camera at which single bushes are sharp, and a mean tone
 
 
+@dataclass
+class Spot:
+    """A place within the group, as in `Place`."""
+
+    grain: Grain
+    position: nodes.Value
+    distance: nodes.Value
+    pixel: nodes.Value
+    shrub: nodes.Value
+    hollow: nodes.Value
+    free: nodes.Value
+
+
 def look(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
-    """Colour and height (m)."""
+    """Colour and height (m): of a node group that is made once, as Blender is slow with many nodes in one."""
+    inputs = {
+        "Pixel": place.pixel,
+        "Least": place.grain.least,
+        "Shrub": place.shrub,
+        "Hollow": place.hollow,
+        "Free": place.free,
+    }
+    node = tree.node("ShaderNodeGroup", inputs, node_tree=_group(tree, here))
+    return tree.pick(node, "Colour"), tree.pick(node, "Height")
+
+
+def _group(tree: nodes.Tree, here: Here) -> bpy.types.NodeTree:
+    """The group of this biome, which the ground's tree may have already."""
+    for node in tree.node_tree.nodes:
+        if node.bl_idname == "ShaderNodeGroup" and node.node_tree and node.node_tree.get(_MARK) == here.name:
+            return node.node_tree
+    group = owned.mark(bpy.data.node_groups.new("Firetwin Open Land", "ShaderNodeTree"))
+    group.description = "Grass, bushes, soil, fields and tracks"
+    group[_MARK] = here.name
+    for name, kind in (("Colour", "Color"), ("Height", "Float")):
+        group.interface.new_socket(name, in_out="OUTPUT", socket_type=f"NodeSocket{kind}")
+    inner = nodes.Tree(group)
+    colour, height = _look(inner, _spot(inner), here)
+    inner.finish({"Colour": colour, "Height": height})
+    return group
+
+
+def _spot(tree: nodes.Tree) -> Spot:
+    """What the group knows of a place."""
+    pixel = tree.input("Pixel", 1.0, "Size of a pixel, m", "Place")
+    least = tree.input("Least", 1.0, "Pixels of the finest noise", "Place")
+    shrub = tree.input("Shrub", 0.0, "Part of the land under bushes", "Place", most=1.0)
+    hollow = tree.input("Hollow", 0.0, "-1: a crest, 1: a hollow", "Place", least=None)
+    free = tree.input("Free", 1.0, "1: fields and tracks are invented", "Place", most=1.0)
+    position = tree.output("ShaderNodeNewGeometry", name="Position")
+    distance = tree.output("ShaderNodeCameraData", name="View Distance")
+    return Spot(Grain(tree, position, pixel * least), position, distance, pixel, shrub, hollow, free)
+
+
+def _look(tree: nodes.Tree, place: Spot, here: Here) -> tuple[nodes.Value, nodes.Value]:
     land = here.biome.open_land
     assert land is not None
     noise = place.grain.noise
@@ -47,7 +104,7 @@ def look(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes
     return colour, height
 
 
-def _draws(tree: nodes.Tree, place: Place, land: OpenLand, middling: nodes.Value) -> nodes.Value:
+def _draws(tree: nodes.Tree, place: Spot, land: OpenLand, middling: nodes.Value) -> nodes.Value:
     """Shallow valleys 0..1, as crests of noise turned over: they wind, meet and end."""
     shape = place.grain.noise(land.draws, 3.0, 0.45) + (middling - 0.5) * 0.12
     wide = place.grain.noise(2.6 * land.draws, 2.0, 0.5).ramp(0.35, 0.65, 0.012, 0.055)
@@ -67,7 +124,7 @@ def bare(tree: nodes.Tree, place: Place, here: Here) -> nodes.Value:
 
 
 def _grass(
-    tree: nodes.Tree, place: Place, here: Here, wet: nodes.Value, middling: nodes.Value, small: nodes.Value
+    tree: nodes.Tree, place: Spot, here: Here, wet: nodes.Value, middling: nodes.Value, small: nodes.Value
 ) -> nodes.Value:
     """Colour of grass by how wet it is and by the season, with soil between."""
     land = here.biome.open_land
@@ -109,9 +166,7 @@ class Bushes:
     groups: nodes.Value
 
 
-def _bushes(
-    tree: nodes.Tree, place: Place, land: OpenLand, wet: nodes.Value, middling: nodes.Value
-) -> Bushes:
+def _bushes(tree: nodes.Tree, place: Spot, land: OpenLand, wet: nodes.Value, middling: nodes.Value) -> Bushes:
     """From afar a bush is less than a pixel: there it is a mean, in the groups that they stand in."""
     groups = place.grain.noise(62.0, 4.0, 0.68)
     begin = 0.66 - place.shrub * 0.36
@@ -136,7 +191,7 @@ def _bushes(
 
 
 def _brush(
-    tree: nodes.Tree, place: Place, land: OpenLand, there: Bushes, broad: nodes.Value, middling: nodes.Value
+    tree: nodes.Tree, place: Spot, land: OpenLand, there: Bushes, broad: nodes.Value, middling: nodes.Value
 ) -> nodes.Value:
     """Colour of bushes: sorts in patches, clumps in their own shade, dark below where they are dense."""
     sorts = (broad * 0.6 + middling * 0.7).smoothstep(0.48, 0.86)
@@ -160,7 +215,7 @@ def _maths(tree: nodes.Tree) -> field_lines.Maths:
 
 
 def _fields(
-    tree: nodes.Tree, place: Place, here: Here, colour: nodes.Value, small: nodes.Value
+    tree: nodes.Tree, place: Spot, here: Here, colour: nodes.Value, small: nodes.Value
 ) -> nodes.Value:
     """Fields, each of another green: grazed, mown, hay, and some of them ploughed or stubble."""
     land = here.biome.open_land
@@ -187,7 +242,7 @@ def _fields(
     return tree.mix_colour(margin * place.free * 0.6, colour, tree.mix_colour(small, land.lush, land.stale))
 
 
-def _hedges(tree: nodes.Tree, place: Place, land: OpenLand) -> tuple[nodes.Value, nodes.Value]:
+def _hedges(tree: nodes.Tree, place: Spot, land: OpenLand) -> tuple[nodes.Value, nodes.Value]:
     """Hedges 0..1 along fields, with gaps, and how high they are, m."""
     x, y, _ = tree.separate(place.position)
     off = field_lines.fields(_maths(tree), x, y, land.field)[0]
@@ -199,7 +254,7 @@ def _hedges(tree: nodes.Tree, place: Place, land: OpenLand) -> tuple[nodes.Value
     return line * gaps * thin * place.free, 2.2 + ragged * 1.5
 
 
-def _tracks(tree: nodes.Tree, place: Place, land: OpenLand, colour: nodes.Value) -> nodes.Value:
+def _tracks(tree: nodes.Tree, place: Spot, land: OpenLand, colour: nodes.Value) -> nodes.Value:
     """Tracks with two ruts, wandering, and paths of cattle across them."""
     x, y, _ = tree.separate(place.position)
     wander = place.grain.noise(1600.0, 4.0, 0.42) - 0.5
