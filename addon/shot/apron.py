@@ -20,8 +20,6 @@ _BANDS = 12  # of height, each with its own fuels
 _PATCHES = ((1_700.0, 50), (400.0, 58), (300.0, 54))  # m and random numbers of the fuels' patches
 _FORGET = 9_000.0  # m; the heights of the edge fade into the region's within this distance
 _LIKE = 3_000.0  # m; in patches that grow rarer so fast, land is as that at the other side of the edge
-_BARE = 0.01  # kg/m2, less is no fuel
-_LEAST = 1.0e-3  # of a rank's reach
 _DEVIATION = 0.304  # of a wave of gradient noise
 _ENOUGH = 720  # rows or columns of a grid that what is said of all of it is taken from
 _SMOOTH = 20  # cells to each side; relief finer than this crosses the edge as it is
@@ -95,7 +93,6 @@ def extend(
         if known is not None:
             elevation[row, column] = known(latitude, longitude, elevation)[row, column]
         ranks = [each.result() for each in ranked]
-    ranks.append(_reach((row, column), elevation.shape, ranks[0]))
     fuels = []
     for fuel in (fields.canopy_fuel, fields.surface_fuel):
         fuels.append(np.pad(fuel, count))
@@ -206,9 +203,7 @@ def _fuel(
     """The apron's fuel (n,): first as across the edge, farther out as at such a height of the grid, patchy.
 
     Not only its mean but all its distribution is that of the grid: as much ground has to be bare.
-    `ranks` are 0..1 at the apron's points: of its fuels, its height, whether it is as across the edge, and
-    how far ranks of fuels reach within a point's cell. A fuel is the mean of these: where cells are large,
-    its patches have no steps for edges.
+    `ranks` are 0..1 at the apron's points: of its fuels, its height, and whether it is as across the edge.
     """
     part = _part(known_height.shape)
     some_heights, some_fuels = known_height[part].ravel(), known_fuel[part].ravel()
@@ -219,37 +214,10 @@ def _fuel(
     quantiles = np.array([np.quantile(fuel if len(fuel) else some_fuels, parts) for fuel in found])
     which = np.interp(height, 0.5 * (edges[1:] + edges[:-1]), np.arange(_BANDS))
     which = np.clip(np.round(which + ranks[1] - 0.5), 0, _BANDS - 1).astype(int)
-    below = np.zeros(quantiles.shape)  # integrals of the quantiles
-    below[:, 1:] = np.cumsum(0.5 * (quantiles[:, 1:] + quantiles[:, :-1]), axis=1) * parts[1]
-
-    def integral(rank: NDArray[np.float64]) -> NDArray[np.float64]:
-        at = np.clip(rank, 0.0, 1.0) * (len(parts) - 1)
-        low = np.minimum(at.astype(int), len(parts) - 2)
-        part, first = at - low, quantiles[which, low]
-        step = quantiles[which, low + 1] - first
-        return below[which, low] + parts[1] * part * (first + 0.5 * part * step)
-
-    low, high = (np.clip(ranks[0] + sign * ranks[3], 0.0, 1.0) for sign in (-1.0, 1.0))
-    usual = (integral(high) - integral(low)) / (high - low)
-    middle = quantiles[which, np.minimum((ranks[0] * (len(parts) - 1)).astype(int), len(parts) - 2)]
-    usual = np.where(middle < _BARE, middle, usual)  # as much stays bare
+    at = ranks[0] * (len(parts) - 1)
+    low = np.minimum(at.astype(int), len(parts) - 2)
+    usual = quantiles[which, low] + (at - low) * (quantiles[which, low + 1] - quantiles[which, low])
     return np.where(np.exp(-points.distance / _LIKE) > ranks[2], known_fuel[points.across], usual)
-
-
-def _reach(
-    where: tuple[NDArray[np.int64], NDArray[np.int64]], shape: tuple[int, ...], rank: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Half of the range (n,) of ranks within the cells of points at these rows and columns."""
-    field = np.full(shape, np.nan)
-    field[where] = rank
-    total = np.full(shape, 2.0 * _LEAST)
-    for axis in (0, 1):
-        step = np.nan_to_num(np.abs(np.diff(field, axis=axis)))
-        ahead, behind = ([slice(None)] * 2 for _ in range(2))
-        ahead[axis], behind[axis] = slice(1, None), slice(None, -1)
-        total[tuple(ahead)] += 0.5 * step
-        total[tuple(behind)] += 0.5 * step
-    return 0.5 * total[where]
 
 
 def _rank(points: _Points, size: float, seed: int) -> NDArray[np.float64]:

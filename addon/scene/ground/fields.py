@@ -91,26 +91,33 @@ def _softened(ground: Ground) -> NDArray[np.float64]:
     canopy, margin = ground.fields.canopy_fuel, ground.fields.margin
     if not margin:
         return canopy
-    wooded = (canopy > _EDGE).astype(np.float64)
-    part, mean = _blurred(wooded), _blurred(wooded * canopy)
-    mean = np.where(part > 0.0, mean / np.maximum(part, 1.0e-9), 0.0)
+    wooded = (canopy > _EDGE).astype(np.float32)
+    part = _blurred(wooded)
+    beyond = np.maximum(*np.ix_(*(_beyond(count, margin) for count in canopy.shape)))
+    edge = np.nonzero((part > 1.0e-4) & (part < 0.9999) & (beyond > 0.0))
+    mean = _blurred(wooded * canopy.astype(np.float32))[edge] / part[edge]
     power = np.log2(np.maximum(mean / _EDGE, 1.05))
-    out = [np.clip(np.maximum(margin - at, at - (n - 1 - margin)) / _SOFT, 0.0, 1.0)
-           for n in canopy.shape for at in (np.arange(n),)]  # fmt: skip
-    beyond = np.maximum(out[0][:, None], out[1][None])
-    return canopy + beyond * (mean * part**power - canopy)
+    soft = canopy.copy()
+    soft[edge] += beyond[edge] * (mean * part[edge] ** power - canopy[edge])
+    return soft
 
 
-def _blurred(field: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Means with the neighbours, three times; beyond its ends a field goes on level."""
-    for _ in range(3):
+def _beyond(count: int, margin: int) -> NDArray[np.float32]:
+    """How far (count,) lines are on the apron, 0 within the run and 1 from `_SOFT` lines beyond on."""
+    at = np.arange(count, dtype=np.float32)
+    return np.clip(np.maximum(margin - at, at - (count - 1 - margin)) / np.float32(_SOFT), 0.0, 1.0)
+
+
+def _blurred(field: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Means with the neighbours, twice; beyond its ends a field goes on level."""
+    for _ in range(2):
         for axis in (0, 1):
             padded = np.pad(field, [(1, 1) if k == axis else (0, 0) for k in (0, 1)], "edge")
             ahead, here, behind = (
                 padded[tuple(slice(s, padded.shape[k] - 2 + s) if k == axis else slice(None) for k in (0, 1))]
                 for s in (2, 1, 0)
             )
-            field = (ahead + here + behind) / 3.0
+            field = (ahead + here + behind) * np.float32(1.0 / 3.0)
     return field
 
 

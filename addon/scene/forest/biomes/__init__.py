@@ -32,6 +32,7 @@ __all__ = [
     "of",
 ]
 
+_ENOUGH = 160  # rows or columns of a grid that say what land it is
 _CANOPY, _NOTHING = 0.01, 0.02  # kg/m2: canopy from which on ground is wooded, load that is no fuel
 _SHRUB = (
     0.9  # kg/m2 of surface fuel without canopy from which on it counts as shrub, if nothing says (assumed)
@@ -91,12 +92,13 @@ def chosen(land: Land) -> str:
 def land(run: Run) -> Land:
     """What a run says of its land: place, and what its fuel is, by category or else by its loads."""
     count = np.zeros(3)
+    step = max(min(len(run.fuel_latitude), len(run.fuel_longitude)) // _ENOUGH, 1)
     for first, end in blocks.rows(run):
-        canopy = np.nan_to_num(run.fuel_rows("canopy_fuel", first, end)) > _CANOPY
-        surface = np.nan_to_num(run.fuel_rows("surface_fuel", first, end))
+        canopy = np.nan_to_num(run.fuel_rows("canopy_fuel", first, end)[::step, ::step]) > _CANOPY
+        surface = np.nan_to_num(run.fuel_rows("surface_fuel", first, end)[::step, ::step])
         kind = np.select([canopy, surface > _SHRUB, surface > _NOTHING], [2, 1, 0], -1)
         if run.has(fuel_category.FIELD):
-            said = fuel_category.kinds(run.fuel_rows(fuel_category.FIELD, first, end))
+            said = fuel_category.kinds(run.fuel_rows(fuel_category.FIELD, first, end)[::step, ::step])
             by_kind = np.array([-1, 0, 1, 2, 2, -1])[said]
             kind = np.where(said == fuel_category.UNKNOWN, kind, np.where(canopy, 2, by_kind))
         count += np.bincount(kind[kind >= 0], minlength=3)
