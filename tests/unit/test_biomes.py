@@ -167,3 +167,36 @@ def test_trees_of_open_land_stand_in_groups_and_about_as_many_as_the_cover_says(
     level = float(np.exp(openings._HOLLOW * np.median(hollow)))
     assert 0.25 < part.mean() / (0.004 / openings._FULL) / level < 4.0
     assert np.quantile(part, 0.99) > 8.0 * np.median(part)
+
+
+def brush(shot):
+    """Places (n, 3) of bushes of the understorey."""
+    things = understorey.grow(shot)
+    kind = understorey.kinds(shot)["brush"]
+    return things.position[np.isin(things.model, kind.models)]
+
+
+def test_there_are_more_bushes_where_more_of_the_land_is_under_them(shot, make_run):
+    folder = make_run(canopy_fuel=filled(0.0), surface_fuel=filled(0.5))
+
+    def count(**forest):
+        key = CameraKey(0.0, 38.902, -120.594, 30.0, "point", 38.905, -120.594, 1.0)
+        settings = Settings(
+            ground=Ground(near_radius=1500.0, apron=0.0),
+            forest=Forest(**forest),
+            cameras=(Camera("one", Drone(keys=(key,))),),
+        )
+        return len(brush(Shot(settings, runs.open(folder))))
+
+    few, many = (count(biome="grassland", shrub_cover=part) for part in (0.02, 0.6))
+    assert many > 5 * max(few, 1)
+    assert count(biome="maquis") > count(biome="grassland")
+
+
+def test_bushes_of_pastures_are_hedges(shot):
+    made = shot({"canopy_fuel": filled(0.0), "surface_fuel": filled(0.3)}, biome="pasture")
+    land = biomes.of(made).biome.open_land
+    place = brush(made)
+    assert len(place) > 20
+    off = field_lines.fields(field_lines.NUMPY, *place[:, :2].T, land.field)[0]
+    assert np.mean(off < 0.5 * land.hedge) > 0.9

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 ANGLE = 0.37  # rad from east, of the rows
-BENDS = ((46.0, 830.0, 0.0), (19.0, 310.0, 1.7))  # amplitude and length of the bends, their phase
+BENDS = ((170.0, 3100.0, 0.4), (46.0, 830.0, 0.0), (14.0, 310.0, 1.7))  # amplitude and length of the bends, their phase
+STRETCH = 0.7549  # of a field's length, by which rows differ: from 0.6 to 1.6 of it
 SHIFT = 0.618  # of a field, by which each row is shifted against the one before
 
 
@@ -47,8 +48,9 @@ def fields(maths: Maths, x: Any, y: Any, size: tuple[float, float]) -> tuple[Any
     """Distance from the edge of a field (m), and the numbers of its row and of it in its row."""
     along, across = bent(maths, x, y)
     row = maths.floor(across / size[1])
-    shifted = along / size[0] + row * SHIFT
-    off = maths.least(_edge(maths, across / size[1]) * size[1], _edge(maths, shifted) * size[0])
+    long = (maths.fract(row * STRETCH) + 0.6) * size[0]
+    shifted = along / long + row * SHIFT
+    off = maths.least(_edge(maths, across / size[1]) * size[1], _edge(maths, shifted) * long)
     return off, row, maths.floor(shifted)
 
 
