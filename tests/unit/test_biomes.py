@@ -43,7 +43,7 @@ def filled(value):
     [
         (Land(38.9, -120.5, 0.1, 0.0, 0.9), "sierra_conifer"),  # King Fire
         (Land(38.6, -98.9, 1.0, 0.0, 0.0), "grassland"),  # Kansas
-        (Land(8.4, 20.6, 1.0, 0.0, 0.0), "grassland"),
+        (Land(8.4, 20.6, 1.0, 0.0, 0.0), "savanna"),
         (Land(46.2, 1.3, 1.0, 0.0, 0.0), "pasture"),  # Limousin
         (Land(34.4, -118.3, 0.15, 0.85, 0.0), "chaparral"),  # above Los Angeles
         (Land(43.3, 6.3, 0.15, 0.6, 0.25), "maquis"),  # Provence

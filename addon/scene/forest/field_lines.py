@@ -13,7 +13,11 @@ from typing import Any
 import numpy as np
 
 ANGLE = 0.37  # rad from east, of the rows
-BENDS = ((170.0, 3100.0, 0.4), (46.0, 830.0, 0.0), (14.0, 310.0, 1.7))  # amplitude and length of the bends, their phase
+BENDS = (
+    (170.0, 3100.0, 0.4),
+    (46.0, 830.0, 0.0),
+    (14.0, 310.0, 1.7),
+)  # amplitude and length of the bends, their phase
 STRETCH = 0.7549  # of a field's length, by which rows differ: from 0.6 to 1.6 of it
 SHIFT = 0.618  # of a field, by which each row is shifted against the one before
 

@@ -33,7 +33,7 @@ BURNED_BRUSH, LOGS, ROCKS, TUFTS, STUBBLE, TWIGS = (
     (26, 27),
     (28, 29),
 )
-HOLM_OAKS, LIVE_OAKS, STONE_PINES, SPRUCES, PINES, BIRCHES, MAQUIS, BURNED_MAQUIS = (
+HOLM_OAKS, LIVE_OAKS, STONE_PINES, SPRUCES, PINES, BIRCHES, MAQUIS, BURNED_MAQUIS, ACACIAS = (
     (30, 31),
     (32, 33),
     (34, 35),
@@ -42,6 +42,7 @@ HOLM_OAKS, LIVE_OAKS, STONE_PINES, SPRUCES, PINES, BIRCHES, MAQUIS, BURNED_MAQUI
     (40, 41),
     (42, 43, 44),
     (45, 46, 47),
+    (48, 49),
 )
 KINDS = (
     "large",
@@ -178,6 +179,7 @@ def elsewhere() -> list[Model]:
             Model("brush", "snag", partial(floor.burned_brush, habit, 220 + k))
             for k, habit in enumerate(brush)
         ),
+        *(Model("oak", "living", partial(tree, species.ACACIA, 230 + k)) for k in range(len(ACACIAS))),
     ]
 
 

@@ -60,6 +60,20 @@ BIRCH = replace(  # Betula pendula: slender, of rising branches whose tips hang,
     colour=(0.066, 0.094, 0.030),
     wood=(0.240, 0.230, 0.210),
 )
+ACACIA = replace(  # Vachellia tortilis: a flat top on a forked trunk
+    BLACK_OAK,
+    bare=0.50,
+    top=0.84,
+    radius=0.56,
+    low=0.02,
+    high=0.05,
+    rise=(10.0, 48.0),
+    lift=0.02,
+    size=(0.024, 0.0150),
+    stem=0.022,
+    colour=(0.050, 0.062, 0.024),
+    wood=(0.085, 0.066, 0.048),
+)
 LENTISK = replace(CEANOTHUS, radius=0.90, colour=(0.034, 0.046, 0.020), wood=(0.075, 0.060, 0.050))
 CISTUS = replace(MANZANITA, radius=0.66, colour=(0.070, 0.078, 0.044), wood=(0.085, 0.062, 0.046))
 TREE_HEATH = replace(MANZANITA, radius=0.60, rise=(40.0, 85.0), colour=(0.040, 0.050, 0.021))
