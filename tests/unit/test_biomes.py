@@ -5,7 +5,7 @@ from datetime import date
 import numpy as np
 import pytest
 from firetwin.run import fuel_category as categories
-from firetwin.scene.forest import biomes, cover, field_lines, models, openings, understorey
+from firetwin.scene.forest import biomes, cover, field_lines, models, openings, patterns, understorey
 from firetwin.scene.forest.biomes import Land, Season
 from firetwin.shot import biomes as named
 from firetwin.shot.rigs.drone import CameraKey, Drone
@@ -200,3 +200,22 @@ def test_bushes_of_pastures_are_hedges(shot):
     assert len(place) > 20
     off = field_lines.fields(field_lines.NUMPY, *place[:, :2].T, land.field)[0]
     assert np.mean(off < 0.5 * land.hedge) > 0.9
+
+
+def test_bushes_stand_in_groups_and_cover_about_as_much_as_is_said():
+    land = biomes.known()["chaparral"].open_land
+    place = np.random.default_rng(1).uniform(-20_000.0, 20_000.0, (20_000, 3)) * [1.0, 1.0, 0.0]
+    noise = patterns.at(place)
+    level = patterns.Numbers(np.zeros(len(place)))
+    _, middling, wet = patterns.wetness(noise, level, land)
+    valleys = patterns.draws(noise, middling, land).value
+    assert 0.01 < valleys.mean() < 0.25
+    assert wet.value[valleys > 0.5].mean() > wet.value[valleys == 0.0].mean() + 0.4
+    before = -1.0
+    for part in (0.0, 0.06, 0.3, 0.6, 0.85):
+        cover = patterns.bushes(noise, patterns.Numbers(np.full(len(place), part)), wet, land)[1].value
+        assert before < cover.mean()
+        assert part / 1.8 - 0.01 <= cover.mean() <= 1.8 * part + 0.01
+        before = cover.mean()
+        if 0.0 < part < 0.7:
+            assert cover.std() > 0.05

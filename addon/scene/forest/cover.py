@@ -15,7 +15,7 @@ from ...run import fuel_category
 from ...shot import land_use, noise
 from ...shot.ground import Ground, bilinear
 from ...shot.shot import Shot
-from . import biomes
+from . import biomes, patterns
 
 _REACH = 180.0  # m, half-width of the means that a hollow lies below (by eye)
 _DEEP = 9.0  # m below them, from which on it is a hollow altogether (by eye)
@@ -138,6 +138,24 @@ def _mean(field: Array, cells: list[int]) -> Array:
         ahead[axis], behind[axis] = slice(window, None), slice(None, -window)
         field = (total[tuple(ahead)] - total[tuple(behind)]) / window
     return field
+
+
+def bushes(shot: Shot, land: biomes.OpenLand, shrub: Array, place: Array) -> Array:
+    """Part 0..1 of the ground under bushes at places (n, 2), m, where on the whole it is `shrub` (n,)."""
+    if len(place) == 0:
+        return np.empty(0)
+    place = np.column_stack([place[:, :2], shot.ground.up(*place[:, :2].T)])
+    noise_there, hollow = patterns.at(place), patterns.Numbers(at(shot, hollows(shot.ground), place))
+    _, _, wet = patterns.wetness(noise_there, hollow, land)
+    return patterns.bushes(noise_there, patterns.Numbers(shrub), wet, land)[1].value
+
+
+def draws(land: biomes.OpenLand, place: Array) -> Array:
+    """Shallow valleys 0..1 at places (n, 3) in the scene, m."""
+    if not land.draws:
+        return np.zeros(len(place))
+    noise_there = patterns.at(place)
+    return patterns.draws(noise_there, noise_there(130.0, 4.0, 0.65), land).value
 
 
 def at(shot: Shot, field: Array, place: Array) -> Array:

@@ -19,7 +19,8 @@ LONE_FUEL = 0.02  # kg/m2; stands for the trees of cells without canopy fuel: 57
 _FULL = 0.06  # part of the ground that all of these cover (half-grown oaks; assumed)
 _GROUPED, _HOLLOW = 4.0, 1.2  # how much denser they are in groups and hollows; by eye
 _MEAN = 1.6  # of the logarithm of that, so that the mean is 1: half its variance
-_ALONG, _AMID = 14.0, 0.25  # times as dense are trees along hedges, and amid fields; by eye
+_ALONG, _AMID = 14.0, 0.25  # times as dense are trees along hedges and draws, and amid fields; by eye
+_BESIDE = 0.35  # the same of trees that stand beside draws
 _BARE = 0.5  # part of the ground without fuel from which on nothing stands there
 _SEED = 6  # cells; so far from others trees stand alone
 _LONE = 0.5  # part of these that is there in their clumps
@@ -78,6 +79,8 @@ def _scattered(shot: Shot, part: float, position: Array) -> Array:
     hollow = bilinear(cover.hollows(shot.ground), *shot.ground.under(position))
     found = part / _FULL * np.exp(_GROUPED * groups + _HOLLOW * hollow - _MEAN)
     land = biomes.of(shot).biome.open_land
+    if land is not None and land.draws:
+        found = found * (_BESIDE + (_ALONG - _BESIDE) * cover.draws(land, position))
     if land is not None and land.hedge > 0.0:
         off = field_lines.fields(field_lines.NUMPY, x, y, land.field)[0]
         found = np.where(off < land.hedge, _ALONG, _AMID) * found

@@ -152,7 +152,7 @@ def _of_biome(shot: Shot, biome: biomes.Biome, name: str, kind: Kind) -> Kind:
 
 def _beside(shot: Shot, biome: biomes.Biome, name: str) -> Callable[[Array], Array] | None:
     """Factor (n,) on the density at places (n, 2): bushes by their cover and along hedges, tufts between."""
-    if name not in ("brush", "tuft"):
+    if name not in ("brush", "tuft") or biome.open_land is None:
         return None
     covered, land = cover.shrubs(shot), biome.open_land
 
@@ -160,8 +160,8 @@ def _beside(shot: Shot, biome: biomes.Biome, name: str) -> Callable[[Array], Arr
         part = cover.at(shot, covered, place)
         if name == "tuft":
             return 1.0 - 0.8 * part
-        thick = 1.4 * part
-        if land is None or min(land.field) <= 0.0:
+        thick = 1.4 * cover.bushes(shot, land, part, place)
+        if land.hedge <= 0.0:
             return thick
         off = field_lines.fields(field_lines.NUMPY, *place.T, land.field)[0]
         return thick + _HEDGE * (off < 0.5 * land.hedge) * ~land_use.mapped(shot, place)

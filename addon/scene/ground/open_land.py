@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import bpy
 
 from ...blender import nodes, owned
-from ..forest import field_lines
+from ..forest import field_lines, patterns
 from ..forest.biomes import Here, OpenLand
 from ..grain import Grain
 from .place import Place
@@ -79,11 +79,8 @@ def _spot(tree: nodes.Tree) -> Spot:
 def _look(tree: nodes.Tree, place: Spot, here: Here) -> tuple[nodes.Value, nodes.Value]:
     land = here.biome.open_land
     assert land is not None
-    noise = place.grain.noise
-    broad, middling, small = noise(land.patch, 4.0, 0.6), noise(130.0, 4.0, 0.65), noise(17.0, 4.0, 0.7)
-    wet = place.hollow * land.hollows + (broad - 0.5) * 1.9 + (middling - 0.5) * 0.9
-    if land.draws:
-        wet = wet + _draws(tree, place, land, middling) * 0.8
+    small = place.grain.noise(17.0, 4.0, 0.7)
+    broad, middling, wet = patterns.wetness(place.grain.noise, place.hollow, land)
     colour = _grass(tree, place, here, wet, middling, small)
     if min(land.field) > 0.0:
         colour = _fields(tree, place, here, colour, small)
@@ -102,13 +99,6 @@ def _look(tree: nodes.Tree, place: Spot, here: Here) -> tuple[nodes.Value, nodes
         colour = tree.mix_colour(hedge, colour, tree.mix_colour(small.smoothstep(0.35, 0.65), *land.shrub))
         height = height + hedge * thick
     return colour, height
-
-
-def _draws(tree: nodes.Tree, place: Spot, land: OpenLand, middling: nodes.Value) -> nodes.Value:
-    """Shallow valleys 0..1, as crests of noise turned over: they wind, meet and end."""
-    shape = place.grain.noise(land.draws, 3.0, 0.45) + (middling - 0.5) * 0.12
-    wide = place.grain.noise(2.6 * land.draws, 2.0, 0.5).ramp(0.35, 0.65, 0.012, 0.055)
-    return (tree.math("ABSOLUTE", shape - 0.5) / wide).smoothstep(1.0, 0.15)
 
 
 def bare(tree: nodes.Tree, place: Place, here: Here) -> nodes.Value:
@@ -168,11 +158,7 @@ class Bushes:
 
 def _bushes(tree: nodes.Tree, place: Spot, land: OpenLand, wet: nodes.Value, middling: nodes.Value) -> Bushes:
     """From afar a bush is less than a pixel: there it is a mean, in the groups that they stand in."""
-    groups = place.grain.noise(62.0, 4.0, 0.68)
-    begin = 0.66 - place.shrub * 0.36
-    cover = (groups + wet * (0.09 * land.hollows) - begin).smoothstep(-0.05, 0.08)
-    cover = cover * (0.60 + 0.40 * place.shrub) + place.shrub * 0.22
-    cover = tree.math("MINIMUM", cover, 1.0) * place.shrub.smoothstep(0.0, 0.03)
+    groups, cover = patterns.bushes(place.grain.noise, place.shrub, wet, land)
     cells = tree.node("ShaderNodeTexVoronoi", {"Vector": place.position, "Scale": 1.0 / land.bush})
     near = tree.pick(cells, "Distance")
     lot, tone, size = tree.separate(tree.pick(cells, "Color"))

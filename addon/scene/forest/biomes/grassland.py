@@ -23,7 +23,7 @@ BIOME = Biome(
         Species(models.OAKS, 0.5, height=0.40),
         Species(models.LIVE_OAKS, 0.5, height=0.32),
     ),
-    tree_cover=0.0012,
+    tree_cover=0.0035,
     shrub_cover=0.06,
     shrub_load=(0.9, 1.8),
     open_land=OpenLand(
