@@ -1,4 +1,4 @@
-"""The command line: ``firetwin sample | info | maps | score | imager | build | bake | render | track | ...``.
+"""The command line: ``firetwin sample | info | new | maps | score | imager | build | bake | render | ...``.
 
 Results go to stdout, messages and progress to stderr. Exit status 0: done, 1: failed, 2: bad usage,
 130: Ctrl-C. Nothing heavy is imported before it is needed, so that help and mistakes answer at once.
@@ -20,6 +20,11 @@ a first film, from nothing:
   firetwin sample sample                 write the sample run (synthetic, King-like)
   firetwin info sample                   what is in it
   firetwin render examples/king_fire.toml --out film --resume
+
+a film of your own run:
+  firetwin render RUN --out film         cameras and moments are chosen to fit the fire, and told
+  firetwin new RUN -o my_scene.toml      the same as a short scene file, to change them
+  firetwin render my_scene.toml --out film
 
 `firetwin COMMAND --help` explains a command."""
 
@@ -121,6 +126,11 @@ def _parser() -> argparse.ArgumentParser:
         "--interval", metavar="SECONDS", type=_count, default=0, help="between times that are made (chosen)"
     )
 
+    new = command("new", "write a short scene file that fits a run", NEW)
+    new.add_argument("run", metavar="RUN", type=Path, help="run folder")
+    new.add_argument("-o", "--out", metavar="SCENE.toml", type=Path, required=True, help="file to write")
+    new.add_argument("--overwrite", action="store_true", help="in place of a file that is there")
+
     maps = command("maps", "draw the fuel map and the fire intensity map", MAPS)
     maps.add_argument("run", metavar="RUN", type=Path, help="run folder")
     maps.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the PNG files")
@@ -214,8 +224,10 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _scene(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("scene", metavar="SCENE.toml", type=Path, help="scene file")
+def _scene(
+    parser: argparse.ArgumentParser, help: str = "scene file, or a run folder: settings are fitted to it"
+) -> None:
+    parser.add_argument("scene", metavar="SCENE|RUN", type=Path, help=help)
 
 
 def _count(text: str) -> int:
@@ -273,6 +285,12 @@ come from an LCP or LANDFIRE's rasters among the files. What a model does not sa
 written to run.toml. A conversion that was stopped goes on when the command is given again; one that has read
 and written nothing for ten minutes is ended, as a damaged file may keep its library busy for ever.
 Needs packages that are not installed by themselves: pip install 'firetwin[models]'."""
+
+NEW = """\
+The most active part of the run, and cameras as large as the fire: an overview from the windward side with the
+sun behind it, one that goes along with the head, one close to a flank, one from above. Each is moved until at
+least half of the front that it films is in the picture and not behind ground or much smoke; how much shows
+is said. `render`, `build` and `bake` of RUN itself take the same settings."""
 
 MAPS = """\
 DIR/fuel.png        fuel load, greener is denser

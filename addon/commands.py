@@ -32,15 +32,15 @@ def sample(arguments: argparse.Namespace) -> None:
 
 def info(arguments: argparse.Namespace) -> None:
     """Show what is in a run, or in all runs of a scene file."""
-    from .run import info
-    from .shot.settings import Time
+    from .run import info, zone
 
     if arguments.run.suffix == ".toml" and arguments.run.is_file():
         runs = _runs(arguments.run)
-        facts = {name: info.gather(run, Time().zone) for name, run in runs.items()}
+        facts = {name: info.gather(run, zone.of(run)) for name, run in runs.items()}
         page = "\n\n".join(f"{name}: {runs[name].path}\n{info.page(each)}" for name, each in facts.items())
     else:
-        facts = info.gather(_open(arguments.run), Time().zone)
+        run = _open(arguments.run)
+        facts = info.gather(run, zone.of(run))
         page = info.page(facts)
     if arguments.json:
         json.dump(facts, sys.stdout, indent=1)
@@ -49,15 +49,28 @@ def info(arguments: argparse.Namespace) -> None:
         print(page)
 
 
+def new(arguments: argparse.Namespace) -> None:
+    """Write a scene file that fits a run."""
+    from . import files
+    from .errors import UsageError
+
+    if arguments.out.suffix != ".toml":
+        raise UsageError(f"-o: {arguments.out} does not end in .toml")
+    if arguments.out.exists() and not arguments.overwrite:
+        raise UsageError(f"-o: {arguments.out} is there; choose another name, or add --overwrite")
+    text = _fitted(arguments.run, arguments.out, arguments.out.parent / "cache")
+    files.write(arguments.out, lambda part: part.write_text(text, encoding="utf-8"))
+    print(arguments.out)
+
+
 def maps(arguments: argparse.Namespace) -> None:
     """Draw the maps of a run."""
     run = _open(arguments.run)
     say("drawing the fuel map and the fire intensity map")
-    from .run import maps, observations
-    from .shot.settings import Time
+    from .run import maps, observations, zone
 
     seen = observations.read(arguments.against or observations.beside(arguments.run))
-    for path in maps.draw(run, arguments.out, Time().zone, seen):
+    for path in maps.draw(run, arguments.out, zone.of(run), seen):
         print(path)
 
 
@@ -65,10 +78,9 @@ def score(arguments: argparse.Namespace) -> None:
     """Compare a run with what was seen of its fire."""
     from . import files
     from .errors import UsageError, input_error
-    from .run import observations
+    from .run import observations, zone
     from .run import score as scores
     from .run.score import page
-    from .shot.settings import Time
 
     if arguments.run.suffix == ".toml" and arguments.run.is_file():
         run, *others = _runs(arguments.run).values()
@@ -84,7 +96,7 @@ def score(arguments: argparse.Namespace) -> None:
     seen = observations.read(each for each in named if observations.is_one(each))
     if seen.heat and not (seen.perimeters or seen.detections or runs):
         raise input_error(named[0], 0, 0, "holds heat but no perimeter, so there is nothing to compare with")
-    found = scores.score(run, seen, *runs, zone=Time().zone)
+    found = scores.score(run, seen, *runs, zone=zone.of(run))
     print(json.dumps(found, indent=1) if arguments.json else page.page(found))
     if arguments.report:
         from .run.score import report
@@ -314,6 +326,29 @@ def _open(folder: Path) -> Run:
 
 
 def _choice(arguments: argparse.Namespace) -> Choice:
+    """The scene file; of a run folder one that is fitted to it and kept in the cache, for all processes."""
+    import hashlib
+
+    from . import files
+    from .run.readers import folder
     from .shot.choice import Choice
 
-    return Choice(scene=str(arguments.scene), beside=getattr(arguments, "run", ""))
+    scene, cache = arguments.scene, Path("cache")
+    if folder.sniff(scene):
+        text = _fitted(scene, cache / "scene.toml", cache)
+        scene = cache / f"{scene.absolute().name}-{hashlib.sha256(text.encode()).hexdigest()[:12]}.toml"
+        files.write(scene, lambda part: part.write_text(text, encoding="utf-8"))
+        say(f"these settings are in {scene}; to change them: firetwin new {arguments.scene} -o SCENE.toml")
+    return Choice(scene=str(scene), beside=getattr(arguments, "run", ""))
+
+
+def _fitted(run: Path, path: Path, cache: Path) -> str:
+    """The text of a scene file `path` that fits a run; what was chosen is told."""
+    from .progress import READING, patience
+    from .shot import fitted
+
+    with patience(READING):
+        found = fitted.at(run, path, cache)
+    for line in found.lines:
+        say(line)
+    return found.text

@@ -56,6 +56,7 @@ class Event:
     """A fire and its country. Rivers run from mouth to head as [(latitude, longitude, height m), ...]."""
 
     name: str
+    zone: str
     ignitions: list[Ignition]
     acreages: list[Acreage]
     places: list[Place]
@@ -89,6 +90,7 @@ def load(event: str = "king_fire") -> Event:
 def _parse(table: dict) -> Event:
     return Event(
         name=table["name"],
+        zone=table["zone"],
         ignitions=[
             Ignition(entry["time"].astimezone(UTC), *entry["position"], source=entry["source"])
             for entry in table["ignition"]

@@ -20,8 +20,7 @@ class Choice:
     Attributes
     ----------
     scene
-        Scene file. Without one every setting has its default, and two cameras show the whole fire; but
-        smoke is puffs, for solving the air of a whole run can take a night.
+        Scene file. Without one settings are fitted to the run (see `fitted`).
     run, cache
         Folders in place of the scene file's.
     engine, device
@@ -45,12 +44,16 @@ class Choice:
         return asdict(self)
 
     def settings(self) -> Settings:
-        """The scene file with what stands in for it; without one there are no cameras yet."""
-        found = file.read(self.scene) if self.scene else Settings(path=Path(self.run))
+        """The scene file, or what fits the run, with what stands in for it."""
+        from . import fitted
+
+        if self.scene:
+            found = file.read(self.scene)
+        else:
+            found = fitted.at(Path(self.run), Path(self.run), Path("cache")).settings
         folders = {name: Path(text) for name in ("run", "cache") if (text := getattr(self, name))}
         render = {name: text for name in ("engine", "device") if (text := getattr(self, name))}
-        method = self.smoke or (found.smoke.method if self.scene else "puffs")
-        smoke = replace(found.smoke, method=method)
+        smoke = replace(found.smoke, method=self.smoke or found.smoke.method)
         return replace(found, render=replace(found.render, **render), smoke=smoke, **folders)
 
     def shot(self) -> Shot:
@@ -65,13 +68,11 @@ class Choice:
         """
         from ..errors import UsageError
         from ..run import readers
-        from . import beside, fit, overview
+        from . import beside, fit
         from .shot import Shot
 
         settings = self.settings()
         run = readers.open(settings.run)
-        if not self.scene:
-            settings = replace(settings, cameras=overview.cameras(run))
         fit.check(settings, run)
         shot = Shot(settings, run)
         beside.check(settings, run, shot.others)

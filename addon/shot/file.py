@@ -17,7 +17,7 @@ from .nearest import suggestion
 from .places import places
 from .schema import Key, Part, Where, either, items, parts, wrong
 from .settings import Settings
-from .toml_text import quoted, text
+from .toml_text import text
 
 __all__ = ["error_at", "parse", "read", "text"]
 
@@ -76,8 +76,7 @@ def _folder(path: Path) -> str:
     """What to say of a folder where a scene file is wanted."""
     if (path / "run.toml").is_file():
         return (
-            "is a run folder, and a scene file is wanted: copy examples/king_fire.toml, write "
-            f"run = {quoted(path.resolve().as_posix())} in the copy, and type the copy's name instead"
+            f"is a run folder, and a scene file is wanted; this writes one: firetwin new {path} -o SCENE.toml"
         )
     inside = sorted(path.glob("*.toml"))
     return "is a folder, and a scene file is wanted, such as " + (

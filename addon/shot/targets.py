@@ -10,9 +10,14 @@ from .ground import NEVER, UNKNOWN, Ground, box
 Array = NDArray[np.float64]
 
 MOVING = ("head", "fire")  # what moves by itself
-RECENT = 1800.0  # s; ground reached within this time belongs to the moving front
+_RECENT = (
+    300.0,
+    1800.0,
+)  # s; ground reached within this time belongs to the moving front: of small fires, large
 _KNOTS = 24  # the target is worked out at this many moments and is smooth between them
-_BLOCK = 1500.0  # m; parts of the front that are compared
+_BLOCK = 1500.0  # m; parts of the front that are compared in a large fire
+_LARGE = 20_000.0  # m, size of a fire from which on both count; of a smaller one they are smaller
+_STAY = 4.0  # blocks from the head that is followed to one that is e times as strong and is not
 
 
 def follow(target: str, ground: Ground, times: Array, above: float) -> Array:
@@ -32,13 +37,15 @@ def follow(target: str, ground: Ground, times: Array, above: float) -> Array:
 def head(ground: Ground, times: Array) -> tuple[Array, Array]:
     """East and north (frames,) of the part of the front that advances fastest."""
     east, north, arrival, speed = _burned(ground)
-    return _follow(times, lambda t, last: _head_at(t, last, east, north, arrival, speed))
+    block, recent = _scale(ground, east, north)
+    return _follow(times, lambda t, last: _head_at(t, last, east, north, arrival, speed, block, recent))
 
 
 def middle(ground: Ground, times: Array) -> tuple[Array, Array]:
     """East and north (frames,) of the middle of the ground that burns."""
     east, north, arrival, _speed = _burned(ground)
-    return _follow(times, lambda t, last: _middle_at(t, last, east, north, arrival))
+    recent = _scale(ground, east, north)[1]
+    return _follow(times, lambda t, last: _middle_at(t, last, east, north, arrival, recent))
 
 
 def smoothed(values: Array) -> Array:
@@ -75,35 +82,51 @@ def _follow(times: Array, place: object) -> tuple[Array, Array]:
     return tuple(smoothed(np.interp(times, knots, track[:, axis])) for axis in (0, 1))
 
 
-def _front(time: float, arrival: Array) -> Array:
-    """Indices of the cells reached within RECENT of `time`; the nearest in time where there are none."""
-    recent = np.flatnonzero((arrival <= time) & (arrival > time - RECENT))
-    if len(recent) or len(arrival) == 0:
-        return recent
+def _scale(ground: Ground, east: Array, north: Array) -> tuple[float, float]:
+    """Size (m) of the parts of the front that are compared, and for how long (s) ground belongs to it."""
+    size = float(np.hypot(np.ptp(east), np.ptp(north))) if len(east) else 0.0
+    part = min(size / _LARGE, 1.0)
+    return max(part * _BLOCK, 4.0 * max(ground.cell)), max(part * _RECENT[1], _RECENT[0])
+
+
+def _front(time: float, arrival: Array, recent: float) -> Array:
+    """Indices of the cells reached in the `recent` s before `time`; the nearest in time where none are."""
+    found = np.flatnonzero((arrival <= time) & (arrival > time - recent))
+    if len(found) or len(arrival) == 0:
+        return found
     return np.argsort(np.abs(arrival - time))[:50]
 
 
 def _head_at(
-    time: float, last: Array | None, east: Array, north: Array, arrival: Array, speed: Array
+    time: float,
+    last: Array | None,
+    east: Array,
+    north: Array,
+    arrival: Array,
+    speed: Array,
+    size: float,
+    recent: float,
 ) -> Array:
-    front = _front(time, arrival)
+    front = _front(time, arrival, recent)
     if len(front) == 0:
         return np.zeros(2) if last is None else last
     e, n = east[front], north[front]
-    weight = speed[front] ** 2 * np.exp((arrival[front] - time) / (0.5 * RECENT))
-    block = np.round(e / _BLOCK).astype(np.int64) * 1_000_003 + np.round(n / _BLOCK).astype(np.int64)
+    weight = speed[front] ** 2 * np.exp((arrival[front] - time) / (0.5 * recent))
+    block = np.round(e / size).astype(np.int64) * 1_000_003 + np.round(n / size).astype(np.int64)
     blocks, member = np.unique(block, return_inverse=True)
     total = np.bincount(member, weight, len(blocks))
     centre = np.stack([np.bincount(member, weight * v, len(blocks)) / total for v in (e, n)], axis=-1)
     if last is not None:  # stay with the head that is followed unless another is much faster
-        total = total * np.exp(-np.linalg.norm(centre - last, axis=1) / 6000.0)
+        total = total * np.exp(-np.linalg.norm(centre - last, axis=1) / (_STAY * size))
     best = centre[np.argmax(total)]
-    near = weight * np.exp(-((e - best[0]) ** 2 + (n - best[1]) ** 2) / (2.0 * _BLOCK**2))
+    near = weight * np.exp(-((e - best[0]) ** 2 + (n - best[1]) ** 2) / (2.0 * size**2))
     return np.array([np.sum(near * e), np.sum(near * n)]) / np.sum(near)
 
 
-def _middle_at(time: float, last: Array | None, east: Array, north: Array, arrival: Array) -> Array:
-    front = _front(time, arrival)
+def _middle_at(
+    time: float, last: Array | None, east: Array, north: Array, arrival: Array, recent: float
+) -> Array:
+    front = _front(time, arrival, recent)
     if len(front) == 0:
         return np.zeros(2) if last is None else last
     return np.array([np.mean(east[front]), np.mean(north[front])])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import zoneinfo
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from datetime import UTC, datetime, tzinfo
 from pathlib import Path
 from typing import Any
@@ -32,6 +32,20 @@ def text(settings: Settings) -> str:
     return "\n".join(_aligned(block) for block in blocks)
 
 
+def brief(settings: Settings, asked: Collection[str], remarks: Mapping[str, str]) -> str:
+    """A short scene file that reads back as these settings: what differs from defaults, and what is `asked`.
+
+    Parameters
+    ----------
+    asked
+        Keys that stand there in any case, such as "smoke.method" and "cameras.frames".
+    remarks
+        What to say above cameras, by their names; above all, by "run".
+    """
+    writer = _Writer(settings, asked=frozenset(asked), remarks=remarks)
+    return "\n".join(_aligned(block) for block in writer.table(settings, (), []))
+
+
 def tables(name: str, tables: Iterable[Any]) -> str:
     """A list of tables as lines of a scene file, without a word about them; paths are absolute."""
     writer = _Writer(Settings(), here=False)
@@ -48,7 +62,14 @@ def _aligned(block: list[Line]) -> str:
 
 
 class _Writer:
-    def __init__(self, settings: Settings, here: bool = True) -> None:
+    def __init__(
+        self,
+        settings: Settings,
+        here: bool = True,
+        asked: frozenset[str] | None = None,
+        remarks: Mapping[str, str] | None = None,
+    ) -> None:
+        self.asked, self.remarks = asked, remarks or {}
         self.folder = settings.path.parent if here else None
         self.zone = _zone(settings.time.zone)
         self.explained: set[int] = set()
@@ -56,7 +77,10 @@ class _Writer:
     def table(self, table: Any, section: tuple[str, ...], header: list[Line]) -> Iterator[list[Line]]:
         """A dataclass as a block of lines, and the tables in it as blocks of their own."""
         pairs = list(_flat(table))
-        yield header + [self.line(part, value) for part, value in pairs if not part.table]
+        placed = self.asked is not None and section[:1] == ("cameras",)
+        lines = [self.line(part, value, placed) for part, value in pairs if self.shown(section, part, value)]
+        if lines or not header or header[0][0].startswith("[["):
+            yield self.remark(section, table) + header + lines
         for part, value in pairs:
             inner = (*section, part.name)
             brackets = "[[{}]]" if part.tables else "[{}]"
@@ -64,15 +88,29 @@ class _Writer:
                 head = brackets.format(".".join(inner)), self.once(part.key, _comment(part.key))
                 yield from self.table(each, inner, [head])
 
-    def line(self, part: Part, value: Any) -> Line:
-        """A key, its value and its comment."""
+    def shown(self, section: tuple[str, ...], part: Part, value: Any) -> bool:
+        """Whether a key has a line: of a brief file one that is asked for, or differs from its default."""
+        if part.table or self.asked is None or part.key.kinds:
+            return not part.table
+        if ".".join((*section, part.name)) in self.asked:
+            return True
+        return value != part.default and self.value(part.type, value) != self.usual(part)
+
+    def remark(self, section: tuple[str, ...], table: Any) -> list[Line]:
+        """What there is to say above a table."""
+        text = self.remarks.get(getattr(table, "name", "") if section else "run", "")
+        return [(f"# {line}", "") for line in text.splitlines()]
+
+    def line(self, part: Part, value: Any, placed: bool = False) -> Line:
+        """A key, its value and its comment, which tells the default unless it is of a placed camera."""
         key = part.key
         if key.kinds:
             return f'{key.tag} = "{kind_of(key, value)}"', f"{key.help}: {summary(type(value))}"
         if value is None:
             return f"# {part.name} = {_SAMPLES[part.type]}", self.once(key, _comment(key))
         written, usual = self.value(part.type, value), self.usual(part)
-        comment = _comment(key) + (f" (default {usual})" if usual not in ("", written) else "")
+        told = usual not in ("", written) and not placed
+        comment = _comment(key) + (f" (default {usual})" if told else "")
         return f"{part.name} = {written}", self.once(key, comment)
 
     def usual(self, part: Part) -> str:

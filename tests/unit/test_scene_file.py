@@ -183,9 +183,9 @@ def test_a_folder_is_no_scene_file(tmp_path):
     with pytest.raises(InputError, match=r"is wanted, such as .*shot\.toml$"):
         file.read(tmp_path)
     (tmp_path / "run.toml").touch()
-    with pytest.raises(InputError, match="is a run folder, and a scene file is wanted: copy") as caught:
+    with pytest.raises(InputError, match="is a run folder, and a scene file is wanted") as caught:
         file.read(tmp_path)
-    assert f'run = "{tmp_path}"' in caught.value.reason
+    assert f"firetwin new {tmp_path} -o " in caught.value.reason
 
 
 def test_the_example_is_what_its_own_settings_are_written_as():

@@ -1,0 +1,50 @@
+"""A camera that goes along with the head of the fire."""
+
+from __future__ import annotations
+
+from ..rigs.chase import Chase
+from ..settings import Camera
+from . import placing
+from .front import Front
+from .placing import Placed, Tried
+from .visible import Visible
+
+_PART = 1.0 / 12.0  # of the fire's size: 2.4 km at 29 km, as of the example's drone (by eye)
+_DISTANCES = (80.0, 3000.0)  # m
+_OVER_CROWNS = 180.0  # m, where trees stand: nearer one only looks down on them
+_SIDES = (150.0, 210.0, 120.0, 240.0, 180.0, 90.0, 270.0)  # degrees from the head's course, best first
+_HEIGHTS = (0.3, 0.45, 0.7, 1.1)  # of the distance
+_AIM = 0.12  # of the distance above the ground: flames below the middle, smoke above it
+_LATER = 0.04  # liking lost for each later side or height
+
+
+def place(front: Front, visible: Visible) -> Placed:
+    """The best of sides and heights; of farther ones where no near one shows enough."""
+    near = placing.near(front, _PART, _DISTANCES, _OVER_CROWNS)
+    found: list[Tried] = []
+    for farther in placing.FARTHER:
+        found += _tried(front, visible, near, placing.rounded(farther * near))
+        if max(each.share for each in found) >= placing.LEAST:
+            break
+    best = placing.best(found)
+    way = placing.bearing(placing.path(front, best.camera))
+    words = (
+        f"goes along with the head, {placing.where(front, way)}: "
+        f"{placing.distance(best.camera.rig.distance)} away, {best.camera.rig.height:,.0f} m up; "
+        f"{placing.percent(best.share)} of the front within {placing.distance(near)} of the head shows"
+    )
+    return Placed(best.camera, best.share, words)
+
+
+def _tried(front: Front, visible: Visible, near: float, distance: float) -> list[Tried]:
+    """Cameras so far from the head, with what they show of the front within `near` m of it."""
+    found = []
+    for number, (height, side) in enumerate((height, side) for height in _HEIGHTS for side in _SIDES):
+        above = placing.rounded(max(height * distance, placing.OVER_CROWNS if front.crowns else 0.0))
+        aim, clearance = placing.rounded(_AIM * distance), min(50.0, 0.5 * above)
+        rig = Chase(distance=distance, side=side, height=above, target_height=aim, clearance=clearance)
+        camera = Camera("chase", rig=rig)
+        view = placing.path(front, camera)
+        likes = placing.liking(front, placing.bearing(view)) - _LATER * number
+        found.append(Tried(visible.share(view, near), likes, camera))
+    return found

@@ -1,0 +1,242 @@
+"""Settings that fit a run: the most active part of it, and cameras that show most of the front."""
+
+import dataclasses
+import zoneinfo
+from pathlib import Path
+
+import numpy as np
+import pytest
+import whole_run
+from firetwin.run import readers, zone
+from firetwin.shot import file, fit, fitted
+from firetwin.shot.choice import Choice
+from firetwin.shot.fitted import front, placing, visible, window
+from firetwin.shot.shot import Shot
+
+HOURS = tuple(3600.0 * np.arange(0.0, 25.0, 6.0))
+
+
+def hills(x, y):
+    """Ridges 1.5 km apart and 600 m high, across the wind."""
+    return 300.0 + 300.0 * np.cos(2.0 * np.pi * x / 1500.0) + 60.0 * np.cos(2.0 * np.pi * y / 900.0)
+
+
+def basin(x, y):
+    """A plain behind a wall 500 m high on the windward side."""
+    return np.where((x < -300.0) & (x > -500.0), 500.0, 0.0)
+
+
+FIRES = {
+    "prescribed": {"cell": 5.0, "speed": 0.1, "canopy": 1.0},
+    "grass": {"cell": 20.0, "cells": 150, "speed": 0.9},
+    "hills": {"cell": 60.0, "cells": 120, "speed": 1.2, "height": hills, "canopy": 1.5},
+    "basin": {"cell": 30.0, "speed": 0.2, "height": basin},
+    "mega": {"cell": 1000.0, "cells": 140, "speed": 1.2, "times": HOURS},
+    "calm": {"cell": 20.0, "wind": (0.0, 0.0)},
+    "windless": {"cell": 20.0, "wind": None},
+    "south": {"cell": 25.0, "at": (-42.7, 146.5), "wind": (-3.0, -3.0), "canopy": 0.8},
+    "north": {"cell": 25.0, "at": (70.0, 25.0)},
+    "line": {"cell": 25.0, "at": (-16.5, 179.999)},
+    "several": {
+        "cell": 60.0,
+        "cells": 150,
+        "fires": ((-2500.0, -1500.0, 0.0), (2500.0, 2000.0, 900.0), (0.0, 3000.0, 1200.0)),
+    },
+    "begins": {"cell": 10.0, "fires": ((0.0, 0.0, 3000.0),)},
+    "ended": {"cell": 10.0, "cells": 40, "fires": ((0.0, 0.0, 0.0),), "times": (0.0, 3600.0, 86_400.0)},
+    "slow output": {"cell": 300.0, "cells": 80, "times": HOURS, "arrival": False, "speed": 0.1},
+}
+
+
+@pytest.fixture(scope="module")
+def fit_of(tmp_path_factory):
+    """Settings fitted to one of FIRES, and its run."""
+    known = {}
+
+    def found(name):
+        if name not in known:
+            folder = whole_run.write(tmp_path_factory.mktemp("fitted") / "run", **FIRES[name])
+            known[name] = fitted.at(folder, folder.parent / "scene.toml", folder.parent / "cache")
+        return known[name], readers.open(known[name].settings.run)
+
+    return found
+
+
+@pytest.mark.parametrize("name", FIRES)
+def test_each_camera_shows_at_least_half_of_the_front_it_films(fit_of, name):
+    found, run = fit_of(name)
+    fit.check(found.settings, run)
+    assert list(found.shares) == ["overview", "chase", "flank", "satellite"]
+    assert min(found.shares.values()) >= placing.LEAST, found.lines
+
+
+@pytest.mark.parametrize("name", ["prescribed", "hills", "mega", "several"])
+def test_what_is_said_to_show_is_what_the_shot_sees(fit_of, name):
+    """Over its own ground, with detail near cameras, by the views that everything else is skipped by."""
+    found, run = fit_of(name)
+    for camera in ("overview", "satellite"):
+        shot = Shot(found.settings, run).of(camera)
+        points = front.of(shot).point
+        seen = shot.sights.seen(points, 1.0, pixel=np.inf)
+        assert seen.mean() >= max(found.shares[camera] - 0.02, placing.LEAST)
+
+
+@pytest.mark.parametrize("name", FIRES)
+def test_the_overview_has_the_whole_front_in_its_picture_and_the_horizon_over_it(fit_of, name):
+    found, run = fit_of(name)
+    shot = Shot(found.settings, run)
+    moving, view = front.of(shot), shot.of("overview").paths[0]
+    local = (moving.point - view.position[0]) @ view.rotation[0]
+    x, y = (local[:, axis] / -local[:, 2] / view.half[axis] for axis in (0, 1))
+    assert (local[:, 2] < 0.0).all()
+    assert np.mean((np.abs(x) < 0.95) & (np.abs(y) < 0.97)) > 0.95
+    assert -0.6 < np.median(y) < 0.1, "below the middle, under its smoke"
+    horizon = np.tan(np.arcsin(-view.rotation[0][2, 2] * -1.0)) / view.half[1]
+    assert horizon > 0.1
+    assert view.position[0, 2] > shot.ground.up(*view.position[0, :2])[0]
+
+
+def test_the_overview_stands_to_windward_with_the_sun_behind_it(fit_of):
+    found, run = fit_of("grass")  # wind from the west, and the sun in the south-west
+    shot = Shot(found.settings, run)
+    way = placing.bearing(shot.of("overview").paths[0]) % 360.0
+    assert 200.0 < way < 320.0
+    assert "windward" in found.cameras["overview"]
+    found, run = fit_of("calm")
+    way = placing.bearing(Shot(found.settings, run).of("overview").paths[0])
+    azimuth, height = Shot(found.settings, run).sun(0.0)
+    assert height > 0.0
+    assert np.cos(np.radians(way - azimuth)) > 0.8
+
+
+def test_a_wall_before_the_fire_moves_the_camera(tmp_path, fit_of):
+    """The same fire on a plain is seen from lower, from the side of the wall."""
+    walled, run = fit_of("basin")
+    plain = fitted.at(
+        whole_run.write(tmp_path / "run", **FIRES["basin"] | {"height": None}), tmp_path / "s.toml", tmp_path
+    )
+    moving = front.of(Shot(walled.settings, run))
+    there = placing.path(moving, plain.settings.cameras[0])
+    assert visible.Visible(moving).share(there) < placing.LEAST, "the wall hides it from there"
+    assert walled.shares["overview"] >= placing.LEAST
+
+
+def test_smoke_hides_the_front_from_leeward_and_not_from_windward(fit_of):
+    found, run = fit_of("grass")
+    moving = front.of(Shot(found.settings, run))
+    seen = visible.Visible(moving)
+    middle = 0.5 * (moving.low + moving.high)
+    here = moving.point[moving.moment == 1]
+    shares = [
+        np.mean(
+            seen.smoke(np.array([*(middle + side * 2.0 * moving.size * moving.wind), 300.0]), here, 1) < 0.5
+        )
+        for side in (-1.0, 1.0)
+    ]
+    assert shares[0] > 0.9
+    assert shares[1] < 0.5
+
+
+def test_cameras_are_as_large_as_the_fire(fit_of):
+    small, large = fit_of("prescribed")[0], fit_of("mega")[0]
+    distance = {
+        each: [
+            np.linalg.norm(
+                (view := placing.path(front.of(Shot(found.settings, run)), camera)).position - view.target,
+                axis=1,
+            ).mean()
+            for camera in found.settings.cameras[:3]
+        ]
+        for each, (found, run) in (("small", fit_of("prescribed")), ("large", fit_of("mega")))
+    }
+    assert distance["small"][0] < 700.0
+    assert distance["large"][0] > 30_000.0
+    assert (np.array(distance["large"]) > 2.5 * np.array(distance["small"])).all()
+    assert small.settings.cameras[3].rig.swath < 1500.0
+    assert large.settings.cameras[3].rig.swath > 50_000.0
+
+
+@pytest.mark.parametrize("name", FIRES)
+def test_no_window_of_the_run_is_more_active(fit_of, name):
+    found, run = fit_of(name)
+    time = found.settings.time
+    first, last = float(run.times[0]), float(run.times[-1])
+    begin, end = ((moment - _start(run)).total_seconds() for moment in (time.start, time.end))
+    assert first <= begin < end <= last
+    arrival = run.fuel_arrival_time()
+    arrival = arrival[(arrival >= first) & (arrival <= last)]
+    held = np.count_nonzero((arrival >= begin) & (arrival <= end))
+    length = end - begin
+    others = np.arange(first, last - length, 60.0)
+    counts = [np.count_nonzero((arrival >= other) & (arrival <= other + length)) for other in others]
+    assert held >= max(counts, default=0)
+
+
+def _start(run):
+    from firetwin.run import times
+
+    return times.moment(run, 0.0)
+
+
+def test_a_window_is_where_the_fuel_burns_not_where_the_area_grows():
+    arrival = np.array([10.0] * 50 + [5000.0] * 10)
+    fuel = np.array([0.1] * 50 + [5.0] * 10)
+    begin = window.most_active(arrival, fuel, 0.0, 7200.0, 600.0)
+    assert begin <= 5000.0 <= begin + 600.0
+    assert window.most_active(arrival, np.ones(60), 0.0, 7200.0, 600.0) == 0.0
+    assert window.length(400.0, 1e5) == 300.0
+    assert window.length(29_000.0, 1e5) == pytest.approx(24 * 60.0, abs=60.0)
+    assert window.length(29_000.0, 600.0) == 600.0
+
+
+@pytest.mark.parametrize("name", ["prescribed", "several", "line"])
+def test_the_file_reads_back_as_the_settings_and_is_what_a_run_alone_gets(fit_of, name, monkeypatch):
+    found, run = fit_of(name)
+    path = found.settings.path
+    path.write_text(found.text, encoding="utf-8")
+    assert file.read(path) == found.settings
+    monkeypatch.chdir(path.parent)
+    alone = Choice(run=run.path).settings()
+    same = {"path": found.settings.path, "run": found.settings.run, "cache": found.settings.cache}
+    assert dataclasses.replace(alone, **same) == found.settings
+    assert (alone.run, alone.cache.absolute()) == (Path(run.path), found.settings.cache)
+
+
+def test_the_file_is_short_and_every_key_in_it_is_explained(fit_of):
+    found, _ = fit_of("grass")
+    lines = found.text.splitlines()
+    assert len(lines) < 90
+    assert max(map(len, lines)) <= 130
+    explained = {line.split(" = ")[0] for line in lines if " = " in line and "  # " in line}
+    assert {line.split(" = ")[0] for line in lines if " = " in line and line[0] != "#"} == explained
+    assert {"start", "end", "frames", "fps", "method", "samples", "resolution"} <= explained
+    assert "apron" not in explained, "nobody has to know"
+    for camera, words in found.cameras.items():
+        above = found.text.split(f'name = "{camera}"')[0].split("[[cameras]]")[-2].split("\n\n")[-1]
+        assert " ".join(above.replace("# ", "").split()).lower() == f"{words}.".lower()
+
+
+def test_a_run_that_burns_nothing_is_seen_whole(make_run):
+    folder = make_run(fuel_arrival_time=np.full((8, 10), np.nan, np.float32))
+    found = fitted.at(folder, folder.parent / "scene.toml", folder.parent / "cache")
+    run = readers.open(folder)
+    fit.check(found.settings, run)
+    assert list(found.cameras) == ["overview", "satellite"]
+    view = Shot(found.settings, run).of("overview").paths[0]
+    corners = Shot(found.settings, run).ground.point(run.latitude[[0, -1]], run.longitude[[0, -1]])
+    local = (corners - view.position[0]) @ view.rotation[0]
+    assert (np.abs(local[:, 0] / -local[:, 2]) < view.half[0]).all()
+
+
+@pytest.mark.parametrize(
+    ("longitude", "name", "hours"),
+    [(9.0, "Etc/GMT-1", 1), (-120.0, "Etc/GMT+8", -8), (0.0, "Etc/GMT", 0), (179.9, "Etc/GMT-12", 12)],
+)
+def test_a_fire_is_told_in_the_time_of_its_place(tmp_path, longitude, name, hours):
+    run = readers.open(whole_run.write(tmp_path / "run", cells=8, at=(42.0, longitude)))
+    assert zone.of(run) == name
+    assert zoneinfo.ZoneInfo(name).utcoffset(None).total_seconds() == 3600.0 * hours
+
+
+def test_a_known_fire_is_told_in_its_own_zone(make_run):
+    assert zone.of(readers.open(make_run())) == "America/Los_Angeles"
