@@ -3,9 +3,11 @@
 import json
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from firetwin.shot import file
 
 
 def firetwin(*arguments, **options):
@@ -31,6 +33,7 @@ def test_help_names_every_command():
         for name in (
             "sample",
             "info",
+            "new",
             "maps",
             "score",
             "imager",
@@ -92,7 +95,8 @@ sys.exit(main(["bench"]))
 
 
 @pytest.mark.parametrize(
-    "command", ["sample", "info", "maps", "score", "imager", "build", "bake", "render", "schema", "bench"]
+    "command",
+    ["sample", "info", "new", "maps", "score", "imager", "build", "bake", "render", "schema", "bench"],
 )
 def test_every_command_explains_itself(command):
     result = firetwin(command, "--help")
@@ -108,6 +112,7 @@ def test_every_command_explains_itself(command):
         ["nonsense"],
         ["info"],
         ["render", "x.toml"],
+        ["new", "run"],
         ["sample", "x", "--frames", "0"],
         ["info", "x", "--jsn"],
     ],
@@ -132,6 +137,36 @@ def test_info_as_a_page_and_as_json(make_run):
     assert page.stdout.startswith("Small  (SYNTHETIC")
     facts = json.loads(firetwin("info", folder, "--json").stdout)
     assert facts["times"]["count"] == 3
+
+
+def test_new_writes_a_scene_file_says_what_it_chose_and_overwrites_nothing(make_run, tmp_path):
+    folder, out = make_run(), tmp_path / "scene.toml"
+    result = firetwin("new", folder, "-o", out)
+    assert (result.returncode, result.stdout) == (0, f"{out}\n"), result.stderr
+    assert all(f"firetwin: {name}: " in result.stderr for name in ("overview", "chase", "flank", "satellite"))
+    assert "most active" in result.stderr
+    assert file.read(out).run.resolve() == folder.resolve()
+    out.write_text("mine")
+    again = firetwin("new", folder, "-o", out)
+    assert_one_line(again, 2, "scene.toml is there", "--overwrite")
+    assert out.read_text() == "mine"
+    assert firetwin("new", folder, "-o", out, "--overwrite").returncode == 0
+    assert file.read(out).cameras
+
+
+def test_a_run_folder_stands_for_a_scene_file_that_fits_it(make_run, tmp_path):
+    """What `new` would write is written into the cache, and used."""
+    folder = make_run()
+    result = firetwin("track", folder, "--camera", "chase", "--out", "way.gpx", cwd=tmp_path)
+    assert result.returncode == 0, result.stderr
+    assert "<trkpt" in (tmp_path / "way.gpx").read_text()
+    assert "firetwin new " in result.stderr
+    (kept,) = (tmp_path / "cache").glob("run-*.toml")
+    assert firetwin("new", folder, "-o", "scene.toml", cwd=tmp_path).returncode == 0
+    same = {"path": kept, "run": folder, "cache": tmp_path / "cache"}
+    found, written = (replace(file.read(each), **same) for each in (kept, tmp_path / "scene.toml"))
+    assert found == written
+    assert_one_line(firetwin("new", tmp_path, "-o", tmp_path / "x.toml"), 1, "run.toml")
 
 
 def test_maps_say_where_they_are(make_run, tmp_path):
