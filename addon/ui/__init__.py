@@ -25,6 +25,7 @@ from . import (
     rows,
     run,
     section_panels,
+    solve,
     time,
     working,
 )
@@ -39,6 +40,7 @@ classes = (
     *foreign.classes,
     *open.classes,
     *quality.classes,
+    *solve.classes,
     *build.classes,
     *time.classes,
     *cameras_panel.classes,

@@ -10,7 +10,7 @@ from ..blender import owned
 from ..errors import Error
 from ..scene.build import PARTS
 from ..shot.shot import Shot
-from . import by_hand, changed, job, keys, order, quality, run, stage, time, view, working
+from . import by_hand, changed, job, keys, order, quality, run, solve, stage, time, view, working
 from .job import Away, Steps, Told
 from .text import labelled, paragraph
 from .working import Working
@@ -75,6 +75,7 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
         yield from build.steps(shot, owned.scene(uid), parts, told.append)
         changed.remember(owned.scene(uid).firetwin, then, parts)
         _finish(owned.scene(uid), shot, parts, new)
+        yield from solve.price(uid)
         for text in (*shot.warnings(), *shot.one_eyed(), *told):
             yield Told(text, "WARNING")
         what = f"{shot.frames.count} frames" if part == ALL else f"the {part}"
@@ -187,6 +188,7 @@ class FIRETWIN_PT_build(bpy.types.Panel):
         column.enabled = job.Job.current is None
         quality.draw(column, settings)
         column.prop(settings, "bake_smoke")
+        solve.draw(column, settings)
         labelled(column, "Seed").prop(settings, "seed", text="")
         row = layout.row(align=True)
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Through camera", icon="CAMERA_DATA").whole = False

@@ -91,7 +91,7 @@ def chosen(operator: bpy.types.Operator) -> list[Path]:
 def begin(panel: bpy.types.PropertyGroup, folder: str) -> None:
     """Choose a run; where it is another one, time window and cameras of the one before go."""
     if bpy.path.abspath(panel.run) != folder:
-        panel.scene_file = panel.time.start = panel.time.end = panel.facts = ""
+        panel.scene_file = panel.time.start = panel.time.end = panel.facts = panel.smoke_cost = ""
         panel.cameras.clear()
     panel.run = folder
 

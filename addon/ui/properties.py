@@ -47,6 +47,8 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annota
         options=_BLEND_RELATIVE,
     )
     usual_cameras: bpy.props.StringProperty(options={"HIDDEN"})
+    usual_time: bpy.props.StringProperty(options={"HIDDEN"})
+    smoke_cost: bpy.props.StringProperty(options={"HIDDEN"})
     facts: bpy.props.StringProperty(options={"HIDDEN"})
     built: bpy.props.StringProperty(options={"HIDDEN"})
     changed: bpy.props.StringProperty(options={"HIDDEN"})

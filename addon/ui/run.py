@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import json
+from dataclasses import asdict
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,9 @@ from ..jobs.worker import StoppedError
 from ..run import readers
 from ..shot import file
 from ..shot.choice import Choice
-from . import by_hand, camera_list, changed, job, maps, preferences, scene_file, working
+from ..shot.schema import parts, plain
+from ..shot.settings import Settings, Time
+from . import by_hand, camera_list, changed, job, keys, maps, preferences, scene_file, solve, working
 from .job import Away, Steps
 from .text import labelled, paragraph
 from .working import Working
@@ -91,13 +94,14 @@ def look(uid: int) -> Steps:
     """Gather in a thread, then write down in the scene with this `session_uid`."""
     settings = owned.scene(uid).firetwin
     settings.problem = ""
-    folder, zone = Path(bpy.path.abspath(settings.run)), settings.time.zone
+    folder = Path(bpy.path.abspath(settings.run))
     try:
-        found, images = yield Away("reading the run", lambda **_: facts(folder, zone))
+        found, images = yield Away("reading the run", lambda **_: facts(folder))
         _write_down(owned.scene(uid).firetwin, found)
         maps.show(owned.scene(uid).firetwin.run, images)
         chosen = choice(owned.scene(uid).firetwin)
         yield Away("reading the run", lambda **_: chosen.shot())
+        yield from solve.price(uid)
     except StoppedError:
         owned.scene(uid).firetwin.problem = "The run was not read to its end; Read run does it"
         raise
@@ -108,9 +112,12 @@ def look(uid: int) -> Steps:
 
 
 def _write_down(settings: bpy.types.PropertyGroup, found: dict[str, Any]) -> None:
-    """Keep the facts; cameras that nobody chose go, and those for this run come."""
+    """Keep the facts; window and cameras that nobody chose go, and those for this run come."""
     here = camera_list.text(camera_list.cameras(settings))
-    settings.facts = json.dumps(found)
+    before = read(settings.usual_time) if settings.usual_time else {}
+    settings.facts, settings.usual_time = json.dumps(found), json.dumps(found["time"])
+    if not settings.scene_file:
+        _set_time(settings.time, before, found["time"])
     if here not in ("", settings.usual_cameras):
         return
     if not here and not settings.scene_file:
@@ -119,13 +126,27 @@ def _write_down(settings: bpy.types.PropertyGroup, found: dict[str, Any]) -> Non
     settings.usual_cameras = found["cameras"]
 
 
-def facts(folder: Path, zone: str) -> tuple[dict[str, Any], maps.Images]:
-    """What the panel shows of a run: name, rows, warnings, dated moments and cameras; and its maps."""
+def _set_time(group: bpy.types.PropertyGroup, before: dict[str, Any], now: dict[str, Any]) -> None:
+    """Let keys of [time] that nobody chose, but their default or the run before, say what fits this run."""
+    for part in parts(Time):
+        if not keys.differs(group, part) or keys.shows(group, part, _time(before)[part.name]):
+            keys.put(group, part, _time(now)[part.name])
+
+
+def _time(kept: dict[str, Any]) -> dict[str, Any]:
+    """Values of [time] from what JSON holds of them; defaults where it holds nothing."""
+    moments = {name: datetime.fromisoformat(kept[name]) for name in ("start", "end") if kept.get(name)}
+    return asdict(Time()) | kept | moments
+
+
+def facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
+    """What the panel shows of a run: name, rows, warnings, dated moments, and what fits it; and its maps."""
     from ..run import info, labels, thumbnails
-    from ..shot import overview
+    from ..shot import fitted
 
     run = readers.open(folder)
-    found = info.gather(run, zone)
+    shown = fitted.of(run, Settings(run=folder))
+    found = info.gather(run, shown.settings.time.zone)
     told = {
         "name": found["name"],
         "synthetic": found["synthetic"],
@@ -136,7 +157,11 @@ def facts(folder: Path, zone: str) -> tuple[dict[str, Any], maps.Images]:
         "moments": _moments(found),
         "burned": _burned(found),
         "places": labels.known(run),
-        "cameras": camera_list.text(overview.cameras(run)),
+        "cameras": camera_list.text(shown.settings.cameras),
+        "time": {
+            part.name: plain(part.type, getattr(shown.settings.time, part.name)) for part in parts(Time)
+        },
+        "shots": shown.lines,
     }
     return told, thumbnails.draw(run)
 
@@ -236,6 +261,8 @@ class FIRETWIN_PT_facts(bpy.types.Panel):
             labelled(column, label).label(text=text)
         for warning in found["warnings"]:
             paragraph(context, column, warning, "ERROR")
+        for line in found.get("shots", ()):
+            paragraph(context, column, f"{line[:1].upper()}{line[1:]}")
 
 
 classes = (FIRETWIN_OT_inspect, FIRETWIN_PT_run, FIRETWIN_PT_facts)

@@ -11,7 +11,7 @@ from firetwin.scene import build
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import lamp_objects, lamps
 from firetwin.scene.smoke import build as smoke
-from firetwin.shot import overview
+from firetwin.shot import fitted
 from firetwin.shot.fire import Fire
 from firetwin.shot.settings import Light, Smoke
 from firetwin.shot.shot import Shot
@@ -123,10 +123,10 @@ def test_none_are_made_where_no_camera_is_near_the_fire(settings, run, stage, su
     assert found.heat.shape == (len(found.time), 0)
 
 
-def test_a_run_without_a_scene_file_is_built_by_night(settings, run, stage, sun_at, plain_looks, monkeypatch):
-    monkeypatch.setattr(overview, "_LEAST", 12_000.0)  # as for a large fire, which is seen from far off
+def test_a_run_without_a_scene_file_is_built_by_night(settings, run, stage, sun_at, plain_looks):
     sun_at(-20.0)
-    built(replace(settings, cameras=overview.cameras(run)), run, stage, tuple(build.PARTS))
+    cameras = fitted.of(run, settings).settings.cameras
+    built(replace(settings, cameras=cameras), run, stage, tuple(build.PARTS))
     assert bpy.data.objects["Firetwin Flames"].users_scene == (stage.scene,)
 
 

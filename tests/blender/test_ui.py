@@ -2,6 +2,7 @@
 
 import shutil
 import time
+from dataclasses import replace
 from types import SimpleNamespace
 from unittest.mock import MagicMock
 
@@ -12,7 +13,8 @@ import pytest
 from firetwin.blender import devices, owned, viewport
 from firetwin.errors import Error, InputError, input_error
 from firetwin.jobs import assets
-from firetwin.shot import file, passes
+from firetwin.scene.smoke import outlook
+from firetwin.shot import file, fitted, passes
 from firetwin.shot.schema import parts
 from firetwin.ui import (
     build,
@@ -24,6 +26,7 @@ from firetwin.ui import (
     render,
     run,
     sections,
+    solve,
     view,
     working,
 )
@@ -96,11 +99,17 @@ def test_a_run_is_known_as_soon_as_it_is_chosen(settings, run_folder):
     assert rows["Grid"].startswith("24 x 24 cells of 3")
     assert rows["First"] == "17 Sep 2014 14:00 PDT"
     assert rows["Burned"].endswith("acres")
-    assert settings.cameras.keys() == ["overview", "satellite"]
+    assert settings.cameras.keys() == ["overview", "chase", "flank", "satellite"]
     assert [words for _, words in found["moments"]] == ["the run begins", "the run ends"]
     kept = maps._kept[settings.run]  # without a window they have no icons
     assert kept["fuel"].image_size[:] == kept["intensity"].image_size[:] == (192, 192)
-    assert [item[0] for item in render.camera_items(settings, None)] == ["*", "overview", "satellite"]
+    assert [item[0] for item in render.camera_items(settings, None)] == [
+        "*",
+        "overview",
+        "chase",
+        "flank",
+        "satellite",
+    ]
 
 
 def test_a_scene_file_fills_the_panel(settings, scene_file, run_folder):
@@ -118,7 +127,7 @@ def test_a_scene_file_fills_the_panel(settings, scene_file, run_folder):
 
 def test_cameras_that_nobody_chose_follow_the_run(settings, run_folder, tmp_path):
     settings.run = str(run_folder)
-    assert settings.cameras.keys() == ["overview", "satellite"]
+    assert settings.cameras.keys() == ["overview", "chase", "flank", "satellite"]
     shutil.copytree(run_folder, tmp_path / "other")
     latitude = np.load(tmp_path / "other" / "latitude.npy")
     np.save(tmp_path / "other" / "latitude.npy", latitude + 1.0)
@@ -132,6 +141,49 @@ def test_cameras_that_nobody_chose_follow_the_run(settings, run_folder, tmp_path
     settings.run = str(run_folder)
     assert camera_list.get(settings.cameras[0]).rig == after.rig
     assert "km from the middle of the run" in settings.problem or not settings.problem
+
+
+def test_the_window_that_nobody_chose_follows_the_run(settings, run_folder, tmp_path):
+    settings.run = str(run_folder)
+    fits = file.read(_new(run_folder, tmp_path / "scene.toml"))
+    shown = scene_settings.settings(bpy.context.scene)
+    assert (shown.time, shown.cameras) == (fits.time, fits.cameras)
+    settings.time.frames, settings.time.start = 7, "2014-09-17 21:10"
+    bpy.ops.firetwin.inspect()
+    assert (settings.time.frames, settings.time.start) == (7, "2014-09-17 21:10")
+    assert settings.time.fps == fits.time.fps
+
+
+def _new(folder, path):
+    """The scene file that the command line would write."""
+    path.write_text(fitted.at(folder, path, path.parent / "cache").text)
+    return path
+
+
+def test_solved_smoke_is_a_button_that_names_its_cost(settings, run_folder, monkeypatch):
+    """Puffs are a preview; the cost of more is told before it is asked for."""
+    settings.run = str(run_folder)
+    assert settings.smoke.method == "puffs"
+    assert "about " in settings.smoke_cost
+    asked = outlook.cost(replace(run.choice(settings), smoke="flow").shot())
+    assert settings.smoke_cost == asked.brief()
+    layout = MagicMock()
+    solve.draw(layout, settings)
+    assert layout.operator.call_args.kwargs["text"] == f"Solve smoke ({settings.smoke_cost})"
+    built = []
+
+    def steps(self, context):
+        built.append(self.part)
+        yield "building"
+        return ""
+
+    monkeypatch.setattr(build.FIRETWIN_OT_build, "steps", steps)
+    assert bpy.ops.firetwin.solve() == {"FINISHED"}
+    assert (settings.smoke.method, settings.bake_smoke, built) == ("flow", True, ["all"])
+    layout = MagicMock()
+    solve.draw(layout, settings)
+    assert not layout.operator.called
+    assert "solved already" in refusal(bpy.ops.firetwin.solve)
 
 
 def test_properties_say_what_the_schema_says(settings):

@@ -167,7 +167,7 @@ def test_a_preset_brings_back_all_but_the_run(opened, tmp_path, monkeypatch):
 
 def test_a_run_and_a_scene_file_are_opened_by_their_file(panel, run_folder, settings, tmp_path):
     bpy.ops.firetwin.open(filepath=str(run_folder / "run.toml"))
-    assert (panel.run, panel.cameras.keys()) == (str(run_folder), ["overview", "satellite"])
+    assert (panel.run, panel.cameras.keys()) == (str(run_folder), ["overview", "chase", "flank", "satellite"])
     (tmp_path / "shot.toml").write_text(file.text(replace(settings, path=tmp_path / "shot.toml")))
     bpy.ops.firetwin.open(filepath=str(tmp_path / "shot.toml"))
     assert (panel.cameras.keys(), panel.time.frames) == (["drone"], 3)
@@ -175,10 +175,10 @@ def test_a_run_and_a_scene_file_are_opened_by_their_file(panel, run_folder, sett
     assert panel.cameras.keys() == ["drone"]  # the same run
     shutil.copytree(run_folder, tmp_path / "other")
     bpy.ops.firetwin.open(filepath=str(tmp_path / "other"))
-    assert (panel.cameras.keys(), panel.scene_file) == (["overview", "satellite"], "")
+    assert (panel.cameras.keys(), panel.scene_file) == (["overview", "chase", "flank", "satellite"], "")
     with pytest.raises(RuntimeError, match="no such scene file"):
         bpy.ops.firetwin.open(filepath=str(tmp_path / "none.toml"))
-    assert panel.cameras.keys() == ["overview", "satellite"]
+    assert panel.cameras.keys() == ["overview", "chase", "flank", "satellite"]
 
 
 def test_the_king_fire_is_made_here_and_opened(panel, run_folder, tmp_path, monkeypatch):
@@ -192,7 +192,7 @@ def test_the_king_fire_is_made_here_and_opened(panel, run_folder, tmp_path, monk
     for _ in range(2):
         assert bpy.ops.firetwin.sample(folder=str(tmp_path / "king")) == {"FINISHED"}
         assert panel.run == str(tmp_path / "king")
-        assert panel.cameras.keys() == ["overview", "satellite"]
+        assert panel.cameras.keys() == ["overview", "chase", "flank", "satellite"]
     assert made == ["firetwin.jobs.sample:in_blender"]
     assert not list(tmp_path.glob(".*"))
 

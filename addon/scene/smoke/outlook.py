@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from pathlib import Path
 
 from ...progress import duration, size
 from ...shot.scale import FINER
@@ -14,14 +16,41 @@ _SPEED = 1.5e7  # cells a second on 2 cores (tests/benchmarks/solved_smoke.py); 
 _KEPT = 2.2  # bytes of a moment for each cell of its box, measured with smoke in most of it
 
 
+@dataclass(frozen=True)
+class Cost:
+    """Of solving a flow: s of the fire, s it takes on 2 cores, bytes, widths of cells, where it is kept."""
+
+    time: float
+    seconds: float
+    bytes: float
+    cells: str
+    folder: Path
+
+    def brief(self) -> str:
+        """``about 2 min, 1.1 GB``."""
+        return f"about {duration(self.seconds)}, {size(self.bytes)}"
+
+
 def words(shot: Shot) -> str:
     """Time and room for what is still to be solved of a shot; empty where that is nothing."""
-    if not baker.solved(shot):
+    found = cost(shot)
+    if found is None:
         return ""
+    return (
+        f"the air over {duration(found.time)} of the fire is solved once in cells of {found.cells}, which "
+        f"takes about {duration(found.seconds)} on 2 cores and {size(found.bytes)} in {found.folder}; "
+        'smoke.method = "puffs" needs none of it'
+    )
+
+
+def cost(shot: Shot) -> Cost | None:
+    """What is still to be solved of a shot; None where that is nothing."""
+    if not baker.solved(shot):
+        return None
     solved, frames = Flow(shot), shot.frames
     parts = [part for part in solved.parts if not part.moment(frames.count).exists()]
     if not parts:
-        return ""
+        return None
     work = 0.0
     for part in solved.parts:
         begin, step = solved.begin, shot.scale.step
@@ -29,11 +58,8 @@ def words(shot: Shot) -> str:
             begin, step = max(begin, frames.first - shot.scale.time(boxes.LEAD)), step / FINER
         work += _cells(part) * math.ceil((frames.last - begin) / step)
     room = _KEPT * frames.count * sum(map(_cells, parts))
-    return (
-        f"the air over {duration(frames.last - solved.begin)} of the fire is solved once in cells of "
-        f"{_widths(solved.parts)}, which takes about "
-        f"{duration(work / _SPEED)} on 2 cores and {size(room)} in {solved.parts[-1].folder.parent}; "
-        'smoke.method = "puffs" needs none of it'
+    return Cost(
+        frames.last - solved.begin, work / _SPEED, room, _widths(solved.parts), solved.parts[-1].folder.parent
     )
 
 
