@@ -13,6 +13,7 @@ import re
 import shlex
 import sys
 from collections.abc import Sequence
+from datetime import UTC, datetime
 from pathlib import Path
 
 EPILOG = """\
@@ -129,6 +130,9 @@ def _parser() -> argparse.ArgumentParser:
     new = command("new", "write a short scene file that fits a run", NEW)
     new.add_argument("run", metavar="RUN", type=Path, help="run folder")
     new.add_argument("-o", "--out", metavar="SCENE.toml", type=Path, required=True, help="file to write")
+    for name, word in (("start", "begins"), ("end", "ends")):
+        text = f"when the film {word}, such as 2014-09-17T16:00-07:00 (found)"
+        new.add_argument(f"--{name}", metavar="TIME", type=_moment, help=text)
     new.add_argument("--overwrite", action="store_true", help="in place of a file that is there")
 
     maps = command("maps", "draw the fuel map and the fire intensity map", MAPS)
@@ -234,6 +238,18 @@ def _count(text: str) -> int:
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"must be a whole number above 0, not {text!r}")
     return int(text)
+
+
+def _moment(text: str) -> datetime:
+    try:
+        value = datetime.fromisoformat(text)
+    except ValueError:
+        value = None
+    if value is None or value.tzinfo is None:
+        raise argparse.ArgumentTypeError(
+            f"must be a time with its zone, 2014-09-17T16:00-07:00, not {text!r}"
+        )
+    return value.astimezone(UTC)
 
 
 def _factor(text: str) -> float:

@@ -7,6 +7,7 @@ import json
 import sys
 import time
 from collections.abc import Iterable
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -58,7 +59,8 @@ def new(arguments: argparse.Namespace) -> None:
         raise UsageError(f"-o: {arguments.out} does not end in .toml")
     if arguments.out.exists() and not arguments.overwrite:
         raise UsageError(f"-o: {arguments.out} is there; choose another name, or add --overwrite")
-    text = _fitted(arguments.run, arguments.out, arguments.out.parent / "cache")
+    asked = arguments.start, arguments.end
+    text = _fitted(arguments.run, arguments.out, arguments.out.parent / "cache", asked)
     files.write(arguments.out, lambda part: part.write_text(text, encoding="utf-8"))
     print(arguments.out)
 
@@ -342,13 +344,27 @@ def _choice(arguments: argparse.Namespace) -> Choice:
     return Choice(scene=str(scene), beside=getattr(arguments, "run", ""))
 
 
-def _fitted(run: Path, path: Path, cache: Path) -> str:
-    """The text of a scene file `path` that fits a run; what was chosen is told."""
+def _fitted(
+    run: Path, path: Path, cache: Path, asked: tuple[datetime | None, datetime | None] = (None, None)
+) -> str:
+    """The text of a scene file `path` that fits a run from when to when is asked; what was chosen is told."""
+    from .errors import UsageError
     from .progress import READING, patience
+    from .run import times
     from .shot import fitted
+    from .shot.settings import Time
 
+    opened, window = _open(run), Time(*asked)
+    first, last = (times.moment(opened, float(opened.times[i])) for i in (0, -1))
+    for name, moment in zip(("start", "end"), asked, strict=True):
+        if moment is not None and not first <= moment <= last:
+            raise UsageError(
+                f"--{name}: lies outside of the run, which has {times.iso(first)} to {times.iso(last)}"
+            )
+    if wrong := window.wrong():
+        raise UsageError(f"--end: {wrong[1]}")
     with patience(READING):
-        found = fitted.at(run, path, cache)
+        found = fitted.at(run, path, cache, window)
     for line in found.lines:
         say(line)
     return found.text

@@ -10,13 +10,11 @@ from .ground import NEVER, UNKNOWN, Ground, box
 Array = NDArray[np.float64]
 
 MOVING = ("head", "fire")  # what moves by itself
-_RECENT = (
-    300.0,
-    1800.0,
-)  # s; ground reached within this time belongs to the moving front: of small fires, large
+_RECENT = 1800.0  # s; ground of a large fire reached within this time belongs to the moving front
 _KNOTS = 24  # the target is worked out at this many moments and is smooth between them
 _BLOCK = 1500.0  # m; parts of the front that are compared in a large fire
 _LARGE = 20_000.0  # m, size of a fire from which on both count; of a smaller one they are smaller
+_CELLS = 4.0  # of the fuel grid: parts are no smaller, and the front is as deep
 _STAY = 4.0  # blocks from the head that is followed to one that is e times as strong and is not
 
 
@@ -37,14 +35,14 @@ def follow(target: str, ground: Ground, times: Array, above: float) -> Array:
 def head(ground: Ground, times: Array) -> tuple[Array, Array]:
     """East and north (frames,) of the part of the front that advances fastest."""
     east, north, arrival, speed = _burned(ground)
-    block, recent = _scale(ground, east, north)
+    block, recent = _scale(ground, east, north, speed, arrival <= times[-1])
     return _follow(times, lambda t, last: _head_at(t, last, east, north, arrival, speed, block, recent))
 
 
 def middle(ground: Ground, times: Array) -> tuple[Array, Array]:
     """East and north (frames,) of the middle of the ground that burns."""
-    east, north, arrival, _speed = _burned(ground)
-    recent = _scale(ground, east, north)[1]
+    east, north, arrival, speed = _burned(ground)
+    recent = _scale(ground, east, north, speed, arrival <= times[-1])[1]
     return _follow(times, lambda t, last: _middle_at(t, last, east, north, arrival, recent))
 
 
@@ -82,11 +80,16 @@ def _follow(times: Array, place: object) -> tuple[Array, Array]:
     return tuple(smoothed(np.interp(times, knots, track[:, axis])) for axis in (0, 1))
 
 
-def _scale(ground: Ground, east: Array, north: Array) -> tuple[float, float]:
+def _scale(
+    ground: Ground, east: Array, north: Array, speed: Array, burned: NDArray[np.bool_]
+) -> tuple[float, float]:
     """Size (m) of the parts of the front that are compared, and for how long (s) ground belongs to it."""
-    size = float(np.hypot(np.ptp(east), np.ptp(north))) if len(east) else 0.0
-    part = min(size / _LARGE, 1.0)
-    return max(part * _BLOCK, 4.0 * max(ground.cell)), max(part * _RECENT[1], _RECENT[0])
+    if not burned.any():
+        return _BLOCK, _RECENT
+    east, north = east[burned], north[burned]
+    part = min(float(np.hypot(np.ptp(east), np.ptp(north))) / _LARGE, 1.0)
+    cells = _CELLS * max(ground.cell)
+    return max(part * _BLOCK, cells), min(max(part * _RECENT, cells / float(np.median(speed))), _RECENT)
 
 
 def _front(time: float, arrival: Array, recent: float) -> Array:

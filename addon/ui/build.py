@@ -10,7 +10,7 @@ from ..blender import owned
 from ..errors import Error
 from ..scene.build import PARTS
 from ..shot.shot import Shot
-from . import by_hand, changed, job, keys, order, quality, run, solve, stage, time, view, working
+from . import by_hand, changed, fitting, job, keys, order, quality, run, solve, stage, time, view, working
 from .job import Away, Steps, Told
 from .text import labelled, paragraph
 from .working import Working
@@ -60,6 +60,8 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
         parts = tuple(PARTS) if part == ALL else (part,)
         for text in by_hand.pull(context.scene):
             yield Told(text, "WARNING")
+        yield from fitting.again(uid)
+        settings = owned.scene(uid).firetwin
         then = changed.seen(settings)
         chosen, smoke = run.choice(settings), settings.bake_smoke and "smoke" in parts
         shot = yield Away("reading the run", lambda **_: chosen.shot())

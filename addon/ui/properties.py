@@ -46,8 +46,7 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annota
         default="//firetwin",
         options=_BLEND_RELATIVE,
     )
-    usual_cameras: bpy.props.StringProperty(options={"HIDDEN"})
-    usual_time: bpy.props.StringProperty(options={"HIDDEN"})
+    usual: bpy.props.StringProperty(options={"HIDDEN"})
     smoke_cost: bpy.props.StringProperty(options={"HIDDEN"})
     facts: bpy.props.StringProperty(options={"HIDDEN"})
     built: bpy.props.StringProperty(options={"HIDDEN"})

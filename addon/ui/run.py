@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import json
-from dataclasses import asdict
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -16,9 +15,7 @@ from ..jobs.worker import StoppedError
 from ..run import readers
 from ..shot import file
 from ..shot.choice import Choice
-from ..shot.schema import parts, plain
-from ..shot.settings import Settings, Time
-from . import by_hand, camera_list, changed, job, keys, maps, preferences, scene_file, solve, working
+from . import by_hand, changed, fitting, job, maps, preferences, scene_file, solve, working
 from .job import Away, Steps
 from .text import labelled, paragraph
 from .working import Working
@@ -97,8 +94,10 @@ def look(uid: int) -> Steps:
     folder = Path(bpy.path.abspath(settings.run))
     try:
         found, images = yield Away("reading the run", lambda **_: facts(folder))
-        _write_down(owned.scene(uid).firetwin, found)
+        owned.scene(uid).firetwin.facts = json.dumps(found)
+        fitting.put(owned.scene(uid).firetwin, found["fits"])
         maps.show(owned.scene(uid).firetwin.run, images)
+        yield from fitting.again(uid)
         chosen = choice(owned.scene(uid).firetwin)
         yield Away("reading the run", lambda **_: chosen.shot())
         yield from solve.price(uid)
@@ -111,42 +110,12 @@ def look(uid: int) -> Steps:
     return f"Read {found['name']}"
 
 
-def _write_down(settings: bpy.types.PropertyGroup, found: dict[str, Any]) -> None:
-    """Keep the facts; window and cameras that nobody chose go, and those for this run come."""
-    here = camera_list.text(camera_list.cameras(settings))
-    before = read(settings.usual_time) if settings.usual_time else {}
-    settings.facts, settings.usual_time = json.dumps(found), json.dumps(found["time"])
-    if not settings.scene_file:
-        _set_time(settings.time, before, found["time"])
-    if here not in ("", settings.usual_cameras):
-        return
-    if not here and not settings.scene_file:
-        settings.smoke.method = "puffs"  # to solve the air of a whole run can take a night
-    camera_list.fill(settings, camera_list.listed(found["cameras"]))
-    settings.usual_cameras = found["cameras"]
-
-
-def _set_time(group: bpy.types.PropertyGroup, before: dict[str, Any], now: dict[str, Any]) -> None:
-    """Let keys of [time] that nobody chose, but their default or the run before, say what fits this run."""
-    for part in parts(Time):
-        if not keys.differs(group, part) or keys.shows(group, part, _time(before)[part.name]):
-            keys.put(group, part, _time(now)[part.name])
-
-
-def _time(kept: dict[str, Any]) -> dict[str, Any]:
-    """Values of [time] from what JSON holds of them; defaults where it holds nothing."""
-    moments = {name: datetime.fromisoformat(kept[name]) for name in ("start", "end") if kept.get(name)}
-    return asdict(Time()) | kept | moments
-
-
 def facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
     """What the panel shows of a run: name, rows, warnings, dated moments, and what fits it; and its maps."""
-    from ..run import info, labels, thumbnails
-    from ..shot import fitted
+    from ..run import info, labels, thumbnails, zone
 
     run = readers.open(folder)
-    shown = fitted.of(run, Settings(run=folder))
-    found = info.gather(run, shown.settings.time.zone)
+    found = info.gather(run, zone.of(run))
     told = {
         "name": found["name"],
         "synthetic": found["synthetic"],
@@ -157,11 +126,7 @@ def facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
         "moments": _moments(found),
         "burned": _burned(found),
         "places": labels.known(run),
-        "cameras": camera_list.text(shown.settings.cameras),
-        "time": {
-            part.name: plain(part.type, getattr(shown.settings.time, part.name)) for part in parts(Time)
-        },
-        "shots": shown.lines,
+        "fits": fitting.found(run),
     }
     return told, thumbnails.draw(run)
 
@@ -261,7 +226,7 @@ class FIRETWIN_PT_facts(bpy.types.Panel):
             labelled(column, label).label(text=text)
         for warning in found["warnings"]:
             paragraph(context, column, warning, "ERROR")
-        for line in found.get("shots", ()):
+        for line in fitting.lines(context.scene.firetwin):
             paragraph(context, column, f"{line[:1].upper()}{line[1:]}")
 
 

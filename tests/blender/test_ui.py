@@ -97,7 +97,7 @@ def test_a_run_is_known_as_soon_as_it_is_chosen(settings, run_folder):
     found = run.read(settings.facts)
     rows = dict(found["rows"])
     assert rows["Grid"].startswith("24 x 24 cells of 3")
-    assert rows["First"] == "17 Sep 2014 14:00 PDT"
+    assert rows["First"] == "17 Sep 2014 13:00 -08"  # by its longitude: nobody said which fire it is
     assert rows["Burned"].endswith("acres")
     assert settings.cameras.keys() == ["overview", "chase", "flank", "satellite"]
     assert [words for _, words in found["moments"]] == ["the run begins", "the run ends"]
@@ -152,6 +152,26 @@ def test_the_window_that_nobody_chose_follows_the_run(settings, run_folder, tmp_
     bpy.ops.firetwin.inspect()
     assert (settings.time.frames, settings.time.start) == (7, "2014-09-17 21:10")
     assert settings.time.fps == fits.time.fps
+
+
+def test_cameras_that_nobody_chose_are_placed_for_the_window_that_somebody_chose(
+    settings, run_folder, monkeypatch
+):
+    settings.run = str(run_folder)
+    before = camera_list.cameras(settings)
+    settings.time.start, settings.time.end = "2014-09-17 21:40", "2014-09-17 21:58"
+    bpy.ops.firetwin.inspect()
+    placed = camera_list.cameras(settings)
+    assert [each.name for each in placed] == [each.name for each in before]
+    assert placed != before
+    assert settings.time.start == "2014-09-17 21:40"
+    bpy.ops.firetwin.inspect()
+    assert camera_list.cameras(settings) == placed
+    settings.time.start = "2014-09-17 21:00"
+    settings.cameras[0].name = "mine"
+    chosen = camera_list.cameras(settings)
+    bpy.ops.firetwin.inspect()
+    assert camera_list.cameras(settings) == chosen
 
 
 def _new(folder, path):

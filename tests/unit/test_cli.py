@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 from dataclasses import replace
+from datetime import datetime
 
 import numpy as np
 import pytest
@@ -152,6 +153,20 @@ def test_new_writes_a_scene_file_says_what_it_chose_and_overwrites_nothing(make_
     assert out.read_text() == "mine"
     assert firetwin("new", folder, "-o", out, "--overwrite").returncode == 0
     assert file.read(out).cameras
+
+
+def test_new_films_the_moments_that_are_asked_for(make_run, tmp_path):
+    folder, out = make_run(), tmp_path / "scene.toml"
+    moments = "2014-09-16T21:45:30-07:00", "2014-09-16T21:46:30-07:00"
+    result = firetwin("new", folder, "-o", out, "--start", moments[0], "--end", moments[1])
+    assert result.returncode == 0, result.stderr
+    found = file.read(out).time
+    assert (found.start, found.end) == tuple(map(datetime.fromisoformat, moments))
+    late = firetwin("new", folder, "-o", tmp_path / "x.toml", "--end", "2015-01-01T00:00Z")
+    assert_one_line(late, 2, "--end", "2014-09-17T04:47:00Z")
+    bad = firetwin("new", folder, "-o", tmp_path / "x.toml", "--start", "2014-09-16T21:45")
+    assert bad.returncode == 2
+    assert "with its zone" in bad.stderr
 
 
 def test_a_run_folder_stands_for_a_scene_file_that_fits_it(make_run, tmp_path):

@@ -2,6 +2,7 @@
 
 import dataclasses
 import zoneinfo
+from datetime import timedelta
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,9 @@ from firetwin.run import readers, zone
 from firetwin.shot import file, fit, fitted
 from firetwin.shot.choice import Choice
 from firetwin.shot.fitted import front, placing, visible, window
+from firetwin.shot.settings import Time
 from firetwin.shot.shot import Shot
+from small_run import small_fields
 
 HOURS = tuple(3600.0 * np.arange(0.0, 25.0, 6.0))
 
@@ -176,6 +179,27 @@ def _start(run):
     from firetwin.run import times
 
     return times.moment(run, 0.0)
+
+
+def test_cameras_are_placed_for_a_window_that_is_asked_for(fit_of):
+    found, run = fit_of("grass")
+    start, end = _start(run) + timedelta(minutes=10), _start(run) + timedelta(minutes=15)
+    path, folder = found.settings.path, Path(run.path)
+    early = fitted.at(folder, path, found.settings.cache, Time(start, end))
+    assert (early.settings.time.start, early.settings.time.end) == (start, end)
+    assert early.settings.time.frames == found.settings.time.frames
+    assert "as asked" in early.window
+    assert early.settings.cameras != found.settings.cameras
+    assert min(early.shares.values()) >= placing.LEAST
+
+
+def test_a_run_of_one_moment_is_a_still(make_run):
+    whole = small_fields()
+    folder = make_run(**{name: values[2:] for name, values in whole.items() if values.ndim == 3})
+    found = fitted.at(folder, folder.parent / "scene.toml", folder.parent / "cache")
+    assert found.settings.time.frames == 1
+    fit.check(found.settings, readers.open(folder))
+    assert "one moment" in found.window
 
 
 def test_a_window_is_where_the_fuel_burns_not_where_the_area_grows():

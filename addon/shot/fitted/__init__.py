@@ -9,10 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import numpy as np
 from firetwin_core.run import Run
 
-from ...run import times, zone
 from ..settings import Settings, Time
 from ..shot import Shot
 from . import chase, flank, front, overview, satellite, text, window
@@ -54,11 +52,14 @@ class Fitted:
 
 
 def of(run: Run, settings: Settings) -> Fitted:
-    """Settings for a run that begin with these, which name the run, the file and the cache."""
-    arrival = run.fuel_arrival_time()
-    settings, words = _timed(run, arrival, settings)
+    """Settings for a run that begin with these, which name the run, the file and the cache.
+
+    Where they say when the shot starts or ends, cameras fit that, and no other moments are looked for.
+    """
+    time, words = window.of(run, settings.time)
     settings = replace(
         settings,
+        time=time,
         ground=replace(settings.ground, error=0.1),
         render=replace(settings.render, samples=3, passes=("rgb", "thermal")),
     )
@@ -70,8 +71,8 @@ def of(run: Run, settings: Settings) -> Fitted:
     return Fitted(whole, run.name, words, said, shares)
 
 
-def at(folder: Path, path: Path, cache: Path) -> Fitted:
-    """Settings for the run in a folder, as of the scene file `path`.
+def at(folder: Path, path: Path, cache: Path, time: Time | None = None) -> Fitted:
+    """Settings for the run in a folder, as of the scene file `path`; `time` may say what is filmed.
 
     Raises
     ------
@@ -80,42 +81,10 @@ def at(folder: Path, path: Path, cache: Path) -> Fitted:
     """
     from ...run import readers
 
-    return of(readers.open(folder), Settings(path=path, run=folder, cache=cache))
+    return of(readers.open(folder), Settings(path=path, run=folder, cache=cache, time=time or Time()))
 
 
 def _placed(moving: front.Front) -> list[Placed]:
     visible = Visible(moving)
     kinds = (overview, chase, flank, satellite) if len(moving.point) else (overview, satellite)
     return [kind.place(moving, visible) for kind in kinds]
-
-
-def _timed(run: Run, arrival: np.ndarray, settings: Settings) -> tuple[Settings, str]:
-    """The settings with their [time], and what was chosen."""
-    first, last = float(run.times[0]), float(run.times[-1])
-    row, column, fuel = window.burned(run, arrival)
-    there = zone.of(run)
-    whole = Time(frames=window.FRAMES, fps=window.FPS, zone=there)
-    if last <= first or len(row) == 0:
-        frames = window.FRAMES if last > first else 1
-        return replace(settings, time=replace(whole, frames=frames)), "all of the run, in which nothing burns"
-    length = window.length(_diagonal(run, row, column), last - first)
-    begin = window.most_active(arrival[row, column], fuel, first, last, length)
-    start, end = (times.moment(run, time) for time in (begin, begin + length))
-    inside = (arrival[row, column] >= begin) & (arrival[row, column] <= begin + length)
-    part = float(fuel[inside].sum() / fuel.sum())
-    day, last_day = (times.text(moment, there).split(" ") for moment in (start, end))
-    until = last_day[3:] if day[:3] == last_day[:3] else last_day
-    words = (
-        f"{' '.join(day[:4])} to {' '.join(until)}, the most active {length / 60.0:.0f} minutes: "
-        f"{100.0 * part:.0f} % of the fuel that burns in the run"
-    )
-    return replace(settings, time=replace(whole, start=start, end=end)), words
-
-
-def _diagonal(run: Run, row: np.ndarray, column: np.ndarray) -> float:
-    """Of what burns in the run, m."""
-    from ...run import areas
-
-    latitude, longitude = run.fuel_latitude, run.fuel_longitude
-    width, height = areas.cell_size(latitude, longitude, None, (run.latitude, run.longitude))
-    return float(np.hypot((np.ptp(row) + 1) * height, (np.ptp(column) + 1) * width))
