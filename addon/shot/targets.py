@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from . import extent
 from .ground import NEVER, UNKNOWN, Ground, box
 
 Array = NDArray[np.float64]
@@ -35,14 +36,14 @@ def follow(target: str, ground: Ground, times: Array, above: float) -> Array:
 def head(ground: Ground, times: Array) -> tuple[Array, Array]:
     """East and north (frames,) of the part of the front that advances fastest."""
     east, north, arrival, speed = _burned(ground)
-    block, recent = _scale(ground, east, north, speed, arrival <= times[-1])
+    block, recent = _scale(ground, speed, times[-1])
     return _follow(times, lambda t, last: _head_at(t, last, east, north, arrival, speed, block, recent))
 
 
 def middle(ground: Ground, times: Array) -> tuple[Array, Array]:
     """East and north (frames,) of the middle of the ground that burns."""
     east, north, arrival, speed = _burned(ground)
-    recent = _scale(ground, east, north, speed, arrival <= times[-1])[1]
+    recent = _scale(ground, speed, times[-1])[1]
     return _follow(times, lambda t, last: _middle_at(t, last, east, north, arrival, recent))
 
 
@@ -80,15 +81,20 @@ def _follow(times: Array, place: object) -> tuple[Array, Array]:
     return tuple(smoothed(np.interp(times, knots, track[:, axis])) for axis in (0, 1))
 
 
-def _scale(
-    ground: Ground, east: Array, north: Array, speed: Array, burned: NDArray[np.bool_]
-) -> tuple[float, float]:
-    """Size (m) of the parts of the front that are compared, and for how long (s) ground belongs to it."""
-    if not burned.any():
+def _scale(ground: Ground, speed: Array, time: float) -> tuple[float, float]:
+    """Size (m) of the parts of the front that are compared, and for how long (s) ground belongs to it.
+
+    Parameters
+    ----------
+    speed
+        (n,) of all that burns, m/s.
+    time
+        By when the size of the largest fire counts, s.
+    """
+    size = extent.largest(ground.arrival <= time, ground.cell)
+    if size <= 0.0:
         return _BLOCK, _RECENT
-    east, north = east[burned], north[burned]
-    part = min(float(np.hypot(np.ptp(east), np.ptp(north))) / _LARGE, 1.0)
-    cells = _CELLS * max(ground.cell)
+    part, cells = min(size / _LARGE, 1.0), _CELLS * max(ground.cell)
     return max(part * _BLOCK, cells), min(max(part * _RECENT, cells / float(np.median(speed))), _RECENT)
 
 

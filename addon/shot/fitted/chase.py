@@ -45,6 +45,7 @@ def _tried(front: Front, visible: Visible, near: float, distance: float) -> list
         rig = Chase(distance=distance, side=side, height=above, target_height=aim, clearance=clearance)
         camera = Camera("chase", rig=rig)
         view = placing.path(front, camera)
-        likes = placing.liking(front, placing.bearing(view)) - _LATER * number
-        found.append(Tried(visible.share(view, near), likes, camera))
+        seen = visible.seen(view, near)
+        likes = placing.liking(front, placing.bearing(view)) + placing.framed(seen) - _LATER * number
+        found.append(Tried(seen.share, likes, camera))
     return found

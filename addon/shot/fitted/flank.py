@@ -49,8 +49,9 @@ def _tried(front: Front, visible: Visible, near: float, distance: float) -> list
         for number, height in enumerate(_HEIGHTS):
             for turn in _TURNS:
                 camera, bearing = _camera(front, int(at), distance, height, turn)
-                likes = placing.liking(front, bearing) - _STEEP * number
-                found.append(Tried(visible.share(placing.path(front, camera), near), likes, camera))
+                seen = visible.seen(placing.path(front, camera), near)
+                likes = placing.liking(front, bearing) + placing.framed(seen) - _STEEP * number
+                found.append(Tried(seen.share, likes, camera))
     return found
 
 

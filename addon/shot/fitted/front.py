@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import burning
+from .. import burning, extent
 from ..ground import NEVER, UNKNOWN, Ground, box
 from ..shot import Shot
 
@@ -34,6 +34,8 @@ class Front:
         and (n,) which of the moments.
     low, high
         (2,) corners of the ground that has burned when the window ends, m.
+    fire
+        Diagonal of the largest fire of it, m; `size` is that of all.
     """
 
     shot: Shot
@@ -44,6 +46,7 @@ class Front:
     moment: NDArray[np.int64]
     low: Array
     high: Array
+    fire: float
 
     @property
     def ground(self) -> Ground:
@@ -102,35 +105,32 @@ def of(shot: Shot) -> Front:
     """The front of a shot."""
     ground, frames = shot.bare_ground, shot.frames
     near = box(ground.arrival < NEVER, more=2)
-    arrival = ground.arrival[near] if near else np.empty((0, 0))
-    row, column = np.nonzero(arrival <= max(frames.last, frames.first + 1.0))
-    if len(row) == 0:
-        nothing = np.empty(0)
-        low, high = _corners(
-            ground, *(slice(shot.bare_ground.fields.margin, -shot.bare_ground.fields.margin or None),) * 2
-        )
-        return Front(
-            shot,
-            np.zeros(0, np.int64),
-            np.empty((0, 3)),
-            np.empty((0, 2)),
-            nothing,
-            np.zeros(0, np.int64),
-            low,
-            high,
-        )
-    inside = arrival[row, column][arrival[row, column] >= frames.first]
+    burned = ground.arrival <= max(frames.last, frames.first + 1.0)
+    within = box(burned)
+    if near is None or within is None:
+        return _nothing(shot)
+    inside = ground.arrival[burned]
+    inside = inside[inside >= frames.first]
     times = np.quantile(inside, _QUANTILES) if len(inside) else np.array([frames.middle])
     found = [_at(ground, near, float(time)) for time in times]
     moment = np.repeat(np.arange(len(times)), [len(part[0]) for part in found])
-    point, velocity, fuel = (np.concatenate(parts) for parts in zip(*found, strict=True))
     index = np.clip(np.round((times - frames.first) / max(frames.step, 1.0e-9)), 0, frames.count - 1)
-    rows, columns = (
-        slice(int(at.min()) + part.start, int(at.max()) + 1 + part.start)
-        for at, part in zip((row, column), near, strict=True)
+    return Front(
+        shot,
+        index.astype(np.int64),
+        *(np.concatenate(parts) for parts in zip(*found, strict=True)),
+        moment,
+        *_corners(ground, *within),
+        extent.largest(burned[within], ground.cell),
     )
-    low, high = _corners(ground, rows, columns)
-    return Front(shot, index.astype(np.int64), point, velocity, fuel, moment, low, high)
+
+
+def _nothing(shot: Shot) -> Front:
+    """Of a run in which nothing burns, with the corners of all of it."""
+    whole = slice(shot.bare_ground.fields.margin, -shot.bare_ground.fields.margin or None)
+    none, count = np.empty(0), np.zeros(0, np.int64)
+    corners = _corners(shot.bare_ground, whole, whole)
+    return Front(shot, count, np.empty((0, 3)), np.empty((0, 2)), none, count, *corners, 0.0)
 
 
 def _corners(ground: Ground, rows: slice, columns: slice) -> tuple[Array, Array]:

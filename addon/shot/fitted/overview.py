@@ -35,7 +35,7 @@ def place(front: Front, visible: Visible) -> Placed:
         for bearing in _BEARINGS:
             camera = _camera(front, points, float(bearing), height)
             likes = placing.liking(front, float(bearing)) - _STEEP * (height - _HEIGHTS[0])
-            found.append(Tried(visible.share(placing.path(front, camera)), likes, camera))
+            found.append(Tried(visible.seen(placing.path(front, camera)).share, likes, camera))
     share, _, camera = placing.best(found)
     return Placed(camera, share, _words(front, camera, share))
 

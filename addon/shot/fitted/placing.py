@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .front import Front
+from .visible import Seen
 
 if TYPE_CHECKING:
     from ..path import Path
@@ -18,6 +19,8 @@ LEAST = 0.5  # of the front that a camera has to show
 ENOUGH = 0.6  # as much is looked for
 LENS, SENSOR = 28.0, 36.0  # mm, of cameras unless more has to be in the picture
 FARTHER = (1.0, 1.6, 2.5)  # times its distance: where a close camera that shows too little moves to
+_FRONT, _ROUND = -0.2, 0.3  # where its middle is to be, and how far off it may, in halves of the height
+_HORIZON, _OFF = 0.75, 0.5  # where the horizon is at most, and liking lost for half the height (by eye)
 _CELLS = 3.0  # of the fuel grid, at least from a close camera to what it films
 OVER_CROWNS = 60.0  # m above the ground at least where trees stand
 _SIDES = ("north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west")
@@ -51,11 +54,11 @@ def best(found: list[Tried]) -> Tried:
 
 
 def near(front: Front, part: float, limits: tuple[float, float], over_crowns: float) -> float:
-    """How far (m) a close camera is from what it films: a part of the fire's size, within limits.
+    """How far (m) a close camera is from what it films: a part of one fire's size, within limits.
 
     Not so near that the model knows nothing as fine, and where trees stand, not so near that they hide it.
     """
-    distance = min(max(part * front.size, limits[0]), limits[1])
+    distance = min(max(part * front.fire, limits[0]), limits[1])
     distance = max(distance, _CELLS * max(front.ground.cell), over_crowns if front.crowns else 0.0)
     return rounded(distance)
 
@@ -74,6 +77,12 @@ def liking(front: Front, bearing: float) -> float:
 def bearing(view: Path) -> float:
     """Direction (degrees) that a camera mostly stands in, seen from what it looks at."""
     return float(np.degrees(np.arctan2(*(view.position - view.target)[:, :2].mean(axis=0))))
+
+
+def framed(seen: Seen) -> float:
+    """Liking lost, 0 or less, where the front is far from its place in the picture, or no horizon in it."""
+    off = max(abs(seen.height - _FRONT) - _ROUND, 0.0)
+    return -_OFF * off - _OFF * float(np.clip(seen.horizon - _HORIZON, 0.0, 1.0))
 
 
 def side(bearing: float) -> str:

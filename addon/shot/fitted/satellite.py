@@ -27,7 +27,7 @@ def place(front: Front, visible: Visible) -> Placed:
     latitude, longitude, _ = placing.geodetic(front, middle)
     rig = Satellite(swath=swath, keys=(CameraKey(0.0, latitude, longitude),))
     camera = Camera("satellite", rig=rig, passes=("rgb", "thermal"))
-    share = visible.share(placing.path(front, camera))
+    share = visible.seen(placing.path(front, camera)).share
     words = f"from above, {placing.distance(swath)} wide"
     if len(front.point):
         words += f"; {placing.percent(share)} of the front is in the picture (smoke over it is not counted)"

@@ -10,6 +10,7 @@ from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
 from ...run import areas, times, zone
+from .. import extent
 from ..settings import Time
 
 FRAMES, FPS = 48, 12  # four seconds, as of the example
@@ -35,7 +36,7 @@ def of(run: Run, asked: Time) -> tuple[Time, str]:
     row, column, fuel = _burned(run, arrival)
     if len(row) == 0:
         return whole, "all of the run, in which nothing burns"
-    came, seconds = arrival[row, column], length(_diagonal(run, row, column), last - first)
+    came, seconds = arrival[row, column], length(_size(run, arrival <= last), last - first)
     begin = most_active(came, fuel, first, last, seconds)
     start, end = (times.moment(run, time) for time in (begin, begin + seconds))
     part = float(fuel[(came >= begin) & (came <= begin + seconds)].sum() / fuel.sum())
@@ -90,11 +91,11 @@ def _burned(run: Run, arrival: Array) -> tuple[Array, Array, Array]:
     return row, column, fuel if np.any(fuel > 0.0) else np.ones(len(row))
 
 
-def _diagonal(run: Run, row: NDArray[np.int64], column: NDArray[np.int64]) -> float:
-    """Of what burns in the run, m."""
+def _size(run: Run, burned: NDArray[np.bool_]) -> float:
+    """Diagonal of the largest fire of a run, m."""
     within = run.latitude, run.longitude
     width, height = areas.cell_size(run.fuel_latitude, run.fuel_longitude, None, within)
-    return float(np.hypot((np.ptp(row) + 1) * height, (np.ptp(column) + 1) * width))
+    return extent.largest(burned, (height, width))
 
 
 def _words(start: datetime, end: datetime, zone: str) -> str:
