@@ -25,7 +25,6 @@ from . import (
     rows,
     run,
     section_panels,
-    solve,
     time,
     working,
 )
@@ -40,7 +39,6 @@ classes = (
     *foreign.classes,
     *open.classes,
     *quality.classes,
-    *solve.classes,
     *build.classes,
     *time.classes,
     *cameras_panel.classes,

@@ -52,36 +52,64 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """The smoke in a worker process, then everything else here."""
-        from ..jobs import bake
-        from ..scene import build
+        return (yield from steps(context, self.part))
 
-        uid, settings = context.scene.session_uid, context.scene.firetwin
-        part = self.part
-        parts = tuple(PARTS) if part == ALL else (part,)
-        for text in by_hand.pull(context.scene):
-            yield Told(text, "WARNING")
-        yield from fitting.again(uid)
-        settings = owned.scene(uid).firetwin
-        then = changed.seen(settings)
-        chosen, smoke = run.choice(settings), settings.bake_smoke and "smoke" in parts
-        shot = yield Away("reading the run", lambda **_: chosen.shot())
-        if smoke and shot.settings.smoke.enabled:
-            yield Away("smoke", functools.partial(bake.run, chosen, together=True))
-        yield "clearing the stage"
-        if bpy.context.mode != "OBJECT":
-            raise Error("leave the edit mode, then build again")
-        new = not owned.built(owned.scene(uid))
-        before, (uid, words) = uid, stage.prepare(owned.scene(uid), part=part != ALL)
-        new = new or uid != before
-        told: list[str] = []
-        yield from build.steps(shot, owned.scene(uid), parts, told.append)
-        changed.remember(owned.scene(uid).firetwin, then, parts)
-        _finish(owned.scene(uid), shot, parts, new)
-        yield from solve.price(uid)
-        for text in (*shot.warnings(), *shot.one_eyed(), *told):
-            yield Told(text, "WARNING")
-        what = f"{shot.frames.count} frames" if part == ALL else f"the {part}"
-        return f"Built {what} of {shot.run.name}" + (f"; {words}" if words else "")
+
+class FIRETWIN_OT_solve(Working, bpy.types.Operator):
+    """Solve the air over the fire once, and show its smoke in place of the preview of puffs.
+
+    What is solved is kept and used again, also where it was stopped
+    """
+
+    bl_idname = solve.OPERATOR
+    bl_label = "Solve smoke"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if context.scene.firetwin.smoke.method != "puffs":
+            cls.poll_message_set("The smoke is no preview: it is solved, or will be when the scene is built")
+            return False
+        return FIRETWIN_OT_build.poll.__func__(cls, context)
+
+    def steps(self, context: bpy.types.Context) -> Steps:
+        """Choose it, and build the smoke, or all where nothing is built."""
+        panel = context.scene.firetwin
+        panel.smoke.method, panel.bake_smoke = "flow", True
+        return (yield from steps(context, "smoke" if owned.built(context.scene) else ALL))
+
+
+def steps(context: bpy.types.Context, part: str) -> Steps:
+    """Build a part of the scene, or all of it."""
+    from ..jobs import bake
+    from ..scene import build
+
+    uid, settings = context.scene.session_uid, context.scene.firetwin
+    parts = tuple(PARTS) if part == ALL else (part,)
+    for text in by_hand.pull(context.scene):
+        yield Told(text, "WARNING")
+    yield from fitting.again(uid)
+    settings = owned.scene(uid).firetwin
+    then = changed.seen(settings)
+    chosen, smoke = run.choice(settings), settings.bake_smoke and "smoke" in parts
+    shot = yield Away("reading the run", lambda **_: chosen.shot())
+    if smoke and shot.settings.smoke.enabled:
+        yield Away("smoke", functools.partial(bake.run, chosen, together=True))
+    yield "clearing the stage"
+    if bpy.context.mode != "OBJECT":
+        raise Error("leave the edit mode, then build again")
+    new = not owned.built(owned.scene(uid))
+    before, (uid, words) = uid, stage.prepare(owned.scene(uid), part=part != ALL)
+    new = new or uid != before
+    told: list[str] = []
+    yield from build.steps(shot, owned.scene(uid), parts, told.append)
+    changed.remember(owned.scene(uid).firetwin, then, parts)
+    _finish(owned.scene(uid), shot, parts, new)
+    yield from solve.price(uid)
+    for text in (*shot.warnings(), *shot.one_eyed(), *told):
+        yield Told(text, "WARNING")
+    what = f"{shot.frames.count} frames" if part == ALL else f"the {part}"
+    return f"Built {what} of {shot.run.name}" + (f"; {words}" if words else "")
 
 
 def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: bool) -> None:
@@ -200,6 +228,7 @@ class FIRETWIN_PT_build(bpy.types.Panel):
 
 classes = (
     FIRETWIN_OT_build,
+    FIRETWIN_OT_solve,
     FIRETWIN_OT_remove,
     *view.classes,
     FIRETWIN_MT_parts,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 from dataclasses import asdict
 from datetime import datetime
@@ -30,9 +31,21 @@ def found(run: Run, start: datetime | None = None, end: datetime | None = None) 
     start, end
         When the shot starts and ends; left out, its most active part is looked for.
     """
+    from ..run import content
+
+    return _found(
+        run.path, content.fingerprint({"files": content.stamps(run), "start": run.start}), start, end
+    )
+
+
+@functools.lru_cache(maxsize=8)
+def _found(folder: str, stamps: str, start: datetime | None, end: datetime | None) -> dict[str, Any]:
+    """The same of the run in a folder as it is now."""
+    from ..run import readers
     from ..shot import fitted
 
-    fits = fitted.of(run, Settings(run=Path(run.path), time=Time(start, end)))
+    run = readers.open(folder)
+    fits = fitted.of(run, Settings(run=Path(folder), time=Time(start, end)))
     values = {part.name: plain(part.type, getattr(fits.settings.time, part.name)) for part in parts(Time)}
     return {"cameras": camera_list.text(fits.settings.cameras), "time": values, "lines": fits.lines}
 
@@ -74,13 +87,15 @@ def again(uid: int) -> Steps:
 
 def lines(panel: bpy.types.PropertyGroup) -> list[str]:
     """What is said of them, as long as they are the panel's cameras."""
-    usual = _usual(panel)
-    same = [item.name for item in panel.cameras] == [each.name for each in _listed(usual)]
-    return usual.get("lines", []) if same else []
+    told, names = _told(panel.usual)
+    return told if [item.name for item in panel.cameras] == names else []
 
 
-def _listed(usual: dict[str, Any]) -> tuple[Any, ...]:
-    return camera_list.listed(usual.get("cameras", ""))
+@functools.lru_cache(maxsize=8)
+def _told(usual: str) -> tuple[list[str], list[str]]:
+    """Lines, and names of the cameras, as drawing wants them: at once."""
+    kept = json.loads(usual or "{}")
+    return kept.get("lines", []), [each.name for each in camera_list.listed(kept.get("cameras", ""))]
 
 
 def _usual(panel: bpy.types.PropertyGroup) -> dict[str, Any]:

@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..blender import owned
-from . import working
 from .job import Away, Steps
 
 if TYPE_CHECKING:
     from ..shot.choice import Choice
+
+
+OPERATOR = "firetwin.solve"
 
 
 def price(uid: int) -> Steps:
@@ -37,38 +39,7 @@ def _cost(choice: Choice) -> str:
     return found.brief() if found else ""
 
 
-class FIRETWIN_OT_solve(bpy.types.Operator):
-    """Solve the air over the fire once, and show its smoke in place of the preview of puffs.
-
-    What is solved is kept and used again. Stop ends it; it goes on where it was
-    """
-
-    bl_idname = "firetwin.solve"
-    bl_label = "Solve smoke"
-    bl_options = {"REGISTER"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        from . import run
-
-        if context.scene.firetwin.smoke.method != "puffs":
-            cls.poll_message_set("The smoke is solved already, or will be when the scene is built")
-            return False
-        return run.ready(cls, context)
-
-    @working.reported
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        panel = context.scene.firetwin
-        panel.smoke.method, panel.bake_smoke, panel.smoke_cost = "flow", True, ""
-        bpy.ops.firetwin.build("INVOKE_DEFAULT", part="smoke" if owned.built(context.scene) else "all")
-        return {"FINISHED"}
-
-
 def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup) -> None:
     """The button, which names the cost, where puffs are shown."""
     if panel.run and panel.smoke.enabled and panel.smoke.method == "puffs" and panel.smoke_cost:
-        text = f"{FIRETWIN_OT_solve.bl_label} ({panel.smoke_cost})"
-        layout.operator(FIRETWIN_OT_solve.bl_idname, text=text, icon="MOD_FLUIDSIM")
-
-
-classes = (FIRETWIN_OT_solve,)
+        layout.operator(OPERATOR, text=f"Solve smoke ({panel.smoke_cost})", icon="MOD_FLUIDSIM")

@@ -192,18 +192,18 @@ def test_solved_smoke_is_a_button_that_names_its_cost(settings, run_folder, monk
     assert layout.operator.call_args.kwargs["text"] == f"Solve smoke ({settings.smoke_cost})"
     built = []
 
-    def steps(self, context):
-        built.append(self.part)
+    def steps(context, part):
+        built.append(part)
         yield "building"
         return ""
 
-    monkeypatch.setattr(build.FIRETWIN_OT_build, "steps", steps)
+    monkeypatch.setattr(build, "steps", steps)
     assert bpy.ops.firetwin.solve() == {"FINISHED"}
     assert (settings.smoke.method, settings.bake_smoke, built) == ("flow", True, ["all"])
     layout = MagicMock()
     solve.draw(layout, settings)
     assert not layout.operator.called
-    assert "solved already" in refusal(bpy.ops.firetwin.solve)
+    assert "no preview" in refusal(bpy.ops.firetwin.solve)
 
 
 def test_properties_say_what_the_schema_says(settings):

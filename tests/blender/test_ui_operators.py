@@ -88,6 +88,7 @@ CHANGES = {
     "window": {"key": "start", "moment": "2014-09-17T21:10:00Z"},
     "reset": {"section": "time", "key": "frames"},
     "build": {"part": "light"},
+    "solve": {},
     "remove": {},
     "camera_add": {"kind": "poses"},
     "camera_copy": {},
@@ -138,6 +139,8 @@ def test_undo_and_redo_go_round_every_operator(panel, blend, tmp_path, monkeypat
     for name, options in CHANGES.items():
         if name == "run_remove":
             bpy.context.scene.firetwin.runs.add().name = "other"
+        if name == "solve":
+            bpy.context.scene.firetwin.smoke.method = "puffs"
         bpy.ops.ed.undo_push(message=f"before {name}")
         before = state()
         assert call(name, options, blend.parent) == {"FINISHED"}, name

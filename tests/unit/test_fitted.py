@@ -11,7 +11,7 @@ import whole_run
 from firetwin.run import readers, zone
 from firetwin.shot import file, fit, fitted
 from firetwin.shot.choice import Choice
-from firetwin.shot.fitted import front, placing, visible, window
+from firetwin.shot.fitted import front, overview, placing, plume, visible, window
 from firetwin.shot.settings import Time
 from firetwin.shot.shot import Shot
 from small_run import small_fields
@@ -25,15 +25,15 @@ def hills(x, y):
 
 
 def basin(x, y):
-    """A plain behind a wall 500 m high on the windward side."""
-    return np.where((x < -300.0) & (x > -500.0), 500.0, 0.0)
+    """A plain behind a wall 300 m high on the windward side."""
+    return np.where((x < 100.0) & (x > -100.0), 300.0, 0.0)
 
 
 FIRES = {
     "prescribed": {"cell": 5.0, "speed": 0.1, "canopy": 1.0},
     "grass": {"cell": 20.0, "cells": 150, "speed": 0.9},
     "hills": {"cell": 60.0, "cells": 120, "speed": 1.2, "height": hills, "canopy": 1.5},
-    "basin": {"cell": 30.0, "speed": 0.2, "height": basin},
+    "basin": {"cell": 30.0, "speed": 0.2, "height": basin, "fires": ((300.0, 0.0, 0.0),), "cells": 100},
     "mega": {"cell": 1000.0, "cells": 140, "speed": 1.2, "times": HOURS},
     "calm": {"cell": 20.0, "wind": (0.0, 0.0)},
     "windless": {"cell": 20.0, "wind": None},
@@ -112,35 +112,65 @@ def test_the_overview_stands_to_windward_with_the_sun_behind_it(fit_of):
     assert np.cos(np.radians(way - azimuth)) > 0.8
 
 
-def test_a_wall_before_the_fire_moves_the_camera(tmp_path, fit_of):
-    """The same fire on a plain is seen from lower, from the side of the wall."""
+def test_a_wall_before_the_fire_moves_the_camera(fit_of):
+    """From the west, from where the wind comes and the camera would be low, a wall hides the fire."""
     walled, run = fit_of("basin")
-    plain = fitted.at(
-        whole_run.write(tmp_path / "run", **FIRES["basin"] | {"height": None}), tmp_path / "s.toml", tmp_path
-    )
     moving = front.of(Shot(walled.settings, run))
-    there = placing.path(moving, plain.settings.cameras[0])
-    assert visible.Visible(moving).seen(there).share < placing.LEAST, "the wall hides it from there"
+    low = overview._camera(moving, moving.point, 270.0, 13.0)
+    assert visible.Visible(moving).seen(placing.path(moving, low)).share < placing.LEAST
     assert walled.shares["overview"] >= placing.LEAST
 
 
-def test_smoke_hides_the_front_from_leeward_and_not_from_windward(fit_of):
-    found, run = fit_of("grass")
+def test_smoke_drifts_with_the_wind_and_rises_from_a_strong_fire(fit_of):
+    found, run = fit_of("grass")  # wind from the west
     moving = front.of(Shot(found.settings, run))
-    seen = visible.Visible(moving)
-    middle = 0.5 * (moving.low + moving.high)
-    here = moving.point[moving.moment == 1]
-    shares = [
-        np.mean(
-            seen.smoke(
-                np.array([*(middle + side * 2.0 * moving.size * moving.wind), 0.5 * moving.size]), here, 1
-            )
-            < 0.25
-        )
-        for side in (-1.0, 1.0)
-    ]
-    assert shares[0] > 0.9
-    assert shares[1] < 0.1
+    smoke = moving.plumes[1]
+    assert smoke.rate.sum() > 0.0
+    head = np.array([[moving.high[0], 0.5 * (moving.low[1] + moving.high[1]), 2.0]])
+    way = moving.size * np.array([1.0, 0.0, smoke.rise])
+    assert smoke.depth(head[0] + way, head)[0] > 1.5, "from where its smoke goes"
+    back = head[0] - np.array([2.0 * moving.size, 0.0, 0.0])
+    tail = np.array([[moving.low[0], head[0, 1], 2.0]])
+    assert smoke.depth(back, tail)[0] < 0.1, "from windward"
+    weak = plume.at(moving.ground, *_burning(moving), moving.shot.frames.first, 4.0 * smoke.wind)
+    assert weak.rise < smoke.rise, "a strong wind bends it"
+
+
+def _burning(moving):
+    near = moving.ground.arrival.shape
+    return (slice(0, near[0]), slice(0, near[1])), np.full(near, 60.0)
+
+
+def test_a_plume_holds_the_smoke_that_its_fuel_gives():
+    """Through a plume across the wind: smoke per metre of the way it drifts, over its width."""
+    one = plume.Plume(np.zeros((1, 3)), np.array([2.0]), np.array([4.0, 0.0]), 1.0, 0.5)
+    axis = np.array([1.0, 0.0, 0.5])
+    for along in (100.0, 1000.0):
+        place = along * axis / np.linalg.norm(axis) + np.array([0.0, 2000.0, 0.0])
+        eye = place - np.array([0.0, 4000.0, 0.0])
+        lines = place + np.array([[0.0, 0.0, 0.0]])
+        half = 1.0 + 0.4 * along
+        expected = plume.EXTINCTION * 2.0 / 4.0 / (np.pi * half**2) * 2.0 * half
+        fine = [
+            one.depth(eye, lines + np.array([0.0, move, 0.0]))[0] for move in np.linspace(-1900.0, 0.0, 200)
+        ]
+        assert np.mean(fine) == pytest.approx(expected, rel=0.5)
+    twice = plume.Plume(np.zeros((1, 3)), np.array([4.0]), np.array([4.0, 0.0]), 1.0, 0.5)
+    assert twice.depth(eye, lines) == pytest.approx(2.0 * one.depth(eye, lines))
+
+
+def test_a_grass_fires_smoke_hides_less_than_a_forests(tmp_path):
+    grass, forest = (
+        whole_run.write(tmp_path / name, **FIRES["grass"] | {"canopy": canopy})
+        for name, canopy in (("grass", 0.0), ("forest", 3.0))
+    )
+    depths = []
+    for folder in (grass, forest):
+        found = fitted.at(folder, tmp_path / "s.toml", tmp_path)
+        moving = front.of(Shot(found.settings, readers.open(folder)))
+        eye = np.array([*(moving.high + moving.size * moving.wind), moving.size])
+        depths.append(np.median(moving.plumes[1].depth(eye, moving.point[moving.moment == 1])))
+    assert depths[1] > 1.5 * depths[0]
 
 
 def test_cameras_are_as_large_as_the_fire(fit_of):

@@ -24,16 +24,16 @@ def place(front: Front, visible: Visible) -> Placed:
     found: list[Tried] = []
     for farther in placing.FARTHER:
         found += _tried(front, visible, near, placing.rounded(farther * near))
-        if max(each.share for each in found) >= placing.LEAST:
+        if any(placing.enough(each.seen) for each in found):
             break
-    best = placing.best(found)
+    best = placing.best(found, placing.CLOSE_CLEAR)
     way = placing.bearing(placing.path(front, best.camera))
     words = (
         f"goes along with the head, {placing.where(front, way)}: "
         f"{placing.distance(best.camera.rig.distance)} away, {best.camera.rig.height:,.0f} m up; "
-        f"{placing.percent(best.share)} of the front within {placing.distance(near)} of the head shows"
+        + placing.shows(best.seen, f"the front within {placing.distance(near)} of the head")
     )
-    return Placed(best.camera, best.share, words)
+    return Placed(best.camera, best.seen.share, words)
 
 
 def _tried(front: Front, visible: Visible, near: float, distance: float) -> list[Tried]:
@@ -47,5 +47,5 @@ def _tried(front: Front, visible: Visible, near: float, distance: float) -> list
         view = placing.path(front, camera)
         seen = visible.seen(view, near)
         likes = placing.liking(front, placing.bearing(view)) + placing.framed(seen) - _LATER * number
-        found.append(Tried(seen.share, likes, camera))
+        found.append(Tried(seen, likes, camera))
     return found

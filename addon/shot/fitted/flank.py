@@ -29,17 +29,17 @@ def place(front: Front, visible: Visible) -> Placed:
     found: list[Tried] = []
     for farther in placing.FARTHER:
         found += _tried(front, visible, near, placing.rounded(farther * near))
-        if max(each.share for each in found) >= placing.LEAST:
+        if any(placing.enough(each.seen) for each in found):
             break
-    best = placing.best(found)
+    best = placing.best(found, placing.CLOSE_CLEAR)
     view = placing.path(front, best.camera)
     away = float(np.hypot(*(view.position - view.target)[0, :2]))
     words = (
         f"close to a flank, {placing.where(front, placing.bearing(view))}: "
         f"{placing.distance(away)} away, {best.camera.rig.keys[0].height:,.0f} m up; "
-        f"{placing.percent(best.share)} of the front within {placing.distance(near)} of its aim shows"
+        + placing.shows(best.seen, f"the front within {placing.distance(near)} of its aim")
     )
-    return Placed(best.camera, best.share, words)
+    return Placed(best.camera, best.seen.share, words)
 
 
 def _tried(front: Front, visible: Visible, near: float, distance: float) -> list[Tried]:
@@ -51,7 +51,7 @@ def _tried(front: Front, visible: Visible, near: float, distance: float) -> list
                 camera, bearing = _camera(front, int(at), distance, height, turn)
                 seen = visible.seen(placing.path(front, camera), near)
                 likes = placing.liking(front, bearing) + placing.framed(seen) - _STEEP * number
-                found.append(Tried(seen.share, likes, camera))
+                found.append(Tried(seen, likes, camera))
     return found
 
 

@@ -11,11 +11,15 @@ from numpy.typing import NDArray
 from .. import burning, extent
 from ..ground import NEVER, UNKNOWN, Ground, box
 from ..shot import Shot
+from . import plume
+from .plume import Plume
 
 _QUANTILES = (0.1, 0.5, 0.9)  # of what burns in the window: moments at which the front is looked at
 _ABOVE = 2.0  # m over the ground: the flames' (assumed)
 _SPREAD = (0.001, 5.0)  # m/s
 _STILL = 0.5  # m/s; a weaker wind has no side
+_ALOFT = 2.0  # wind that smoke drifts in over that near the ground (assumed)
+_BREEZE = 3.0  # m/s, of a wind that nobody measured and the fire runs with (assumed)
 _ONE_WAY = 0.3  # resultant over mean of the spread's velocities; less than this has no head (assumed)
 
 Array = NDArray[np.float64]
@@ -29,9 +33,9 @@ class Front:
     ----------
     frames
         (m,) indices of the frames nearest to the moments, from 0.
-    point, velocity, fuel, moment
-        Of n places: (n, 3) m in the scene, a little over the ground; (n, 2) m/s east and north; (n,) kg/m2;
-        and (n,) which of the moments.
+    point, velocity, moment
+        Of n places: (n, 3) m in the scene, a little over the ground; (n, 2) m/s east and north; and (n,)
+        which of the moments.
     low, high
         (2,) corners of the ground that has burned when the window ends, m.
     fire
@@ -42,7 +46,6 @@ class Front:
     frames: NDArray[np.int64]
     point: Array
     velocity: Array
-    fuel: Array
     moment: NDArray[np.int64]
     low: Array
     high: Array
@@ -67,6 +70,23 @@ class Front:
             return wind / speed
         return self.heading
 
+    @property
+    def drift(self) -> Array:
+        """(2,) m/s that smoke drifts with: the wind, or a breeze that the fire runs with; 0 where none is."""
+        wind = np.array(self.shot.wind)
+        return _ALOFT * (wind if float(np.hypot(*wind)) > _STILL else _BREEZE * self.heading)
+
+    @cached_property
+    def plumes(self) -> list[Plume]:
+        """The smoke of each moment."""
+        ground, frames = self.ground, self.shot.frames
+        near = box(ground.arrival < NEVER, more=2)
+        crossing = np.zeros(ground.arrival[near].shape)
+        row, column = np.nonzero(ground.arrival[near] < NEVER)
+        known = np.where(ground.arrival[near] < NEVER, ground.arrival[near], np.nan)
+        crossing[row, column] = burning.crossing(known, row, column)
+        return [plume.at(ground, near, crossing, frames.times[frame], self.drift) for frame in self.frames]
+
     @cached_property
     def heading(self) -> Array:
         """Unit vector (2,) that the fire runs to; 0 where it runs to no side more than to others."""
@@ -79,12 +99,6 @@ class Front:
             if length > _ONE_WAY * float(np.hypot(*self.velocity.T).mean())
             else np.zeros(2)
         )
-
-    @cached_property
-    def power(self) -> Array:
-        """(n,) about how strong the fire is at each place, summing up to 1: rate of spread times fuel."""
-        power = np.hypot(*self.velocity.T) * np.maximum(self.fuel, 1.0e-3)
-        return power / max(float(power.sum()), 1.0e-12)
 
     @cached_property
     def crowns(self) -> bool:
@@ -128,9 +142,9 @@ def of(shot: Shot) -> Front:
 def _nothing(shot: Shot) -> Front:
     """Of a run in which nothing burns, with the corners of all of it."""
     whole = slice(shot.bare_ground.fields.margin, -shot.bare_ground.fields.margin or None)
-    none, count = np.empty(0), np.zeros(0, np.int64)
+    none = np.zeros(0, np.int64)
     corners = _corners(shot.bare_ground, whole, whole)
-    return Front(shot, count, np.empty((0, 3)), np.empty((0, 2)), none, count, *corners, 0.0)
+    return Front(shot, none, np.empty((0, 3)), np.empty((0, 2)), none, *corners, 0.0)
 
 
 def _corners(ground: Ground, rows: slice, columns: slice) -> tuple[Array, Array]:
@@ -141,8 +155,8 @@ def _corners(ground: Ground, rows: slice, columns: slice) -> tuple[Array, Array]
     return place[:, :2].min(axis=0), place[:, :2].max(axis=0)
 
 
-def _at(ground: Ground, near: tuple[slice, slice], time: float) -> tuple[Array, Array, Array]:
-    """Places, velocities and fuel of the cells that the front is in at a model time, or nearest in time."""
+def _at(ground: Ground, near: tuple[slice, slice], time: float) -> tuple[Array, Array]:
+    """Places and velocities of the cells that the front is in at a model time, or nearest in time."""
     arrival, burn_time = ground.arrival[near], ground.burn_time[near]
     row, column = np.nonzero(arrival < NEVER)
     crossing = burning.crossing(np.where(arrival < NEVER, arrival, np.nan), row, column)
@@ -163,7 +177,7 @@ def _at(ground: Ground, near: tuple[slice, slice], time: float) -> tuple[Array, 
     point = ground.frame.forward(
         fields.latitude[row], fields.longitude[column], fields.elevation[row, column] + _ABOVE
     )
-    return point, velocity, fields.surface_fuel[row, column] + fields.canopy_fuel[row, column]
+    return point, velocity
 
 
 def _slope(time: Array, row: Array, column: Array, axis: int, size: float) -> Array:

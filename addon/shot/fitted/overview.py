@@ -11,7 +11,7 @@ from ..settings import Camera
 from . import placing
 from .front import Front, some
 from .placing import Array, Placed, Tried
-from .visible import Visible
+from .visible import Seen, Visible
 
 _LENSES = (placing.LENS, 20.0, 14.0)  # mm; the next where the fire is too wide for the ground that is drawn
 _BEARINGS = np.arange(0.0, 360.0, 22.5)  # degrees
@@ -24,6 +24,7 @@ _NEAREST = 0.7  # of the fire's size, its distance at least: what has burned is 
 _LEAST = 0.1  # of the reach of the ground that is drawn
 _CROWNS = 4.5  # times OVER_CROWNS, its distance at least where trees stand: so far it sees them from the side
 _FARTHEST = 1.0e6  # m
+_CLEAR = 0.6  # liking of all the front clear of smoke (by eye)
 _STEEP = 0.01  # liking lost for each degree higher than the lowest
 
 
@@ -34,10 +35,11 @@ def place(front: Front, visible: Visible) -> Placed:
     for height in _HEIGHTS:
         for bearing in _BEARINGS:
             camera = _camera(front, points, float(bearing), height)
-            likes = placing.liking(front, float(bearing)) - _STEEP * (height - _HEIGHTS[0])
-            found.append(Tried(visible.seen(placing.path(front, camera)).share, likes, camera))
-    share, _, camera = placing.best(found)
-    return Placed(camera, share, _words(front, camera, share))
+            seen = visible.seen(placing.path(front, camera))
+            likes = placing.liking(front, float(bearing)) + placing.framed(seen)
+            found.append(Tried(seen, likes - _STEEP * (height - _HEIGHTS[0]), camera))
+    seen, _, camera = placing.best(found, _CLEAR)
+    return Placed(camera, seen.share, _words(front, camera, seen))
 
 
 def _camera(front: Front, points: Array, bearing: float, height: float) -> Camera:
@@ -132,7 +134,7 @@ def _whole(front: Front) -> Array:
     return np.stack([x.ravel(), y.ravel(), front.ground.up(x.ravel(), y.ravel())], axis=-1)
 
 
-def _words(front: Front, camera: Camera, share: float) -> str:
+def _words(front: Front, camera: Camera, seen: Seen) -> str:
     """A line about the camera."""
     (key,) = camera.rig.keys
     view = placing.path(front, camera)
@@ -141,4 +143,4 @@ def _words(front: Front, camera: Camera, share: float) -> str:
     text = f"{side}: {placing.distance(away)} away, {key.height:,.0f} m up"
     if not len(front.point):
         return f"{text}; nothing burns in the run"
-    return f"{text}; {placing.percent(share)} of the front shows"
+    return f"{text}; {placing.shows(seen, 'the front')}"

@@ -16,11 +16,13 @@ if TYPE_CHECKING:
     from ..settings import Camera
 
 LEAST = 0.5  # of the front that a camera has to show
-ENOUGH = 0.6  # as much is looked for
+ENOUGH = 0.55  # as much is looked for
 LENS, SENSOR = 28.0, 36.0  # mm, of cameras unless more has to be in the picture
 FARTHER = (1.0, 1.6, 2.5)  # times its distance: where a close camera that shows too little moves to
 _FRONT, _ROUND = -0.2, 0.3  # where its middle is to be, and how far off it may, in halves of the height
 _HORIZON, _OFF = 0.75, 0.5  # where the horizon is at most, and liking lost for half the height (by eye)
+_SOME = 0.35  # of the front is clear of smoke where a close camera does not stand in it (by eye)
+CLOSE_CLEAR = 2.0  # liking of all the front clear of smoke, of close cameras: they could stand in it (by eye)
 _CELLS = 3.0  # of the fuel grid, at least from a close camera to what it films
 OVER_CROWNS = 60.0  # m above the ground at least where trees stand
 _SIDES = ("north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west")
@@ -38,19 +40,35 @@ class Placed:
 
 
 class Tried(NamedTuple):
-    """A camera, the share of the front that it shows, and how well it stands otherwise."""
+    """A camera, what it shows of the front, and how well it stands otherwise."""
 
-    share: float
+    seen: Seen
     liking: float
     camera: Camera
 
 
-def best(found: list[Tried]) -> Tried:
-    """The one that is liked most of those that show enough; where none does, the one that shows most."""
+def best(found: list[Tried], clear: float) -> Tried:
+    """The one that is liked most of those that show enough; where none does, the one that shows most.
+
+    Parameters
+    ----------
+    clear
+        Liking of all the front clear of smoke.
+    """
     for least in (ENOUGH, LEAST):
-        if good := [each for each in found if each.share >= least]:
-            return max(good, key=lambda each: each.liking)
-    return max(found, key=lambda each: each[:2])
+        if good := [each for each in found if each.seen.share >= least]:
+            return max(good, key=lambda each: clear * each.seen.clear + each.liking)
+    return max(found, key=lambda each: each.seen.share)
+
+
+def enough(seen: Seen) -> bool:
+    """Whether a close camera need not move off: it shows enough, and does not stand in smoke."""
+    return seen.share >= ENOUGH and seen.clear >= _SOME
+
+
+def shows(seen: Seen, what: str) -> str:
+    """``87 % of the front shows, about 60 % clear of smoke``."""
+    return f"{percent(seen.share)} of {what} shows, about {percent(seen.clear)} clear of smoke"
 
 
 def near(front: Front, part: float, limits: tuple[float, float], over_crowns: float) -> float:

@@ -27,8 +27,8 @@ def place(front: Front, visible: Visible) -> Placed:
     latitude, longitude, _ = placing.geodetic(front, middle)
     rig = Satellite(swath=swath, keys=(CameraKey(0.0, latitude, longitude),))
     camera = Camera("satellite", rig=rig, passes=("rgb", "thermal"))
-    share = visible.seen(placing.path(front, camera)).share
+    seen = visible.seen(placing.path(front, camera))
     words = f"from above, {placing.distance(swath)} wide"
     if len(front.point):
-        words += f"; {placing.percent(share)} of the front is in the picture (smoke over it is not counted)"
-    return Placed(camera, share, words)
+        words += f"; {placing.percent(seen.share)} of the front is in it, smoke aside"
+    return Placed(camera, seen.share, words)
