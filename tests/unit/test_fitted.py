@@ -285,6 +285,15 @@ def test_a_run_that_burns_nothing_is_seen_whole(make_run):
     assert (np.abs(local[:, 0] / -local[:, 2]) < view.half[0]).all()
 
 
+def test_a_fire_that_is_over_is_seen_from_afar_alone(tmp_path):
+    folder = whole_run.write(tmp_path / "run", **FIRES["grass"])
+    for name, change in (("fuel_arrival_time", lambda values: values - 1e5), ("heat_flux", np.zeros_like)):
+        np.save(folder / f"{name}.npy", change(np.load(folder / f"{name}.npy")))
+    found = fitted.at(folder, tmp_path / "scene.toml", tmp_path / "cache")
+    assert list(found.cameras) == ["overview", "satellite"]
+    assert "nothing burns" in found.window
+
+
 @pytest.mark.parametrize(
     ("longitude", "name", "hours"),
     [(9.0, "Etc/GMT-1", 1), (-120.0, "Etc/GMT+8", -8), (0.0, "Etc/GMT", 0), (179.9, "Etc/GMT-12", 12)],

@@ -86,5 +86,5 @@ def at(folder: Path, path: Path, cache: Path, time: Time | None = None) -> Fitte
 
 def _placed(moving: front.Front) -> list[Placed]:
     visible = Visible(moving)
-    kinds = (overview, chase, flank, satellite) if len(moving.point) else (overview, satellite)
+    kinds = (overview, chase, flank, satellite) if moving.runs else (overview, satellite)
     return [kind.place(moving, visible) for kind in kinds]

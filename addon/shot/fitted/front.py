@@ -40,6 +40,8 @@ class Front:
         (2,) corners of the ground that has burned when the window ends, m.
     fire
         Diagonal of the largest fire of it, m; `size` is that of all.
+    runs
+        Whether anything catches fire in the window; else places are those that burn nearest in time.
     """
 
     shot: Shot
@@ -50,6 +52,7 @@ class Front:
     low: Array
     high: Array
     fire: float
+    runs: bool
 
     @property
     def ground(self) -> Ground:
@@ -136,6 +139,7 @@ def of(shot: Shot) -> Front:
         moment,
         *_corners(ground, *within),
         extent.largest(burned[within], ground.cell),
+        len(inside) > 0,
     )
 
 
@@ -144,7 +148,7 @@ def _nothing(shot: Shot) -> Front:
     whole = slice(shot.bare_ground.fields.margin, -shot.bare_ground.fields.margin or None)
     none = np.zeros(0, np.int64)
     corners = _corners(shot.bare_ground, whole, whole)
-    return Front(shot, none, np.empty((0, 3)), np.empty((0, 2)), none, *corners, 0.0)
+    return Front(shot, none, np.empty((0, 3)), np.empty((0, 2)), none, *corners, 0.0, False)
 
 
 def _corners(ground: Ground, rows: slice, columns: slice) -> tuple[Array, Array]:
