@@ -28,6 +28,7 @@ _ROUND = 125.0, 50.0  # cells of air before and behind, and beside
 _SLIM = 0.7  # width of what burns over its length (assumed, for the cost alone)
 _LEVELS = 48, 56  # of the box and of the nest
 _NEST = 180  # cells along a side of the nest
+_COVERED = 45.0  # of its 60 cells of the box, along what burns: all cameras of a small fire share a nest
 _MOST = 8.0e6  # cells of the box: 1 GB
 _STEP = 10.0  # s
 _BEFORE = 1800.0  # s before the first frame that count as part of it
@@ -85,7 +86,8 @@ def choose(extent: float, fuel_cell: float, budget: float = _BUDGET) -> Scale:
         Scale(float(cell), nested)
         for cell in _CELLS[0.999 * finest <= _CELLS]
         for nested in (True, False)
-        if _affordable(Scale(float(cell), nested), extent, budget)
+        if not (nested and cell < min(extent / _COVERED, REFERENCE))
+        and _affordable(Scale(float(cell), nested), extent, budget)
     ]
     return min(
         found, key=lambda each: each.cell / FINER**each.nested, default=Scale(float(_CELLS[-1]), False)

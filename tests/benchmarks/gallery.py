@@ -1,12 +1,11 @@
 """A gallery of fires of every size and fuel: sheets of pictures, and numbers on them.
 
     python tests/benchmarks/gallery.py --runs DIR --out OUT [--before OLD] [--fires grass burn] [--width 640]
-                                       [--samples 6] [--plain] [--through WORDS] [--again]
+                                       [--samples 6] [--through WORDS] [--again]
 
 Runs are made in DIR where they are missing (gallery_fires.py: needs the extras "simulate" and "models", and
 forefire). Each is filmed by the scene that `firetwin new` writes for it, at one frame: overview, drone, flank
 and satellite by day, the overview in the thermal band, and by night, for which the fire's clock is moved.
-With --plain, scenes are those of gallery_views.py.
 
 OUT/NAME_VIEW.png     the pictures
 OUT/NAME.png          one sheet a fire; with --before, those of OLD beside them
@@ -131,7 +130,6 @@ def main() -> None:
     )
     parser.add_argument("--width", type=int, default=640, help="of pictures, px (%(default)s)")
     parser.add_argument("--samples", type=int, default=6)
-    parser.add_argument("--plain", action="store_true", help="without `firetwin new`")
     parser.add_argument(
         "--through",
         default="",
@@ -151,7 +149,6 @@ def main() -> None:
             how = gallery_pictures.How(
                 given.width,
                 given.samples,
-                given.plain,
                 night,
                 tuple(given.through.split()),
             )

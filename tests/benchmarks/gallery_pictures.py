@@ -13,9 +13,10 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-import gallery_views
+import gallery_clock
 
-_DRONE = ("drone", "chase")  # the drone's camera in a plain scene, and in one that fits a run
+_DRONE = "chase"  # the drone's camera
+_SOLVE, _SOLVED = "solve", "solve here"
 _CLEAR = ("overview", "satellite")  # views that are rendered without smoke too
 _DEPTHS = {
     "optical_depth": re.compile(r"optical depth from above ([\d.e+]+) .*?, ([\d.e+]+) over a kilometre"),
@@ -32,8 +33,6 @@ class How:
     ----------
     width
         px; heights are 9/16 of it.
-    plain
-        Whether scenes are those of gallery_views.py.
     night
         Whether the fire burns by night anyhow.
     through
@@ -42,7 +41,6 @@ class How:
 
     width: int
     samples: int
-    plain: bool
     night: bool
     through: tuple[str, ...] = ()
 
@@ -73,7 +71,7 @@ def made(name: str, run: Path, out: Path, how: How) -> dict[str, object]:
             for end in ("png", "exr"):
                 shutil.copyfile(out / f"{name}_overview.{end}", out / f"{name}_night.{end}")
         else:
-            night = _moved(work / "fitted.toml", run, work / "night.toml", gallery_views.NIGHT)
+            night = _moved(work / "fitted.toml", run, work / "night.toml", gallery_clock.NIGHT)
             facts["night"] = _render(how, night, "rgb", "overview")
             _keep(work / "night", "overview", "rgb", out / f"{name}_night")
     facts_file.write_text(json.dumps(facts, indent=1), encoding="utf-8")
@@ -85,19 +83,17 @@ def _by_day(work: Path, run: Path, how: How) -> Path:
     scene, day = _scene(work / "fitted.toml", run, how), work / "day.toml"
     start = tomllib.loads(scene.read_text(encoding="utf-8"))["time"]["start"]
     if not day.exists():
-        if how.night or gallery_views.is_day(run, start):
+        if how.night or gallery_clock.is_day(run, start):
             shutil.copyfile(scene, day)
         else:
-            _moved(scene, run, day, gallery_views.DAY)
+            _moved(scene, run, day, gallery_clock.DAY)
     return day
 
 
 def _scene(path: Path, run: Path, how: How) -> Path:
-    """The scene that `firetwin new` writes, with the gallery's size and samples; or a plain one."""
+    """The scene that `firetwin new` writes, with the gallery's size and samples."""
     if path.exists():
         return path
-    if how.plain:
-        return gallery_views.scene(path, run, how.width, how.samples)
     path.parent.mkdir(parents=True, exist_ok=True)
     _firetwin(how, "new", run.resolve(), "-o", path)
     text = path.read_text(encoding="utf-8")
@@ -126,7 +122,7 @@ def _moved(scene: Path, run: Path, path: Path, hour: float) -> Path:
     text = scene.read_text(encoding="utf-8")
     window = tomllib.loads(text)["time"]
     moved = path.with_suffix(".run")
-    by = gallery_views.moved(run, moved, window["start"], hour)
+    by = gallery_clock.moved(run, moved, window["start"], hour)
     text = re.sub(r"^run = .*$", f'run = "{moved.resolve()}"', text, count=1, flags=re.MULTILINE)
     for key in ("start", "end"):
         if key in window:
@@ -139,7 +135,7 @@ def _moved(scene: Path, run: Path, path: Path, hour: float) -> Path:
 def _cameras(scene: Path) -> dict[str, str]:
     """View: the scene's camera of it."""
     named = [each["name"] for each in tomllib.loads(scene.read_text(encoding="utf-8"))["cameras"]]
-    views = {("drone" if name in _DRONE else name): name for name in named}
+    views = {("drone" if name == _DRONE else name): name for name in named}
     return {view: views[view] for view in ("overview", "drone", "flank", "satellite") if view in views}
 
 
@@ -175,8 +171,8 @@ def _render(how: How, scene: Path, passes: str, camera: str = "") -> dict[str, o
 
 
 def _flow(how: How, scene: Path) -> dict[str, object]:
-    """Seconds and peak memory (MB) of what `bake` does for all cameras."""
-    return _firetwin(how, "bake", scene)
+    """Seconds and peak memory (MB) of solving the flow for all cameras."""
+    return _firetwin(how, _SOLVE, scene)
 
 
 def _keep(folder: Path, camera: str, name: str, to: Path) -> None:
@@ -199,6 +195,8 @@ def _timed(words: list[str]) -> int:
     """Run a command, print what it took, and return its status."""
     begun = time.monotonic()
     command = [sys.executable, "-m", "firetwin", *words]
+    if words[0] == _SOLVE:
+        command = [sys.executable, __file__, _SOLVED, *words[1:]]
     said: dict[str, object] = {}
     with subprocess.Popen(command, stdout=sys.stderr, stderr=subprocess.PIPE, text=True) as process:
         for line in process.stderr or ():
@@ -219,5 +217,17 @@ def smoke_said(line: str) -> dict[str, object]:
     return said
 
 
+def _solve(scene: str) -> int:
+    """Solve the flow of a scene's smoke up to its last frame, as each camera has it."""
+    from firetwin.scene.smoke.flow import Flow
+    from firetwin.shot.choice import Choice
+
+    shot = Choice(scene=scene).shot()
+    for camera in shot.settings.cameras:
+        Flow(shot.of(camera.name)).solve([shot.frames.count])
+    return 0
+
+
 if __name__ == "__main__":
-    sys.exit(_timed(sys.argv[1:]))
+    known = sys.argv[1:2] == [_SOLVED]
+    sys.exit(_solve(sys.argv[2]) if known else _timed(sys.argv[1:]))

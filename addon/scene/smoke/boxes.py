@@ -23,6 +23,7 @@ _DOWNWIND = (6000.0, 15_000.0)  # m that smoke is followed
 _WIDEST = 130_000.0  # m along a side; smoke of what burns farther out is left out
 _SHARE = 0.01  # of the heat that may lie outside of the middle on each side
 _NEST = 180  # cells along a side: 12 km
+_COVERED = 0.8  # of a nest's side that the heat in its middle may be long
 _NEST_ROUND = 6000.0  # m; the nest's middle is that of the heat so near to what a camera looks at
 _NEST_SEEN = 60_000.0  # m; cameras farther away see nothing that the nest adds
 _NEST_SWATH = 20_000.0  # m; pictures from straight above that are wider show more rest than nest
@@ -88,21 +89,21 @@ def whole(shot: Shot) -> Box | None:
 
 
 def nest(shot: Shot, around: Box) -> Box | None:
-    """The finer box round the heat that the cameras look at; None where no camera is near, or no time."""
+    """The finer box round the heat that the cameras look at; None where no camera is near, or no time.
+
+    Heat that fits into it lies in its middle, whatever the cameras look at: they share what is solved.
+    """
     length = shot.scale.length
     near = [view.target.mean(axis=0) for view in shot.paths if _sees_nest(view, shot.scale)]
     if not near or not shot.scale.nested:
         return None
-    sources = shot.fire.sources(shot.frames.middle)
-    if len(sources.power) == 0:
-        return None
-    place, power = sources.position[:, :2], sources.power
-    target = np.mean(near, axis=0)[:2]
-    nearest = place[np.argmin(np.hypot(*(place - target).T))]
-    close = np.hypot(*(place - nearest).T) < length(_NEST_ROUND)
-    middle = np.average(place[close], axis=0, weights=power[close])
     fine, snap = around.spacing / FINER, length(_SNAP)
     side = _NEST * fine
+    low, high = _burning(shot)
+    covered = bool(np.all(high - low < _COVERED * side))
+    middle = 0.5 * (low + high) if covered else _looked_at(shot, np.mean(near, axis=0)[:2])
+    if middle is None:
+        return None
     room = 4.0 * around.spacing
     corner = np.round((middle - 0.5 * side) / snap) * snap
     corner = np.clip(corner, np.array(around.corner) + room, np.array(around.high) - side - room)
@@ -111,6 +112,26 @@ def nest(shot: Shot, around: Box) -> Box | None:
         return None
     levels = _levels(_NEST_LEVELS, shot.scale.ratio, _part(shot))
     return Box(levels, (_NEST, _NEST), fine, (float(corner[0]), float(corner[1])))
+
+
+def _burning(shot: Shot) -> tuple[Array, Array]:
+    """Lowest and highest x and y of all heat but a little in the shot, m; there is some."""
+    bounds = [_bounds(shot.fire, time) for time in np.linspace(shot.frames.first, shot.frames.last, 5)]
+    found = np.array([each for each in bounds if each is not None])
+    if len(found) == 0:
+        return np.zeros(2), np.full(2, np.inf)
+    return found[:, 0].min(axis=0), found[:, 1].max(axis=0)
+
+
+def _looked_at(shot: Shot, target: Array) -> Array | None:
+    """The middle (x, y) of the heat round that which is nearest to a place; None where there is none."""
+    sources = shot.fire.sources(shot.frames.middle)
+    if len(sources.power) == 0:
+        return None
+    place, power = sources.position[:, :2], sources.power
+    nearest = place[np.argmin(np.hypot(*(place - target).T))]
+    close = np.hypot(*(place - nearest).T) < shot.scale.length(_NEST_ROUND)
+    return np.average(place[close], axis=0, weights=power[close])
 
 
 def _sees_nest(view: Path, scale: Scale) -> bool:
