@@ -14,10 +14,8 @@ import smoke_pictures
 from numpy.typing import NDArray
 
 TOP = 0.08  # share of a picture's gradients that count as strong
-RUNS = (
-    9,
-    120,
-)  # px, the shortest and longest run that is a grid's; longer ones are horizons or frames
+LEAST = 1.5 / 255.0  # a pixel, the weakest gradient that counts: steps of 8 bits are no edges
+RUNS = (9, 120)  # px, the shortest and longest run that is a grid's; longer ones are horizons
 PURE = 0.1  # of the gradient across a run, what the one along it is at most: 6 degrees
 HORIZON = 0.2  # of the picture's width: a row with so much of a straight edge is a horizon
 BESIDE = 3  # px above and below a horizon that belong to it
@@ -49,7 +47,7 @@ def straight(brightness: Picture) -> tuple[float, Mask]:
     """
     up, right = np.gradient(brightness)
     strength = np.hypot(up, right)
-    strong = (strength >= np.quantile(strength, 1.0 - TOP)) & (strength > 1e-9)
+    strong = (strength >= np.quantile(strength, 1.0 - TOP)) & (strength >= LEAST)
     if not strong.any():
         return 0.0, strong
     upright = strong & (np.abs(up) <= PURE * np.abs(right))

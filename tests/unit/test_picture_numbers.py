@@ -83,6 +83,8 @@ def test_only_runs_of_some_length_count(texture, length, counts):
 
 def test_a_plain_picture_has_none():
     assert numbers.straight(np.full((40, 60), 0.5))[0] == 0.0
+    ramp = np.linspace(0.2, 0.4, WIDE) + np.zeros((HIGH, 1))
+    assert numbers.straight(np.round(ramp * 255) / 255)[0] == 0.0  # steps of 8 bits
 
 
 def puffs(radii):
