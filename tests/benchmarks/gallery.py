@@ -35,6 +35,7 @@ _SMOKE_OF = {
     "overview": False,
     "satellite": True,
 }  # view: smoke is only what is brighter
+_DARK = ("night", "thermal")  # views whose brightness nothing is asked of
 _BAR = 0.1  # of a thermal picture's width, on the right, where its bar of temperatures stands
 _COLUMNS = (
     "straight_per_cent",
@@ -95,7 +96,10 @@ def table(found: dict[str, dict]) -> str:
     ]
     for name, fire in found.items():
         for view, numbers in fire["views"].items():
-            cells = [_cell(view, column, numbers.get(column)) for column in _COLUMNS]
+            cells = [
+                _cell(column, numbers.get(column), gallery_fires.FIRES[name].night or view in _DARK)
+                for column in _COLUMNS
+            ]
             lines.append(f"| {name} | {view} | " + " | ".join(cells) + " |")
     lines += ["", "| fire | flow, s | peak, MB | smoke |", "|---|---|---|---|"]
     for name, fire in found.items():
@@ -105,11 +109,11 @@ def table(found: dict[str, dict]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _cell(view: str, column: str, value: float | None) -> str:
+def _cell(column: str, value: float | None, dark: bool) -> str:
     if value is None or not np.isfinite(value):
         return ""
     asked = gallery_numbers.within(column, value)
-    if column == "median" and view in ("night", "thermal"):
+    if column == "median" and dark:
         asked = None
     return f"{value:.2f}" + ("!" if asked is False else "")
 
