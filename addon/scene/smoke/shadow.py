@@ -27,7 +27,7 @@ _TREES = 12.0  # m, where the fire is small
 _MESH = 3  # texels along a side of the mesh
 _TEXEL, _TEXELS = 40.0, 1200  # m at the least; along a side at the most
 _SUN_EVERY, _SKY_EVERY = 2, 8  # texels between places whose light is found
-_MARGIN, _TOP = (2000.0, 20_000.0), 6000.0  # m round the smoke; m over the ground that it casts shadows from
+_MARGIN, _TOP = (2000.0, 20_000.0), 0.64  # m round the smoke; of the box's height that shadows come from
 _SUN_CONE = np.radians(0.6)  # the sun's disc has 0.27
 _RING = 0.4  # sine of the middle of four fifths of the sky
 _STEP = 2.0  # voxels
@@ -75,9 +75,8 @@ def build(shot: Shot, stage: Stage, boxes: Sequence[Box]) -> Shadow:
     texel = max(length(_TEXEL), float(max(high - low)) / _TEXELS)
     x, y = (np.arange(a + 0.5 * texel, b, texel) for a, b in zip(low, high, strict=True))
     east, north = np.meshgrid(x, y)
-    up = shot.bare_ground.up(east.ravel(), north.ravel()).reshape(east.shape) + min(
-        max(length(_OVER), _TREES), _OVER
-    )
+    over = min(max(length(_OVER), _TREES), _OVER)
+    up = shot.bare_ground.up(east.ravel(), north.ravel()).reshape(east.shape) + over
     places = np.stack([east, north, up], axis=-1)
     image = owned.mark(
         bpy.data.images.new(f"Firetwin {NAME}", len(x), len(y), alpha=False, float_buffer=True, is_data=True)
@@ -92,10 +91,10 @@ def build(shot: Shot, stage: Stage, boxes: Sequence[Box]) -> Shadow:
 
 def _extent(shot: Shot, boxes: Sequence[Box]) -> tuple[Array, Array]:
     """Corners (x, y), m, of what the smoke's shadow can lie on."""
-    length = shot.scale.length
     heights = [shot.sun(float(shot.frames.times[k]))[1] for k in (0, -1)]
     steep = np.tan(np.radians(max(min(heights), 1.0)))
-    margin = float(np.clip(length(_TOP) / steep, *map(length, _MARGIN)))
+    top = _TOP * max(box.levels[-1] for box in boxes)
+    margin = float(np.clip(top / steep, shot.scale.length(_MARGIN[0]), _MARGIN[1]))
     corners = np.array([[box.corner, box.high] for box in boxes])
     return corners[:, 0].min(axis=0) - margin, corners[:, 1].max(axis=0) + margin
 
