@@ -80,7 +80,7 @@ def _airglow(tree: nodes.Tree, up: nodes.Value) -> nodes.Value:
     Van Rhijn (1921, "On the brightness of the sky at night", Publ. Astr. Lab. Groningen 31), and the mean 1.
     """
     across = (1.0 - up * up) * (6371.0 / 6471.0) ** 2
-    return tree.math("POWER", 1.0 - across, -0.5) * 0.6
+    return tree.math("POWER", 1.0 - across, -0.5) * 0.3
 
 
 def _world(stage: Stage, frames: NDArray[np.float64], states: list[State]) -> None:

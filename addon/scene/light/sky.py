@@ -14,7 +14,7 @@ from ...shot.shot import Shot
 _SUN = 11.1  # W/m2 over the air
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
 # W/m2 of a full moon, and of a sky without one: more than there is, as films of nights have it; by eye
-_MOON, _STARS = 0.3, 0.08
+_MOON, _STARS = 0.2, 0.08
 _MOON_COLOUR = (0.65, 0.78, 1.0)
 NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.1  # radiance
 _DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.03
