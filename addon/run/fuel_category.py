@@ -31,7 +31,9 @@ NUMBERS = {
 }
 """First and last numbers of each kind."""
 
+IMPLIED = 0.8  # kg/m2 of canopy fuel over litter, where a model brings none: a middling stand (assumed)
 _LARGEST = 255
+_CANOPY = 0.01  # kg/m2, less is none
 
 
 def kinds(category: NDArray) -> NDArray[np.uint8]:
@@ -64,3 +66,17 @@ def shares(run: Run) -> dict[str, float] | None:
     for _, _, found in rows(run):
         count += np.bincount(found.ravel(), minlength=len(NAMES))
     return dict(zip(NAMES, (count / max(count.sum(), 1.0)).tolist(), strict=True))
+
+
+def canopy(run: Run) -> NDArray[np.float32]:
+    """Canopy fuel (fy, fx), kg/m2, by which trees are drawn: the run's, and `IMPLIED` over litter without any.
+
+    Litter is of trees. Where some of the run's litter has canopy, that without it is a clearing.
+    """
+    known = run.canopy_fuel
+    if not run.has(FIELD):
+        return known
+    litter = kinds(run.fuel_rows(FIELD, 0, len(run.fuel_latitude))) == LITTER
+    if not litter.any() or (known[litter] > _CANOPY).any():
+        return known
+    return np.where(litter, np.float32(IMPLIED), known)

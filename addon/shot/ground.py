@@ -10,7 +10,7 @@ from firetwin_core import terrain
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
-from ..run import areas
+from ..run import areas, fuel_category
 from ..run.frame import local_frame
 from . import apron, burning, close, noise
 from .relief import Relief
@@ -68,7 +68,7 @@ class Ground:
             _ascending(longitude, width / east),
             *(
                 np.nan_to_num(_oriented(field, latitude, longitude), copy=False)
-                for field in (self._relief.fuel, run.canopy_fuel, run.surface_fuel)
+                for field in (self._relief.fuel, fuel_category.canopy(run), run.surface_fuel)
             ),
         )
         self.cell = (

@@ -306,9 +306,9 @@ def _drawn(shot: Shot, known: Map, layer: str, low: Array, high: Array) -> Pictu
         kind = KINDS[thing.kind]
         if kind.layer != layer:
             continue
-        lot = noise.uniform(thing.number, 7, shot.settings.seed)
-        colour = np.array(kind.colours[int(float(lot) * len(kind.colours))])
-        tone = 0.92 + 0.16 * float(noise.uniform(thing.number, 8, shot.settings.seed))
+        lot, bright = noise.uniform([thing.number] * 2, [7, 8], shot.settings.seed)
+        colour = np.array(kind.colours[int(lot * len(kind.colours))])
+        tone = 0.92 + 0.16 * float(bright)
         for window, cover in _covers(thing, low, pixel, pixels.shape[:2]):
             part = pixels[window]
             over = np.maximum(cover * kind.strength, part[..., 3] / 255.0)

@@ -65,3 +65,18 @@ def test_shares_are_of_cells_and_said(make_run):
     assert shares["grass"] == pytest.approx(0.75)
     assert shares["shrub"] == pytest.approx(0.25)
     assert "grass 75 %, shrub 25 %" in info.page(info.gather(run, "UTC"))
+
+
+def test_litter_is_under_trees_where_a_model_brings_no_canopy(make_run):
+    bare = np.zeros((FY, FX), np.float32)
+    run = runs.open(make_run(fuel_category=number(1, 8), canopy_fuel=bare))
+    found = categories.canopy(run)
+    assert set(found[number(1, 8) == 8]) == {np.float32(categories.IMPLIED)}
+    assert not found[number(1, 8) == 1].any()
+
+
+def test_litter_without_canopy_is_a_clearing_where_other_litter_has_some(make_run):
+    some = np.zeros((FY, FX), np.float32)
+    some[0] = 1.5
+    run = runs.open(make_run(fuel_category=number(8), canopy_fuel=some))
+    np.testing.assert_array_equal(categories.canopy(run), some)

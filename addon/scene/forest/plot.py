@@ -11,7 +11,7 @@ import numpy as np
 from firetwin_core.geo import LocalFrame
 from numpy.typing import NDArray
 
-from ...run import areas
+from ...run import areas, fuel_category
 from ...shot.relief import between
 from ...shot.shot import Shot
 from . import cells, openings
@@ -65,7 +65,7 @@ def of(shot: Shot, height: float, reach: float) -> list[Plot]:
     run, seed = shot.run, shot.settings.seed
     axes, elevation = (run.fuel_latitude, run.fuel_longitude), shot.relief.fuel
     mask = cells.counting(shot, height, reach, *axes, elevation)
-    fuel = openings.with_lone(shot, run.canopy_fuel, *_lines(shot, *axes), mask)
+    fuel = openings.with_lone(shot, fuel_category.canopy(run), *_lines(shot, *axes), mask)
     own = Plot(*axes, fuel, elevation, mask & (fuel > 0.0), float(np.prod(shot.ground.cell)), seed)
     beyond = _beyond(shot, height, reach)
     return [own] if beyond is None else [own, beyond]

@@ -29,7 +29,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
     points, faces, colours = [], [], []
     for house in houses:
         for number, polygon in enumerate(house.polygons):
-            lot = float(noise.uniform(house.number, 20 + number, shot.settings.seed))
+            lot = float(noise.uniform([house.number], 20 + number, shot.settings.seed)[0])
             colour = _ROOFS[int(lot * len(_ROOFS))]
             _add(shot, polygon[0], house.height, colour, points, faces, colours)
     if not points:
