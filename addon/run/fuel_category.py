@@ -69,7 +69,7 @@ def shares(run: Run) -> dict[str, float] | None:
 
 
 def canopy(run: Run) -> NDArray[np.float32]:
-    """Canopy fuel (fy, fx), kg/m2, by which trees are drawn: the run's, and `IMPLIED` over litter without any.
+    """Canopy fuel (fy, fx), kg/m2, that trees are drawn by: the run's, and `IMPLIED` over litter without any.
 
     Litter is of trees. Where some of the run's litter has canopy, that without it is a clearing.
     """
