@@ -20,6 +20,8 @@ _BANDS = 12  # of height, each with its own fuels
 _PATCHES = ((1_700.0, 50), (400.0, 58), (300.0, 54))  # m and random numbers of the fuels' patches
 _FORGET = 9_000.0  # m; the heights of the edge fade into the region's within this distance
 _LIKE = 3_000.0  # m; in patches that grow rarer so fast, land is as that at the other side of the edge
+_FLAT, _NO_FUEL = 0.05, 0.05  # m from cell to cell and kg/m2 that water has at most
+_COAST = 0.25  # part of the edge that is water, from which on it is sea
 _DEVIATION = 0.304  # of a wave of gradient noise
 _ENOUGH = 720  # rows or columns of a grid that what is said of all of it is taken from
 _SMOOTH = 20  # cells to each side; relief finer than this crosses the edge as it is
@@ -90,14 +92,65 @@ def extend(
         ranked = [beside.submit(_rank, points, size, seed + use) for size, use in _PATCHES]
         elevation = np.pad(fields.elevation, count)
         elevation[row, column] = _heights(fields.elevation, y[inside], x[inside], points, seed)
+        invented = elevation[row, column]
         if known is not None:
             elevation[row, column] = known(latitude, longitude, elevation)[row, column]
         ranks = [each.result() for each in ranked]
+    sea = _sea(fields, points, ranks[1])
+    if sea is not None:
+        sea &= elevation[row, column] == invented  # an elevation model knows better
+        elevation[row[sea], column[sea]] = _level(fields)
     fuels = []
     for fuel in (fields.canopy_fuel, fields.surface_fuel):
         fuels.append(np.pad(fuel, count))
         fuels[-1][row, column] = _fuel(fields.elevation, fuel, elevation[row, column], points, ranks)
+        if sea is not None:
+            fuels[-1][row[sea], column[sea]] = 0.0
     return Fields(latitude, longitude, elevation, *fuels, count)
+
+
+def _wet(fields: Fields) -> NDArray[np.bool_]:
+    """Which cells (ny, nx) are as level as only water is, and without fuel."""
+    level = np.ones(fields.elevation.shape, bool)
+    for axis in (0, 1):
+        same = np.abs(np.diff(fields.elevation, axis=axis)) < _FLAT
+        ahead, behind = ([slice(None)] * 2 for _ in range(2))
+        ahead[axis], behind[axis] = slice(1, None), slice(None, -1)
+        level[tuple(ahead)] &= same
+        level[tuple(behind)] &= same
+    return level & (fields.surface_fuel + fields.canopy_fuel < _NO_FUEL)
+
+
+def _rim(field: NDArray) -> NDArray:
+    """The cells of the edge of a grid, once round."""
+    return np.concatenate([field[0], field[1:, -1], field[-1, -2::-1], field[-2:0:-1, 0]])
+
+
+def _level(fields: Fields) -> float:
+    """Height of the water at the grid's edge, m."""
+    return float(np.median(_rim(fields.elevation)[_rim(_wet(fields))]))
+
+
+def _sea(fields: Fields, points: _Points, rank: NDArray[np.float64]) -> NDArray[np.bool_] | None:
+    """Which points (n,) are sea that goes on beyond the grid, with a ragged coast; None: it has no sea.
+
+    That is water along much of its edge, and of one height: lakes are less.
+    """
+    wet = _wet(fields)
+    rim = _rim(wet)
+    if rim.mean() < _COAST or np.ptp(_rim(fields.elevation)[rim]) > 20.0 * _FLAT:
+        return None
+    reach = max(len(rim) // 24, 1)
+    window = np.ones(2 * reach + 1) / (2 * reach + 1)
+    round_it = np.convolve(np.concatenate([rim[-reach:], rim, rim[:reach]]).astype(float), window, "valid")
+    numbers = np.zeros(wet.shape, np.int64)
+    rows, columns = wet.shape
+    place = _rim(np.arange(rows * columns).reshape(rows, columns))
+    numbers.ravel()[place] = np.arange(len(place))
+    own = rim[numbers[points.edge]]
+    away = noise.smoothstep(0.0, 4000.0, points.distance)
+    part = (1.0 - away) * own + away * round_it[numbers[points.edge]]
+    return part + (rank - 0.5) * 0.6 * away > 0.5
 
 
 class _Points(NamedTuple):

@@ -70,3 +70,43 @@ def test_land_goes_on_across_the_edge_as_it_is_within(fields):
 def test_rows_beyond_an_edge_are_those_as_far_within():
     position = np.array([-3.0, -1.0, 0.0, 4.0, 9.0, 10.0, 12.0, 19.0])
     assert apron._reflected(10, position).tolist() == [3, 1, 0, 4, 9, 8, 6, 1]
+
+
+def island(shore):
+    """A grid whose land ends at a distance (cells) from its middle, or that has none: sea at 0 m."""
+    y, x = np.mgrid[-60:60, -60:60]
+    land = np.maximum(shore - np.hypot(x, y), 0.0)
+    axis = np.arange(120) * 74.0 / 111_000.0
+    return apron.Fields(38.0 + axis, -120.0 + axis, 12.0 * land, 0.4 * (land > 0), 0.8 * (land > 0))
+
+
+def test_the_sea_goes_on_round_an_island():
+    made = apron.extend(island(45.0), CELL, 60_000.0, 1)
+    out = np.ones(made.elevation.shape, bool)
+    out[made.margin : -made.margin, made.margin : -made.margin] = False
+    assert not made.elevation[out].any()
+    assert not made.surface_fuel[out].any()
+    assert not made.canopy_fuel[out].any()
+
+
+def test_a_coast_goes_on_as_land_and_sea():
+    """The west is sea, the east hills."""
+    y, x = np.mgrid[-60:60, -60:60]
+    land = np.maximum(x + 8.0 * np.sin(y / 9.0), 0.0)
+    axis = np.arange(120) * 74.0 / 111_000.0
+    height = 10.0 * land * (1.0 + 0.3 * np.sin(y / 4.0))
+    fields = apron.Fields(38.0 + axis, -120.0 + axis, height, 0.4 * (land > 0), 0.8 * (land > 0))
+    made = apron.extend(fields, CELL, 60_000.0, 1)
+    middle = len(made.latitude) // 2
+    far = made.margin // 2
+    assert made.elevation[middle - 20 : middle + 20, :far].max() == 0.0
+    assert (made.surface_fuel[middle - 20 : middle + 20, -far:] > 0.0).mean() > 0.5
+    assert made.elevation[middle - 20 : middle + 20, -far:].mean() > 20.0
+
+
+def test_a_lake_at_the_edge_is_no_sea():
+    fields = island(200.0)
+    fields.elevation[:20, 50:70] = 50.0
+    fields.surface_fuel[:20, 50:70] = fields.canopy_fuel[:20, 50:70] = 0.0
+    made = apron.extend(fields, CELL, 60_000.0, 1)
+    assert (made.surface_fuel[: made.margin - 3] > 0.0).mean() > 0.5
