@@ -42,11 +42,10 @@ def far(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.
     fine, patch, groups = _fine(grain), _patch(grain), _groups(grain)
     seen = crowns(tree, place, here.biome.crown, groups)
     cover = place.canopy + (patch - 0.5) * 0.9 + (groups - 0.5) * 1.6 + (fine - 0.5) * 0.6
-    # On the apron fuel's patches are as large as its cells: noise makes edges of all sizes of them.
-    broad = _stands(grain) - 0.5
-    ragged = (patch - 0.5) * 2.2 + broad * 2.6
-    hills = (broad + (patch - 0.5) * 0.3) * (place.beyond * place.relief)  # too fine for its mesh
-    cover = cover + ragged * (place.beyond * place.canopy.smoothstep(0.0, 0.2))
+    # On the apron fuel's patches are as large as its cells: noise makes edges of all sizes of them. It is
+    # noise that is there already, as each is worked out three times for the bumps.
+    cover = cover + (patch - 0.5) * (place.beyond * place.canopy.smoothstep(0.0, 0.2)) * 3.6
+    hills = (patch - 0.5) * (place.beyond * place.relief)  # too fine for its mesh
     if here.biome.open_land is None:
         cover = tree.math("MAXIMUM", cover.smoothstep(0.0, 0.7), seen.alone * 0.85)
     else:  # lone trees are too few to be seen

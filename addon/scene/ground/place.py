@@ -13,7 +13,7 @@ from ..grain import Grain
 from . import fields
 
 _OWN = 1.25  # times the distance to which trees are drawn: from there on the canopy is the ground's
-_HILLS = 1.3  # of the deviation of the run's heights, are hills finer than the apron's mesh (by eye)
+_HILLS = 0.5  # of the deviation of the run's heights, are hills finer than the apron's mesh (by eye)
 _JITTER = 130.0  # s; breaks the straight edges of the mesh's triangles
 
 
