@@ -26,7 +26,7 @@ def place(front: Front, visible: Visible) -> Placed:
     middle = np.array([*0.5 * (front.low + front.high) + lee, 0.0])
     latitude, longitude, _ = placing.geodetic(front, middle)
     rig = Satellite(swath=swath, keys=(CameraKey(0.0, latitude, longitude),))
-    camera = Camera("satellite", rig=rig, passes=("rgb", "thermal"))
+    camera = Camera("satellite", rig=rig)
     seen = visible.seen(placing.path(front, camera))
     words = f"from above, {placing.distance(swath)} wide"
     if len(front.point):
