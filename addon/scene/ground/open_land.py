@@ -170,7 +170,7 @@ def _bushes(tree: nodes.Tree, place: Spot, land: OpenLand, wet: nodes.Value, mid
     )
     part = tree.mix(sharp, (cover + (middling - 0.5) * 0.25 * cover) * 0.88, alone)
     # Near by they stand there one by one, on what they shed.
-    far = place.pixel.ramp(0.03, 0.20)
+    far = place.pixel.ramp(0.10, 0.60)
     shed = (place.grain.noise(2.2, 5.0, 0.7) + cover - 0.95).smoothstep(-0.14, 0.14) * 0.8
     tones = tree.mix(sharp, 0.40, tone), tree.mix(sharp, 0.38, dome.clamp())
     return Bushes(tree.mix(far, shed, part.clamp()), cover, tones[0], tones[1] * far, groups)
