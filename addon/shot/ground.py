@@ -84,6 +84,10 @@ class Ground:
         self._set_arrival(_oriented(arrival, latitude, longitude), float(run.times[-1]))
         self.eyes = np.empty((0, 3))
         self.bare, self.water = _bare(self.fields), _water(self.fields)
+        if run.has(fuel_category.FIELD):
+            number = run.fuel_rows(fuel_category.FIELD, 0, len(latitude))
+            said = _oriented(number == fuel_category.WATER, latitude, longitude)
+            self.water = np.maximum(self.water, np.pad(said, self.fields.margin))
         slope = np.hypot(*np.gradient(self.fields.elevation, *self._metres()))
         self._slope = np.minimum(slope, 1.0)
         self.surface, self.patch, self.rough = self._surface(), None, RELIEF

@@ -5,6 +5,8 @@ import pytest
 from firetwin.run import fuel_category as categories
 from firetwin.run import info
 from firetwin.run.models import fuels
+from firetwin.shot.settings import Ground, Settings
+from firetwin.shot.shot import Shot
 from firetwin_core import Error, InputError
 from firetwin_core import run as runs
 from small_run import FX, FY
@@ -80,3 +82,11 @@ def test_litter_without_canopy_is_a_clearing_where_other_litter_has_some(make_ru
     some[0] = 1.5
     run = runs.open(make_run(fuel_category=number(8), canopy_fuel=some))
     np.testing.assert_array_equal(categories.canopy(run), some)
+
+
+def test_water_is_where_the_category_says_so_also_where_heights_are_rough(make_run):
+    lake = number(2)
+    lake[2:5, 3:6] = 98
+    run = runs.open(make_run(fuel_category=lake))
+    ground = Shot(Settings(ground=Ground(apron=0.0)), run).ground
+    np.testing.assert_array_equal(ground.water > 0.5, lake == 98)
