@@ -92,7 +92,9 @@ def _world(stage: Stage, frames: NDArray[np.float64], states: list[State]) -> No
     light = tree.vector("SCALE", sky, name=0)
     compat.find_socket(light.socket.node.inputs, "Scale").default_value = _SKY
     up = tree.separate(tree.output("ShaderNodeTexCoord", name="Generated"))[2]
-    light = tree.vector("ADD", light, tree.vector("SCALE", tuple(NIGHT_SKY), _airglow(tree, up)))
+    night = any(state.sky[0] < 0.0 for state in states)
+    dark = tree.vector("SCALE", tuple(NIGHT_SKY), _airglow(tree, up)) if night else tuple(NIGHT_SKY)
+    light = tree.vector("ADD", light, dark)
     light = haze.before_sky(tree, stage, light, up)
     seen = tree.output("ShaderNodeBackground", {"Color": light, "Strength": 1.0})
     cold = tree.output("ShaderNodeBackground", {"Color": (1.0, 1.0, 1.0), "Strength": 0.0})
