@@ -15,7 +15,6 @@ from .front import Front, some
 _INSIDE = 0.97  # of the picture's half-width and half-height; what is nearer to its edge does not count
 _RADIUS = 1.0  # m of a place of the front
 _PLACES = 160  # of the front at most that are looked at in each moment
-_THICK = 1.5  # optical depth of smoke behind which a place counts as hidden: 22 % of its light come through
 
 Array = NDArray[np.float64]
 
@@ -28,7 +27,7 @@ class Seen(NamedTuple):
     share
         Of the front that is in the picture and not behind ground, 0..1; 0 where there is no front.
     clear
-        Of the front that is also not behind much smoke, as straight plumes would be.
+        The same, each place counting as much as smoke lets through of its light, were plumes straight.
     height
         Of its middle over that of the picture, in halves of the picture's height: -1 at its lower edge.
     horizon
@@ -71,7 +70,7 @@ class Visible:
                 shown = self.over_ground(view, int(frame), place)
                 depth = front.plumes[number].depth(view.position[frame], place[shown])
                 shares.append(float(np.mean(shown)))
-                clear.append(np.count_nonzero(depth < _THICK) / len(place))
+                clear.append(float(np.exp(-depth).sum()) / len(place))
                 heights.append(_height(view, int(frame), place[shown]))
         height = np.concatenate(heights)
         return Seen(
