@@ -94,7 +94,8 @@ class _Writer:
             return not part.table
         if ".".join((*section, part.name)) in self.asked:
             return True
-        return value != part.default and self.value(part.type, value) != self.usual(part)
+        same = part.type is not Path and value == part.default
+        return not same and value is not None and self.value(part.type, value) != self.usual(part)
 
     def remark(self, section: tuple[str, ...], table: Any) -> list[Line]:
         """What there is to say above a table."""

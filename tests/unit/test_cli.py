@@ -178,9 +178,10 @@ def test_a_run_folder_stands_for_a_scene_file_that_fits_it(make_run, tmp_path):
     assert "firetwin new " in result.stderr
     (kept,) = (tmp_path / "cache").glob("run-*.toml")
     assert firetwin("new", folder, "-o", "scene.toml", cwd=tmp_path).returncode == 0
-    same = {"path": kept, "run": folder, "cache": tmp_path / "cache"}
-    found, written = (replace(file.read(each), **same) for each in (kept, tmp_path / "scene.toml"))
-    assert found == written
+    found, written = file.read(kept), file.read(tmp_path / "scene.toml")
+    assert found.cache.resolve() == written.cache.resolve() == tmp_path / "cache"
+    assert found.run.resolve() == written.run.resolve() == folder
+    assert replace(found, path=written.path, run=written.run, cache=written.cache) == written
     assert_one_line(firetwin("new", tmp_path, "-o", tmp_path / "x.toml"), 1, "run.toml")
 
 
