@@ -1,7 +1,8 @@
 """What burns in a shot, gathered once: flames, lamps, firebrands and smoke take it from here.
 
 The model's heat is shared out exactly. A model cell with flux F gives F x area watts, shared among its fuel
-in proportion to what that consumes at the moment. The front crosses a fuel cell in its size over the rate of
+in proportion to the heat of what that consumes at the moment. So the model's heat says how much fuel burns,
+and that how much smoke it gives (`emissions`). The front crosses a fuel cell in its size over the rate of
 spread; each spot of it loses its fuel as exp(-age / T) from when the front comes (Mandel et al. 2011,
 doi 10.5194/gmd-4-591-2011, eq. 3: the ground heat of WRF-SFIRE). So a cell consumes most while the front is
 in it and smoulders after.
@@ -9,6 +10,7 @@ in it and smoulders after.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -19,11 +21,14 @@ from numpy.typing import NDArray
 
 from ..run import areas
 from ..run.frame import local_frame
-from . import burning, heat
+from . import burning, emissions, heat
 from .fuel import BURN_OUT_CANOPY, DETAIL, Fuel, gather
 from .heat import Array, Sources
 from .relief import Relief
 
+_FLAMES = emissions.column("residence")
+_HEAT, _SMOKE = ([emissions.column(name, part) for part in (0, 1)] for name in ("heat", "smoke"))
+_LOOK, _LOOKS = 30.0, 240  # s between two looks at what burns, and how many looks at most
 _AHEAD = 600.0  # s after the last moment: what catches fire in the interval that goes on then
 
 
@@ -132,12 +137,17 @@ class Fire:
         here = np.flatnonzero(in_hot & (fuel.over[gone:came] > time))
         lit, place = gone + here, place[here]
         age, crossing = time - fuel.begin[lit], fuel.crossing[lit]
+        kind = fuel.kind[lit]
         parts = [
-            (fuel.surface[lit], heat.consumed(age, crossing, fuel.slow[lit])),
-            (fuel.canopy[lit], heat.consumed(age, crossing, BURN_OUT_CANOPY)),
+            (fuel.surface[lit], kind, heat.consumed(age, crossing, fuel.slow[lit], _FLAMES[kind])),
+            (fuel.canopy[lit], emissions.CROWN, heat.consumed(age, crossing, BURN_OUT_CANOPY)),
         ]
-        rate = sum(load * all_of_it for load, (all_of_it, _) in parts)
-        flaming = sum(load * part for load, (_, part) in parts)
+        rate, flaming, smoke = np.zeros((3, len(lit)))
+        for load, of, (lost, in_flames) in parts:
+            burned = load * in_flames, load * (lost - in_flames)
+            flaming += burned[0] * _HEAT[0][of]
+            rate += burned[0] * _HEAT[0][of] + burned[1] * _HEAT[1][of]
+            smoke += burned[0] * _SMOKE[0][of] + burned[1] * _SMOKE[1][of]
         total = np.bincount(place, rate, len(hot))
         share = heat_of[place] / np.where(total > 0.0, total, 1.0)[place]
         alone = np.flatnonzero(total <= 0.0)
@@ -145,6 +155,7 @@ class Fire:
             np.concatenate([fuel.position[lit], self._centres(hot[alone])]),
             np.concatenate([rate * share, heat_of[alone]]),
             np.concatenate([flaming * share, heat_of[alone]]),
+            np.concatenate([smoke * share, emissions.PLAIN * heat_of[alone]]),
             np.concatenate([fuel.cell[lit], hot[alone]]),
             np.concatenate([fuel.fuel_cell[lit], np.full(len(alone), -1)]),
         )
@@ -162,6 +173,35 @@ class Fire:
             burning.cell_area(self.run),
             self,
         )
+
+    @cached_property
+    def residence(self) -> Array:
+        """(fy, fx) s that flames stand over each fuel cell."""
+        run = self.run
+        return _FLAMES[emissions.of_run(run)]
+
+    @cached_property
+    def smoke(self) -> emissions.Mix:
+        """What the smoke of all this fuel is made of: as it would burn out."""
+        fuel, crown = self.fuel, emissions.CROWN
+        made, heat_of = np.zeros(len(emissions.KINDS)), 0.0
+        parts = ((fuel.surface, fuel.kind, fuel.slow), (fuel.canopy, crown, np.float64(BURN_OUT_CANOPY)))
+        for load, of, slow in parts:
+            flames = -np.expm1(-_FLAMES[of] / slow)
+            burned = load * flames, load * (1.0 - flames)
+            smoke = sum(mass * per_kg[of] for mass, per_kg in zip(burned, _SMOKE, strict=True))
+            heat_of += float(
+                sum((mass * per_kg[of]).sum() for mass, per_kg in zip(burned, _HEAT, strict=True))
+            )
+            made += np.bincount(np.broadcast_to(of, load.shape), smoke, len(made))
+        return emissions.mix(made, heat_of)
+
+    def smoke_made(self, first: float, last: float) -> float:
+        """Smoke (kg) given off between two model times (s), by the trapezoidal rule."""
+        step = max(_LOOK, (last - first) / _LOOKS)
+        times = np.linspace(first, last, max(1, math.ceil((last - first) / step)) + 1)
+        rate = np.array([self.sources(float(time)).smoke.sum() for time in times])
+        return float(np.sum(0.5 * (rate[1:] + rate[:-1]) * np.diff(times)))
 
     @cached_property
     def surroundings(self) -> tuple[slice, slice]:

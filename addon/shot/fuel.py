@@ -10,15 +10,12 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ..run import blocks
+from ..run import blocks, fuel_category
 from ..run.frame import local_frame
-from . import burning
+from . import burning, emissions
 from .relief import Relief
 
-BURN_OUT_CANOPY = 90.0  # s, foliage and twigs (assumed)
-# s and s for each kg/m2: brush of 0.3 kg/m2 takes 210 s and timber litter of 3 kg/m2 1020 s, as in WRF-SFIRE
-# (T = weight / 0.8514 with its weights 180 and 900).
-BURN_OUT_SURFACE = (120.0, 300.0)
+BURN_OUT_CANOPY = emissions.KINDS[emissions.CROWN].burn_out[0]  # s, foliage and twigs (assumed)
 _OVER = 14.0  # burn-out times after which what is left, e^-14, is not worth a look
 DETAIL = (
     75.0  # m, at a fire of 15 km; fuel cells nearer than this burn as one: a finer run makes no more of them
@@ -42,6 +39,8 @@ class Fuel:
         (n,) s, when the front enters it, how long it takes to leave it, and when the piece has burned out.
     surface, canopy
         (n,) kg for each m2 of a fuel cell's area, summed over the cells of the piece.
+    kind
+        (n,) kind of the surface fuel, of `emissions.KINDS`; all of a piece is of one.
     slow
         (n,) s, burn-out time of the surface fuel.
     position
@@ -56,6 +55,7 @@ class Fuel:
     over: Array
     surface: Array
     canopy: Array
+    kind: NDArray[np.int8]
     slow: Array
     position: Array
 
@@ -110,18 +110,24 @@ def _of_rows(
     came = inner < last + burning.CROSSING[1]
     if came.any():  # the slowest fuel of these rows tells what may still burn
         most = np.fmax.reduce(run.fuel_rows("surface_fuel", top, end), axis=None, initial=0.0)
-        longest = burning.CROSSING[1] + _OVER * max(float(_slow(most)), BURN_OUT_CANOPY)
+        longest = burning.CROSSING[1] + _OVER * max(float(_slowest(most)), BURN_OUT_CANOPY)
         came &= inner > first - max(longest, before)
     row, column = np.divmod(np.flatnonzero(came), inner.shape[1])
     surface = np.nan_to_num(_at(partial(run.fuel_rows, "surface_fuel"), top, row, column))
-    burning_out = np.maximum(_slow(surface), BURN_OUT_CANOPY)
+    burning_out = np.maximum(_slowest(surface), BURN_OUT_CANOPY)
     near = inner[row, column] > first - np.maximum(burning.CROSSING[1] + _OVER * burning_out, before)
-    row, column, surface, burning_out = row[near], column[near], surface[near], burning_out[near]
+    row, column, surface = row[near], column[near], surface[near]
     canopy = np.nan_to_num(_at(partial(run.fuel_rows, "canopy_fuel"), top, row, column))
+    category = None
+    if run.has(fuel_category.FIELD):
+        category = _at(partial(run.fuel_rows, fuel_category.FIELD), top, row, column)
+    kind = emissions.kind(surface, canopy, category)
+    slow = emissions.burn_out(surface, kind)
     came = inner[row, column].astype(np.float64)
-    crossing = burning.crossing(time, row + top - edge, column)
+    least = burning.least_crossing(float(np.sqrt(burning.cell_area(run))))
+    crossing = burning.crossing(time, row + top - edge, column, least)
     begin = came - 0.5 * crossing  # the arrival time is that of the cell's centre
-    over = begin + crossing + _OVER * burning_out
+    over = begin + crossing + _OVER * np.maximum(slow, BURN_OUT_CANOPY)
     recent = (over > first) | (came >= first - before)
     burns = np.flatnonzero((surface + canopy > 0.0) & (begin < last) & recent)
     row, column, surface = row[burns], column[burns], surface[burns]
@@ -136,7 +142,8 @@ def _of_rows(
         over[burns],
         surface,
         canopy[burns],
-        _slow(surface),
+        kind[burns],
+        slow[burns],
         local_frame(run).forward(*place, height),
     )
 
@@ -150,9 +157,11 @@ def _at(rows: Callable[[int, int], NDArray], top: int, row: Index, column: Index
     return values[row - first, column].astype(np.float64)
 
 
-def _slow(surface: Array | float) -> Array | float:
-    """Burn-out time (s) of so much surface fuel (kg/m2)."""
-    return BURN_OUT_SURFACE[0] + BURN_OUT_SURFACE[1] * surface
+def _slowest(surface: Array | float) -> Array:
+    """Burn-out time (s) of so much surface fuel (kg/m2) at most, of whatever kind."""
+    return np.max(
+        [emissions.burn_out(surface, np.int8(kind)) for kind in range(len(emissions.KINDS))], axis=0
+    )
 
 
 def _model_cell(run: Run, row: Index, column: Index) -> Index:
@@ -168,14 +177,16 @@ def _model_cell(run: Run, row: Index, column: Index) -> Index:
 
 
 def _pieces(run: Run, fuel: Fuel, row: Index, column: Index, detail: float) -> Fuel:
-    """The same in pieces of `detail` (m) or larger, none of them in two cells of the model grid."""
+    """The same in pieces of `detail` (m) or larger, none of two kinds or in two cells of the model grid."""
     most = max(round(float(np.sqrt(burning.model_cell_area(run))) / detail), 1)
     parts = (
         _part(run.latitude, run.fuel_latitude, most)[row],
         _part(run.longitude, run.fuel_longitude, most)[column],
     )
     _, first, group = np.unique(
-        (fuel.cell * most + parts[0]) * most + parts[1], return_index=True, return_inverse=True
+        ((fuel.cell * most + parts[0]) * most + parts[1]) * len(emissions.KINDS) + fuel.kind,
+        return_index=True,
+        return_inverse=True,
     )
     if len(first) == len(row):
         return fuel
@@ -199,7 +210,8 @@ def _pieces(run: Run, fuel: Fuel, row: Index, column: Index, detail: float) -> F
         over,
         surface,
         np.bincount(group, fuel.canopy),
-        np.where(surface > 0.0, mean(fuel.slow, fuel.surface), _slow(0.0)),
+        fuel.kind[first],
+        np.where(surface > 0.0, mean(fuel.slow, fuel.surface), fuel.slow[first]),
         np.stack([mean(fuel.position[:, axis]) for axis in range(3)], axis=-1),
     )
 

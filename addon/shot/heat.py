@@ -7,7 +7,10 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-FLAMING = 120.0  # s that a spot flames after the front reached it (assumed); later it smoulders
+from . import emissions
+
+FLAMING = emissions.KINDS[emissions.LITTER].residence
+"""s that a spot of timber flames after the front reached it; later it smoulders."""
 SMOULDER_LIGHT = 0.1  # light of a smouldering watt over that of a flaming one (assumed)
 
 Array = NDArray[np.float64]
@@ -25,6 +28,8 @@ class Sources:
         (n,) W.
     flaming
         (n,) W, that part of it which comes from where flames stand.
+    smoke
+        (n,) kg/s of PM2.5.
     cell
         (n,) flat index on the model grid; -1 where sources of several cells were merged.
     fuel_cell
@@ -35,6 +40,7 @@ class Sources:
     position: Array
     power: Array
     flaming: Array
+    smoke: Array
     cell: NDArray[np.int64]
     fuel_cell: NDArray[np.int64]
 
@@ -48,15 +54,17 @@ class Sources:
         return replace(self, power=light, flaming=np.minimum(self.flaming, light))
 
 
-def consumed(age: ArrayLike, crossing: ArrayLike, burn_out: ArrayLike) -> tuple[Array, Array]:
+def consumed(
+    age: ArrayLike, crossing: ArrayLike, burn_out: ArrayLike, flames: ArrayLike = FLAMING
+) -> tuple[Array, Array]:
     """Part of a cell's fuel lost per second `age` s after the front came in, 1/s, and its flaming part.
 
     The mean of exp(-a / T) / T over the ages a of the cell's spots, which lie evenly between age - crossing
-    and age; spots younger than FLAMING flame.
+    and age; spots younger than `flames` (s) flame.
     """
     age, crossing, burn_out = (np.asarray(v, np.float64) for v in (age, crossing, burn_out))
     youngest = np.maximum(age - crossing, 0.0)
-    flame_end = np.clip(FLAMING, youngest, np.maximum(age, youngest))
+    flame_end = np.clip(flames, youngest, np.maximum(age, youngest))
     left = np.exp(-youngest / burn_out)
     scale = np.where(age > 0.0, 1.0 / crossing, 0.0)
     total = (left - np.exp(-np.maximum(age, 0.0) / burn_out)) * scale
@@ -117,6 +125,7 @@ def _gathered(
         place[some] / total[some, None],
         total[some],
         np.bincount(group, sources.flaming[member] * weight)[some],
+        np.bincount(group, sources.smoke[member] * weight)[some],
         nowhere,
         nowhere,
     )

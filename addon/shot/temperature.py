@@ -6,9 +6,9 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
-from . import sun
+from . import emissions, sun
 
-PULSE = 120.0  # s that the front heats the ground (assumed)
+PULSE = emissions.KINDS[emissions.LITTER].residence  # s that the front heats the ground under timber
 COOLING = 2.0 * 20_000.0 / (600.0 * np.sqrt(np.pi))
 """K s-1/2: q = 20 kW/m2, and the thermal effusivity e = 600 J m-2 K-1 s-1/2 of dry soil (assumed)."""
 
@@ -69,14 +69,14 @@ def coldest(run: Run, time: float) -> float:
     return float(np.percentile(at(run, time), 10.0))
 
 
-def cooling(age: ArrayLike) -> Array:
+def cooling(age: ArrayLike, pulse: ArrayLike = PULSE) -> Array:
     """K that ground is warmer `age` s after the front came than it was, without flames or embers.
 
-    That of a thick body which took in a flux q for the time p (H. S. Carslaw and J. C. Jaeger 1959,
+    That of a thick body which took in a flux q for the time p, `pulse` (H. S. Carslaw and J. C. Jaeger 1959,
     "Conduction of Heat in Solids", 2.9): 2 q / (e sqrt(pi)) (sqrt(t) - sqrt(t - p)).
     """
     age = np.maximum(np.asarray(age, np.float64), 0.0)
-    return COOLING * (np.sqrt(age) - np.sqrt(np.maximum(age - PULSE, 0.0)))
+    return COOLING * (np.sqrt(age) - np.sqrt(np.maximum(age - pulse, 0.0)))
 
 
 def indices(run: Run, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:

@@ -90,7 +90,7 @@ def test_merging_lights_keeps_their_heat_and_its_centre(count, most, seed):
     position = random.uniform(-2000.0, 2000.0, (count, 3))
     power = random.exponential(1.0e8, count) * (random.random(count) < 0.8)
     none = np.full(count, -1)
-    merged = heat.lights(heat.Sources(position, power, 0.3 * power, none, none), 300.0, most)
+    merged = heat.lights(heat.Sources(position, power, 0.3 * power, 1e-9 * power, none, none), 300.0, most)
     assert len(merged.power) <= most
     assert merged.power.sum() == pytest.approx(power.sum(), rel=1e-12)
     assert merged.flaming.sum() == pytest.approx(0.3 * power.sum(), rel=1e-9)
@@ -110,7 +110,7 @@ def test_merged_lights_change_gradually(most):
 
     def light(moment):
         power = 1.0e6 * (1.0 + np.sin(phase + moment)) ** 3
-        merged = heat.lights(heat.Sources(position, power, power, none, none), 300.0, most)
+        merged = heat.lights(heat.Sources(position, power, power, 1e-9 * power, none, none), 300.0, most)
         gap = np.linalg.norm(places[:, None] - merged.position[None, :, :2], axis=-1)
         return (merged.power / (gap**2 + 250.0**2)).sum(axis=1)
 

@@ -12,7 +12,7 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from firetwin.scene.smoke import bake, boxes, flow, flow_frames, moments, solving  # noqa: E402
+from firetwin.scene.smoke import bake, boxes, flow, flow_frames, moments, plume, solving  # noqa: E402
 from firetwin.shot import rigs  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
 from firetwin_core import run as runs  # noqa: E402
@@ -75,9 +75,27 @@ def test_the_smoke_is_that_of_the_heat(shot):
     for number, slot in enumerate(slots):
         sources = shot.fire.sources(solved.begin + slot)
         inside = np.all((sources.position[:, :2] > box.corner) & (sources.position[:, :2] < box.high), axis=1)
-        given += 30.0 * min(1.0, (number + 1) * 30.0 / 300.0) * sources.power[inside].sum()
+        given += 30.0 * min(1.0, (number + 1) * 30.0 / 300.0) * sources.smoke[inside].sum()
     emitted = moments.load(solved.parts[0].moment(1)).mass["emitted"]
-    assert emitted == pytest.approx(given * 0.02 / 17.433e6, rel=1e-3)
+    assert emitted == pytest.approx(given, rel=1e-3)
+
+
+def test_how_deep_smoke_is_comes_from_its_mass(shot):
+    solved = flow.Flow(shot)
+    solved.ready(1)
+    (part, *_) = solved.parts
+    moment = moments.load(part.moment(1))
+    depth = plume.columns(part, *moments.smoke(part.moment(1)))
+    mass = depth.sum() * part.box.spacing**2 / 4000.0  # at 4 m2/g
+    assert mass == pytest.approx(moment.mass["airborne"], rel=1e-3)
+    found = plume.measure(shot)
+    assert found.deepest >= depth.max() >= found.mean > 0.0
+    assert found.deepest >= found.wide
+    first, last = shot.frames.first, shot.frames.last
+    power = [shot.fire.sources(time).smoke.sum() for time in np.arange(first + 0.5, last)]
+    assert found.made == pytest.approx(np.sum(power), rel=0.02)
+    assert "of smoke in" in plume.words(shot)
+    assert "optical depth" in plume.words(shot)
 
 
 def test_going_on_after_an_interruption_gives_the_same_bytes(flowing, run, tmp_path, monkeypatch):

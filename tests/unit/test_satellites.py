@@ -130,12 +130,14 @@ def test_warmer_air_is_a_warmer_background(burning):
 
 
 def test_the_scar_is_warm_and_cools(burning):
-    arrival = np.full((24, 24), -3600.0, np.float32)
-    fresh, old = (
-        seen(burning(0.0, fuel_arrival_time=each), "viirs") for each in (arrival, arrival - 36_000.0)
+    arrival, timber = np.full((24, 24), -3600.0, np.float32), np.full((24, 24), 2.0, np.float32)
+    fresh, old, grass = (
+        seen(burning(0.0, fuel_arrival_time=each, canopy_fuel=canopy), "viirs")
+        for each, canopy in ((arrival, timber), (arrival - 36_000.0, timber), (arrival, 0.0 * timber))
     )
     assert fresh.long == pytest.approx(300.0 + temperature.cooling(3600.0), abs=0.1)
     assert np.all((old.long > 300.5) & (old.long < fresh.long))
+    assert grass.long == pytest.approx(300.0 + temperature.cooling(3600.0, 15.0), abs=0.1)
 
 
 def test_a_geotiff_lies_where_its_pixels_are(burning, tmp_path):

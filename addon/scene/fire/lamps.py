@@ -80,7 +80,8 @@ def place(shot: Shot) -> Lamps:
     position, power, moment, distance = position[lit], power[lit], moment[lit], distance[lit]
     weight = power / (distance**2 + size(_NEAR) ** 2)
     merged = np.full(len(weight), -1)
-    whole = heat.lights(heat.Sources(position, weight, weight, merged, merged), size(_BLOCK), 1_000_000)
+    spots = heat.Sources(position, weight, weight, 0.0 * weight, merged, merged)
+    whole = heat.lights(spots, size(_BLOCK), 1_000_000)
     centre = _centres(whole.position, whole.power, shot.settings.light.lamps, shot.settings.seed)
     gap = _gaps(position, centre)
     share = 1.0 / (gap + size(_SHARED) ** 2) ** 3

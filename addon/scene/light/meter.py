@@ -206,7 +206,7 @@ def _smoke(shot: Shot, time: float) -> Smoke:
     place = fires.position[:, None] + drift
     place[..., 2] += rise
     radius = 0.5 * rise + 0.5 * block  # Briggs: a plume is half as wide as it has risen
-    depth = _EXTINCTION * fires.power[:, None] / (2.0 * radius * speed)
+    depth = shot.fire.smoke.opacity * _EXTINCTION * fires.power[:, None] / (2.0 * radius * speed)
     bright = 1.0 - (1.0 - _SOOT) * noise.smoothstep(*_YOUNG[::-1], _TIMES)
     return Smoke(place, radius, depth, bright, (shine.position, shine.power), shot.scale.ratio)
 

@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 STATE = "state.npz"
 WORK = "the smoke's flow"
 CONVECTED = 0.7  # of the heat rises with the air; the rest is radiated (Freeborn et al. 2008)
-SMOKE = 0.02 / burning.HEAT  # kg/J: a fiftieth of the burned fuel
 _BURN = 30.0  # s between two looks at what burns
 _RAMP = 300.0  # s in which the fire grows to its strength: a sudden one would bang
 # Standard deviation of the logarithm of what single flames give off, alike within m and s.
@@ -126,9 +125,9 @@ class Live:
         time = self.whole.begin + slot * self.slots
         self.solvers[0].set_wind(air.wind(self.winds[min(slot, len(self.winds) - 1)]))
         found = self.whole.shot.fire.sources(time)
-        power = found.power * min(1.0, (slot + 1) * _BURN / _RAMP)
+        ramp = min(1.0, (slot + 1) * _BURN / _RAMP)
         for solver in self.solvers:
-            solver.set_sources(found.position[:, :2], CONVECTED * power, SMOKE * power)
+            solver.set_sources(found.position[:, :2], CONVECTED * ramp * found.power, ramp * found.smoke)
         self.slot = slot
 
     def _keep(self) -> None:

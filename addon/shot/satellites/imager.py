@@ -175,7 +175,9 @@ def _background(grid: Grid, fire: Fire, time: float, rows: NDArray, columns: NDA
         for axis, place in ((run.fuel_latitude, latitude), (run.fuel_longitude, longitude))
     )
     age = time - fire.arrival[fuel_row, fuel_column]
-    kelvin = kelvin + temperature.cooling(np.where(age > 0.0, age, 0.0))
+    kelvin = kelvin + temperature.cooling(
+        np.where(age > 0.0, age, 0.0), fire.residence[fuel_row, fuel_column]
+    )
     return kelvin.reshape(len(rows), len(columns), -1)
 
 
