@@ -70,6 +70,7 @@ class Baker:
             cells.area,
             max_age=self.shot.settings.smoke.max_age,
             burn_time=burning.BURN_TIME,
+            smoke_fraction=self.shot.fire.smoke.per_heat * burning.HEAT,
             stability=stability.under(self.shot.sun(time)[1]),
             interval=scale.time(_INTERVAL),
             block=scale.length(_BLOCK),

@@ -286,10 +286,13 @@ class Painter:
         heights = self._heights[: nz + 1, south : south + rows, west : west + columns]
         corner = tuple(low + at * box.spacing for low, at in zip(box.corner, moment.low, strict=True))
         size, blur = _LUMPS[self.layer.fine]
+        mix = shot.fire.smoke
+        # Thresholds are those of a crown fire's smoke: of thinner smoke, as warm, they are as much lower.
+        fields = moment.fields | {"smoke": moment.fields["smoke"] / np.float32(mix.dilution)}
         scale = self.layer.part.scale
         levels = np.array(box.levels)
         return flow.Detail(
-            **moment.fields,
+            **fields,
             spacing=box.spacing,
             corner=corner,
             levels=0.5 * (levels[1:] + levels[:-1])[:nz],
@@ -301,6 +304,7 @@ class Painter:
             size=scale.length(size),
             scale=scale.ratio,
             blur=blur,
+            opacity=mix.opacity,
             condensation=shot.settings.smoke.cloud_base,
             thickest=shot.settings.smoke.extinction or thickest(scale),
             ages=(scale.time(_AGES[0]), scale.time(_AGES[1])),

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import bpy
+import numpy as np
 
 from ...blender import nodes
 from ...blender.owned import Stage
@@ -20,7 +21,11 @@ from .. import haze, infrared
 from ..light import exposure
 from . import flow_frames, material, sunlit
 
-_FRESH, _OLD = (0.44, 0.36, 0.29), (0.95, 0.945, 0.94)  # albedo: of soot and char, and of aged haze and cloud
+_PALE, _FRESH = (
+    (0.80, 0.77, 0.73),
+    (0.44, 0.36, 0.29),
+)  # albedo: of a grass fire; of a crown fire's soot and char
+_OLD = np.array([1.005, 1.0, 0.995])  # of aged haze and cloud, over its albedo in green light
 _MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
 FORWARD = 0.6  # anisotropy of smoke (Reid et al. 2005: 0.5 to 0.65 in green light)
 _ANISOTROPY = FORWARD / (1.0 + FORWARD)  # of what is left when light that goes on counts as not scattered
@@ -43,8 +48,11 @@ class _Smoke:
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Smoke"."""
     made, tree = nodes.material("Firetwin Smoke")
-    fresh = tree.input("Fresh Colour", _FRESH, "Albedo of fresh smoke, full of soot", "Colour")
-    old = tree.input("Old Colour", _OLD, "Albedo of aged haze and cloud", "Colour")
+    young = material.between(_PALE, _FRESH, shot.fire.smoke.dark)
+    fresh = tree.input("Fresh Colour", young, "Albedo of fresh smoke: dark with soot, or pale", "Colour")
+    old = tree.input(
+        "Old Colour", tuple(_OLD * shot.fire.smoke.white), "Albedo of aged haze and cloud", "Colour"
+    )
     thick = tree.input("Density", 1.0, "Factor on how thick smoke is", "Density")
     even = tree.input("Anisotropy", _ANISOTROPY, "How much light goes on forwards", "Light", -0.99, 0.99)
     density = tree.attribute("density") * thick

@@ -28,8 +28,12 @@ _MEAN_BILLOW = 0.4
 _ALOFT = 1.55  # wind where smoke is over that at 10 m: (h / 10 m)^0.1 at 800 m
 _CLIMB = 1.0  # m/s
 _VEIL = (0.002, 0.005)  # dilution between which thin smoke fades; volumes end at the lower one
-_LOW, _HIGH = (0.62, 0.53, 0.44), (0.95, 0.945, 0.94)  # albedo near the ground and far up
+_PALE, _LOW = (0.84, 0.81, 0.77), (0.62, 0.53, 0.44)  # albedo near the ground: of a grass and of a crown fire
+_HIGH = np.array([1.005, 1.0, 0.995])  # far up, over the albedo in green light
 _MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
+
+
+Colour = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
@@ -52,13 +56,15 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     drawn, carried = view.resolution(shot), flow(shot)
     material, tree = nodes.material("Firetwin Smoke")
     position = tree.output("ShaderNodeNewGeometry", name="Position")
-    fresh = tree.input("Fresh Colour", _LOW, "Albedo of smoke near the ground", "Colour")
-    old = tree.input("Old Colour", _HIGH, "Albedo of smoke far up", "Colour")
+    made_of = shot.fire.smoke
+    low = between(_PALE, _LOW, made_of.dark)
+    fresh = tree.input("Fresh Colour", low, "Albedo of smoke near the ground", "Colour")
+    old = tree.input("Old Colour", tuple(_HIGH * made_of.white), "Albedo of smoke far up", "Colour")
     middle = tree.input("Inner Colour", _MIDDLE, "Albedo for light by way of other smoke", "Colour")
     thick = tree.input("Density", 1.0, "Factor on how thick smoke is", "Density")
     even = tree.input("Anisotropy", ANISOTROPY, "How much light goes on forwards", "Light", -1.0, 1.0)
     above = tree.separate(position)[2] - carried.ground
-    opacity = above.ramp(*_CLOUD, *OPACITY) * thick
+    opacity = above.ramp(*_CLOUD, *OPACITY) * (thick * (made_of.opacity / made_of.dilution))
     full = _extinction(tree.attribute("dilution"), opacity, drawn.extinction)
     albedo = tree.mix_colour(above.smoothstep(-200.0, 3200.0), fresh, old)
     noise = _billow(tree, position, carried, float(np.clip(6.0 * drawn.voxel, 260.0, 1000.0)))
@@ -85,6 +91,11 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     material.cycles.volume_sampling = "DISTANCE"
     material.cycles.emission_sampling = "NONE"
     return material
+
+
+def between(pale: Colour, dark: Colour, part: float) -> Colour:
+    """A colour between two."""
+    return tuple((1.0 - part) * np.array(pale) + part * np.array(dark))
 
 
 def glow_light(shot: Shot) -> float:
