@@ -47,7 +47,7 @@ def run(
 
 def in_process(choice: dict[str, str], together: bool, progress: Progress, tell: Tell) -> list[str]:
     """Bake and return the folders of the volumes."""
-    from ..scene.smoke import bake, outlook
+    from ..scene.smoke import bake, outlook, plume
 
     shot = Choice(**choice).shot()
     for text in shot.warnings():
@@ -57,4 +57,6 @@ def in_process(choice: dict[str, str], together: bool, progress: Progress, tell:
     for each in places.values():
         if text := outlook.words(each):
             tell(text)
-    return [str(bake.bake(each, progress)) for each in places.values()]
+    made = [str(bake.bake(each, progress)) for each in places.values()]
+    tell(plume.words(shot))
+    return made

@@ -153,6 +153,7 @@ def in_blender(
     """
     from ..render import compared, fingerprint, plan, sharing, video
     from ..render.picture import Picture
+    from ..scene.smoke import plume
     from ..shot import passes
 
     shot = Choice(**choice).shot()
@@ -176,6 +177,8 @@ def in_blender(
                         expected, _camera(Choice(**choice), shot.of(camera), making, wanted, own, tell)
                     )
                     done += frames_of(wanted)
+        if todo and shot.settings.smoke.enabled:
+            tell(plume.words(shot))
         compared.make(shot, making, [each for each in asked if each not in drawn], progress, tell)
         video.make(shot, making, progress)
     return {"expected": expected, "peak": memory.peak()}

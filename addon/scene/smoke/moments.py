@@ -106,6 +106,22 @@ def load(path: Path) -> Moment:
         raise BrokenError(path) from error
 
 
+def smoke(path: Path) -> tuple[tuple[int, int], NDArray[np.float32]]:
+    """Of what `keep` wrote the block's first column and row, and the smoke alone (nz, ny, nx), kg/m3.
+
+    Raises
+    ------
+    BrokenError
+        It is not whole.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            west, south = file["low"]
+            return (int(west), int(south)), file["smoke"]
+    except (OSError, EOFError, LookupError, TypeError, ValueError, zipfile.BadZipFile, zlib.error) as error:
+        raise BrokenError(path) from error
+
+
 def whole(path: Path, shape: tuple[int, int, int]) -> bool:
     """Whether a file is there that looks like a moment of a flow of so many cells; quick."""
     try:
