@@ -10,7 +10,7 @@ from .light import exposure
 FLAME = (1.0, 0.33, 0.04)
 EMBER = (1.0, 0.11, 0.012)
 CLOSE = 200.0, 2500.0  # m from the camera: flames that fill pixels would burn out, afar they must show
-FLAMING_TIME = 100.0, 300.0  # s that the edge is in flames, seen from nearby and from FAR
+FLAMING_TIME = 100.0, 300.0  # s that the edge of timber is in flames, seen from nearby and from FAR
 FAR = 9000.0  # m; from there the edge is drawn wider, as a picture's pixels are
 _LIGHT = 13.0  # radiance of flames at exposure 0
 

@@ -8,8 +8,9 @@ ground and 80 for crowns, which stay within some kelvin of the air (both assumed
 do not cool the ground.
 
 Burned ground cools by `shot.temperature.cooling`: 97 K above the rest after ten minutes, 38 K after an hour,
-19 K after four. Flames are 1000-1500 K (Frankman et al. 2008); a pixel of the burning edge mixes
-flames with gaps, so they are drawn at 1000-1200 K.
+19 K after four, where timber burned for two minutes; 12 K after ten minutes
+where grass burned for a quarter of one. Flames are 1000-1500 K (Frankman et al. 2008); a pixel of the burning
+edge mixes flames with gaps, so they are drawn at 1000-1200 K.
 """
 
 from __future__ import annotations
@@ -53,10 +54,12 @@ def air(tree: nodes.Tree, shot: Shot, stage: Stage) -> nodes.Value:
     return tree.output("ShaderNodeGroup", {"Elevation": height}, "Kelvin", node_tree=_group(shot, stage))
 
 
-def cooled(tree: nodes.Tree, background: Any, age: nodes.Value, burned: Any) -> nodes.Value:
-    """Temperature of what has burned, without flames or embers of its own."""
+def cooled(
+    tree: nodes.Tree, background: Any, age: nodes.Value, burned: Any, pulse: Any = temperature.PULSE
+) -> nodes.Value:
+    """Temperature of what has burned and was heated for `pulse` (s), without flames or embers of its own."""
     age = tree.math("MAXIMUM", age, 0.0)
-    before = tree.math("MAXIMUM", age - temperature.PULSE, 0.0)
+    before = tree.math("MAXIMUM", age - pulse, 0.0)
     above = (tree.math("SQRT", age) - tree.math("SQRT", before)) * burned
     return background + above * temperature.COOLING
 

@@ -122,6 +122,10 @@ class Ground:
         """Scene points (ny, nx, 3) of the grid, m."""
         return self.frame.forward_grid(self.fields.latitude, self.fields.longitude, self.fields.elevation)
 
+    def padded(self, field: NDArray, latitude: Array, longitude: Array) -> NDArray:
+        """A field of the run's fuel grid, whose axes these are, on the ground's; NaN in the apron."""
+        return np.pad(_oriented(field, latitude, longitude), self.fields.margin, constant_values=np.nan)
+
     @property
     def shape(self) -> tuple[int, int]:
         """Rows and columns of the grid, apron included."""
@@ -148,7 +152,8 @@ class Ground:
         end = max(end, float(np.max(arrival, initial=end, where=reached)))
         arrival, reached = arrival[near], reached[near]
         crossing = np.zeros(arrival.shape)
-        crossing[reached] = burning.crossing(arrival, *np.nonzero(reached))
+        least = burning.least_crossing(max(self.cell))
+        crossing[reached] = burning.crossing(arrival, *np.nonzero(reached), least)
         time, crossing, known = _beyond(np.where(reached, arrival, 0.0), crossing, reached)
         part = np.clip(0.5 + (end - time) / np.where(known, crossing, 1.0), 0.0, 1.0)
         burned = np.where(known & (reached | (time > end)), part, 0.0)

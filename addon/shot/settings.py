@@ -192,9 +192,9 @@ class Fire:
     )
     flames: bool = key(True, "draw the flames")
     flame_length: str = key(
-        "thomas",
+        "auto",
         "formula for the flames' length",
-        choices={"thomas": "crown fire", "byram": "surface fire"},
+        choices={"auto": "by the fuel", "thomas": "crown fire", "byram": "surface fire"},
     )
     budget: int = key(20_736, "most flames drawn at once, nearest first", at_least=0)
     embers: bool = key(True, "spots that glow in the ash; the thermal view shows their heat in any case")

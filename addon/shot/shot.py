@@ -16,7 +16,7 @@ from ..errors import UsageError
 from ..progress import Progress, silent
 from ..run import content, times
 from ..run.frame import local_frame
-from . import burning, frame_list, frames, passes, path, relief, scale, sun, temperature
+from . import burning, depth, frame_list, frames, passes, path, relief, scale, sun, temperature
 from .fire import Fire
 from .frames import Frames
 from .fuel import DETAIL
@@ -225,6 +225,16 @@ class Shot:
     def bare_ground(self) -> Ground:
         """The ground without the detail near cameras."""
         return Ground(self.settings, self.run, self.fire.arrival, self.relief)
+
+    @cached_property
+    def front(self) -> depth.Fields:
+        """How the front goes over the ground's grid."""
+        return depth.Fields(self.bare_ground, self.run)
+
+    @cached_property
+    def front_scale(self) -> float:
+        """Size of what is seen of the front and the scar beside that of a crown fire's, to 1."""
+        return depth.scale(self.whole)
 
     @cached_property
     def ground(self) -> Ground:

@@ -108,6 +108,15 @@ def test_a_front_crosses_a_cell_in_its_size_over_its_speed():
     assert found == pytest.approx(np.full(42, 500.0))
 
 
+def test_a_fast_front_crosses_small_cells_in_seconds_and_coarse_ones_in_a_minute():
+    assert [burning.least_crossing(cell) for cell in (1.0, 20.0, 74.0, 370.0)] == pytest.approx(
+        [2.0, 6.67, 60.0, 60.0], abs=0.01
+    )
+    time = np.arange(6.0)[None] * 10.0  # 20 m at 2 m/s
+    found = burning.crossing(time, np.zeros(6, int), np.arange(6), burning.least_crossing(20.0))
+    assert found == pytest.approx(np.full(6, 10.0))
+
+
 def test_a_jump_to_another_fire_is_no_slow_front():
     time = np.array([[0.0, 70.0, 150.0, 9000.0, 9100.0]])
     row, column = np.divmod(np.arange(5), 5)

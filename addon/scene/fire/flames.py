@@ -20,12 +20,22 @@ from ..forest import fate
 from ..forest.stand import Stand
 
 SIGHT = 12_000.0  # m; fronts farther than this are the ground's glowing edge alone
-_SPACING = ((2500.0, 8.0), (5000.0, 12.0), (SIGHT, 24.0))  # m from the camera -> m between points
+_SPACING = ((2500.0, 8.0), (5000.0, 12.0), (SIGHT, 24.0))
+"""m from the camera -> m between points of a front whose flames are as long as `_TALL`, or longer."""
+_TALL = 12.0  # m
+_FINEST = 0.25  # of these spacings, where flames are low
 _FINE = 400_000  # points, in the nearest cells, that stand as near by wherever they are; more are slow
 _LINE = 1.5  # points abreast: a point flames while the front moves on by this many spacings
-_RESIDENCE = (40.0, 900.0)  # s
+_LEADING = 1.0 / 3.0  # of the time that flames stand over a spot: so long they are tall, s
+_LONGEST = 900.0  # s
+_BROKEN = (0.5, 6.0)  # m, flame lengths at which a front has gaps, most and none
+_GAPS = 0.5  # part of the front that gaps are where flames are lowest
+_BURST, _FLARES = 160.0, 1.6  # m, in a crown fire; of the logarithm of lengths, where flames are low (by eye)
+_EVEN = (5.0, 12.0)  # m, flame lengths between which they become even
+_GAP = 25.0  # m, of a gap and what lies between two, in a crown fire
 _SIZES = 0.45  # standard deviation of the logarithm of flame lengths
-_LENGTHS = (1.0, 75.0)  # m
+_LENGTHS = (0.3, 75.0)  # m
+_CROWNS = 0.1  # kg/m2 of canopy from which a front is a crown fire's (assumed)
 _KELVIN = (1000.0, 1500.0)  # flames (Frankman et al. 2008)
 _TORCH_SIGHT = 2500.0  # m
 _TORCHES = 0.8  # part of the burning crowns that flare up where the canopy is dense
@@ -77,13 +87,15 @@ class Points:
         return np.flatnonzero((age >= 0.0) & (age < self.residence))
 
 
-def flame_length(intensity: Array, formula: str = "thomas") -> Array:
+def flame_length(intensity: Array, formula: str = "thomas", crowns: NDArray[np.bool_] | bool = True) -> Array:
     """Flame length (m) from fireline intensity (kW/m).
 
-    "thomas": 0.0266 I^(2/3) (Thomas 1963); "byram": 0.0775 I^0.46 (Byram 1959), too short for crown fire.
+    "thomas": 0.0266 I^(2/3) (Thomas 1963); "byram": 0.0775 I^0.46 (Byram 1959), too short for crown fire;
+    "auto": the first where there are `crowns`, the second elsewhere.
     """
     intensity = np.maximum(np.asarray(intensity, np.float64), 0.0)
-    return 0.0266 * intensity ** (2.0 / 3.0) if formula == "thomas" else 0.0775 * intensity**0.46
+    tall, low = 0.0266 * intensity ** (2.0 / 3.0), 0.0775 * intensity**0.46
+    return np.where(crowns, tall, low) if formula == "auto" else tall if formula == "thomas" else low
 
 
 def tilt(wind: float, length: Array) -> Array:
@@ -110,27 +122,30 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
     first, last = shot.moments[[0, -1]]
     row, column, spacing, distance, key = _candidates(shot)
     arrival = ground.arrival_at(row, column)
-    keep = (arrival <= last) & (arrival > first - _RESIDENCE[1])
+    keep = (arrival <= last) & (arrival > first - _LONGEST)
     row, column, spacing, distance, arrival, key = (
         value[keep] for value in (row, column, spacing, distance, arrival, key)
     )
     speed = ground.spread(row, column)
-    residence = _residence(spacing, speed)
+    stands = shot.front.residence[np.rint(row).astype(np.int64), np.rint(column).astype(np.int64)]
+    residence = _residence(spacing, speed, stands)
     random = np.array([noise.uniform(*key.T, settings.seed + 500 + use) for use in range(3)])
     fuel = bilinear(ground.fields.canopy_fuel + ground.fields.surface_fuel, row, column)
     lit = (arrival + residence > first) & (fuel > 0.05)
-    row, column, arrival, speed, residence, fuel, spacing, distance = (
-        value[lit] for value in (row, column, arrival, speed, residence, fuel, spacing, distance)
+    row, column, arrival, speed, residence, stands, fuel, spacing, distance = (
+        value[lit] for value in (row, column, arrival, speed, residence, stands, fuel, spacing, distance)
     )
     random = random[:, lit]
     place = ground.point(*ground.places(row, column)) if len(row) else np.empty((0, 3))
     intensity = burning.HEAT / 1000.0 * fuel * speed
     uneven = np.exp(_SIZES * noise.normal(random[0], random[1]))
-    length = np.clip(flame_length(intensity, settings.fire.flame_length) * uneven, *_LENGTHS)
+    crowns = bilinear(ground.fields.canopy_fuel, row, column) > _CROWNS
+    even = flame_length(intensity, settings.fire.flame_length, crowns)
+    length = np.clip(even * uneven * _bursts(place, even, shot), *_LENGTHS)
     thin = lod.Table().multiplier(distance) if len(distance) else np.ones(0)
     wind = float(np.hypot(*shot.wind))
-    finest = _spaced(ground.cell, _SPACING[0][1])[1]
-    fewer = (spacing / finest) ** 2 * _residence(finest, speed) / (residence * thin)
+    finest = _spaced(ground.cell, _SPACING[0][1] * _closeness(shot))[1]
+    fewer = (spacing / finest) ** 2 * _residence(finest, speed, stands) / (residence * thin)
     points = Points(
         place,
         arrival,
@@ -142,15 +157,45 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
         kelvin(intensity),
         random[2],
     )
-    points = points.take(np.flatnonzero(random[0] * 0.999 < thin))
+    points = points.take(np.flatnonzero((random[0] * 0.999 < thin) & _whole(place, even, shot)))
     if grown is not None and settings.fire.torches:
         points = _joined([points, torches(shot, grown)])
     return _within_budget(points, shot, near)
 
 
-def _residence(spacing: Array | float, speed: Array) -> Array:
-    """How long (s) flames last that stand so far apart (m) where the front has a `speed` (m/s)."""
-    return np.clip(_LINE * spacing / speed, *_RESIDENCE)
+def _residence(spacing: Array | float, speed: Array, stands: Array) -> Array:
+    """How long (s) flames last that stand so far apart (m) where the front has a `speed` (m/s).
+
+    That is while they are tall, of the time (s) that they stand over a spot (`stands`).
+    """
+    return np.clip(_LINE * spacing / speed, _LEADING * stands, _LONGEST)
+
+
+def _closeness(shot: Shot) -> float:
+    """How close points stand in a shot, beside a crown fire's front: as its flames are long."""
+    ground, front = shot.bare_ground, shot.front
+    passed = (ground.burned >= 0.5) & (np.abs(ground.arrival - shot.whole.frames.middle) < _LONGEST + 900.0)
+    if not passed.any():
+        return 1.0
+    fuel, canopy = ground.fields.surface_fuel[passed], ground.fields.canopy_fuel[passed]
+    intensity = burning.HEAT / 1000.0 * (fuel + canopy) * front.speed[passed]
+    length = flame_length(intensity, shot.settings.fire.flame_length, canopy > _CROWNS)
+    return float(np.clip(np.percentile(length, 90.0) / _TALL, _FINEST, 1.0))
+
+
+def _bursts(place: Array, length: Array, shot: Shot) -> Array:
+    """Factor (n,) on low flames (m) at places (n, 3): here they flare up, there they creep."""
+    size = _BURST * max(shot.front_scale, 0.3)
+    wave = noise.fractal(place[:, 0], place[:, 1], size, 3, shot.settings.seed + 530)
+    return np.exp(_FLARES * wave * (1.0 - noise.smoothstep(*_EVEN, length)))
+
+
+def _whole(place: Array, length: Array, shot: Shot) -> NDArray[np.bool_]:
+    """Where (n, 3) a front is not broken: low flames (m) leave gaps."""
+    size = _GAP * max(shot.front_scale, 0.3)
+    broken = noise.fractal(place[:, 0], place[:, 1], size, 2, shot.settings.seed + 520)  # 0.4 deviate
+    gaps = _GAPS * (1.0 - noise.smoothstep(*_BROKEN, length))
+    return (gaps <= 0.0) | (0.5 + 0.8 * broken > gaps)
 
 
 def torches(shot: Shot, grown: Stand) -> Points:
@@ -233,7 +278,7 @@ def _candidates(shot: Shot) -> tuple[Array, Array, Array, Array, NDArray[np.int6
     """
     ground, near, (first, last) = shot.ground, shot.near, shot.moments[[0, -1]]
     arrival = ground.arrival
-    cells_lit = np.argwhere((arrival >= first - _RESIDENCE[1] - 300.0) & (arrival <= last + 300.0))
+    cells_lit = np.argwhere((arrival >= first - _LONGEST - 300.0) & (arrival <= last + 300.0))
     empty = np.empty(0)
     if len(cells_lit) == 0 or not near:
         return empty, empty, empty, empty, np.empty((0, 2), np.int64)
@@ -241,12 +286,12 @@ def _candidates(shot: Shot) -> tuple[Array, Array, Array, Array, NDArray[np.int6
     seen = shot.sights.seen(centre, max(ground.cell) + _AROUND, reach=SIGHT)
     cells_lit, distance = cells_lit[seen], _drawn_for(shot, centre[seen])
     parts = []
-    before = 0.0
+    before, close = 0.0, _closeness(shot)
     for limit, wanted in _SPACING:
         inside = (distance >= before) & (distance < limit)
         chosen = cells_lit[inside]
         before = limit
-        count, spacing = _spaced(ground.cell, wanted)
+        count, spacing = _spaced(ground.cell, wanted * close)
         number = np.arange(count * count)
         cell = (chosen @ (ground.shape[1], 1))[:, None]
 
@@ -283,7 +328,7 @@ def _drawn_for(shot: Shot, centre: Array) -> Array:
     So those in sight are mostly the same whatever else is built, and in each part of a film.
     """
     distance = shot.sights.drawn_from(centre)
-    count, _ = _spaced(shot.ground.cell, _SPACING[0][1])
+    count, _ = _spaced(shot.ground.cell, _SPACING[0][1] * _closeness(shot))
     distance[np.argsort(distance, kind="stable")[: _FINE // count**2]] = 0.0
     return distance
 

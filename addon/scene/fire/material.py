@@ -12,6 +12,7 @@ from .. import glow, haze, infrared
 
 _RIM, _BODY, _CORE = (1.0, 0.12, 0.008), (1.0, 0.34, 0.04), (1.0, 0.55, 0.15)
 _DIMMED = 0.2  # part of their light that flames have at the nearer of the distances `glow.CLOSE`
+_FULL = 0.5, (1.5, 10.0)  # part of their light that low flames have, thin as they are; lengths, m
 _RISE = 9.0  # m/s at which the pattern rises
 
 
@@ -51,6 +52,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     strength = strength * tree.output("ShaderNodeCameraData", name="View Distance").ramp(
         *glow.CLOSE, _DIMMED, 1.0
     )
+    strength = strength * length.ramp(*_FULL[1], _FULL[0], 1.0)
     part, _air = haze.fraction(tree, stage)
     behind = 1.0 - shape * 0.5
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(behind, behind, behind)})

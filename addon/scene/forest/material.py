@@ -12,6 +12,7 @@ import bpy
 
 from ...blender import nodes
 from ...blender.owned import Stage
+from ...shot import heat
 from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import granite, haze, infrared, temperature
@@ -19,6 +20,7 @@ from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME, brightness
 from . import biomes
 
 TORCHING = 300.0  # s that a crown is in flames; then it is gone
+_BUSH = 0.3  # of that time, a bush amid grass (assumed)
 _TORCH = 0.1, 0.9  # of the flames' radiance, at the distances CLOSE: crowns near by fill pixels
 _BETWEEN = 0.0, 0.9  # the same of flames that are seen between crowns: far away no gaps are drawn; by eye
 _TONGUES = 0.3  # of their height is how wide flames in crowns are
@@ -192,9 +194,15 @@ def _leaves(
     leaf = tree.mix_shader(clear, matt, through)
     x, y, z = tree.separate(tree.output("ShaderNodeNewGeometry", name="Position"))
     flicker = tree.noise(tree.combine(x, y, (z - age * 6.0) * _TONGUES), 4.0, 2.0)
-    crown = age.smoothstep(0.0, 40.0) * age.smoothstep(TORCHING, 0.4 * TORCHING) * torched
-    lasts = distance.ramp(1500.0, FAR, *FLAMING_TIME)
-    below = age.smoothstep(0.0, 20.0) * (age / lasts).smoothstep(1.0, 0.3) * (1.0 - torched)
+    short = min(
+        shot.fire.smoke.residence / heat.FLAMING, 1.0
+    )  # of what timber burns, in the time that it does
+    bush = max(short, _BUSH)
+    crown = (
+        age.smoothstep(0.0, 40.0 * bush) * age.smoothstep(TORCHING * bush, 0.4 * TORCHING * bush) * torched
+    )
+    lasts = distance.ramp(1500.0, FAR, *(short * time for time in FLAMING_TIME))
+    below = age.smoothstep(0.0, 20.0 * short) * (age / lasts).smoothstep(1.0, 0.3) * (1.0 - torched)
     below = below * distance.ramp(*CLOSE, 0.0, 1.0)
     alight = crown + below
     flaming = alight * flicker.smoothstep(0.47, 0.69)

@@ -22,7 +22,7 @@ _OUT = 40.0  # rows beyond the run, from which on an apron's cells are large: se
 _SOFT = 12.0  # rows beyond the run within which the apron's edges of forest become soft
 _EDGE = 0.35  # kg/m2 of canopy fuel at which the shader has half forest and half open land
 _LARGEST = 2048  # pixels of an image's side; of larger grids the means of some points
-_FUEL, _FIRE, _COVER = "Firetwin Ground Fuel", "Firetwin Ground Fire", "Firetwin Ground Cover"
+_FUEL, _FIRE, _FRONT, _COVER = (f"Firetwin Ground {name}" for name in ("Fuel", "Fire", "Front", "Cover"))
 NAMES = {
     "canopy_fuel": (_FUEL, 0),
     "bare": (_FUEL, 1),
@@ -30,6 +30,9 @@ NAMES = {
     "burn_time": (_FIRE, 0),
     "burned": (_FIRE, 1),
     "stand": (_FIRE, 2),
+    "speed": (_FRONT, 0),
+    "residence": (_FRONT, 1),
+    "ash": (_FRONT, 2),
     "shrub": (_COVER, 0),
     "hollow": (_COVER, 1),
     "mapped": (_COVER, 2),
@@ -41,9 +44,10 @@ def images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]:
     """Make the images, by name: `canopy_fuel` (kg/m2), `bare` (part without fuel), `water` (1 on lakes).
 
     And `burn_time` (arrival in s, continued a little past the last perimeter), `burned` (1 inside it) and
-    `stand` (part of the forest that is drawn tree by tree). Where the biome's open land asks for them also
-    `shrub` (part of it under bushes), `hollow` (-1 on crests, 1 in hollows) and `mapped` (1 where a map says
-    what there is, so that nothing is invented).
+    `stand` (part of the forest that is drawn tree by tree). And of the front its `speed` (m/s), how long
+    flames stand over a spot (`residence`, s), and how pale what is left is (`ash`). Where the biome's open
+    land asks for them also `shrub` (part of it under bushes), `hollow` (-1 on crests, 1 in hollows) and
+    `mapped` (1 where a map says what there is, so that nothing is invented).
     """
     ground = shot.ground
     size = -(-max(ground.shape) // _LARGEST)
@@ -53,6 +57,9 @@ def images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]:
         "water": ground.water,
         "burn_time": np.minimum(ground.burn_time, 1.0e7),
         "burned": ground.burned,
+        "speed": shot.front.speed,
+        "residence": shot.front.residence,
+        "ash": shot.front.ash,
     }
     thin = {name: _thinned(field, size) for name, field in known.items()}
     thin["stand"] = _stand_cover(shot, grown, size)

@@ -28,7 +28,7 @@ def radiance(
     bare = tree.math("MAXIMUM", rock, place.canopy.ramp(0.0, 1.2, 1.0, 0.1))
     bare = tree.math("MAXIMUM", bare, place.burned)
     ambient = temperature.ambient(tree, shot, stage, place.elevation, normal, bare)
-    kelvin = temperature.cooled(tree, ambient, place.age, place.burned * (1.0 - rock))
+    kelvin = temperature.cooled(tree, ambient, place.age, place.burned * (1.0 - rock), place.residence)
     kelvin = tree.mix(lake, kelvin, temperature.WATER)
     emissivity = tree.mix(bare, infrared.NEEDLES, tree.mix(place.burned, infrared.GROUND, infrared.CHAR))
     emissivity = tree.mix(lake, tree.mix(rock, emissivity, infrared.STONE), infrared.LAKE)

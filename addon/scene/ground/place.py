@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...blender import nodes
+from ...shot import emissions
 from ...shot.shot import Shot
 from .. import granite
 from ..grain import Grain
@@ -14,7 +16,11 @@ from . import fields
 
 _OWN = 1.25  # times the distance to which trees are drawn: from there on the canopy is the ground's
 _HILLS = 0.5  # of the deviation of the run's heights, are hills finer than the apron's mesh (by eye)
-_JITTER = 130.0  # s; breaks the straight edges of the mesh's triangles
+_JITTER = 130.0  # s, at most; breaks the straight edges of the mesh's triangles
+_STRAY = 0.7  # cells of the fuel grid that the front strays from their arrival times, at most
+_RAGGED = 74.0  # m, cells whose edges noise of its full size breaks
+_SOME = 0.02  # of the smoke, from which grass and shrubs are drawn in ways of their own
+_TIMBER = 120.0  # s that flames stand over a spot of timber
 
 
 @dataclass
@@ -32,6 +38,12 @@ class Place:
     age: nodes.Value  # s since the fire came, negative before
     burned: nodes.Value  # 0 or 1
     pixel: nodes.Value  # m
+    speed: nodes.Value  # m/s, of the front
+    residence: nodes.Value  # s that flames stood there
+    woody: nodes.Value  # 0 grass .. 1 timber
+    ash: nodes.Value  # 0..1, how pale what is left is
+    scale: float  # of the front's and the scar's patterns, 1 in a crown fire
+    mixed: bool  # whether grass or shrubs burn, and not timber alone
     beyond: nodes.Value  # 0 within the run, 1 where the cells of the apron are large
     relief: float  # m, of hills that the apron's mesh is too coarse for
     shrub: nodes.Value  # 0..1, part of open land under bushes; 0 in the Sierra, where all of it is noise
@@ -60,9 +72,17 @@ def of(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -> Pl
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
     pixel = granite.pixel(tree, shot, distance)
     grain = Grain(tree, position, None if whole else pixel)
-    wander = grain.noise(170.0, 2.0) + grain.noise(1100.0, 1.0) - 1.0
-    age = nodes.model_time(tree) - known["burn_time"] + wander * (2.0 * _JITTER)
-    edge = known["burned"] + (grain.noise(120.0, 3.0) - 0.5) * 0.8
+    cell = max(shot.bare_ground.cell)
+    fine = min(1.0, cell / _RAGGED)
+    wander = grain.noise(170.0 * fine, 2.0) + grain.noise(1100.0 * fine, 1.0) - 1.0
+    speed, residence = known["speed"], known["residence"]
+    stray = tree.math("MINIMUM", _STRAY * cell / tree.math("MAXIMUM", speed, 0.01), _JITTER)
+    age = nodes.model_time(tree) - known["burn_time"] + wander * (2.0 * stray)
+    edge = known["burned"] + (grain.noise(120.0 * fine, 3.0 - round(math.log2(fine))) - 0.5) * 0.8
+    woody = residence.ramp(15.0, _TIMBER, 0.0, 1.0)
+    mixed = shot.fire.smoke.shares[[emissions.GRASS, emissions.SHRUB]].sum() > _SOME
+    if mixed:
+        edge = edge - _left_out(grain, speed, woody, shot.front_scale)
     return Place(
         grain,
         position,
@@ -75,6 +95,12 @@ def of(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -> Pl
         age,
         (age > 0.0) * (edge > 0.5),
         pixel,
+        speed,
+        residence,
+        woody,
+        known["ash"],
+        shot.front_scale,
+        mixed,
         known.beyond,
         _HILLS * float(np.std(shot.run.elevation[np.isfinite(shot.run.elevation)])),
         known["shrub"],
@@ -82,6 +108,13 @@ def of(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -> Pl
         1.0 - known["mapped"],
         granite.fine(tree, position, 0.6, 5.0, pixel, 0.72),
     )
+
+
+def _left_out(grain: Grain, speed: nodes.Value, woody: nodes.Value, scale: float) -> nodes.Value:
+    """More than 0 in tufts and strips of grass and shrubs that a front leaves out, most where it is slow."""
+    tufts = grain.noise(45.0 * scale, 5.0, 0.66)
+    weak = speed.ramp(0.03, 0.5, 0.08, 0.0)
+    return (tufts + weak).smoothstep(0.66, 0.74) * (1.0 - woody).smoothstep(0.0, 0.4)
 
 
 def rock(tree: nodes.Tree, place: Place, outcrops: float = 1.0) -> nodes.Value:
