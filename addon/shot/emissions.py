@@ -137,12 +137,26 @@ def burn_out(surface: ArrayLike, kinds: ArrayLike) -> Array:
     return column("burn_out", 0)[kinds] + column("burn_out", 1)[kinds] * np.asarray(surface, np.float64)
 
 
+_COLUMN = 1.0e9, 5.0e10  # W of fires whose columns begin to have ash and droplets, and have all (by eye)
+
+
 @dataclass(frozen=True)
 class Mix:
-    """Smoke of several kinds of fuel, by their shares (4,) of its mass, and its kg per J of heat."""
+    """Smoke of several kinds of fuel.
+
+    Attributes
+    ----------
+    shares
+        (4,) of its mass.
+    per_heat
+        kg per J of heat.
+    power
+        W of the fire: a strong one's column takes ash up and makes droplets.
+    """
 
     shares: Array
     per_heat: float
+    power: float = _COLUMN[1]
 
     @property
     def dark(self) -> float:
@@ -167,13 +181,18 @@ class Mix:
     @property
     def opacity(self) -> float:
         """Of its extinction, beside that of smoke which looks were chosen with, as warm."""
-        return self.dilution * float(self.shares @ column("gain"))
+        strong = np.log(max(self.power, _COLUMN[0]) / _COLUMN[0]) / np.log(_COLUMN[1] / _COLUMN[0])
+        plain, full = KINDS[GRASS].gain, float(self.shares @ column("gain"))
+        return self.dilution * float(plain + min(strong, 1.0) * (full - plain))
 
 
-def mix(smoke: ArrayLike, heat: float) -> Mix:
-    """The mix of so much smoke (kg) of each kind (4,) with so much heat (J); without any a crown fire's."""
+def mix(smoke: ArrayLike, heat: float, power: float = _COLUMN[1]) -> Mix:
+    """The mix of so much smoke (kg) of each kind (4,) with so much heat (J); without any a crown fire's.
+
+    `power` (W) is the fire's.
+    """
     smoke = np.asarray(smoke, np.float64)
     total = float(smoke.sum())
     if not total > 0.0 or not heat > 0.0:
         return Mix(np.eye(len(KINDS))[CROWN], PLAIN)
-    return Mix(smoke / total, total / heat)
+    return Mix(smoke / total, total / heat, power)

@@ -29,6 +29,7 @@ from .relief import Relief
 _FLAMES = emissions.column("residence")
 _HEAT, _SMOKE = ([emissions.column(name, part) for part in (0, 1)] for name in ("heat", "smoke"))
 _LOOK, _LOOKS = 30.0, 240  # s between two looks at what burns, and how many looks at most
+_MOMENTS = 3  # at which a fire's power is looked at, for its column
 _AHEAD = 600.0  # s after the last moment: what catches fire in the interval that goes on then
 
 
@@ -194,7 +195,8 @@ class Fire:
                 sum((mass * per_kg[of]).sum() for mass, per_kg in zip(burned, _HEAT, strict=True))
             )
             made += np.bincount(np.broadcast_to(of, load.shape), smoke, len(made))
-        return emissions.mix(made, heat_of)
+        power = max(self.sources(time).power.sum() for time in np.linspace(self.first, self.last, _MOMENTS))
+        return emissions.mix(made, heat_of, float(power))
 
     def smoke_made(self, first: float, last: float) -> float:
         """Smoke (kg) given off between two model times (s), by the trapezoidal rule."""

@@ -87,7 +87,13 @@ def test_grass_smoke_is_paler_thinner_and_less_than_that_of_timber(make_run, tmp
     assert grass.dark < 0.2 < 0.9 < timber.dark
     assert grass.per_heat < 0.5 * timber.per_heat
     assert grass.opacity < 0.2 * timber.opacity
-    assert timber.opacity == pytest.approx(1.0, abs=0.05)  # as looks were chosen
+
+
+def test_only_a_strong_column_of_timber_hides_more_than_its_mass():
+    shares = [0.0, 0.0, 0.64, 0.36]
+    strong, weak = (emissions.mix(shares, 1.0 / 1.463e-9, power) for power in (1.0e11, 5.0e8))
+    assert strong.opacity == pytest.approx(1.0, abs=0.05)  # as looks were chosen
+    assert weak.opacity / weak.dilution == GRASS.gain < 0.5 * strong.opacity / strong.dilution
 
 
 def test_smouldering_gives_more_smoke_and_less_heat():
