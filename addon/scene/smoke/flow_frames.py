@@ -21,7 +21,7 @@ from ...shot import noise
 from ...shot.path import SENSOR
 from ...shot.scale import Scale
 from ...shot.shot import WIDE_LENS, Shot
-from . import moments
+from . import flow_glow, moments
 from .boxes import Box
 from .close_up import Window
 from .flow import Flow, Part
@@ -50,7 +50,6 @@ _SEEN = 1e-9  # kg/m3; thinner smoke is not looked at
 _THIN = 5.0e-5  # 1/m; thinner smoke is left out
 _AGES = 20.0, 600.0  # s, of dark and of white smoke
 _BLOCK, _ROUND = 16, 300.0  # voxels; m round a block that count as it: of light that smoke passes on
-_GLOW_POWER, _GLOW_REACH, _GLOW_CORE, _GLOW_EVERY = 1e9, 600.0, 250.0, 3  # W, m, m, cells
 
 # Lengths, times and extinctions are those of a fire on cells of `scale.REFERENCE` m.
 
@@ -300,7 +299,7 @@ class Painter:
             ground=heights[0],
             weights=moment.weights,
             turns=moment.turns,
-            glow=None if lights is None else _glow(lights, heights[1:], box.spacing, corner, scale),
+            glow=None if lights is None else flow_glow.glow(lights, heights[1:], box.spacing, corner, scale),
             size=scale.length(size),
             scale=scale.ratio,
             blur=blur,
@@ -337,38 +336,3 @@ def _sampled(values: Array, step: float, corner: tuple[float, float], x: Array, 
     u, v = (i - a)[:, None], (j - b)[None, :]
     corners = [values[np.ix_(a + e, b + n)] for e in (0, 1) for n in (0, 1)]
     return (corners[0] * (1 - v) + corners[1] * v) * (1 - u) + (corners[2] * (1 - v) + corners[3] * v) * u
-
-
-def _glow(
-    lights: tuple[Array, Array], heights: Array, spacing: float, corner: tuple[float, float], scale: Scale
-) -> NDArray[np.float32]:
-    """Sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2) in cells; every third one, linear between."""
-    places, power = lights
-    reach, core = np.float32(scale.length(_GLOW_REACH)), np.float32(scale.length(_GLOW_CORE) ** 2)
-    every = [np.unique(np.append(np.arange(0, count, _GLOW_EVERY), count - 1)) for count in heights.shape]
-    z = heights[np.ix_(*every)].astype(np.float32)
-    y, x = (
-        (low + (at + 0.5) * spacing).astype(np.float32)
-        for low, at in zip(corner[::-1], every[1:], strict=True)
-    )
-    found = np.zeros(z.shape, np.float32)
-    for place, watts in zip(places.astype(np.float32), power, strict=True):
-        flat = (x - place[0])[None, None, :] ** 2 + (y - place[1])[None, :, None] ** 2
-        square = flat + (z - place[2]) ** 2
-        found += (
-            np.float32(watts / (_GLOW_POWER * scale.ratio**2))
-            * np.exp(-np.sqrt(square) / reach)
-            / (1.0 + square / core)
-        )
-    for axis, (at, count) in enumerate(zip(every, heights.shape, strict=True)):
-        found = _stretched(found, at, count, axis)
-    return found
-
-
-def _stretched(values: NDArray, at: NDArray[np.int64], count: int, axis: int) -> NDArray[np.float32]:
-    """Values at whole places `at` of an axis, at all of its `count` places; linear between."""
-    place = np.interp(np.arange(count), at, np.arange(len(at)))
-    low = np.minimum(place.astype(np.int64), max(len(at) - 2, 0))
-    part = (place - low).reshape([-1 if a == axis else 1 for a in range(values.ndim)])
-    high = np.minimum(low + 1, len(at) - 1)
-    return (values.take(low, axis) * (1 - part) + values.take(high, axis) * part).astype(np.float32)
