@@ -17,7 +17,7 @@ _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, bl
 _MOON, _STARS = 0.2, 0.08
 _MOON_COLOUR = (0.65, 0.78, 1.0)
 NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.1  # radiance
-_DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.03
+_DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.01
 _FULL_DAY = 1.8  # air masses; through more the sun, and haze in its light, is redder
 HAZE = 1.2e-5  # extinction at z = 0 on a dry September day, 1/m: clear mountain air
 HAZE_HEIGHT = 5000.0  # m; it thins by exp(-z / this), between dust (about 2 km) and air (8 km)
