@@ -11,7 +11,7 @@ from firetwin.render import engine, integrated, layers, pictures
 from firetwin.render.picture import Picture
 from firetwin.render.sharing import making
 from firetwin.scene import build
-from firetwin.scene.smoke import bake, baker
+from firetwin.scene.smoke import bake, baker, close_up
 from firetwin.shot import passes
 from firetwin.shot.rigs.drone import CameraKey, Drone
 from firetwin.shot.settings import Camera, Time
@@ -63,7 +63,8 @@ def film(near_settings, run, few_cells, cache, tmp_path):
 
 
 @pytest.fixture
-def both(film):
+def both(film, monkeypatch):
+    monkeypatch.setattr(close_up, "window", lambda *asked: None)  # which no volume has
     names = "rgb", "thermal", "depth", "masks"
     return film(*names), film(*names, draw="volume")
 

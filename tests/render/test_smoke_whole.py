@@ -10,6 +10,7 @@ from firetwin.render import engine
 from firetwin.scene import haze
 from firetwin.scene.smoke import bake
 from firetwin.scene.smoke import build as smoke
+from firetwin.shot.scale import Scale
 from firetwin.shot.settings import Smoke
 from firetwin.shot.shot import Shot
 
@@ -63,8 +64,9 @@ def puffy():
 
 
 @pytest.fixture
-def look(settings, run, stage, scene, shoot, tmp_path):
+def look(settings, run, stage, scene, shoot, tmp_path, monkeypatch):
     """Brightness of a view from within clear smoke: (blocks up, blocks across)."""
+    monkeypatch.setattr(Shot, "scale", Scale())
     smoky = replace(
         settings, smoke=Smoke(method="puffs", voxel_size=VOXEL), time=replace(settings.time, frames=1)
     )
