@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import whole_run
 from firetwin.run import readers, zone
-from firetwin.shot import file, fit, fitted
+from firetwin.shot import emissions, file, fit, fitted
 from firetwin.shot.choice import Choice
 from firetwin.shot.fitted import front, overview, placing, plume, visible, window
 from firetwin.shot.settings import Time
@@ -150,7 +150,7 @@ def test_a_plume_holds_the_smoke_that_its_fuel_gives():
         eye = place - np.array([0.0, 4000.0, 0.0])
         lines = place + np.array([[0.0, 0.0, 0.0]])
         half = 1.0 + 0.4 * along
-        expected = plume.EXTINCTION * 2.0 / 4.0 / (np.pi * half**2) * 2.0 * half
+        expected = emissions.EXTINCTION * 2.0 / 4.0 / (np.pi * half**2) * 2.0 * half
         fine = [
             one.depth(eye, lines + np.array([0.0, move, 0.0]))[0] for move in np.linspace(-1900.0, 0.0, 200)
         ]

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import emissions
 from ..ground import NEVER, Ground
 
-SMOKE = 0.01  # kg of smoke of a kg of fuel: PM2.5 of grass to forest, 0.007 to 0.02 (Andreae 2019), rounded
-EXTINCTION = 4500.0  # m2/kg of smoke in visible light (Reid et al. 2005, about), rounded
-_BURN_OUT = 600.0  # s in which fuel burns down to 1/e, or as long as the front takes to cross a cell
 _LONG = 3.0  # burn-out times after which a cell counts as cold
 _WIDE = 0.4  # half-width of a plume over the way it has drifted (by eye)
-_BUOYANCY = 8.8e-6 * 17.433e6  # m4/s3 of buoyancy flux for a kg/s of fuel: g / (pi cp rho T) of its heat
+_BUOYANCY = (
+    8.8e-6 * emissions.HEAT
+)  # m4/s3 of buoyancy flux for a kg/s of fuel: g / (pi cp rho T) of its heat
 _BRIGGS = 1.6  # of the bent-over plume: it is 1.6 F^(1/3) x^(2/3) / U high at x m (Briggs 1971)
 _RISES = (0.2, 2.0)  # height over the way, of straight plumes that stand for bent ones (assumed)
 _WEAK = 2.0  # m/s; weaker winds count as so strong: fires draw air in
@@ -66,7 +66,7 @@ class Plume:
         inside = (along > 0.0) & (across < half)
         dense = np.where(inside, self.rate / (np.pi * half**2), 0.0).sum(axis=-1)  # kg/(m s)
         pieces = np.gradient(part)[:, None] * np.linalg.norm(eye - place, axis=1)
-        return EXTINCTION / max(speed, _WEAK) * (dense * pieces).sum(axis=0)
+        return emissions.EXTINCTION / max(speed, _WEAK) * (dense * pieces).sum(axis=0)
 
 
 def at(ground: Ground, near: tuple[slice, slice], crossing: Array, time: float, wind: Array) -> Plume:
@@ -80,28 +80,35 @@ def at(ground: Ground, near: tuple[slice, slice], crossing: Array, time: float, 
     """
     fields = ground.fields
     arrival = ground.arrival[near]
-    burn_out = np.maximum(crossing, _BURN_OUT)
+    surface, canopy = fields.surface_fuel[near], fields.canopy_fuel[near]
+    kind = emissions.kind(surface, canopy)
+    burn_out = np.maximum(crossing, emissions.burn_out(surface, kind))
     with np.errstate(over="ignore", invalid="ignore"):
         age = (time - arrival) / burn_out
     row, column = np.nonzero((arrival < NEVER) & (age >= 0.0) & (age < _LONG))
-    fuel = (
-        (fields.surface_fuel[near] + fields.canopy_fuel[near])[row, column] * ground.cell[0] * ground.cell[1]
-    )
-    rate = SMOKE * fuel * np.exp(-age[row, column]) / burn_out[row, column]
+    per_kg = emissions.column("smoke", 0)
+    smoke = (surface * per_kg[kind] + canopy * per_kg[emissions.CROWN])[row, column]
+    burns = ground.cell[0] * ground.cell[1] * np.exp(-age[row, column]) / burn_out[row, column]
+    fuel = float((burns * (surface + canopy)[row, column]).sum())
     row, column = row + near[0].start, column + near[1].start
     point = ground.frame.forward(
         fields.latitude[row], fields.longitude[column], fields.elevation[row, column]
     )
-    return Plume(*_merged(point, rate), wind, 0.5 * max(ground.cell), _rise(point, rate, wind))
+    return Plume(*_merged(point, smoke * burns), wind, 0.5 * max(ground.cell), _rise(point, fuel, wind))
 
 
-def _rise(point: Array, rate: Array, wind: Array) -> float:
-    """Height over the way of the smoke of a whole fire, where it has drifted a third of the fire's size."""
-    if len(rate) == 0:
+def _rise(point: Array, fuel: float, wind: Array) -> float:
+    """Height over the way of the smoke of a whole fire, where it has drifted a third of the fire's size.
+
+    Parameters
+    ----------
+    fuel
+        That it burns, kg/s.
+    """
+    if len(point) == 0:
         return _RISES[0]
     way = max(float(np.hypot(*np.ptp(point[:, :2], axis=0))) / 3.0, 100.0)
-    flux = _BUOYANCY * float(rate.sum()) / SMOKE
-    slope = _BRIGGS * (flux / way) ** (1.0 / 3.0) / max(float(np.hypot(*wind)), _WEAK)
+    slope = _BRIGGS * (_BUOYANCY * fuel / way) ** (1.0 / 3.0) / max(float(np.hypot(*wind)), _WEAK)
     return float(np.clip(slope, *_RISES))
 
 
