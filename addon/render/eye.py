@@ -81,7 +81,7 @@ class Eye:
         depth = volume.optical_depth(self.smoke, *_lines(self.rays), self.distance.ravel(), step=_STEP)
         return np.exp(-depth * illumination.thickness(self.stage)).reshape(self.shape)
 
-    def smothered(self, near: float) -> float:
+    def hidden_by_near_smoke(self, near: float) -> float:
         """Part of the picture in which smoke nearer than `near` m hides what is behind it."""
         if not self.smoke:
             return 0.0

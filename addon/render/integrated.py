@@ -40,7 +40,7 @@ class Drawing:
 
     def __init__(self, shot: Shot, stage: Stage) -> None:
         self.shot, self.stage, self.scene = shot, stage, stage.scene
-        self.blind: list[int] = []
+        self.in_smoke: list[int] = []
         """Frames of which smoke right before the camera hides more than half."""
         self.image = _show(self.scene)
         _prepare(self.scene)
@@ -84,15 +84,15 @@ class Drawing:
         (view,) = self.shot.paths
         if view.perspective:
             away = float(np.linalg.norm(view.target[frame - 1] - view.position[frame - 1]))
-            if eye.smothered(_RIGHT_BEFORE * away) > _HALF:
-                self.blind.append(frame)
+            if eye.hidden_by_near_smoke(_RIGHT_BEFORE * away) > _HALF:
+                self.in_smoke.append(frame)
 
     def words(self) -> list[str]:
         """What an artist should know of the pictures."""
-        if not self.blind:
+        if not self.in_smoke:
             return []
         (view,) = self.shot.paths
-        listed = f"frame {self.blind[0]}" if len(self.blind) == 1 else f"{len(self.blind)} frames"
+        listed = f"frame {self.in_smoke[0]}" if len(self.in_smoke) == 1 else f"{len(self.in_smoke)} frames"
         return [
             f'camera "{view.camera.name}" stands in smoke, which hides more than half of its picture in '
             f"{listed}; move it to windward, or higher"

@@ -16,8 +16,9 @@ from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
 from ..run import fuel_category
+from ..run.models import fuels
 
-HEAT = 17.433e6  # J/kg, WRF-SFIRE's cmbcnst: what runs' heat is made with, whatever the fuel
+HEAT = fuels.HEAT  # J/kg: what runs' heat is made with, whatever the fuel
 _OF_CO = 10.1e6  # J/kg, heat that carbon monoxide would give if it burned
 EXTINCTION = 4000.0  # m2/kg of fresh smoke in green light (Reid et al. 2005, doi 10.5194/acp-5-799-2005)
 _PLAIN = 0.02  # kg/kg of burned fuel, where none is known (WRF-SFIRE's fire_tracer_smoke)

@@ -26,8 +26,8 @@ _ACROSS = 75.0  # cells along what burns: a column of a few cells has no turrets
 _FUEL = 3.0  # cells of the flow in one of the fuel, at most: heat is known no finer
 _ROUND = 125.0, 50.0  # cells of air before and behind, and beside
 _SLIM = 0.7  # width of what burns over its length (assumed, for the cost alone)
-_LEVELS = 48, 56  # of the box and of the nest
-_NEST = 180  # cells along a side of the nest
+LEVELS = 48, 56  # of the box and of the nest
+NEST = 180  # cells along a side of the nest
 _COVERED = 45.0  # of its 60 cells of the box, along what burns: all cameras of a small fire share a nest
 _MOST = 8.0e6  # cells of the box: 1 GB
 _STEP = 10.0  # s
@@ -117,8 +117,8 @@ def extent(run: Run, arrival: NDArray, first: float, last: float) -> float:
 
 def _affordable(scale: Scale, extent: float, budget: float) -> bool:
     across = extent / scale.cell
-    cells = (across + _ROUND[0]) * (_SLIM * across + _ROUND[1]) * _LEVELS[0]
+    cells = (across + _ROUND[0]) * (_SLIM * across + _ROUND[1]) * LEVELS[0]
     rate = cells / scale.step
     if scale.nested:
-        rate += _NEST**2 * _LEVELS[1] * FINER / scale.step
+        rate += NEST**2 * LEVELS[1] * FINER / scale.step
     return bool(cells <= _MOST and rate <= budget * 1e6)

@@ -138,10 +138,8 @@ class Shot:
             return self.of(name.partition("@")[0]).in_run(name)
         camera = self.camera(name)
         render = replace(self.settings.render, resolution=self.resolution(camera))
-        shot = Shot(replace(self.settings, cameras=(camera,), render=render), self.run)
-        shot.relief, shot.fire, shot.bare_ground = self.relief, self.fire, self.bare_ground
-        shot.scale, shot.arrival = self.scale, self.arrival
-        shot.cameras, shot.others = self.cameras, self.others
+        shot = self._sharing(replace(self.settings, cameras=(camera,), render=render))
+        shot.others = self.others
         return shot
 
     def part(self, listed: list[int]) -> Shot:
@@ -151,11 +149,15 @@ class Shot:
         """
         (camera,) = self.settings.cameras
         camera = replace(camera, frames=",".join(map(str, listed)))
-        shot = Shot(replace(self.settings, cameras=(camera,)), self.run)
+        shot = self._sharing(replace(self.settings, cameras=(camera,)))
+        shot.whole, shot.paths = self, [replace(self.paths[0], camera=camera)]
+        return shot
+
+    def _sharing(self, settings: Settings) -> Shot:
+        """A shot of these settings that shares ground, fire and scale with this one."""
+        shot = Shot(settings, self.run)
         shot.relief, shot.fire, shot.bare_ground = self.relief, self.fire, self.bare_ground
-        shot.scale, shot.arrival = self.scale, self.arrival
-        shot.cameras, shot.whole = self.cameras, self
-        shot.paths = [replace(self.paths[0], camera=camera)]
+        shot.scale, shot.arrival, shot.cameras = self.scale, self.arrival, self.cameras
         return shot
 
     def camera(self, name: str) -> Camera:

@@ -31,11 +31,11 @@ def looking(monkeypatch):
 
 
 def test_smoke_right_before_an_eye_hides_its_picture(looking):
-    assert looking(100.0, -200.0).smothered(100.0) == 1.0
-    assert looking(100.0, -200.0).smothered(10.0) == 0.0, "10 m of it let a third through"
-    assert looking(-500.0, -200.0).smothered(100.0) == 0.0, "what is far off is the picture"
-    assert looking(100.0, 300.0).smothered(100.0) == 0.0
-    assert looking(100.0, -200.0, smoky=False).smothered(100.0) == 0.0
+    assert looking(100.0, -200.0).hidden_by_near_smoke(100.0) == 1.0
+    assert looking(100.0, -200.0).hidden_by_near_smoke(10.0) == 0.0, "10 m of it let a third through"
+    assert looking(-500.0, -200.0).hidden_by_near_smoke(100.0) == 0.0, "what is far off is the picture"
+    assert looking(100.0, 300.0).hidden_by_near_smoke(100.0) == 0.0
+    assert looking(100.0, -200.0, smoky=False).hidden_by_near_smoke(100.0) == 0.0
 
 
 def test_a_camera_in_smoke_is_told_of(looking):
@@ -47,7 +47,7 @@ def test_a_camera_in_smoke_is_told_of(looking):
         target=np.add(places, [1000.0, 0.0, 0.0]),
         camera=SimpleNamespace(name="drone"),
     )
-    drawing.blind, drawing.shot = [], SimpleNamespace(paths=[view])
+    drawing.in_smoke, drawing.shot = [], SimpleNamespace(paths=[view])
     drawing._look(looking(-500.0, -200.0), 1)
     assert drawing.words() == []
     drawing._look(looking(100.0, -200.0), 2)

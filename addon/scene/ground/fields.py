@@ -81,10 +81,7 @@ def place(shape: tuple[int, int], row: NDArray, column: NDArray, margin: int = 0
     """
     size = -(-max(shape) // _LARGEST)
     rows, columns = (size * -(-count // size) for count in shape)
-    beyond = [
-        np.maximum(margin - at, at - (count - 1 - margin))
-        for at, count in zip((row, column), shape, strict=True)
-    ]
+    beyond = [_lines_beyond(at, count, margin) for at, count in zip((row, column), shape, strict=True)]
     out = np.clip(np.maximum(*beyond) / _OUT, 0.0, 1.0) if margin else 0.0 * row
     return np.stack([(column + 0.5) / columns, (row + 0.5) / rows, out], axis=-1).astype(np.float32)
 
@@ -112,7 +109,12 @@ def _softened(ground: Ground) -> NDArray[np.float64]:
 def _beyond(count: int, margin: int) -> NDArray[np.float32]:
     """How far (count,) lines are on the apron, 0 within the run and 1 from `_SOFT` lines beyond on."""
     at = np.arange(count, dtype=np.float32)
-    return np.clip(np.maximum(margin - at, at - (count - 1 - margin)) / np.float32(_SOFT), 0.0, 1.0)
+    return np.clip(_lines_beyond(at, count, margin) / np.float32(_SOFT), 0.0, 1.0)
+
+
+def _lines_beyond(at: NDArray, count: int, margin: int) -> NDArray:
+    """How many lines beyond the run places `at` are: of `count` lines `margin` on each side are apron."""
+    return np.maximum(margin - at, at - (count - 1 - margin))
 
 
 def _blurred(field: NDArray[np.float32]) -> NDArray[np.float32]:

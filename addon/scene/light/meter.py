@@ -33,9 +33,8 @@ _CLOUD = 0.3  # of lit smoke: a deep ball of it has 0.27, the sun behind the cam
 _YOUNG = 20.0, 600.0  # s in which smoke turns from that of soot to white, as `flow.Detail` has it
 _SOOT = 0.3  # of old smoke's light is fresh smoke's, amid other smoke; as pictures have it
 _BLOCK, _FIRES = 600.0, 80  # m, heat this close is one fire, at 15 km; and how many there are at most
-_TIMES = np.array(
-    [30.0, 90.0, 180.0, 300.0, 480.0, 720.0, 1080.0, 1600.0]
-)  # s since smoke left its fire, of 15 km
+# s since smoke left its fire, of 15 km.
+_TIMES = np.array([30.0, 90.0, 180.0, 300.0, 480.0, 720.0, 1080.0, 1600.0])
 _HIDES, _FRONT = 0.3, 1.5  # optical depth of a parcel that hides much; its radii from there to its middle
 _THROUGH = 0.5  # of smoke's depth counts for the light on it: `smoke.flow_material`
 _TOP = 3500.0  # m above the fire that smoke rises to at most

@@ -12,17 +12,20 @@ from numpy.typing import NDArray
 
 from ...shot.fire import Fire
 from ...shot.path import Path
-from ...shot.scale import FINER, Scale
+from ...shot.scale import FINER, LEVELS, NEST, Scale
 from ...shot.shot import Shot
 from . import air
 
 LEAD = 600.0  # s that the nest is solved before the first frame: its own eddies need them
-_LEVELS, _NEST_LEVELS = (60.0, 270.0, 48), (36.0, 186.0, 56)  # lowest m, growth to the highest, count
+_LEVELS, _NEST_LEVELS = (
+    (60.0, 270.0, LEVELS[0]),
+    (36.0, 186.0, LEVELS[1]),
+)  # lowest m, growth to the highest, count
 _MARGIN = 5000.0  # m round what burns: air that the fire draws in
 _DOWNWIND = (6000.0, 15_000.0)  # m that smoke is followed
 _WIDEST = 130_000.0  # m along a side; smoke of what burns farther out is left out
 _SHARE = 0.01  # of the heat that may lie outside of the middle on each side
-_NEST = 180  # cells along a side: 12 km
+_NEST = NEST  # cells along a side: 12 km
 _COVERED = 0.8  # of a nest's side that the heat in its middle may be long
 _NEST_ROUND = 6000.0  # m; the nest's middle is that of the heat so near to what a camera looks at
 _NEST_SEEN = 60_000.0  # m; cameras farther away see nothing that the nest adds

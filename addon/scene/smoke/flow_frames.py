@@ -136,7 +136,6 @@ class Painter:
     def __init__(self, shot: Shot, layer: Layer, inner: Box | None) -> None:
         self.shot, self.layer, self.inner = shot, layer, inner
         self.scale = layer.part.scale
-        self.window: Window | None = None
         self._thin = thinnest(self.scale)
 
     def write(
@@ -198,16 +197,20 @@ class Painter:
         window
             What of it is painted again, more finely.
         """
-        self.window = window
-        painted = self._paint(frame, lights, sight, beyond)
+        painted = self._paint(frame, lights, sight, beyond, window)
         return painted.lit.bricks(painted.share, self._thin), Beyond(painted.lit.depths)
 
     def _paint(
-        self, frame: int, lights: tuple[Array, Array] | None, sight: lod.Sight | None, beyond: Beyond | None
+        self,
+        frame: int,
+        lights: tuple[Array, Array] | None,
+        sight: lod.Sight | None,
+        beyond: Beyond | None,
+        window: Window | None = None,
     ) -> _Painted:
         moment = moments.load(self.layer.part.moment(frame))
         voxel = self.layer.voxel
-        origin, surface, end, share, count = self._brick(moment)
+        origin, surface, end, share, count = self._brick(moment, window)
         wanted = _wanted(sight, origin, (*surface.shape, count), voxel, self.scale.length(_ROUND))
         smoke = self._detail(moment, lights).paint_sparse(
             origin, voxel, surface, end, count, wanted, self._thin
@@ -221,14 +224,16 @@ class Painter:
         """Of the ground and of cells' middles (1 + nz, rows, columns), m, as the solver has them."""
         return np.concatenate([self.layer.part.ground[None], self.layer.part.heights()])
 
-    def _brick(self, moment: moments.Moment) -> tuple[tuple[float, float, float], Array, Array, Array, int]:
+    def _brick(
+        self, moment: moments.Moment, window: Window | None
+    ) -> tuple[tuple[float, float, float], Array, Array, Array, int]:
         """Centre of the first voxel; of columns the ground, what is there, what of that is drawn; height."""
         box, voxel = self.layer.part.box, self.layer.voxel
         _nz, rows, columns = moment.fields["smoke"].shape
         low = np.array(box.corner) + np.array(moment.low) * box.spacing
         last = low + np.array([columns, rows]) * box.spacing
-        if self.layer.close:
-            low, last = np.clip([self.window.low, self.window.high], low, last)
+        if self.layer.close and window is not None:
+            low, last = np.clip([window.low, window.high], low, last)
         first = np.floor(low / voxel) * voxel
         nx, ny = (max(2, int(np.ceil(side / voxel))) for side in last - first)
         x, y = first[0] + np.arange(nx) * voxel, first[1] + np.arange(ny) * voxel
@@ -239,7 +244,7 @@ class Painter:
         base = np.floor(lowest / voxel) * voxel
         top = float(heights[: len(seen)][seen].max(initial=lowest)) + 2.0 * box.spacing
         origin = (float(first[0]), float(first[1]), float(base))
-        end, share = self._shares(x[:, None], y[None, :])
+        end, share = self._shares(x[:, None], y[None, :], window)
         return origin, surface, end, share, max(2, int((top - base) / voxel))
 
     @property
@@ -258,11 +263,11 @@ class Painter:
         up = self.shot.bare_ground.up(np.repeat(x, len(y)), np.tile(y, len(x)))
         return up.reshape(len(x), len(y))
 
-    def _shares(self, x: Array, y: Array) -> tuple[Array, Array]:
+    def _shares(self, x: Array, y: Array, window: Window | None = None) -> tuple[Array, Array]:
         """How much smoke there is at places, for light, and how much of that this layer draws, 0 to 1."""
         box = self.layer.part.box
         if self.layer.fine:
-            close = 0.0 if self.window is None else self.window.share(x, y)
+            close = 0.0 if window is None else window.share(x, y)
             drawn = self._inside(box, x, y, _FADE[0])
             return np.ones((x + y).shape), drawn * (close if self.layer.close else 1.0 - close)
         torn = _TORN * noise.fractal(x, y, self.scale.length(_TEARS), 6, self.shot.settings.seed, 0.6)

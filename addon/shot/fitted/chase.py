@@ -21,12 +21,7 @@ _LATER = 0.04  # liking lost for each later side or height
 def place(front: Front, visible: Visible) -> Placed:
     """The best of sides and heights; of farther ones where no near one shows enough."""
     near = placing.near(front, _PART, _DISTANCES, _OVER_CROWNS)
-    found: list[Tried] = []
-    for farther in placing.FARTHER:
-        found += _tried(front, visible, near, placing.rounded(farther * near))
-        if any(placing.enough(each.seen) for each in found):
-            break
-    best = placing.best(found, placing.CLOSE_CLEAR)
+    best = placing.nearest_enough(near, lambda distance: _tried(front, visible, near, distance))
     way = placing.bearing(placing.path(front, best.camera))
     words = (
         f"goes along with the head, {placing.where(front, way)}: "

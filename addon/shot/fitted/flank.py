@@ -9,7 +9,7 @@ from ..rigs._key import CameraKey
 from ..rigs.drone import Drone
 from ..settings import Camera
 from . import placing
-from .front import Front
+from .front import Front, some
 from .placing import Placed, Tried
 from .visible import Visible
 
@@ -26,17 +26,11 @@ _STEEP = 0.1  # liking lost for each higher step
 def place(front: Front, visible: Visible) -> Placed:
     """The best of places, directions and heights; of farther ones where no near one shows enough."""
     near = placing.near(front, _PART, _DISTANCES, _OVER_CROWNS)
-    found: list[Tried] = []
-    for farther in placing.FARTHER:
-        found += _tried(front, visible, near, placing.rounded(farther * near))
-        if any(placing.enough(each.seen) for each in found):
-            break
-    best = placing.best(found, placing.CLOSE_CLEAR)
+    best = placing.nearest_enough(near, lambda distance: _tried(front, visible, near, distance))
     view = placing.path(front, best.camera)
-    away = float(np.hypot(*(view.position - view.target)[0, :2]))
     words = (
         f"close to a flank, {placing.where(front, placing.bearing(view))}: "
-        f"{placing.distance(away)} away, {best.camera.rig.keys[0].height:,.0f} m up; "
+        f"{placing.distance(placing.away(view))} away, {best.camera.rig.keys[0].height:,.0f} m up; "
         + placing.shows(best.seen, f"the front within {placing.distance(near)} of its aim")
     )
     return Placed(best.camera, best.seen.share, words)
@@ -66,7 +60,7 @@ def _flanks(front: Front) -> NDArray[np.int64]:
     across = 1.0 - np.abs(front.velocity[middle] @ course) / speed
     good = middle[across >= np.quantile(across, 0.6)]
     order = good[np.argsort(front.point[good] @ np.array([*course, 0.0]) if np.any(course) else good)]
-    return order[np.unique(np.linspace(0, len(order) - 1, _PLACES).round().astype(np.int64))]
+    return some(order, _PLACES)
 
 
 def _camera(front: Front, at: int, distance: float, height: float, turn: float) -> tuple[Camera, float]:

@@ -138,9 +138,8 @@ def _words(front: Front, camera: Camera, seen: Seen) -> str:
     """A line about the camera."""
     (key,) = camera.rig.keys
     view = placing.path(front, camera)
-    away = float(np.hypot(*(view.position - view.target)[0, :2]))
     side = placing.where(front, placing.bearing(view))
-    text = f"{side}: {placing.distance(away)} away, {key.height:,.0f} m up"
+    text = f"{side}: {placing.distance(placing.away(view))} away, {key.height:,.0f} m up"
     if not len(front.point):
         return f"{text}; nothing burns in the run"
     return f"{text}; {placing.shows(seen, 'the front')}"

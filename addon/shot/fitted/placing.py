@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -59,6 +60,29 @@ def best(found: list[Tried], clear: float) -> Tried:
         if good := [each for each in found if each.seen.share >= least]:
             return max(good, key=lambda each: clear * each.seen.clear + each.liking)
     return max(found, key=lambda each: each.seen.share)
+
+
+def nearest_enough(near: float, tried: Callable[[float], list[Tried]]) -> Tried:
+    """The best of close cameras; of farther ones as well, where no nearer one shows enough.
+
+    Parameters
+    ----------
+    near
+        The least distance, m.
+    tried
+        Gives the cameras of a distance (m).
+    """
+    found: list[Tried] = []
+    for farther in FARTHER:
+        found += tried(rounded(farther * near))
+        if any(enough(each.seen) for each in found):
+            break
+    return best(found, CLOSE_CLEAR)
+
+
+def away(view: Path) -> float:
+    """How far (m) a camera is from what it looks at in its first frame, over the ground."""
+    return float(np.hypot(*(view.position - view.target)[0, :2]))
 
 
 def enough(seen: Seen) -> bool:
