@@ -131,9 +131,7 @@ def _convert(files: list[Path], out: Path, options: list, progress: Progress, te
             write.write(model, out, _fingerprint(files, options), progress)
         finally:
             model.close()
-        placed = (("grid", model.grid.placed), ("fuel grid", model.fuel_grid.placed))
-        moved = [f"{name}: {each.error}" for name, each in placed if each.error]
-        for text in [*model.assumptions, *moved]:
+        for text in [*model.assumptions, *write.moved(model)]:
             tell(text)
     except (Error, UsageError, OSError):
         raise

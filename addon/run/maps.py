@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from .. import files
 from ..data import history
-from . import areas, thumbnails, times
+from . import areas, burned_fraction, thumbnails, times
 from .observations import Observations
 from .observations.heat import KINDS
 
@@ -133,8 +133,11 @@ def _heat(axes: Axes, run: Run, kind: str, found: Sequence[Heat]) -> Artist:
 
 def _burned_before(axes: Axes, run: Run) -> None:
     """Hatch what had burned when the run began: it released no heat in it."""
-    with np.errstate(invalid="ignore"):
-        before = (run.fuel_arrival_time() < run.times[0]).astype(np.float32)
+    if run.has(burned_fraction.FIELD):
+        before = burned_fraction.at(run, run.times[0])
+    else:
+        with np.errstate(invalid="ignore"):
+            before = (run.fuel_arrival_time() < run.times[0]).astype(np.float32)
     if min(before.shape) < 2 or before.min() == before.max():
         return
     axes.contourf(

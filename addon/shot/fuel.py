@@ -10,7 +10,7 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ..run import blocks, fuel_category
+from ..run import blocks, burned_fraction, fuel_category
 from ..run.frame import local_frame
 from . import burning, emissions
 from .relief import Relief
@@ -38,7 +38,8 @@ class Fuel:
     begin, crossing, over
         (n,) s, when the front enters it, how long it takes to leave it, and when the piece has burned out.
     surface, canopy
-        (n,) kg for each m2 of a fuel cell's area, summed over the cells of the piece.
+        (n,) kg for each m2 of a fuel cell's area, summed over the cells of the piece; of the burned
+        fraction of its cells, where the run has it.
     kind
         (n,) kind of the surface fuel, of `emissions.KINDS`; all of a piece is of one.
     slow
@@ -87,8 +88,11 @@ def gather(
         Fuel cells nearer than this burn as one, m.
     """
     heights = relief or Relief(run)
-    arrival = blocks.arrival(run, known)
-    parts = [_of_rows(run, heights, arrival, rows, (first, last, before)) for rows in blocks.rows(run)]
+    arrival, share = blocks.arrival(run, known), None
+    if run.has(burned_fraction.FIELD):
+        share = burned_fraction.at(run, float(run.times[-1]))
+    window = first, last, before
+    parts = [_of_rows(run, heights, arrival, share, rows, window) for rows in blocks.rows(run)]
     every = Fuel(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(Fuel)))
     row, column = np.divmod(every.fuel_cell, len(run.fuel_longitude))
     found = _pieces(run, every, row, column, detail)
@@ -99,13 +103,16 @@ def _of_rows(
     run: Run,
     heights: Relief,
     arrival: Callable[[int, int], NDArray],
+    share: NDArray | None,
     rows: tuple[int, int],
     window: tuple[float, float, float],
 ) -> Fuel:
     """The fuel of some rows, each cell a piece."""
     (top, end), (first, last, before) = rows, window
-    edge = max(top - 1, 0)
-    time = arrival(edge, min(end + 1, len(run.fuel_latitude)))  # with a row on each side for its slope
+    edge, beyond = max(top - 2, 0), min(end + 2, len(run.fuel_latitude))  # a row on each side for its slope
+    time = arrival(edge, beyond)
+    if share is not None:
+        time = _touched(time, share[edge:beyond])
     inner = time[top - edge : end - edge]
     came = inner < last + burning.CROSSING[1]
     if came.any():  # the slowest fuel of these rows tells what may still burn
@@ -130,7 +137,8 @@ def _of_rows(
     over = begin + crossing + _OVER * np.maximum(slow, BURN_OUT_CANOPY)
     recent = (over > first) | (came >= first - before)
     burns = np.flatnonzero((surface + canopy > 0.0) & (begin < last) & recent)
-    row, column, surface = row[burns], column[burns], surface[burns]
+    row, column = row[burns], column[burns]
+    part = 1.0 if share is None else share[row + top, column].astype(np.float64)
     height = np.nan_to_num(_at(heights.rows, top, row, column))
     place = run.fuel_latitude[row + top], run.fuel_longitude[column]
     return Fuel(
@@ -140,12 +148,25 @@ def _of_rows(
         begin[burns],
         crossing[burns],
         over[burns],
-        surface,
-        canopy[burns],
+        surface[burns] * part,
+        canopy[burns] * part,
         kind[burns],
         slow[burns],
         local_frame(run).forward(*place, height),
     )
+
+
+def _touched(time: NDArray, share: NDArray) -> NDArray:
+    """Arrival times, also of cells that burn in part though the front never gets to their middle.
+
+    Theirs is the latest of their neighbours', which the front came from; without one they have none.
+    """
+    padded, found = np.pad(time, 1, constant_values=np.nan), np.full_like(time, np.nan)
+    rows, columns = time.shape
+    for y in range(3):
+        for x in range(3):
+            found = np.fmax(found, padded[y : y + rows, x : x + columns])
+    return np.where(np.isnan(time) & (share > 0.0), found, time)
 
 
 def _at(rows: Callable[[int, int], NDArray], top: int, row: Index, column: Index) -> Array:

@@ -61,6 +61,19 @@ class Relief:
         """(ny, nx) of the model grid."""
         return self.mixed(self.run.latitude, self.run.longitude, self.run.elevation)[0]
 
+    @cached_property
+    def air(self) -> NDArray[np.float32]:
+        """(ay, ax) of the places of what the run has on levels."""
+        run = self.run
+        if not run.has("air_latitude"):
+            return self.coarse
+        at = []
+        for axis, places in ((run.latitude, run.air_latitude), (run.longitude, run.air_longitude)):
+            rising = np.argsort(axis)
+            at.append(np.interp(places, axis[rising], rising.astype(np.float64)))
+        own = between(run.elevation, *at).astype(np.float32)
+        return self.mixed(run.air_latitude, run.air_longitude, own)[0]
+
     def rows(self, first: int, last: int) -> NDArray[np.float32]:
         """Some rows of `fuel`; of the run's own no more is read."""
         return self.fuel[first:last] if self.model else self.run.fuel_rows("fuel_elevation", first, last)

@@ -44,11 +44,15 @@ std::vector<py::ssize_t> fuel_shape(const Run& run) {
   return {length(run.fuel_latitude().size()), length(run.fuel_longitude().size())};
 }
 
-Array<float> frame(const Run& run, const Series& series, py::ssize_t index) {
+std::vector<py::ssize_t> shape_of(const Series& series) {
+  return {length(series.rows()), length(series.columns())};
+}
+
+Array<float> frame(const Series& series, py::ssize_t index) {
   if (index < 0) {
     throw std::out_of_range("time index " + std::to_string(index) + " is negative");
   }
-  auto array = new_array<float>(grid_shape(run));
+  auto array = new_array<float>(shape_of(series));
   const auto out = writable(array);
   const py::gil_scoped_release release;
   series.read(static_cast<std::size_t>(index), out);
@@ -58,9 +62,8 @@ Array<float> frame(const Run& run, const Series& series, py::ssize_t index) {
 using Levels = const run::LevelSeries& (Run::*)() const;
 
 Array<float> new_levels(const Run& run, const run::LevelSeries& series) {
-  std::vector<py::ssize_t> shape = grid_shape(run);
-  shape.insert(shape.begin(), length(series.levels()));
-  return new_array<float>(shape);
+  return new_array<float>({length(series.levels()), length(run.air_latitude().size()),
+                           length(run.air_longitude().size())});
 }
 
 /// A field on levels at times[index].
@@ -93,6 +96,9 @@ const Series& series_of(const Run& run, const std::string& field) {
   if (field == "heat_flux") {
     return run.heat_flux();
   }
+  if (field == "burned_fraction") {
+    return run.burned_fraction();
+  }
   if (field == "temperature") {
     return run.temperature();
   }
@@ -102,8 +108,9 @@ const Series& series_of(const Run& run, const std::string& field) {
   if (field == "wind_north") {
     return run.wind_north();
   }
-  throw py::value_error("no series is called '" + field +
-                        "'; choose heat_flux, temperature, wind_east or wind_north");
+  throw py::value_error(
+      "no series is called '" + field +
+      "'; choose heat_flux, burned_fraction, temperature, wind_east or wind_north");
 }
 
 std::vector<std::size_t> chosen(const Series& series, const py::object& indices) {
@@ -129,7 +136,7 @@ class Frames {
 public:
   Frames(std::shared_ptr<const Run> run, const std::string& field, const py::object& indices,
          std::size_t ahead)
-      : run_(std::move(run)),
+      : run_(std::move(run)), shape_(shape_of(series_of(*run_, field))),
         frames_(series_of(*run_, field), chosen(series_of(*run_, field), indices), ahead,
                 ahead_threads) {}
 
@@ -143,13 +150,14 @@ public:
     if (!found) {
       throw py::stop_iteration();
     }
-    return give(std::move(frame), grid_shape(*run_));
+    return give(std::move(frame), shape_);
   }
 
 private:
   /// Reading is cheap beside most uses of a frame.
   static constexpr std::size_t ahead_threads = 2;
   std::shared_ptr<const Run> run_;
+  std::vector<py::ssize_t> shape_;
   run::ReadAhead frames_;
 };
 
@@ -162,7 +170,7 @@ std::unique_ptr<Frames> frames(std::shared_ptr<const Run> run, const std::string
 }
 
 py::tuple wind(const Run& run, py::ssize_t index) {
-  return py::make_tuple(frame(run, run.wind_east(), index), frame(run, run.wind_north(), index));
+  return py::make_tuple(frame(run.wind_east(), index), frame(run.wind_north(), index));
 }
 
 py::tuple flux_range(const Run& run) {
@@ -306,16 +314,22 @@ void init_run(Module module) {
       .def_property_readonly("elevation", &elevation_view)
       .def_property_readonly("fuel_latitude", &axis_view<&Run::fuel_latitude>)
       .def_property_readonly("fuel_longitude", &axis_view<&Run::fuel_longitude>)
+      .def_property_readonly("air_latitude", &axis_view<&Run::air_latitude>)
+      .def_property_readonly("air_longitude", &axis_view<&Run::air_longitude>)
       .def_property_readonly("surface_fuel", &fuel_view<&Run::surface_fuel>)
       .def_property_readonly("canopy_fuel", &fuel_view<&Run::canopy_fuel>)
       .def_property_readonly("fuel_elevation", &fuel_view<&Run::fuel_elevation>)
       .def_property_readonly("fields", &Run::fields)
       .def_property_readonly("warnings", &warnings)
       .def(
-          "heat_flux", [](const Run& r, py::ssize_t i) { return frame(r, r.heat_flux(), i); },
+          "heat_flux", [](const Run& r, py::ssize_t i) { return frame(r.heat_flux(), i); },
           py::arg("index"))
       .def(
-          "temperature", [](const Run& r, py::ssize_t i) { return frame(r, r.temperature(), i); },
+          "burned_fraction",
+          [](const Run& r, py::ssize_t i) { return frame(r.burned_fraction(), i); },
+          py::arg("index"))
+      .def(
+          "temperature", [](const Run& r, py::ssize_t i) { return frame(r.temperature(), i); },
           py::arg("index"))
       .def("wind", &wind, py::arg("index"))
       .def("has", &Run::has, py::arg("field"))

@@ -17,9 +17,10 @@ constexpr Spellings kelvin = {"K", "kelvin", "Kelvin", "degK", "deg K"};
 constexpr Spellings speed = {"m/s", "m s-1", "m s^-1", "ms-1", "metres per second"};
 constexpr Spellings seconds = {"s", "second", "seconds", "sec", "secs"};
 constexpr Spellings density = {"kg/m3", "kg/m^3", "kg/m³", "kg m-3", "kg m^-3"};
+constexpr Spellings share = {"1", "fraction", "share", "0..1", "dimensionless"};
 constexpr Spellings number = {"1", "number", "category", "class", "dimensionless"};
 
-constexpr std::array<FieldUnit, 20> fields = {{{"latitude", degrees_north},
+constexpr std::array<FieldUnit, 23> fields = {{{"latitude", degrees_north},
                                                {"longitude", degrees_east},
                                                {"elevation", metres},
                                                {"fuel_latitude", degrees_north},
@@ -27,6 +28,9 @@ constexpr std::array<FieldUnit, 20> fields = {{{"latitude", degrees_north},
                                                {"fuel_elevation", metres},
                                                {"fuel_arrival_time", seconds},
                                                {"fuel_category", number},
+                                               {"burned_fraction", share},
+                                               {"air_latitude", degrees_north},
+                                               {"air_longitude", degrees_east},
                                                {"surface_fuel", load},
                                                {"canopy_fuel", load},
                                                {"heat_flux", flux},

@@ -80,6 +80,13 @@ void Run::read_axes() {
   fuel_latitude_ = read_latitude(folder_.field_file("fuel_latitude"));
   const double middle = 0.5 * (longitude_.front() + longitude_.back());
   fuel_longitude_ = read_longitude(folder_.field_file("fuel_longitude"), middle);
+  if (!folder_.has("air_latitude") && !folder_.has("air_longitude")) {
+    air_latitude_ = latitude_;
+    air_longitude_ = longitude_;
+    return;
+  }
+  air_latitude_ = read_latitude(folder_.field_file("air_latitude"));
+  air_longitude_ = read_longitude(folder_.field_file("air_longitude"), middle);
 }
 
 void Run::emplace(std::optional<Plane>& plane, const std::string& field) const {
@@ -105,11 +112,13 @@ void Run::read_grids() {
   fuel_elevation_.emplace(resampled, fuel_latitude_.size(), fuel_longitude_.size());
 }
 
-std::optional<Series> Run::optional_series(const std::string& field) const {
+std::optional<Series> Run::optional_series(const std::string& field,
+                                           const std::vector<double>& rows,
+                                           const std::vector<double>& columns) const {
   if (!folder_.has(field)) {
     return std::nullopt;
   }
-  Series series = folder_.series(field, latitude_.size(), longitude_.size(), no_data_);
+  Series series = folder_.series(field, rows.size(), columns.size(), no_data_);
   if (series.size() != heat_flux_->size()) {
     io::fail(path() / field,
              "has " + std::to_string(series.size()) + " times where heat_flux has " +
@@ -118,11 +127,20 @@ std::optional<Series> Run::optional_series(const std::string& field) const {
   return series;
 }
 
+std::optional<Series> Run::optional_air(const std::string& field) const {
+  std::optional<Series> series = optional_series(field, air_latitude_, air_longitude_);
+  if (!series || !folder_.has("air_latitude")) {
+    return series;
+  }
+  return std::move(*series).onto(air_latitude_, air_longitude_, latitude_, longitude_);
+}
+
 void Run::open_series() {
   heat_flux_ = folder_.series("heat_flux", latitude_.size(), longitude_.size(), no_data_);
-  temperature_ = optional_series("temperature");
-  wind_east_ = optional_series("wind_east");
-  wind_north_ = optional_series("wind_north");
+  burned_fraction_ = optional_series("burned_fraction", fuel_latitude_, fuel_longitude_);
+  temperature_ = optional_air("temperature");
+  wind_east_ = optional_air("wind_east");
+  wind_north_ = optional_air("wind_north");
   if (wind_east_.has_value() != wind_north_.has_value()) {
     io::fail(path() / (wind_east_ ? "wind_north" : "wind_east"),
              "the field is missing; wind needs wind_east and wind_north");
@@ -133,8 +151,8 @@ std::optional<LevelSeries> Run::optional_levels(const std::string& field, bool s
   if (!folder_.has(field)) {
     return std::nullopt;
   }
-  return LevelSeries(NpyFile(folder_.npy_file(field)), heat_flux_->size(), latitude_.size(),
-                     longitude_.size(), steady, no_data_);
+  return LevelSeries(NpyFile(folder_.npy_file(field)), heat_flux_->size(), air_latitude_.size(),
+                     air_longitude_.size(), steady, no_data_);
 }
 
 void Run::open_levels() {
@@ -183,6 +201,7 @@ void Run::check_order() {
     }
   };
   check("heat_flux", heat_flux_);
+  check("burned_fraction", burned_fraction_);
   check("temperature", temperature_);
   check("wind_east", wind_east_);
   check("wind_north", wind_north_);
@@ -216,6 +235,9 @@ std::vector<std::string> Run::warnings() const {
   return result;
 }
 
+const Series& Run::burned_fraction() const {
+  return need(burned_fraction_, path(), "burned_fraction");
+}
 const Series& Run::temperature() const {
   return need(temperature_, path(), "temperature");
 }

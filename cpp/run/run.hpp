@@ -44,6 +44,9 @@ public:
   const std::vector<double>& fuel_latitude() const { return fuel_latitude_; } ///< [fy]
   /// [fx] degrees east, counted as `longitude` is
   const std::vector<double>& fuel_longitude() const { return fuel_longitude_; }
+  /// [ay], [ax] degrees of what is on levels: the run's axes of that name, else the model grid's.
+  const std::vector<double>& air_latitude() const { return air_latitude_; }
+  const std::vector<double>& air_longitude() const { return air_longitude_; }
   const Plane& surface_fuel() const { return *surface_fuel_; } ///< [fy fx] kg/m2
   const Plane& canopy_fuel() const { return *canopy_fuel_; }   ///< [fy fx] kg/m2
   /// [fy fx] m: the field of that name, or the elevation resampled bilinearly.
@@ -54,13 +57,16 @@ public:
 
   std::size_t cells() const { return latitude_.size() * longitude_.size(); }
   const Series& heat_flux() const { return *heat_flux_; } ///< W/m2
+  /// Of each fuel cell [fy fx], 0..1 at each time. @throws Error when the run has none.
+  const Series& burned_fraction() const;
+  /// On the model grid: bilinear between the places of `air_latitude` and `air_longitude`.
   /// @throws Error when the run has none.
   const Series& temperature() const; ///< K
   const Series& wind_east() const;   ///< m/s
   const Series& wind_north() const;  ///< m/s
 
   bool has(const std::string& field) const { return folder_.has(field); }
-  /// On terrain-following levels; height_3d (m) is there where one of the others is.
+  /// On terrain-following levels, [nz ay ax]; height_3d (m) is there where one of the others is.
   /// @throws Error when the run has none.
   const LevelSeries& smoke_3d() const;       ///< kg/m3
   const LevelSeries& height_3d() const;      ///< m
@@ -82,16 +88,19 @@ private:
   void check_places();
   void emplace(std::optional<Plane>& plane, const std::string& field) const;
   void open_levels();
-  std::optional<Series> optional_series(const std::string& field) const;
+  std::optional<Series> optional_series(const std::string& field, const std::vector<double>& rows,
+                                        const std::vector<double>& columns) const;
+  std::optional<Series> optional_air(const std::string& field) const;
   std::optional<LevelSeries> optional_levels(const std::string& field, bool steady) const;
 
   Folder folder_;
   Description description_;
   std::optional<float> no_data_;
   std::vector<double> times_, latitude_, longitude_, fuel_latitude_, fuel_longitude_;
+  std::vector<double> air_latitude_, air_longitude_;
   std::vector<float> elevation_;
   std::optional<Plane> surface_fuel_, canopy_fuel_, fuel_elevation_, fuel_category_;
-  std::optional<Series> heat_flux_, temperature_, wind_east_, wind_north_;
+  std::optional<Series> heat_flux_, burned_fraction_, temperature_, wind_east_, wind_north_;
   std::optional<LevelSeries> smoke_3d_, height_3d_, temperature_3d_;
   std::vector<std::string> warnings_;
 

@@ -1,8 +1,10 @@
 #include "run/series.hpp"
 
+#include "geo/axis.hpp"
 #include "io/name.hpp"
 #include "run/grid_file.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -23,6 +25,12 @@ Series::Series(std::vector<std::filesystem::path> frames, std::size_t rows, std:
                std::optional<float> no_data)
     : frames_(std::move(frames)), rows_(rows), columns_(columns), no_data_(no_data) {}
 
+Series Series::onto(std::vector<double> from_y, std::vector<double> from_x,
+                    std::vector<double> to_y, std::vector<double> to_x) && {
+  axes_ = Axes{std::move(from_y), std::move(from_x), std::move(to_y), std::move(to_x)};
+  return std::move(*this);
+}
+
 const std::filesystem::path& Series::path(std::size_t index) const {
   return file_ ? file_->path() : frames_.at(index);
 }
@@ -32,6 +40,17 @@ void Series::read(std::size_t index, std::span<float> out) const {
     throw std::out_of_range("time index " + std::to_string(index) + " of a run with " +
                             std::to_string(size()) + " times");
   }
+  if (!axes_) {
+    read_own(index, out);
+    return;
+  }
+  std::vector<float> own(rows_ * columns_);
+  read_own(index, own);
+  const auto found = geo::resample(own, axes_->from_y, axes_->from_x, axes_->to_y, axes_->to_x);
+  std::copy(found.begin(), found.end(), out.begin());
+}
+
+void Series::read_own(std::size_t index, std::span<float> out) const {
   if (!file_) {
     read_grid(frames_[index], rows_, columns_, no_data_, out);
     return;

@@ -18,23 +18,36 @@ public:
   Series(std::vector<std::filesystem::path> frames, std::size_t rows, std::size_t columns,
          std::optional<float> no_data);
 
+  /// The same field on another grid: what is read is bilinear between the places of this one.
+  /// @param from_y, from_x [rows], [columns] of the file @param to_y, to_x of what is read
+  Series onto(std::vector<double> from_y, std::vector<double> from_x, std::vector<double> to_y,
+              std::vector<double> to_x) &&;
+
   std::size_t size() const { return file_ ? file_->shape()[0] : frames_.size(); }
-  std::size_t cells() const { return rows_ * columns_; }
+  std::size_t rows() const { return axes_ ? axes_->to_y.size() : rows_; }       ///< of what is read
+  std::size_t columns() const { return axes_ ? axes_->to_x.size() : columns_; } ///< of what is read
+  std::size_t cells() const { return rows() * columns(); }
   /// Whether reading one time goes through all of the file, as in Fortran order.
   bool scattered() const { return file_ && file_->scattered(); }
   /// The file that holds a time, for messages.
   const std::filesystem::path& path(std::size_t index) const;
 
-  /// The grid [ny, nx] at one time, no_data as NaN. Several threads may read at once.
+  /// The grid [rows, columns] at one time, no_data as NaN. Several threads may read at once.
   /// @throws std::out_of_range, InputError
   void read(std::size_t index, std::span<float> out) const;
 
 private:
+  struct Axes {
+    std::vector<double> from_y, from_x, to_y, to_x;
+  };
+  void read_own(std::size_t index, std::span<float> out) const;
+
   std::optional<NpyFile> file_;
   std::vector<std::filesystem::path> frames_;
   std::size_t rows_;
   std::size_t columns_;
   std::optional<float> no_data_;
+  std::optional<Axes> axes_; ///< where it is read on another grid
 };
 
 } // namespace firetwin::run

@@ -12,13 +12,24 @@ SPEED = 1.5  # m/s, of the front
 START = datetime(2020, 7, 1, 18)
 
 
-def wrf(folder, *, times=(60, 120, 180), per_file=2, turn=0.0, ideal=False, seed=1, without=(), **attributes):
-    """wrfout files: staggering, subgrid, junk edge, grid turned by `turn` degrees."""
+def wrf(
+    folder, *, times=(60, 120, 180), per_file=2, turn=0.0, ideal=False, seed=1, without=(),
+    shape=(NY, NX), cell=40.0, came=lambda x, y: x / SPEED, touched=False, **attributes,
+):  # fmt: skip
+    """wrfout files: staggering, subgrid, junk edge, grid turned by `turn` degrees.
+
+    `came` is when (s) the front comes to a place (m); TIGN_G is that of a cell's middle, or if `touched`
+    of the first touch. FIRE_AREA is the burned share of the cell.
+    """
     rng = np.random.default_rng(seed)
+    NY, NX = shape  # noqa: N806
     fy, fx = (NY + 1) * SR, (NX + 1) * SR
-    cell = 40.0
+    side = cell / SR
     j, i = np.mgrid[0:fy, 0:fx]
-    x, y = (i + 0.5) * cell / SR, (j + 0.5) * cell / SR
+    x, y = (i + 0.5) * side, (j + 0.5) * side
+    inner = (np.arange(8) + 0.5) / 8 - 0.5
+    within = came(x[..., None, None] + side * inner, y[..., None, None] + side * inner[:, None])
+    within = np.broadcast_to(within, (fy, fx, 8, 8)).reshape(fy, fx, 64)
     c, s = np.cos(np.radians(turn)), np.sin(np.radians(turn))
     lat = 39.0 + (s * x + c * y) / 111_100.0
     lon = -120.0 + (c * x - s * y) / (111_300.0 * np.cos(np.radians(39.0)))
@@ -26,7 +37,17 @@ def wrf(folder, *, times=(60, 120, 180), per_file=2, turn=0.0, ideal=False, seed
         lat, lon = y, x
     junk = (j >= NY * SR) | (i >= NX * SR)
     made, groups = [], [times[k : k + per_file] for k in range(0, len(times), per_file)]
-    truth = {"FGRNHFX": [], "GRNHFX": [], "U10": [], "V10": [], "T": [], "P": [], "PB": [], "tr17_1": []}
+    truth = {
+        "FIRE_AREA": [],
+        "FGRNHFX": [],
+        "GRNHFX": [],
+        "U10": [],
+        "V10": [],
+        "T": [],
+        "P": [],
+        "PB": [],
+        "tr17_1": [],
+    }
     fixed = {"ZSF": rng.uniform(900, 950, (fy, fx)), "HGT": rng.uniform(900, 950, (NY, NX))}
     for group in groups:
         path = folder / f"wrfout_d01_{START + timedelta(seconds=group[0]):%Y-%m-%d_%H_%M_%S}"
@@ -65,7 +86,9 @@ def wrf(folder, *, times=(60, 120, 180), per_file=2, turn=0.0, ideal=False, seed
             for k, second in enumerate(group):
                 text = f"{START + timedelta(seconds=second):%Y-%m-%d_%H:%M:%S}"
                 times_variable[k] = np.frombuffer(text.encode(), "S1")
-                level = x - SPEED * second
+                level = SPEED * (came(x, y) - second)
+                share = (within < second).mean(-1)
+                lit, ignition = (share > 0, within.min(-1)) if touched else (level < 0, came(x, y))
                 put("FXLONG", "f", np.where(junk, 0, lon))
                 put("FXLAT", "f", np.where(junk, 0, lat))
                 put("UNIT_FXLONG", "", 1.0 if ideal else 96_000.0)
@@ -74,10 +97,10 @@ def wrf(folder, *, times=(60, 120, 180), per_file=2, turn=0.0, ideal=False, seed
                 for name, each in (("XLAT", lat), ("XLONG", lon)):
                     mean = each[mass].reshape(NY, SR, NX, SR).mean((1, 3))
                     put(name, "a", 0 * mean if ideal else mean)
-                flux = np.where((level < 0) & (level > -30), rng.uniform(1e4, 9e4, (fy, fx)), 0)
+                flux = np.where((level < 0) & (level > -3 * side), rng.uniform(1e4, 9e4, (fy, fx)), 0)
                 put("LFN", "f", np.where(junk, 0, level))
-                put("FIRE_AREA", "f", np.where(junk, np.nan, np.clip(0.5 - level / 10, 0, 1)))
-                put("TIGN_G", "f", np.where(level < 0, x / SPEED, second + 7))
+                put("FIRE_AREA", "f", np.where(junk, np.nan, share))
+                put("TIGN_G", "f", np.where(lit, ignition, second + 7))
                 put("FGRNHFX", "f", np.where(junk, np.nan, flux))
                 coarse = flux[mass].reshape(NY, SR, NX, SR).mean((1, 3)).astype(np.float32)
                 put("GRNHFX", "a", coarse)
@@ -101,6 +124,7 @@ def wrf(folder, *, times=(60, 120, 180), per_file=2, turn=0.0, ideal=False, seed
                 smoke = rng.uniform(0, 1, theta.shape).astype(np.float32)
                 put("tr17_1", "m", smoke)
                 for name, value in (
+                    ("FIRE_AREA", share[mass]),
                     ("FGRNHFX", flux[mass].astype(np.float32)), ("GRNHFX", coarse), ("U10", u10),
                     ("V10", v10), ("T", theta), ("PB", base.astype(np.float32)), ("tr17_1", smoke),
                 ):  # fmt: skip

@@ -101,7 +101,7 @@ def test_what_burned_before_the_first_time(tmp_path, converted):
     """FIRE_AREA is above 0 there, and no flux is: burned by then, and without heat of its own."""
     paths, truth = made.wrf(tmp_path, times=(60, 120), without=("TIGN_G", "LFN"))
     with made.netCDF4.Dataset(paths[0], "a") as file:
-        file["GRNHFX"][0] = 0.0
+        file["FGRNHFX"][0] = 0.0
     run = converted(paths)
     arrival, begun = run.fuel_arrival_time(), truth["x"] < made.SPEED * 60 - 5
     assert (arrival[begun] == 60.0).all()

@@ -46,8 +46,11 @@ def test_wrf_sfire(tmp_path, converted):
     assert moment(run) == START
     np.testing.assert_array_equal(run.times, [60, 120, 180])
     for i in range(3):
-        np.testing.assert_array_equal(run.heat_flux(i), truth["GRNHFX"][i])
-    np.testing.assert_array_equal(run.elevation, truth["HGT"].astype(np.float32))
+        np.testing.assert_array_equal(run.heat_flux(i), truth["FGRNHFX"][i])
+        np.testing.assert_array_equal(run.burned_fraction(i), truth["FIRE_AREA"][i])
+    np.testing.assert_array_equal(
+        run.elevation, truth["ZSF"][: made.NY * made.SR, : made.NX * made.SR].astype(np.float32)
+    )
     np.testing.assert_allclose(run.fuel_latitude, truth["lat"][:, 0], atol=2e-5)
     np.testing.assert_allclose(run.fuel_longitude, truth["lon"][0], atol=2e-5)
     arrival = run.fuel_arrival_time()
@@ -79,11 +82,60 @@ def test_wrf_sfire_in_three_dimensions(tmp_path, converted):
     np.testing.assert_allclose(up[:, 0, 0], np.arange(made.LEVELS) + 0.5)
 
 
-def test_wrf_sfire_where_the_flux_is_on_the_fire_grid_alone(tmp_path, converted):
-    paths, truth = made.wrf(tmp_path, without=("GRNHFX", "TIGN_G"))
+def test_wrf_sfire_keeps_the_air_on_the_grid_of_the_atmosphere(tmp_path, converted):
+    """Wind is as the model has it at the middles of the atmosphere's cells, and even between them."""
+    paths, truth = made.wrf(tmp_path)
     run = converted(paths)
-    fine = truth["FGRNHFX"][1].astype(np.float64).reshape(made.NY, made.SR, made.NX, made.SR).mean((1, 3))
-    np.testing.assert_array_equal(run.heat_flux(1), fine.astype(np.float32))
+    np.testing.assert_allclose(np.load(f"{run.path}/wind_east.npy"), truth["U10"], atol=1e-3)
+    assert run.air_latitude.shape == (made.NY,)
+    assert run.wind(1)[0].shape == run.elevation.shape
+    half = made.SR // 2
+    u = truth["U10"][1].astype(np.float64)
+    along = u[0, 0] + (u[0, 1] - u[0, 0]) * (np.arange(made.SR) + 0.5) / made.SR
+    np.testing.assert_allclose(
+        run.wind(1)[0][0, half : half + made.SR], along, atol=5e-3
+    )  # 32-bit degrees: 0.8 m of 40
+    assert run.wind(1)[0][0, 0] == pytest.approx(u[0, 0])  # beyond the outermost middles
+
+
+def test_wrf_sfire_without_heights_of_the_fire_grid(tmp_path, converted):
+    paths, truth = made.wrf(tmp_path, without=("ZSF",))
+    run = converted(paths)
+    coarse = truth["HGT"]
+    assert run.elevation[0, 0] == pytest.approx(coarse[0, 0])
+    assert run.elevation[-1, -1] == pytest.approx(coarse[-1, -1])
+    near = run.elevation[:, made.SR - 1 : made.SR + 1].mean(1)[[0, -1]]  # half-way between two middles
+    assert near == pytest.approx(coarse[[0, -1], :2].mean(1), abs=1e-3)
+
+
+def disc(x, y):
+    """A fire of 1 m/s from a place that is no cell's middle."""
+    return np.hypot(x - 5_720.0, y - 4_390.0)
+
+
+@pytest.mark.parametrize("turn", [0.0, 20.0])
+@pytest.mark.parametrize("touched", [False, True])
+def test_wrf_sfire_burns_what_its_own_fire_area_says(tmp_path, converted, turn, touched):
+    """At every hour, also of a young fire; cells that the front only touches do not burn as a whole."""
+    times = tuple(range(600, 3601, 600))
+    paths, truth = made.wrf(
+        tmp_path, times=times, per_file=4, turn=turn, shape=(15, 20), cell=600.0, came=disc, touched=touched
+    )
+    run = converted(paths)
+    own = np.array([share.sum() * 150.0**2 for share in truth["FIRE_AREA"]])
+    assert np.array(info.burned(run, times)) == pytest.approx(own, rel=0.01)
+    assert info.gather(run, "UTC")["burned"]["from"] == "burned_fraction"
+    assert info.burned(run, [0.0, 900.0]) == pytest.approx([0.0, own[:2].mean()], rel=0.01)
+    if turn == 0.0:  # the line that is drawn, too
+        assert burned_area(run) == pytest.approx(own[-1], rel=0.02)
+
+
+def test_wrf_sfire_where_the_flux_is_on_the_grid_of_the_atmosphere_alone(tmp_path, converted):
+    paths, truth = made.wrf(tmp_path, without=("FGRNHFX", "TIGN_G"))
+    run = converted(paths)
+    np.testing.assert_array_equal(run.heat_flux(1), truth["GRNHFX"][1])
+    np.testing.assert_array_equal(run.wind(1)[0], truth["U10"][1])
+    assert not run.has("air_latitude")
     arrival = run.fuel_arrival_time()
     later = (truth["x"] > made.SPEED * 60) & (truth["x"] < made.SPEED * 180)
     np.testing.assert_allclose(arrival[later], truth["x"][later] / made.SPEED, rtol=1e-5)
@@ -104,7 +156,7 @@ def test_wrf_sfire_in_metres(tmp_path, converted):
     assert "its middle is put at 40, -105" in said(run)
     north, east = areas.metres_per_degree(40.0)
     np.testing.assert_allclose(np.diff(run.fuel_longitude) * east, 10.0, rtol=1e-4)
-    np.testing.assert_allclose(np.diff(run.latitude) * north, 40.0, rtol=1e-4)
+    np.testing.assert_allclose(np.diff(run.latitude) * north, 10.0, rtol=1e-4)
 
 
 def test_wrf_sfire_turned(tmp_path, converted):
@@ -114,14 +166,15 @@ def test_wrf_sfire_turned(tmp_path, converted):
     assert "turned or curved" in said(run)
     load = np.asarray(run.surface_fuel)
     assert load[0, 0] == load[1, 1] == np.float32(fuels.SFIRE[0])  # beyond the model's cells it goes on
-    values = np.setdiff1d(run.heat_flux(1), np.append(truth["GRNHFX"][1], 0))
+    values = np.setdiff1d(run.heat_flux(1), np.append(truth["FGRNHFX"][1], 0))
     assert values.size == 0
     u, v = truth["U10"][1].ravel(), truth["V10"][1].ravel()
     turned = np.hypot(u, v).max()
     assert np.hypot(run.wind(1)[0], run.wind(1)[1]).max() <= turned * 1.0001
+    there = np.load(f"{run.path}/wind_east.npy")[1]
     c, s = np.cos(np.radians(20)), np.sin(np.radians(20))
     east = (u * c - v * s).astype(np.float32)
-    assert np.abs(run.wind(1)[0].ravel()[:, None] - east[None]).min(axis=1).max() < 1e-2
+    assert np.abs(there.ravel()[:, None] - east[None]).min(axis=1).max() < 1e-2
     x, y = np.meshgrid(run.fuel_longitude, run.fuel_latitude)
     along = c * (x + 120) * 111_300 * np.cos(np.radians(39)) + s * (y - 39) * 111_100
     arrival = run.fuel_arrival_time()
@@ -183,7 +236,7 @@ def test_cfbm_without_a_time_in_its_name(tmp_path, converted):
 # ---- ForeFire
 
 
-def disc(shape, cell, speed=0.3):
+def round_fire(shape, cell, speed=0.3):
     """A round fire from the middle, its ignition negative as the model writes it."""
     y, x = ((np.arange(n) - (n - 1) / 2) * side for n, side in zip(shape, cell, strict=True))
     arrival = np.hypot(*np.meshgrid(x, y)) / speed - 15.0
@@ -191,7 +244,7 @@ def disc(shape, cell, speed=0.3):
 
 
 def test_forefire(tmp_path, converted):
-    arrival = disc((51, 101), (20.0, 30.0))
+    arrival = round_fire((51, 101), (20.0, 30.0))
     run = converted([made.forefire(tmp_path / "ForeFire.0.nc", arrival, lx=3030.0, ly=1020.0)], at="42,9")
     assert moment(run) == datetime(2020, 7, 18, tzinfo=UTC)
     found = run.fuel_arrival_time()
@@ -208,7 +261,7 @@ def test_forefire(tmp_path, converted):
 def test_forefire_fronts_place_and_date_it(tmp_path, converted):
     import json
 
-    arrival = disc((60, 60), (20.0, 20.0))
+    arrival = round_fire((60, 60), (20.0, 20.0))
     path = made.forefire(tmp_path / "ForeFire.0.nc", arrival, lx=1200.0, ly=1200.0)
     ring = [[9.0 + 0.004 * c, 42.0 + 0.003 * s, 0] for c, s in ((-1, 0), (0, 1), (1, 0), (0, -1), (-1, 0))]
     front = {"valid_at": "2020-07-18T14:00:00Z", "features": [{"geometry": {"coordinates": [[ring]]}}]}

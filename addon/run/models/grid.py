@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Error
-from ..areas import metres_per_degree
+from ..areas import area_factors, metres_per_degree
 from . import needed
 
 Array = NDArray[np.float64]
@@ -94,6 +94,16 @@ class Grid:
         return u * cosine - v * sine, u * sine + v * cosine
 
     @cached_property
+    def areas(self) -> Array:
+        """Area (ny, nx) of each cell in m2, of a grid with both places (ny, nx)."""
+        latitude, longitude = self.latitude, self.longitude
+        down, across = (np.stack([_slope(each, axis) for each in (latitude, longitude)]) for axis in (0, 1))
+        middle = float(latitude.mean())
+        north, east = metres_per_degree(middle)
+        narrower = np.cos(np.radians(latitude)) / np.cos(np.radians(middle))
+        return np.abs(down[0] * across[1] - down[1] * across[0]) * north * east * narrower
+
+    @cached_property
     def placed(self) -> Placed:
         """Axes of a run for these cells.
 
@@ -118,6 +128,8 @@ class Placed:
     ----------
     index, outside
         (ny, nx) of the run's cells: the grid's cell (flat), and whether none lies there.
+    areas
+        m2 of each of the grid's cells, where cells are not the same.
     error
         How far values are from their places, in words; empty where they are not.
     """
@@ -126,6 +138,7 @@ class Placed:
     longitude: Array
     index: NDArray[np.int32] | None = None
     outside: NDArray[np.bool_] | None = None
+    areas: Array | None = None
     error: str = ""
 
     @property
@@ -143,6 +156,22 @@ class Placed:
         if fill is not None:
             found[..., self.outside] = fill
         return found
+
+    def put_share(self, share: NDArray) -> NDArray[np.float32]:
+        """Shares (0..1) of the grid's cells on the run's: together as much area, to a float's rounding.
+
+        What the nearest cells have more or less of it, cells that are neither 0 nor 1 make up for.
+        """
+        found = self.put(share, 0.0)
+        if self.areas is None:
+            return found
+        strip, width = area_factors(self.latitude, self.longitude)
+        area = np.where((found > 0) & (found < 1), strip[:, None] * width, 0.0)
+        lacks = float((share * self.areas).sum()) - float(strip @ (found.astype(np.float64) @ width))
+        room = (1 - found if lacks > 0 else found).astype(np.float64)
+        most = float((room * area).sum())
+        part = np.clip(lacks / most, -1.0, 1.0) if most > 0 else 0.0
+        return (found + part * room * (area > 0)).astype(np.float32)
 
 
 def _place(grid: Grid) -> Placed:
@@ -180,7 +209,7 @@ def _place(grid: Grid) -> Placed:
         f"the values of the nearest cells, which lie {off:.2g} m off at most; beyond the model's own cells "
         "ground and fuels go on as at its edge and nothing burns"
     )
-    return Placed(rows, columns, index, outside, text)
+    return Placed(rows, columns, index, outside, grid.areas, text)
 
 
 class _Nearest:

@@ -19,6 +19,12 @@ Moving = Callable[[int], NDArray]
 
 LONGEST = 400 * 366 * 86400.0  # s; a run is no longer than that
 
+ON_FUEL = (
+    *("surface_fuel", "canopy_fuel", "fuel_arrival_time", "fuel_elevation", "fuel_category"),
+    "burned_fraction",
+)
+OF_AIR = ("temperature", "wind_east", "wind_north")
+
 
 @dataclass(frozen=True)
 class Options:
@@ -66,12 +72,14 @@ class Model:
     times
         (nt,) s since `start`.
     grid, fuel_grid
-        Cells of the fields that move, and of fuels and arrival times.
+        Cells of the heat flux, and of fuels, arrival times and burned fractions.
+    air
+        Cells of wind, temperature and what is on levels; None: those of `grid`.
     still
         ``elevation`` [ny, nx] on `grid`; ``surface_fuel``, ``canopy_fuel``, ``fuel_arrival_time``,
         ``fuel_elevation`` and ``fuel_category`` [fy, fx] on `fuel_grid`; in a run's units.
     moving
-        A field's [ny, nx] or [nz, ny, nx] at a time's index; in a run's units.
+        A field's [ny, nx] or [nz, ny, nx] at a time's index, on its grid; in a run's units.
     mean_s
         Seconds before each time that heat fluxes are means of; None: the whole interval.
     levels
@@ -87,12 +95,24 @@ class Model:
     still: dict[str, Still]
     moving: dict[str, Moving]
     files: list[Path]
+    air: Grid | None = None
     version: str = ""
     projection: str = ""
     mean_s: float | None = None
     levels: dict[str, int] = field(default_factory=dict)
     assumptions: list[str] = field(default_factory=list)
     close: Callable[[], None] = lambda: None
+
+    def grid_of(self, field: str) -> Grid:
+        """The cells of a field."""
+        if field in ON_FUEL:
+            return self.fuel_grid
+        return self.air if self.air is not None and (field in OF_AIR or field in self.levels) else self.grid
+
+    @property
+    def grids(self) -> dict[str, Grid]:
+        """Each grid of the run, by what the names of its axes begin with."""
+        return {"": self.grid, "fuel_": self.fuel_grid} | ({} if self.air is None else {"air_": self.air})
 
 
 def _moment(text: str) -> datetime:

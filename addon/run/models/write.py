@@ -27,12 +27,12 @@ _OFTEN = 1 << 29  # bytes between two entries in the journal
 _SECONDS = 15.0
 _FILL = {
     "heat_flux": 0.0,
+    "burned_fraction": 0.0,
     "smoke_3d": 0.0,
     "fuel_arrival_time": np.nan,
     "fuel_category": np.nan,
 }
 _LARGEST = 1 << 31  # bytes of one time of one field
-_FUEL = ("surface_fuel", "canopy_fuel", "fuel_arrival_time", "fuel_elevation", "fuel_category")
 
 
 def part_of(out: Path) -> Path:
@@ -72,25 +72,31 @@ def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
         )
     part = part_of(out)
     try:
-        placed = model.grid.placed
+        placed = {before: grid.placed for before, grid in model.grids.items()}
     except Error as error:
         raise input_error(model.files[0], 0, 0, str(error)) from None
     shapes = {
-        name: (len(model.times), *([model.levels[name]] if name in model.levels else []), *placed.shape)
+        name: (
+            len(model.times),
+            *([model.levels[name]] if name in model.levels else []),
+            *model.grid_of(name).placed.shape,
+        )
         for name in model.moving
     }
     _room(out, sum(4 * int(np.prod(shape, dtype=np.float64)) for shape in shapes.values()))
     if max((4 * np.prod(shape[1:], dtype=np.float64) for shape in shapes.values()), default=0) > _LARGEST:
-        raise input_error(model.files[0], 0, 0, f"a grid of {placed.shape} cells is more than can be held")
+        raise input_error(
+            model.files[0], 0, 0, f"a grid of {placed[''].shape} cells is more than can be held"
+        )
     with writing(out):
         out.parent.mkdir(parents=True, exist_ok=True)
         done = _done(part, inputs)
         part.mkdir(exist_ok=True)
         _moving(model, shapes, part, inputs, done, progress)
         for name, get in model.still.items():
-            where = (model.fuel_grid if name in _FUEL else model.grid).placed
+            where = model.grid_of(name).placed
             _save(part / f"{name}.npy", where.put(get(), _FILL.get(name)), where.shape)
-        for before, where in (("", placed), ("fuel_", model.fuel_grid.placed)):
+        for before, where in placed.items():
             _save(part / f"{before}latitude.npy", where.latitude)
             _save(part / f"{before}longitude.npy", where.longitude)
         (part / JOURNAL).unlink(missing_ok=True)
@@ -117,7 +123,7 @@ def _moving(
             for index in range(done, count):
                 progress(index, count, what)
                 for name, get in model.moving.items():
-                    values = model.grid.placed.put(get(index), _FILL.get(name))
+                    values = _put(model, name, get(index))
                     if values.shape != shapes[name][1:]:
                         reason = f"{name} is {values.shape} at time {index + 1}, not {shapes[name][1:]}"
                         raise input_error(model.files[0], 0, 0, reason)
@@ -137,6 +143,11 @@ def _moving(
     finally:
         for file in open_files.values():
             file.close()
+
+
+def _put(model: Model, name: str, values: NDArray) -> NDArray[np.float32]:
+    where = model.grid_of(name).placed
+    return where.put_share(values) if name == "burned_fraction" else where.put(values, _FILL.get(name))
 
 
 def _open(path: Path, shape: tuple[int, ...], done: int) -> BinaryIO:
@@ -188,8 +199,6 @@ def _room(out: Path, need: int) -> None:
 
 def description(model: Model, inputs: str) -> str:
     """The text of run.toml; `inputs` as in `write`."""
-    placed = {"": model.grid.placed, "fuel ": model.fuel_grid.placed}
-    said = [f"{name}grid: {each.error}" for name, each in placed.items() if each.error]
     lines = [
         f"name = {_text(model.name)}",
         f"start = {model.start:%Y-%m-%dT%H:%M:%S.%f}Z",
@@ -207,10 +216,18 @@ def description(model: Model, inputs: str) -> str:
         f"files = [{', '.join(_text(path.name) for path in model.files)}]",
         f"inputs = {_text(inputs)}",
         "assumptions = [",
-        *(f"  {_text(text)}," for text in [*model.assumptions, *said]),
+        *(f"  {_text(text)}," for text in [*model.assumptions, *moved(model)]),
         "]",
     ]
     return "\n".join(lines) + "\n"
+
+
+def moved(model: Model) -> list[str]:
+    """How far values of each grid lie from their places; once for grids that are the same."""
+    said = {
+        grid: f"{before.replace('_', ' ')}grid: {grid.placed.error}" for before, grid in model.grids.items()
+    }
+    return [text for grid, text in said.items() if grid.placed.error]
 
 
 def _text(value: str) -> str:

@@ -56,11 +56,15 @@ def read(paths: list[Path], options: Options) -> Model:
     def wind(i: int) -> tuple[NDArray, NDArray]:
         return grid.east_north(get("uf", i), get("vf", i))
 
-    moving = {"heat_flux": flux}
+    moving = {
+        "heat_flux": flux,
+        "burned_fraction": lambda i: np.clip(np.nan_to_num(get("fire_area", i)), 0, 1),
+    }
     told = [
         "times are those of the files' names, as UTC",
         "heat flux is fgrnhfx (sensible), a mean over the model's last step, of unsaid length",
         "the model never sets the flux of the first file: it is 0 there where fire_area is",
+        "burned fraction is fire_area: burned areas are sums of burned shares of cells",
         "latitude and longitude on a sphere of 6370 km are taken as those of WGS84",
     ]
     if "uf" in first and "vf" in first:

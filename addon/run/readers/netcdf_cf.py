@@ -22,7 +22,7 @@ from ..models.model import Model, Options
 
 NAME = "netCDF with latitude, longitude and time"
 
-_MOVING = ("heat_flux", "temperature", "wind_east", "wind_north")
+_MOVING = ("heat_flux", "burned_fraction", "temperature", "wind_east", "wind_north")
 _LEVELS = ("smoke_3d", "temperature_3d", "height_3d", "wind_east_3d", "wind_north_3d", "wind_up_3d")
 _STILL = ("elevation", "surface_fuel", "canopy_fuel", "fuel_arrival_time", "fuel_category")
 

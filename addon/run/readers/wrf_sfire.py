@@ -2,8 +2,9 @@
 
 Names, units and layouts: WRF-SFIRE, Registry/registry.fire and Registry.EM_COMMON; thermodynamics:
 share/module_model_constants.F. Fire variables lie on a subgrid of (west_east + 1) sr_x columns and
-(south_north + 1) sr_y rows, of which the last sr are junk. The run's model grid is the atmosphere's, its fuel
-grid the fire's.
+(south_north + 1) sr_y rows, of which the last sr are junk. The run's grids are the fire's, but for wind,
+temperature and what is on levels, which stay on the atmosphere's; where the files have no flux on the fire's
+grid, the model grid is the atmosphere's too.
 """
 
 from __future__ import annotations
@@ -85,6 +86,16 @@ class _Wrf:
         blocks = np.asarray(fine, np.float64).reshape(self.ny, self.sy, self.nx, self.sx)
         return blocks.mean(axis=(1, 3))
 
+    def spread(self, coarse: NDArray) -> NDArray:
+        """The atmosphere's values on the fire's cells, bilinear, and even beyond the outer middles."""
+        for axis, (count, step) in enumerate(((self.ny, self.sy), (self.nx, self.sx))):
+            at = np.clip((np.arange(count * step) + 0.5) / step - 0.5, 0, count - 1)
+            low = np.minimum(at.astype(np.int64), max(count - 2, 0))
+            part = (at - low).reshape((-1, 1) if axis == 0 else (1, -1))
+            high = np.minimum(low + 1, count - 1)
+            coarse = coarse.take(low, axis) * (1 - part) + coarse.take(high, axis) * part
+        return coarse
+
 
 def read(paths: list[Path], options: Options) -> Model:
     """The series as a model."""
@@ -94,15 +105,17 @@ def read(paths: list[Path], options: Options) -> Model:
     moments = [frame.moment for frame in wrf.frames]
     start, said = _start(wrf.first, moments[0])
     times = np.array([(moment - start).total_seconds() for moment in moments])
-    grid, fire = _grids(wrf, options, told)
+    air, fire = _grids(wrf, options, told)
+    fine = wrf.has("FGRNHFX")
     model = Model(
         source="WRF-SFIRE",
         version=_version(wrf.first),
         name=str(wrf.first.attribute("TITLE", otherwise="WRF-SFIRE run")).strip(),
         start=start,
         times=times,
-        grid=grid,
+        grid=fire if fine else air,
         fuel_grid=fire,
+        air=air if fine else None,
         still={},
         moving={},
         files=sorted({frame.path for frame in wrf.frames}),
@@ -112,6 +125,9 @@ def read(paths: list[Path], options: Options) -> Model:
     )
     told += [said, "latitude and longitude on WRF's sphere of 6370 km are taken as those of WGS84"]
     _flux(wrf, model, told)
+    if wrf.has("FIRE_AREA"):
+        told.append("burned fraction is FIRE_AREA: burned areas are sums of burned shares of cells")
+        model.moving["burned_fraction"] = lambda i: _share(wrf, i)
     _near_ground(wrf, model, told)
     _on_levels(wrf, model, told)
     _still(wrf, model, land, options, told)
@@ -181,20 +197,18 @@ def _block(axis: NDArray, step: int) -> NDArray:
 
 
 def _flux(wrf: _Wrf, model: Model, told: list[str]) -> None:
-    if wrf.has("GRNHFX"):
-        crown = wrf.has("CANHFX")
-        told.append(f"heat flux is GRNHFX{' + CANHFX' if crown else ''} (sensible, on the atmosphere's grid)")
-        model.moving["heat_flux"] = lambda i: (
-            wrf.read("GRNHFX", i) + (wrf.read("CANHFX", i) if crown else np.float32(0))
-        )
-        return
-    crown = wrf.has("FCANHFX")
-    told.append(
-        f"heat flux is the mean of FGRNHFX{' + FCANHFX' if crown else ''} in each cell of the atmosphere"
-    )
-    model.moving["heat_flux"] = lambda i: wrf.mean(
-        wrf.fire("FGRNHFX", i) + (wrf.fire("FCANHFX", i) if crown else np.float32(0))
-    )
+    fine = wrf.has("FGRNHFX")
+    if not fine and not wrf.has("GRNHFX"):
+        raise Error(f"{wrf.first.path}: has neither FGRNHFX nor GRNHFX, the heat flux of the fire")
+    (ground, canopy), get = (("FGRNHFX", "FCANHFX"), wrf.fire) if fine else (("GRNHFX", "CANHFX"), wrf.read)
+    crown, where = wrf.has(canopy), "fire" if fine else "atmosphere"
+    told.append(f"heat flux is {ground}{f' + {canopy}' if crown else ''} (sensible, on the {where}'s grid)")
+    model.moving["heat_flux"] = lambda i: (get(ground, i) + get(canopy, i)) if crown else get(ground, i)
+
+
+def _share(wrf: _Wrf, i: int) -> NDArray:
+    """Burned share (0..1) of each of the fire's cells."""
+    return np.clip(np.nan_to_num(wrf.fire("FIRE_AREA", i)), 0, 1)
 
 
 def _near_ground(wrf: _Wrf, model: Model, told: list[str]) -> None:
@@ -207,7 +221,7 @@ def _near_ground(wrf: _Wrf, model: Model, told: list[str]) -> None:
         told.append("wind is that of the lowest level, turned from the grid's axes to east and north")
         winds = lambda i: (wrf.read("U", i, stag=2)[0], wrf.read("V", i, stag=1)[0])  # noqa: E731
     if winds:
-        turned = lru_cache(1)(lambda i: model.grid.east_north(*winds(i)))  # both are asked for in turn
+        turned = lru_cache(1)(lambda i: _air(model).east_north(*winds(i)))  # both are asked for in turn
         model.moving |= {"wind_east": lambda i: turned(i)[0], "wind_north": lambda i: turned(i)[1]}
     if wrf.has("T2"):
         model.moving["temperature"] = lambda i: wrf.read("T2", i)
@@ -241,7 +255,11 @@ def _on_levels(wrf: _Wrf, model: Model, told: list[str]) -> None:
 
 
 def _winds(wrf: _Wrf, model: Model, i: int) -> tuple[NDArray, NDArray]:
-    return model.grid.east_north(wrf.read("U", i, stag=2), wrf.read("V", i, stag=1))
+    return _air(model).east_north(wrf.read("U", i, stag=2), wrf.read("V", i, stag=1))
+
+
+def _air(model: Model) -> Grid:
+    return model.grid if model.air is None else model.air
 
 
 def _kelvin(wrf: _Wrf, i: int) -> NDArray:
@@ -258,35 +276,41 @@ def _dry_density(wrf: _Wrf, i: int) -> NDArray:
 
 
 def _still(wrf: _Wrf, model: Model, land: beside.Land, options: Options, told: list[str]) -> None:
-    last = len(wrf.frames) - 1
-    if wrf.has("HGT"):
-        model.still["elevation"] = lambda: wrf.read("HGT", 0)
-    elif wrf.has("ZSF"):
-        model.still["elevation"] = lambda: wrf.mean(wrf.fire("ZSF", 0))
+    fine = model.air is not None
     if wrf.has("ZSF"):
         model.still["fuel_elevation"] = lambda: wrf.fire("ZSF", 0)
+        model.still["elevation"] = lambda: wrf.fire("ZSF", 0) if fine else wrf.mean(wrf.fire("ZSF", 0))
+    if wrf.has("HGT") and not (fine and wrf.has("ZSF")):
+        model.still["elevation"] = lambda: wrf.spread(wrf.read("HGT", 0)) if fine else wrf.read("HGT", 0)
     if wrf.has("NFUEL_CAT"):
         told.append(
             "surface fuel is WRF-SFIRE's load (fgi) of Anderson's model NFUEL_CAT; a namelist.fire may differ"
         )
         model.still["surface_fuel"] = lambda: fuels.loads(wrf.fire("NFUEL_CAT", 0), "sfire")
         model.still["fuel_category"] = lambda: wrf.fire("NFUEL_CAT", 0)
-    model.still["fuel_arrival_time"] = lambda: _arrival(wrf, model.times, last)
-    named = "TIGN_G where the fire is in the last file" if wrf.has("TIGN_G") else "interpolated between files"
-    told.append(f"time of arrival is {named}")
+    model.still["fuel_arrival_time"] = lambda: _arrival(wrf, model.times)
+    told.append(f"time of arrival is {_arrival_from(wrf)}")
     land.complete(model.still, model.grid, model.fuel_grid, options.projection)
 
 
-def _arrival(wrf: _Wrf, times: NDArray, last: int) -> NDArray:
-    shape = wrf.ny * wrf.sy, wrf.nx * wrf.sx
+def _arrival_from(wrf: _Wrf) -> str:
+    if not wrf.has("TIGN_G"):
+        return "interpolated between files"
+    if wrf.has("FIRE_AREA"):
+        return "TIGN_G, held between the two times between which half of the cell burned (FIRE_AREA)"
+    return "TIGN_G where the fire is in the last file"
+
+
+def _arrival(wrf: _Wrf, times: NDArray) -> NDArray:
+    shape, last = (wrf.ny * wrf.sy, wrf.nx * wrf.sx), len(wrf.frames) - 1
+    if wrf.has("TIGN_G", "FIRE_AREA"):
+        return arrival.held(wrf.fire("TIGN_G", last), times, lambda i: _share(wrf, i))
     if wrf.has("TIGN_G", "LFN"):
         found, burned = wrf.fire("TIGN_G", last), wrf.fire("LFN", last) <= 0
-    elif wrf.has("TIGN_G", "FIRE_AREA"):
-        found, burned = wrf.fire("TIGN_G", last), wrf.fire("FIRE_AREA", last) >= 0.5
     elif wrf.has("LFN"):
         return arrival.from_levels(times, lambda i: wrf.fire("LFN", i), shape)
     elif wrf.has("FIRE_AREA"):
-        return arrival.from_share(times, lambda i: wrf.fire("FIRE_AREA", i), shape)
+        return arrival.from_share(times, lambda i: _share(wrf, i), shape)
     else:
         raise Error(f"{wrf.first.path}: has neither LFN nor FIRE_AREA, so nothing says where the fire is")
     return np.where(burned & (found <= times[-1]), found, np.float32(np.nan))

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 from firetwin_core.run import Run
+from numpy.typing import NDArray
 
 from ...errors import UsageError
 from .. import info, times
@@ -67,6 +68,7 @@ def score(
         "zone": zone,
         "domain": {"area": grid.domain, "cells": list(grid.arrival.shape), "cell": list(grid.cell)},
         "projection": grid.projection.definition,
+        "burned_from": info.burned_from(run),
         "arrival_from": "fuel_arrival_time" if run.has("fuel_arrival_time") else "heat_flux",
         "dates": dates,
         "outside": [times.iso(each.time) for each in seen if each not in inside],
@@ -102,9 +104,16 @@ def _date(run: Run, grid: Grid, seen: Seen) -> dict[str, Any]:
     if started.any():
         row["without_start"] = _both(
             Overlap.of_polygons(here.difference(start), there.difference(start), grid.box.difference(start)),
-            Overlap.of_cells(burned & ~started, observed & ~started, np.where(started, 0.0, grid.areas)),
+            _of_cells_since(burned, started, observed, grid.areas),
         )
     return row
+
+
+def _of_cells_since(burned: NDArray, started: NDArray, seen: NDArray, areas: NDArray) -> Overlap:
+    """Of what had not burned at the start: each cell counts with the rest of its area."""
+    rest = 1.0 - started
+    share = np.divide(np.maximum(burned - started * 1.0, 0.0), rest, out=np.zeros(rest.shape), where=rest > 0)
+    return Overlap.of_cells(share, seen, areas * rest)
 
 
 def _both(polygons: Overlap, cells: Overlap) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -10,7 +11,7 @@ import numpy as np
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from .. import areas
+from .. import areas, burned_fraction
 from . import shapes
 
 if TYPE_CHECKING:
@@ -19,11 +20,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Grid:
-    """Middles of the cells (degrees, south and west first) and arrival times (ny, nx) s, NaN: never."""
+    """Middles of the cells (degrees, south and west first) and arrival times (ny, nx) s, NaN: never.
+
+    `fraction` gives the burned fraction (ny, nx) at a model time (s), of runs that have it.
+    """
 
     latitude: NDArray[np.float64]
     longitude: NDArray[np.float64]
     arrival: NDArray[np.float64]
+    fraction: Callable[[float], NDArray] | None = None
 
     @classmethod
     def of(cls, run: Run) -> Grid:
@@ -31,7 +36,10 @@ class Grid:
         latitude, longitude, time = run.fuel_latitude, run.fuel_longitude, run.fuel_arrival_time()
         south, west = latitude[0] > latitude[-1], longitude[0] > longitude[-1]
         rows, columns = slice(None, None, -1 if south else 1), slice(None, None, -1 if west else 1)
-        return cls(latitude[rows], longitude[columns], np.asarray(time, np.float64)[rows, columns])
+        known = None
+        if run.has(burned_fraction.FIELD):
+            known = lambda moment: burned_fraction.at(run, moment)[rows, columns]  # noqa: E731
+        return cls(latitude[rows], longitude[columns], np.asarray(time, np.float64)[rows, columns], known)
 
     @property
     def middle(self) -> float:
@@ -71,8 +79,10 @@ class Grid:
         turned = areas.turned(longitude, self.middle)
         return _nearest(self.latitude, latitude), _nearest(self.longitude, turned)
 
-    def burned(self, time: float) -> NDArray[np.bool_]:
-        """Cells (ny, nx) whose middle the front has reached by a model time (s)."""
+    def burned(self, time: float) -> NDArray[np.floating] | NDArray[np.bool_]:
+        """Share (ny, nx) of cells burned by a model time (s); else whether the front reached their middle."""
+        if self.fraction is not None:
+            return self.fraction(time)
         return self.arrival <= time  # False for NaN
 
     def inside(self, shape: BaseGeometry) -> NDArray[np.bool_]:

@@ -45,10 +45,15 @@ class Overlap:
         return cls(both, run.area - both, seen.area - both, max(domain.area - union, 0.0))
 
     @classmethod
-    def of_cells(cls, run: NDArray[np.bool_], seen: NDArray[np.bool_], areas: NDArray[np.float64]) -> Overlap:
-        """Of cells, each with its area; those of area 0 do not count."""
-        parts = (run & seen, run & ~seen, seen & ~run, ~(run | seen))
-        return cls(*(float(areas[part].sum()) for part in parts))
+    def of_cells(cls, run: NDArray, seen: NDArray[np.bool_], areas: NDArray[np.float64]) -> Overlap:
+        """Of cells, each with its area; those of area 0 do not count. `run`: whether, or what share burned.
+
+        What burned of a cell that was seen burned is a hit, the rest of it a miss.
+        """
+        burned = run * areas
+        rest = areas - burned
+        parts = (burned[seen], burned[~seen], rest[seen], rest[~seen])
+        return cls(*(float(part.sum()) for part in parts))
 
     def scores(self) -> dict[str, float | None]:
         """All scores by name; None where nothing burned that they divide by."""

@@ -127,6 +127,8 @@ def said(found: dict[str, Any]) -> Sequence[str]:
         )
     if found["arrival_from"] == "heat_flux":
         notes.append("the run has no fuel_arrival_time: its front is estimated from heat fluxes")
+    if found["burned_from"] == "burned_fraction":
+        notes.append("areas on cells are sums of the burned fraction of each cell, as the model gives it")
     if found["reported"] and not found["dates"]:
         notes.append("reported areas say how much had burned, not where: no overlap can be scored by them")
     if found["reported"] and found["run"]["synthetic"]:

@@ -196,9 +196,9 @@ class Baker:
         return volume.write_levels(
             path,
             self.shot.local_frame,
-            run.latitude,
-            run.longitude,
-            self.shot.relief.coarse,
+            run.air_latitude,
+            run.air_longitude,
+            self.shot.relief.air,
             run.height_3d_at(known),
             smoke,
             self.resolution.voxel,

@@ -73,6 +73,12 @@ class Run:
     def fuel_longitude(self) -> NDArray[np.float64]:
         """(fx,) degrees east, counted as `longitude` is."""
     @property
+    def air_latitude(self) -> NDArray[np.float64]:
+        """(ay,) degrees north of fields on levels: the run's own axis of that name, else `latitude`."""
+    @property
+    def air_longitude(self) -> NDArray[np.float64]:
+        """(ax,) degrees east of fields on levels, counted as `longitude` is."""
+    @property
     def surface_fuel(self) -> NDArray[np.float32]:
         """(fy, fx) kg/m2."""
     @property
@@ -89,18 +95,20 @@ class Run:
         """What is odd but usable, one sentence each."""
     def heat_flux(self, index: int) -> NDArray[np.float32]:
         """(ny, nx) W/m2 at times[index]."""
+    def burned_fraction(self, index: int) -> NDArray[np.float32]:
+        """(fy, fx) 0..1, burned share of each fuel cell at times[index]; Error when the run has none."""
     def temperature(self, index: int) -> NDArray[np.float32]:
-        """(ny, nx) K; Error when the run has none."""
+        """(ny, nx) K, bilinear between the places of the run's air; Error when the run has none."""
     def wind(self, index: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-        """Eastward and northward (ny, nx) m/s; Error when the run has none."""
+        """Eastward and northward (ny, nx) m/s, as `temperature`; Error when the run has none."""
     def has(self, field: str) -> bool:
         """Whether the run folder holds a field."""
     def smoke_3d(self, index: int) -> NDArray[np.float32]:
-        """(nz, ny, nx) kg/m3 on terrain-following levels at times[index]; Error when the run has none."""
+        """(nz, ay, ax) kg/m3 on terrain-following levels at times[index]; Error when the run has none."""
     def height_3d(self, index: int) -> NDArray[np.float32]:
-        """(nz, ny, nx) m, heights of the levels, in the run's vertical; Error when the run has none."""
+        """(nz, ay, ax) m, heights of the levels, in the run's vertical; Error when the run has none."""
     def temperature_3d(self, index: int) -> NDArray[np.float32]:
-        """(nz, ny, nx) K; Error when the run has none."""
+        """(nz, ay, ax) K; Error when the run has none."""
     def smoke_3d_at(self, time: float) -> NDArray[np.float32]:
         """smoke_3d at a time (s) within the run, linear between the two model times around it."""
     def height_3d_at(self, time: float) -> NDArray[np.float32]:
@@ -110,8 +118,8 @@ class Run:
     def frames(self, field: str = "heat_flux", indices: ArrayLike | None = None, ahead: int = 8) -> Frames:
         """Frames (ny, nx) of a series, all or those at indices (n,), while worker threads read the next ones.
 
-        At most `ahead` frames wait in memory, however long the run. `field` is "heat_flux", "temperature",
-        "wind_east" or "wind_north". A frame that cannot be read raises InputError when its turn comes.
+        At most `ahead` frames wait in memory, however long the run. `field` is "heat_flux", "burned_fraction",
+        whose frames are (fy, fx), "temperature", "wind_east" or "wind_north". A frame that cannot be read raises InputError when its turn comes.
         Threads may share the iterator: each frame goes to one of them. Raises ValueError for indices that are
         not integers, IndexError for those outside of the run.
         """
