@@ -12,7 +12,7 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ..data import history
-from . import areas, blocks, burned_fraction, fuel_category, remembered, times
+from . import areas, blocks, burned_fraction, fuel_category, released, remembered, times
 
 ACRE = history.SQUARE_METRES_PER_ACRE
 
@@ -39,7 +39,7 @@ def _find(run: Run, zone: str) -> dict[str, Any]:
     at = [float(run.times[0]), float(run.times[-1]), *(times.seconds(run, each.time) for each in reports)]
     first, last, *then = burned(run, at)
     low, high = run.flux_range()
-    seconds = run.times
+    seconds, heat, fuel = run.times, released.energy(run), released.of_fuel(run)
     return {
         "name": run.name,
         "path": run.path,
@@ -60,14 +60,15 @@ def _find(run: Run, zone: str) -> dict[str, Any]:
         },
         "fields": list(run.fields),
         "heat_flux": {"min": low, "max": high},
-        "energy": energy(run),
+        "energy": heat,
+        "fuel_energy": fuel,
         "burned": {
             "from": burned_from(run),
             "first": first,
             "last": last,
         },
         "reported": _reported(run, reports, then),
-        "warnings": list(run.warnings),
+        "warnings": [*run.warnings, *released.warnings(heat, fuel)],
     }
 
 
@@ -108,11 +109,6 @@ def reported(run: Run) -> list[dict[str, Any]]:
     if not (reports := _reports(run)):
         return []
     return _reported(run, reports, burned(run, [times.seconds(run, each.time) for each in reports]))
-
-
-def energy(run: Run) -> float:
-    """Heat released over the run (J): flux times cell area, integrated over time by the trapezoidal rule."""
-    return float(np.sum(run.heat_released() * areas.cell_areas(run.latitude, run.longitude)))
 
 
 def _grid(latitude: np.ndarray, longitude: np.ndarray) -> dict[str, Any]:
@@ -244,7 +240,7 @@ def _facts(info: dict[str, Any]) -> list[tuple[str, str]]:
             "Heat flux",
             f"{info['heat_flux']['min'] / 1e3:,.4g} to {info['heat_flux']['max'] / 1e3:,.4g} kW/m2",
         ),
-        ("Heat released", _energy(info["energy"])),
+        ("Heat released", _released(info["energy"], info["fuel_energy"])),
         ("Burned at first", _area(info["burned"]["first"])),
         ("Burned at last", _area(info["burned"]["last"])),
         *([("", _areas_from(info))] if info["burned"]["from"] != "fuel_arrival_time" else []),
@@ -312,6 +308,11 @@ def _energy(joules: float) -> str:
         if joules >= factor:
             return f"{joules / factor:,.4g} {unit}"
     return f"{joules:,.4g} J"
+
+
+def _released(heat: float, fuel: float) -> str:
+    beside = f"  ({heat / fuel:.3g} of that of the fuel burned)" if fuel > 0.0 else ""
+    return _energy(heat) + beside
 
 
 def _area(square_metres: float) -> str:

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from firetwin.errors import Error, InputError
 from firetwin.jobs import convert
-from firetwin.run import areas, info
-from firetwin.run.models import fuels
+from firetwin.run import areas, info, released
+from firetwin.run.models import fuels, heat
 from firetwin_core import run as runs
 
 START = made.START.replace(tzinfo=UTC)
@@ -254,7 +254,7 @@ def test_forefire(tmp_path, converted):
     np.testing.assert_allclose(np.diff(run.longitude) * east, 30.0, rtol=1e-6)  # cells are not square
     np.testing.assert_allclose(np.diff(run.latitude) * north, 20.0, rtol=1e-6)
     burned = (arrival > -9999).sum() * 600.0
-    assert info.energy(run) == pytest.approx(burned * fuels.HEAT, rel=3e-3)  # 1 kg/m2, as is said
+    assert released.energy(run) == pytest.approx(burned * fuels.HEAT, rel=3e-3)  # 1 kg/m2, as is said
     assert "1 kg/m2" in said(run)
 
 
@@ -365,12 +365,12 @@ def test_elmfire(tmp_path, converted):
     assert run.elevation.max() == 900
     burns = np.isfinite(arrival)
     joules = (fuels.loads(number) + 1.2)[burns].mean() * fuels.HEAT  # a m2
-    factor = float(re.search(r"times ([\d.e+]+):", said(run))[1])
-    assert factor == pytest.approx(joules / (500e3 / 0.5), rel=5e-3)  # kW/m over ft/min
+    own = float(re.search(r"heat per area is ([\d.e+]+) times", said(run))[1])
+    assert own == pytest.approx(500e3 / 0.5 / joules, rel=5e-3)  # kW/m over ft/min
     cell = areas.cell_areas(run.latitude, run.longitude)
     burned = np.isfinite(run.fuel_arrival_time())
     fuel = (np.asarray(run.surface_fuel) + np.asarray(run.canopy_fuel)) * burned * cell
-    assert info.energy(run) == pytest.approx(fuel.sum() * fuels.HEAT, rel=0.06)  # cells turned and resampled
+    assert released.energy(run) == pytest.approx(fuel.sum() * fuels.HEAT, rel=1e-3)
     place = run.latitude[-1], run.longitude[0]  # a corner, by PROJ
     from pyproj import Transformer
 
@@ -398,6 +398,89 @@ def test_heat_is_that_of_the_fuel_burned(tmp_path, converted):
     released = sum(float((run.heat_flux(i + 1) * cell).sum()) * step[i] for i in range(len(step)))
     assert released == pytest.approx(fuel.sum() * fuels.HEAT, rel=1e-5)
     assert np.unique(run.canopy_fuel) == pytest.approx([1.2])
+
+
+def two_fires(folder, *, speed=True, fuel=True):
+    """ELMFIRE's rasters of two fires that meet, one of which stands at a road for an hour."""
+    y, x = np.mgrid[:60, :80] * 30.0
+    from_a, from_b = (np.hypot(x - a, 1.6 * (y - b)) / v for a, b, v in ((450, 750, 0.5), (1800, 1000, 0.35)))
+    arrival = np.minimum(from_a, from_b) + 3600.0 * ((x > 1350) & (y < 450))
+    number = np.where(y < 600, 102, np.where(x < 1200, 165, 145)).astype(np.int16)
+    number[:, 35] = 98
+    burned, case = (arrival < 5000) & (number != 98), "0000001_0005000"
+    pace = 0.5 * np.random.default_rng(1).uniform(0.3, 1.5, x.shape)
+    layers = {"time_of_arrival": arrival, "flin": 0.3 * fuels.loads(number) * fuels.HEAT * pace / 1e3}
+    layers |= {"vs": pace / 0.3048 * 60} if speed else {}
+    folder.mkdir()
+    paths = [
+        made.tiff(folder / f"{name}_{case}.tif", np.where(burned, values, -9999).astype(np.float32))
+        for name, values in layers.items()
+    ]
+    if fuel:
+        trees = number == 165
+        for name, values in {
+            "fbfm40": number,
+            "cbd": 12 * trees,
+            "ch": 150 * trees,
+            "cbh": 50 * trees,
+        }.items():
+            made.tiff(folder / f"{name}.tif", values.astype(np.int16))
+    return paths, fuels.loads(number)[burned]
+
+
+@pytest.mark.parametrize("speed", [True, False])
+@pytest.mark.parametrize("fuel", [True, False])
+def test_no_cell_releases_more_than_its_fuel(tmp_path, converted, speed, fuel):
+    """Nor does all of it release less; the rasters lie beside files that are named without them."""
+    paths, load = two_fires(tmp_path / "elmfire", speed=speed, fuel=fuel)
+    run = converted(paths, start="2020-07-01T20:00:00Z")
+    burned = np.isfinite(run.fuel_arrival_time())
+    own = np.asarray(run.surface_fuel, np.float64) + run.canopy_fuel
+    assert (run.heat_released() <= 1.001 * own * fuels.HEAT)[burned].all()
+    assert released.energy(run) == pytest.approx(released.of_fuel(run), rel=1e-3)
+    assert released.warnings(released.energy(run), released.of_fuel(run)) == []
+    if fuel:
+        assert np.median(run.surface_fuel[burned]) == pytest.approx(np.median(load))
+        assert "fbfm40.tif, which lies beside it" in said(run)
+    elif speed:
+        assert own[burned].mean() == pytest.approx(0.3 * load.mean(), rel=0.02)
+    assert own.max() < 1.01 * load.max() + 1.2
+
+
+def test_fuels_that_lie_elsewhere_are_not_used(tmp_path, converted):
+    paths, _ = two_fires(tmp_path / "elmfire", fuel=False)
+    made.tiff(tmp_path / "elmfire/fbfm40.tif", np.full((60, 80), 102, np.int16), west=300_000.0)
+    run = converted(paths, start="2020-07-01T20:00:00Z")
+    assert "fbfm40.tif lies nowhere on the model's grid" in said(run)
+    assert np.asarray(run.surface_fuel).min() > 0.0
+
+
+def test_rasters_of_no_projection_lie_where_their_fuels_say(tmp_path, converted):
+    """As ELMFIRE's own, before they are converted: the fuels beside them have one."""
+    arrival, number = plane()
+    values = np.where(np.isnan(arrival), -9999, arrival).astype(np.float32)
+    bare = made.tiff(tmp_path / "time_of_arrival_0000001_0001200.tif", values, projection=None)
+    made.tiff(tmp_path / "fbfm40.tif", number)
+    run = converted([bare], start="2020-07-01T20:00:00Z")
+    assert 38.0 < run.latitude[0] < 40.0
+    assert set(np.unique(run.surface_fuel)) == {np.float32(0), np.float32(0.247), np.float32(3.138)}
+
+
+def test_a_front_that_stands_or_meets_another_has_a_speed():
+    x = np.arange(20) * 30.0
+    arrival = np.minimum(x, 600.0 - x) / 0.5  # two fronts that meet
+    arrival[5:] += np.where(x[5:] < 330.0, 4000.0, 0.0)  # one of which stood for long
+    found = heat.spread(np.tile(arrival, (4, 1)), (30.0, 30.0))
+    np.testing.assert_allclose(found, 0.5)
+
+
+def test_a_run_that_releases_more_than_its_fuel_is_warned_of(make_run):
+    path = make_run()
+    found = info.gather(runs.open(path), "UTC")
+    assert not any("times the heat of the fuel" in text for text in found["warnings"])
+    np.save(path / "heat_flux.npy", 1e6 * np.load(path / "heat_flux.npy"))
+    found = info.gather(runs.open(path), "UTC")
+    assert any("times the heat of the fuel" in text for text in found["warnings"])
 
 
 def test_an_lcp_is_what_gdal_reads(tmp_path):

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import input_error
+from ...errors import Error, input_error
 from . import fuels, raster
 from .grid import Grid
 from .model import Still
@@ -19,10 +19,16 @@ _UNSAID = 1.0  # kg/m2, where nothing says what burned
 
 @dataclass
 class Land:
-    """Layers by role, in m and kg/m3, and what was assumed of them."""
+    """Layers by role, in m and kg/m3, what was assumed of them, and which files nobody named."""
 
     layers: dict[str, raster.Raster]
     assumptions: list[str] = field(default_factory=list)
+    unnamed: set[Path] = field(default_factory=set)
+
+    @property
+    def projection(self) -> str:
+        """The first that a layer says, else nothing."""
+        return next((each.projection for each in self.layers.values() if each.projection), "")
 
     def on(self, name: str, grid: Grid, projection: str) -> NDArray[np.float32] | None:
         """A layer's nearest values on a grid, NaN where it has none; None: there is no such layer."""
@@ -30,9 +36,18 @@ class Land:
         if layer is None:
             return None
         if layer.projection or projection:
-            return layer.on(grid, projection)
+            found = layer.on(grid, projection)
+            if np.isfinite(found).any():
+                return found
+            self.say(f"{layer.path.name} lies nowhere on the model's grid and is not used")
+            del self.layers[name]
+            return None
         if layer.values.shape == grid.shape:
             return layer.values
+        if layer.path in self.unnamed:
+            self.say(f"{layer.path.name} lies beside it but says no projection, and is not used")
+            del self.layers[name]
+            return None
         reason = "does not say its projection; put a .prj beside it, or say --projection EPSG:..."
         raise input_error(layer.path, 0, 0, reason)
 
@@ -88,15 +103,45 @@ class Land:
             self.assumptions.append(text)
 
 
-def find(paths: list[Path]) -> Land:
-    """Layers among files, by LCP header or by raster and name."""
+def find(paths: list[Path], look: bool = False) -> Land:
+    """Layers among files, by LCP header or by raster and name; `look`: else of those that lie beside them."""
     land = Land({})
     for path in paths:
-        if path.suffix.lower() == ".lcp":
-            land.layers |= raster.landscape(path)
-        elif (name := raster.role(path)) in _LAYERS and raster.is_raster(path):
-            land.layers[name] = _in_units(raster.read(path), name)
+        land.layers |= _layers(path)
+    if look and "category" not in land.layers:
+        _look_beside(land, paths)
     return land
+
+
+def _layers(path: Path) -> dict[str, raster.Raster]:
+    """Those of a file."""
+    if path.suffix.lower() == ".lcp":
+        return raster.landscape(path)
+    name = raster.role(path)
+    return {name: _in_units(raster.read(path), name)} if name in _LAYERS and raster.is_raster(path) else {}
+
+
+def _look_beside(land: Land, paths: list[Path]) -> None:
+    """Add layers of files that nobody named: in the same folders, and in ELMFIRE's `inputs` beside them."""
+    folders = {path.parent for path in paths} | {path.parent.parent / "inputs" for path in paths}
+    there = [each for folder in sorted(folders) if folder.is_dir() for each in sorted(folder.iterdir())]
+    roles: dict[str, list[Path]] = {}
+    for path in there:
+        role = "LCP" if path.suffix.lower() == ".lcp" else raster.role(path)
+        if path not in paths and path.is_file() and (role == "LCP" or role in _LAYERS):
+            roles.setdefault(role, []).append(path)
+    for role, found in roles.items():
+        if len(found) > 1:
+            land.say(f"{len(found)} files beside it could be its {role}; name one with it to use it")
+            continue
+        try:
+            layers = {k: v for k, v in _layers(found[0]).items() if k not in land.layers}
+        except Error as error:
+            land.say(f"what lies beside it is not used: {error}")
+            continue
+        land.layers, land.unnamed = land.layers | layers, land.unnamed | {found[0]}
+        if layers:
+            land.say(f"{found[0].name}, which lies beside it, says {', '.join(layers)}")
 
 
 def _in_units(layer: raster.Raster, name: str) -> raster.Raster:

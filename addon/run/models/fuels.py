@@ -25,6 +25,9 @@ _LOAD = {
     **{201: 3.475, 202: 2.858, 203: 2.522, 204: 3.138},
 }
 
+HEAVIEST = max(_LOAD.values())
+"""kg/m2 of the standard model that has most fuel, Anderson's 13."""
+
 
 def loads(category: NDArray, table: str = "standard") -> NDArray[np.float32]:
     """kg/m2 of fuel models by number; 0 for those that do not burn. `table`: "sfire" or "standard"."""

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Error
-from .fuels import HEAT
+from .fuels import HEAT, HEAVIEST
 
 _STEPS = (1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 10800, 21600, 43200, 86400)
 _FRAMES = 300
@@ -91,24 +91,28 @@ def of_intensity(
 ) -> NDArray[np.float64]:
     """J/m2 that a front of an intensity (W/m) and speed (m/s) releases: I / R (Byram 1959).
 
-    Without a speed it is one over the gradient of the arrival times (s), on cells (width, height) in m.
+    Without a speed it is that of the arrival times (s), on cells (width, height) in m. Where nothing says it
+    the median of the others, and nowhere more than of the heaviest fuel model.
     """
-    if speed is None:
-        up = np.gradient(arrival, cell[1], axis=0) if arrival.shape[0] > 1 else np.zeros_like(arrival)
-        across = np.gradient(arrival, cell[0], axis=1) if arrival.shape[1] > 1 else np.zeros_like(arrival)
-        with np.errstate(divide="ignore"):
-            speed = 1.0 / np.hypot(up, across)
     with np.errstate(divide="ignore", invalid="ignore"):
-        heat = np.asarray(intensity, np.float64) / speed
+        heat = np.asarray(intensity, np.float64) / (spread(arrival, cell) if speed is None else speed)
     known = np.isfinite(heat) & (heat > 0)
     middle = float(np.median(heat[known])) if known.any() else 0.0
-    return np.where(known, heat, np.where(np.isfinite(arrival), middle, 0.0))
+    return np.minimum(np.where(known, heat, np.where(np.isfinite(arrival), middle, 0.0)), HEAT * HEAVIEST)
 
 
-def shared(heat: NDArray, fuel: NDArray, arrival: NDArray) -> tuple[NDArray[np.float64], float]:
-    """`heat` (J/m2) times the factor that makes its total that of the fuel (kg/m2) burned, and the factor."""
-    burned = np.isfinite(arrival)
-    total, own = of_fuel(fuel)[burned].sum(), heat[burned].sum()
-    if own <= 0 or total <= 0:
-        return of_fuel(fuel), 1.0
-    return heat * (total / own), float(total / own)
+def spread(arrival: NDArray, cell: tuple[float, float]) -> NDArray[np.float64]:
+    """Rate of spread (m/s) of a front through cells (width, height) in m: one over the slope of its arrival.
+
+    Along each axis the smaller of both one-sided differences: where another front came from beyond, or the
+    front stood before a cell, the larger is no slow front. Infinite where there is no neighbour to tell.
+    """
+    padded = np.pad(np.asarray(arrival, np.float64), 1, constant_values=np.nan)
+    here, inner = padded[1:-1, 1:-1], np.s_[1:-1]
+    beside = (
+        ((padded[:-2, inner], padded[2:, inner]), cell[1]),
+        ((padded[inner, :-2], padded[inner, 2:]), cell[0]),
+    )
+    steps = [np.nan_to_num(np.fmin(*(np.abs(here - each) for each in pair))) / size for pair, size in beside]
+    with np.errstate(divide="ignore"):
+        return 1.0 / np.hypot(*steps)

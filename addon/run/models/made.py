@@ -50,40 +50,17 @@ def model(
         values = getattr(maps, name)
         if values is not None and values.shape != grid.shape:
             raise input_error(files[0], 0, 0, f"has {name} {values.shape} on a grid of {grid.shape}")
-    per_area = maps.per_area
-    if per_area is None and maps.intensity is not None:
-        per_area = heat.of_intensity(maps.arrival, maps.intensity, maps.speed, grid.cell)
-        told.append(
-            "heat per area is fireline intensity over rate of spread"
-            + (", which is one over the gradient of arrival time" if maps.speed is None else "")
-        )
-    surface, canopy = maps.surface, maps.canopy
-    if surface is None and "category" not in land.layers and per_area is not None:
-        told.append("surface fuel is heat per area over 17.433 MJ/kg where it burned, their mean elsewhere")
-        surface = _of_heat(per_area, maps.arrival)
-    if surface is None:
-        surface = land.surface(grid, options.projection)
-    if canopy is None:
-        canopy = land.canopy(grid, options.projection)
-    fuel = surface + canopy
-    category = maps.category if maps.category is not None else land.category(grid, options.projection)
+    fuel = _fuel(maps, grid, land, options.projection, told)
+    category = fuel.category
     lasts = fuels.burn_out(category if category is not None else np.full(grid.shape, np.nan))
-    if per_area is None:
-        joules = heat.of_fuel(fuel)
-        told.append(
-            "heat flux is made of fuel and arrival: all surface and canopy fuel burns, at 17.433 MJ/kg"
-        )
-    else:
-        joules, factor = heat.shared(per_area, fuel, maps.arrival)
-        told.append(
-            f"heat flux is made of heat per area and arrival, times {factor:.3g}: its total is that of all "
-            "fuel burned, at 17.433 MJ/kg"
-        )
+    told.append("heat flux is made of fuel and arrival: all surface and canopy fuel burns, at 17.433 MJ/kg")
     told.append(
         "a spot's heat comes out at a rate that falls evenly to 0 at three mean burning times of its fuel"
     )
     try:
-        release = heat.Release.of(maps.arrival, joules, lasts, options.interval)
+        release = heat.Release.of(
+            maps.arrival, heat.of_fuel(fuel.surface + fuel.canopy), lasts, options.interval
+        )
     except Error as error:
         raise input_error(files[0], 0, 0, str(error)) from None
     kept = {} if category is None else {"fuel_category": lambda: category}
@@ -97,8 +74,8 @@ def model(
         fuel_grid=grid,
         still={
             "elevation": lambda: ground,
-            "surface_fuel": lambda: np.nan_to_num(surface),
-            "canopy_fuel": lambda: np.nan_to_num(canopy),
+            "surface_fuel": lambda: fuel.surface,
+            "canopy_fuel": lambda: fuel.canopy,
             "fuel_arrival_time": lambda: maps.arrival,
             **kept,
         },
@@ -128,8 +105,59 @@ def with_start(options: Options, start: datetime) -> Options:
     return options if options.start else replace(options, start=start)
 
 
-def _of_heat(per_area: NDArray, arrival: NDArray) -> NDArray[np.float32]:
-    load = np.asarray(per_area, np.float64) / fuels.HEAT
-    burned = np.isfinite(arrival)
-    mean = float(load[burned].mean()) if burned.any() else 0.0
-    return np.where(burned, load, mean).astype(np.float32)
+@dataclass(frozen=True)
+class _Fuel:
+    """kg/m2 and numbers of fuel models of each cell; None: nothing says the numbers."""
+
+    surface: NDArray
+    canopy: NDArray
+    category: NDArray | None
+
+
+def _fuel(maps: Maps, grid: Grid, land: Land, projection: str, told: list[str]) -> _Fuel:
+    """What the maps or what lies beside say; else by the model's heat per area, else the same everywhere."""
+    category = maps.category if maps.category is not None else land.category(grid, projection)
+    canopy = np.nan_to_num(maps.canopy if maps.canopy is not None else land.canopy(grid, projection))
+    burned, own = np.isfinite(maps.arrival), _own_heat(maps, grid, told)
+    by_heat = None if own is None else np.maximum(own / fuels.HEAT - canopy, 0.0)
+    if maps.surface is not None:
+        surface, known = np.nan_to_num(maps.surface), np.isfinite(maps.surface)
+    elif category is not None:
+        surface = fuels.loads(category) if maps.category is not None else land.surface(grid, projection)
+        known = np.isfinite(category)
+    elif by_heat is not None:
+        told.append("surface fuel is heat per area over 17.433 MJ/kg where it burned, their mean elsewhere")
+        surface = np.where(burned, by_heat, by_heat[burned].mean() if burned.any() else 0.0)
+        return _Fuel(surface.astype(np.float32), canopy, None)
+    else:
+        return _Fuel(land.surface(grid, projection), canopy, None)
+    lacks = burned & ~known
+    if by_heat is not None and lacks.any():
+        told.append(
+            f"{lacks.sum():,} burned cells of no known fuel have it by heat per area over 17.433 MJ/kg"
+        )
+        surface = np.where(lacks, by_heat, surface)
+    _compare(own, (surface + canopy)[burned], burned, told)
+    return _Fuel(surface.astype(np.float32), canopy, category)
+
+
+def _own_heat(maps: Maps, grid: Grid, told: list[str]) -> NDArray | None:
+    """The model's heat per area (J/m2), no more than of the heaviest fuel; None: it says none."""
+    if maps.per_area is not None:
+        heats = np.nan_to_num(np.asarray(maps.per_area, np.float64))
+        return np.minimum(heats, fuels.HEAT * fuels.HEAVIEST)
+    if maps.intensity is None:
+        return None
+    whence = ", by the time of arrival at the neighbours that it came from" if maps.speed is None else ""
+    told.append(f"heat per area is fireline intensity over rate of spread{whence}")
+    return heat.of_intensity(maps.arrival, maps.intensity, maps.speed, grid.cell)
+
+
+def _compare(own: NDArray | None, load: NDArray, burned: NDArray, told: list[str]) -> None:
+    """Say how the model's own heat compares with the fuel's, which is what the run releases."""
+    total = float(heat.of_fuel(load).sum())
+    if own is not None and total > 0:
+        told.append(f"the model's heat per area is {float(own[burned].sum()) / total:.3g} times its fuel's")
+    without = int((load <= 0).sum())
+    if without:
+        told.append(f"{without:,} burned cells have no fuel on the map and release no heat")

@@ -36,7 +36,9 @@ def read(paths: list[Path], options: Options) -> Model:
     if len(cases) > 1:
         told.append(f"of {len(cases)} cases it is {case}")
     arrival = raster.read(first)
-    grid, said = arrival.grid(options.projection, options.at)
+    land = beside.find(paths, look=True)
+    projection = options.projection or arrival.projection or land.projection
+    grid, said = arrival.grid(projection, options.at)
     maps = made.Maps(np.where(arrival.values < 0, np.nan, arrival.values))
     files = [first]
     for path in paths:
@@ -48,8 +50,6 @@ def read(paths: list[Path], options: Options) -> Model:
             name, unit = _UNITS[found[1]]
             setattr(maps, name, np.where(layer.values > 0, layer.values * np.float64(unit), np.nan))
             files.append(path)
-    land = beside.find([path for path in paths if path not in files])
-    projection = options.projection or arrival.projection
     made_of = Options(options.start, options.at, projection, options.interval)
     return made.model(maps, grid, land, made_of, "ELMFIRE", files, [*told, said] if said else told)
 

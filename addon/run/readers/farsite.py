@@ -41,9 +41,8 @@ def read(paths: list[Path], options: Options) -> Model:
                 raise input_error(path, 0, 0, "has another grid than the arrival times")
             setattr(maps, role, np.where(layer.values > 0, layer.values * np.float64(_UNITS[role]), np.nan))
             files.append(path)
-    land = beside.find([path for path in paths if path not in files])
-    projection = options.projection or arrival.projection
-    projection = projection or next((each.projection for each in land.layers.values()), "")
+    land = beside.find(paths, look=True)
+    projection = options.projection or arrival.projection or land.projection
     grid, said = arrival.grid(projection, options.at)
     made_of = Options(options.start, options.at, projection, options.interval)
     return made.model(maps, grid, land, made_of, "FARSITE or FlamMap", files, [*told, said] if said else told)

@@ -53,7 +53,7 @@ def read(paths: list[Path], options: Options) -> Model:
         if name in found:
             setattr(maps, name.removesuffix("_fuel").removeprefix("fuel_"), found[name])
     grid = _grid(path, found, options, told)
-    return made.model(maps, grid, beside.find(paths), options, "pyretechnics", [path], told)
+    return made.model(maps, grid, beside.find(paths, look=True), options, "pyretechnics", [path], told)
 
 
 def _grid(path: Path, found: dict[str, NDArray], options: Options, told: list[str]) -> Grid:
