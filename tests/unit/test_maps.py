@@ -60,7 +60,7 @@ def test_facts_do_not_depend_on_how_many_rows_are_read_at_once(run, monkeypatch)
     facts = info.gather(run, ZONE)
     monkeypatch.setattr(blocks, "CELLS", 1)
     again = info.gather(run, ZONE)
-    for fuel in ("surface_fuel", "canopy_fuel"):
+    for fuel in ("surface_fuel", "canopy_fuel", "fuel_energy"):
         assert again.pop(fuel) == pytest.approx(facts.pop(fuel), rel=1e-12)
     assert again.pop("burned") == facts.pop("burned")
     assert again == facts

@@ -15,6 +15,7 @@ Sphere of 6370 km                                       here: test_degrees_on_a_
 WRF: junk edge, TIGN_G where unburned                   test_models::test_wrf_sfire
 WRF: metres in an ideal run                             test_models::test_wrf_sfire_in_metres
 WRF: several times in several files                     test_models::test_wrf_sfire
+WRF: TIGN_G of a touch, cells that burn in part         test_models::..._burns_what_its_own_fire_area_says
 WRF: staggered winds and heights, T is theta - 300      test_models::test_wrf_sfire_in_three_dimensions
 WRF: FIRE_AREA without flux in the first time           here: test_what_burned_before_the_first_time
 ForeFire: -9999, negative, cells that are not square    test_models::test_forefire

@@ -213,3 +213,47 @@ def test_a_file_that_shrinks_after_opening(make_run):
 def test_units_in_their_usual_spellings(make_run):
     toml = RUN_TOML + 'temperature = "kelvin"\ncanopy_fuel = "kg m-2"\nwind_east = "m s-1"\n'
     assert runs.open(make_run(toml=toml)).warnings == []
+
+
+def test_the_air_may_have_a_grid_of_its_own(make_run, form):
+    """What is bilinear there is exact on the model grid; beyond its outermost places it goes on even."""
+    latitude, longitude = np.array([38.902, 38.907]), np.array([-120.598, -120.592, -120.586])
+    y, x = np.meshgrid(latitude, longitude, indexing="ij")
+    values = np.stack([k + 1e3 * (y - 38.9) + 2e3 * (x + 120.6) for k in range(3)]).astype(np.float32)
+    folder = make_run(
+        form,
+        air_latitude=latitude,
+        air_longitude=longitude,
+        temperature=300 + values,
+        wind_east=values,
+        wind_north=-values,
+    )
+    run = runs.open(folder)
+    np.testing.assert_array_equal(run.air_longitude, longitude)
+    y = np.clip(run.latitude, *latitude)[:, None]
+    x = np.clip(run.longitude, *longitude[[0, -1]])
+    frames = list(run.frames("temperature"))
+    for k in range(3):
+        expected = k + 1e3 * (y - 38.9) + 2e3 * (x + 120.6)
+        np.testing.assert_allclose(run.wind(k)[0], expected, atol=1e-4)
+        np.testing.assert_allclose(run.wind(k)[1], -expected, atol=1e-4)
+        np.testing.assert_allclose(run.temperature(k), 300 + expected, atol=1e-3)
+        np.testing.assert_array_equal(frames[k], run.temperature(k))
+
+
+def test_without_a_grid_of_its_own_the_air_has_that_of_the_model(make_run):
+    run = runs.open(make_run())
+    np.testing.assert_array_equal(run.air_latitude, run.latitude)
+    np.testing.assert_array_equal(run.air_longitude, run.longitude)
+
+
+def test_burned_fraction_is_of_fuel_cells(make_run, form):
+    share = np.random.default_rng(5).random((3, 8, 10)).astype(np.float32)
+    run = runs.open(make_run(form, burned_fraction=share))
+    np.testing.assert_array_equal(run.burned_fraction(1), share[1])
+    np.testing.assert_array_equal(np.stack(list(run.frames("burned_fraction"))), share)
+
+
+def test_a_run_without_a_burned_fraction(make_run):
+    with pytest.raises(core.Error, match="no burned_fraction"):
+        runs.open(make_run()).burned_fraction(0)

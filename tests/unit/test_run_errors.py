@@ -93,6 +93,15 @@ def test_half_a_wind(make_run):
     refuse(make_run(wind_north=None), "wind_north", "wind_east and wind_north")
 
 
+def test_half_a_grid_of_the_air(make_run):
+    refuse(make_run(air_latitude=np.array([38.8, 39.0])), "air_longitude.txt", "the field is missing")
+
+
+def test_fields_on_other_grids_than_theirs(make_run):
+    share = np.ones((3, 4, 5), "f4")
+    refuse(make_run(burned_fraction=share), "burned_fraction.npy", r"expected shape \(times, 8, 10\)")
+
+
 @pytest.mark.parametrize(
     ("name", "values", "reason"),
     [

@@ -34,25 +34,23 @@ def from_levels(
     return arrival
 
 
-def held(
-    arrival: NDArray, times: NDArray[np.float64], share: Callable[[int], NDArray]
-) -> NDArray[np.float64]:
-    """A model's own times of arrival (s), held to when half of each cell burned; NaN where less has.
-
-    Whatever a model's time says, of the first touch for instance, the front passes a cell's middle between
-    the last map with less than half of it burned and the first with more.
-    """
-    early, late = np.full(arrival.shape, -np.inf), np.full(arrival.shape, np.nan)
-    for index, time in enumerate(times):
-        new = (share(index) >= 0.5) & np.isnan(late)
-        late[new] = time
-        early[new] = times[index - 1] if index else -np.inf
-    known = np.where(np.isfinite(arrival), arrival.astype(np.float64), late)
-    return np.minimum(np.maximum(known, early), late)
-
-
 def from_share(
     times: NDArray[np.float64], share: Callable[[int], NDArray], shape: tuple[int, int]
 ) -> NDArray[np.float64]:
     """Time (s) at which half of a cell is burned, linear between two maps; NaN where never."""
     return from_levels(times, lambda index: 0.5 - share(index), shape)
+
+
+def held(
+    arrival: NDArray, times: NDArray[np.float64], share: Callable[[int], NDArray]
+) -> NDArray[np.float64]:
+    """A model's own times of arrival (s), held to when half of each cell burned; NaN where less has.
+
+    A time that is not between the last map with less than half of a cell burned and the first with more is
+    that of something else, of the first touch for instance: such cells have the time of `from_share`.
+    """
+    by_share = from_share(times, share, arrival.shape)
+    late = np.searchsorted(times, by_share)  # beyond the last where there is none
+    early = np.concatenate([[-np.inf], times])[late]
+    within = (arrival > early) & (arrival <= np.concatenate([times, [-np.inf]])[late])
+    return np.where(within, arrival, by_share)

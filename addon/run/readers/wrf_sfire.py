@@ -297,7 +297,7 @@ def _arrival_from(wrf: _Wrf) -> str:
     if not wrf.has("TIGN_G"):
         return "interpolated between files"
     if wrf.has("FIRE_AREA"):
-        return "TIGN_G, held between the two times between which half of the cell burned (FIRE_AREA)"
+        return "TIGN_G, or where FIRE_AREA passes a half between two other times, interpolated there"
     return "TIGN_G where the fire is in the last file"
 
 
