@@ -311,7 +311,7 @@ def _energy(joules: float) -> str:
 
 
 def _released(heat: float, fuel: float) -> str:
-    beside = f"  ({heat / fuel:.3g} of that of the fuel burned)" if fuel > 0.0 else ""
+    beside = f"  ({heat / fuel:,.2f} times that of the fuel burned)" if fuel > 0.0 else ""
     return _energy(heat) + beside
 
 

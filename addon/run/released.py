@@ -37,6 +37,6 @@ def warnings(released: float, fuel: float) -> list[str]:
     if released <= _MUCH * fuel or fuel <= 0.0:
         return []
     return [
-        f"the run releases {released / fuel:.2g} times the heat of the fuel that burns in it: its heat_flux "
+        f"the run releases {released / fuel:,.1f} times the heat of the fuel that burns in it: its heat_flux "
         "is too large, or its fuel too little"
     ]

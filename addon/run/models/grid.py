@@ -162,6 +162,7 @@ class Placed:
 
         What the nearest cells have more or less of it, cells that are neither 0 nor 1 make up for.
         """
+        share = np.nan_to_num(share)
         found = self.put(share, 0.0)
         if self.areas is None:
             return found
