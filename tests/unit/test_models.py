@@ -196,6 +196,8 @@ def test_cfbm(tmp_path, converted):
         np.testing.assert_array_equal(
             run.heat_flux(i), truth["flux"][i]
         )  # all rows and columns, all tiny values
+        share = np.clip(0.5 - (truth["x"] - made.SPEED * 30 * i) / 10.0, 0, 1)
+        np.testing.assert_allclose(run.burned_fraction(i), share, atol=1e-6)
     assert run.heat_flux(0).max() == 0  # never set by the model
     np.testing.assert_allclose(run.latitude, truth["lat"].mean(1), rtol=1e-12)
     arrival = run.fuel_arrival_time()
