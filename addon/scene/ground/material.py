@@ -23,6 +23,9 @@ from .place import Place
 
 _FAR, _ON_ROCK = 1.5, 2.0  # pixels, the least size of noise where trees are part of the ground
 
+_WAVES = (500.0, 4000.0)  # m from the camera between which waves grow smaller than pixels (by eye)
+_BLUR = 0.12  # roughness of a mirror of waves that are not drawn (by eye)
+
 
 def build(
     shot: Shot,
@@ -208,10 +211,15 @@ def _picture(tree: nodes.Tree, here: Place, picture: photo.Picture, image: bpy.t
 
 
 def _water(tree: nodes.Tree, here: Place) -> nodes.Value:
-    """Dark water that mirrors the sky, more at grazing angles, ruffled by the wind."""
-    normal = _bump(tree, here.grain.noise(7.0, 2.0) * 0.05, 0.5)
+    """Dark water that mirrors the sky, more at grazing angles, ruffled by the wind.
+
+    Waves that a picture cannot show blur the mirror instead (Cox and Munk 1954: slopes as a distribution).
+    """
+    shown = here.distance.ramp(*_WAVES, 1.0, 0.0)
+    normal = _bump(tree, here.grain.noise(7.0, 2.0) * shown * 0.05, 0.5)
     colour = tree.input("Water Colour", (0.010, 0.022, 0.024), "Of deep lakes, seen from above", "Water")
     rough = tree.input("Water Roughness", 0.22, "How blurred a lake mirrors the sky", "Water", most=1.0)
     deep = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
-    mirror = tree.output("ShaderNodeBsdfGlossy", {"Roughness": rough, "Normal": normal})
+    blur = rough + (1.0 - shown) * _BLUR
+    mirror = tree.output("ShaderNodeBsdfGlossy", {"Roughness": blur, "Normal": normal})
     return tree.mix_shader(tree.output("ShaderNodeFresnel", {"IOR": 1.33}), deep, mirror)
