@@ -79,10 +79,10 @@ def maps(arguments: argparse.Namespace) -> None:
 def score(arguments: argparse.Namespace) -> None:
     """Compare a run with what was seen of its fire."""
     from . import files
-    from .errors import UsageError, input_error
+    from .errors import Error, UsageError, input_error
     from .run import observations, zone
     from .run import score as scores
-    from .run.score import page
+    from .run.score import page, used
 
     if arguments.run.suffix == ".toml" and arguments.run.is_file():
         run, *others = _runs(arguments.run).values()
@@ -106,6 +106,8 @@ def score(arguments: argparse.Namespace) -> None:
         text = report.html(run, found, seen, *runs)
         files.write(arguments.report, lambda part: part.write_text(text, encoding="utf-8"))
         say(f"wrote {arguments.report}")
+    if not runs and (none := used.nothing(found["uses"])):
+        raise Error(none)
 
 
 def imager(arguments: argparse.Namespace) -> None:

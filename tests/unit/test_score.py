@@ -294,10 +294,10 @@ def test_the_command_as_a_table_and_as_json(round_run, tmp_path):
     assert result.returncode == 0, result.stderr
     found = json.loads(result.stdout)
     assert found["dates"][0]["all"]["polygons"]["sorensen"] == pytest.approx(1.0, abs=5e-3)
-    assert found["outside"] == ["2013-09-17T05:05:00Z"]
+    assert (found["uses"][0]["used"], found["uses"][0]["before"]) == (1, 1)
     text = page.page(found)
     assert "0.99" in text
-    assert "1 perimeters are of times before or after the run" in text
+    assert ["king.geojson,", "perimeters", "1", "1", "0", "0"] in [line.split() for line in text.splitlines()]
 
 
 def test_without_shapely_the_command_says_what_to_install(monkeypatch):

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ...errors import UsageError
 from .. import info, times
 from ..observations import Observations
-from . import arrival, detected, shapes
+from . import arrival, detected, shapes, used
 from .grid import Grid
 from .overlap import Overlap
 
@@ -57,9 +57,12 @@ def score(
         Seen(each.time, shapes.of_perimeter(each, grid.middle), each.source)
         for each in observations.perimeters
     ]
+    perimeters = _fates(run, grid, seen)
+    inside = [each for each, fate in zip(seen, perimeters, strict=True) if fate == used.USED]
+    uses = _uses(run, grid, seen, perimeters, observations)
     if other is not None:
-        seen = _of_run(other, run, [each.time for each in seen])
-    inside = [each for each in seen if run.times[0] <= times.seconds(run, each.time) <= run.times[-1]]
+        uses = [each for each in uses if each["kind"] != "perimeters"]  # they only say when
+        inside = seen = _of_run(other, run, [each.time for each in seen])
     dates = [_date(run, grid, each) for each in inside]
     return {
         "run": {"name": run.name, "path": run.path, "synthetic": run.synthetic, "event": run.event},
@@ -71,7 +74,7 @@ def score(
         "burned_from": info.burned_from(run),
         "arrival_from": "fuel_arrival_time" if run.has("fuel_arrival_time") else "heat_flux",
         "dates": dates,
-        "outside": [times.iso(each.time) for each in seen if each not in inside],
+        "uses": uses,
         "arrival": _arrival(run, grid, inside, other),
         "detections": [row for each in observations.detections for row in detected.rows(run, grid, each)],
         "reported": _reported(run, grid),
@@ -84,6 +87,29 @@ def score(
             ),
         ],
     }
+
+
+def _fates(run: Run, grid: Grid, seen: Sequence[Seen]) -> list[str]:
+    """What becomes of each perimeter, one of `used.FATES`."""
+    moments = [times.seconds(run, each.time) for each in seen]
+    here = [grid.box.intersects(grid.projection.project(each.shape)) for each in seen]
+    return [str(fate) for fate in used.fates(run, moments, here)]
+
+
+def _uses(
+    run: Run, grid: Grid, seen: Sequence[Seen], fates: Sequence[str], observations: Observations
+) -> list[dict[str, Any]]:
+    """How many observations of each file are used, and why others are not (see `used.row`)."""
+    sources = dict.fromkeys(each.source for each in seen)
+    return [
+        used.row(
+            source, "perimeters", (f for each, f in zip(seen, fates, strict=True) if each.source == source)
+        )
+        for source in sources
+    ] + [
+        used.row(each.source, "detections", detected.fates(run, grid, each))
+        for each in observations.detections
+    ]
 
 
 def _date(run: Run, grid: Grid, seen: Seen) -> dict[str, Any]:

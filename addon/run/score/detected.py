@@ -6,10 +6,18 @@ from typing import Any
 
 import numpy as np
 from firetwin_core.run import Run
+from numpy.typing import NDArray
 
 from .. import times
 from ..observations import Detections
+from . import used
 from .grid import Grid
+
+
+def fates(run: Run, grid: Grid, detections: Detections) -> NDArray[np.str_]:
+    """What becomes of each detection, one of `used.FATES`."""
+    row, column = grid.at(detections.latitude, detections.longitude)
+    return used.fates(run, _moments(run, detections), (row >= 0) & (column >= 0))
 
 
 def rows(run: Run, grid: Grid, detections: Detections) -> list[dict[str, Any]]:
@@ -22,8 +30,8 @@ def rows(run: Run, grid: Grid, detections: Detections) -> list[dict[str, Any]]:
     import shapely
 
     row, column = grid.at(detections.latitude, detections.longitude)
-    moments = np.array([times.seconds(run, each) for each in detections.time])
-    covered = (row >= 0) & (column >= 0) & (moments >= run.times[0]) & (moments <= run.times[-1])
+    moments = _moments(run, detections)
+    covered = fates(run, grid, detections) == used.USED
     found = []
     for moment in np.unique(moments[covered]):
         these = np.flatnonzero(covered & (moments == moment))
@@ -44,3 +52,7 @@ def rows(run: Run, grid: Grid, detections: Detections) -> list[dict[str, Any]]:
             }
         )
     return found
+
+
+def _moments(run: Run, detections: Detections) -> NDArray[np.float64]:
+    return np.array([times.seconds(run, each) for each in detections.time], np.float64)

@@ -8,6 +8,7 @@ from typing import Any
 
 from ...data import history
 from .. import times
+from . import used
 
 ACRE = history.SQUARE_METRES_PER_ACRE
 
@@ -27,7 +28,9 @@ def page(found: dict[str, Any]) -> str:
     """The text that `firetwin score` prints."""
     run = found["run"]
     head = run["name"] + ("  (SYNTHETIC: made up, not the output of a model)" if run["synthetic"] else "")
-    return "\n".join([head, *against(found), *_dates(found), *_distances(found), *_more(found)])
+    return "\n".join(
+        [head, *against(found), *_uses(found), *_dates(found), *_distances(found), *_more(found)]
+    )
 
 
 def against(found: dict[str, Any]) -> list[str]:
@@ -37,6 +40,22 @@ def against(found: dict[str, Any]) -> list[str]:
     names = ", ".join(found["against"]) or "reported areas alone: no perimeters or detections were given"
     domain = f"domain of kappa {found['domain']['area'] / 1e6:,.0f} km2"
     return [f"against {names}", f"{ny} x {nx} cells of {high:.0f} x {wide:.0f} m, {domain}"]
+
+
+def _uses(found: dict[str, Any]) -> Iterator[str]:
+    """How many observations of each file are compared with the run, and why others are not."""
+    if not found["uses"]:
+        return
+    wide = max(24, *(len(_name(row)) for row in found["uses"]))
+    yield from ("", f"{'Observations':<{wide + 2}}" + "".join(f"{fate:>9}" for fate in used.FATES))
+    for row in found["uses"]:
+        yield f"  {_name(row):<{wide}}" + "".join(f"{row[fate]:>9,}" for fate in used.FATES)
+    if none := used.nothing(found["uses"]):
+        yield none
+
+
+def _name(row: dict[str, Any]) -> str:
+    return f"{row['source']}, {row['kind']}"
 
 
 def _dates(found: dict[str, Any]) -> Iterator[str]:
@@ -118,8 +137,6 @@ def arrival(scores: dict[str, Any]) -> str:
 def said(found: dict[str, Any]) -> Sequence[str]:
     """What a reader should know of these scores."""
     notes = list(found["assumptions"])
-    if found["outside"]:
-        notes.append(f"{len(found['outside'])} perimeters are of times before or after the run")
     outside = [row["outside_grid"] for row in found["dates"] if row["outside_grid"] > 1e-3]
     if outside:
         notes.append(

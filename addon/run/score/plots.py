@@ -17,6 +17,7 @@ from matplotlib.dates import ConciseDateFormatter
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
+from numpy.typing import NDArray
 
 from ...data import history
 from .. import areas, info, times
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 HITS, FALSE_ALARMS, MISSES = "#56606b", "#e8833a", "#2f6fb7"
 RUN, REPORTED, SEEN = "#c8401e", "#1f2933", "#2f6fb7"
 _KILO = 1e3
-_MOMENTS = 200
+_MOMENTS, _MARKED = 200, 40  # points of a curve of growth, and up to how many are marked
 
 
 def overlap(run: Run, grid: Grid, here: BaseGeometry, there: BaseGeometry, frame: BaseGeometry) -> str:
@@ -67,11 +68,7 @@ def growth(run: Run, found: dict[str, Any], other: Run | None = None) -> str:
         axes = figure.add_axes((0.085, 0.12, 0.83, 0.84))
         for each, colour, name in ((run, RUN, run.name), (other, SEEN, other.name if other else "")):
             if each is not None:
-                moments = np.linspace(each.times[0], each.times[-1], _MOMENTS)
-                when = [times.moment(each, float(t)).astimezone(zone) for t in moments]
-                axes.plot(
-                    when, np.array(info.burned(each, moments)) / acre, color=colour, linewidth=2, label=name
-                )
+                _curve(axes, each, zone, color=colour, label=name)
         marks = (
             ("reported", REPORTED, "o", [(r["time"], r["reported"]) for r in found["reported"] if r["run"]]),
             (
@@ -100,6 +97,20 @@ def growth(run: Run, found: dict[str, Any], other: Run | None = None) -> str:
         figure.savefig(text, format="svg", transparent=True, metadata={"Date": None})
     svg = text.getvalue()
     return svg[svg.index("<svg") :]
+
+
+def own_times(run: Run) -> NDArray[np.float64]:
+    """Model times (s) of a curve of growth: the run's own, evenly spread ones where there are many."""
+    count = len(run.times)
+    return run.times[np.unique(np.linspace(0, count - 1, min(count, _MOMENTS)).round().astype(np.int64))]
+
+
+def _curve(axes: Axes, run: Run, zone: ZoneInfo, **style: Any) -> None:
+    """Acres at times of the run, straight between them: what it does not say has no steps. Few are marked."""
+    moments = own_times(run)
+    when = [times.moment(run, float(each)).astimezone(zone) for each in moments]
+    area = np.array(info.burned(run, moments)) / history.SQUARE_METRES_PER_ACRE
+    axes.plot(when, area, linewidth=2, marker="o" if len(moments) <= _MARKED else "", markersize=4, **style)
 
 
 def _map(run: Run, grid: Grid, frame: BaseGeometry) -> tuple[Figure, Axes]:

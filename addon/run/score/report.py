@@ -11,7 +11,7 @@ from firetwin_core.run import Run
 
 from ...data import history
 from .. import times
-from . import plots, shapes
+from . import plots, shapes, used
 from .grid import Grid
 from .overlap import HELP
 from .page import arrival, local, said, theirs
@@ -54,6 +54,7 @@ def html(run: Run, found: dict[str, Any], seen: Any, other: Run | None = None) -
         part
         for parts in (
             _head(run, found, other),
+            _uses(found),
             _growth(run, found, other),
             _maps(run, grid, found, seen, other),
             _scores(found),
@@ -84,6 +85,23 @@ def _head(run: Run, found: dict[str, Any], other: Run | None) -> Iterator[str]:
             "made up, not the output of a fire model. Scores say how the tools work, and nothing of how well "
             "any model forecasts.</p>"
         )
+
+
+def _uses(found: dict[str, Any]) -> Iterator[str]:
+    if not found["uses"]:
+        return
+    yield "<h2>Observations</h2>"
+    if none := used.nothing(found["uses"]):
+        yield f'<p class="warn">{escape(none[:1].upper() + none[1:])}.</p>'
+    yield (
+        '<p class="soft">Used: in the run\'s grid, from its first time to its last. Before, after: in the grid '
+        "at other times. Outside: beside the grid.</p>"
+    )
+    rows = (
+        [escape(row["source"]), row["kind"], *(f"{row[fate]:,}" for fate in used.FATES)]
+        for row in found["uses"]
+    )
+    yield _table(("file", "what", *used.FATES), rows, text=("what",))
 
 
 def _growth(run: Run, found: dict[str, Any], other: Run | None) -> Iterator[str]:

@@ -1,0 +1,45 @@
+"""Which observations a run can be compared with: those in its place, from its first time to its last."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from firetwin_core.run import Run
+from numpy.typing import ArrayLike, NDArray
+
+USED, BEFORE, AFTER, OUTSIDE = "used", "before", "after", "outside"
+FATES = (USED, BEFORE, AFTER, OUTSIDE)
+
+
+def fates(run: Run, moments: ArrayLike, here: ArrayLike) -> NDArray[np.str_]:
+    """One of `FATES` for each observation, by its model time (s) and whether it lies in the run's grid.
+
+    What lies elsewhere is `OUTSIDE` whenever it was seen: it may be another fire.
+    """
+    moments, here = np.asarray(moments, np.float64), np.asarray(here, bool)
+    when = np.select([moments < run.times[0], moments > run.times[-1]], [BEFORE, AFTER], USED)
+    return np.where(here, when, OUTSIDE)
+
+
+def row(source: str, kind: str, found: Iterable[str]) -> dict[str, Any]:
+    """How many of a file's observations of a kind ("perimeters", "detections") have each fate."""
+    counts = Counter(str(fate) for fate in found)
+    return {"source": source, "kind": kind} | {fate: counts[fate] for fate in FATES}
+
+
+def nothing(rows: Sequence[dict[str, Any]]) -> str:
+    """Say that no observation can be used, and why; "" where one can or where there are none."""
+    if not rows or any(each[USED] for each in rows):
+        return ""
+    before, after, outside = (sum(each[fate] for each in rows) for fate in FATES[1:])
+    reasons = (
+        (before, "before the run's first time"),
+        (after, "after its last" if before else "after the run's last time"),
+        (outside, "outside of its grid" if before or after else "outside of the run's grid"),
+    )
+    names = ", ".join(dict.fromkeys(each["source"] for each in rows))
+    why = ", ".join(f"{count:,} lie {text}" for count, text in reasons if count)
+    return f"no observation of {names} can be compared with the run: {why or 'all are left out'}"
