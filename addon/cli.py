@@ -323,7 +323,8 @@ polygons and on cells: the difference of the two is its error. Needs shapely and
 IMAGER = """\
 Brightness temperatures (K) at 3.9 and 11.2 um (3.74 and 11.45 for viirs), fire radiative power (W) and a mask
 of fire (10) and saturated (11) pixels, as DIR/abi_20140917T2200Z.tif: abi in its geostationary projection
-with 2 km pixels, viirs at 375 m by latitude and longitude. Fire counts by its area in a pixel. Hypothetical:
+with 2 km pixels, viirs at 375 m by latitude and longitude. Fire counts by its area in a pixel. Power is abi's
+from 3.9 um, saturated at 400 K, and viirs's from its band M13 of 750 m, saturated at 634 K. Hypothetical:
 neither saw the fires of 2014 so. Needs rasterio (pip install 'firetwin[raster]'). Passes imager_short and
 imager_long of a satellite's camera are pictures and films of them."""
 

@@ -106,7 +106,7 @@ def test_the_power_of_all_pixels_is_a_sixth_of_the_heat_where_none_is_saturated(
     assert (found.mask == imager.BURNING).sum() == 1
     assert found.heat > 0
     ratio = found.power.sum() / found.heat
-    exact = imager.RADIATED * sensor.spectral_radiance(1000.0, 3.9) / (imager.WOOSTER * 1000.0**4)
+    exact = imager.RADIATED * sensor.spectral_radiance(1000.0, 3.9) / (3.0e-9 * 1000.0**4)
     assert ratio == pytest.approx(float(exact), rel=1e-3)
     assert ratio == pytest.approx(0.158, abs=0.001)
 
@@ -118,6 +118,46 @@ def test_pixels_saturate(burning, name):
     assert (found.short.max(), found.long.max()) == pytest.approx(most, abs=1e-6)
     assert (found.mask == imager.SATURATED).any()
     assert found.power.sum() < 0.1 * found.heat
+    assert found.limited > 0
+
+
+def test_viirs_tells_the_power_of_fires_that_its_middle_band_cannot_show(burning):
+    """I4 is saturated; M13, up to 634 K over 750 m, has 0.157 of the heat: 1.12 x 14 %."""
+    found = seen(burning(2.0e3), "viirs")
+    assert (found.mask == imager.SATURATED).any()
+    assert found.limited == 0
+    exact = imager.RADIATED * sensor.spectral_radiance(1000.0, 4.05) / (2.88e-9 * 1000.0**4)
+    assert found.power.sum() / found.heat == pytest.approx(float(exact), rel=1e-3)
+    assert float(exact) == pytest.approx(0.157, abs=0.001)
+
+
+@given(st.integers(-9, 9), st.integers(-9, 9), st.lists(st.floats(0.0, 0.05), min_size=30, max_size=30))
+def test_the_power_of_a_wide_pixel_is_shared_among_those_that_show_fire(row, column, parts):
+    """A pixel of M13 is 2 x 2, from even rows and columns on; those at the edge of the domain are cut off."""
+    part = np.reshape(parts, (5, 6))
+    fire = part > 0.01
+    blocks = imager._blocks(2, row + np.arange(5), column + np.arange(6))
+    kelvin, area = np.full((5, 6, 1), 300.0), np.full((5, 6), 375.0**2)
+    power, limited = imager._power(imager.VIIRS.power, kelvin, part, area, fire, blocks)
+    assert limited == 0
+    assert not power[~fire].any()
+    above = float(np.diff(sensor.spectral_radiance([300.0, 1000.0], 4.05))[0])
+    for y in range(row // 2, (row + 6) // 2):
+        for x in range(column // 2, (column + 7) // 2):
+            rows, columns = ((first + np.arange(n)) // 2 for first, n in ((row, 5), (column, 6)))
+            mine = np.outer(rows == y, columns == x)
+            if (mine & fire).any():
+                whole = part[mine].sum() * 375.0**2 * imager.STEFAN_BOLTZMANN / 2.88e-9 * above
+                assert power[mine & fire] == pytest.approx(whole / (mine & fire).sum(), rel=1e-9)
+
+
+def test_a_wide_pixel_that_is_saturated_is_counted():
+    kelvin, area, part = np.full((2, 2, 1), 300.0), np.full((2, 2), 375.0**2), np.full((2, 2), 0.3)
+    blocks = imager._blocks(2, np.arange(2), np.arange(2))
+    power, limited = imager._power(imager.VIIRS.power, kelvin, part, area, part > 0.0, blocks)
+    above = float(np.diff(sensor.spectral_radiance([300.0, 634.0], 4.05))[0])
+    assert limited == 1
+    assert power.sum() == pytest.approx(4.0 * 375.0**2 * imager.STEFAN_BOLTZMANN / 2.88e-9 * above)
 
 
 def test_warmer_air_is_a_warmer_background(burning):
@@ -149,6 +189,7 @@ def test_a_geotiff_lies_where_its_pixels_are(burning, tmp_path):
         with rasterio.open(path) as read:
             assert read.count == 4
             assert "hypothetical" in read.tags()["note"]
+            assert ("M13" in read.tags()["power_from"]) == (name == "viirs")
             np.testing.assert_allclose(read.read(1), found.short, rtol=1e-6)
             if name == "abi":
                 projection = read.crs.to_dict()

@@ -5,7 +5,7 @@ from datetime import UTC, datetime, timedelta
 
 import numpy as np
 import pytest
-from fires import LATITUDE, LONGITUDE, axes, circle, degrees, geojson, round_fire
+from fires import axes, circle, degrees, geojson, round_fire
 from firetwin import cli
 from firetwin.run import observations, readers
 from firetwin.run import score as scores
@@ -25,9 +25,9 @@ def fire(make_run):
         latitude, longitude = axes(60, 100.0)
         coarse_latitude, coarse_longitude = axes(24, 250.0)
         zero, fuel = np.zeros((count, 24, 24), np.float32), np.ones((60, 60), np.float32)
-        toml = f'name = "Round"\nstart = 2014-09-17T04:45:00Z\ninterval_s = {interval}\nvertical = "orthometric"\n'
+        toml = f'start = 2014-09-17T04:45:00Z\ninterval_s = {interval}\nvertical = "orthometric"\n'
         return make_run(
-            toml=toml,
+            toml='name = "Round"\n' + toml,
             latitude=coarse_latitude,
             longitude=coarse_longitude,
             fuel_latitude=latitude,
@@ -131,5 +131,5 @@ def test_growth_is_drawn_at_the_runs_own_times(fire, count):
     svg = plots.growth(run, scores.score(run, observations.Observations()))
     curve = re.search(rf'<path d="([^"]*)"[^>]*stroke: {plots.RUN}; stroke-width: 2', svg)
     assert len(re.findall("[ML]", curve[1])) <= len(times)
-    marks = len(re.findall(rf'<use [^>]*fill: {plots.RUN}', svg))
+    marks = len(re.findall(rf"<use [^>]*fill: {plots.RUN}", svg))
     assert marks == (count + 1 if count <= 5 else 0)  # one more in the legend

@@ -94,8 +94,8 @@ def _uses(found: dict[str, Any]) -> Iterator[str]:
     if none := used.nothing(found["uses"]):
         yield f'<p class="warn">{escape(none[:1].upper() + none[1:])}.</p>'
     yield (
-        '<p class="soft">Used: in the run\'s grid, from its first time to its last. Before, after: in the grid '
-        "at other times. Outside: beside the grid.</p>"
+        '<p class="soft">Used: in the run\'s grid, from its first time to its last. Before, after: in the '
+        "grid at other times. Outside: beside the grid.</p>"
     )
     rows = (
         [escape(row["source"]), row["kind"], *(f"{row[fate]:,}" for fate in used.FATES)]

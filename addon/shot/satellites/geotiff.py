@@ -10,7 +10,7 @@ import numpy as np
 
 from ... import files
 from ...errors import Error
-from .imager import Instrument, Picture
+from .imager import Instrument, Picture, PowerBand
 
 
 def write(path: Path, picture: Picture, instrument: Instrument, run: str, moment: datetime) -> None:
@@ -26,7 +26,7 @@ def write(path: Path, picture: Picture, instrument: Instrument, run: str, moment
         f"brightness temperature at {instrument.short:g} um, K": picture.short,
         f"brightness temperature at {instrument.long:g} um, K": picture.long,
         "fire radiative power, W": picture.power,
-        "fire mask: 0 none, 10 fire, 11 saturated": picture.mask,
+        f"fire mask: 0 none, 10 fire, 11 saturated at {instrument.short:g} um": picture.mask,
     }
     x, y = picture.grid.corner(picture.row, picture.column)
     across, down = picture.grid.step
@@ -53,9 +53,16 @@ def write(path: Path, picture: Picture, instrument: Instrument, run: str, moment
                 run=run,
                 time=moment.isoformat(timespec="seconds"),
                 heat_of_the_run_W=f"{picture.heat:.6g}",
+                power_from=_source(instrument.power, picture),
             )
 
     files.write(path, fill)
+
+
+def _source(band: PowerBand, picture: Picture) -> str:
+    """Say which band fire radiative power comes from, and whether it is less than there is."""
+    text = f"{band.name} at {band.wave:g} um, saturated from {band.saturation:g} K"
+    return f"{text}: in {picture.limited} of its pixels, where power is less than there is"
 
 
 def _rasterio() -> ModuleType:

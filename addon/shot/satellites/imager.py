@@ -11,9 +11,16 @@ et al. 2020, "GOES-R ABI Algorithm Theoretical Basis Document for Fire / Hot Spo
 2.3. Users of VIIRS's fire product take I4 to be saturated from 367 K; neither for that nor for the 380 K of
 I5 was a document of the instrument's makers found.
 
-Fire radiative power by the radiance in the middle infrared is A sigma / a (L - L(background)), with
-a = 3.0e-9 W m-2 sr-1 um-1 K-4 (Wooster et al. 2003, 2005): at 3.9 um and 1000 K that is 1.13 of the power
-itself, so that all pixels together have 0.158 of the run's heat as long as none is saturated.
+Fire radiative power by the radiance in the middle infrared is A sigma / a (L - L(background)) (Wooster et
+al. 2003, 2005), with a = 3.0e-9 W m-2 sr-1 um-1 K-4 at 3.9 um. At 1000 K that is 1.13 of the power itself, so
+that all pixels together have 0.158 of the run's heat as long as none is saturated.
+
+VIIRS's I4 saturates in most fires, so its product of 375 m (VNP14IMG) takes the power from band M13, of 750 m
+(W. Schroeder, P. Oliva, L. Giglio and I. A. Csiszar 2014, Remote Sensing of Environment 143, 85; "VIIRS 375 m
+Active Fire Detection and Characterization Algorithm Theoretical Basis Document" 1.0, 2016). M13 is at 4.05 um,
+its low gain measures up to 634 K, and a = 2.88e-9 there: 1.12 of the power at 1000 K, 0.157 of the heat. A
+pixel of M13 is 2 x 2 of 375 m, and its power is shared evenly among those of them that show fire. Where no
+pixel of 375 m shows fire there is no power.
 """
 
 from __future__ import annotations
@@ -34,21 +41,42 @@ from .grid import Array, EvenGrid, FixedGrid, Grid, pixel_areas
 FIRE = 1000.0  # K
 RADIATED = 0.14  # of the heat
 STEFAN_BOLTZMANN = 5.670374419e-8  # W m-2 K-4
-WOOSTER = 3.0e-9  # W m-2 sr-1 um-1 K-4
 NONE, BURNING, SATURATED = 0, 10, 11  # of the mask, as in GOES-R's fire product
 _WARMER = 10.0  # K that a fire shows more in the short band than in the long (assumed)
 _PARTS = 6  # points along a pixel's sides at which the background is looked up
 
 
 @dataclass(frozen=True)
+class PowerBand:
+    """The band that fire radiative power comes from.
+
+    Attributes
+    ----------
+    name, wave, saturation
+        Its name, wavelength (um) and the hottest black body (K) that it measures.
+    a
+        Radiance of a fire over the fourth power of its temperature, W m-2 sr-1 um-1 K-4.
+    side
+        Pixels of the imager's other bands along the side of one of this band's.
+    """
+
+    name: str
+    wave: float
+    saturation: float
+    a: float
+    side: int = 1
+
+
+@dataclass(frozen=True)
 class Instrument:
-    """An imager: wavelengths (um) and the hottest black bodies (K) of its middle and long-wave band."""
+    """An imager: wavelengths (um) and hottest black bodies (K) of its bands, and the band of power."""
 
     name: str
     title: str
     short: float
     long: float
     saturation: tuple[float, float]
+    power: PowerBand
     since: int  # year of the first picture
     hypothetical: str
 
@@ -63,6 +91,7 @@ ABI = Instrument(
     3.9,
     11.2,
     (400.0, 330.0),
+    PowerBand("band 7", 3.9, 400.0, 3.0e-9),
     2017,
     "hypothetical: this imager is on GOES-16 to -19, launched from 2016 on",
 )
@@ -72,6 +101,7 @@ VIIRS = Instrument(
     3.74,
     11.45,
     (367.0, 380.0),
+    PowerBand("band M13", 4.05, 634.0, 2.88e-9, 2),
     2012,
     "hypothetical: seen from straight above at this moment; real passes are about 01:30 and 13:30",
 )
@@ -93,7 +123,9 @@ class Picture:
     power
         Fire radiative power, W.
     mask
-        `NONE`, `BURNING` or `SATURATED`.
+        `NONE`, `BURNING` or `SATURATED`, as the middle band shows it.
+    limited
+        Pixels of the band of power that are saturated: `power` of theirs is less than there is.
     area
         m2 of each pixel.
     grid, row, column
@@ -111,6 +143,7 @@ class Picture:
     row: int
     column: int
     heat: float
+    limited: int
 
 
 def grid_of(instrument: Instrument, run: Run, longitude: float) -> Grid:
@@ -125,18 +158,46 @@ def picture(instrument: Instrument, grid: Grid, fire: Fire, time: float) -> Pict
     area = pixel_areas(grid, rows, columns)
     kelvin = _background(grid, fire, time, rows, columns)
     part, heat = _burning(grid, fire, time, rows, columns, area)
-    shown, power = [], np.zeros(area.shape)
+    shown = []
     for wave, most in zip((instrument.short, instrument.long), instrument.saturation, strict=True):
         background = sensor.spectral_radiance(kelvin, wave).mean(axis=-1)
         radiance = (1.0 - part) * background + part * sensor.spectral_radiance(FIRE, wave)
         radiance = np.minimum(radiance, sensor.spectral_radiance(most, wave))
         shown.append(sensor.spectral_temperature(radiance, wave))
-        if wave == instrument.short:
-            power = area * STEFAN_BOLTZMANN / WOOSTER * np.maximum(radiance - background, 0.0)
     mask = np.where(shown[0] - shown[1] > _WARMER, BURNING, NONE)
     mask = np.where(shown[0] >= instrument.saturation[0] - 1e-6, SATURATED, mask).astype(np.uint8)
-    power = np.where(mask > NONE, power, 0.0)
-    return Picture(shown[0], shown[1], power, mask, area, grid, int(rows[0]), int(columns[0]), heat)
+    blocks = _blocks(instrument.power.side, rows, columns)
+    power, limited = _power(instrument.power, kelvin, part, area, mask > NONE, blocks)
+    return Picture(shown[0], shown[1], power, mask, area, grid, int(rows[0]), int(columns[0]), heat, limited)
+
+
+def _blocks(side: int, rows: NDArray, columns: NDArray) -> NDArray[np.int64]:
+    """(rows, columns) number of the larger pixel, `side` by `side`, that each lies in."""
+    down, across = rows // side - rows[0] // side, columns // side - columns[0] // side
+    return down[:, None] * (across[-1] + 1) + across
+
+
+def _power(
+    band: PowerBand,
+    kelvin: Array,
+    part: Array,
+    area: Array,
+    fire: NDArray[np.bool_],
+    blocks: NDArray[np.int64],
+) -> tuple[Array, int]:
+    """Fire radiative power (W) of each pixel, and how many pixels of the band are saturated."""
+
+    def total(values: NDArray) -> Array:
+        return np.bincount(blocks.ravel(), values.ravel())
+
+    background = sensor.spectral_radiance(kelvin, band.wave).mean(axis=-1)
+    radiance = (1.0 - part) * background + part * sensor.spectral_radiance(FIRE, band.wave)
+    whole, most = total(area), float(sensor.spectral_radiance(band.saturation, band.wave))
+    seen = total(area * radiance) / whole
+    above = np.minimum(seen, most) - total(area * background) / whole
+    found = whole * STEFAN_BOLTZMANN / band.a * np.maximum(above, 0.0)
+    shared = found / np.maximum(total(fire.astype(np.float64)), 1.0)
+    return np.where(fire, shared[blocks], 0.0), int((seen > most).sum())
 
 
 def _inside(grid: Grid, run: Run) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
