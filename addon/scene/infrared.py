@@ -26,14 +26,15 @@ from firetwin_core import sensor
 
 from ..blender import nodes, owned
 from ..blender.owned import Stage
+from ..shot import temperature as model
 from ..shot.settings import BANDS
 from ..shot.shot import Shot
 from . import haze, temperature
 
-SKY = 250.0  # K, brightness temperature of a clear sky (assumed, the same all over)
+SKY, STONE = model.SKY, model.STONE  # the palette of the thermal picture goes by them too
 GREEN = 0.55  # um
 SOOT = 0.16  # part of smoke's extinction in green light that is absorption
-NEEDLES, GROUND, CHAR, STONE, LAKE = 0.98, 0.96, 0.97, 0.94, 0.985  # emissivities, 8 to 14 um (assumed)
+NEEDLES, GROUND, CHAR, LAKE = 0.98, 0.96, 0.97, 0.985  # emissivities, 8 to 14 um (assumed)
 FLAME = 0.6  # 1/m: emissivity of a flame of depth D is 1 - exp(-0.6 D) (assumed)
 _DIM = 0.03  # of air, per g/m3, at 1 km
 _BEND = 0.75

@@ -2,10 +2,9 @@
 
 Air has the temperature of the run at the place, and 6.5 K less for each kilometre above the model's ground
 there. Unburned ground is warmer than the air by what it takes in over what it passes on, (a S - loss) / h:
-the direct sun S (A. B. Meinel and M. P. Meinel 1976: 1353 W/m2 x 0.7^(m^0.678) through m masses of air) on a
-surface that faces it, less 70 W/m2 of net long-wave radiation into a clear sky; h is 30 W m-2 K-1 for bare
-ground and 80 for crowns, which stay within some kelvin of the air (both assumed). Shadows of ridges and trees
-do not cool the ground.
+the direct sun S (`shot.sun.direct`) on a surface that faces it, less 70 W/m2 of net long-wave radiation into
+a clear sky; h is 30 W m-2 K-1 for bare ground and 80 for crowns, which stay within some kelvin of the air
+(both assumed). Shadows of ridges and trees do not cool the ground.
 
 Burned ground cools by `shot.temperature.cooling`: 97 K above the rest after ten minutes, 38 K after an hour,
 19 K after four, where timber burned for two minutes; 12 K after ten minutes
@@ -26,13 +25,11 @@ from ..blender.owned import Stage
 from ..shot import sun, temperature
 from ..shot.ground import bilinear
 from ..shot.shot import Shot
-from .light import sky
 
 FLAME_LOW, FLAME_HIGH = 1000.0, 1200.0  # K
 EMBER = 850.0  # K, ground full of glowing embers (assumed)
 WATER = 292.0  # K, a lake in September (assumed)
-_BARE, _NEEDLES = 30.0, 80.0  # W m-2 K-1
-_ABSORBED, _LOSS = 0.85, 70.0  # part of sunlight; W/m2
+_NEEDLES = 80.0  # W m-2 K-1
 _GROUP, _IMAGE = "temperature", "Firetwin Air Temperature"
 _SIDE = 128  # pixels of a moment's field
 _MOMENTS = 25  # at most
@@ -44,8 +41,8 @@ def ambient(
     """Temperature of unburned ground (`bare` 1) or crowns (0) at an elevation (m), facing along `normal`."""
     node = tree.node("ShaderNodeGroup", {"Elevation": elevation}, node_tree=_group(shot, stage))
     lit = tree.math("MAXIMUM", tree.vector("DOT_PRODUCT", normal, tree.pick(node, "Sun"), name="Value"), 0.0)
-    gain = lit * _ABSORBED - _LOSS
-    return tree.pick(node, "Kelvin") + gain * tree.mix(bare, 1.0 / _NEEDLES, 1.0 / _BARE)
+    gain = lit * temperature.ABSORBED - temperature.LOSS
+    return tree.pick(node, "Kelvin") + gain * tree.mix(bare, 1.0 / _NEEDLES, 1.0 / temperature.BARE)
 
 
 def air(tree: nodes.Tree, shot: Shot, stage: Stage) -> nodes.Value:
@@ -67,13 +64,6 @@ def cooled(
 def build(shot: Shot, stage: Stage) -> None:
     """Make the air's temperature and the sun those of this shot, for materials that are there and to come."""
     _fill(_group(shot, stage, fill=False), shot)
-
-
-def sunlight(height: float) -> float:
-    """Direct sunlight (W/m2) square to a sun at this height (degrees); 0 below the horizon."""
-    if height <= 0.0:
-        return 0.0
-    return float(1353.0 * 0.7 ** (sky.air_mass(height) ** 0.678))
 
 
 def _group(shot: Shot, stage: Stage, fill: bool = True) -> bpy.types.NodeTree:
@@ -200,7 +190,7 @@ def _sun(group: bpy.types.NodeTree, shot: Shot, count: int) -> None:
     vectors = []
     for frame in frames:
         bearing, height = shot.sun(float(shot.frames.time(frame)))
-        vectors.append(sun.direction(bearing, height) * sunlight(height))
+        vectors.append(sun.direction(bearing, height) * sun.direct(height))
     _set(group, "Sun", vectors[0])
     for axis in range(3):
         if count > 1:

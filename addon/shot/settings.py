@@ -433,7 +433,7 @@ class Render:
     )
     thermal_low: float | None = key(
         None,
-        "where the thermal picture's palette begins; left out, the moment's coldest air",
+        "where the thermal picture's palette begins; left out, the moment's coldest ground",
         unit="K",
         above=0,
         shows=("thermal",),

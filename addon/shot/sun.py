@@ -38,6 +38,19 @@ def angles(latitude: float, longitude: float, moment: datetime) -> tuple[float, 
     return azimuth(observer, moment), elevation(observer, moment)
 
 
+def air_mass(height: float) -> float:
+    """Air between us and a sun at `height` degrees, 1 at the zenith (Kasten and Young 1989)."""
+    return float(1.0 / (np.sin(np.radians(height)) + 0.50572 * (height + 6.07995) ** -1.6364))
+
+
+def direct(height: float) -> float:
+    """Direct sunlight (W/m2) square to a sun at this height (degrees); 0 below the horizon.
+
+    1353 x 0.7^(m^0.678) through m masses of air (A. B. Meinel and M. P. Meinel 1976, "Applied Solar Energy").
+    """
+    return float(1353.0 * 0.7 ** (air_mass(height) ** 0.678)) if height > 0.0 else 0.0
+
+
 def direction(bearing: float, height: float) -> NDArray[np.float64]:
     """Unit vector (east, north, up) towards a bearing and height in degrees."""
     bearing, height = np.radians(bearing), np.radians(height)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from firetwin_core import sensor
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
@@ -11,6 +12,11 @@ from . import emissions, sun
 PULSE = emissions.KINDS[emissions.LITTER].residence  # s that the front heats the ground under timber
 COOLING = 2.0 * 20_000.0 / (600.0 * np.sqrt(np.pi))
 """K s-1/2: q = 20 kW/m2, and the thermal effusivity e = 600 J m-2 K-1 s-1/2 of dry soil (assumed)."""
+
+BARE = 30.0  # W m-2 K-1 that bare ground passes on (assumed)
+ABSORBED, LOSS = 0.85, 70.0  # part of sunlight; W/m2 of net long-wave radiation into a clear sky (assumed)
+SKY = 250.0  # K, brightness temperature of a clear sky (assumed, the same all over)
+STONE = 0.94  # emissivity of stone, the least of any ground (assumed)
 
 _FIRE = 1.0  # W/m2; less is no fire (see `firetwin_core.flux.at_time`)
 LAPSE = 6.5e-3  # K/m, the standard atmosphere
@@ -67,6 +73,19 @@ def warmth(run: Run, start: float, end: float) -> tuple[Array, float]:
 def coldest(run: Run, time: float) -> float:
     """K that a tenth of the run's air is colder than at a time (s)."""
     return float(np.percentile(at(run, time), 10.0))
+
+
+def coldest_ground(run: Run, time: float, band: tuple[float, float]) -> float:
+    """Brightness temperature (K) over a band (um) of the coldest that level ground or air is at a time (s).
+
+    Air is that of `coldest`. Level bare ground is warmer by what the sun gives it over what it loses, as in
+    the thermal view: by night 2.3 K colder. Stone, which mirrors 6 % of the cold sky, looks colder still, by
+    2 K between 8 and 14 um. Under a sun higher than some ten degrees the air is the coldest.
+    """
+    air, (_, height) = coldest(run, time), sun.at(run, time)
+    ground = air + (ABSORBED * sun.direct(height) * np.sin(np.radians(height)) - LOSS) / BARE
+    seen = STONE * sensor.radiance(ground, band) + (1.0 - STONE) * sensor.radiance(SKY, band)
+    return min(air, float(sensor.brightness_temperature(seen, band)))
 
 
 def cooling(age: ArrayLike, pulse: ArrayLike = PULSE) -> Array:

@@ -49,12 +49,6 @@ def test_exposure_can_be_set(settings, run, stage, scene):
     assert scene.view_settings.look == "AgX - Medium High Contrast"
 
 
-def test_air_mass_is_kasten_and_youngs():
-    assert sky.air_mass(90.0) == pytest.approx(1.0, abs=1e-3)
-    assert sky.air_mass(30.0) == pytest.approx(1.994, abs=2e-3)
-    assert sky.air_mass(0.0) == pytest.approx(38.0, abs=0.3)
-
-
 def test_building_twice_leaves_one_sky(shot, stage, scene):
     for _ in range(2):
         light.build(shot, stage)

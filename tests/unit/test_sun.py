@@ -37,3 +37,15 @@ def test_a_moon_below_the_horizon_gives_no_light(run):
     hours = [moon(run, datetime(2014, 9, 9, hour, tzinfo=UTC)) for hour in range(24)]
     assert {each.light > 0.0 for each in hours} == {True, False}
     assert all(each == sun.NO_MOON for each in hours if each.light == 0.0)
+
+
+def test_air_mass_is_kasten_and_youngs():
+    assert sun.air_mass(90.0) == pytest.approx(1.0, abs=1e-3)
+    assert sun.air_mass(30.0) == pytest.approx(1.994, abs=2e-3)
+    assert sun.air_mass(0.0) == pytest.approx(38.0, abs=0.3)
+
+
+def test_nights_have_no_sun():
+    assert sun.direct(-5.0) == 0.0
+    assert 850.0 < sun.direct(60.0) < 950.0  # W/m2 on a clear day
+    assert sun.direct(5.0) < 0.4 * sun.direct(60.0)

@@ -64,7 +64,7 @@ class State:
         day = float(noise.smoothstep(-1.0, 4.0, height))
         by_sun = height > sun.NIGHT
         self.direction = sun.light(bearing, height, moon)
-        sunlight = _SUN * np.exp(-_SUN_DEPTH * air_mass(max(height, 0.0))) * day
+        sunlight = _SUN * np.exp(-_SUN_DEPTH * sun.air_mass(max(height, 0.0))) * day
         moonlight = (_STARS + (_MOON - _STARS) * moon.light) * np.array(_MOON_COLOUR)
         shining = sunlight if by_sun and day > 0.0 else moonlight
         self.power = float(shining.max())
@@ -77,7 +77,7 @@ class State:
 def _haze(height: float, moonlight: float) -> NDArray[np.float64]:
     """Radiance of haze in the light of a sun at `height` degrees, half of which is the sky's."""
     blue = float(noise.smoothstep(-10.0, 12.0, height))
-    low = np.exp(-_SUN_DEPTH * max(air_mass(max(height, 0.0)) - _FULL_DAY, 0.0))
+    low = np.exp(-_SUN_DEPTH * max(sun.air_mass(max(height, 0.0)) - _FULL_DAY, 0.0))
     by_day = _DAY_HAZE * 0.5 * (1.0 + low / low.max())
     by_night = _NIGHT_HAZE * (1.0 + moonlight * _MOON / _STARS)
     return by_night + (by_day - by_night) * blue**2
@@ -92,8 +92,3 @@ def glow(darkness: float) -> float:
     """Radiance of thick smoke amid 1 GW of luminous heat, of the colour GLOW: by day the sky's drowns it."""
     by_day, by_night = _GLOW_LIGHT
     return by_day + (by_night - by_day) * darkness
-
-
-def air_mass(height: float) -> float:
-    """Air between us and a sun at `height` degrees, 1 at the zenith (Kasten and Young 1989)."""
-    return float(1.0 / (np.sin(np.radians(height)) + 0.50572 * (height + 6.07995) ** -1.6364))

@@ -8,10 +8,11 @@ The EXR holds two channels, `radiance` (W m-2 sr-1) and `kelvin`, the temperatur
 both as [thermal]'s detector measures them; and `signal`, its counts, where it has bits. The PNG shows the
 temperatures by a palette, spread towards the cold end, with a bar of temperatures.
 
-The palette begins at the coldest air of the moment (a tenth of it is colder), which hangs on the run and the
-time alone: nights and noons of one film show their relief alike, and nothing that comes into view or flares
-up changes the colours. In the sample it moves by at most 0.05 K a minute. `thermal_low` holds it in one
-place, where colours are to mean the same all through.
+The palette begins at the coldest that level ground or air is at the moment (a tenth of the air is colder; see
+`temperature.coldest_ground`): by day the air, by night stone, which has cooled below it and mirrors the sky.
+That hangs on the run, the time and the band alone: nights and noons of one film show their relief alike, and
+nothing that comes into view or flares up changes the colours. `thermal_low` holds it in one place, where
+colours are to mean the same all through.
 """
 
 from __future__ import annotations
@@ -65,10 +66,12 @@ def finish(
 def scale(shot: Shot, frame: int) -> tuple[float, float]:
     """Temperatures (K) at the cold and the hot end of the palette in a frame."""
     from .. import temperature
+    from ..settings import BANDS
 
     low, high = shot.settings.render.thermal_low, shot.settings.render.thermal_high
     if low is None:
-        low = min(temperature.coldest(shot.run, shot.frames.time(frame)), high - 1.0)
+        band = BANDS[shot.settings.thermal.band]
+        low = min(temperature.coldest_ground(shot.run, shot.frames.time(frame), band), high - 1.0)
     return low, high
 
 
