@@ -447,3 +447,25 @@ def test_what_is_told_beside_the_panels_is_true(shot, monkeypatch):
     (film,) = dict(fused_pass.facts(made, "drone", 3))["FILM"]
     assert float(film.split("×")[0].replace(",", "")) == pytest.approx(11_160, rel=0.01)
     assert film[2] == ","
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (1920, 1080), (960, 720), (2560, 720)])
+@pytest.mark.parametrize("pace", ["2×", "1,800×", "1,230,000×"])
+def test_what_is_told_beside_the_panels_lies_in_the_picture(size, pace):
+    """The pace of a long run, a long title and a long place are drawn smaller and not over the edge."""
+    sheet = _sheet.Sheet(*size)
+    facts = [
+        ("TIME", ["17 Sep 2014 15:42 PDT", "2014-09-17 22:42:00 UTC"]),
+        ("POSITION", ["38.97700° N", "120.57200° W"]),
+        ("HEIGHT", ["12,345 m AGL", "15,432 m WGS84"]),
+        ("FILM", [f"{pace} as fast"]),
+    ]
+    sheet.head("King Fire, a what-if run with a name that is much too long for any picture  ·  drone", facts)
+    renderer = sheet.canvas.get_renderer()
+    boxes = [text.get_window_extent(renderer) for text in sheet.figure.texts]
+    assert max(box.x1 for box in boxes) <= size[0]
+    assert min(box.x0 for box in boxes) >= 0
+    title, clock = boxes[2], boxes[:2]
+    assert title.x1 < min(box.x0 for box in clock)
+    pace_size = sheet.figure.texts[-1].get_size()
+    assert (pace_size == pytest.approx(sheet.points(2.3))) == (pace == "2×")

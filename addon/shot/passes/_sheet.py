@@ -15,6 +15,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.patheffects import withStroke
+from matplotlib.text import Text
 from numpy.typing import NDArray
 
 from . import _bar
@@ -23,6 +24,7 @@ from .thermal import KNEE
 PAPER, INK, QUIET = "#14171b", "#f2f3f4", "#9aa3ad"
 NEAREST, FARTHEST = 50.0, 50_000.0  # m, ends of the scale of distances
 _SIDE, _GAP, _BAR = 30.5, 1.5, 1.6  # beside the panels, between them, a colour bar
+_COLUMN = 17.5  # of what is told at the right
 _DPI = 100.0
 Part = tuple[float, float]  # of the view, across and up, round its middle
 WHOLE: Part = (1.0, 1.0)
@@ -48,16 +50,20 @@ class Sheet:
         """The title and the time above, everything else at the right."""
         (_, (local, utc)), *others = facts
         middle, right = 0.5 * self.top, self.width / self.unit - _GAP
-        self.text(_GAP, middle, title, 3.0, va="center", weight="bold")
-        self.text(right, middle - 0.3, local, 3.4, ha="right", va="bottom", weight="bold")
-        self.text(right, middle + 0.3, utc, 2.3, QUIET, ha="right", va="top")
-        at = right - 17.5
+        clock = [
+            self.text(right, middle - 0.3, local, 3.4, ha="right", va="bottom", weight="bold"),
+            self.text(right, middle + 0.3, utc, 2.3, QUIET, ha="right", va="top"),
+        ]
+        room = right - max(map(self.length, clock)) - 2.0 * _GAP
+        self.fit(self.text(_GAP, middle, title, 3.0, va="center", weight="bold"), room)
+        at = right - _COLUMN
         down = self.top
         for name, lines in others:
             self.text(at, down, name, 1.9, QUIET, va="top")
             down += 2.7
             for line in lines:
-                self.text(at, down, line, 2.3, va="top", weight="bold" if line is lines[0] else "normal")
+                weight = "bold" if line is lines[0] else "normal"
+                self.fit(self.text(at, down, line, 2.3, va="top", weight=weight), _COLUMN)
                 down += 3.4
             down += 2.6
 
@@ -119,10 +125,20 @@ class Sheet:
         bar = _DEPTHS(np.linspace(1.0, 0.0, 256))[:, None, :3]
         self._scale(place, bar, list(zip(names, places, strict=True)), "")
 
-    def text(self, x: float, y: float, text: str, size: float, colour: str = INK, **more: object) -> object:
+    def text(self, x: float, y: float, text: str, size: float, colour: str = INK, **more: object) -> Text:
         """Text at (x, y) units from the upper left corner, `size` units high."""
         at = x * self.unit / self.width, 1.0 - y * self.unit / self.height
         return self.figure.text(*at, text, size=self.points(size), color=colour, family="DejaVu Sans", **more)
+
+    def length(self, text: Text) -> float:
+        """Units that a text is wide."""
+        return text.get_window_extent(self.canvas.get_renderer()).width / self.unit
+
+    def fit(self, text: Text, room: float) -> None:
+        """Make a text smaller that is wider than its room, units."""
+        wide = self.length(text)
+        if wide > room:
+            text.set_size(text.get_size() * room / wide)
 
     def points(self, units: float) -> float:
         """Units as typographic points."""
