@@ -23,11 +23,15 @@ bool is_npy(const std::filesystem::path& path) {
   return std::memcmp(magic.data(), "\x93NUMPY", magic.size()) == 0;
 }
 
-template <class T> Grid<T> read_npy(const std::filesystem::path& path) {
+/// What an array of one dimension is: a row, or no grid.
+enum class Flat { row, refused };
+
+template <class T> Grid<T> read_npy(const std::filesystem::path& path, Flat flat) {
   const NpyFile file(path);
   const auto& shape = file.shape();
-  if (shape.empty() || shape.size() > 2) {
-    io::fail(path, "has shape " + shape_text(shape) + " where two dimensions are needed");
+  if (shape.empty() || (shape.size() == 1 && flat == Flat::refused) || shape.size() > 2) {
+    io::fail(path, "has shape " + shape_text(shape) +
+                       " where two dimensions are needed, latitudes by longitudes; reshape it");
   }
   Grid<T> grid;
   grid.rows = shape.size() == 2 ? shape[0] : 1;
@@ -40,9 +44,9 @@ template <class T> Grid<T> read_npy(const std::filesystem::path& path) {
   return grid;
 }
 
-template <class T> Grid<T> read_any(const std::filesystem::path& path) {
+template <class T> Grid<T> read_any(const std::filesystem::path& path, Flat flat) {
   if (path.extension() == ".npy" || is_npy(path)) {
-    return read_npy<T>(path);
+    return read_npy<T>(path, flat);
   }
   return read_text<T>(path);
 }
@@ -64,7 +68,7 @@ template <class T>
 
 template <class T>
 Grid<T> read_sized(const std::filesystem::path& path, std::size_t rows, std::size_t columns) {
-  Grid<T> grid = read_any<T>(path);
+  Grid<T> grid = read_any<T>(path, Flat::refused);
   if (grid.rows != rows || grid.columns != columns) {
     wrong_size(path, rows, columns, grid);
   }
@@ -74,11 +78,11 @@ Grid<T> read_sized(const std::filesystem::path& path, std::size_t rows, std::siz
 } // namespace
 
 Grid<float> read_grid(const std::filesystem::path& path) {
-  return read_any<float>(path);
+  return read_any<float>(path, Flat::row);
 }
 
 Grid<double> read_double_grid(const std::filesystem::path& path) {
-  return read_any<double>(path);
+  return read_any<double>(path, Flat::row);
 }
 
 void read_grid(const std::filesystem::path& path, std::size_t rows, std::size_t columns,

@@ -14,7 +14,8 @@ namespace firetwin::run {
 Grid<float> read_grid(const std::filesystem::path& path);
 Grid<double> read_double_grid(const std::filesystem::path& path);
 
-/// Reads a grid that must be rows x columns, with no_data as NaN. @throws InputError
+/// Reads a grid that must be rows x columns, with no_data as NaN.
+/// @throws InputError also for an array of one dimension, even of as many values.
 void read_grid(const std::filesystem::path& path, std::size_t rows, std::size_t columns,
                std::optional<float> no_data, std::span<float> out);
 /// The same with every digit and no_data as it is.

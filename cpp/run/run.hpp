@@ -72,7 +72,8 @@ public:
   const LevelSeries& height_3d() const;      ///< m
   const LevelSeries& temperature_3d() const; ///< K
 
-  /// Smallest and largest finite heat flux of the whole run, W/m2. Asks for the scan.
+  /// Smallest and largest finite heat flux of the whole run, W/m2; 0 and 0 where none is finite.
+  /// Asks for the scan.
   std::pair<float, float> flux_range() const;
   /// What one pass over every heat flux tells; made when it is first asked for, and once.
   const Scan& scan() const;

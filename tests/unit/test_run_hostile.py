@@ -199,10 +199,9 @@ def test_one_hot_cell(make_run):
 
 def test_a_run_of_nothing_but_nan(make_run):
     run = flux_run(make_run, np.full((NT, NY, NX), np.nan, np.float32))
-    with pytest.raises(core.InputError, match="no finite value"):
-        run.flux_range()
+    assert run.flux_range() == (0.0, 0.0)
     assert np.isnan(run.arrival_time()).all()
-    assert any("no value 60 times" in text for text in run.warnings)
+    assert "heat_flux has no finite value at any time, so nothing burns by it" in run.warnings
     assert emitters(run.heat_flux(0), np.zeros((NY, NX, 3)), 0, 1).invalid == NY * NX
 
 
@@ -239,3 +238,21 @@ def test_a_grid_at_a_pole(latitude):
 
 def test_no_cells():
     assert len(emitters(np.zeros((0, 4)), np.zeros((0, 4, 3)), 0, 1)) == 0
+
+
+@pytest.mark.parametrize("name", ["elevation", "surface_fuel", "canopy_fuel", "fuel_arrival_time"])
+def test_a_field_of_one_dimension_is_no_grid(make_run, name):
+    """A grid of one row has as many values as an array without rows, which does not say which axis it is."""
+    fields = small_fields() | {"fuel_arrival_time": np.zeros((8, 10), np.float32)}
+    one = {k: v[..., :1, :] if v.ndim > 1 else v[:1] if "latitude" in k else v for k, v in fields.items()}
+    flat = make_run(**(one | {name: one[name][0]}))
+    error = refusal_of(flat)
+    size = len(one[name][0])
+    assert f"{name}.npy" in error
+    assert f"has shape ({size},) where two dimensions are needed" in error
+
+
+def refusal_of(folder):
+    with pytest.raises(core.InputError) as caught:
+        runs.open(folder).fuel_arrival_time()
+    return str(caught.value)

@@ -136,7 +136,7 @@ class Run:
             No such field. IndexError: no such rows. Error: the run has none, or it cannot be read.
         """
     def flux_range(self) -> tuple[float, float]:
-        """Smallest and largest finite heat flux of the whole run, W/m2."""
+        """Smallest and largest finite heat flux of the whole run, W/m2; 0 and 0 where none is finite."""
     def heat_released(self) -> NDArray[np.float64]:
         """(ny, nx) J/m2 over the whole run, fluxes above 0 integrated by the trapezoidal rule."""
     def arrival_time(self) -> NDArray[np.float64]:
