@@ -271,14 +271,12 @@ def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:
 
     Which frames are built together does not hang on which of them are wanted.
     """
+    from ..shot import frames
+
     (camera,) = shot.settings.cameras
-    chunk = shot.settings.render.chunk or shot.frames.count
-
-    def number(frame: int) -> int:
-        return (frame - 1) // chunk
-
-    own = {k: list(part) for k, part in itertools.groupby(shot.frames_of(camera), number)}
-    for k, group in itertools.groupby(wanted, lambda picture: number(picture.frame)):
+    chunk = shot.settings.render.chunk
+    own = frames.parts(shot.frames_of(camera), chunk)
+    for k, group in itertools.groupby(wanted, lambda picture: frames.part_of(picture.frame, chunk)):
         yield shot if len(own) == 1 else shot.part(own[k]), list(group)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import inspect
 import sys
+from dataclasses import replace
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -14,8 +15,8 @@ import firetwin_core
 from ..progress import Progress, silent
 from ..run import content
 from ..run.content import fingerprint
-from ..shot import labels, land_use, mount, observed, passes, photo, schema, sources
-from ..shot.settings import Settings
+from ..shot import frames, labels, land_use, mount, observed, passes, photo, schema, sources
+from ..shot.settings import Camera, Settings
 from ..shot.shot import Shot
 from .picture import Picture
 
@@ -49,12 +50,23 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
         "run": run,
         "camera": camera,
         "pass": name,
-        "settings": schema.chosen(settings, aspects, camera),
+        "settings": schema.chosen(_built(settings, mine), aspects, camera),
     } | ({"leader": schema.chosen(settings, {"camera"}, leader.name)} if leader else {})
     taken = mount.taken(settings, settings.cameras, camera, passes.known()[name])
     others = {need: pair for need, pair in taken.items() if pair[0] != camera}
     given = {need: [*pair, fingerprint(of_picture(settings, run, *pair))] for need, pair in others.items()}
     return made_with | ({"given": given} if given else {})
+
+
+def _built(settings: Settings, camera: Camera) -> Settings:
+    """The settings with the chunk 0, all at once, where they come to that for a camera.
+
+    What is built together decides the ground's mesh, which plants are there, where the lamps of the flames
+    stand and which firebrands fly: pictures of a film in parts hang on where its parts begin. Those of a film
+    that is built at once do not hang on how much longer a part might be.
+    """
+    chunk = frames.chunk(settings, camera)
+    return replace(settings, render=replace(settings.render, chunk=chunk))
 
 
 def _modules(name: str) -> list[str]:

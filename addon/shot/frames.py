@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -9,11 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..run import times
+from . import frame_list
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run
 
-    from .settings import Time
+    from .settings import Camera, Settings, Time
 
 
 @dataclass(frozen=True)
@@ -51,3 +53,20 @@ def of(time: Time, run: Run) -> Frames:
         return Frames(first, first, 1)
     last = float(run.times[-1]) if time.end is None else times.seconds(run, time.end)
     return Frames(first, last, time.frames)
+
+
+def parts(listed: list[int], chunk: int) -> dict[int, list[int]]:
+    """Frames that are built together, `render.chunk` numbers at a time, by the number of the part; 0: all."""
+    return {k: list(part) for k, part in itertools.groupby(listed, lambda frame: part_of(frame, chunk))}
+
+
+def part_of(frame: int, chunk: int) -> int:
+    """Number of the part that a frame is in."""
+    return (frame - 1) // chunk if chunk else 0
+
+
+def chunk(settings: Settings, camera: Camera) -> int:
+    """`render.chunk`, or 0 where all frames that a camera films are built together."""
+    asked = settings.render.chunk
+    listed = frame_list.parse(camera.frames, settings.time.frames)
+    return asked if part_of(listed[0], asked) != part_of(listed[-1], asked) else 0

@@ -285,6 +285,24 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
     assert key(SETTINGS, "rgb", "1") != key(SETTINGS, "rgb")
 
 
+@pytest.mark.parametrize(
+    ("listed", "chunk", "same"), [("", 0, True), ("", 9, True), ("", 2, False), ("1-2", 2, True)]
+)
+def test_a_longer_chunk_spoils_nothing_that_is_built_at_once(listed, chunk, same):
+    """What is built together decides the picture, not how much more might be."""
+
+    def key(chunk):
+        changed = replace(
+            SETTINGS,
+            time=replace(SETTINGS.time, frames=4),
+            cameras=(replace(CAMERAS[0], frames=listed), CAMERAS[1]),
+            render=s.Render(chunk=chunk),
+        )
+        return fingerprint.of_picture(changed, {}, "drone", "rgb")
+
+    assert (key(chunk) == key(480)) is same
+
+
 def test_a_picture_depends_on_its_own_camera_and_no_other():
     def keys(cameras):
         changed = replace(SETTINGS, cameras=cameras)
