@@ -317,8 +317,9 @@ FILE holds dated perimeters (.geojson, .shp, .kml, .kmz, .gpkg) or FIRMS detecti
 one without dates is written FILE@2014-09-18T04:00-07:00. By date: areas, Sorensen, Jaccard, kappa, precision,
 recall, shape deviation and area difference indices, distances of the perimeters, with and without what had
 burned when the run began; then errors of arrival times, and detections with their lag. Each is found on
-polygons and on cells: the difference of the two is its error. Needs shapely and pyproj
-(pip install 'firetwin[score]')."""
+polygons and on cells: the difference of the two is its error. Observations before or after the run's times or
+outside of its grid are counted and left out; where none is left, the exit status is 1. Needs shapely and
+pyproj (pip install 'firetwin[score]')."""
 
 IMAGER = """\
 Brightness temperatures (K) at 3.9 and 11.2 um (3.74 and 11.45 for viirs), fire radiative power (W) and a mask

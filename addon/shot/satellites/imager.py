@@ -17,9 +17,9 @@ that all pixels together have 0.158 of the run's heat as long as none is saturat
 
 VIIRS's I4 saturates in most fires, so its product of 375 m (VNP14IMG) takes the power from band M13, of 750 m
 (W. Schroeder, P. Oliva, L. Giglio and I. A. Csiszar 2014, Remote Sensing of Environment 143, 85; "VIIRS 375 m
-Active Fire Detection and Characterization Algorithm Theoretical Basis Document" 1.0, 2016). M13 is at 4.05 um,
-its low gain measures up to 634 K, and a = 2.88e-9 there: 1.12 of the power at 1000 K, 0.157 of the heat. A
-pixel of M13 is 2 x 2 of 375 m, and its power is shared evenly among those of them that show fire. Where no
+Active Fire Detection and Characterization Algorithm Theoretical Basis Document" 1.0, 2016). M13 is at 4.05
+um, its low gain measures up to 634 K, and a = 2.88e-9 there: 1.12 of the power at 1000 K, 0.157 of the heat.
+A pixel of M13 is 2 x 2 of 375 m, and its power is shared evenly among those of them that show fire. Where no
 pixel of 375 m shows fire there is no power.
 """
 
