@@ -25,6 +25,8 @@ _COAST = 0.25  # part of the edge that is water, from which on it is sea
 _DEVIATION = 0.304  # of a wave of gradient noise
 _ENOUGH = 720  # rows or columns of a grid that what is said of all of it is taken from
 _SMOOTH = 20  # cells to each side; relief finer than this crosses the edge as it is
+_BANDS_OF_RELIEF = (2, 6, _SMOOTH)  # cells to each side: what is finer than each, and not than the one before
+_FADES = 2.5  # times a band's half-width: where its height at the edge has faded (by eye)
 
 
 @dataclass(frozen=True)
@@ -202,7 +204,8 @@ def _heights(
     """Edge heights that fade into the region's plane with hills; hills finer than the mesh are left out.
 
     The grid's rows and columns are at `y` and `x`, m. Relief finer than `_SMOOTH` goes on as it is within the
-    edge, turned over so that slopes go on.
+    edge, turned over so that slopes go on; its height at the edge fades the sooner the finer it is, as it
+    would be drawn out into ridges across the edge.
     """
     part = _part(known.shape)
     some, y, x = known[part], y[part[0]], x[part[1]]
@@ -220,10 +223,14 @@ def _heights(
         fine = noise.smoothstep(size / 2.0, size / 4.0, points.spacing)
         hills += amplitude * fine * noise.perlin(points.x / size, points.y / size, seed + octave)
         amplitude *= 0.5
-    smooth = _blurred(known)
-    fine = known - smooth
     like = np.exp(-points.distance / _LIKE)
-    turned = 2.0 * fine[points.edge] * noise.smoothstep(1500.0, 0.0, points.distance) - fine[points.across]
+    cell = abs(y[1] - y[0]) / (part[0].step or 1)
+    smooth, turned = known, np.zeros(points.x.shape)
+    for cells in _BANDS_OF_RELIEF:
+        finer, smooth = smooth, _blurred(known, cells)
+        fine = finer - smooth
+        near = noise.smoothstep(_FADES * cells * cell, 0.0, points.distance)
+        turned += 2.0 * near * fine[points.edge] - fine[points.across]
     far = 1.0 - np.exp(-points.distance / _FORGET)
     edge = smooth[points.edge]
     return (
@@ -237,11 +244,11 @@ def _part(shape: tuple[int, ...]) -> tuple[slice, slice]:
     return slice(None, None, rows), slice(None, None, columns)
 
 
-def _blurred(field: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Means over `_SMOOTH` cells to each side along both axes, twice; beyond its ends it goes on level."""
-    window = 2 * _SMOOTH + 1
+def _blurred(field: NDArray[np.float64], cells: int) -> NDArray[np.float64]:
+    """Means over so many cells to each side along both axes, twice; beyond its ends it goes on level."""
+    window = 2 * cells + 1
     for _ in range(4):
-        total = np.cumsum(np.pad(field, [(_SMOOTH + 1, _SMOOTH), (0, 0)], "edge"), axis=0)
+        total = np.cumsum(np.pad(field, [(cells + 1, cells), (0, 0)], "edge"), axis=0)
         field = ((total[window:] - total[:-window]) / window).T
     return field
 

@@ -67,6 +67,17 @@ def test_land_goes_on_across_the_edge_as_it_is_within(fields):
         assert np.corrcoef(slope, beyond)[0, 1] > 0.8
 
 
+def test_ridges_do_not_stand_in_rows_across_the_edge(fields):
+    """Heights beyond it bend along it no more than within: fine relief at it is not drawn out."""
+    made = apron.extend(fields, CELL, 60_000.0, 1)
+    margin = made.margin
+    for turn in range(4):
+        height = np.rot90(made.elevation, turn)[:, margin:-margin]
+        out, within = height[margin - 10 : margin - 3], height[margin + 3 : margin + 10]
+        bends = [np.abs(np.diff(rows, 2, axis=1)).mean() for rows in (out, within)]
+        assert bends[0] < 1.2 * bends[1]
+
+
 def test_rows_beyond_an_edge_are_those_as_far_within():
     position = np.array([-3.0, -1.0, 0.0, 4.0, 9.0, 10.0, 12.0, 19.0])
     assert apron._reflected(10, position).tolist() == [3, 1, 0, 4, 9, 8, 6, 1]
