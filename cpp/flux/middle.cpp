@@ -61,7 +61,8 @@ public:
   explicit Estimator(const run::Run& run)
       : cells_(run.scan().cells), times_(run.times()), rows_(run.latitude().size()),
         columns_(run.longitude().size()), begin_(begin_from_flux(run)),
-        crossing_(crossing_time(begin_, columns_)), half_mean_(half_mean(run)) {
+        crossing_(crossing_time(begin_, columns_)), half_mean_(half_mean(run, usual_interval())),
+        half_last_(half_mean(run, last_interval())) {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       whole_.push_back(burns(i) && cells_[i].first > 0 && burned_out(i) && inside(i));
     }
@@ -86,10 +87,22 @@ private:
   bool burns(std::size_t i) const { return cells_[i].first != run::Scan::never; }
 
   /// Values at a time stand for it; means, for the middle of what they are a mean of.
-  static double half_mean(const run::Run& run) {
-    const std::vector<double>& t = run.times();
-    const double interval = t.size() > 1 ? (t.back() - t.front()) / double(t.size() - 1) : 0.0;
+  static double half_mean(const run::Run& run, double interval) {
     return 0.5 * std::min(run.description().mean_s.value_or(interval), interval);
+  }
+
+  double usual_interval() const {
+    return times_.size() > 1 ? (times_.back() - times_.front()) / double(times_.size() - 1) : 0.0;
+  }
+
+  double last_interval() const {
+    return times_.size() > 1 ? times_.back() - times_[times_.size() - 2] : 0.0;
+  }
+
+  /// J/m2 of a cell until the end of the run. The sum by trapezoids counts half of the last flux, which
+  /// is right for values at their times; of a mean it lacks the other half.
+  double heat_so_far(std::size_t i) const {
+    return cells_[i].heat + half_last_ * double{cells_[i].last};
   }
 
   /// Mean time of a cell's heat, s.
@@ -146,7 +159,7 @@ private:
       sum += whole_[k] ? cells_[k].heat : 0.0;
       count += whole_[k] ? 1.0 : 0.0;
     });
-    return std::clamp(cells_[i].heat / (count > 0.0 ? sum / count : heat_), least_share, 1.0);
+    return std::clamp(heat_so_far(i) / (count > 0.0 ? sum / count : heat_), least_share, 1.0);
   }
 
   double time(std::size_t i) const {
@@ -269,7 +282,7 @@ private:
   std::size_t rows_, columns_;
   std::vector<double> begin_;    ///< s
   std::vector<double> crossing_; ///< s, by the slope of begin_
-  double half_mean_;             ///< s
+  double half_mean_, half_last_; ///< s, of all fluxes and of the last
   std::vector<bool> whole_;      ///< burned out, and burning cells on all sides
   double heat_ = 0.0;            ///< J/m2, median of the whole ones
   std::optional<double> delay_;  ///< s from arrival to heat, where enough cells tell
