@@ -2,6 +2,7 @@
 
 #include "flux/begin.hpp"
 #include "flux/crossing.hpp"
+#include "flux/fuel.hpp"
 #include "flux/middle.hpp"
 #include "geo/axis.hpp"
 
@@ -32,11 +33,6 @@ std::vector<double> own(const run::Run& run) {
   return result;
 }
 
-std::size_t nearest(std::span<const double> axis, double value) {
-  const geo::Bracket at = geo::bracket(axis, value);
-  return at.fraction > 0.5 ? at.upper : at.lower;
-}
-
 /// Times of the fluxes at `rows` x `columns`, where half of the ground around burns within the run.
 std::vector<double> at(const Middle& middle, const run::Run& run, std::span<const double> rows,
                        std::span<const double> columns) {
@@ -46,20 +42,13 @@ std::vector<double> at(const Middle& middle, const run::Run& run, std::span<cons
     const geo::Bracket row = geo::bracket(run.latitude(), rows[y]);
     for (std::size_t x = 0; x < columns.size(); ++x) {
       const geo::Bracket column = geo::bracket(run.longitude(), columns[x]);
-      if (geo::bilinear(std::span<const float>(middle.share), nx, row, column) >= 0.5) {
-        result[y * columns.size() + x] =
-            std::min(geo::bilinear(std::span<const double>(middle.time), nx, row, column),
-                     run.times().back());
+      const double time = geo::bilinear(std::span<const double>(middle.time), nx, row, column);
+      if (time <= run.times().back() &&
+          geo::bilinear(std::span<const float>(middle.share), nx, row, column) >= 0.5) {
+        result[y * columns.size() + x] = time;
       }
     }
   });
-  return result;
-}
-
-std::vector<std::size_t> nearest(std::span<const double> axis, std::span<const double> places) {
-  std::vector<std::size_t> result(places.size());
-  std::transform(places.begin(), places.end(), result.begin(),
-                 [axis](double place) { return nearest(axis, place); });
   return result;
 }
 
@@ -68,8 +57,8 @@ class Earliest {
 public:
   explicit Earliest(const run::Run& run)
       : arrival_(run.own_arrival_time()), nx_(run.longitude().size()),
-        row_(nearest(run.latitude(), run.fuel_latitude())),
-        column_(nearest(run.longitude(), run.fuel_longitude())), result_(run.cells(), nan) {
+        row_(geo::nearest(run.latitude(), run.fuel_latitude())),
+        column_(geo::nearest(run.longitude(), run.fuel_longitude())), result_(run.cells(), nan) {
     for (std::size_t y = 0; y < row_.size(); ++y) {
       if (y == 0 || row_[y] != row_[y - 1]) {
         starts_.push_back(y);
@@ -127,8 +116,17 @@ std::vector<double> arrival_time(const run::Run& run) {
 }
 
 std::vector<double> fuel_arrival_time(const run::Run& run) {
-  return has_own(run) ? own(run)
-                      : at(middle_from_flux(run), run, run.fuel_latitude(), run.fuel_longitude());
+  if (has_own(run)) {
+    return own(run);
+  }
+  std::vector<double> result =
+      at(middle_from_flux(run), run, run.fuel_latitude(), run.fuel_longitude());
+  if (!fuel_of_cells(run).empty()) {
+    const std::vector<float> load = fuel_load(run);
+    std::transform(result.begin(), result.end(), load.begin(), result.begin(),
+                   [](double time, float fuel) { return fuel > 0.0F ? time : nan; });
+  }
+  return result;
 }
 
 std::vector<double> begin_time(const run::Run& run) {

@@ -2,6 +2,7 @@
 
 #include "flux/begin.hpp"
 #include "flux/crossing.hpp"
+#include "flux/fuel.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -61,8 +62,8 @@ public:
   explicit Estimator(const run::Run& run)
       : cells_(run.scan().cells), times_(run.times()), rows_(run.latitude().size()),
         columns_(run.longitude().size()), begin_(begin_from_flux(run)),
-        crossing_(crossing_time(begin_, columns_)), half_mean_(half_mean(run, usual_interval())),
-        half_last_(half_mean(run, last_interval())) {
+        crossing_(crossing_time(begin_, columns_)), fuel_(fuel_of_cells(run)),
+        half_mean_(half_mean(run, usual_interval())), half_last_(half_mean(run, last_interval())) {
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       whole_.push_back(burns(i) && cells_[i].first > 0 && burned_out(i) && inside(i));
     }
@@ -99,11 +100,14 @@ private:
     return times_.size() > 1 ? times_.back() - times_[times_.size() - 2] : 0.0;
   }
 
-  /// J/m2 of a cell until the end of the run. The sum by trapezoids counts half of the last flux, which
-  /// is right for values at their times; of a mean it lacks the other half.
+  /// J/m2 of a cell until the end of the run. The sum by trapezoids counts half of the last flux,
+  /// which is right for values at their times; of a mean it lacks the other half.
   double heat_so_far(std::size_t i) const {
     return cells_[i].heat + half_last_ * double{cells_[i].last};
   }
+
+  /// kg/m2 that heat goes by; where that is not known all cells count alike.
+  double fuel(std::size_t i) const { return fuel_.empty() ? 1.0 : fuel_[i]; }
 
   /// Mean time of a cell's heat, s.
   double heat_time(std::size_t i) const {
@@ -139,7 +143,7 @@ private:
     const std::vector<double> crossing = crossing_time(times, columns_);
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       if (whole_[i]) {
-        heats.push_back(cells_[i].heat);
+        heats.push_back(cells_[i].heat / fuel(i));
         delays.push_back(times[i] - begin_[i] - 0.5 * crossing[i]);
       }
     }
@@ -154,12 +158,13 @@ private:
     if (whole_[i]) {
       return 1.0;
     }
-    double sum = 0.0, count = 0.0;
+    double heat = 0.0, load = 0.0;
     around(i, heat_reach, [&](std::size_t k) {
-      sum += whole_[k] ? cells_[k].heat : 0.0;
-      count += whole_[k] ? 1.0 : 0.0;
+      heat += whole_[k] ? cells_[k].heat : 0.0;
+      load += whole_[k] ? fuel(k) : 0.0;
     });
-    return std::clamp(heat_so_far(i) / (count > 0.0 ? sum / count : heat_), least_share, 1.0);
+    const double usual = load > 0.0 ? heat / load : heat_;
+    return std::clamp(heat_so_far(i) / (usual * fuel(i)), least_share, 1.0);
   }
 
   double time(std::size_t i) const {
@@ -194,12 +199,15 @@ private:
     return {found, std::hypot(uneven_fuel * *delay_, uneven_heat * found)};
   }
 
-  /// The front is as far as its heat tells, give or take what cells differ in heat.
+  /// The front is as far as its heat tells, give or take what cells differ in heat and in delay.
   TimeIn by_heat_so_far(std::size_t i) const {
     const double age = times_.back() - begin_[i], part = share(i);
-    const double low = crossing_by_heat(age, std::min(part * (1.0 + uneven_heat), 1.0), *delay_);
-    const double high = crossing_by_heat(age, part * (1.0 - uneven_heat), *delay_);
-    return {0.5 * crossing_by_heat(age, part, *delay_), 0.25 * (high - low)};
+    const auto time_in = [&](double heat, double delay) {
+      return 0.5 * crossing_by_heat(age, std::min(part * heat, 1.0), *delay_ * delay);
+    };
+    const double of_heat = time_in(1.0 - uneven_heat, 1.0) - time_in(1.0 + uneven_heat, 1.0);
+    const double of_delay = time_in(1.0, 1.0 - uneven_fuel) - time_in(1.0, 1.0 + uneven_fuel);
+    return {time_in(1.0, 1.0), 0.5 * std::hypot(of_heat, of_delay)};
   }
 
   double share_at_end(std::size_t i, double time) const {
@@ -282,9 +290,10 @@ private:
   std::size_t rows_, columns_;
   std::vector<double> begin_;    ///< s
   std::vector<double> crossing_; ///< s, by the slope of begin_
+  std::vector<double> fuel_;     ///< kg/m2, empty where it is not known
   double half_mean_, half_last_; ///< s, of all fluxes and of the last
   std::vector<bool> whole_;      ///< burned out, and burning cells on all sides
-  double heat_ = 0.0;            ///< J/m2, median of the whole ones
+  double heat_ = 0.0;            ///< J/kg, median of the whole ones
   std::optional<double> delay_;  ///< s from arrival to heat, where enough cells tell
 };
 

@@ -38,6 +38,15 @@ Bracket bracket(std::span<const double> axis, double value) {
   return {i, i + 1, std::isnan(fraction) ? fraction : std::clamp(fraction, 0.0, 1.0)};
 }
 
+std::vector<std::size_t> nearest(std::span<const double> axis, std::span<const double> places) {
+  std::vector<std::size_t> result(places.size());
+  std::transform(places.begin(), places.end(), result.begin(), [axis](double place) {
+    const Bracket at = bracket(axis, place);
+    return at.fraction > 0.5 ? at.upper : at.lower;
+  });
+  return result;
+}
+
 Extent cell_extent(std::span<const double> axis, std::size_t index) {
   if (axis.size() < 2) {
     return {axis[index], axis[index]};

@@ -17,6 +17,9 @@ struct Bracket {
 /// nearest end. A NaN gives a NaN fraction.
 Bracket bracket(std::span<const double> axis, double value);
 
+/// The value on the axis that is nearest to each of the places.
+std::vector<std::size_t> nearest(std::span<const double> axis, std::span<const double> places);
+
 /// Where a cell ends; its value need not lie in the middle when the axis is uneven.
 struct Extent {
   double first;

@@ -26,24 +26,24 @@ def arrival(shape, speed, parts):
     return shape(*np.meshgrid(middle, middle)) / speed * STEP + 0.3 * STEP
 
 
-def burning(shape, speed, averaged, frames=None):
+def burning(shape, speed, averaged, frames=None, decay=DECAY):
     """Fluxes (nt, cells, cells) of a front (cells per step) that burns out."""
     fine = arrival(shape, speed, FINE)
     found = []
     for time in np.arange(frames or int(30 / speed) + 4) * STEP:
         age = np.maximum(time - fine, 0)
         if averaged:
-            frame = (np.exp(-np.maximum(age - STEP, 0) / DECAY) - np.exp(-age / DECAY)) * DECAY / STEP
+            frame = (np.exp(-np.maximum(age - STEP, 0) / decay) - np.exp(-age / decay)) * decay / STEP
         else:
-            frame = np.where(time >= fine, np.exp(-age / DECAY), 0)
+            frame = np.where(time >= fine, np.exp(-age / decay), 0)
         found.append(frame.reshape(CELLS, FINE, CELLS, FINE).mean(axis=(1, 3)) * 5e4)
     return np.array(found, np.float32)
 
 
-def run_of(make_run, frames, toml=RUN_TOML, parts=1):
-    """A run of these fluxes whose fuel cells are `parts` x `parts` pieces of the cells."""
+def run_of(make_run, frames, toml=RUN_TOML, parts=1, load=0.0):
+    """A run of these fluxes whose fuel cells, of a load, are `parts` x `parts` pieces of the cells."""
     ny, nx = frames.shape[1:]
-    fuel = np.zeros((ny * parts, nx * parts), np.float32)
+    fuel = np.zeros((ny * parts, nx * parts), np.float32) + np.float32(load)
     axes = {
         f"{prefix}{name}": first + step * ((np.arange(n * k) + 0.5) / k - 0.5)
         for prefix, k in (("", 1), ("fuel_", parts))
@@ -53,7 +53,7 @@ def run_of(make_run, frames, toml=RUN_TOML, parts=1):
         make_run(
             elevation=np.zeros((ny, nx), np.float32),
             surface_fuel=fuel,
-            canopy_fuel=fuel,
+            canopy_fuel=np.zeros_like(fuel),
             heat_flux=frames,
             temperature=None,
             wind_east=None,
@@ -109,6 +109,49 @@ def test_cells_at_the_edge_of_a_fire_that_stopped_burn_in_part(make_run):
     run = run_of(make_run, np.array(frames, np.float32), parts=4)
     burned = np.isfinite(run.fuel_arrival_time()).sum(axis=1) / 4
     assert burned == pytest.approx(np.full(CELLS * 4, 12.3), abs=0.3)
+
+
+@pytest.mark.parametrize("speed", [0.6, 1.5])
+def test_the_front_goes_on_evenly_until_the_last_moment(make_run, speed):
+    """In each part of the last interval it gains as much ground as is true, and none at once at its end."""
+    frames = burning(line, speed, True, frames=int(20 / speed), decay=STEP)
+    end = (len(frames) - 1) * STEP
+    found = run_of(make_run, frames, parts=4).fuel_arrival_time()
+    truth = arrival(line, speed, 4)
+    front = np.count_nonzero(np.diff(truth <= end, axis=0)) / 4 / 0.6 * 0.8  # cells
+    for time in end - STEP * np.array([0.0, 1e-6, 0.3, 0.6, 1.0]):
+        ahead = ((found <= time).sum() - (truth <= time).sum()) / 16 / front
+        assert abs(ahead) < 0.3, time  # cells
+    assert not (found > end - 1e-3).any()
+
+
+def test_light_fuel_burns_beside_heavy_fuel(make_run):
+    """At the line where the fire has stopped a cell of light fuel gives little heat, and burned all the same."""
+    load = np.repeat(np.where(np.arange(CELLS) // 2 % 2, 4.0, 0.5), CELLS).reshape(CELLS, CELLS)
+    x = np.arange(CELLS)
+    lit = np.where(x < 12, x * STEP * 4, np.inf)
+    age = np.maximum((np.arange(160) * STEP)[:, None] - lit, 0)
+    heat = (np.exp(-np.maximum(age - STEP, 0) / DECAY) - np.exp(-age / DECAY)) * DECAY / STEP * 5e4
+    frames = (heat[:, None, :] * load[None, :, :]).astype(np.float32)
+    found = run_of(make_run, frames, load=np.repeat(np.repeat(load, 4, 0), 4, 1), parts=4).fuel_arrival_time()
+    assert np.isfinite(found).sum(axis=1) / 4 == pytest.approx(np.full(CELLS * 4, 12.0), abs=0.5)
+
+
+def test_ground_without_fuel_does_not_burn_where_fuel_is_known(make_run):
+    load = np.ones((CELLS * 4, CELLS * 4), np.float32)
+    load[:, 41] = 0.0
+    share = load.reshape(CELLS, 4, CELLS, 4).mean(axis=(1, 3))
+    frames = burning(line, 0.6, True) * share
+    found = run_of(make_run, frames, load=load, parts=4).fuel_arrival_time()
+    assert np.isnan(found[:, 41]).all()
+    assert np.isfinite(found[:, [39, 40, 42, 43]]).mean() > 0.95
+
+
+def test_fuel_that_is_not_known_everywhere_says_nothing(make_run):
+    load = np.ones((CELLS * 4, CELLS * 4), np.float32)
+    load[:, 40:44] = 0.0  # all of cells that give heat
+    found = run_of(make_run, burning(line, 0.6, True), load=load, parts=4).fuel_arrival_time()
+    assert np.isfinite(found[:, 40:44]).mean() > 0.9
 
 
 @pytest.mark.parametrize("trace", [1e-38, 1e-3, 0.3])
