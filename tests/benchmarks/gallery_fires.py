@@ -3,8 +3,7 @@
     python tests/benchmarks/gallery_fires.py --runs DIR [--fires grass shrub]
 
 Writes DIR/NAME, each a run; what is there is kept. All fires and all land are invented, wherever they lie,
-and their runs say so. Wind that a model was given is added to the run, where `wind` is true: no model here
-writes it. A fire takes 1 to 60 seconds.
+and their runs say so. A fire takes 1 to 60 seconds.
 """
 
 from __future__ import annotations
@@ -48,8 +47,6 @@ class Fire:
         Moment that its times count from.
     interval
         Seconds between the run's times.
-    wind
-        Whether the run gets the wind that the model was given.
     night
         Whether it is filmed by night.
     fuel
@@ -61,7 +58,6 @@ class Fire:
     start: str
     interval: int
     fuel: str
-    wind: bool = True
     night: bool = False
 
 
@@ -221,7 +217,7 @@ def lake() -> Fronts:
 FIRES = {
     "king": Fire("King Fire 2014 (synthetic sample)", None, "", 60, "timber"),
     "grass": Fire("Exercise grass fire", grass, "2022-08-12T20:00:00Z", 20, "grass"),
-    "lake": Fire("Exercise lake fire", lake, "2022-07-25T12:30:00Z", 60, "grass", wind=False),
+    "lake": Fire("Exercise lake fire", lake, "2022-07-25T12:30:00Z", 60, "grass"),
     "shrub": Fire("Exercise chaparral fire", shrub, "2021-10-14T19:30:00Z", 60, "shrub"),
     "timber": Fire("Exercise mountain fire", timber, "2023-07-19T19:00:00Z", 120, "timber"),
     "burn": Fire("Exercise prescribed burn", burn, "2023-02-20T18:00:00Z", 20, "litter"),
@@ -257,8 +253,6 @@ def made(name: str, runs: Path) -> Path:
                 fire.interval,
             )
         _says_what_it_is(part / "run.toml", fire.title)
-        if fire.wind and isinstance(spread, Spread):
-            _blow(part, spread.weather)
     part.rename(out)
     return out
 
@@ -278,18 +272,6 @@ def _says_what_it_is(path: Path, title: str) -> None:
         flags=re.MULTILINE,
     )
     path.write_text(named, encoding="utf-8")
-
-
-def _blow(run: Path, weather: Weather) -> None:
-    """Add the model's wind, the same everywhere, to a run."""
-    import tomllib
-
-    times = np.array(tomllib.loads((run / "run.toml").read_text(encoding="utf-8"))["times_s"])
-    shape = np.load(run / "heat_flux.npy", mmap_mode="r").shape
-    for name, values in zip(("wind_east", "wind_north"), weather.blows(times), strict=True):
-        field = np.lib.format.open_memmap(run / f"{name}.npy", "w+", np.float32, shape)
-        field[:] = values[:, None, None]
-        field.flush()
 
 
 def main() -> None:

@@ -43,12 +43,6 @@ class Weather:
         turned = np.unwrap(np.radians(source))
         return np.interp(hours, known, speed), np.degrees(np.interp(hours, known, turned)) % 360.0
 
-    def blows(self, seconds: NDArray) -> tuple[NDArray, NDArray]:
-        """m/s to the east and to the north, by time."""
-        speed, source = self.at(np.asarray(seconds) / 3600.0)
-        source = np.radians(source)
-        return -speed / 3.6 * np.sin(source), -speed / 3.6 * np.cos(source)
-
 
 @dataclass(frozen=True)
 class Ignition:
@@ -109,7 +103,7 @@ class Spread:
 
         land, air = self.land, self.weather
         slope, aspect = land.slope_and_aspect
-        speed, source = air.at((np.arange(bands) + 0.5) * self.band / 60.0)
+        speed, source = self._blows(bands)
         layers = {
             "slope": slope,
             "aspect": aspect,
@@ -133,9 +127,14 @@ class Spread:
             for name, values in layers.items()
         }
 
+    def _blows(self, bands: int) -> tuple[NDArray, NDArray]:
+        """km/h and degrees that the wind comes from, of each band."""
+        return self.weather.at((np.arange(bands) + 0.5) * self.band / 60.0)
+
     def _save(self, folder: Path, state: object) -> Path:
         latitude, longitude = self.land.axes
         path = folder / "pyretechnics.npz"
+        speed, source = self._blows(int(np.ceil(self.minutes / self.band)) + 1)
         found = state.get_full_matrices()  # type: ignore[attr-defined]
         arrival = np.where(found["phi"] < 0, found["time_of_arrival"], np.nan)
         first = (found["phi"] < 0) & ~np.isfinite(found["time_of_arrival"])  # lit before the first step
@@ -149,6 +148,9 @@ class Spread:
             surface_fuel=self.land.surface_fuel,
             canopy_fuel=self.land.canopy_fuel,
             fuel_category=self.land.category,
+            wind_speed_10m=speed,
+            upwind_direction=source,
+            band_duration=self.band,
             **found,
         )
         return path
@@ -249,6 +251,10 @@ class Fronts:
                 for axis, length in zip(axes, (1, 1, ny, nx), strict=True):
                     file.createDimension(axis, length)
                 file.createVariable(name, "i2", axes)[:] = np.rint(values)[None, None]
+            for axis in "tzyx":
+                file.createDimension(f"w{axis}", 1)
+            for name, value in zip(("windU", "windV"), self.wind, strict=True):
+                file.createVariable(name, "f4", [f"w{axis}" for axis in "tzyx"])[:] = value
             file.createDimension("domdim", 1)
             said = {"SWx": 0.0, "SWy": 0.0, "Lx": size[0], "Ly": size[1]}
             said |= {"BBoxWSEN": ",".join(f"{each:.8f}" for each in box)}

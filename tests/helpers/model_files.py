@@ -191,16 +191,18 @@ def forefire(path, arrival, *, lx=3000.0, ly=1000.0, west=0.0, south=0.0, year=2
     return path
 
 
-def landscape(path, fuel, altitude, *, size, box):
-    """ForeFire's data: netCDF-3, (NT, NZ, NY, NX) 16-bit layers with dimensions of their own."""
+def landscape(path, fuel, altitude, *, size, box, wind=None, **domain):
+    """ForeFire's data: netCDF-3, (NT, NZ, NY, NX) layers with dimensions of their own."""
     with netCDF4.Dataset(path, "w", format="NETCDF3_CLASSIC") as f:
-        for name, letter, values in (("fuel", "f", fuel), ("altitude", "n", altitude)):
+        layers = [("fuel", "f", fuel), ("altitude", "n", altitude)]
+        layers += zip(("windU", "windV"), "uv", wind or (), strict=False)
+        for name, letter, values in layers:
             axes = [f"{letter}{axis}" for axis in "tzyx"]
             for axis, length in zip(axes, values.shape, strict=True):
                 f.createDimension(axis, length)
-            f.createVariable(name, "i2", axes)[:] = values
+            f.createVariable(name, values.dtype, axes)[:] = values
         f.createDimension("domdim", 1)
-        said = {"SWx": 0.0, "SWy": 0.0, "Lx": size, "Ly": size, "BBoxWSEN": box}
+        said = {"SWx": 0.0, "SWy": 0.0, "Lx": size, "Ly": size, "BBoxWSEN": box} | domain
         f.createVariable("domain", "S1", ("domdim",)).setncatts(said)
     return path
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +13,9 @@ from numpy.typing import NDArray
 from ...errors import Error, input_error
 from . import fuels, heat
 from .beside import Land
+from .given_wind import Wind
 from .grid import Grid
-from .model import Model, Options
+from .model import Model, Moving, Options
 
 
 @dataclass
@@ -28,6 +30,8 @@ class Maps:
         W/m, m/s and J/m2 where the fire came; None: not said.
     surface, canopy, elevation, category
         kg/m2, kg/m2, m and numbers of fuel models; None: what lies beside says it.
+    wind
+        m/s along columns and rows at a time (s); None: not said.
     """
 
     arrival: NDArray
@@ -38,6 +42,7 @@ class Maps:
     canopy: NDArray | None = None
     elevation: NDArray | None = None
     category: NDArray | None = None
+    wind: Wind | None = None
 
 
 def model(
@@ -79,11 +84,22 @@ def model(
             "fuel_arrival_time": lambda: maps.arrival,
             **kept,
         },
-        moving={"heat_flux": release.flux},
+        moving={"heat_flux": release.flux, **_blowing(maps.wind, grid, release.times)},
         files=files,
         projection=options.projection,
         assumptions=told + land.assumptions,
     )
+
+
+def _blowing(wind: Wind | None, grid: Grid, times: NDArray[np.float64]) -> dict[str, Moving]:
+    """The fields of a run for a wind."""
+    if wind is None:
+        return {}
+
+    def along(axis: int, index: int) -> NDArray:
+        return np.broadcast_to(grid.east_north(*wind(float(times[index])))[axis], grid.shape)
+
+    return {name: partial(along, axis) for axis, name in enumerate(("wind_east", "wind_north"))}
 
 
 def begun(options: Options, path: Path) -> datetime:

@@ -6,18 +6,16 @@ no coordinates; cells of Lx/DIMX by Ly/DIMY, which need not be square.
 
 from __future__ import annotations
 
-import csv
 import json
 import re
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import input_error
-from ..models import beside, made, netcdf
+from ..models import beside, forefire_land, made, netcdf
 from ..models.grid import Grid
 from ..models.model import Model, Options
 from ..models.raster import local
@@ -25,7 +23,6 @@ from ..models.raster import local
 NAME = "ForeFire output"
 
 _UNBURNED = -9999.0
-_DOMAIN = ("SWx", "SWy", "Lx", "Ly", "refYear", "refDay", "BBoxWSEN")
 _FAR = 84.0  # degrees; fronts of domains with a UTM corner are written beyond it
 
 
@@ -41,7 +38,7 @@ def read(paths: list[Path], options: Options) -> Model:
     file = netcdf.File(path)
     values = file.read("arrival_time_of_front").astype(np.float64)
     arrival = np.where(values == _UNBURNED, np.nan, values)  # an ignition's cells are negative and burned
-    domain = {name: file.attribute(name, "domain") for name in _DOMAIN}
+    domain = {name: file.attribute(name, "domain") for name in forefire_land.DOMAIN}
     file.close()
     if not (domain["Lx"] and domain["Ly"] and domain["Lx"] > 0 and domain["Ly"] > 0):
         raise input_error(path, 0, 0, "its domain lacks Lx and Ly, the size of the map")
@@ -54,11 +51,11 @@ def read(paths: list[Path], options: Options) -> Model:
     x = domain["SWx"] + domain["Lx"] / nx * (np.arange(nx) + 0.5)
     y = domain["SWy"] + domain["Ly"] / ny * (np.arange(ny) + 0.5)
     land = beside.find(paths)
-    scape = next((each for each in paths if each != path and _is_landscape(each)), None)
+    scape = forefire_land.find(paths, path)
     grid = _grid(x, y, domain, arrival, fronts, options, scape, told)
     maps = made.Maps(arrival)
     if scape:
-        _landscape(scape, paths, x, y, maps, told)
+        forefire_land.take(scape, paths, x, y, maps, told)
     return made.model(maps, grid, land, options, "ForeFire", [path], told)
 
 
@@ -129,7 +126,7 @@ def _grid(
     """By --projection or --at, the box that a file says, the largest front, else nowhere."""
     if options.projection:
         return Grid.projected(x, y, options.projection)
-    boxed = domain if domain["BBoxWSEN"] else _domain(scape)
+    boxed = domain if domain["BBoxWSEN"] else forefire_land.domain(scape)
     if not options.at and boxed.get("BBoxWSEN"):
         west, south, east, north = _box(str(boxed["BBoxWSEN"]), scape)
         told.append("degrees are linear in metres within BBoxWSEN, as in the model's own fronts")
@@ -153,76 +150,3 @@ def _box(text: str, path: Path | None) -> tuple[float, float, float, float]:
         reason = f"its BBoxWSEN is {text!r}, not west, south, east and north in degrees"
         raise input_error(path or "", 0, 0, reason) from None
     return west, south, east, north
-
-
-def _domain(path: Path | None) -> dict[str, Any]:
-    """Corner, size and degrees of a landscape; empty where it does not say its size."""
-    if path is None:
-        return {}
-    file = netcdf.File(path)
-    try:
-        said = {name: file.attribute(name, "domain") for name in _DOMAIN} if "domain" in file else {}
-    finally:
-        file.close()
-    return said if (said.get("Lx") or 0) > 0 and (said.get("Ly") or 0) > 0 else {}
-
-
-def _is_landscape(path: Path) -> bool:
-    return bool(netcdf.names(path)[1] & {"fuel", "altitude"})
-
-
-def _landscape(
-    path: Path, paths: list[Path], x: NDArray, y: NDArray, maps: made.Maps, told: list[str]
-) -> None:
-    """Fuel and height of a landscape (NT, NZ, NY, NX), its nearest cells at the map's places (m).
-
-    Each of its variables has dimensions of its own, all of them on its domain, which may be larger.
-    """
-    domain = _domain(path)
-    if not domain:
-        told.append(f"{path.name} does not say its size: it is taken as that of the map")
-        domain = {"SWx": 1.5 * x[0] - 0.5 * x[1], "SWy": 1.5 * y[0] - 0.5 * y[1]}
-        domain |= {"Lx": len(x) * (x[1] - x[0]), "Ly": len(y) * (y[1] - y[0])}
-    across, up = (x - domain["SWx"]) / domain["Lx"], (y - domain["SWy"]) / domain["Ly"]
-    file = netcdf.File(path)
-    try:
-        if "altitude" in file:
-            maps.elevation = _nearest(file, "altitude", up, across).astype(np.float32)
-            told.append("altitude is the landscape's, whole metres")
-        table = next((each for each in paths if _is_table(each)), None)
-        if "fuel" in file and table:
-            loads = _loads(table)
-            index = _nearest(file, "fuel", up, across)
-            maps.surface = np.zeros(maps.arrival.shape, np.float32)
-            for number, load in loads.items():
-                maps.surface[index == number] = load
-            told.append(f"surface fuel is Sigmad, the dead load, of {table.name}")
-    finally:
-        file.close()
-
-
-def _nearest(file: netcdf.File, name: str, up: NDArray, across: NDArray) -> NDArray:
-    """Cells of the first time and level at these shares of a landscape's height and width."""
-    own = file.shape(name)
-    values = file.read(name, *[0] * (len(own) - 2))
-    row, column = (
-        np.clip(np.floor(share * count), 0, count - 1).astype(int)
-        for share, count in zip((up, across), values.shape, strict=True)
-    )
-    return values[row[:, None], column[None, :]]
-
-
-def _is_table(path: Path) -> bool:
-    """Whether it is a table of fuels: fronts and scripts of the model end in .ff too."""
-    if path.suffix.lower() not in (".ff", ".csv"):
-        return False
-    with path.open(encoding="utf-8", errors="replace") as file:
-        return {"Index", "Sigmad"} <= set(file.readline(10_000).strip().split(";"))
-
-
-def _loads(path: Path) -> dict[int, float]:
-    rows = csv.DictReader(path.read_text(encoding="utf-8", errors="replace").splitlines(), delimiter=";")
-    try:
-        return {int(row["Index"]): float(row["Sigmad"]) for row in rows}
-    except (KeyError, ValueError, TypeError):
-        raise input_error(path, 0, 0, "is no fuels table of ForeFire with Index and Sigmad") from None

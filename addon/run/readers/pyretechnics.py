@@ -2,7 +2,9 @@
 
 ``numpy.savez(path, **result["spread_state"].get_full_matrices(), cell_width=30, cell_height=30)``: rows from
 the south, minutes, kW/m and m/min (pyretechnics, eulerian_level_set.py). `latitude` and `longitude` (degrees)
-of rows and columns place it, or `x` and `y` with ``--projection``.
+of rows and columns place it, or `x` and `y` with ``--projection``. The wind is that of arrays called as its
+cubes are: `wind_speed_10m` (km/h) and `upwind_direction` (degrees), each one number, one for each band, or
+(bands, rows, columns), with `band_duration` (minutes).
 """
 
 from __future__ import annotations
@@ -14,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Error, input_error
-from ..models import beside, made
+from ..models import beside, given_wind, made
+from ..models.given_wind import Wind
 from ..models.grid import Grid
 from ..models.model import Model, Options
 from ..models.raster import local
@@ -52,8 +55,38 @@ def read(paths: list[Path], options: Options) -> Model:
     for name in ("surface_fuel", "canopy_fuel", "elevation", "fuel_category"):
         if name in found:
             setattr(maps, name.removesuffix("_fuel").removeprefix("fuel_"), found[name])
+    maps.wind = _wind(path, found, told)
     grid = _grid(path, found, options, told)
     return made.model(maps, grid, beside.find(paths, look=True), options, "pyretechnics", [path], told)
+
+
+def _wind(path: Path, found: dict[str, NDArray], told: list[str]) -> Wind | None:
+    """Wind of the cubes, whose values stand for a band each; rows are from the south, so that y is north."""
+    if not {"wind_speed_10m", "upwind_direction"} <= set(found):
+        told.append("no wind is said (wind_speed_10m and upwind_direction): the air is calm")
+        return None
+    speed, source = (_bands(path, found, name) for name in ("wind_speed_10m", "upwind_direction"))
+    try:
+        speed, source = np.broadcast_arrays(speed / 3.6, np.radians(source))
+        np.broadcast_to(speed[:1], (1, *found["time_of_arrival"].shape))
+    except ValueError:
+        reason = (
+            f"has wind_speed_10m {speed.shape}, upwind_direction {source.shape}: not of its bands and cells"
+        )
+        raise input_error(path, 0, 0, reason) from None
+    lasts = float(found["band_duration"].ravel()[0]) * 60.0 if "band_duration" in found else 0.0
+    if len(speed) > 1 and not 0.0 < lasts < np.inf:
+        raise input_error(path, 0, 0, "has wind for several bands; add band_duration (minutes)")
+    told.append("wind is wind_speed_10m (km/h) from upwind_direction, degrees clockwise from north")
+    return given_wind.steps(-speed * np.sin(source), -speed * np.cos(source), 0.0, lasts)
+
+
+def _bands(path: Path, found: dict[str, NDArray], name: str) -> NDArray:
+    """As (bands, rows, columns), some of them 1."""
+    values = found[name]
+    if values.ndim not in (0, 1, 3) or not np.isfinite(values).all() or values.size == 0:
+        raise input_error(path, 0, 0, f"{name} has shape {values.shape}, not (bands, rows, columns), or gaps")
+    return values.reshape(-1, 1, 1) if values.ndim < 3 else values
 
 
 def _grid(path: Path, found: dict[str, NDArray], options: Options, told: list[str]) -> Grid:
@@ -82,6 +115,7 @@ def _arrays(path: Path) -> dict[str, NDArray]:
         "fuel_category",
     )
     wanted += ("latitude", "longitude", "x", "y", "cell_width", "cell_height")
+    wanted += ("wind_speed_10m", "upwind_direction", "band_duration")
     try:
         with zipfile.ZipFile(path) as archive:
             sizes = {each.filename: each.file_size for each in archive.infolist()}

@@ -1,0 +1,151 @@
+"""ForeFire's landscape, a netCDF-3 file: fuel, altitude and wind on the places of a map.
+
+Each of its variables is (NT, NZ, NY, NX) with dimensions of its own, all of them on its domain, which may be
+larger than the map. The middle of a cell bears its value.
+"""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import input_error
+from . import given_wind, made, netcdf
+from .given_wind import Wind
+
+DOMAIN = ("SWx", "SWy", "Lx", "Ly", "refYear", "refDay", "BBoxWSEN", "t0", "Lt")
+
+
+def find(paths: list[Path], besides: Path) -> Path | None:
+    """The landscape among files."""
+    return next((each for each in paths if each != besides and is_one(each)), None)
+
+
+def is_one(path: Path) -> bool:
+    """Whether it is a landscape, by its variables."""
+    return bool(netcdf.names(path)[1] & {"fuel", "altitude", "windU"})
+
+
+def domain(path: Path | None) -> dict[str, Any]:
+    """Corner, size and degrees of a landscape; empty where it does not say its size."""
+    if path is None:
+        return {}
+    file = netcdf.File(path)
+    try:
+        said = {name: file.attribute(name, "domain") for name in DOMAIN} if "domain" in file else {}
+    finally:
+        file.close()
+    return said if (said.get("Lx") or 0) > 0 and (said.get("Ly") or 0) > 0 else {}
+
+
+@dataclass(frozen=True)
+class _Places:
+    """Where a map's rows and columns lie, as shares of a landscape's height and width."""
+
+    up: NDArray
+    across: NDArray
+
+    def nearest(self, values: NDArray) -> NDArray:
+        """The values of the cells that the places lie in."""
+        row, column = (
+            np.clip(np.floor(share * count), 0, count - 1).astype(int)
+            for share, count in zip((self.up, self.across), values.shape, strict=True)
+        )
+        return values[row[:, None], column[None, :]]
+
+    def between(self, values: NDArray) -> NDArray[np.float32]:
+        """Bilinear between the middles of cells; those at the edge go on outwards."""
+        found = values.astype(np.float64)
+        for axis, share in enumerate((self.up, self.across)):
+            at = np.clip(share * values.shape[axis] - 0.5, 0, values.shape[axis] - 1)
+            low = np.minimum(at.astype(int), max(values.shape[axis] - 2, 0))
+            high = np.minimum(low + 1, values.shape[axis] - 1)
+            part = np.expand_dims(at - low, 1 - axis)
+            found = found.take(low, axis) * (1.0 - part) + found.take(high, axis) * part
+        return found.astype(np.float32)
+
+
+def take(path: Path, paths: list[Path], x: NDArray, y: NDArray, maps: made.Maps, told: list[str]) -> None:
+    """Put a landscape's fuel, altitude and wind at places (m) into maps, and say what came from where."""
+    box = domain(path)
+    if not box:
+        told.append(f"{path.name} does not say its size: it is taken as that of the map")
+        box = {"SWx": 1.5 * x[0] - 0.5 * x[1], "SWy": 1.5 * y[0] - 0.5 * y[1]}
+        box |= {"Lx": len(x) * (x[1] - x[0]), "Ly": len(y) * (y[1] - y[0])}
+    places = _Places((y - box["SWy"]) / box["Ly"], (x - box["SWx"]) / box["Lx"])
+    file = netcdf.File(path)
+    try:
+        if "altitude" in file:
+            values = _first(file, "altitude")
+            maps.elevation = places.between(values)
+            whole = ", whole metres there" if np.issubdtype(values.dtype, np.integer) else ""
+            told.append(f"elevation is altitude of {path.name}, bilinear between its cells{whole}")
+        table = next((each for each in paths if _is_table(each)), None)
+        if "fuel" in file and table:
+            loads = _loads(table)
+            index = places.nearest(_first(file, "fuel"))
+            maps.surface = np.zeros(maps.arrival.shape, np.float32)
+            for number, load in loads.items():
+                maps.surface[index == number] = load
+            told.append(
+                f"surface fuel is Sigmad, the dead load, of {table.name}, by the nearest fuel of {path.name}"
+            )
+        maps.wind = _wind(file, box, places, told)
+    finally:
+        file.close()
+
+
+def _first(file: netcdf.File, name: str) -> NDArray:
+    """Cells (NY, NX) of the first time and level."""
+    return file.read(name, *[0] * (len(file.shape(name)) - 2))
+
+
+def _wind(file: netcdf.File, box: dict[str, Any], places: _Places, told: list[str]) -> Wind | None:
+    """WindU and windV, m/s; several times share the domain's Lt seconds from t0 evenly, as in the model."""
+    name = file.path.name
+    if not {"windU", "windV"} <= set(file.variables):
+        if "wind" in file:
+            told.append(f"wind of {name} is how the air answers to a wind that no file says: not used")
+        return None
+    shapes = [file.shape(each) for each in ("windU", "windV")]
+    if shapes[0] != shapes[1] or not 2 <= len(shapes[0]) <= 4:
+        raise file.error(f"has windU {shapes[0]} and windV {shapes[1]}, not both (NT, NZ, NY, NX)")
+    times, levels = (*[1] * (4 - len(shapes[0])), *shapes[0])[:2]
+    if levels > 1:
+        told.append(f"windU and windV of {name} answer to a wind that no file says: not used")
+        return None
+    begin, lasts = float(box.get("t0") or 0.0), float(box.get("Lt") or 0.0)
+    if times > 1 and not 0 < lasts < np.inf:
+        told.append(f"{name} does not say how long its {times} winds last (Lt): the first is used")
+        times = 1
+    leading = len(shapes[0]) - 2
+    u, v = (
+        [
+            places.between(file.read(each, *(index, 0)[2 - leading :] if leading else ()))
+            for index in range(times)
+        ]
+        for each in ("windU", "windV")
+    )
+    told.append(f"wind is windU and windV of {name} (m/s), bilinear between its cells")
+    return given_wind.steps(np.stack(u), np.stack(v), begin, lasts / times)
+
+
+def _is_table(path: Path) -> bool:
+    """Whether it is a table of fuels: fronts and scripts of the model end in .ff too."""
+    if path.suffix.lower() not in (".ff", ".csv"):
+        return False
+    with path.open(encoding="utf-8", errors="replace") as file:
+        return {"Index", "Sigmad"} <= set(file.readline(10_000).strip().split(";"))
+
+
+def _loads(path: Path) -> dict[int, float]:
+    rows = csv.DictReader(path.read_text(encoding="utf-8", errors="replace").splitlines(), delimiter=";")
+    try:
+        return {int(row["Index"]): float(row["Sigmad"]) for row in rows}
+    except (KeyError, ValueError, TypeError):
+        raise input_error(path, 0, 0, "is no fuels table of ForeFire with Index and Sigmad") from None
