@@ -126,6 +126,9 @@ def _parser() -> argparse.ArgumentParser:
     made.add_argument(
         "--interval", metavar="SECONDS", type=_count, default=0, help="between times that are made (chosen)"
     )
+    made.add_argument("--name", default="", help="what the run is called (as its folder, with the model)")
+    zone = "zone that times are told in, such as Europe/Paris (that of --start, else by longitude)"
+    made.add_argument("--zone", default="", help=zone)
 
     new = command("new", "write a short scene file that fits a run", NEW)
     new.add_argument("run", metavar="RUN", type=Path, help="run folder")
@@ -298,7 +301,9 @@ Reads, found by content: WRF-SFIRE (wrfout*), NCAR's Community Fire Behavior Mod
 ForeFire (arrival times, fronts, landscape), ELMFIRE (GeoTIFF), FARSITE and FlamMap (ASCII or GeoTIFF, LCP),
 pyretechnics (.npz), and any CF netCDF by a mapping in a TOML file: [fields] heat_flux = "NAME". Fuels may
 come from an LCP or LANDFIRE's rasters among the files. What a model does not say is assumed, said, and
-written to run.toml. A conversion that was stopped goes on when the command is given again; one that has read
+written to run.toml. Files of several runs, models or places in one call are refused. Clocks tell the time of
+--zone; without it that of the offset in --start, else the hours that the longitude says, which know no summer
+time and no borders. A conversion that was stopped goes on when the command is given again; one that has read
 and written nothing for ten minutes is ended, as a damaged file may keep its library busy for ever.
 Needs packages that are not installed by themselves: pip install 'firetwin[models]'."""
 

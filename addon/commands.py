@@ -142,7 +142,7 @@ def convert(arguments: argparse.Namespace) -> None:
         print(
             convert.run(
                 arguments.paths, arguments.out, arguments.start, arguments.at, arguments.projection,
-                arguments.interval, reporter, say,
+                arguments.interval, reporter, say, name=arguments.name, zone=arguments.zone,
             )
         )  # fmt: skip
     finally:

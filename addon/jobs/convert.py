@@ -30,11 +30,13 @@ def run(
     progress: Progress = silent,
     tell: Tell = untold,
     stop: worker.Stop | None = None,
+    name: str = "",
+    zone: str = "",
 ) -> Path:
     """Write the run that these files and folders hold to the folder `out`, and return that.
 
-    What was made before a stop is gone on with. `start`, `at`, `projection` and `interval` are the command
-    line's.
+    What was made before a stop is gone on with. `start`, `at`, `projection`, `interval`, `name` and
+    `zone` are the command line's.
 
     Raises
     ------
@@ -50,12 +52,12 @@ def run(
     from ..run.readers import gathered
 
     files = gathered(paths)
-    Options.of(start, at, projection, interval, files)
+    Options.of(start, at, projection, interval, files, name, zone)
     write.check(out)
     task = {
         "paths": [str(path.absolute()) for path in files],
         "out": str(out.absolute()),
-        "options": [start, at, projection, interval],
+        "options": [start, at, projection, interval, name, zone],
     }
     try:
         worker.run(
@@ -83,7 +85,7 @@ def beside(
     """
     from ..run.readers import gathered
 
-    inputs = _fingerprint([path.absolute() for path in gathered(paths)], [start, at, projection, 0.0])
+    inputs = _fingerprint([path.absolute() for path in gathered(paths)], [start, at, projection, 0.0, "", ""])
     folder = next((each for each in folders if os.access(_existing(each), os.W_OK)), None)
     if folder is None:
         raise Error(f"{paths[0]}: nothing can be written beside it; choose an output folder first")
@@ -123,10 +125,11 @@ def _convert(files: list[Path], out: Path, options: list, progress: Progress, te
     from ..run.models.model import Options
 
     try:
-        said = Options.of(*options, files)
+        said = Options.of(*options[:4], files, *options[4:])
         reader = readers.reader(files)
         tell(f"{files[0].name} is {reader.NAME}")
         model = reader.read(files, said)
+        model.name, model.zone = said.name or f"{out.name} ({model.name})", said.zone
         try:
             write.write(model, out, _fingerprint(files, options), progress)
         finally:

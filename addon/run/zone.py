@@ -2,19 +2,53 @@
 
 from __future__ import annotations
 
+import zoneinfo
+from pathlib import Path
+
 import numpy as np
 from firetwin_core.run import Run
 
 from ..data import history
+from ..errors import input_error
 
 
 def of(run: Run) -> str:
-    """That of the fire that the run depicts; else the nautical zone of its middle: 15 degrees an hour.
+    """That which run.toml says; else of the fire that it depicts, of the start's offset, or by longitude.
 
-    Etc/GMT zones count westward: Etc/GMT+8 is eight hours behind UTC.
+    Raises
+    ------
+    InputError
+        run.toml says one that is not known.
     """
+    if run.zone and not known(run.zone):
+        raise input_error(Path(run.path, "run.toml"), 0, 0, f'zone = "{run.zone}" {NOT_KNOWN}')
+    if run.zone:
+        return run.zone
     if run.event in history.events():
         return history.load(run.event).zone
+    if run.offset:
+        return of_offset(run.offset)
     middle = 0.5 * float(run.longitude[0] + run.longitude[-1])
-    hours = int(np.round(((middle + 180.0) % 360.0 - 180.0) / 15.0))
-    return f"Etc/GMT{-hours:+d}" if hours else "Etc/GMT"
+    return of_hours(int(np.round(((middle + 180.0) % 360.0 - 180.0) / 15.0)))
+
+
+NOT_KNOWN = 'is not a time zone; say one such as "Europe/Paris", or "Etc/GMT-2" for two hours east of UTC'
+
+
+def known(name: str) -> bool:
+    """Whether it is the name of a time zone."""
+    try:
+        zoneinfo.ZoneInfo(name)
+    except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):
+        return False
+    return True
+
+
+def of_offset(minutes: int) -> str:
+    """The zone of an offset east of UTC, the nearest of whole hours."""
+    return of_hours(round(minutes / 60))
+
+
+def of_hours(east: int) -> str:
+    """The zone of whole hours east of UTC; Etc/GMT zones count westward: Etc/GMT+8 is eight hours behind."""
+    return f"Etc/GMT{-east:+d}" if east else "Etc/GMT"

@@ -27,6 +27,8 @@ _LARGEST_SEED = 2**31 - 1  # Cycles takes no larger one
 
 
 def _zone(value: str) -> str | None:
+    if not value:
+        return None
     try:
         zoneinfo.ZoneInfo(value)
     except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):
@@ -68,7 +70,7 @@ class Time:
     end: datetime | None = key(None, "model time of the last frame; left out, the run's last")
     frames: int = key(48, "spread evenly from start to end", at_least=1, at_most=100_000)
     fps: int = key(24, "frames per second of the films", at_least=1, at_most=240, shows=("film",))
-    zone: str = key("America/Los_Angeles", "zone of the clock in the films", check=_zone, shows=("film",))
+    zone: str = key("", "zone of the clock in the films; empty, the run's", check=_zone, shows=("film",))
 
     def wrong(self) -> tuple[Where, str] | None:
         """The end comes last."""

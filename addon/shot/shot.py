@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..errors import UsageError
 from ..progress import Progress, silent
-from ..run import content, times
+from ..run import content, times, zone
 from ..run.frame import local_frame
 from . import burning, depth, frame_list, frames, passes, path, relief, scale, sun, temperature
 from .fire import Fire
@@ -41,7 +41,7 @@ class Shot:
     Attributes
     ----------
     settings
-        The scene file.
+        The scene file; its clock's zone is the run's where it says none.
     run
         The model run.
     frames
@@ -55,6 +55,8 @@ class Shot:
     """
 
     def __init__(self, settings: Settings, run: Run) -> None:
+        if not settings.time.zone:
+            settings = replace(settings, time=replace(settings.time, zone=zone.of(run)))
         self.settings, self.run, self.cameras, self.whole = settings, run, settings.cameras, self
         self.frames: Frames = frames.of(settings.time, run)
         self._filmed: dict[str, NDArray[np.int64]] = {}

@@ -305,6 +305,8 @@ void init_run(Module module) {
       .def_property_readonly("path", &path_of)
       .def_property_readonly("name", [](const Run& r) { return readable(r.description().name); })
       .def_property_readonly("synthetic", [](const Run& r) { return r.description().synthetic; })
+      .def_property_readonly("offset", [](const Run& r) { return r.description().offset; })
+      .def_property_readonly("zone", [](const Run& r) { return r.description().zone; })
       .def_property_readonly("event", [](const Run& r) { return r.description().event; })
       .def_property_readonly("start", [](const Run& r) { return r.description().start; })
       .def_property_readonly("vertical", [](const Run& r) { return r.description().vertical; })

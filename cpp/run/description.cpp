@@ -24,9 +24,9 @@ constexpr std::uint64_t largest_description = 16U << 20;
 /// floats.
 constexpr double far_from_start = 1.0e6;
 constexpr double longest = 5.0e11; ///< s, more than there are in the years that a date may have
-constexpr std::array<std::string_view, 11> known_keys = {
+constexpr std::array<std::string_view, 12> known_keys = {
     "name",  "start",   "interval_s", "times_s", "mean_s", "vertical",
-    "units", "no_data", "synthetic",  "event",   "source"};
+    "units", "no_data", "synthetic",  "event",   "source", "zone"};
 
 Moment moment_of(const toml::date_time& t) {
   return {t.date.year,   t.date.month,  t.date.day,        t.time.hour,
@@ -42,7 +42,8 @@ public:
     check_keys();
     Description m;
     m.name = text("name", io::utf8(path_.parent_path().filename()));
-    m.start = start();
+    m.start = start(m.offset);
+    m.zone = text("zone", "");
     m.vertical = vertical(m);
     m.event = text("event", "");
     if (const toml::node* node = table_.get("synthetic")) {
@@ -89,7 +90,8 @@ private:
                 : std::move(otherwise);
   }
 
-  std::string start() const {
+  /// In UTC, and the offset that it is written with.
+  std::string start(int& offset) const {
     const toml::node* node = table_.get("start");
     const std::string form = "start must be a date and time with its offset from UTC, like "
                              "2014-09-17T04:45:00Z";
@@ -101,6 +103,7 @@ private:
     if (!text) {
       fail(node->source(), form);
     }
+    offset = moment->offset;
     return *text;
   }
 

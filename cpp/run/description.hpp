@@ -19,6 +19,8 @@ struct Description {
   std::optional<double> no_data;    ///< the value that stands for "no value"
   bool synthetic = false;
   std::string event;
+  std::string zone; ///< "Europe/Paris", "" where it is not said
+  int offset = 0;   ///< minutes east of UTC that `start` is written with
   std::vector<std::string> warnings;
 };
 

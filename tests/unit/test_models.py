@@ -592,7 +592,7 @@ def test_many_netcdf_files_are_each_read_for_what_is_theirs(tmp_path, converted)
             if k == 0:
                 f.createVariable("elevation", "f8", ("y", "x"))[:] = 700.0
     run = converted(paths)
-    assert run.name == "file 0"
+    assert run.name == "run (file 0)"
     np.testing.assert_array_equal(run.elevation, 700.0)
 
 

@@ -221,7 +221,7 @@ def test_comments_stand_in_a_column_and_name_the_default(load):
     assert lines[0] == 'run = "x"        # run folder, such as `firetwin sample` writes (default "sample")'
     assert lines[1] == 'cache = "cache"  # smoke volumes are kept here and used again'
     assert "fps = 12                        # frames per second of the films (default 24)" in lines
-    assert 'zone = "America/Los_Angeles"    # zone of the clock in the films' in lines
+    assert 'zone = ""                       # zone of the clock in the films; empty, the run\'s' in lines
     start = "# start = 2014-09-17T21:30:00Z  # model time of the first frame, with its zone"
     assert any(line.startswith(start) for line in lines)
 

@@ -72,7 +72,7 @@ def model(
     ground = maps.elevation if maps.elevation is not None else land.elevation(grid, options.projection)
     return Model(
         source=source,
-        name=f"{source} run {files[0].stem}",
+        name=f"{source} run",
         start=begun(options, files[0]),
         times=release.times,
         grid=grid,

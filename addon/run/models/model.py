@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import UsageError
+from .. import zone
 from .grid import Grid
 
 Array = NDArray[np.float32]
@@ -41,7 +42,11 @@ class Options:
     interval
         Seconds between the times of a heat flux that is made.
     mapping
-        TOML file that says which variable is which field (readers/cf.py).
+        TOML file that says which variable is which field (readers/netcdf_cf.py).
+    name
+        What the run is called; "": as its folder, with its model.
+    zone
+        Time zone that it is told in, else that of the offset that `start` was written with; "": unsaid.
     """
 
     start: datetime | None = None
@@ -49,9 +54,14 @@ class Options:
     projection: str = ""
     interval: float = 0.0
     mapping: Path | None = None
+    name: str = ""
+    zone: str = ""
 
     @classmethod
-    def of(cls, start: str, at: str, projection: str, interval: float, paths: list[Path]) -> Options:
+    def of(
+        cls, start: str, at: str, projection: str, interval: float, paths: list[Path],
+        name: str = "", there: str = "",
+    ) -> Options:  # fmt: skip
         """From text as on the command line.
 
         Raises
@@ -60,7 +70,10 @@ class Options:
         """
         place = _place(at) if at else None
         mapping = next((path for path in paths if path.suffix.lower() == ".toml"), None)
-        return cls(_moment(start) if start else None, place, projection, interval, mapping)
+        if there and not zone.known(there):
+            raise UsageError(f"--zone: {there!r} {zone.NOT_KNOWN}")
+        begun, there = _moment(start) if start else None, there or _zone(start)
+        return cls(begun, place, projection, interval, mapping, name, there)
 
 
 @dataclass
@@ -98,6 +111,7 @@ class Model:
     air: Grid | None = None
     version: str = ""
     projection: str = ""
+    zone: str = ""
     mean_s: float | None = None
     levels: dict[str, int] = field(default_factory=dict)
     assumptions: list[str] = field(default_factory=list)
@@ -121,6 +135,12 @@ def _moment(text: str) -> datetime:
     except ValueError:
         raise UsageError(f"--start: {text!r} is no date and time such as 2014-09-17T04:45:00Z") from None
     return moment.astimezone(UTC) if moment.tzinfo else moment.replace(tzinfo=UTC)
+
+
+def _zone(start: str) -> str:
+    """The zone that a moment is written in; UTC's says nothing of the place."""
+    offset = datetime.fromisoformat(start).utcoffset() if start else None
+    return zone.of_offset(round(offset.total_seconds() / 60.0)) if offset else ""
 
 
 def _place(text: str) -> tuple[float, float]:

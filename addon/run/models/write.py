@@ -205,6 +205,8 @@ def description(model: Model, inputs: str) -> str:
         f"times_s = [{', '.join(repr(float(time)) for time in model.times)}]",
         'vertical = "orthometric"',
     ]
+    if model.zone:
+        lines.append(f"zone = {_text(model.zone)}")
     if model.mean_s is not None:
         lines.append(f"mean_s = {float(model.mean_s)!r}")
     lines += [

@@ -75,23 +75,34 @@ def gathered(paths: list[Path]) -> list[Path]:
 
 
 def reader(paths: list[Path]) -> ModuleType:
-    """The first reader that knows one of the files.
+    """The reader that knows some of the files; that of any netCDF only where no other does.
 
     Raises
     ------
     InputError
-        None does.
+        None does, or they are of several runs.
     """
-    broken: dict[Path, Error] = {}
-    for name in MODELS:
-        module = importlib.import_module(f".{name}", __name__)
-        for path in paths:
-            try:
-                if path not in broken and module.sniff(path):
-                    return module
-            except Error as error:  # another file may be whole
-                broken[path] = error
-    raise next(iter(broken.values()), None) or input_error(paths[0], 0, 0, _why(paths))
+    from ..models import one_run
+
+    modules = [importlib.import_module(f".{name}", __name__) for name in MODELS]
+    broken: list[Error] = []
+    found: dict[str, list[Path]] = {}
+    for path in paths:
+        try:
+            known = next((module.NAME for module in modules if module.sniff(path)), None)
+        except Error as error:  # another file may be whole
+            broken.append(error)
+            continue
+        if known:
+            found.setdefault(known, []).append(path)
+    if len(found) > 1:
+        found.pop(modules[-1].NAME, None)
+    if not found:
+        raise broken[0] if broken else input_error(paths[0], 0, 0, _why(paths))
+    one_run.of_models(found)
+    ((name, ours),) = found.items()
+    one_run.of_series(ours)
+    return next(module for module in modules if name == module.NAME)
 
 
 def _why(paths: list[Path]) -> str:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import input_error
-from ..models import beside, forefire_land, made, netcdf
+from ..models import beside, forefire_land, made, netcdf, one_run
 from ..models.grid import Grid
 from ..models.model import Model, Options
 from ..models.raster import local
@@ -34,7 +34,7 @@ def sniff(path: Path) -> bool:
 
 def read(paths: list[Path], options: Options) -> Model:
     """The map as a model."""
-    path = next(path for path in paths if sniff(path))
+    path = one_run.of_one([path for path in paths if sniff(path)])
     file = netcdf.File(path)
     values = file.read("arrival_time_of_front").astype(np.float64)
     arrival = np.where(values == _UNBURNED, np.nan, values)  # an ignition's cells are negative and burned

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Error, input_error
-from ..models import beside, given_wind, made
+from ..models import beside, given_wind, made, one_run
 from ..models.given_wind import Wind
 from ..models.grid import Grid
 from ..models.model import Model, Options
@@ -41,7 +41,7 @@ def sniff(path: Path) -> bool:
 
 def read(paths: list[Path], options: Options) -> Model:
     """The arrays as a model."""
-    path = next(path for path in paths if sniff(path))
+    path = one_run.of_one([path for path in paths if sniff(path)])
     found = _arrays(path)
     minutes = found["time_of_arrival"]
     if minutes.ndim != 2:

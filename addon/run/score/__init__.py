@@ -36,7 +36,7 @@ class Seen:
 
 
 def score(
-    run: Run, observations: Observations, other: Run | None = None, zone: str = "America/Los_Angeles"
+    run: Run, observations: Observations, other: Run | None = None, zone: str = "UTC"
 ) -> dict[str, Any]:
     """Everything `firetwin score` tells, as JSON can carry it: m, m2, s, and shares from 0 to 1.
 

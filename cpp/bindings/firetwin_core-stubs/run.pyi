@@ -45,6 +45,12 @@ class Run:
     def synthetic(self) -> bool:
         """True when run.toml says that the run is made up, not model output."""
     @property
+    def zone(self) -> str:
+        """Time zone that run.toml names ("Europe/Paris"), empty where it names none."""
+    @property
+    def offset(self) -> int:
+        """Minutes east of UTC that run.toml's start is written with."""
+    @property
     def event(self) -> str:
         """Name of the known fire that the run depicts ("king_fire"), empty when run.toml names none."""
     @property

@@ -1,0 +1,85 @@
+"""Whether files are of one run: one model, one place, each time once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...errors import Error, input_error
+from . import netcdf
+
+_CORNERS = (("lats", "lons"), ("XLAT", "XLONG"), ("FXLAT", "FXLONG"))
+_APART = 1e-3  # degrees; more is another place, and 32-bit longitudes are far finer
+_ASK = "convert one run at a time"
+
+
+def of_models(found: dict[str, list[Path]]) -> None:
+    """Files by what they are called as a model's output.
+
+    Raises
+    ------
+    InputError
+        They are of several models.
+    """
+    if len(found) > 1:
+        (name, (first, *_)), (other, (second, *_)), *_ = found.items()
+        raise input_error(second, 0, 0, f"is {other} where {first.name} is {name}; {_ASK}")
+
+
+def of_series(paths: list[Path]) -> None:
+    """Files of one model that has one for each time.
+
+    Raises
+    ------
+    InputError
+        Two have the same name, or lie in different places.
+    """
+    names: dict[str, Path] = {}
+    for path in paths:
+        before = names.setdefault(path.name, path)
+        if before != path:
+            raise input_error(path, 0, 0, f"has the name of {before}, so it is of another run; {_ASK}")
+    first = None
+    for path in paths if len(paths) > 1 else ():
+        corner = _corner(path)
+        if corner is None:
+            continue
+        if first is None:
+            first = path, corner
+        elif max(abs(a - b) for a, b in zip(corner, first[1], strict=True)) > _APART:
+            there = "{:.3f}, {:.3f}".format(*first[1])
+            here = "{:.3f}, {:.3f}".format(*corner)
+            reason = f"has its first cell at {here} where {first[0].name} has {there}: another place; {_ASK}"
+            raise input_error(path, 0, 0, reason)
+
+
+def of_one(paths: list[Path]) -> Path:
+    """The file of a model that writes one.
+
+    Raises
+    ------
+    InputError
+        There are two.
+    """
+    if len(paths) > 1:
+        raise input_error(paths[1], 0, 0, f"is another run than {paths[0].name}; {_ASK}")
+    return paths[0]
+
+
+def _corner(path: Path) -> tuple[float, float] | None:
+    """Latitude and longitude of the first cell, where the file has them cell by cell."""
+    if not netcdf.is_netcdf(path):
+        return None
+    try:
+        file = netcdf.File(path)
+    except Error:  # which the reader says
+        return None
+    try:
+        for names in _CORNERS:
+            if all(name in file and len(file.shape(name)) >= 2 for name in names):
+                latitude, longitude = (float(file.read(name, *[0] * len(file.shape(name)))) for name in names)
+                return latitude, longitude
+    except Error:
+        pass
+    finally:
+        file.close()
+    return None
