@@ -9,7 +9,6 @@ and their runs say so. A fire takes 1 to 60 seconds.
 from __future__ import annotations
 
 import argparse
-import re
 import shutil
 import subprocess
 import sys
@@ -251,8 +250,10 @@ def made(name: str, runs: Path) -> Path:
                 fire.start,
                 "--interval",
                 fire.interval,
+                "--name",
+                fire.title,
             )
-        _says_what_it_is(part / "run.toml", fire.title)
+        _says_what_it_is(part / "run.toml")
     part.rename(out)
     return out
 
@@ -261,17 +262,9 @@ def _firetwin(*words: object) -> None:
     subprocess.run([sys.executable, "-m", "firetwin", *map(str, words)], check=True)
 
 
-def _says_what_it_is(path: Path, title: str) -> None:
-    """Give the run its name, and have it say that it is invented."""
-    text = path.read_text(encoding="utf-8")
-    named = re.sub(
-        r"^name = .*$",
-        f'name = "{title}"\nsynthetic = true',
-        text,
-        count=1,
-        flags=re.MULTILINE,
-    )
-    path.write_text(named, encoding="utf-8")
+def _says_what_it_is(path: Path) -> None:
+    """Have the run say that it is invented."""
+    path.write_text("synthetic = true\n" + path.read_text(encoding="utf-8"), encoding="utf-8")
 
 
 def main() -> None:
