@@ -123,6 +123,7 @@ def facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
         "warnings": found["warnings"],
         "first": found["times"]["first"],
         "last": found["times"]["last"],
+        "zone": found["zone"],
         "moments": _moments(found),
         "burned": _burned(found),
         "places": labels.known(run),

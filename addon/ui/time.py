@@ -117,7 +117,7 @@ class FIRETWIN_MT_moments(bpy.types.Menu):
     def draw(self, context: bpy.types.Context) -> None:
         settings = context.scene.firetwin
         for moment, words in moments(settings):
-            text = f"{_local(datetime.fromisoformat(moment), settings.time.zone)}, {words}"
+            text = f"{_local(datetime.fromisoformat(moment), _zone(settings))}, {words}"
             self.layout.operator(FIRETWIN_OT_jump.bl_idname, text=text).moment = moment
 
 
@@ -144,9 +144,14 @@ class FIRETWIN_MT_end(bpy.types.Menu):
 def _ends(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, key: str) -> None:
     """Dated moments, each as a button that lets the window begin or end there."""
     for moment, words in moments(settings):
-        text = f"{_local(datetime.fromisoformat(moment), settings.time.zone)}, {words}"
+        text = f"{_local(datetime.fromisoformat(moment), _zone(settings))}, {words}"
         button = layout.operator(FIRETWIN_OT_window.bl_idname, text=text)
         button.moment, button.key = moment, key
+
+
+def _zone(settings: bpy.types.PropertyGroup) -> str:
+    """Zone of the clock: what is chosen, else the run's."""
+    return settings.time.zone or (run.read(settings.facts).get("zone", "") if settings.facts else "")
 
 
 def _local(moment: datetime, zone: str) -> str:
@@ -188,7 +193,7 @@ class FIRETWIN_PT_time(bpy.types.Panel):
             column = layout.column(align=True)
             column.enabled = job.Job.current is None
             typed = bool(getattr(settings.time, name))
-            told = _local(moment, settings.time.zone) if moment else "no date and time" if typed else ""
+            told = _local(moment, _zone(settings)) if moment else "no date and time" if typed else ""
             column.label(text=f"{keys.label(name)}: {told}" if told else keys.label(name))
             row = column.row(align=True)
             row.prop(settings.time, name, text="", placeholder=f"The run's {other} (UTC)")
