@@ -24,6 +24,7 @@ _GIVE = 0.6, 0.3  # part of the stops followed below and above that: white smoke
 _WHITE = 0.55  # luminance on the picture of the brightest tenth of the glow, at most: above, AgX pales it
 _AMID = 0.1  # of all of it in the mean, at most: amid smoke that glows, flames and trees must show; by eye
 _LEAST, _MOST = -3.0, 4.0  # stops
+_SUNLIT, _RISEN = 0.2, (-2.0, 6.0)  # darkness at most while the sun is up, and heights (degrees); by eye
 _DARK = 1.4, 3.4  # stops without any flames from which, and at which, light is that of flames alone; by eye
 
 Array = NDArray[np.float64]
@@ -53,7 +54,7 @@ def at(shot: Shot, frames: NDArray) -> Array:
 def darkness(shot: Shot, times: NDArray) -> Array:
     """How dark (n,) it is without flames at model times (n,), s, for the camera that has least light.
 
-    0 by day, where sunlight drowns theirs, to 1 by night and deep under smoke.
+    0 by day, where sunlight drowns theirs, to 1 by night; under smoke by day little.
     """
     found = _metered(shot)
     return np.interp(times, shot.frames.first + (found.frame - 1.0) * shot.frames.step, found.darkness)
@@ -75,8 +76,9 @@ def _smooth(shot: Shot, frames: Array) -> _Metered:
         stops = np.array([_stops(each, np.zeros(2)) for each in found])
         return _Metered(frames, stops, noise.smoothstep(*_DARK, stops))
     found = [[meter.measure(shot, view, int(frame)) for frame in frames] for view in shot.paths]
-    dark = np.array([[_dark(level) for _found, level, _shine in view] for view in found])
-    stops = np.array([_stops(*_with_flames(*measured)) for measured in found[0]])
+    suns = [_sun(shot, frame) for frame in frames]
+    dark = np.array([[_dark(each[1], sun) for each, sun in zip(view, suns, strict=True)] for view in found])
+    stops = np.array([_stops(*_with_flames(*each, sun)) for each, sun in zip(found[0], suns, strict=True)])
     return _Metered(frames, targets.smoothed(stops), targets.smoothed(dark.max(axis=0)))
 
 
@@ -90,20 +92,27 @@ def _stops(found: Array, glow: Array) -> float:
     return float(np.clip(min(wanted, np.log2(most)), _LEAST, _MOST))
 
 
-def _dark(found: Array) -> float:
+def _sun(shot: Shot, frame: float) -> float:
+    """Height of the sun in a frame, degrees."""
+    return float(shot.sun(shot.frames.time(frame))[1])
+
+
+def _dark(found: Array, sun: float) -> float:
     """How dark it is where these radiances (n,) are found without flames and relief, 0 to 1.
 
-    In the shade of a ridge a picture is exposed longer; the smoke over it is no darker.
+    In the shade of a ridge a picture is exposed longer; the smoke over it is no darker. While the sun
+    (degrees) is up, shaded smoke is grey: light comes in from its sunny side.
     """
-    return float(noise.smoothstep(*_DARK, _stops(found, np.zeros(1))))
+    most = 1.0 - (1.0 - _SUNLIT) * float(noise.smoothstep(*_RISEN, sun))
+    return most * float(noise.smoothstep(*_DARK, _stops(found, np.zeros(1))))
 
 
-def _with_flames(found: Array, level: Array, shine: Array) -> tuple[Array, Array]:
+def _with_flames(found: Array, level: Array, shine: Array, sun: float) -> tuple[Array, Array]:
     """Radiances (n,) of all light and of the flames' in smoke, of what the meter measures."""
-    glow = sky.glow(_dark(level)) * meter.luminance(sky.GLOW) * shine
+    glow = sky.glow(_dark(level, sun)) * meter.luminance(sky.GLOW) * shine
     return found + glow, glow
 
 
 def radiance(shot: Shot, view: Path, frame: int) -> tuple[Array, Array]:
     """Luminances (n,) along the meter's rays in a frame: of all light, and of the flames' in smoke."""
-    return _with_flames(*meter.measure(shot, view, frame))
+    return _with_flames(*meter.measure(shot, view, frame), _sun(shot, frame))

@@ -16,7 +16,7 @@ _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, bl
 # W/m2 of a full moon, and of a sky without one: more than there is, as films of nights have it; by eye
 _MOON, _STARS = 0.2, 0.08
 _MOON_COLOUR = (0.65, 0.78, 1.0)
-NIGHT_SKY = np.array([0.010, 0.016, 0.035]) * 0.1  # radiance
+NIGHT_SKY = np.array([0.010, 0.014, 0.024]) * 0.05  # radiance
 _DAY_HAZE, _NIGHT_HAZE = np.array([0.54, 0.63, 0.76]) * 0.5, np.array([0.35, 0.45, 0.75]) * 0.01
 _FULL_DAY = 1.8  # air masses; through more the sun, and haze in its light, is redder
 HAZE = 1.2e-5  # extinction at z = 0 on a dry September day, 1/m: clear mountain air
@@ -35,7 +35,7 @@ _AROUND = (
 )  # at the heights of MEAN, mean radiance of the same sky in red, green and blue, all parts counting alike
 
 GLOW = (1.0, 0.18, 0.027)  # colour of smoke that flames light
-_GLOW_LIGHT = 0.0172, 0.382  # of that, by day and by night
+_GLOW_LIGHT = 0.0172, 0.2  # of that, by day and by night
 THIN = 0.03  # part of that light in thin smoke, where it is scattered once; in thick smoke many times; by eye
 THICK = 0.004, 0.02  # extinctions (1/m) of thin and of thick smoke, as to that
 
