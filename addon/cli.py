@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import io
+import math
 import os
 import re
 import shlex
@@ -15,6 +16,9 @@ import sys
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import NoReturn
+
+from .escaped import escaped
 
 EPILOG = """\
 a first film, from nothing:
@@ -61,9 +65,10 @@ def _passes() -> str:
 def _report(error: Exception) -> int:
     """One line that says what is wrong and what to do; the exit status for it."""
     from .errors import Error, UsageError
+    from .progress import say
 
     if isinstance(error, UsageError):
-        print(f"firetwin: {error}", file=sys.stderr)
+        say(str(error))
         return 2
     if isinstance(error, Error):
         text = str(error)
@@ -78,13 +83,13 @@ def _report(error: Exception) -> int:
         text = f"maps and plots need matplotlib; install it with: {pip}"
     else:
         text = f"unexpected {type(error).__name__}: {error} (run again with --debug for the details)"
-    print(f"firetwin: {text}", file=sys.stderr)
+    say(text)
     return 1
 
 
 def _parser() -> argparse.ArgumentParser:
     raw = argparse.RawDescriptionHelpFormatter
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="firetwin",
         description="Turn the output of a fire-atmosphere model into a Blender scene, pictures and films.",
         epilog=EPILOG,
@@ -102,7 +107,7 @@ def _parser() -> argparse.ArgumentParser:
         )
 
     sample = command("sample", "write the synthetic King-like sample run", SAMPLE)
-    sample.add_argument("out", metavar="OUT", type=Path, help="folder to write; made when missing")
+    sample.add_argument("out", metavar="OUT", type=_path, help="folder to write; made when missing")
     sample.add_argument("--frames", metavar="N", type=_count, help="only N model times, evenly spread (all)")
     sample.add_argument("--format", choices=("npy", "text"), default="npy", help="kind of field files (npy)")
     sample.add_argument(
@@ -110,14 +115,14 @@ def _parser() -> argparse.ArgumentParser:
     )
 
     info = command("info", "show what is in a run", INFO)
-    info.add_argument("run", metavar="RUN", type=Path, help="run folder, or a scene file for all its runs")
+    info.add_argument("run", metavar="RUN", type=_path, help="run folder, or a scene file for all its runs")
     info.add_argument("--json", action="store_true", help="write JSON for programs")
 
     made = command("convert", "make a run of a fire model's own output", CONVERT)
     made.add_argument(
-        "paths", metavar="IN", nargs="+", type=Path, help="the model's files, or folders of them"
+        "paths", metavar="IN", nargs="+", type=_path, help="the model's files, or folders of them"
     )
-    made.add_argument("--out", metavar="RUN", type=Path, required=True, help="run folder to write")
+    made.add_argument("--out", metavar="RUN", type=_path, required=True, help="run folder to write")
     made.add_argument(
         "--start", metavar="TIME", default="", help="when times count from, if files do not say it"
     )
@@ -131,16 +136,16 @@ def _parser() -> argparse.ArgumentParser:
     made.add_argument("--zone", default="", help=zone)
 
     new = command("new", "write a short scene file that fits a run", NEW)
-    new.add_argument("run", metavar="RUN", type=Path, help="run folder")
-    new.add_argument("-o", "--out", metavar="SCENE.toml", type=Path, required=True, help="file to write")
+    new.add_argument("run", metavar="RUN", type=_path, help="run folder")
+    new.add_argument("-o", "--out", metavar="SCENE.toml", type=_path, required=True, help="file to write")
     for name, word in (("start", "begins"), ("end", "ends")):
         text = f"when the film {word}, such as 2014-09-17T16:00-07:00 (found)"
         new.add_argument(f"--{name}", metavar="TIME", type=_moment, help=text)
     new.add_argument("--overwrite", action="store_true", help="in place of a file that is there")
 
     maps = command("maps", "draw the fuel map and the fire intensity map", MAPS)
-    maps.add_argument("run", metavar="RUN", type=Path, help="run folder")
-    maps.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the PNG files")
+    maps.add_argument("run", metavar="RUN", type=_path, help="run folder")
+    maps.add_argument("--out", metavar="DIR", type=_path, required=True, help="folder for the PNG files")
 
     maps.add_argument(
         "--against", metavar="FILE", nargs="+", default=[], help="perimeters to draw (RUN/observations)"
@@ -148,7 +153,7 @@ def _parser() -> argparse.ArgumentParser:
 
     score = command("score", "how well a run matches what was seen of its fire", SCORE)
     score.add_argument(
-        "run", metavar="RUN", type=Path, help="run folder, or a scene file: its first run against the other"
+        "run", metavar="RUN", type=_path, help="run folder, or a scene file: its first run against the other"
     )
     score.add_argument(
         "--against",
@@ -158,16 +163,20 @@ def _parser() -> argparse.ArgumentParser:
         help="perimeters, detections, or one other run (RUN/observations)",
     )
     score.add_argument(
-        "--report", metavar="X.html", type=Path, help="write a page with maps and curves (none)"
+        "--report", metavar="X.html", type=_path, help="write a page with maps and curves (none)"
     )
     score.add_argument("--json", action="store_true", help="write JSON for programs")
 
     seen = command("imager", "what a satellite's imager would have measured of a run", IMAGER)
-    seen.add_argument("run", metavar="RUN", type=Path, help="run folder")
-    seen.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the GeoTIFF files")
+    seen.add_argument("run", metavar="RUN", type=_path, help="run folder")
+    seen.add_argument("--out", metavar="DIR", type=_path, required=True, help="folder for the GeoTIFF files")
     seen.add_argument("--instrument", choices=("abi", "viirs"), default="abi", help="which imager (abi)")
     seen.add_argument(
-        "--longitude", metavar="DEG", type=float, default=-137.0, help="where abi stands, degrees east (-137)"
+        "--longitude",
+        metavar="DEG",
+        type=_longitude,
+        default=-137.0,
+        help="where abi stands, degrees east (-137)",
     )
     seen.add_argument(
         "--every", metavar="SECONDS", type=_count, default=900, help="model time between pictures (900)"
@@ -175,33 +184,35 @@ def _parser() -> argparse.ArgumentParser:
 
     build = command("build", "build the scene and save it as a .blend file", BUILD)
     _scene(build)
-    build.add_argument("-o", "--out", metavar="X.blend", type=Path, required=True, help="file to write")
-    build.add_argument("--run", metavar="NAME", default="", help="with this one of [[runs]] (the first run)")
+    build.add_argument("-o", "--out", metavar="X.blend", type=_path, required=True, help="file to write")
+    build.add_argument("--run", metavar="NAME", type=_name, help="with this one of [[runs]] (the first run)")
 
     bake = command("bake", "write the smoke volumes that the scene needs", BAKE)
     _scene(bake)
 
     render = command("render", "render pictures and films", RENDER.format(passes=_passes()))
     _scene(render)
-    render.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the pictures")
+    render.add_argument("--out", metavar="DIR", type=_path, required=True, help="folder for the pictures")
     render.add_argument(
         "--frames",
         metavar="LIST",
         help="of each camera's frames, such as 1-10, 3,5-9 or 1-48:4 (all)",
     )
-    render.add_argument("--camera", metavar="NAME", help="this camera only (all), drone@RUN in one run")
+    render.add_argument(
+        "--camera", metavar="NAME", type=_name, help="this camera only (all), drone@RUN in one run"
+    )
     render.add_argument("--passes", metavar="LIST", help="such as rgb,thermal (as the scene file says)")
     render.add_argument("--resume", action="store_true", help="keep what is finished and still matches")
     render.add_argument("--json", action="store_true", help="write JSON for programs: files, and memory")
 
     track = command("track", "write a camera's way as a GPX track", TRACK)
     _scene(track)
-    track.add_argument("--camera", metavar="NAME", help="this camera (the first)")
-    track.add_argument("--out", metavar="FILE.gpx", type=Path, required=True, help="file to write")
+    track.add_argument("--camera", metavar="NAME", type=_name, help="this camera (the first)")
+    track.add_argument("--out", metavar="FILE.gpx", type=_path, required=True, help="file to write")
 
     cache = command("cache", "list the smoke volumes that are kept, or make room", CACHE)
     cache.add_argument(
-        "places", metavar="SCENE|DIR", nargs="*", type=Path, help="scene files or cache folders (./cache)"
+        "places", metavar="SCENE|DIR", nargs="*", type=_path, help="scene files or cache folders (./cache)"
     )
     cache.add_argument("--prune", action="store_true", help="remove volumes used longest ago")
     cache.add_argument(
@@ -214,13 +225,15 @@ def _parser() -> argparse.ArgumentParser:
     cache.add_argument("--dry-run", action="store_true", help="say what --prune would remove, remove nothing")
 
     assets = command("assets", "write trees, materials and node groups as an asset library", ASSETS)
-    assets.add_argument("scene", metavar="SCENE.toml", nargs="?", type=Path, help="scene file (the sample's)")
-    assets.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder of the library")
+    assets.add_argument(
+        "scene", metavar="SCENE.toml", nargs="?", type=_path, help="scene file (the sample's)"
+    )
+    assets.add_argument("--out", metavar="DIR", type=_path, required=True, help="folder of the library")
 
     command("schema", "print the JSON Schema of scene files, for TOML editors", SCHEMA)
 
     bench = command("bench", "measure run time against error, beside the alternatives", BENCH)
-    bench.add_argument("--out", metavar="DIR", type=Path, help="folder for bench.json and the plots (none)")
+    bench.add_argument("--out", metavar="DIR", type=_path, help="folder for bench.json and the plots (none)")
     bench.add_argument("--full", action="store_true", help="more repetitions, rivals at every size (minutes)")
     bench.add_argument(
         "--runs", metavar="N", type=_count, default=1, help="measure all of it N times, for ranges (1)"
@@ -234,7 +247,19 @@ def _parser() -> argparse.ArgumentParser:
 def _scene(
     parser: argparse.ArgumentParser, help: str = "scene file, or a run folder: settings are fitted to it"
 ) -> None:
-    parser.add_argument("scene", metavar="SCENE|RUN", type=Path, help=help)
+    parser.add_argument("scene", metavar="SCENE|RUN", type=_path, help=help)
+
+
+def _name(text: str) -> str:
+    if not text.strip():
+        raise argparse.ArgumentTypeError("is empty; give a name, or leave the option out")
+    return text
+
+
+def _path(text: str) -> Path:
+    if not text:
+        raise argparse.ArgumentTypeError("is empty; name a file or a folder")
+    return Path(text)
 
 
 def _count(text: str) -> int:
@@ -265,6 +290,16 @@ def _factor(text: str) -> float:
     return value
 
 
+def _longitude(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not -360.0 <= value <= 360.0:
+        raise argparse.ArgumentTypeError(f"must be a number of degrees east from -360 to 360, not {text!r}")
+    return value
+
+
 _UNITS = {"": 1, "B": 1, "KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
 
 
@@ -273,6 +308,11 @@ def _size(text: str) -> int:
     if not found or found[2].upper() not in _UNITS:
         raise argparse.ArgumentTypeError(f"must be a size such as 500MB or 20GB, not {text!r}")
     return round(float(found[1]) * _UNITS[found[2].upper()])
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        super().error(escaped(message))
 
 
 class _Version(argparse.Action):

@@ -11,7 +11,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .progress import Reporter, count, duration, say, size
+from .progress import Reporter, count, duration, result, say, size
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run
@@ -28,7 +28,7 @@ def sample(arguments: argparse.Namespace) -> None:
     say(f"writing the synthetic King-like run to {arguments.out}")
     report = Reporter("model times")
     sample.write(arguments.out, arguments.frames, arguments.format, report, arguments.pace)
-    print(arguments.out)
+    result(arguments.out)
 
 
 def info(arguments: argparse.Namespace) -> None:
@@ -47,7 +47,7 @@ def info(arguments: argparse.Namespace) -> None:
         json.dump(facts, sys.stdout, indent=1)
         print()
     else:
-        print(page)
+        result(page)
 
 
 def new(arguments: argparse.Namespace) -> None:
@@ -62,7 +62,7 @@ def new(arguments: argparse.Namespace) -> None:
     asked = arguments.start, arguments.end
     text = _fitted(arguments.run, arguments.out, arguments.out.parent / "cache", asked)
     files.write(arguments.out, lambda part: part.write_text(text, encoding="utf-8"))
-    print(arguments.out)
+    result(arguments.out)
 
 
 def maps(arguments: argparse.Namespace) -> None:
@@ -73,7 +73,7 @@ def maps(arguments: argparse.Namespace) -> None:
 
     seen = observations.read(arguments.against or observations.beside(arguments.run))
     for path in maps.draw(run, arguments.out, zone.of(run), seen):
-        print(path)
+        result(path)
 
 
 def score(arguments: argparse.Namespace) -> None:
@@ -99,7 +99,7 @@ def score(arguments: argparse.Namespace) -> None:
     if seen.heat and not (seen.perimeters or seen.detections or runs):
         raise input_error(named[0], 0, 0, "holds heat but no perimeter, so there is nothing to compare with")
     found = scores.score(run, seen, *runs, zone=zone.of(run))
-    print(json.dumps(found, indent=1) if arguments.json else page.page(found))
+    result(json.dumps(found, indent=1) if arguments.json else page.page(found))
     if arguments.report:
         from .run.score import report
 
@@ -112,7 +112,7 @@ def score(arguments: argparse.Namespace) -> None:
 
 def imager(arguments: argparse.Namespace) -> None:
     """Write what a satellite's imager would have measured."""
-    from .errors import UsageError
+    from .errors import UsageError, input_error
     from .run import times
     from .shot.satellites import geotiff
     from .shot.satellites import imager as seen
@@ -127,9 +127,12 @@ def imager(arguments: argparse.Namespace) -> None:
             moment = times.moment(run, time)
             path = arguments.out / f"{instrument.name}_{moment:%Y%m%dT%H%M}Z.tif"
             geotiff.write(path, picture, instrument, run.name, moment)
-            print(path)
-    except seen.NothingSeenError as error:
+            result(path)
+    except seen.HorizonError as error:
         raise UsageError(f"--longitude: {error}") from None
+    except seen.NothingSeenError as error:
+        finer = "; --instrument viirs has finer ones" if instrument is seen.ABI else ""
+        raise input_error(arguments.run, 0, 0, f"{error}{finer}") from None
     report(len(moments), len(moments))
 
 
@@ -139,7 +142,7 @@ def convert(arguments: argparse.Namespace) -> None:
 
     reporter = Reporter("times")
     try:
-        print(
+        result(
             convert.run(
                 arguments.paths, arguments.out, arguments.start, arguments.at, arguments.projection,
                 arguments.interval, reporter, say, name=arguments.name, zone=arguments.zone,
@@ -157,7 +160,7 @@ def build(arguments: argparse.Namespace) -> None:
     if arguments.out.suffix != ".blend":
         raise UsageError(f"-o: {arguments.out} does not end in .blend")
     build.run(_choice(arguments), arguments.out, Reporter(), say)
-    print(arguments.out)
+    result(arguments.out)
 
 
 def bake(arguments: argparse.Namespace) -> None:
@@ -168,7 +171,7 @@ def bake(arguments: argparse.Namespace) -> None:
     if not places:
         say("this scene has no smoke ([smoke] enabled = false), so there is nothing to bake")
     for place in places:
-        print(place)
+        result(place)
 
 
 def render(arguments: argparse.Namespace) -> None:
@@ -202,7 +205,7 @@ def track(arguments: argparse.Namespace) -> None:
     moments = [alone.moment(frame) for frame in range(1, alone.frames.count + 1)]
     text = track_xml.gpx_text(view.camera.name, *alone.local_frame.reverse(view.position), moments)
     files.write(arguments.out, lambda part: part.write_text(text, encoding="utf-8"))
-    print(arguments.out)
+    result(arguments.out)
 
 
 def cache(arguments: argparse.Namespace) -> None:
@@ -227,7 +230,7 @@ def cache(arguments: argparse.Namespace) -> None:
 def _volumes(volumes: Iterable[Kept]) -> None:
     for each in volumes:
         ago = "in use" if each.in_use else f"used {duration(time.time() - each.used)} ago"
-        print(f"{each.folder}  {size(each.bytes)}  {ago}")
+        result(f"{each.folder}  {size(each.bytes)}  {ago}")
 
 
 def assets(arguments: argparse.Namespace) -> None:
@@ -248,7 +251,7 @@ def assets(arguments: argparse.Namespace) -> None:
             scene.write_text(assets.SCENE, encoding="utf-8")
         number = assets.run(Choice(scene=str(scene)), arguments.out, Reporter(), say)
     say(f"{count(number, 'asset')} in {arguments.out}")
-    print(arguments.out / assets.BLEND)
+    result(arguments.out / assets.BLEND)
 
 
 def schema(arguments: argparse.Namespace) -> None:
@@ -270,9 +273,9 @@ def bench(arguments: argparse.Namespace) -> int:
     report = measure(arguments.full, arguments.runs, Reporter())
     text = json.dumps(report.as_json(), indent=1)
     if arguments.json:
-        print(text)
+        result(text)
     else:
-        print(table.markdown(report) if arguments.markdown else table.page(report))
+        result(table.markdown(report) if arguments.markdown else table.page(report))
     if arguments.out:
         for path in plots.draw(report, arguments.out):
             say(f"wrote {path}")
@@ -308,11 +311,11 @@ def _list(out: Path) -> None:
             kind = f"{Path(name).parent}/*{Path(name).suffix}"
             folders[kind] = folders.get(kind, 0) + 1
     for kind, number in folders.items():
-        print(f"{out / kind}  {count(number, 'picture')}")
+        result(f"{out / kind}  {count(number, 'picture')}")
     for name in files:
         if name.endswith(".mp4"):
-            print(out / name)
-    print(out / manifest.NAME)
+            result(out / name)
+    result(out / manifest.NAME)
 
 
 def _runs(scene: Path) -> dict[str, Run]:
@@ -343,7 +346,7 @@ def _choice(arguments: argparse.Namespace) -> Choice:
         scene = cache / f"{scene.absolute().name}-{hashlib.sha256(text.encode()).hexdigest()[:12]}.toml"
         files.write(scene, lambda part: part.write_text(text, encoding="utf-8"))
         say(f"these settings are in {scene}; to change them: firetwin new {arguments.scene} -o SCENE.toml")
-    return Choice(scene=str(scene), beside=getattr(arguments, "run", ""))
+    return Choice(scene=str(scene), beside=getattr(arguments, "run", None) or "")
 
 
 def _fitted(

@@ -8,6 +8,8 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 
+from .escaped import escaped, message
+
 Progress = Callable[..., None]
 """Called as ``progress(done, total, "what is done", "a note")`` while work goes on; texts may be left out."""
 
@@ -19,7 +21,13 @@ Tell = Callable[[str], None]
 
 def say(text: str) -> None:
     """Tell the person at the keyboard; stdout is kept for results."""
-    print(f"firetwin: {text}", file=sys.stderr, flush=True)
+    print(f"firetwin: {message(text)}", file=sys.stderr, flush=True)
+
+
+def result(text: object) -> None:
+    """Give lines of results on stdout; names of files stay as they are unless a terminal shows them."""
+    lines = str(text).split("\n")
+    print("\n".join(map(escaped, lines)) if sys.stdout.isatty() else "\n".join(lines))
 
 
 @contextlib.contextmanager
@@ -55,7 +63,7 @@ class Reporter:
         self.shown: _Bar | _Lines | None = None
 
     def __call__(self, done: int, total: int, what: str = "", note: str = "") -> None:
-        what = what or self.what
+        what, note = escaped(what or self.what), escaped(note)
         if self.shown is None or self.shown.what != what:
             self.close()
             self.shown = _Bar(what) if sys.stderr.isatty() else _Lines(what)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from pathlib import Path
 
@@ -93,4 +94,5 @@ def save(out: Path, **how: bool) -> None:
         reason = f"cannot be written: {' '.join(str(error).split())}"
         raise input_error(out, 0, 0, FULL if disk_is_full(error) or no_room(out) else reason) from None
     finally:
-        part.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):
+            part.unlink(missing_ok=True)

@@ -48,10 +48,16 @@ def run(
     stop: worker.Stop | None = None,
 ) -> Made:
     """Render what is asked for and not finished, then the films."""
+    from ..errors import UsageError
     from ..render import dataset, films, fingerprint, plan
     from ..render.store import Store
+    from ..run.readers import folder
 
     out = asked.out
+    if folder.sniff(out):  # a camera's folder may have the name of a field
+        raise UsageError(
+            f"--out: {out} is a run folder, and pictures do not belong among its fields; choose another"
+        )
     with patience(READING):
         shot = choice.shot()
         wanted = plan.pictures(shot, asked.frames, asked.camera, asked.passes)

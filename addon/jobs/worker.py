@@ -299,6 +299,9 @@ def serve(blender: bool = True) -> None:
         import traceback
 
         traceback.print_exc()
+        if isinstance(error, OSError) and isinstance(error.filename, str) and error.strerror:
+            answer(input_error=[error.filename, 0, 0, error.strerror])
+            os._exit(0)
         text = str(error) if isinstance(error, Error | OSError) else f"{type(error).__name__}: {error}"
         answer(error=" ".join(text.split()))
     else:

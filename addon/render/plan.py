@@ -44,7 +44,7 @@ def pictures(
         wanted = frame_list.parse(frames or "", shot.frames.count)
     except ValueError as error:
         raise UsageError(f"--frames: {error}") from None
-    if camera:
+    if camera is not None:
         shot.camera(camera)  # says which there are
     elif not settings.cameras:
         raise UsageError(f"{settings.path} has no [[cameras]], so there is nothing to render")

@@ -12,6 +12,7 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ..data import history
+from ..escaped import escaped
 from . import areas, blocks, burned_fraction, fuel_category, released, remembered, times
 
 ACRE = history.SQUARE_METRES_PER_ACRE
@@ -163,7 +164,8 @@ def _reported(run: Run, reports: list[history.Acreage], areas_then: list[float])
 def page(info: dict[str, Any]) -> str:
     """The text that `firetwin info` prints."""
     return "\n".join(
-        [
+        escaped(line)
+        for line in [
             info["name"] + ("  (SYNTHETIC: made up, not the output of a model)" if info["synthetic"] else ""),
             info["path"],
             "",

@@ -158,7 +158,7 @@ class _Reader:
         if typing.get_origin(kind) is tuple:
             return self.tuple(kind, self.expect(list, value, where), where)
         if kind is Path:
-            return self.path.parent / os.path.expanduser(self.expect(str, value, where))
+            return self.path.parent / os.path.expanduser(self.name(value, where))
         if kind is datetime:
             return self.moment(self.expect(datetime, value, where), where)
         if kind is float:
@@ -166,6 +166,14 @@ class _Reader:
                 raise self.error(where, f"{_dotted(where)} must be a number, not {_shown(value)}")
             return float(value)
         return self.expect(kind, value, where)
+
+    def name(self, value: Any, where: Where) -> str:
+        """The name of a file or folder."""
+        if "\0" in self.expect(str, value, where):
+            raise self.error(
+                where, f"{_dotted(where)} holds the character of number 0, which no file's name may"
+            )
+        return value
 
     def moment(self, moment: datetime, where: Where) -> datetime:
         """A time in UTC."""

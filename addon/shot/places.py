@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 
 Path = tuple[str | int, ...]
 
@@ -46,7 +47,7 @@ class _Scan:
 
     def _name(self) -> str:
         if self.text[self.at] == '"':
-            return self._take(_BASIC)[1:-1]
+            return tomllib.loads(f"key = {self._take(_BASIC)}")["key"]
         if self.text[self.at] == "'":
             return self._take(_LITERAL)[1:-1]
         return self._take(_BARE)

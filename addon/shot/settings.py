@@ -10,7 +10,6 @@ unless it says otherwise, "camera" for all of a camera, and of [render] "picture
 
 from __future__ import annotations
 
-import re
 import zoneinfo
 from dataclasses import dataclass
 from datetime import datetime
@@ -18,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from . import biomes, frame_list, passes, rigs
+from .bounds import file_name, twice
 from .nearest import suggestion
 from .schema import Where, key, kind_of, one_of, parts
 
@@ -36,12 +36,6 @@ def _zone(value: str) -> str | None:
             return "cannot be looked up: install the Python package tzdata"
         return f'"{value}" is not a time zone' + suggestion(value, sorted(zoneinfo.available_timezones()))
     return None
-
-
-def _file_name(value: str) -> str | None:
-    if re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_-]*", value):
-        return None
-    return f'"{value}" names files, so it is made of letters, digits, - and _'
 
 
 def _even(value: tuple[int, int] | None) -> str | None:
@@ -88,12 +82,14 @@ class Ground:
         "ridges and gullies finer than the grid within this distance of a camera's path",
         unit="m",
         at_least=0,
+        at_most=100_000,
     )
     error: float = key(
         0.05,
         "how far the mesh may be above or below what cameras see; more is coarser",
         unit="pixels",
-        above=0,
+        at_least=0.001,
+        at_most=1000,
     )
     elevation: Path | None = key(
         None,
@@ -122,6 +118,7 @@ class Ground:
         "half-width of the ground drawn round the run; smaller shows the edge of the world",
         unit="m",
         at_least=0,
+        at_most=1_000_000,
     )
 
 
@@ -180,6 +177,7 @@ class Forest:
         "trees farther than this from every camera are part of the ground's colour",
         unit="m",
         at_least=0,
+        at_most=1_000_000,
     )
 
 
@@ -198,7 +196,7 @@ class Fire:
         "formula for the flames' length",
         choices={"auto": "by the fuel", "thomas": "crown fire", "byram": "surface fire"},
     )
-    budget: int = key(20_736, "most flames drawn at once, nearest first", at_least=0)
+    budget: int = key(20_736, "most flames drawn at once, nearest first", at_least=0, at_most=10_000_000)
     embers: bool = key(True, "spots that glow in the ash; the thermal view shows their heat in any case")
     firebrands: int = key(
         3000,
@@ -245,13 +243,22 @@ class Smoke:
         "from this height above the sea vapour turns rising smoke white, in a flow",
         unit="m",
         at_least=0,
+        at_most=100_000,
     )
     voxel_size: float = key(
-        0.0, "edge of a voxel; 0 chooses it from the distance of the nearest camera", unit="m", at_least=0
+        0.0,
+        "edge of a voxel; 0 chooses it from the distance of the nearest camera",
+        unit="m",
+        at_least=0,
+        at_most=100_000,
     )
-    max_age: float = key(5400.0, "older puffs have left the picture", unit="s", above=0)
+    max_age: float = key(5400.0, "older puffs have left the picture", unit="s", above=0, at_most=10_000_000)
     extinction: float = key(
-        0.0, "in thick smoke; less is faster, 0 chooses it like the voxels", unit="1/m", at_least=0
+        0.0,
+        "in thick smoke; less is faster, 0 chooses it like the voxels",
+        unit="1/m",
+        at_least=0,
+        at_most=10,
     )
     lighting: str = key(
         "solved",
@@ -273,7 +280,7 @@ class Smoke:
 class Light:
     """Sun, sky, haze, exposure and the light of the flames."""
 
-    haze: float = key(1.0, "how strong it is; 0: none, 1: a dry September day", at_least=0)
+    haze: float = key(1.0, "how strong it is; 0: none, 1: a dry September day", at_least=0, at_most=100)
     exposure: float | None = key(
         None,
         "brighter or darker; left out, from what the camera sees: about 0.5 by day, up to 4 by night",
@@ -299,8 +306,12 @@ class Places:
         "places to label, a GeoJSON or a CSV with name, latitude and longitude; left out, the fire's own",
         shows=(),
     )
-    size: float = key(0.035, "height of the letters", unit="heights of the picture", above=0, at_most=0.5)
-    distance: float = key(60_000.0, "from the camera to where labels have faded out", unit="m", above=0)
+    size: float = key(
+        0.035, "height of the letters", unit="heights of the picture", at_least=0.001, at_most=0.5
+    )
+    distance: float = key(
+        60_000.0, "from the camera to where labels have faded out", unit="m", at_least=1, at_most=10_000_000
+    )
 
 
 @dataclass(frozen=True)
@@ -340,7 +351,7 @@ class Thermal:
 class Camera:
     """A camera: what it records, and how it is set up and moved (its rig, the kind of camera)."""
 
-    name: str = key("drone", "names its folder and files", check=_file_name, shows=())
+    name: str = key("drone", "names its folder and files", check=file_name, shows=())
     rig: Any = one_of(rigs.kinds, "kind of camera", tag="kind", usual=rigs.USUAL)
     passes: tuple[str, ...] = key(
         (), 'such as ["rgb"]; empty: those of [render]', choices=passes.helps, shows=("passes",)
@@ -372,7 +383,7 @@ class OtherRun:
     """Another run of the same place and time, seen by the same cameras."""
 
     name: str = key(
-        "what-if", 'what it is called; camera "drone" is drone@what-if in it', check=_file_name, shows=()
+        "what-if", 'what it is called; camera "drone" is drone@what-if in it', check=file_name, shows=()
     )
     path: Path = key(Path("what-if"), "folder of this other run", shows=())
 
@@ -438,9 +449,10 @@ class Render:
         "where the thermal picture's palette begins; left out, the moment's coldest ground",
         unit="K",
         above=0,
+        at_most=10_000,
         shows=("thermal",),
     )
-    thermal_high: float = key(800.0, "where it ends", unit="K", above=0, shows=("thermal",))
+    thermal_high: float = key(800.0, "where it ends", unit="K", shows=("thermal",), above=0, at_most=10_000)
 
     def wrong(self) -> tuple[Where, str] | None:
         """The thermal picture's colours have a range."""
@@ -477,12 +489,13 @@ class Settings:
 
     def wrong(self) -> tuple[Where, str] | None:
         """Names of cameras differ, and their frames are among those of the scene."""
-        names: set[str] = set()
+        i = twice([camera.name for camera in self.cameras])
+        if i is not None:
+            reason = (
+                f'a second camera is named "{self.cameras[i].name}"; names must differ, not by capitals alone'
+            )
+            return ("cameras", i, "name"), reason
         for i, camera in enumerate(self.cameras):
-            if camera.name in names:
-                reason = f'a second camera is named "{camera.name}"; names must differ'
-                return ("cameras", i, "name"), reason
-            names.add(camera.name)
             try:
                 frame_list.parse(camera.frames, self.time.frames)
             except ValueError as error:
@@ -492,9 +505,10 @@ class Settings:
     def _alone(self) -> tuple[Where, str] | None:
         """What is wrong with the other runs, or asked of them and there are none."""
         names = [each.name for each in self.runs]
-        for i, name in enumerate(names):
-            if name in names[:i]:
-                return ("runs", i, "name"), f'a second run is named "{name}"; names must differ'
+        i = twice(names)
+        if i is not None:
+            reason = f'a second run is named "{names[i]}"; names must differ, not by capitals alone'
+            return ("runs", i, "name"), reason
         if len(names) > MOST_RUNS:
             reason = f"runs has {len(names)} tables; beside the first run at most {MOST_RUNS}"
             return ("runs", MOST_RUNS), reason

@@ -11,6 +11,7 @@ import bpy
 from mathutils import Euler, Quaternion, Vector
 
 from ..blender import owned
+from ..escaped import escaped
 from ..scene.camera import below, hand
 from . import named, run, working
 from .flying import flown, space
@@ -91,7 +92,7 @@ class FIRETWIN_OT_go(bpy.types.Operator):
             self.report({"INFO"}, f"Frame {scene.frame_current}, the nearest to {when:%d %b %Y %H:%M} UTC")
             return {"FINISHED"}
         if where is None:
-            self.report({"WARNING"}, f'Nothing here is called "{text}", and no ground lies there')
+            self.report({"WARNING"}, f'Nothing here is called "{escaped(text)}", and no ground lies there')
             return {"CANCELLED"}
         shown = space(context)
         if shown is not None:

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from ..errors import Error, InputError, UsageError
+from ..escaped import message
 from ..jobs.worker import Stop, StoppedError
 from ..progress import duration
 from . import keys, scene_file
@@ -40,6 +41,9 @@ class Told:
 
     text: str
     level: str = "INFO"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "text", message(self.text))
 
 
 Steps = Generator["str | Away | Told", Any, str]
@@ -183,7 +187,11 @@ unexpected: list[str] = []
 
 
 def words(error: BaseException) -> str:
-    """What to tell about an error: where it is and what to do, never a traceback."""
+    """What to tell about an error in one line: where it is and what to do, never a traceback."""
+    return message(_words(error))
+
+
+def _words(error: BaseException) -> str:
     if isinstance(error, UsageError):
         option, _, rest = str(error).partition(": ")
         return f"{option[2:].capitalize()}: {rest}" if option.startswith("--") else str(error)

@@ -7,6 +7,7 @@ from datetime import datetime
 from typing import Any
 
 from ...data import history
+from ...escaped import escaped
 from .. import times
 from . import used
 
@@ -28,9 +29,8 @@ def page(found: dict[str, Any]) -> str:
     """The text that `firetwin score` prints."""
     run = found["run"]
     head = run["name"] + ("  (SYNTHETIC: made up, not the output of a model)" if run["synthetic"] else "")
-    return "\n".join(
-        [head, *against(found), *_uses(found), *_dates(found), *_distances(found), *_more(found)]
-    )
+    lines = [head, *against(found), *_uses(found), *_dates(found), *_distances(found), *_more(found)]
+    return "\n".join(map(escaped, lines))
 
 
 def against(found: dict[str, Any]) -> list[str]:

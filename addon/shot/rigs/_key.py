@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from dataclasses import dataclass
 
+from ..bounds import AIM, HEIGHT
 from ..schema import Where, key
 
 
@@ -17,7 +18,7 @@ class CameraKey:
     longitude: float = key(
         0.0, "where the camera is; west is negative", unit="degrees east", at_least=-180, at_most=180
     )
-    height: float = key(300.0, "height above the ground, or above the sea", unit="m", above=0)
+    height: float = key(300.0, "height above the ground, or above the sea", **HEIGHT)
     target: str = key(
         "point",
         "it looks at",
@@ -27,7 +28,7 @@ class CameraKey:
     target_longitude: float = key(
         0.0, "where the point is; west is negative", unit="degrees east", at_least=-180, at_most=180
     )
-    target_height: float = key(0.0, "height above the ground of what it looks at", unit="m")
+    target_height: float = key(0.0, "height above the ground of what it looks at", **AIM)
     above: str = key("ground", "what its own height is above", choices=("ground", "sea"))
     tilt: float = key(
         15.0, 'how far under the horizon it looks "ahead"', unit="degrees", at_least=-90, at_most=90

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from ..bounds import SENSOR as WIDTH
 from ..path import SENSOR
 from ..schema import key
 from . import Rig
@@ -22,7 +23,7 @@ class Lens(Rig):
 
     focal_length: float = key(28.0, "of the lens", **FOCAL_LENGTH)
     sensor_width: float = key(
-        SENSOR, "of the chip or film; 36: full frame, 13.2: 1 inch, 6.4: a small drone's", unit="mm", above=0
+        SENSOR, "of the chip or film; 36: full frame, 13.2: 1 inch, 6.4: a small drone's", **WIDTH
     )
 
     def half(self, camera: Camera, shot: Shot) -> tuple[float, float]:

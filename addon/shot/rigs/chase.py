@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import flight, path, targets
+from ..bounds import AIM, ANGLE, CLEARANCE, HEIGHT, LENGTH
 from ..path import Path
 from ..schema import key
 from ._lens import Lens
@@ -23,13 +24,13 @@ if TYPE_CHECKING:
 class Chase(Lens):
     """In perspective, going along with the head of the fire."""
 
-    distance: float = key(1500.0, "from the head, over the ground", unit="m", above=0)
+    distance: float = key(1500.0, "from the head, over the ground", **LENGTH)
     side: float = key(
-        180.0, "where it is as the head sees it; 180: behind, 90: at its right, 0: before it", unit="degrees"
+        180.0, "where it is as the head sees it; 180: behind, 90: at its right, 0: before it", **ANGLE
     )
-    height: float = key(400.0, "above the ground, about", unit="m", above=0)
-    target_height: float = key(100.0, "height above the ground of what it looks at", unit="m")
-    clearance: float = key(50.0, "never nearer to the ground than this", unit="m", above=0)
+    height: float = key(400.0, "above the ground, about", **HEIGHT)
+    target_height: float = key(100.0, "height above the ground of what it looks at", **AIM)
+    clearance: float = key(50.0, "never nearer to the ground than this", **CLEARANCE)
     over_ridges: bool = key(True, "rise until it sees the head over the ridges")
 
     @classmethod

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import flight, path, targets
+from ..bounds import CLEARANCE
 from ..flight import Waypoints
 from ..path import Array, Path
 from ..schema import Where, key
@@ -36,9 +37,7 @@ class Drone(Lens):
     over_ridges: bool = key(
         False, 'rise until it sees its "head" or "fire" over the ridges; else it keeps its height'
     )
-    clearance: float = key(
-        10.0, "never nearer to the ground than this, also between frames", unit="m", above=0
-    )
+    clearance: float = key(10.0, "never nearer to the ground than this, also between frames", **CLEARANCE)
     bank: float = key(
         0.0, "how much it leans into turns; 1: as an aircraft, 0: the horizon is level", at_least=0, at_most=1
     )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import path
+from ..bounds import ANGLE, HEIGHT
 from ..path import Path
 from ..schema import Where, key
 from ._key import rising
@@ -28,7 +29,7 @@ class LookoutKey:
     """Where a lookout looks at one moment."""
 
     at: float = key(0.0, "when; 0: first frame, 1: last frame", at_least=0, at_most=1)
-    pan: float = key(0.0, "bearing, clockwise from north; it turns the short way round", unit="degrees")
+    pan: float = key(0.0, "bearing, clockwise from north; it turns the short way round", **ANGLE)
     tilt: float = key(0.0, "under the horizon; negative is up", unit="degrees", at_least=-89, at_most=89)
     zoom: float = key(1.0, "times the focal length", at_least=0.01, at_most=1000)
 
@@ -41,7 +42,7 @@ class Lookout(Lens):
     longitude: float = key(
         0.0, "where it stands; west is negative", unit="degrees east", at_least=-180, at_most=180
     )
-    height: float = key(20.0, "of the mast above the ground", unit="m", above=0)
+    height: float = key(20.0, "of the mast above the ground", **HEIGHT)
     keys: tuple[LookoutKey, ...] = key((), "where it looks at one moment; without one to the north")
 
     @classmethod

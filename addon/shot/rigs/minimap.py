@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..bounds import SWATH
 from ..path import Path
 from ..schema import key
 from . import Rig
@@ -25,7 +26,7 @@ class Minimap(Rig):
     """Straight down and to scale, north up, over another camera."""
 
     follows: str = key("", "name of that camera; empty: the first that follows none")
-    swath: float = key(6000.0, "width of the picture on the ground", unit="m", above=0)
+    swath: float = key(6000.0, "width of the picture on the ground", **SWATH)
 
     @classmethod
     def seeing(cls, view: View) -> Minimap:

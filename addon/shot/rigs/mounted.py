@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from ..bounds import SENSOR as WIDTH
 from ..path import SENSOR, Path
 from ..schema import Where, key
 from . import Rig
@@ -26,7 +27,7 @@ class Mounted(Rig):
 
     follows: str = key("", "name of the camera, in perspective, on whose mount it is")
     focal_length: float | None = key(None, "of its own lens; left out, that camera's", **FOCAL_LENGTH)
-    sensor_width: float = key(SENSOR, "of its own chip, where it has a focal length", unit="mm", above=0)
+    sensor_width: float = key(SENSOR, "of its own chip, where it has a focal length", **WIDTH)
 
     def wrong(self) -> tuple[Where, str] | None:
         """It is on some mount."""

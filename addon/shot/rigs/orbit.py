@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import flight, path
+from ..bounds import AIM, ANGLE, CLEARANCE, HEIGHT, LENGTH
 from ..path import Path
 from ..schema import key
 from ._lens import FOCAL_LENGTH, Lens
@@ -39,12 +40,18 @@ class Orbit(Lens):
         at_least=-180,
         at_most=180,
     )
-    target_height: float = key(0.0, "height above the ground of what it looks at", unit="m")
-    radius: float = key(3000.0, "of the circle", unit="m", above=0)
-    height: float = key(1000.0, "above the ground at the point", unit="m", above=0)
-    speed: float = key(15.0, "along the circle in model time; negative is counter-clockwise", unit="m/s")
-    bearing: float = key(180.0, "of the camera from the point in the first frame", unit="degrees")
-    clearance: float = key(50.0, "kept above hills under the circle", unit="m", at_least=0)
+    target_height: float = key(0.0, "height above the ground of what it looks at", **AIM)
+    radius: float = key(3000.0, "of the circle", **LENGTH)
+    height: float = key(1000.0, "above the ground at the point", **HEIGHT)
+    speed: float = key(
+        15.0,
+        "along the circle in model time; negative is counter-clockwise",
+        unit="m/s",
+        at_least=-10_000,
+        at_most=10_000,
+    )
+    bearing: float = key(180.0, "of the camera from the point in the first frame", **ANGLE)
+    clearance: float = key(50.0, "kept above hills under the circle", **CLEARANCE)
 
     @classmethod
     def seeing(cls, view: View) -> Orbit:

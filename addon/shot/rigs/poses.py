@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import path, sparse, turning
+from ..bounds import AIM, ANGLE
 from ..path import Path
 from ..schema import Where, key
 from ._key import rising
@@ -34,10 +35,10 @@ class Pose:
     longitude: float = key(
         0.0, "where the camera is; west is negative", unit="degrees east", at_least=-180, at_most=180
     )
-    height: float = key(2000.0, "above the sea", unit="m")
-    heading: float = key(0.0, "where it looks, clockwise from north", unit="degrees")
+    height: float = key(2000.0, "above the sea", **AIM)
+    heading: float = key(0.0, "where it looks, clockwise from north", **ANGLE)
     tilt: float = key(0.0, "under the horizon; negative is up", unit="degrees", at_least=-90, at_most=90)
-    roll: float = key(0.0, "lean to the right", unit="degrees")
+    roll: float = key(0.0, "lean to the right", **ANGLE)
     lens: float | None = key(None, "focal length; left out, the camera's", **FOCAL_LENGTH)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...run.frame import local_frame
 from .. import path
+from ..bounds import SWATH
 from ..path import Array, Path
 from ..schema import Where, key
 from . import Rig
@@ -37,7 +38,7 @@ class Satellite(Rig):
     It stands over, or looks at, the latitude and longitude of its first key, or the middle of the run.
     """
 
-    swath: float = key(56_000.0, "width of the picture on the ground", unit="m", above=0)
+    swath: float = key(56_000.0, "width of the picture on the ground", **SWATH)
     geostationary: float | None = key(
         None,
         "longitude it stands over, 35,786 km high; left out, it looks straight down",

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from .. import path
+from ..bounds import CLEARANCE
 from ..path import Path
 from ..schema import Where, key
 from ..track import MOMENTS
@@ -39,9 +40,7 @@ class Vr(Rig):
     interocular: float = key(
         0.065, "between the eyes; 0.065 is life-size, 6.5 a model of 1:100", unit="m", at_least=0, at_most=100
     )
-    clearance: float = key(
-        10.0, "never nearer to the ground than this, also between frames", unit="m", above=0
-    )
+    clearance: float = key(10.0, "never nearer to the ground than this, also between frames", **CLEARANCE)
     track: File | None = key(  # noqa: RUF009
         None, "flight to follow, as a drone does", shows=()
     )

@@ -40,7 +40,6 @@ def write(path: Path, picture: Picture, instrument: Instrument, run: str, moment
         "transform": rasterio.Affine(across, 0.0, x, 0.0, down, y),
         "compress": "deflate",
     }
-    path.parent.mkdir(parents=True, exist_ok=True)
 
     def fill(part: Path) -> None:
         with rasterio.open(part, "w", **profile) as made:

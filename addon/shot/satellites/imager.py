@@ -112,6 +112,10 @@ class NothingSeenError(ValueError):
     """No whole pixel lies in the run's domain."""
 
 
+class HorizonError(NothingSeenError):
+    """The run is not in sight of where the satellite stands."""
+
+
 @dataclass(frozen=True)
 class Picture:
     """What an imager measured, (rows, columns) each.
@@ -206,7 +210,7 @@ def _inside(grid: Grid, run: Run) -> tuple[NDArray[np.int64], NDArray[np.int64]]
     Raises
     ------
     NothingSeenError
-        The domain is smaller than a pixel, or not in sight.
+        The domain is smaller than a pixel; as a HorizonError not in sight.
     """
     latitude = np.linspace(run.latitude.min(), run.latitude.max(), 33)
     longitude = np.linspace(run.longitude.min(), run.longitude.max(), 33)
@@ -215,11 +219,11 @@ def _inside(grid: Grid, run: Run) -> tuple[NDArray[np.int64], NDArray[np.int64]]
     west, east = (column for _, column in sides)
     south, north = (row for row, _ in ends)
     if not np.all(np.isfinite([west, east, south, north])):
-        raise NothingSeenError("the run is behind the horizon of this satellite")
+        raise HorizonError("the run is behind the horizon of this satellite")
     rows = np.arange(int(np.ceil(north.max())), int(np.floor(south.min())))
     columns = np.arange(int(np.ceil(west.max())), int(np.floor(east.min())))
     if len(rows) == 0 or len(columns) == 0:
-        raise NothingSeenError("the run's domain holds no whole pixel of this imager")
+        raise NothingSeenError("the domain of the run holds no whole pixel of this imager")
     return rows, columns
 
 
