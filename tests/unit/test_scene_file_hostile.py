@@ -1,0 +1,34 @@
+"""Scene files with anything in them: each is a scene that can be planned, or one polite line says why not."""
+
+import contextlib
+
+import pytest
+import scene_fuzz
+from firetwin.shot.rigs import kinds
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return scene_fuzz.whole(tmp_path_factory.mktemp("hostile"))
+
+
+@pytest.mark.parametrize("kind", sorted(kinds()))
+@settings(max_examples=40, suppress_health_check=list(HealthCheck))
+@given(data=st.data())
+def test_any_scene_file_is_planned_or_refused_politely(folder, kind, data):
+    path = folder / "scene.toml"
+    with contextlib.chdir(folder):
+        path.write_text(data.draw(scene_fuzz.scenes(kind)), encoding="utf-8")
+        _, line = scene_fuzz.outcome(path)
+    assert not scene_fuzz.rude(line), line
+
+
+@pytest.mark.parametrize("kind", sorted(kinds()))
+def test_what_is_changed_is_a_scene_that_can_be_planned(folder, kind):
+    path = folder / "scene.toml"
+    values = scene_fuzz.plain(kind)
+    path.write_text("\n".join(f"{name} = {scene_fuzz.written(each)}" for name, each in values.items()))
+    with contextlib.chdir(folder):
+        assert scene_fuzz.outcome(path) == ("plan", "")
