@@ -248,3 +248,24 @@ def tiff(
     ) as file:  # fmt: skip
         file.write(values, 1)
     return path
+
+
+def cf(path, *, name="hfx", times=(0, 60), units="seconds since 2020-07-01 18:00:00"):
+    flux = np.random.default_rng(4).uniform(0, 1e5, (len(times), 5, 6)).astype(np.float32)
+    with netCDF4.Dataset(path, "w") as f:
+        for dim, size in (("t", len(times)), ("y", 5), ("x", 6)):
+            f.createDimension(dim, size)
+        f.createVariable("t", "f8", ("t",))[:] = times
+        f["t"].units = units
+        for axis, dim, unit, values in (
+            ("la", "y", "degrees_north", 39 + 0.001 * np.arange(5)),
+            ("lo", "x", "degrees_east", -120 + 0.001 * np.arange(6)),
+        ):
+            f.createVariable(axis, "f8", (dim,))[:] = values
+            f[axis].units = unit
+        variable = f.createVariable(name, "i2", ("t", "y", "x"), fill_value=-1)
+        variable.scale_factor, variable.add_offset = 10.0, 5.0
+        variable.set_auto_maskandscale(False)
+        variable[:] = np.where(flux > 9e4, -1, flux / 10).astype(np.int16)
+        raw = variable[:]
+    return path, np.where(raw == -1, np.nan, raw * 10.0 + 5.0)

@@ -250,18 +250,6 @@ def outcome(path, build=None):
     return stage, ""
 
 
-def rude(line):
-    """What is wrong with a line that refuses, or an empty text."""
-    if not line:
-        return ""
-    text = line.removesuffix("\n")
-    if not text.startswith("firetwin: ") or "unexpected" in text[:22]:
-        return "not meant"
-    if len(text) > 2020:
-        return "too long"
-    return "" if text.isprintable() else "not printable"
-
-
 def whole(folder: Path) -> Path:
     """A folder with the run in it, deep enough that no ``..`` of a scene leaves the folder."""
     inner = folder / "a" / "b" / "c"

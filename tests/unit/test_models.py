@@ -552,29 +552,8 @@ def test_pyretechnics_itself(tmp_path, converted):
 # ---- any CF netCDF
 
 
-def cf(path, *, name="hfx", times=(0, 60), units="seconds since 2020-07-01 18:00:00"):
-    flux = np.random.default_rng(4).uniform(0, 1e5, (len(times), 5, 6)).astype(np.float32)
-    with made.netCDF4.Dataset(path, "w") as f:
-        for dim, size in (("t", len(times)), ("y", 5), ("x", 6)):
-            f.createDimension(dim, size)
-        f.createVariable("t", "f8", ("t",))[:] = times
-        f["t"].units = units
-        for axis, dim, unit, values in (
-            ("la", "y", "degrees_north", 39 + 0.001 * np.arange(5)),
-            ("lo", "x", "degrees_east", -120 + 0.001 * np.arange(6)),
-        ):
-            f.createVariable(axis, "f8", (dim,))[:] = values
-            f[axis].units = unit
-        variable = f.createVariable(name, "i2", ("t", "y", "x"), fill_value=-1)
-        variable.scale_factor, variable.add_offset = 10.0, 5.0
-        variable.set_auto_maskandscale(False)
-        variable[:] = np.where(flux > 9e4, -1, flux / 10).astype(np.int16)
-        raw = variable[:]
-    return path, np.where(raw == -1, np.nan, raw * 10.0 + 5.0)
-
-
 def test_any_netcdf_by_a_mapping(tmp_path, converted):
-    path, expected = cf(tmp_path / "a.nc")
+    path, expected = made.cf(tmp_path / "a.nc")
     mapping = tmp_path / "map.toml"
     mapping.write_text('[fields]\nheat_flux = { variable = "hfx", scale = 2.0 }\n')
     run = converted([path, mapping])
@@ -585,7 +564,7 @@ def test_any_netcdf_by_a_mapping(tmp_path, converted):
 
 def test_many_netcdf_files_are_each_read_for_what_is_theirs(tmp_path, converted):
     """More than are open at once: what is said of the first is not read from another in its place."""
-    paths = [cf(tmp_path / f"{k:02}.nc", name="heat_flux", times=(60 * k,))[0] for k in range(12)]
+    paths = [made.cf(tmp_path / f"{k:02}.nc", name="heat_flux", times=(60 * k,))[0] for k in range(12)]
     for k, path in enumerate(paths):
         with made.netCDF4.Dataset(path, "a") as f:
             f.title = f"file {k}"
@@ -614,7 +593,7 @@ def test_chunks_of_several_times_are_unpacked_once(tmp_path):
 
 
 def test_a_netcdf_of_no_known_model_says_how_to_map_it(tmp_path, converted):
-    path, _ = cf(tmp_path / "a.nc")
+    path, _ = made.cf(tmp_path / "a.nc")
     with pytest.raises(InputError, match=r"hfx, la, lo, t.*\[fields\] heat_flux"):
         converted([path])
     (tmp_path / "map.toml").write_text('[fields]\nheatflux = "hfx"\n')

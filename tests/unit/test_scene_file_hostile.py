@@ -2,6 +2,7 @@
 
 import contextlib
 
+import polite
 import pytest
 import scene_fuzz
 from firetwin.shot.rigs import kinds
@@ -22,7 +23,7 @@ def test_any_scene_file_is_planned_or_refused_politely(folder, kind, data):
     with contextlib.chdir(folder):
         path.write_text(data.draw(scene_fuzz.scenes(kind)), encoding="utf-8")
         _, line = scene_fuzz.outcome(path)
-    assert not scene_fuzz.rude(line), line
+    assert not polite.rude(line), line
 
 
 @pytest.mark.parametrize("kind", sorted(kinds()))

@@ -15,10 +15,11 @@ from pathlib import Path
 from typing import BinaryIO
 
 import numpy as np
+from firetwin_core import run
 from numpy.typing import NDArray
 
 from ... import files
-from ...errors import Error, input_error, writing
+from ...errors import Error, InputError, input_error, writing
 from ...progress import Progress, size
 from .model import LONGEST, Model
 
@@ -103,9 +104,20 @@ def write(model: Model, out: Path, inputs: str, progress: Progress) -> None:
         files.write(
             part / "run.toml", lambda path: path.write_text(description(model, inputs), encoding="utf-8")
         )
+        _check(part, model)
         if out.is_dir():
             out.rmdir()
         part.rename(out)
+
+
+def _check(part: Path, model: Model) -> None:
+    """Open what is to become a run; what a damaged model has made is removed if it is none."""
+    try:
+        run.open(part)
+    except InputError as error:
+        shutil.rmtree(part, ignore_errors=True)
+        reason = f"makes no run: {Path(error.path).stem}: {error.reason}; it is most likely damaged"
+        raise input_error(model.files[0], 0, 0, reason) from None
 
 
 def _moving(

@@ -21,6 +21,7 @@ ROOT = Path(__file__).parents[3]
 sys.path.insert(0, str(ROOT / "tests/helpers"))
 
 import hypothesis  # noqa: E402
+import polite  # noqa: E402
 import scene_fuzz  # noqa: E402
 
 FINDINGS = ROOT / "build/fuzz/findings"
@@ -69,7 +70,7 @@ def serve(folder):
     os.chdir(folder)
     for asked in sys.stdin:
         stage, line = scene_fuzz.outcome(folder / "scene.toml", build if int(asked) else None)
-        print(json.dumps([stage, line, scene_fuzz.rude(line)]), file=channel, flush=True)
+        print(json.dumps([stage, line, polite.rude(line)]), file=channel, flush=True)
     os._exit(0)
 
 

@@ -1,0 +1,13 @@
+"""What the command line says where it refuses something: one line that a person can read."""
+
+
+def rude(line):
+    """What is wrong with what `cli` says of an error, or an empty text."""
+    if not line:
+        return ""
+    text = line.removesuffix("\n")
+    if not text.startswith("firetwin: ") or "unexpected" in text[:22]:
+        return "not meant"
+    if len(text) > 2020:
+        return "too long"
+    return "" if text.isprintable() else "not printable"
