@@ -7,6 +7,7 @@ import bpy
 import panel_scene
 import pytest
 from firetwin.blender import owned
+from firetwin.errors import Error
 from firetwin.jobs.worker import StoppedError
 from firetwin.shot import file
 from firetwin.ui import build, camera_list, job, queue, run, scene_file, working
@@ -174,3 +175,8 @@ def test_what_is_linked_is_left_alone_and_what_is_appended_is_ours(panel, plain_
         assert "linked" in message(getattr(bpy.ops.firetwin, name)), name
     assert bpy.ops.firetwin.remove() == {"FINISHED"}
     assert appended.objects.keys() == ["Firetwin Camera drone"]
+
+
+def test_reports_are_one_line_without_what_turns_or_colours_text():
+    text = "a\x1b[31m\nb\u202e"
+    assert job.words(Error(text)) == job.Told(text).text == "a\\x1b[31m\\nb\\u202e"

@@ -8,7 +8,9 @@ from datetime import datetime
 
 import numpy as np
 import pytest
+from firetwin import cli
 from firetwin.shot import file
+from small_run import RUN_TOML, small_fields
 
 
 def firetwin(*arguments, **options):
@@ -123,6 +125,78 @@ def test_bad_usage_is_2(line):
     assert result.returncode == 2
     assert result.stdout == ""
     assert "usage: firetwin" in result.stderr
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        ["render", "x.toml", "--out", "film", "--camera", ""],
+        ["render", "x.toml", "--out", ""],
+        ["build", "x.toml", "-o", "x.blend", "--run", " "],
+        ["track", "x.toml", "--out", "x.gpx", "--camera", ""],
+        ["info", ""],
+        ["imager", "x", "--out", "y", "--longitude", "nan"],
+        ["imager", "x", "--out", "y", "--longitude", "1e22"],
+        ["render", "x.toml", "\x1b[31m\n", "--out", "film"],
+    ],
+)
+def test_arguments_that_name_nothing_are_bad_usage(line, capfd):
+    with pytest.raises(SystemExit) as caught:
+        cli.main(line)
+    assert caught.value.code == 2
+    *_, last = capfd.readouterr().err.splitlines()
+    assert last.startswith(
+        f"firetwin {line[0]}: error: " if "\x1b[31m\n" not in line else "firetwin: error: "
+    )
+    assert last.isprintable()
+
+
+def test_what_a_file_holds_moves_no_cursor(make_run, tmp_path, capfd):
+    """Keys, values and names with ESC, C1, line breaks and what turns text round."""
+    scene, hostile = tmp_path / "scene.toml", r"a\u001b[31m\nb\u009b\u202e"
+    for text in (f'"{hostile}" = 1', f'[render]\nengine = "{hostile}"', f'run = "{hostile}"'):
+        scene.write_text(text + "\n")
+        assert cli.main(["track", str(scene), "--out", str(tmp_path / "x.gpx")]) == 1
+        said = capfd.readouterr().err
+        assert said.removesuffix("\n").isprintable(), said
+        assert "a\\x1b[31m" in said
+    folder = make_run(toml=RUN_TOML.replace('"Small"', f'"{hostile}"'))
+    assert cli.main(["info", str(folder)]) == 0
+    assert all(line.isprintable() for line in capfd.readouterr().out.split("\n"))
+
+
+def test_pictures_do_not_go_into_a_run(make_run, tmp_path, capfd):
+    """A camera called heat_flux would add a field of that name."""
+    folder = make_run()
+    before = sorted(folder.rglob("*"))
+    scene = tmp_path / "scene.toml"
+    scene.write_text('run = "run"\n[[cameras]]\nname = "heat_flux"\nkind = "satellite"\n')
+    assert cli.main(["render", str(scene), "--out", str(folder)]) == 2
+    assert "is a run folder" in capfd.readouterr().err
+    assert sorted(folder.rglob("*")) == before
+
+
+def test_an_imager_says_what_is_in_its_way(make_run, tmp_path, capfd):
+    """A domain smaller than a pixel is no fault of the satellite's longitude."""
+    folder, out = make_run(), tmp_path / "seen"
+    assert cli.main(["imager", str(folder), "--out", str(out)]) == 1
+    assert f"{folder}: the domain of the run holds no whole pixel" in (said := capfd.readouterr().err)
+    assert "--instrument viirs" in said
+    assert "--longitude" not in said
+    assert cli.main(["imager", str(folder), "--out", str(out), "--longitude", "30"]) == 2
+    assert "--longitude: the run is behind the horizon" in capfd.readouterr().err
+    axes = small_fields()
+    wide = {
+        f"{kind}{name}": 38.9 + 0.02 * np.arange(len(axes[f"{kind}{name}"]))
+        for kind in ("", "fuel_")
+        for name in ("latitude", "longitude")
+    }
+    for name, values in wide.items():
+        np.save(folder / f"{name}.npy", values - (159.5 if name.endswith("longitude") else 0.0))
+    out.write_text("a file")
+    assert cli.main(["imager", str(folder), "--instrument", "viirs", "--out", str(out / "deeper")]) == 1
+    assert f"firetwin: {out}/deeper/viirs_" in (said := capfd.readouterr().err.splitlines()[-1])
+    assert said.endswith("cannot be written (Not a directory); choose another place")
 
 
 def test_versions():

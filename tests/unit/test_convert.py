@@ -87,6 +87,18 @@ def test_a_process_that_crashes_is_one_line(tmp_path, monkeypatch, capfd):
     assert not (tmp_path / "out").exists()
 
 
+def test_a_file_that_cannot_be_used_is_named(tmp_path, monkeypatch):
+    """By the process that does the work: without a log of Blender or the number of an error."""
+    monkeypatch.setattr(convert, "__name__", "test_convert_unusable")
+    code = "def in_process(**_): open('/nowhere/at_all', 'w')\n"
+    (tmp_path / "test_convert_unusable.py").write_text(code)
+    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{':'.join(sys.path)}")
+    paths, _ = damage.files_of("forefire", tmp_path)
+    with pytest.raises(InputError) as caught:
+        convert.run(paths, tmp_path / "out")
+    assert str(caught.value) == "/nowhere/at_all: No such file or directory"
+
+
 HANGING = """
 import re
 def in_process(**_):

@@ -2,6 +2,7 @@
 
 import dataclasses
 import tomllib
+import typing
 from collections import Counter
 from datetime import UTC, datetime
 from pathlib import Path
@@ -113,10 +114,16 @@ MISTAKES = [
     ('"depth"', '"rgb"', 10, 1, ["twice"]),
     ('"head"', '"haed"', 16, 57, ["cameras.keys.target", 'did you mean "head"?']),
     ("latitude = 39.0", "latitude = 390", 16, 20, ["from -90 to 90", "not 390"]),
+    ("latitude = 39.0", "height = 1e22", 16, 20, ["cameras.keys.height", "at most 1,000,000", "1e+22"]),
+    ("latitude = 39.0", "target_height = -1e22", 16, 20, ["cameras.keys.target_height", "-12,000"]),
+    ("[render]", "[ground]\napron = 1e12\n[render]", 9, 1, ["ground.apron", "from 0 to 1,000,000"]),
     ("latitude = 39.0", "latitude = nan", 16, 20, ["must be a number"]),
     ("latitude = 39.0", "latitude = 1" + 400 * "0", 16, 20, ["larger"]),
     ("at = 1.0", "at = 0", 16, 10, ["must rise"]),
     ('"two"', '"one"', 19, 1, ['"one"', "differ"]),
+    ('"two"', '"ONE"', 19, 1, ['"ONE"', "capitals"]),
+    ('"two"', '"nul"', 19, 1, ['"nul"', "Windows"]),
+    ('"two"', f'"{"d" * 400}"', 19, 1, ["at most 40 letters, not 400"]),
     ('"two"', '"../two"', 19, 1, ["letters, digits"]),
     ('"1,4-6"', '"1,4-60"', 21, 1, ['"4-60"', "1-10"]),
     ('"1,4-6"', '"4 to 6"', 21, 1, ['"4 to 6"', "1-48:4"]),
@@ -133,6 +140,8 @@ MISTAKES = [
     ),
     ('name = "one"', 'name = "one"\nswath = 9', 15, 1, ['swath belongs to kind "minimap"']),
     ('run = "elsewhere/run"', "run = 3", 1, 1, ["text in quotes", "3"]),
+    ('run = "elsewhere/run"', 'run = "else\\u0000"', 1, 1, ["run holds", "number 0"]),
+    ('run = "elsewhere/run"', '"a\\u001b[31m" = 1', 1, 1, ["unknown key"]),
     ('run = "elsewhere/run"', "time = 3", 1, 1, ["not valid TOML"]),
     ('run = "elsewhere/run"', "light = 3", 1, 1, ["light must be a table, not 3"]),
     ('run = "elsewhere/run"', "run", 1, 6, ["not valid TOML"]),
@@ -251,6 +260,15 @@ def test_folders_are_written_as_the_settings_own_folder_sees_them(tmp_path, monk
 )
 def test_times_are_written_in_the_zone_of_the_films(moment, zone, written):
     assert f"\nstart = {written} " in file.text(Settings(time=Time(start=moment, zone=zone)))
+
+
+def test_every_number_has_bounds():
+    """What has none may be anything, and no code expects that."""
+    for section, part in schema.walk(Settings):
+        inner = {part.type, *typing.get_args(part.type)}
+        if inner & {int, float} and part.name != "photo_extent":
+            assert part.key.at_most is not None, (section, part.name)
+            assert part.key.at_least is not None or part.key.above is not None, (section, part.name)
 
 
 # Any settings come back from their text.

@@ -1,0 +1,74 @@
+"""Text that goes out: whatever a file holds, one line that no terminal acts upon."""
+
+import unicodedata
+
+import pytest
+from firetwin import escaped, progress
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+
+@given(st.text())
+@example("a\x1b[31mred\nnew\x9b31m\u202eabc\u2028\u2066\x7f\ufeff")
+def test_nothing_that_a_terminal_acts_upon_is_left(text):
+    shown = escaped.escaped(text)
+    assert not {"Cc", "Cf", "Zl", "Zp"} & {unicodedata.category(character) for character in shown}
+    assert shown.splitlines() == ([shown] if shown else [])
+    assert escaped.escaped(shown) == shown
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ('plain "text" of a run\\b, 12 °C', 'plain "text" of a run\\b, 12 °C'),
+        ("a\x1b[31m\n\tb", "a\\x1b[31m\\n\\tb"),
+        ("\x85\x9b31m", "\\x85\\x9b31m"),
+        ("\u202egpj.exe\u2069", "\\u202egpj.exe\\u2069"),
+        ("\U000e0041", "\\U000e0041"),
+        ("日本 é 🔥", "日本 é 🔥"),
+        ("run\udcff", "run\udcff"),  # a byte of a name; it goes out as that byte
+    ],
+)
+def test_what_is_shown(text, shown):
+    assert escaped.escaped(text) == shown
+
+
+def test_a_long_message_keeps_its_beginning_and_its_end():
+    shown = escaped.message("file.toml: " + "x" * 100_000 + "; do this")
+    assert len(shown) < 2100
+    assert shown.startswith("file.toml: xxx")
+    assert shown.endswith("xxx; do this")
+
+
+class Terminal:
+    """What a terminal is told."""
+
+    def __init__(self):
+        self.text = ""
+
+    def isatty(self):
+        return True
+
+    def write(self, text):
+        self.text += text
+
+    def flush(self):
+        pass
+
+
+def test_messages_and_progress_are_escaped(capsys):
+    progress.say("a\x1b[31m\nb")
+    progress.Reporter()(1, 1, "work\x1b[2J", "last: \x9bc")
+    assert capsys.readouterr().err.splitlines() == [
+        "firetwin: a\\x1b[31m\\nb",
+        "firetwin: work\\x1b[2J, took 0 s, last: \\x9bc",
+    ]
+
+
+def test_results_are_escaped_on_a_terminal_and_are_what_they_are_elsewhere(capsys, monkeypatch):
+    progress.result("a\x1b[31m\nb")
+    assert capsys.readouterr().out == "a\x1b[31m\nb\n"
+    terminal = Terminal()
+    monkeypatch.setattr("sys.stdout", terminal)
+    progress.result("a\x1b[31m\nb")
+    assert terminal.text == "a\\x1b[31m\nb\n"
