@@ -50,6 +50,8 @@ def read(path: Path) -> list[Label]:
     InputError
         It cannot be read, or holds something else.
     """
+    if path.exists() and not path.is_file():  # a pipe would be waited for
+        raise input_error(path, 0, 0, "is no file; name a CSV or GeoJSON")
     try:
         text = path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:

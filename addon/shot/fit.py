@@ -5,24 +5,26 @@ from __future__ import annotations
 import numpy as np
 from firetwin_core.run import Run
 
-from ..run import areas, times
+from ..run import areas, labels, times
 from . import file, frames, land_use, observed, photo, relief
 from .settings import Settings
 
 
 def check(settings: Settings, run: Run) -> None:
-    """Check the time window, the cameras' places, what else they say of the run, and the user's own rasters.
+    """Check the time window, the cameras' places, what else they say of the run, and the user's own files.
 
     Raises
     ------
     InputError
-        Names the line of the scene file, or the raster.
+        Names the line of the scene file, or the file.
     """
     _window(settings, run)
     relief.check(settings, run)
     photo.check(settings, run)
     land_use.check(settings, run)
     observed.check(settings)
+    if settings.places.enabled and settings.places.file:
+        labels.read(settings.places.file)
     for index, camera in enumerate(settings.cameras):
         for where, latitude, longitude in camera.rig.places():
             _near(settings, run, ("cameras", index, *where), camera.name, latitude, longitude)

@@ -66,6 +66,10 @@ def check(settings: Settings, run: Run) -> None:
             where = "ground", "photo_extent"
             raise file.error_at(settings.path, where, "ground.photo_extent needs a ground.photo")
         return
+    path = settings.ground.photo
+    if path.exists() and not path.is_file():  # a pipe would be waited for
+        reason = f"ground.photo: {path} is no file; name a GeoTIFF, PNG or JPEG"
+        raise file.error_at(settings.path, ("ground", "photo"), reason)
     source = _source(settings)
     if not overlap(source.bounds, run.latitude, run.longitude):
         raise source.error(f"covers {said(source.bounds)}, beside the run, which covers {said(extent(run))}")

@@ -1,6 +1,8 @@
 """Scene files with anything in them: each is a scene that can be planned, or one polite line says why not."""
 
 import contextlib
+import os
+import sys
 
 import polite
 import pytest
@@ -33,3 +35,27 @@ def test_what_is_changed_is_a_scene_that_can_be_planned(folder, kind):
     path.write_text("\n".join(f"{name} = {scene_fuzz.written(each)}" for name, each in values.items()))
     with contextlib.chdir(folder):
         assert scene_fuzz.outcome(path) == ("plan", "")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="has no such pipes")
+@pytest.mark.parametrize(
+    ("section", "name"),
+    [
+        ("places", "file"),
+        *(("ground", name) for name in ("photo", "elevation", "land_use")),
+        ("fire", "observed"),
+    ],
+)
+@pytest.mark.parametrize("end", [".geojson", ".tif"])
+def test_a_pipe_in_place_of_a_file_is_not_waited_for(folder, section, name, end):
+    path, pipe = folder / "scene.toml", folder / f"pipe{end}"
+    if not pipe.exists():
+        os.mkfifo(pipe)
+    path.write_text(
+        f'run = "run"\n[{section}]\n{name} = "{pipe.name}"\n' + "enabled = true\n" * (name == "file")
+    )
+    with contextlib.chdir(folder):
+        stage, line = scene_fuzz.outcome(path)
+    assert stage == "plan"
+    assert pipe.name in line
+    assert not polite.rude(line)

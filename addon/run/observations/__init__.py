@@ -135,6 +135,8 @@ def features(path: Path) -> list[Feature] | Detections:
         It is missing, of no known format, or damaged.
     """
     reader = _reader(path)
+    if path.exists() and not path.is_file():  # a pipe would be waited for
+        raise input_error(path, 0, 0, "is no file; name one that holds observations")
     try:
         return reader.read(path)
     except Error:
