@@ -60,15 +60,16 @@ def test_every_default_is_right():
 # Where, what is put there, where the complaint is and words that it must hold.
 WRONG = [
     (("time", "frames"), 0, ["time.frames", "from 1 to 100,000, not 0"]),
-    (("ground", "error"), 0.0, ["ground.error", "above 0, not 0"]),
-    (("fire", "budget"), -1, ["fire.budget", "at least 0, not -1"]),
+    (("ground", "error"), 0.0, ["ground.error", "from 0.001 to 1,000, not 0"]),
+    (("fire", "budget"), -1, ["fire.budget", "from 0 to 10,000,000, not -1"]),
     (("fire", "emitters"), "fronts", ['"front" or "cells", not "fronts"', 'did you mean "front"?']),
     (("render", "resolution"), (640, 20000), ["from 16 to 16,384, not 20000"]),
     (("render", "resolution"), (640, 361), ["even"]),
     (("render", "passes"), ("rgb", "rgb"), ['names "rgb" twice']),
     (("render", "passes"), (), ["is empty"]),
     (("seed",), -1, ["seed must be from 0 to 2,147,483,647, not -1"]),
-    (("cameras", 1, "rig", "swath"), 0.0, ["cameras.swath", "above 0"]),
+    (("cameras", 1, "rig", "swath"), 0.0, ["cameras.swath", "from 1 to 10,000,000, not 0"]),
+    (("render", "thermal_high"), 0.0, ["render.thermal_high", "above 0 and at most 10,000, not 0"]),
     (
         ("cameras", 0, "rig", "keys", 1, "latitude"),
         90.5,
@@ -179,9 +180,12 @@ def test_the_json_schema_is_one():
     assert error == {
         "description": "how far the mesh may be above or below what cameras see, pixels; more is coarser",
         "type": "number",
-        "exclusiveMinimum": 0,
+        "minimum": 0.001,
+        "maximum": 1000,
         "default": 0.05,
     }
+    high = found["properties"]["render"]["properties"]["thermal_high"]
+    assert (high["exclusiveMinimum"], high["maximum"]) == (0, 10_000)
     assert found["properties"]["render"]["properties"]["engine"]["enum"] == ["cycles", "eevee"]
 
 
