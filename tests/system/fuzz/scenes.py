@@ -1,8 +1,9 @@
 """Fuzz scene files: each is checked and planned, some are built in Blender; a crash or a hang is a finding.
 
-    .venv/bin/python tests/system/fuzz/scenes.py [--cases 20000] [--builds 300] [--jobs 2] [--seed 0]
+    .venv/bin/python tests/system/fuzz/scenes.py [--cases 20000] [--builds 300] [--jobs 2] [--seconds 0]
 
 A scene that is neither built nor refused in one polite line is left in build/fuzz/findings; exit status 1.
+After so many seconds (0: never) no further scene is tried.
 """
 
 import argparse
@@ -13,6 +14,7 @@ import select
 import subprocess
 import sys
 import tempfile
+import time
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -26,6 +28,13 @@ import scene_fuzz  # noqa: E402
 
 FINDINGS = ROOT / "build/fuzz/findings"
 LIMIT = 120.0  # s for a scene
+AT_ONCE = 250  # scenes, between two looks at the clock
+SETTINGS = hypothesis.settings(
+    database=None,
+    deadline=None,
+    phases=[hypothesis.Phase.generate],
+    suppress_health_check=list(hypothesis.HealthCheck),
+)
 
 
 class Child:
@@ -74,45 +83,45 @@ def serve(folder):
     os._exit(0)
 
 
-def work(cases, builds, seed):
-    """Try so many scenes; how many came to which stage, and the findings."""
-    ends, findings, chance = Counter(), {}, random.Random(seed)
+def work(cases, builds, seed, seconds):
+    """Try so many scenes; how many came to which stage, and how many kinds of findings there are."""
+    ends, findings, chance = Counter(), set(), random.Random(seed)
+    over = time.monotonic() + (seconds or 1e9)
     with tempfile.TemporaryDirectory() as folder:
         child = Child(scene_fuzz.whole(Path(folder)))
 
-        @hypothesis.seed(seed)
-        @hypothesis.settings(
-            max_examples=cases,
-            database=None,
-            deadline=None,
-            phases=[hypothesis.Phase.generate],
-            suppress_health_check=list(hypothesis.HealthCheck),
-        )
-        @hypothesis.given(scene_fuzz.scenes())
         def one(text):
             nonlocal builds
             build = builds > 0 and chance.random() < 0.1
             stage, line, wrong = child.tried(text, build)
             builds -= stage in ("build", "end")
             ends[f"{stage}: {'refused' if line else wrong or 'done'}"] += 1
-            if wrong:
-                findings.setdefault((stage, wrong, line[:60]), (text, line))
+            if wrong and (stage, wrong, line[:60]) not in findings:
+                findings.add((stage, wrong, line[:60]))
+                path = FINDINGS / f"scene-{seed}-{len(findings)}.toml"
+                path.write_text(text, encoding="utf-8")
+                print(f"fuzz: {path}: {stage}: {wrong} {line[:300]!r}", flush=True)
 
-        with contextlib.suppress(hypothesis.errors.Unsatisfiable):
-            one()
-    return ends, findings
+        for number in range(0, cases, AT_ONCE):
+            if time.monotonic() > over:
+                break
+            few = hypothesis.settings(SETTINGS, max_examples=min(AT_ONCE, cases - number))
+            with contextlib.suppress(hypothesis.errors.Unsatisfiable):
+                hypothesis.seed(seed * 1_000_000 + number)(few(hypothesis.given(scene_fuzz.scenes())(one)))()
+    return ends, len(findings)
 
 
 def main():
     """Share the scenes out, and tell."""
     parser = argparse.ArgumentParser(description=__doc__)
-    for name, value in (("cases", 20_000), ("builds", 300), ("jobs", 2), ("seed", 0)):
+    for name, value in (("cases", 20_000), ("builds", 300), ("jobs", 2), ("seed", 0), ("seconds", 0)):
         parser.add_argument(f"--{name}", type=int, default=value)
     parser.add_argument("--child", type=Path, help=argparse.SUPPRESS)
     asked = parser.parse_args()
     if asked.child:
         serve(asked.child)
     share = range(asked.jobs)
+    FINDINGS.mkdir(parents=True, exist_ok=True)
     with ProcessPoolExecutor(asked.jobs) as pool:
         found = list(
             pool.map(
@@ -120,17 +129,12 @@ def main():
                 [asked.cases // asked.jobs for _ in share],
                 [asked.builds // asked.jobs for _ in share],
                 [asked.jobs * asked.seed + job for job in share],
+                [asked.seconds for _ in share],
             )
         )
     for end, count in sorted(sum((ends for ends, _ in found), Counter()).items()):
         print(f"fuzz: {count:6} {end}")
-    findings = {key: value for _, each in found for key, value in each.items()}
-    FINDINGS.mkdir(parents=True, exist_ok=True)
-    for number, ((stage, wrong, _), (text, line)) in enumerate(findings.items()):
-        path = FINDINGS / f"scene-{asked.seed}-{number}.toml"
-        path.write_text(text, encoding="utf-8")
-        print(f"fuzz: {path}: {stage}: {wrong} {line[:300]!r}")
-    return 1 if findings else 0
+    return 1 if any(count for _, count in found) else 0
 
 
 if __name__ == "__main__":
