@@ -41,7 +41,10 @@ def _copy(old, new, rng):
     sizes = {each: len(dimension) for each, dimension in old.dimensions.items()}
     if way == "size":
         name = str(rng.choice(list(sizes)))
-        sizes[name] = int(rng.choice([0, 1, 2, sizes[name] + 1]))
+        least = (
+            0 if old.data_model == "NETCDF4" else 1
+        )  # none is one without end, which older files have once
+        sizes[name] = int(rng.choice([least, 1, 2, sizes[name] + 1]))
     for each, size in sizes.items():
         new.createDimension(each, size or None)
     attributes = {each: old.getncattr(each) for each in old.ncattrs()}
