@@ -169,7 +169,7 @@ def test_one_goes_to_places_names_and_moments(panel):
     assert (latitude[0], longitude[0]) == (pytest.approx(38.84, abs=1e-3), pytest.approx(-120.55, abs=1e-3))
     assert (go.place(scene, "camera drone") - scene.camera.matrix_world.translation).length < 1e-3
     assert go.place(scene, "nowhere at all") is None
-    assert bpy.ops.firetwin.go(text="2014-09-17 14:30") == {"FINISHED"}  # in California
+    assert bpy.ops.firetwin.go(text="2014-09-17 13:30") == {"FINISHED"}  # by longitude UTC-8
     assert scene.frame_current == 2
     assert bpy.ops.firetwin.go(text="2014-09-17 21:58 UTC") == {"FINISHED"}
     assert scene.frame_current == 3

@@ -98,6 +98,7 @@ def everything(scene):
     return objects, trees
 
 
+@pytest.mark.slow  # two whole builds
 def test_panels_build_what_the_exported_scene_file_builds(opened, tmp_path):
     opened.light.haze, opened.fire.budget = 0.7, 500
     opened.ground.error = 0.9
