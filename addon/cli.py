@@ -21,14 +21,14 @@ from typing import NoReturn
 from .escaped import escaped
 
 EPILOG = """\
-a first film, from nothing:
+a first film, from the sample run:
   firetwin sample sample                 write the sample run (synthetic, King-like)
-  firetwin info sample                   what is in it
+  firetwin info sample                   list its content
   firetwin render examples/king_fire.toml --out film --resume
 
 a film of your own run:
-  firetwin render RUN --out film         cameras and moments are chosen to fit the fire, and told
-  firetwin new RUN -o my_scene.toml      the same as a short scene file, to change them
+  firetwin render RUN --out film         cameras and times are fitted to the fire, and printed
+  firetwin new RUN -o my_scene.toml      write them to a short scene file, to change them
   firetwin render my_scene.toml --out film
 
 `firetwin COMMAND --help` explains a command."""
@@ -107,85 +107,113 @@ def _parser() -> argparse.ArgumentParser:
         )
 
     sample = command("sample", "write the synthetic King-like sample run", SAMPLE)
-    sample.add_argument("out", metavar="OUT", type=_path, help="folder to write; made when missing")
-    sample.add_argument("--frames", metavar="N", type=_count, help="only N model times, evenly spread (all)")
-    sample.add_argument("--format", choices=("npy", "text"), default="npy", help="kind of field files (npy)")
+    sample.add_argument("out", metavar="OUT", type=_path, help="output folder; created if missing")
     sample.add_argument(
-        "--pace", metavar="FACTOR", type=_factor, default=1.0, help="a what-if: a fire so fast (1)"
+        "--frames", metavar="N", type=_count, help="number of model times, evenly spread (all)"
+    )
+    sample.add_argument(
+        "--format", choices=("npy", "text"), default="npy", help="format of field files (npy)"
+    )
+    sample.add_argument(
+        "--pace",
+        metavar="FACTOR",
+        type=_factor,
+        default=1.0,
+        help="factor of the rate of spread, for a what-if run (1)",
     )
 
-    info = command("info", "show what is in a run", INFO)
-    info.add_argument("run", metavar="RUN", type=_path, help="run folder, or a scene file for all its runs")
-    info.add_argument("--json", action="store_true", help="write JSON for programs")
+    info = command("info", "list the content of a run", INFO)
+    info.add_argument("run", metavar="RUN", type=_path, help="run folder, or a scene file: all its runs")
+    info.add_argument("--json", action="store_true", help="write JSON")
 
-    made = command("convert", "make a run of a fire model's own output", CONVERT)
+    made = command("convert", "convert a fire model's output to a run", CONVERT)
     made.add_argument(
-        "paths", metavar="IN", nargs="+", type=_path, help="the model's files, or folders of them"
+        "paths", metavar="IN", nargs="+", type=_path, help="output files of the model, or folders of them"
     )
     made.add_argument("--out", metavar="RUN", type=_path, required=True, help="run folder to write")
     made.add_argument(
-        "--start", metavar="TIME", default="", help="when times count from, if files do not say it"
+        "--start", metavar="TIME", default="", help="start time of the run, if the files do not give it"
     )
-    made.add_argument("--at", metavar="LAT,LON", default="", help="middle of a grid that lies nowhere")
-    made.add_argument("--projection", metavar="CRS", default="", help="of grids in metres, such as EPSG:5070")
     made.add_argument(
-        "--interval", metavar="SECONDS", type=_count, default=0, help="between times that are made (chosen)"
+        "--at", metavar="LAT,LON", default="", help="centre of a grid without geographic coordinates"
     )
-    made.add_argument("--name", default="", help="what the run is called (as its folder, with the model)")
-    zone = "zone that times are told in, such as Europe/Paris (that of --start, else by longitude)"
+    made.add_argument(
+        "--projection",
+        metavar="CRS",
+        default="",
+        help="coordinate reference system of grids in metres, such as EPSG:5070",
+    )
+    made.add_argument(
+        "--interval",
+        metavar="SECONDS",
+        type=_count,
+        default=0,
+        help="time step of the run's fields, where the model gives arrival times (chosen)",
+    )
+    made.add_argument("--name", default="", help="name of the run (its folder's, with the model's)")
+    zone = "time zone of printed times, such as Europe/Paris (that of --start, otherwise by longitude)"
     made.add_argument("--zone", default="", help=zone)
 
     new = command("new", "write a short scene file that fits a run", NEW)
     new.add_argument("run", metavar="RUN", type=_path, help="run folder")
     new.add_argument("-o", "--out", metavar="SCENE.toml", type=_path, required=True, help="file to write")
-    for name, word in (("start", "begins"), ("end", "ends")):
-        text = f"when the film {word}, such as 2014-09-17T16:00-07:00 (found)"
+    for name, word in (("start", "first"), ("end", "last")):
+        text = f"model time of the {word} frame, such as 2014-09-17T16:00-07:00 (fitted)"
         new.add_argument(f"--{name}", metavar="TIME", type=_moment, help=text)
-    new.add_argument("--overwrite", action="store_true", help="in place of a file that is there")
+    new.add_argument("--overwrite", action="store_true", help="replace an existing file")
 
     maps = command("maps", "draw the fuel map and the fire intensity map", MAPS)
     maps.add_argument("run", metavar="RUN", type=_path, help="run folder")
     maps.add_argument("--out", metavar="DIR", type=_path, required=True, help="folder for the PNG files")
 
     maps.add_argument(
-        "--against", metavar="FILE", nargs="+", default=[], help="perimeters to draw (RUN/observations)"
+        "--against",
+        metavar="FILE",
+        nargs="+",
+        default=[],
+        help="observed perimeters to draw (RUN/observations)",
     )
 
-    score = command("score", "how well a run matches what was seen of its fire", SCORE)
+    score = command("score", "score a run against observations of its fire", SCORE)
     score.add_argument(
-        "run", metavar="RUN", type=_path, help="run folder, or a scene file: its first run against the other"
+        "run",
+        metavar="RUN",
+        type=_path,
+        help="run folder, or a scene file: its first run is scored against its second",
     )
     score.add_argument(
         "--against",
         metavar="FILE|RUN",
         nargs="+",
         default=[],
-        help="perimeters, detections, or one other run (RUN/observations)",
+        help="observed perimeters, detections, or another run (RUN/observations)",
     )
     score.add_argument(
-        "--report", metavar="X.html", type=_path, help="write a page with maps and curves (none)"
+        "--report", metavar="X.html", type=_path, help="write an HTML report with maps and curves (none)"
     )
-    score.add_argument("--json", action="store_true", help="write JSON for programs")
+    score.add_argument("--json", action="store_true", help="write JSON")
 
-    seen = command("imager", "what a satellite's imager would have measured of a run", IMAGER)
+    seen = command("imager", "simulate a satellite imager's measurements of a run", IMAGER)
     seen.add_argument("run", metavar="RUN", type=_path, help="run folder")
     seen.add_argument("--out", metavar="DIR", type=_path, required=True, help="folder for the GeoTIFF files")
-    seen.add_argument("--instrument", choices=("abi", "viirs"), default="abi", help="which imager (abi)")
+    seen.add_argument("--instrument", choices=("abi", "viirs"), default="abi", help="instrument (abi)")
     seen.add_argument(
         "--longitude",
         metavar="DEG",
         type=_longitude,
         default=-137.0,
-        help="where abi stands, degrees east (-137)",
+        help="longitude of abi's geostationary orbit, degrees east (-137)",
     )
     seen.add_argument(
-        "--every", metavar="SECONDS", type=_count, default=900, help="model time between pictures (900)"
+        "--every", metavar="SECONDS", type=_count, default=900, help="model time between pictures, s (900)"
     )
 
     build = command("build", "build the scene and save it as a .blend file", BUILD)
     _scene(build)
     build.add_argument("-o", "--out", metavar="X.blend", type=_path, required=True, help="file to write")
-    build.add_argument("--run", metavar="NAME", type=_name, help="with this one of [[runs]] (the first run)")
+    build.add_argument(
+        "--run", metavar="NAME", type=_name, help="name of the run of [[runs]] (the first run)"
+    )
 
     bake = command("bake", "write the smoke volumes that the scene needs", BAKE)
     _scene(bake)
@@ -196,35 +224,43 @@ def _parser() -> argparse.ArgumentParser:
     render.add_argument(
         "--frames",
         metavar="LIST",
-        help="of each camera's frames, such as 1-10, 3,5-9 or 1-48:4 (all)",
+        help="frames of each camera, such as 1-10, 3,5-9 or 1-48:4 (all)",
     )
     render.add_argument(
-        "--camera", metavar="NAME", type=_name, help="this camera only (all), drone@RUN in one run"
+        "--camera", metavar="NAME", type=_name, help="name of the camera (all); drone@RUN for one run"
     )
-    render.add_argument("--passes", metavar="LIST", help="such as rgb,thermal (as the scene file says)")
-    render.add_argument("--resume", action="store_true", help="keep what is finished and still matches")
-    render.add_argument("--json", action="store_true", help="write JSON for programs: files, and memory")
+    render.add_argument(
+        "--passes", metavar="LIST", help="passes, such as rgb,thermal (those of the scene file)"
+    )
+    render.add_argument(
+        "--resume",
+        action="store_true",
+        help="keep finished pictures whose settings and inputs have not changed",
+    )
+    render.add_argument("--json", action="store_true", help="write JSON: files and memory")
 
-    track = command("track", "write a camera's way as a GPX track", TRACK)
+    track = command("track", "write a camera's path as a GPX track", TRACK)
     _scene(track)
-    track.add_argument("--camera", metavar="NAME", type=_name, help="this camera (the first)")
+    track.add_argument("--camera", metavar="NAME", type=_name, help="name of the camera (the first)")
     track.add_argument("--out", metavar="FILE.gpx", type=_path, required=True, help="file to write")
 
-    cache = command("cache", "list the smoke volumes that are kept, or make room", CACHE)
+    cache = command("cache", "list cached smoke volumes, or remove the least recently used", CACHE)
     cache.add_argument(
         "places", metavar="SCENE|DIR", nargs="*", type=_path, help="scene files or cache folders (./cache)"
     )
-    cache.add_argument("--prune", action="store_true", help="remove volumes used longest ago")
+    cache.add_argument("--prune", action="store_true", help="remove the least recently used volumes")
     cache.add_argument(
         "--limit",
         metavar="SIZE",
         type=_size,
         default=_size("20GB"),
-        help="such as 500MB; keep as much (20GB)",
+        help="size of the cache after --prune, such as 500MB (20GB)",
     )
-    cache.add_argument("--dry-run", action="store_true", help="say what --prune would remove, remove nothing")
+    cache.add_argument(
+        "--dry-run", action="store_true", help="list what --prune would remove; remove nothing"
+    )
 
-    assets = command("assets", "write trees, materials and node groups as an asset library", ASSETS)
+    assets = command("assets", "write an asset library of trees, materials and node groups", ASSETS)
     assets.add_argument(
         "scene", metavar="SCENE.toml", nargs="?", type=_path, help="scene file (the sample's)"
     )
@@ -232,20 +268,22 @@ def _parser() -> argparse.ArgumentParser:
 
     command("schema", "print the JSON Schema of scene files, for TOML editors", SCHEMA)
 
-    bench = command("bench", "measure run time against error, beside the alternatives", BENCH)
+    bench = command("bench", "benchmark run time and error against alternatives", BENCH)
     bench.add_argument("--out", metavar="DIR", type=_path, help="folder for bench.json and the plots (none)")
-    bench.add_argument("--full", action="store_true", help="more repetitions, rivals at every size (minutes)")
     bench.add_argument(
-        "--runs", metavar="N", type=_count, default=1, help="measure all of it N times, for ranges (1)"
+        "--full", action="store_true", help="more repetitions, and alternatives at every size (minutes)"
+    )
+    bench.add_argument(
+        "--runs", metavar="N", type=_count, default=1, help="number of repeated benchmarks, for ranges (1)"
     )
     form = bench.add_mutually_exclusive_group()
-    form.add_argument("--json", action="store_true", help="write JSON for programs")
+    form.add_argument("--json", action="store_true", help="write JSON")
     form.add_argument("--markdown", action="store_true", help="write Markdown tables")
     return parser
 
 
 def _scene(
-    parser: argparse.ArgumentParser, help: str = "scene file, or a run folder: settings are fitted to it"
+    parser: argparse.ArgumentParser, help: str = "scene file, or run folder: settings are fitted to the run"
 ) -> None:
     parser.add_argument("scene", metavar="SCENE|RUN", type=_path, help=help)
 
@@ -325,87 +363,91 @@ class _Version(argparse.Action):
 
 
 SAMPLE = """\
-No output of the fire-atmosphere model for the King Fire is public. This run is made up: its terrain, fuels
-and spread follow what is published about the fire, and everything made from it says that it is synthetic."""
+No fire-atmosphere model output for the King Fire is public. This run is synthetic: terrain, fuels and
+spread follow publications about the fire. All output made from it is labelled as synthetic."""
 
 ASSETS = """\
-DIR/firetwin_assets.blend and DIR/blender_assets.cats.txt, as Blender's asset browser reads them: choose DIR
-under Edit > Preferences > File Paths > Asset Libraries. Lit, hazy and as warm as the scene file's shot is."""
+Writes DIR/firetwin_assets.blend and DIR/blender_assets.cats.txt for Blender's asset browser. Add DIR under
+Edit > Preferences > File Paths > Asset Libraries. Light, haze and temperatures are those of the scene
+file."""
 
 INFO = """\
-Grid and extent, fuels, times, heat flux, energy, burned area (beside the reported acreages where the run
-depicts a known fire), and warnings."""
+Lists grid, extent, fuels, times, heat flux, energy, burned area and warnings. Reported acreages stand
+beside the burned area if the run depicts a known fire."""
 
 CONVERT = """\
-Reads, found by content: WRF-SFIRE (wrfout*), NCAR's Community Fire Behavior Model (fire_output_*.nc),
-ForeFire (arrival times, fronts, landscape), ELMFIRE (GeoTIFF), FARSITE and FlamMap (ASCII or GeoTIFF, LCP),
-pyretechnics (.npz), and any CF netCDF by a mapping in a TOML file: [fields] heat_flux = "NAME". Fuels may
-come from an LCP or LANDFIRE's rasters among the files. What a model does not say is assumed, said, and
-written to run.toml. Files of several runs, models or places in one call are refused. Clocks tell the time of
---zone; without it that of the offset in --start, else the hours that the longitude says, which know no summer
-time and no borders. A conversion that was stopped goes on when the command is given again; one that has read
-and written nothing for ten minutes is ended, as a damaged file may keep its library busy for ever.
-Needs packages that are not installed by themselves: pip install 'firetwin[models]'."""
+The format is found by content: WRF-SFIRE (wrfout*), NCAR's Community Fire Behavior Model
+(fire_output_*.nc), ForeFire (arrival times, fronts, landscape), ELMFIRE (GeoTIFF), FARSITE and FlamMap
+(ASCII or GeoTIFF, LCP), pyretechnics (.npz), and any CF netCDF with a mapping in a TOML file: [fields]
+heat_flux = "NAME". Fuels may come from an LCP or LANDFIRE's rasters among the files. Values that a model
+does not give are assumed, printed and written to run.toml. One call converts one run; files of several
+runs, models or places are refused. Clocks show the time of --zone. Without --zone they show the offset of
+--start; without both, the offset by longitude, without daylight saving time and borders. A stopped
+conversion resumes when the command is repeated. A conversion without a heartbeat (nothing read or written)
+for ten minutes is ended: the file may be damaged. Needs optional packages: pip install 'firetwin[models]'."""
 
 NEW = """\
-The most active part of the run, and cameras as large as the fire: an overview from the windward side with the
-sun behind it, one that goes along with the head, one close to a flank, one from above. Each is moved until at
-least half of the front that it films is in the picture and not behind ground or much smoke; how much shows
-is said. `render`, `build` and `bake` of RUN itself take the same settings."""
+Selects the most active part of the run. Fits cameras to the fire: an overview from upwind with the sun
+behind it, a chase of the head, a close view of a flank, and a view from above. Each camera is moved until
+at least half of its front is in the frustum and not occluded by terrain or dense smoke; the visible share
+is printed. `render`, `build` and `bake` of RUN use the same settings."""
 
 MAPS = """\
-DIR/fuel.png        fuel load, greener is denser
-DIR/intensity.png   strongest heat flux of the whole run, light yellow to red, over the relief"""
+DIR/fuel.png        fuel load; greener is denser
+DIR/intensity.png   maximum heat flux of the run, light yellow to red, over shaded relief"""
 
 SCORE = """\
-FILE holds dated perimeters (.geojson, .shp, .kml, .kmz, .gpkg) or FIRMS detections of VIIRS and MODIS (.csv);
-one without dates is written FILE@2014-09-18T04:00-07:00. By date: areas, Sorensen, Jaccard, kappa, precision,
-recall, shape deviation and area difference indices, distances of the perimeters, with and without what had
-burned when the run began; then errors of arrival times, and detections with their lag. Each is found on
-polygons and on cells: the difference of the two is its error. Observations before or after the run's times or
-outside of its grid are counted and left out; where none is left, the exit status is 1. Needs shapely and
-pyproj (pip install 'firetwin[score]')."""
+FILE holds dated perimeters (.geojson, .shp, .kml, .kmz, .gpkg) or FIRMS detections of VIIRS and MODIS
+(.csv). A file without dates is written FILE@2014-09-18T04:00-07:00. Scores by date: areas, Sorensen,
+Jaccard, kappa, precision, recall, shape deviation and area difference indices, and distances of the
+perimeters, with and without the area burned before the run began. Further scores: errors of arrival times,
+and detections with their lag. Each score is computed on polygons and on cells; their difference is its
+error. Observations outside the run's times or grid are counted and left out. The exit status is 1 if none
+remains. Needs shapely and pyproj (pip install 'firetwin[score]')."""
 
 IMAGER = """\
-Brightness temperatures (K) at 3.9 and 11.2 um (3.74 and 11.45 for viirs), fire radiative power (W) and a mask
-of fire (10) and saturated (11) pixels, as DIR/abi_20140917T2200Z.tif: abi in its geostationary projection
-with 2 km pixels, viirs at 375 m by latitude and longitude. Fire counts by its area in a pixel. Power is abi's
-from 3.9 um, saturated at 400 K, and viirs's from its band M13 of 750 m, saturated at 634 K. Hypothetical:
-neither saw the fires of 2014 so. Needs rasterio (pip install 'firetwin[raster]'). Passes imager_short and
-imager_long of a satellite's camera are pictures and films of them."""
+Brightness temperatures (K) at 3.9 and 11.2 um (3.74 and 11.45 for viirs), fire radiative power (W) and a
+mask of fire (10) and saturated (11) pixels, as DIR/abi_20140917T2200Z.tif. abi has its geostationary
+projection and a ground sample distance of 2 km; viirs has latitude and longitude and 375 m. Radiance is
+weighted by the area of fire in a pixel. Detector saturation of the power is 400 K for abi (3.9 um) and 634
+K for viirs (band M13, 750 m). The images are hypothetical: neither instrument observed the fires of 2014
+in this way. Needs rasterio (pip install 'firetwin[raster]'). The passes imager_short and imager_long of a
+satellite camera show them."""
 
 BUILD = """\
-The file needs no add-on to be opened, scrubbed and rendered; its smoke volumes stay in the cache folder."""
+The file can be opened, played and rendered without the add-on. Its smoke volumes stay in the cache folder."""
 
 BAKE = """\
-`render` and `build` do this by themselves; bake alone to spread the work or to look at the volumes."""
+`render` and `build` bake missing volumes themselves. Bake alone to spread the work or to inspect the
+volumes."""
 
 RENDER = """\
-DIR/CAMERA/PASS/CAMERA_PASS_000001.png   and .exr, whatever the pass has
-DIR/CAMERA/CAMERA_PASS.mp4               films of pictures, with the model time in each frame
-DIR/manifest.json                        settings, versions, input hashes, a hash of every file
+DIR/CAMERA/PASS/CAMERA_PASS_000001.png   and .exr, by pass
+DIR/CAMERA/CAMERA_PASS.mp4               films, with the model time in each frame
+DIR/manifest.json                        settings, versions, hashes of inputs and files
 
 passes:
 {passes}
 
-Without --resume everything asked for is rendered again. Several renders, also of several computers, may write
-to one folder at once: they share the frames. Memory to expect is told before the first frame; --json gives it
-at the end (bytes), with the peak that was measured, how many pictures were made and which files there are."""
+Without --resume all selected frames are rendered again. Several renders, also on several computers, can
+write to one folder at the same time: they share the frames by leases. The expected memory is printed
+before the first frame. --json prints at the end: expected and peak memory (bytes), number of pictures, and
+files."""
 
 TRACK = """\
-A point per frame: WGS84 degrees, metres above the sea (the datum of the run's elevations) and the model time
-in UTC. A drone with track = "FILE.gpx" flies it again; flight planners and maps read it too."""
+One point per frame: WGS84 degrees, metres above sea level (the datum of the run's elevations) and model
+time in UTC. A drone with track = "FILE.gpx" follows the track. Flight planners and maps read it too."""
 
 CACHE = """\
-Lists each shot's volumes with their size and last use, those used last first. With --prune the ones used
-longest ago go, until the rest fits into --limit; what a bake or a render is using stays."""
+Lists each shot's volumes with size and last use, most recent first. --prune removes the least recently
+used volumes until the rest fits into --limit. Volumes leased by a bake or a render are kept."""
 
 SCHEMA = """\
-Save it and name it in the first line of a scene file (`#:schema firetwin.json`): editors that know TOML then
-complete keys, show what they mean and underline mistakes."""
+Save it and name it in the first line of a scene file (`#:schema firetwin.json`). TOML editors then
+complete keys, show their help and underline mistakes."""
 
 BENCH = """\
-Every tool is measured in this run, on this machine, in turn with its rivals: the median of five or more
-repetitions, with their range. Takes about seven minutes on two cores; --runs 3 says how much the figures
-differ from run to run. Rivals that are not installed are named and left out (pip install 'firetwin[bench]'
-brings them). Exit status 1 when a target is missed."""
+Measures every tool on this machine, alternating with its alternatives: median and range of five or more
+repetitions. Takes about seven minutes on two cores. --runs 3 shows the variation between runs.
+Alternatives that are not installed are named and left out (pip install 'firetwin[bench]' installs them).
+The exit status is 1 if a target is missed."""

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from .jobs.cache import Kept
     from .jobs.render import Made
-    from .shot.choice import Choice
+    from .shot.source import Choice
 
 
 def sample(arguments: argparse.Namespace) -> None:
@@ -192,7 +192,7 @@ def track(arguments: argparse.Namespace) -> None:
     """Write a camera's way as a GPX track."""
     from . import files
     from .errors import UsageError
-    from .shot import track_xml
+    from .shot.cameras import track_xml
 
     if arguments.out.suffix.lower() != ".gpx":
         raise UsageError(f"--out: {arguments.out} does not end in .gpx")
@@ -238,7 +238,7 @@ def assets(arguments: argparse.Namespace) -> None:
     import tempfile
 
     from .jobs import assets
-    from .shot.choice import Choice
+    from .shot.source import Choice
 
     with tempfile.TemporaryDirectory() as folder:
         scene = arguments.scene
@@ -256,8 +256,8 @@ def assets(arguments: argparse.Namespace) -> None:
 
 def schema(arguments: argparse.Namespace) -> None:
     """Print the JSON Schema of scene files."""
-    from .shot.json_schema import json_schema
-    from .shot.settings import Settings
+    from .shot.settings.json_schema import json_schema
+    from .shot.settings.settings import Settings
 
     print(json.dumps(json_schema(Settings), indent=1, ensure_ascii=False))
 
@@ -320,7 +320,7 @@ def _list(out: Path) -> None:
 
 def _runs(scene: Path) -> dict[str, Run]:
     """All runs of a scene file by their names, the first one first."""
-    from .shot.choice import Choice
+    from .shot.source import Choice
 
     shot = Choice(scene=str(scene)).shot()
     return {shot.title: shot.run, **shot.others}
@@ -338,7 +338,7 @@ def _choice(arguments: argparse.Namespace) -> Choice:
 
     from . import files
     from .run.readers import folder
-    from .shot.choice import Choice
+    from .shot.source import Choice
 
     scene, cache = arguments.scene, Path("cache")
     if folder.sniff(scene):
@@ -356,8 +356,8 @@ def _fitted(
     from .errors import UsageError
     from .progress import READING, patience
     from .run import times
-    from .shot import fitted
-    from .shot.settings import Time
+    from .shot import auto_framing
+    from .shot.settings.settings import Time
 
     opened, window = _open(run), Time(*asked)
     first, last = (times.moment(opened, float(opened.times[i])) for i in (0, -1))
@@ -369,7 +369,7 @@ def _fitted(
     if wrong := window.wrong():
         raise UsageError(f"--end: {wrong[1]}")
     with patience(READING):
-        found = fitted.at(run, path, cache, window)
+        found = auto_framing.at(run, path, cache, window)
     for line in found.lines:
         say(line)
     return found.text

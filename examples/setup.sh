@@ -24,7 +24,7 @@ for argument in "$@"; do
   case $argument in
     --with-tests)
       run_packages+=("${test_packages[@]}")
-      extras="blender,test,lint"
+      extras="blender,test,lint,docs"
       ;;
     *)
       echo "usage: examples/setup.sh [--with-tests]" >&2

@@ -5,7 +5,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 files=("$@")
 if ((${#files[@]} == 0)); then
-  mapfile -t files < <(find .ci addon cpp data examples tests -type f ! -path '*/out/*')
+  mapfile -t files < <(find .ci addon cpp data docs examples tests -type f ! -path '*/out/*')
 fi
 python=() cpp=() shell=()
 for file in "${files[@]}"; do

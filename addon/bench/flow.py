@@ -14,7 +14,7 @@ import numpy as np
 from firetwin_core import flow
 from numpy.typing import NDArray
 
-from ..scene.smoke import moments
+from ..smoke import snapshots
 from .flow_plumes import Plume, bent, calm, unbalanced
 from .harness import OURS, Bench
 from .numpy_flow import NumpyFlow
@@ -119,8 +119,8 @@ def written() -> float:
     drift.advance()
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "moment.npz"
-        moments.keep(path, solver, drift)
-        moment = moments.load(path)
+        snapshots.keep(path, solver, drift)
+        moment = snapshots.load(path)
     smoke = moment.fields["smoke"].sum((1, 2), dtype=float)
     airborne = np.sum(smoke * np.diff(solver.levels)[: len(smoke)]) * solver.spacing**2
     return unbalanced(moment.mass | {"airborne": float(airborne)})

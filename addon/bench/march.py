@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 
 from ..jobs import worker
 from ..progress import Progress, Tell, silent, untold
-from ..shot import settings
 from ..shot.passes import file_of
+from ..shot.settings import settings
 from ..shot.shot import Shot
 from . import step
 from .harness import OURS, Bench
@@ -161,7 +161,7 @@ class _Frame:
         from ..data import sample
         from ..render import engine, layers
         from ..scene import build
-        from ..scene.smoke import bake, baker
+        from ..smoke import bake, baker
 
         file = _file(folder, "volume" if way == VOLUME else "integrated")
         if not file.run.exists():

@@ -10,7 +10,7 @@ from ..data import sample
 from ..render import films, fingerprint, plan
 from ..render.picture import Picture
 from ..render.store import Store
-from ..shot.choice import Choice
+from ..shot.source import Choice
 from .harness import OURS, Bench
 from .timing import Runner
 

@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 
 from ..jobs import worker
 from ..progress import Progress, Tell, silent, untold
-from ..shot import settings
-from ..shot.rigs.drone import CameraKey, Drone
+from ..shot.cameras.rigs.drone import CameraKey, Drone
+from ..shot.settings import settings
 from ..shot.shot import Shot
 from .harness import OURS, Bench
 from .step import MODEL_TIMES, picture, rows
@@ -165,9 +165,10 @@ def _build(file: settings.Settings, scene: bpy.types.Scene) -> dict[str, bpy.typ
     from ..scene import clock
     from ..scene.camera import build as camera
     from ..scene.light import build as light
-    from ..scene.smoke import bake, flow_frames, flow_material
     from ..scene.smoke import build as smoke
-    from ..scene.smoke.flow import Flow
+    from ..scene.smoke import flow_material
+    from ..smoke import bake, flow_frames
+    from ..smoke.flow import Flow
 
     sample.write(file.run, MODEL_TIMES, "npy")
     shot = Shot(file, runs.open(file.run))

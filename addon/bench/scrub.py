@@ -12,8 +12,8 @@ from pathlib import Path
 
 from ..jobs import worker
 from ..progress import Progress, Tell, silent, untold
-from ..shot import settings
-from ..shot.rigs.drone import CameraKey, Drone
+from ..shot.cameras.rigs.drone import CameraKey, Drone
+from ..shot.settings import settings
 from ..shot.shot import Shot
 from .harness import OURS, Bench
 from .timing import LEAST, Times

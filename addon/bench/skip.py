@@ -15,8 +15,8 @@ from pathlib import Path
 from ..data import sample
 from ..jobs import worker
 from ..progress import Progress, Tell, silent, untold
-from ..shot import settings
-from ..shot.rigs.drone import CameraKey, Drone
+from ..shot.cameras.rigs.drone import CameraKey, Drone
+from ..shot.settings import settings
 from .harness import OURS, Bench
 from .step import MOMENT
 from .timing import Times
@@ -97,12 +97,12 @@ def draw(
     import bpy
     from firetwin_core import run as runs
 
-    from ..jobs import setting
+    from ..jobs import worker_scene
     from ..shot.shot import Shot
 
     file = scene_file(Path(folder), skip)
     before, begun = _most(), time.process_time()
-    stage = setting.build_scene(Shot(file, runs.open(file.run)), progress, tell)
+    stage = worker_scene.build_scene(Shot(file, runs.open(file.run)), progress, tell)
     built = time.process_time()
     stage.scene.camera = stage.camera("drone")
     stage.scene.frame_set(1)

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 from ..jobs import worker
 from ..progress import Progress, Tell, silent, untold
-from ..shot import settings
-from ..shot.rigs.drone import CameraKey, Drone
+from ..shot.cameras.rigs.drone import CameraKey, Drone
+from ..shot.settings import settings
 from ..shot.shot import Shot
 from .harness import OURS, Bench
 from .timing import LEAST, Times
@@ -140,8 +140,8 @@ def _build(file: settings.Settings, scene: bpy.types.Scene) -> Any:
     from ..scene import clock
     from ..scene.camera import build as camera
     from ..scene.light import build as light
-    from ..scene.smoke import bake
     from ..scene.smoke import build as smoke
+    from ..smoke import bake
 
     sample.write(file.run, MODEL_TIMES, "npy")
     shot = Shot(file, runs.open(file.run))

@@ -371,3 +371,9 @@ def set_denoising(cycles: Any, wanted: bool) -> None:
     except TypeError:
         wanted = False
     cycles.use_denoising = wanted
+
+
+def stored(datablock: bpy.types.ID) -> Any:
+    """Values of registered properties as the file has them, by name, also those that no property reads."""
+    system = getattr(datablock, "bl_system_properties_get", None)  # 5.0: apart from custom properties
+    return (system() if system else datablock) or {}

@@ -8,7 +8,7 @@ from pathlib import Path
 from .. import files
 from ..errors import input_error
 from ..progress import READING, Progress, Tell, patience, silent, untold
-from ..shot.choice import Choice
+from ..shot.source import Choice
 from . import worker
 from .build import save
 

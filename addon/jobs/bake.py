@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ..errors import Error
 from ..progress import READING, Progress, Tell, patience, silent, untold
-from ..shot.choice import Choice
+from ..shot.source import Choice
 from . import worker
 
 
@@ -47,7 +47,7 @@ def run(
 
 def in_process(choice: dict[str, str], together: bool, progress: Progress, tell: Tell) -> list[str]:
     """Bake and return the folders of the volumes."""
-    from ..scene.smoke import bake, outlook, plume
+    from ..smoke import bake, cost_estimate, plume_mass
 
     shot = Choice(**choice).shot()
     for text in shot.warnings():
@@ -55,8 +55,8 @@ def in_process(choice: dict[str, str], together: bool, progress: Progress, tell:
     shots = [shot] if together else [shot.of(view) for view in shot.views]
     places = {bake.folder(each, progress): each for each in shots}
     for each in places.values():
-        if text := outlook.words(each):
+        if text := cost_estimate.words(each):
             tell(text)
     made = [str(bake.bake(each, progress)) for each in places.values()]
-    tell(plume.words(shot))
+    tell(plume_mass.words(shot))
     return made

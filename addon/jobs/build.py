@@ -9,7 +9,7 @@ from pathlib import Path
 from .. import files
 from ..errors import FULL, disk_is_full, input_error, no_room
 from ..progress import READING, Progress, Tell, patience, silent, untold
-from ..shot.choice import Choice
+from ..shot.source import Choice
 from . import worker
 
 
@@ -55,16 +55,16 @@ def _writable(out: Path) -> None:
 def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell) -> None:
     """Build the scene and save it."""
     from ..blender import viewport
-    from ..scene.smoke import bake
     from ..scene.smoke import build as smoke
-    from . import setting
+    from ..smoke import bake
+    from . import worker_scene
 
     shot = Choice(**choice).shot()
     for text in (*shot.warnings(), *shot.one_eyed()):
         tell(text)
     if shot.settings.smoke.enabled:
         bake.bake(shot, progress)
-    setting.build_scene(shot, progress, tell)
+    worker_scene.build_scene(shot, progress, tell)
     viewport.prepare_file()
     smoke.relative(Path(out))
     save(Path(out), relative_remap=False)

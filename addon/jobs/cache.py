@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from ..errors import UsageError, writing
-from ..scene.smoke import cache
-from ..scene.smoke.cache import Kept
-from ..shot import file
+from ..shot.settings import scene_file
+from ..smoke import cache
+from ..smoke.cache import Kept
 
 
 def folders(places: Iterable[Path]) -> list[Path]:
@@ -19,7 +19,7 @@ def folders(places: Iterable[Path]) -> list[Path]:
     UsageError
         A folder is not there.
     """
-    found = [file.read(place).cache if place.suffix == ".toml" else place for place in places]
+    found = [scene_file.read(place).cache if place.suffix == ".toml" else place for place in places]
     for place, named in zip(found, places, strict=True):
         if place == named and not place.is_dir():
             raise UsageError(f"cache: there is no folder {place}; name a cache folder or a scene file")

@@ -112,10 +112,10 @@ def in_process(
     paths: list[str], out: str, options: list, progress: Progress = silent, tell: Tell = untold
 ) -> None:
     """The child's side: find the reader, read and write."""
-    from ..run.models import headway
+    from ..run.models import heartbeat
 
     files = [Path(path) for path in paths]
-    with headway.to(lambda: worker.sign()):
+    with heartbeat.to(lambda: worker.sign()):
         _convert(files, Path(out), options, progress, tell)
 
 

@@ -12,8 +12,8 @@ from typing import Any
 from .. import memory
 from ..errors import Error
 from ..progress import READING, Progress, Tell, count, patience, share, silent, untold
-from ..shot.choice import Choice
 from ..shot.shot import Shot
+from ..shot.source import Choice
 from . import solve, worker
 
 
@@ -106,9 +106,9 @@ def make(
     -------
     What the job returns.
     """
-    from ..render import claims
+    from ..render import leases
 
-    owner = claims.new_owner()
+    owner = leases.new_owner()
     pictures = [[picture.camera, picture.frame, picture.name] for picture in undone]
     task = task | {"out": str(store.out.absolute()), "pictures": pictures, "owner": owner}
     eevee = shot.settings.render.engine == "eevee"
@@ -117,10 +117,10 @@ def make(
         found = worker.run(job, task, follow, eevee=eevee, stop=stop, tell=tell)
     except BaseException:
         with contextlib.suppress(Error):  # what stopped the work is what to tell
-            claims.leave(store, owner)
+            leases.leave(store, owner)
             store.export()
         raise
-    claims.leave(store, owner)
+    leases.leave(store, owner)
     store.export()
     return found
 
@@ -157,10 +157,10 @@ def in_blender(
     -------
     Bytes of memory, `expected` and `peak`, as of `Made`.
     """
-    from ..render import compared, fingerprint, plan, sharing, video
+    from ..render import comparison, fingerprint, plan, sharing, video
     from ..render.picture import Picture
-    from ..scene.smoke import plume
     from ..shot import passes
+    from ..smoke import plume_mass
 
     shot = Choice(**choice).shot()
     asked = [Picture(*picture) for picture in pictures]
@@ -184,8 +184,8 @@ def in_blender(
                     )
                     done += frames_of(wanted)
         if todo and shot.settings.smoke.enabled:
-            tell(plume.words(shot))
-        compared.make(shot, making, [each for each in asked if each not in drawn], progress, tell)
+            tell(plume_mass.words(shot))
+        comparison.make(shot, making, [each for each in asked if each not in drawn], progress, tell)
         video.make(shot, making, progress)
     return {"expected": expected, "peak": memory.peak()}
 
@@ -196,7 +196,7 @@ def _check_device(shot: Shot) -> None:
 
     from ..blender import devices
     from ..errors import Error
-    from ..shot import file
+    from ..shot.settings import scene_file
 
     render, path = shot.settings.render, shot.settings.path
     if render.engine != "cycles":
@@ -205,7 +205,7 @@ def _check_device(shot: Shot) -> None:
         devices.take(render.device, bpy.context.scene)
     except Error as error:
         if path.is_file():
-            raise file.error_at(path, ("render", "device"), str(error)) from None
+            raise scene_file.error_at(path, ("render", "device"), str(error)) from None
         raise
 
 
@@ -222,9 +222,10 @@ def _camera(
     Returns the bytes of memory that were expected for it.
     """
     from ..blender import devices
-    from ..render import expected, pictures, plan
-    from ..scene.smoke import ahead
-    from . import setting
+    from ..render import memory_estimate as expected
+    from ..render import pictures, plan
+    from ..smoke import prefetch
+    from . import worker_scene
 
     for text in shot.warnings():
         tell(text)
@@ -232,10 +233,10 @@ def _camera(
     drawn, hazy = plan.seen(shot, wanted), smoky(shot, wanted)
     with (
         _solving(choice, shot, hazy, progress) as elsewhere,
-        ahead.smoke(shot, hazy, progress, tell, elsewhere) as ready,
+        prefetch.smoke(shot, hazy, progress, tell, elsewhere) as ready,
     ):
         for part, group in _parts(shot, wanted):
-            stage = setting.build_scene(part, progress, tell) if drawn else setting.empty()
+            stage = worker_scene.build_scene(part, progress, tell) if drawn else worker_scene.empty()
             if drawn and shot.settings.render.engine == "cycles" and not done:
                 tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
             load = expected.load(shot, stage, hazy) if drawn else None
@@ -253,8 +254,8 @@ def _solving(
     choice: Choice, shot: Shot, frames: list[int], progress: Progress
 ) -> Iterator[solve.Working | None]:
     """Have the flow of a shot's one camera solved meanwhile, where any of its moments are missing."""
-    from ..scene.smoke import baker
-    from ..scene.smoke.flow import Flow
+    from ..smoke import baker
+    from ..smoke.flow import Flow
 
     (camera,) = shot.settings.cameras
     flow = Flow(shot)

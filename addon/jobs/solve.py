@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 
 from ..errors import Error
 from ..progress import Progress, Tell
-from ..shot.choice import Choice
+from ..shot.source import Choice
 from . import worker
 
 Working = Callable[[], bool]
@@ -39,7 +39,7 @@ def beside(choice: Choice, view: str, frames: list[int], progress: Progress) -> 
 
 def in_process(choice: dict[str, str], view: str, frames: list[int], progress: Progress, tell: Tell) -> None:
     """Solve it."""
-    from ..scene.smoke.flow import Flow
+    from ..smoke.flow import Flow
 
     flow = Flow(Choice(**choice).shot().of(view))
     with flow.in_use():

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..shot.passes._view import SKY
+from ..shot.cameras.pixel_rays import SKY
 
 Array = NDArray[np.float32]
 

@@ -13,7 +13,7 @@ import bpy
 from firetwin_core.run import Run
 
 from ..blender import compat, owned
-from ..shot.settings import Settings
+from ..shot.settings.settings import Settings
 
 TRANSPARENT = 256
 """Clear surfaces that a ray may pass. In 4.5 the faces of the hull that Cycles puts round smoke, of boxes 8

@@ -15,9 +15,13 @@ import firetwin_core
 from ..progress import Progress, silent
 from ..run import content
 from ..run.content import fingerprint
-from ..shot import frames, labels, land_use, mount, observed, passes, photo, schema, sources
-from ..shot.settings import Camera, Settings
+from ..shot import code_fingerprint, frames, labels, passes
+from ..shot.cameras import mount
+from ..shot.fire import observed
+from ..shot.settings import schema
+from ..shot.settings.settings import Camera, Settings
 from ..shot.shot import Shot
+from ..shot.terrain import land_use, orthophoto
 from .picture import Picture
 
 Fingerprints = dict[tuple[str, str], dict[str, Any]]
@@ -46,7 +50,7 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
     cameras = [mine] if leader is None else [mine, leader]
     made_with = {
         "versions": versions(),
-        "sources": sources.of(aspects, cameras, *_RENDERING, *_modules(name)),
+        "sources": code_fingerprint.of(aspects, cameras, *_RENDERING, *_modules(name)),
         "run": run,
         "camera": camera,
         "pass": name,
@@ -104,7 +108,7 @@ def of_pictures(shot: Shot, pictures: list[Picture], progress: Progress = silent
 def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silent) -> Fingerprints:
     """Those of each (camera, pass); what of the runs was never read is read now."""
     more = (
-        photo.inputs(shot.settings, progress)
+        orthophoto.inputs(shot.settings, progress)
         | land_use.inputs(shot.settings, progress)
         | labels.inputs(shot.settings)
     )

@@ -21,7 +21,7 @@ from ..blender import compat, nodes
 from ..blender.nodes import Tree, Value
 from ..blender.owned import Stage
 from ..shot.passes import edl, overlay, thermal
-from ..shot.settings import BANDS, Settings
+from ..shot.settings.settings import BANDS, Settings
 
 RANGE = 180.0, 1800.0  # K
 _DEGREE = 14

@@ -17,10 +17,11 @@ from numpy.typing import NDArray
 
 from ..blender import compat, nodes, owned
 from ..blender.owned import Stage
-from ..scene.smoke import baker, shadow
-from ..scene.smoke.flow import Flow
+from ..scene.smoke import shadow
 from ..shot import passes
 from ..shot.shot import Shot
+from ..smoke import baker
+from ..smoke.flow import Flow
 from . import layers, surfaces
 from .eye import Eye
 from .picture import Picture

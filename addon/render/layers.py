@@ -16,7 +16,7 @@ from ..blender import compat, nodes, owned
 from ..blender.owned import Stage
 from ..shot import passes
 from ..shot.passes import Pass
-from ..shot.settings import Settings
+from ..shot.settings.settings import Settings
 from . import groups
 from .picture import Picture
 
@@ -181,7 +181,7 @@ def _leave_out(layer: bpy.types.ViewLayer, each: Pass, parts: Collection[str] | 
     for child in _parts(layer):
         part = str(child.collection[owned.MARK]).lower()
         if parts is None or part in parts:
-            child.exclude = part in each.leaves_out or (each.data and part == "places")
+            child.exclude = part in each.leaves_out or (each.data and part == "labels")
 
 
 def _parts(layer: bpy.types.ViewLayer) -> Iterator[bpy.types.LayerCollection]:

@@ -13,12 +13,12 @@ from .. import files, memory
 from ..blender.owned import Stage
 from ..errors import writing
 from ..progress import Progress, Tell, silent, untold
-from ..scene.smoke.ahead import Smoke
-from ..shot import mount, passes
-from ..shot.passes import _view
-from ..shot.path import compass
+from ..shot import passes
+from ..shot.cameras import mount, pixel_rays
+from ..shot.cameras.path import compass
 from ..shot.shot import Shot
-from . import engine, integrated, layers, plan, png, spherical, whole
+from ..smoke.prefetch import Smoke
+from . import engine, integrated, layers, plan, png, spherical, verify
 from .picture import Picture
 from .sharing import Line, Making
 from .store import describe
@@ -179,7 +179,7 @@ def publish(shot: Shot, making: Making, part: Path, pictures: list[Picture]) -> 
                 png.forget_times(path)
                 if shot.camera(picture.camera).rig.around:
                     spherical.still(path, size, _heading(shot, picture))
-        whole.picture(path, size)
+        verify.picture(path, size)
     for picture in pictures:
         entries = {}
         for name in picture.files():
@@ -195,7 +195,7 @@ def publish(shot: Shot, making: Making, part: Path, pictures: list[Picture]) -> 
 
 def _heading(shot: Shot, picture: Picture) -> float:
     """Where the middle of a picture looks, degrees clockwise from north."""
-    view = _view.of(shot, picture.camera)
+    view = pixel_rays.of(shot, picture.camera)
     east, north, _ = compass(shot.local_frame, view.position[picture.frame - 1])
     ahead = -view.rotation[picture.frame - 1][:, 2]
     return float(np.degrees(np.arctan2(ahead @ east, ahead @ north)))

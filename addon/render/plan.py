@@ -6,9 +6,11 @@ import itertools
 
 from ..errors import UsageError
 from ..run.content import fingerprint
-from ..shot import frame_list, mount, passes
-from ..shot.nearest import suggestion
-from ..shot.settings import Camera
+from ..shot import passes
+from ..shot.cameras import mount
+from ..shot.settings import frame_list
+from ..shot.settings.did_you_mean import suggestion
+from ..shot.settings.settings import Camera
 from ..shot.shot import Shot
 from .fingerprint import Fingerprints
 from .picture import Picture

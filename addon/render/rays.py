@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..shot import sphere
+from ..shot.cameras import panorama
 
 Array = NDArray[np.float64]
 
@@ -98,8 +98,8 @@ def _around(
 ) -> Rays:
     """Rays of a picture that holds all directions."""
     height, width = shape
-    bearing, elevation = sphere.pixels(2 * height, width, at)
+    bearing, elevation = panorama.pixels(2 * height, width, at)
     bearing, elevation = bearing[:height], elevation[:height]
-    aside = 0.5 * eye * camera.data.stereo.interocular_distance * sphere.merged(elevation)
-    origins = place + (aside[..., None] * sphere.right(bearing)) @ rotation.T
-    return Rays(origins, sphere.direction(bearing, elevation) @ rotation.T, np.abs(aside), None)
+    aside = 0.5 * eye * camera.data.stereo.interocular_distance * panorama.merged(elevation)
+    origins = place + (aside[..., None] * panorama.right(bearing)) @ rotation.T
+    return Rays(origins, panorama.direction(bearing, elevation) @ rotation.T, np.abs(aside), None)

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from ..progress import Tell, count
 from . import plan
-from .claims import Claims, new_owner
 from .fingerprint import Fingerprints
+from .leases import Claims, new_owner
 from .picture import Picture
 from .store import Store
 

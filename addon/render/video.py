@@ -14,7 +14,7 @@ from ..progress import Progress, silent
 from ..run import times
 from ..shot import passes
 from ..shot.shot import Shot
-from . import engine, films, picture, spherical, whole
+from . import engine, films, picture, spherical, verify
 from .picture import Picture
 from .sharing import Making
 from .store import describe
@@ -52,7 +52,7 @@ def _film(shot: Shot, making: Making, camera: str, name: str, made_from: dict[st
                 bpy.ops.render.render(animation=True, scene=scene.name)
             if shot.camera(camera).rig.around:
                 spherical.film(made)
-            whole.film(made)
+            verify.film(made)
             entry = describe(made) | {"camera": camera, "pass": name}
             files.publish(made, path)
             making.store.add(made_from, {picture.film(camera, name): entry})

@@ -13,7 +13,7 @@ from firetwin_core.run import Run
 
 from ..data import history
 from ..escaped import escaped
-from . import areas, blocks, burned_fraction, fuel_category, released, remembered, times
+from . import areas, blocks, burned_fraction, fact_cache, fuel_category, released, times
 
 ACRE = history.SQUARE_METRES_PER_ACRE
 
@@ -23,7 +23,7 @@ def gather(run: Run, zone: str) -> dict[str, Any]:
 
     What was found once is remembered in the run's folder.
     """
-    found = remembered.facts(run, zone, lambda: _find(run, zone))
+    found = fact_cache.facts(run, zone, lambda: _find(run, zone))
     return found | {"path": run.path, "source": _source(Path(run.path))}
 
 

@@ -20,7 +20,7 @@ from .. import files
 from ..data import history
 from . import areas, burned_fraction, thumbnails, times
 from .observations import Observations
-from .observations.heat import KINDS
+from .observations.infrared_detections import KINDS
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run

@@ -16,8 +16,8 @@ import numpy as np
 
 from ..blender import owned
 from ..progress import Progress, silent
-from ..shot.ground import NEVER
 from ..shot.shot import Shot
+from ..shot.terrain.terrain import NEVER
 from . import clock, infrared, temperature
 from .camera import build as camera
 from .fire import build as fire

@@ -9,30 +9,30 @@ import bpy
 import numpy as np
 
 from ..blender import owned
+from ..shot.light import exposure
 from ..shot.shot import Shot
 from . import clock, infrared, temperature
 from .camera import build as camera
 from .fire import build as fire
 from .forest import build as forest
 from .forest import stand
-from .ground import build as ground
+from .labels import build as places
 from .light import build as light
-from .light import exposure
-from .places import build as places
 from .smoke import build as smoke
+from .terrain import build as ground
 
 PARTS = {
-    "ground": "building the ground",
+    "terrain": "building the ground",
     "forest": "planting the forest",
     "fire": "lighting the fire",
     "smoke": "hanging the smoke",
     "light": "setting the sun",
     "cameras": "setting the cameras",
-    "places": "naming the places",
+    "labels": "naming the places",
 }
 """What can be built by itself, and what is told while it is."""
 
-_WITH_STAND = {"ground", "forest", "fire"}  # parts that need to know where single trees stand
+_WITH_STAND = {"terrain", "forest", "fire"}  # parts that need to know where single trees stand
 
 
 def build(
@@ -81,18 +81,18 @@ def steps(
         clock.frames(shot, stage())
     if shot.settings.forest.trees and _WITH_STAND & set(parts):
         yield "growing the forest"
-        if "ground" in parts:
+        if "terrain" in parts:
             grown, shape = _grown_and_shaped(shot)
         else:
             grown = stand.grow(shot)
     builders = {
-        "ground": lambda: ground.build(shot, stage(), grown, shape),
+        "terrain": lambda: ground.build(shot, stage(), grown, shape),
         "forest": lambda: forest.build(shot, stage(), grown),
         "fire": lambda: fire.build(shot, stage(), grown),
         "smoke": lambda: smoke.build(shot.whole, stage()),
         "light": lambda: [tell(text) for text in light.build(shot.whole, stage())],
         "cameras": lambda: camera.build(shot, stage()),
-        "places": lambda: places.build(shot, stage()),
+        "labels": lambda: places.build(shot, stage()),
     }
     for part, text in PARTS.items():
         if part in parts:

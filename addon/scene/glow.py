@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..shot.light import exposure
 from ..shot.shot import Shot
-from .light import exposure
 
 FLAME = (1.0, 0.33, 0.04)
 EMBER = (1.0, 0.11, 0.012)

@@ -13,7 +13,7 @@ import bpy
 
 from ..blender import nodes, owned
 from ..blender.owned import Stage
-from .light import sky
+from ..shot.light import sky
 
 _GROUP = "haze"
 _WHITE = (1.0, 1.0, 1.0, 1.0)

@@ -26,8 +26,8 @@ from firetwin_core import sensor
 
 from ..blender import nodes, owned
 from ..blender.owned import Stage
-from ..shot import temperature as model
-from ..shot.settings import BANDS
+from ..shot import air_temperature as model
+from ..shot.settings.settings import BANDS
 from ..shot.shot import Shot
 from . import haze, temperature
 

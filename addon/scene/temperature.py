@@ -22,9 +22,10 @@ from numpy.typing import NDArray
 
 from ..blender import compat, nodes, owned
 from ..blender.owned import Stage
-from ..shot import sun, temperature
-from ..shot.ground import bilinear
+from ..shot import air_temperature
+from ..shot.light import sun
 from ..shot.shot import Shot
+from ..shot.terrain.terrain import bilinear
 
 FLAME_LOW, FLAME_HIGH = 1000.0, 1200.0  # K
 EMBER = 850.0  # K, ground full of glowing embers (assumed)
@@ -41,8 +42,8 @@ def ambient(
     """Temperature of unburned ground (`bare` 1) or crowns (0) at an elevation (m), facing along `normal`."""
     node = tree.node("ShaderNodeGroup", {"Elevation": elevation}, node_tree=_group(shot, stage))
     lit = tree.math("MAXIMUM", tree.vector("DOT_PRODUCT", normal, tree.pick(node, "Sun"), name="Value"), 0.0)
-    gain = lit * temperature.ABSORBED - temperature.LOSS
-    return tree.pick(node, "Kelvin") + gain * tree.mix(bare, 1.0 / _NEEDLES, 1.0 / temperature.BARE)
+    gain = lit * air_temperature.ABSORBED - air_temperature.LOSS
+    return tree.pick(node, "Kelvin") + gain * tree.mix(bare, 1.0 / _NEEDLES, 1.0 / air_temperature.BARE)
 
 
 def air(tree: nodes.Tree, shot: Shot, stage: Stage) -> nodes.Value:
@@ -52,13 +53,13 @@ def air(tree: nodes.Tree, shot: Shot, stage: Stage) -> nodes.Value:
 
 
 def cooled(
-    tree: nodes.Tree, background: Any, age: nodes.Value, burned: Any, pulse: Any = temperature.PULSE
+    tree: nodes.Tree, background: Any, age: nodes.Value, burned: Any, pulse: Any = air_temperature.PULSE
 ) -> nodes.Value:
     """Temperature of what has burned and was heated for `pulse` (s), without flames or embers of its own."""
     age = tree.math("MAXIMUM", age, 0.0)
     before = tree.math("MAXIMUM", age - pulse, 0.0)
     above = (tree.math("SQRT", age) - tree.math("SQRT", before)) * burned
-    return background + above * temperature.COOLING
+    return background + above * air_temperature.COOLING
 
 
 def build(shot: Shot, stage: Stage) -> None:
@@ -98,7 +99,7 @@ def _group(shot: Shot, stage: Stage, fill: bool = True) -> bpy.types.NodeTree:
     both = tree.mix_colour(moment - whole, field(whole), field(following))
     kelvin, model, _ = tree.separate(both)
     sunward = _named(tree, "ShaderNodeCombineXYZ", "Sun")
-    kelvin = kelvin - (elevation - model) * temperature.LAPSE
+    kelvin = kelvin - (elevation - model) * air_temperature.LAPSE
     tree.finish({"Kelvin": kelvin, "Sun": sunward})
     if fill:
         _fill(group, shot)
@@ -166,9 +167,9 @@ def field(shot: Shot, time: float) -> Field:
     spacing = (high - low) / _SIDE
     corner = low + 0.5 * spacing
     east, north = np.meshgrid(*(corner[k] + spacing[k] * np.arange(_SIDE) for k in (0, 1)))
-    place = temperature.indices(shot.run, *shot.ground.geodetic(east.ravel(), north.ravel()))
+    place = air_temperature.indices(shot.run, *shot.ground.geodetic(east.ravel(), north.ravel()))
     model = np.nan_to_num(shot.run.elevation.astype(np.float64))
-    kelvin, elevation = (bilinear(values, *place) for values in (temperature.at(shot.run, time), model))
+    kelvin, elevation = (bilinear(values, *place) for values in (air_temperature.at(shot.run, time), model))
     return Field(kelvin.reshape(east.shape), elevation.reshape(east.shape), corner, spacing)
 
 

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..run import times
-from . import frame_list
+from .settings import frame_list
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run
 
-    from .settings import Camera, Settings, Time
+    from .settings.settings import Camera, Settings, Time
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..run import labels
 from ..run.content import sha256
-from .settings import Settings
+from .settings.settings import Settings
 from .shot import Shot
 
 
@@ -22,7 +22,7 @@ class Labels(NamedTuple):
 
 def find(shot: Shot) -> Labels:
     """The user's places, or else those that are known of the fire, as far as there is ground under them."""
-    settings, ground = shot.settings.places, shot.ground
+    settings, ground = shot.settings.labels, shot.ground
     if not settings.enabled:
         return Labels([], np.empty((0, 3)))
     found = labels.read(settings.file) if settings.file else labels.known(shot.run)
@@ -40,5 +40,5 @@ def find(shot: Shot) -> Labels:
 
 def inputs(settings: Settings) -> dict[str, str]:
     """Hash of the user's file, where labels come from it."""
-    places = settings.places
-    return {"places": sha256(places.file)[:16]} if places.enabled and places.file else {}
+    places = settings.labels
+    return {"labels": sha256(places.file)[:16]} if places.enabled and places.file else {}

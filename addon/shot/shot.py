@@ -16,16 +16,22 @@ from ..errors import UsageError
 from ..progress import Progress, silent
 from ..run import content, times, zone
 from ..run.frame import local_frame
-from . import burning, depth, frame_list, frames, passes, path, relief, scale, sun, temperature
-from .fire import Fire
+from . import air_temperature, frames, passes
+from . import smoke_scale as scale
+from .cameras import path
+from .cameras.path import SENSOR, Path
+from .fire import burning, flame_depth
+from .fire.fire import Fire
+from .fire.fuel import DETAIL
 from .frames import Frames
-from .fuel import DETAIL
-from .ground import Ground
-from .path import SENSOR, Path
-from .relief import Relief
-from .scale import Scale
-from .settings import Camera, Settings
-from .sight import Sights
+from .light import sun
+from .settings import frame_list
+from .settings.settings import Camera, Settings
+from .smoke_scale import Scale
+from .terrain import elevation
+from .terrain.elevation import Relief
+from .terrain.terrain import Ground
+from .visibility import Sights
 
 _BEFORE = 3600.0  # s before the first frame that ground which burned since counts as burning
 WIDE_LENS = 28.0  # mm; pictures to scale count as taken with it
@@ -60,13 +66,13 @@ class Shot:
         self.settings, self.run, self.cameras, self.whole = settings, run, settings.cameras, self
         self.frames: Frames = frames.of(settings.time, run)
         self._filmed: dict[str, NDArray[np.int64]] = {}
-        self.relief: Relief = relief.of(settings, run)
+        self.relief: Relief = elevation.of(settings, run)
 
     def inputs(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
         """SHA-256 of each field of the run but some, and of the elevation model."""
         settings = self.settings
         found = content.inputs(self.run, settings.cache, leave_out, progress)
-        model = settings.ground.elevation
+        model = settings.terrain.elevation
         return found | (
             {"elevation model": content.of_file(model, settings.cache, progress)} if model else {}
         )
@@ -100,9 +106,9 @@ class Shot:
     @cached_property
     def others(self) -> dict[str, Run]:
         """The scene file's other runs by their names."""
-        from . import beside
+        from . import comparison
 
-        return beside.opened(self.settings)
+        return comparison.opened(self.settings)
 
     @property
     def title(self) -> str:
@@ -126,7 +132,7 @@ class Shot:
 
     def in_run(self, view: str) -> Shot:
         """The shot, with all cameras, of the run that a view is of."""
-        from .beside import Beside
+        from .comparison import Beside
 
         label = view.partition("@")[2]
         return Beside(self, label) if label else self
@@ -231,21 +237,21 @@ class Shot:
         return Ground(self.settings, self.run, self.fire.arrival, self.relief)
 
     @cached_property
-    def front(self) -> depth.Fields:
+    def front(self) -> flame_depth.Fields:
         """How the front goes over the ground's grid."""
-        return depth.Fields(self.bare_ground, self.run)
+        return flame_depth.Fields(self.bare_ground, self.run)
 
     @cached_property
     def front_scale(self) -> float:
         """Size of what is seen of the front and the scar beside that of a crown fire's, to 1."""
-        return depth.scale(self.whole)
+        return flame_depth.scale(self.whole)
 
     @cached_property
     def ground(self) -> Ground:
         """The ground, with detail along the cameras' paths."""
         rough = self._paths(self.bare_ground) if self.whole is self else self.paths
         near = [view.position[self.filmed(view)] for view in rough if view.perspective]
-        return self.bare_ground.seen_from(path.eyes(near, self.settings.ground.near_radius))
+        return self.bare_ground.seen_from(path.eyes(near, self.settings.terrain.near_radius))
 
     @cached_property
     def paths(self) -> list[Path]:
@@ -264,8 +270,8 @@ class Shot:
         ]
 
     def warnings(self) -> list[str]:
-        """What an artist should know of the cameras' paths."""
-        return [text for view in self.paths if (text := self._ridges(view))]
+        """What an artist should know of the scene file and of the cameras' paths."""
+        return [*self.settings.notes, *(text for view in self.paths if (text := self._ridges(view)))]
 
     def one_eyed(self) -> list[str]:
         """Cameras for headsets whose second eye is missing in a scene that they share with others."""
@@ -316,12 +322,12 @@ class Shot:
     @cached_property
     def coldest_moment(self) -> float:
         """K that a tenth of the run's air is colder than, in the coldest of 25 moments of the shot."""
-        return min(temperature.coldest(self.run, float(time)) for time in self._moments)
+        return min(air_temperature.coldest(self.run, float(time)) for time in self._moments)
 
     @cached_property
     def warmest(self) -> tuple[float, float]:
         """K that the air the fire warms is over unburned air, least and most, in 25 moments of the shot."""
-        found = [temperature.warmth(self.run, time - self.averaged, time) for time in self._moments]
+        found = [air_temperature.warmth(self.run, time - self.averaged, time) for time in self._moments]
         low, high = max(noise for _, noise in found), max(float(above.max()) for above, _ in found)
         return low, max(high, low + 1.0)
 

@@ -3,19 +3,20 @@
 import bpy
 
 from . import (
-    aims,
     assets,
     background,
     build,
+    camera_targets,
     cameras_panel,
     command,
-    flying,
     foreign,
-    go,
+    former_names,
+    go_to,
     maps,
-    named,
+    navigation,
     open,
     other_runs_panel,
+    place_names,
     preferences,
     properties,
     quality,
@@ -42,10 +43,10 @@ classes = (
     *build.classes,
     *time.classes,
     *cameras_panel.classes,
-    *flying.classes,
-    *aims.classes,
-    *go.classes,
-    *named.classes,
+    *navigation.classes,
+    *camera_targets.classes,
+    *go_to.classes,
+    *place_names.classes,
     *render.classes,
     *background.classes,
     *section_panels.classes,
@@ -61,6 +62,7 @@ def register() -> None:
     bpy.types.Scene.firetwin = bpy.props.PointerProperty(type=properties.FIRETWIN_PG_scene)
     command.register()
     open.register()
+    former_names.register()
 
 
 def unregister() -> None:
@@ -68,6 +70,7 @@ def unregister() -> None:
     working.abandon()
     queue.clear()
     maps.forget()
+    former_names.unregister()
     open.unregister()
     command.unregister()
     del bpy.types.Scene.firetwin

@@ -15,14 +15,14 @@ from .working import Working
 
 
 class FIRETWIN_OT_assets(Working, bpy.types.Operator):
-    """Write trees, materials and node groups as a library for the asset browser"""
+    """Write an asset library of trees, materials and node groups for the asset browser"""
 
     bl_idname = "firetwin.assets"
     bl_label = "Write asset library"
     bl_options = {"REGISTER"}
 
     directory: bpy.props.StringProperty(
-        name="Folder", description="Folder of the library; empty: beside the pictures", subtype="DIR_PATH"
+        name="Folder", description="Folder of the library; empty: in the output folder", subtype="DIR_PATH"
     )
 
     @classmethod

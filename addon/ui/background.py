@@ -20,9 +20,9 @@ _ICONS = {
 
 
 class FIRETWIN_OT_render_background(bpy.types.Operator):
-    """Render this file as it stands, with all that you changed by hand, beside the window.
+    """Render a copy of this file in the background, including manual changes.
 
-    What you change from now on does not matter to it. Further ones wait for their turn
+    Later changes do not affect it. Renders are queued and run one after the other
     """
 
     bl_idname = "firetwin.render_background"
@@ -42,7 +42,7 @@ class FIRETWIN_OT_render_background(bpy.types.Operator):
 
     @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        from ..jobs import standing
+        from ..jobs import render_blend
         from ..jobs.render import Asked
 
         scene, settings = context.scene, context.scene.firetwin
@@ -56,7 +56,7 @@ class FIRETWIN_OT_render_background(bpy.types.Operator):
         }
         title = f"{camera or 'All cameras'}, {which[settings.which]}"
         try:
-            queue.add(title, scene, run.choice(settings), asked, standing.run)
+            queue.add(title, scene, run.choice(settings), asked, render_blend.run)
         except (RuntimeError, OSError) as error:
             self.report({"ERROR"}, f"The file cannot be copied: {' '.join(str(error).split())}")
             return {"CANCELLED"}
@@ -67,27 +67,27 @@ class FIRETWIN_OT_render_background(bpy.types.Operator):
 
 
 class FIRETWIN_OT_f12_files(bpy.types.Operator):
-    """Let F12 and Ctrl-F12 write pictures (PNG, EXR) into the output folder, named as ours.
+    """Make F12 and Ctrl-F12 write pictures (PNG, EXR) into the output folder, with Firetwin's file names.
 
-    Depth, normals and thermal pictures need more than one render: Render in background makes them
+    Depth, normal and thermal passes need several renders: use Render in background
     """
 
     bl_idname = "firetwin.f12_files"
     bl_label = "F12 writes files"
     bl_options = {"REGISTER", "UNDO"}
 
-    on: bpy.props.BoolProperty(name="On", description="Write them, or no longer", default=True)
+    on: bpy.props.BoolProperty(name="On", description="Write the files; off: stop writing them", default=True)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if not owned.ours(context.scene) or not context.scene.firetwin.first_time:
-            cls.poll_message_set("Build a scene of Firetwin's own first")
+            cls.poll_message_set("Build the scene with Firetwin first")
             return False
         return working.editable(cls, context)
 
     @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        from ..render import shown
+        from ..render import native_render as shown
 
         scene, settings = context.scene, context.scene.firetwin
         stage, out = owned.stage(scene), scene_file.output(settings)
@@ -104,7 +104,7 @@ class FIRETWIN_OT_f12_files(bpy.types.Operator):
 
 
 class FIRETWIN_OT_queue_esc(bpy.types.Operator):
-    """Pause what is rendered beside the window when Esc is pressed over this sidebar"""
+    """Pause the background render when Esc is pressed over this sidebar"""
 
     bl_idname = "firetwin.queue_esc"
     bl_label = "Esc pauses the queue"
@@ -138,7 +138,7 @@ class FIRETWIN_OT_queue_esc(bpy.types.Operator):
 
 
 class FIRETWIN_OT_queue(bpy.types.Operator):
-    """Pause, go on with or take away a render"""
+    """Pause, resume or remove a render"""
 
     bl_idname = "firetwin.queue"
     bl_label = "Queue"
@@ -147,9 +147,9 @@ class FIRETWIN_OT_queue(bpy.types.Operator):
     index: bpy.props.IntProperty(options={"SKIP_SAVE"})
     what: bpy.props.EnumProperty(
         items=(
-            ("pause", "Pause", "Stop now; what is finished is kept"),
-            ("go_on", "Go on", "Render what is missing"),
-            ("remove", "Remove", "Take it out of the queue; pictures stay"),
+            ("pause", "Pause", "Stop the render; finished pictures are kept"),
+            ("go_on", "Resume", "Render the missing pictures"),
+            ("remove", "Remove", "Remove the render from the queue; its pictures are kept"),
         ),
         options={"SKIP_SAVE"},
     )
@@ -177,7 +177,7 @@ class FIRETWIN_OT_queue(bpy.types.Operator):
 
 
 class FIRETWIN_PT_queue(bpy.types.Panel):
-    """What renders beside the window"""
+    """Queue of background renders"""
 
     bl_idname = "FIRETWIN_PT_queue"
     bl_label = "Background"
@@ -188,7 +188,7 @@ class FIRETWIN_PT_queue(bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
-        from ..render import shown
+        from ..render import native_render as shown
 
         layout.operator(FIRETWIN_OT_render_background.bl_idname, icon="RENDER_ANIMATION")
         built = owned.ours(context.scene) and context.scene.firetwin.first_time

@@ -10,20 +10,34 @@ from ..blender import owned
 from ..errors import Error
 from ..scene.build import PARTS
 from ..shot.shot import Shot
-from . import by_hand, changed, fitting, job, keys, order, quality, run, solve, stage, time, view, working
+from . import (
+    auto_framing,
+    camera_edits,
+    changed_settings,
+    job,
+    keys,
+    panel_order,
+    quality,
+    run,
+    solve,
+    target_scene,
+    time,
+    view,
+    working,
+)
 from .job import Away, Steps, Told
 from .text import labelled, paragraph
 from .working import Working
 
 ALL = "all"
 _CHOICES = (
-    (ALL, "All", "Everything, as the scene file says"),
-    *((name, keys.label(name), f"Only the {name}; the rest stays") for name in PARTS),
+    (ALL, "All", "All parts of the scene"),
+    *((name, keys.label(name), f"Only the {name}; other parts are kept") for name in PARTS),
 )
 
 
 class FIRETWIN_OT_build(Working, bpy.types.Operator):
-    """Build the world of the run, in place of the last one built"""
+    """Build the scene of the run and replace the previous build"""
 
     bl_idname = "firetwin.build"
     bl_label = "Build scene"
@@ -38,10 +52,10 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
         """The tooltip."""
         if properties.part == ALL:
             return (
-                "Build the world of the run, in place of the last one built. "
-                "A scene that holds something else stays as it is: a new one is made"
+                "Build the scene of the run and replace the previous build. "
+                "A Blender scene with other content is kept; Firetwin then adds a new scene"
             )
-        return f"Build the {properties.part} again; what was changed by hand in the rest stays"
+        return f"Rebuild the {properties.part}; manual changes to other parts are kept"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -56,9 +70,9 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
 
 
 class FIRETWIN_OT_solve(Working, bpy.types.Operator):
-    """Solve the air over the fire once, and show its smoke in place of the preview of puffs.
+    """Solve the flow of air and smoke once, and replace the preview of puffs.
 
-    What is solved is kept and used again, also where it was stopped
+    Solved snapshots are cached and reused; a stopped solution resumes from them
     """
 
     bl_idname = solve.OPERATOR
@@ -68,7 +82,7 @@ class FIRETWIN_OT_solve(Working, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if context.scene.firetwin.smoke.method != "puffs":
-            cls.poll_message_set("The smoke is no preview: it is solved, or will be when the scene is built")
+            cls.poll_message_set("The smoke is solved already, or Build scene solves it")
             return False
         return FIRETWIN_OT_build.poll.__func__(cls, context)
 
@@ -86,24 +100,24 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
 
     uid, settings = context.scene.session_uid, context.scene.firetwin
     parts = tuple(PARTS) if part == ALL else (part,)
-    for text in by_hand.pull(context.scene):
+    for text in camera_edits.pull(context.scene):
         yield Told(text, "WARNING")
-    yield from fitting.again(uid)
+    yield from auto_framing.again(uid)
     settings = owned.scene(uid).firetwin
-    then = changed.seen(settings)
+    then = changed_settings.seen(settings)
     chosen, smoke = run.choice(settings), settings.bake_smoke and "smoke" in parts
     shot = yield Away("reading the run", lambda **_: chosen.shot())
     if smoke and shot.settings.smoke.enabled:
         yield Away("smoke", functools.partial(bake.run, chosen, together=True))
-    yield "clearing the stage"
+    yield "removing the previous build"
     if bpy.context.mode != "OBJECT":
         raise Error("leave the edit mode, then build again")
     new = not owned.built(owned.scene(uid))
-    before, (uid, words) = uid, stage.prepare(owned.scene(uid), part=part != ALL)
+    before, (uid, words) = uid, target_scene.prepare(owned.scene(uid), part=part != ALL)
     new = new or uid != before
     told: list[str] = []
     yield from build.steps(shot, owned.scene(uid), parts, told.append)
-    changed.remember(owned.scene(uid).firetwin, then, parts)
+    changed_settings.remember(owned.scene(uid).firetwin, then, parts)
     _finish(owned.scene(uid), shot, parts, new)
     yield from solve.price(uid)
     for text in (*shot.warnings(), *shot.one_eyed(), *told):
@@ -134,7 +148,7 @@ def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: boo
 
 
 class FIRETWIN_OT_remove(bpy.types.Operator):
-    """Take away what Firetwin built in this scene, and nothing else"""
+    """Remove what Firetwin built in this scene; other objects are kept"""
 
     bl_idname = "firetwin.remove"
     bl_label = "Remove scene"
@@ -145,7 +159,7 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
         if not working.editable(cls, context):
             return False
         if not owned.built(context.scene):
-            cls.poll_message_set("There is nothing of Firetwin's in this scene")
+            cls.poll_message_set("This scene holds nothing that Firetwin built")
             return False
         if context.mode != "OBJECT":
             cls.poll_message_set("Leave the edit mode first")
@@ -157,7 +171,7 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
             self,
             event,
             title="Remove what Firetwin built?",
-            message="What you changed by hand in it goes too. Settings stay, and undo brings all back",
+            message="Manual changes to it are removed too. Settings are kept, and undo restores all",
             confirm_text="Remove",
         )
 
@@ -166,14 +180,14 @@ class FIRETWIN_OT_remove(bpy.types.Operator):
         scene = context.scene
         view.narrow(scene)
         time.forget(scene.firetwin)
-        changed.forget(scene.firetwin)
-        stage.remove(scene)
+        changed_settings.forget(scene.firetwin)
+        target_scene.remove(scene)
         self.report({"INFO"}, "Removed what Firetwin built")
         return {"FINISHED"}
 
 
 class FIRETWIN_MT_parts(bpy.types.Menu):
-    """Build one part again, or remove everything"""
+    """Rebuild one part, or remove all parts"""
 
     bl_idname = "FIRETWIN_MT_parts"
     bl_label = "Parts"
@@ -181,7 +195,7 @@ class FIRETWIN_MT_parts(bpy.types.Menu):
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         for name, label, _ in _CHOICES[1:]:
-            layout.operator(FIRETWIN_OT_build.bl_idname, text=f"{label} again").part = name
+            layout.operator(FIRETWIN_OT_build.bl_idname, text=f"Rebuild {label}").part = name
         layout.separator()
         layout.operator(FIRETWIN_OT_remove.bl_idname, text="Remove all", icon="TRASH")
 
@@ -195,7 +209,7 @@ def again(layout: bpy.types.UILayout, part: str, due: bool = False) -> None:
 
 
 class FIRETWIN_PT_build(bpy.types.Panel):
-    """The scene made from the run"""
+    """Scene built from the run"""
 
     bl_idname = "FIRETWIN_PT_build"
     bl_label = "Scene"
@@ -212,8 +226,8 @@ class FIRETWIN_PT_build(bpy.types.Panel):
         if job.Job.current is None:
             row.menu(FIRETWIN_MT_parts.bl_idname, text="", icon="DOWNARROW_HLT")
         if settings.changed:
-            names = ", ".join(map(order.title, settings.changed.split()))
-            paragraph(context, layout.column(align=True), f"Changed since it was built: {names}", "INFO")
+            names = ", ".join(map(panel_order.title, settings.changed.split()))
+            paragraph(context, layout.column(align=True), f"Changed since the build: {names}", "INFO")
         column = layout.column()
         column.enabled = job.Job.current is None
         quality.draw(column, settings)

@@ -24,9 +24,9 @@ from dataclasses import replace
 import bpy
 
 from ..errors import Error, InputError
-from ..shot.schema import Part, parts
-from ..shot.settings import Camera, Settings
-from . import changed, tables
+from ..shot.settings.schema import Part, parts
+from ..shot.settings.settings import Camera, Settings
+from . import changed_settings, tables
 
 
 class FIRETWIN_PG_camera(bpy.types.PropertyGroup):
@@ -34,10 +34,10 @@ class FIRETWIN_PG_camera(bpy.types.PropertyGroup):
 
     name: bpy.props.StringProperty(
         name="Name",
-        description="Names the camera's folder and files: letters, digits, - and _",
-        update=changed.note,
+        description="Name of the camera, its folder and its files: letters, digits, - and _",
+        update=changed_settings.note,
     )
-    table: bpy.props.StringProperty(options={"HIDDEN"}, update=changed.note)
+    table: bpy.props.StringProperty(options={"HIDDEN"}, update=changed_settings.note)
 
 
 def get(item: FIRETWIN_PG_camera) -> Camera:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import build, camera_list, changed, job, order, working
+from . import build, camera_list, changed_settings, job, panel_order, working
 
 
 class FIRETWIN_UL_cameras(bpy.types.UIList):
@@ -26,7 +26,7 @@ class FIRETWIN_UL_cameras(bpy.types.UIList):
 
 
 class FIRETWIN_OT_camera_remove(bpy.types.Operator):
-    """Take the chosen camera out of the list; what is built of it goes when the cameras are built again"""
+    """Remove the selected camera from the list; rebuilding the cameras removes its objects"""
 
     bl_idname = "firetwin.camera_remove"
     bl_label = "Remove camera"
@@ -45,12 +45,12 @@ class FIRETWIN_OT_camera_remove(bpy.types.Operator):
         panel = context.scene.firetwin
         panel.cameras.remove(panel.camera_index)
         panel.camera_index = max(min(panel.camera_index, len(panel.cameras) - 1), 0)
-        changed.compare(panel)
+        changed_settings.compare(panel)
         return {"FINISHED"}
 
 
 class FIRETWIN_OT_camera_copy(bpy.types.Operator):
-    """Add a copy of the chosen camera"""
+    """Duplicate the selected camera"""
 
     bl_idname = "firetwin.camera_copy"
     bl_label = "Copy camera"
@@ -69,7 +69,7 @@ class FIRETWIN_OT_camera_copy(bpy.types.Operator):
 
 
 class FIRETWIN_PT_cameras(bpy.types.Panel):
-    """What films the scene"""
+    """Cameras of the scene"""
 
     bl_idname = "FIRETWIN_PT_cameras"
     bl_label = "Cameras"
@@ -77,7 +77,7 @@ class FIRETWIN_PT_cameras(bpy.types.Panel):
     bl_region_type = "UI"
     bl_category = "Firetwin"
     bl_options = {"DEFAULT_CLOSED"}
-    bl_order = order.CAMERAS
+    bl_order = panel_order.CAMERAS
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
         build.again(self.layout, "cameras")
@@ -90,7 +90,7 @@ class FIRETWIN_PT_cameras(bpy.types.Panel):
         column.operator(FIRETWIN_OT_camera_copy.bl_idname, text="", icon="DUPLICATE")
         column.operator(FIRETWIN_OT_camera_remove.bl_idname, text="", icon="REMOVE")
         if not panel.cameras:
-            self.layout.label(text="Read run brings two", icon="INFO")
+            self.layout.label(text="Read run adds cameras", icon="INFO")
 
 
 classes = (

@@ -19,25 +19,24 @@ class Said:
 
     start: bpy.props.StringProperty(
         name="Start",
-        description="Of a fire model's own files that do not say it: when their times begin, such as "
-        "2014-09-17T04:45:00Z",
+        description="Start time of a fire model's files that do not give it, such as 2014-09-17T04:45:00Z",
         options={"SKIP_SAVE"},
     )
     at: bpy.props.StringProperty(
         name="At",
-        description="Of a fire model's own files in metres of no projection: latitude and longitude of the "
-        "middle, such as 38.78,-120.6",
+        description="Latitude and longitude of the centre of a fire model's grid without projection, such as "
+        "38.78,-120.6",
         options={"SKIP_SAVE"},
     )
     projection: bpy.props.StringProperty(
         name="Projection",
-        description="Of a fire model's own files in a projection they do not name: such as EPSG:5070",
+        description="Projection of a fire model's files that do not name it, such as EPSG:5070",
         options={"SKIP_SAVE"},
     )
 
 
 class FIRETWIN_OT_convert(Said, Working, bpy.types.Operator):
-    """Make a run of a fire model's own files, beside them or in the output folder, and open it"""
+    """Convert a fire model's files to a run, beside them or in the output folder, and open the run"""
 
     bl_idname = "firetwin.convert"
     bl_label = "Convert model output"

@@ -24,7 +24,7 @@ from ..jobs.worker import Stop, StoppedError
 from ..progress import duration
 from . import keys, scene_file
 
-_UNDONE = "undo was used while the scene was being built, so it is not complete; build it again"
+_UNDONE = "undo was used during the build, so the scene is incomplete; build it again"
 
 
 @dataclass(frozen=True)

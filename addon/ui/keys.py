@@ -17,7 +17,7 @@ import bpy
 import numpy as np
 
 from ..errors import Error
-from ..shot.schema import Key, Part, parts, plain
+from ..shot.settings.schema import Key, Part, parts, plain
 
 Items = tuple[tuple[str, str, str], ...]
 
@@ -51,7 +51,7 @@ def prop(kind: type, name: str, first: tuple[str, str, str] | None = None, **opt
 
 def switch(part: Part, **options: Any) -> Any:
     """The Blender property that says whether a number stands at all; `options` as those of `prop`."""
-    text = f"Choose it: {part.key.described()}"
+    text = f"Set this value: {part.key.described()}"
     return bpy.props.BoolProperty(name=label(part.name), description=text, default=False, **options)
 
 

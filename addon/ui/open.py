@@ -19,14 +19,14 @@ _FILES = "*.toml;*.nc;*.npz;*.asc;*.tif;*.tiff;*.bil;*.lcp;*.prj;*.geojson;*.kml
 
 
 class FIRETWIN_OT_open(foreign.Said, bpy.types.Operator, ImportHelper):
-    """Open a model run (its run.toml or its folder), a scene file, or a fire model's own files"""
+    """Open a run (its run.toml or its folder), a scene file, or a fire model's files"""
 
     bl_idname = "firetwin.open"
     bl_label = "Open run"
     bl_description = (
-        "Open a model run (its run.toml or its folder) or a scene file; or a fire model's own files (all of "
-        "a run together), of which a run is made beside them. Another run brings its own time window and "
-        "cameras; the field Run keeps those that are there"
+        "Open a run (its run.toml or its folder), a scene file, or all files of a fire model's run. "
+        "A fire model's files are converted to a run beside them. Opening another run resets time window and "
+        "cameras; the field Run keeps them"
     )
     bl_options = {"UNDO"}
 
@@ -108,7 +108,7 @@ class FIRETWIN_FH_open(bpy.types.FileHandler):
 
 
 class FIRETWIN_OT_sample(Working, bpy.types.Operator):
-    """Write the sample run, a made-up King Fire, to this computer and open it; nothing is downloaded"""
+    """Write the sample run, a synthetic King Fire, to this computer and open it; nothing is downloaded"""
 
     bl_idname = "firetwin.sample"
     bl_label = "Try the King Fire"
@@ -116,7 +116,7 @@ class FIRETWIN_OT_sample(Working, bpy.types.Operator):
 
     folder: bpy.props.StringProperty(
         name="Folder",
-        description="Where the run is written; empty: among Firetwin's own files",
+        description="Output folder of the run; empty: Firetwin's own folder",
         subtype="DIR_PATH",
         options={"SKIP_SAVE"},
     )
@@ -137,7 +137,7 @@ class FIRETWIN_OT_sample(Working, bpy.types.Operator):
 
 
 class FIRETWIN_MT_add(bpy.types.Menu):
-    """A fire, from its model run"""
+    """Add the fire of a model run"""
 
     bl_idname = "FIRETWIN_MT_add"
     bl_label = "Firetwin"

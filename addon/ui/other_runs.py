@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 import bpy
 
-from ..shot.schema import parts
-from ..shot.settings import OtherRun
+from ..shot.settings.schema import parts
+from ..shot.settings.settings import OtherRun
 from . import sections
 
 FIRETWIN_PG_otherrun = sections.group(OtherRun)

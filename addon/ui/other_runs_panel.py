@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import bpy
 
-from ..shot.settings import MOST_RUNS
+from ..shot.settings.settings import MOST_RUNS
 from . import job, working
 from .text import paragraph
 
 
 class FIRETWIN_OT_run_add(bpy.types.Operator):
-    """Add another run of the same place and time: the same cameras film it too"""
+    """Add another run of the same place and time, filmed by the same cameras"""
 
     bl_idname = "firetwin.run_add"
     bl_label = "Add run to compare"
@@ -19,7 +19,7 @@ class FIRETWIN_OT_run_add(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if len(context.scene.firetwin.runs) >= MOST_RUNS:
-            cls.poll_message_set(f"At most {MOST_RUNS} beside the first")
+            cls.poll_message_set(f"At most {MOST_RUNS} other runs")
             return False
         return working.editable(cls, context)
 
@@ -34,7 +34,7 @@ class FIRETWIN_OT_run_add(bpy.types.Operator):
 
 
 class FIRETWIN_OT_run_remove(bpy.types.Operator):
-    """Take this run out of the list"""
+    """Remove this run from the list"""
 
     bl_idname = "firetwin.run_remove"
     bl_label = "Remove run"
@@ -53,7 +53,7 @@ class FIRETWIN_OT_run_remove(bpy.types.Operator):
 
 
 class FIRETWIN_PT_other_runs(bpy.types.Panel):
-    """Other runs of the same place and time, rendered beside this one"""
+    """Other runs of the same place and time, for comparison"""
 
     bl_idname = "FIRETWIN_PT_other_runs"
     bl_label = "Compare With"
@@ -73,7 +73,7 @@ class FIRETWIN_PT_other_runs(bpy.types.Panel):
             row.operator(FIRETWIN_OT_run_remove.bl_idname, text="", icon="REMOVE").index = index
         column.operator(FIRETWIN_OT_run_add.bl_idname, icon="ADD")
         if panel.runs:
-            text = "Passes split and difference compare them; Fronts, under Fire, draws their fires as lines"
+            text = "The passes split and difference compare runs. Fronts, under Fire, draws their fronts"
             paragraph(context, column.column(align=True), text, "INFO")
 
 

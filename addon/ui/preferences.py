@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import bpy
 
-from ..shot.settings import Render
+from ..shot.settings.settings import Render
 from . import keys
 
 _PACKAGE = __package__.rpartition(".")[0]
-AS_FILE = ("scene", "As each scene says", "What the scene's own settings name")
+AS_FILE = ("scene", "As in the scene", "Device of the scene's settings")
 """The choice that leaves the scene file its word."""
 
 
 class FIRETWIN_AP_preferences(bpy.types.AddonPreferences):
-    """Choices of this machine"""
+    """Preferences of this machine"""
 
     bl_idname = _PACKAGE
 

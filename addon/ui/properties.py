@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..shot.settings import Settings
+from ..shot.settings.settings import Settings
 from . import camera_list, keys, other_runs, render, run, scene_file, sections, time
 
 _BLEND_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
@@ -12,18 +12,18 @@ _SETTINGS = sections.properties(sections.single() + sections.sections(), Setting
 
 
 class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annotations__": _SETTINGS})):
-    """The settings of the scene, choices of the panel, and what is known about the run"""
+    """Settings of the scene, choices of the panel, and facts about the run"""
 
     run: bpy.props.StringProperty(
         name="Run",
-        description="Folder of the model run: run.toml and a file, or a folder of files, per field",
+        description="Folder of the run: run.toml, and a file or a folder of files per field",
         subtype="DIR_PATH",
         options=_BLEND_RELATIVE,
         update=run.chosen,
     )
     scene_file: bpy.props.StringProperty(
         name="Scene file",
-        description="TOML file that the settings came from. Choosing one fills the whole panel",
+        description="TOML file of the settings. Choosing a file fills the panel",
         subtype="FILE_PATH",
         options=_BLEND_RELATIVE,
         update=run.imported,
@@ -31,14 +31,14 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annota
     cache: keys.prop(
         Settings,
         "cache",
-        description="Smoke volumes are kept here and used again; empty: in the output folder, or "
-        "with Firetwin's own files while the .blend file is not saved",
+        description="Folder of smoke volumes, kept and reused; empty: in the output folder, or "
+        "in Firetwin's own folder if the .blend file is not saved",
         default="",
         options=_BLEND_RELATIVE,
     )
     runs: bpy.props.CollectionProperty(type=other_runs.FIRETWIN_PG_otherrun, name="Other runs")
     cameras: bpy.props.CollectionProperty(type=camera_list.FIRETWIN_PG_camera, name="Cameras")
-    camera_index: bpy.props.IntProperty(name="Camera", description="The camera chosen in the list")
+    camera_index: bpy.props.IntProperty(name="Camera", description="Selected camera of the list")
     output: bpy.props.StringProperty(
         name="Output",
         description="Folder for pictures and films",
@@ -54,8 +54,8 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annota
     problem: bpy.props.StringProperty(options={"HIDDEN"})
     bake_smoke: bpy.props.BoolProperty(
         name="Smoke of every frame",
-        description="Write the smoke of all frames first, which can take minutes. "
-        "Without it the scene is there sooner, and Render writes the smoke that it needs",
+        description="Bake the smoke of all frames during the build, which can take minutes. "
+        "Off: the build is faster, and Render bakes the smoke that it needs",
         default=True,
     )
     first_time: bpy.props.StringProperty(options={"HIDDEN"})
@@ -66,7 +66,7 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annota
     height: bpy.props.FloatProperty(options={"HIDDEN"})
     model_time: bpy.props.FloatProperty(
         name="Model time",
-        description="Moment of the run that is shown, from the first frame to the last",
+        description="Model time that is shown, from the first frame to the last",
         subtype="FACTOR",
         min=0.0,
         max=1.0,
@@ -77,15 +77,15 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annota
     go_to: bpy.props.StringProperty(
         name="Go to",
         description="Latitude and longitude (38.82 -120.55), the name of an object or a place, a date and "
-        "time (2014-09-17 15:30, in the zone of the film), or part of what is reported of a moment",
+        "time (2014-09-17 15:30, in the zone of the film), or words of a reported event",
         options={"SKIP_SAVE"},
     )
-    camera: bpy.props.EnumProperty(name="Camera", description="Cameras that film", items=render.camera_items)
+    camera: bpy.props.EnumProperty(name="Camera", description="Cameras to render", items=render.camera_items)
     which: bpy.props.EnumProperty(
         name="Frames",
-        description="Which frames to render",
+        description="Frames to render",
         items=(
-            ("frame", "This frame", "The frame that is shown"),
+            ("frame", "This frame", "Current frame"),
             ("list", "List", "A list of frames"),
             ("all", "All", "Every frame of the cameras"),
         ),
@@ -95,7 +95,7 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annota
     )
     resume: bpy.props.BoolProperty(
         name="Keep finished",
-        description="Render only what is missing or was made with other settings",
+        description="Render only pictures that are missing or have other settings",
         default=True,
     )
 

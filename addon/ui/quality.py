@@ -8,12 +8,12 @@ from typing import Any
 import bpy
 from bl_operators.presets import AddPresetBase
 
-from ..shot.schema import Part, parts
+from ..shot.settings.schema import Part, parts
 from . import job, keys, sections, working
 
 _MOVED = (
-    ("ground", "near_radius"),
-    ("ground", "error"),
+    ("terrain", "near_radius"),
+    ("terrain", "error"),
     ("forest", "budget"),
     ("forest", "understorey"),
     ("forest", "draw_distance"),
@@ -25,15 +25,15 @@ _MOVED = (
 )
 _STEPS: dict[str, tuple[str, tuple[Any, ...]]] = {
     "preview": (
-        "A look in a minute: coarse ground, fewer trees, smoke as puffs, small pictures",
+        "Preview in a minute: coarse terrain, fewer trees, smoke as puffs, small pictures",
         (1500.0, 1.5, 40_000, 5000, 6000.0, 500, "puffs", 12, (480, 270), 2),
     ),
     "film": (
-        "Films and daily work: smoke as solved air, pictures of 1280 x 720",
+        "Films and daily work: solved smoke, pictures of 1280 x 720",
         (4000.0, 0.05, 200_000, 40_000, 12_000.0, 3000, "flow", 48, (1280, 720), 6),
     ),
     "final": (
-        "The finest: more trees and bushes, pictures of 1920 x 1080, little grain. Hours for a film",
+        "Final quality: more trees and shrubs, pictures of 1920 x 1080, little noise. A film takes hours",
         (6000.0, 0.05, 400_000, 80_000, 16_000.0, 6000, "flow", 96, (1920, 1080), 24),
     ),
 }
@@ -42,7 +42,7 @@ LEVELS = {name: dict(zip(_MOVED, values, strict=True)) for name, (_, values) in 
 
 _ITEMS = [(name, keys.label(name), words) for name, (words, _) in _STEPS.items()]
 
-_NOT_SAVED = {"time": ("start", "end"), "ground": ("elevation", "photo", "photo_extent", "land_use")}
+_NOT_SAVED = {"time": ("start", "end"), "terrain": ("elevation", "photo", "photo_extent", "land_use")}
 """What belongs to a run, and so into no preset."""
 
 
@@ -72,7 +72,7 @@ def _part(section: str, name: str) -> Part:
 
 
 class FIRETWIN_OT_quality(bpy.types.Operator):
-    """Set trees, ground, smoke, size and samples together"""
+    """Set trees, terrain, smoke, resolution and samples together"""
 
     bl_idname = "firetwin.quality"
     bl_label = "Quality"
@@ -83,7 +83,7 @@ class FIRETWIN_OT_quality(bpy.types.Operator):
     @classmethod
     def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
         """The tooltip."""
-        return f"{_STEPS[properties.level][0]}. What is built changes when it is built again"
+        return f"{_STEPS[properties.level][0]}. Rebuild the scene to apply it"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -96,7 +96,7 @@ class FIRETWIN_OT_quality(bpy.types.Operator):
 
 
 class FIRETWIN_OT_preset(AddPresetBase, bpy.types.Operator):
-    """Keep these settings under a name, or forget those of a name"""
+    """Save these settings as a preset, or remove a preset"""
 
     bl_idname = "firetwin.preset"
     bl_label = "Save preset"
@@ -129,7 +129,7 @@ class FIRETWIN_OT_preset(AddPresetBase, bpy.types.Operator):
 
 
 class FIRETWIN_MT_presets(bpy.types.Menu):
-    """Settings that were kept under a name"""
+    """Saved presets of settings"""
 
     bl_label = "Presets"
     preset_subdir = "firetwin"
@@ -139,7 +139,7 @@ class FIRETWIN_MT_presets(bpy.types.Menu):
         if bpy.utils.preset_paths("firetwin"):
             bpy.types.Menu.draw_preset(self, context)
         else:
-            self.layout.label(text="None is saved yet: + saves these settings")
+            self.layout.label(text="No presets are saved: + saves these settings")
 
 
 def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup) -> None:

@@ -15,7 +15,7 @@ import bpy
 from ..jobs import worker
 from ..jobs.render import Asked
 from ..progress import duration
-from ..shot.choice import Choice
+from ..shot.source import Choice
 from . import job
 
 WAITING, RENDERING, PAUSED, DONE, FAILED = "waiting", "rendering", "paused", "done", "failed"
@@ -102,7 +102,7 @@ class Item:
                 stop=stop,
             )
         except worker.StoppedError:
-            self.state, self.told = PAUSED, "what is finished is kept"
+            self.state, self.told = PAUSED, "finished pictures are kept"
         except BaseException as error:
             self.state, self.told = FAILED, job.words(error)
         else:

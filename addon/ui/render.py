@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 
 from ..progress import count
-from . import job, order, run, scene_file, working
+from . import job, panel_order, run, scene_file, working
 from .job import Away, Steps
 from .text import paragraph
 from .working import Working
@@ -27,13 +27,13 @@ def camera_items(settings: bpy.types.PropertyGroup, context: bpy.types.Context) 
 
 
 class FIRETWIN_OT_render(Working, bpy.types.Operator):
-    """Render into the output folder, as the command line does"""
+    """Render into the output folder, as `firetwin render` does"""
 
     bl_idname = "firetwin.render"
     bl_label = "Render"
     bl_description = (
-        "Render pictures, and films of what is finished, into the output folder, as the command line does: "
-        "from the run and the settings here, not from what was changed by hand in this window"
+        "Render pictures and films into the output folder, as the command line does. Run and settings of the "
+        "panel are used; manual changes to the scene are not"
     )
     bl_options = {"REGISTER"}
 
@@ -57,7 +57,7 @@ class FIRETWIN_OT_render(Working, bpy.types.Operator):
         chosen = run.choice(settings)
         made = yield Away("starting Blender", functools.partial(render.run, chosen, asked))
         if not made.pictures:
-            return f"All is finished in {out}"
+            return f"All pictures in {out} are finished"
         return f"Rendered {count(made.pictures, 'picture')} to {out}"
 
 
@@ -70,7 +70,7 @@ class FIRETWIN_PT_render(bpy.types.Panel):
     bl_region_type = "UI"
     bl_category = "Firetwin"
     bl_options = {"DEFAULT_CLOSED"}
-    bl_order = order.RENDER
+    bl_order = panel_order.RENDER
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.firetwin

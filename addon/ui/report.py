@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import bpy
 
-from . import keys, order, run, working
+from . import keys, panel_order, run, working
 from .job import Job
 from .text import labelled, paragraph
 
 
 class FIRETWIN_PT_report(bpy.types.Panel):
-    """The run's burned area beside what was reported, and what the last work had to tell"""
+    """Burned area of the run and as reported, and messages of the last task"""
 
     bl_idname = "FIRETWIN_PT_report"
     bl_label = "Report"
@@ -18,7 +18,7 @@ class FIRETWIN_PT_report(bpy.types.Panel):
     bl_region_type = "UI"
     bl_category = "Firetwin"
     bl_options = {"DEFAULT_CLOSED"}
-    bl_order = order.REPORT
+    bl_order = panel_order.REPORT
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.firetwin

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..shot.schema import Part, parts
+from ..shot.settings.schema import Part, parts
 from . import keys, sections, working
 from .text import labelled
 
@@ -59,7 +59,7 @@ def _long(part: Part) -> bool:
 
 
 class FIRETWIN_OT_reset(bpy.types.Operator):
-    """Give this setting its default again"""
+    """Reset this setting to its default"""
 
     bl_idname = "firetwin.reset"
     bl_label = "Reset to default"

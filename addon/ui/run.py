@@ -13,9 +13,9 @@ import bpy
 from ..blender import owned
 from ..jobs.worker import StoppedError
 from ..run import readers
-from ..shot import file
-from ..shot.choice import Choice
-from . import by_hand, changed, fitting, job, maps, preferences, scene_file, solve, working
+from ..shot.settings import scene_file as file
+from ..shot.source import Choice
+from . import auto_framing, camera_edits, changed_settings, job, maps, preferences, scene_file, solve, working
 from .job import Away, Steps
 from .text import labelled, paragraph
 from .working import Working
@@ -23,7 +23,7 @@ from .working import Working
 
 def chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
     """Another run folder: look into it."""
-    changed.compare(settings)
+    changed_settings.compare(settings)
     if job.Job.current is not None:
         return
     settings.facts = settings.problem = ""
@@ -58,7 +58,7 @@ def _inspect(settings: bpy.types.PropertyGroup) -> None:
 
 def choice(settings: bpy.types.PropertyGroup) -> Choice:
     """What the panel and the preferences choose, with what was done to cameras by hand."""
-    by_hand.pull(settings.id_data)
+    camera_edits.pull(settings.id_data)
     return Choice(str(scene_file.written(settings.id_data)), device=preferences.device())
 
 
@@ -72,7 +72,7 @@ def ready(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
 
 
 class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
-    """Look into the run again: grids, extent, times, burned area, warnings"""
+    """Read the run again: grids, extent, times, burned area, warnings"""
 
     bl_idname = "firetwin.inspect"
     bl_label = "Read run"
@@ -95,14 +95,14 @@ def look(uid: int) -> Steps:
     try:
         found, images = yield Away("reading the run", lambda **_: facts(folder))
         owned.scene(uid).firetwin.facts = json.dumps(found)
-        fitting.put(owned.scene(uid).firetwin, found["fits"])
+        auto_framing.put(owned.scene(uid).firetwin, found["fits"])
         maps.show(owned.scene(uid).firetwin.run, images)
-        yield from fitting.again(uid)
+        yield from auto_framing.again(uid)
         chosen = choice(owned.scene(uid).firetwin)
         yield Away("reading the run", lambda **_: chosen.shot())
         yield from solve.price(uid)
     except StoppedError:
-        owned.scene(uid).firetwin.problem = "The run was not read to its end; Read run does it"
+        owned.scene(uid).firetwin.problem = "The run was read only in part; use Read run"
         raise
     except Exception as error:
         owned.scene(uid).firetwin.problem = job.words(error)
@@ -127,7 +127,7 @@ def facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
         "moments": _moments(found),
         "burned": _burned(found),
         "places": labels.known(run),
-        "fits": fitting.found(run),
+        "fits": auto_framing.found(run),
     }
     return told, thumbnails.draw(run)
 
@@ -167,7 +167,7 @@ def read(text: str) -> dict[str, Any]:
 
 
 class FIRETWIN_PT_run(bpy.types.Panel):
-    """The model run that the scene shows"""
+    """Run that the scene shows"""
 
     bl_idname = "FIRETWIN_PT_run"
     bl_label = "Run"
@@ -197,9 +197,7 @@ class FIRETWIN_PT_run(bpy.types.Panel):
 
 def _hint(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
     """What to do first."""
-    paragraph(
-        context, layout.column(align=True), "Open a fire model's run, or try the made-up King Fire.", "INFO"
-    )
+    paragraph(context, layout.column(align=True), "Open a run, or try the synthetic King Fire.", "INFO")
     row = layout.column(align=True)
     row.operator("firetwin.open", text="Open run...", icon="FILEBROWSER")
     row.operator("firetwin.sample", icon="LIGHT_SUN")
@@ -209,7 +207,7 @@ class FIRETWIN_PT_facts(bpy.types.Panel):
     """Grids, extent, times, burned area and warnings of the run"""
 
     bl_idname = "FIRETWIN_PT_facts"
-    bl_label = "What It Holds"
+    bl_label = "Content"
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Firetwin"
@@ -227,7 +225,7 @@ class FIRETWIN_PT_facts(bpy.types.Panel):
             labelled(column, label).label(text=text)
         for warning in found["warnings"]:
             paragraph(context, column, warning, "ERROR")
-        for line in fitting.lines(context.scene.firetwin):
+        for line in auto_framing.lines(context.scene.firetwin):
             paragraph(context, column, f"{line[:1].upper()}{line[1:]}")
 
 

@@ -13,10 +13,10 @@ import bpy
 
 from .. import files
 from ..errors import Error
-from ..shot import file
-from ..shot.schema import wrong
-from ..shot.settings import Settings
-from . import by_hand, camera_list, keys, other_runs, sections
+from ..shot.settings import scene_file
+from ..shot.settings.schema import wrong
+from ..shot.settings.settings import Settings
+from . import camera_edits, camera_list, keys, other_runs, sections
 
 
 def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Settings:
@@ -73,8 +73,8 @@ def export(scene: bpy.types.Scene, path: Path) -> None:
     InputError
         It cannot be written.
     """
-    by_hand.pull(scene)
-    text = file.text(settings(scene, path))
+    camera_edits.pull(scene)
+    text = scene_file.text(settings(scene, path))
     files.write(path, lambda part: part.write_text(text, encoding="utf-8"))
 
 
@@ -85,7 +85,7 @@ def folder() -> Path:
 
 def written(scene: bpy.types.Scene) -> Path:
     """The panel's scene file, written for a job; another text gets another name."""
-    text = file.text(settings(scene, folder() / "scene.toml"))
+    text = scene_file.text(settings(scene, folder() / "scene.toml"))
     path = folder() / f"{hashlib.sha256(text.encode()).hexdigest()[:16]}.toml"
     if not path.is_file():
         files.write(path, lambda part: part.write_text(text, encoding="utf-8"))

@@ -5,8 +5,8 @@ from __future__ import annotations
 import bpy
 
 from ..scene.build import PARTS
-from ..shot.schema import Part, parts
-from . import build, job, keys, order, rows, sections
+from ..shot.settings.schema import Part, parts
+from . import build, job, keys, panel_order, rows, sections
 
 _OWN = ("time",)  # drawn by a panel of its own
 _BELOW = {"render": "FIRETWIN_PT_render"}  # sections that stand in another panel
@@ -37,7 +37,7 @@ def _panel(section: Part, place: int) -> type[bpy.types.Panel]:
     own = {
         "__doc__": keys.sentence(section.key.help),
         "bl_idname": f"FIRETWIN_PT_section_{name}",
-        "bl_label": "Settings" if name in _BELOW else order.title(name),
+        "bl_label": "Settings" if name in _BELOW else panel_order.title(name),
         "bl_space_type": "VIEW_3D",
         "bl_region_type": "UI",
         "bl_category": "Firetwin",
@@ -57,9 +57,9 @@ def _panels() -> tuple[type[bpy.types.Panel], ...]:
     late = (*_LATE, *_BELOW)
     early = [part for part in shown if part.name not in late]
     return (
-        *(_panel(part, order.SECTIONS + place) for place, part in enumerate(early)),
+        *(_panel(part, panel_order.SECTIONS + place) for place, part in enumerate(early)),
         *(
-            _panel(part, order.SENSORS + place)
+            _panel(part, panel_order.SENSORS + place)
             for place, part in enumerate(p for p in shown if p not in early)
         ),
     )

@@ -13,9 +13,9 @@ from typing import Any
 
 import bpy
 
-from ..shot.schema import Part, parts, summary
-from ..shot.settings import Settings
-from . import changed, keys
+from ..shot.settings.schema import Part, parts, summary
+from ..shot.settings.settings import Settings
+from . import changed_settings, keys
 from .tables import from_text, to_text
 
 NOT_HERE = ("path", "run", "cache", "runs", "cameras")
@@ -40,14 +40,14 @@ def properties(known: tuple[Part, ...], kind: type) -> dict[str, Any]:
     for part in known:
         if part.tables:
             found[part.name] = bpy.props.StringProperty(
-                name=keys.label(part.name), options={"HIDDEN"}, update=changed.note
+                name=keys.label(part.name), options={"HIDDEN"}, update=changed_settings.note
             )
         elif part.table:
             found[part.name] = bpy.props.PointerProperty(type=group(part.table))
         else:
-            found[part.name] = keys.prop(kind, part.name, update=changed.note)
+            found[part.name] = keys.prop(kind, part.name, update=changed_settings.note)
             if keys.switched(part):
-                found[keys.USE + part.name] = keys.switch(part, update=changed.note)
+                found[keys.USE + part.name] = keys.switch(part, update=changed_settings.note)
     return found
 
 

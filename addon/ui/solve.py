@@ -11,7 +11,7 @@ from ..blender import owned
 from .job import Away, Steps
 
 if TYPE_CHECKING:
-    from ..shot.choice import Choice
+    from ..shot.source import Choice
 
 
 OPERATOR = "firetwin.solve"
@@ -26,16 +26,16 @@ def price(uid: int) -> Steps:
     if not panel.smoke.enabled or panel.smoke.method != "puffs":
         return ""
     chosen = replace(run.choice(panel), smoke="flow")
-    found = yield Away("looking what smoke would take", lambda **_: _cost(chosen))
+    found = yield Away("estimating the cost of the smoke", lambda **_: _cost(chosen))
     owned.scene(uid).firetwin.smoke_cost = found
     return found
 
 
 def _cost(choice: Choice) -> str:
     """Time and room in a few words; empty where the run brings its smoke, or nothing burns."""
-    from ..scene.smoke import outlook
+    from ..smoke import cost_estimate
 
-    found = outlook.cost(choice.shot())
+    found = cost_estimate.cost(choice.shot())
     return found.brief() if found else ""
 
 

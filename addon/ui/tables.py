@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ..shot import file, toml_text
-from ..shot.schema import Part
+from ..shot.settings import scene_file, toml_writer
+from ..shot.settings.schema import Part
 
 
 def to_text(part: Part, tables: tuple[Any, ...]) -> str:
     """A list of tables as the lines of a scene file; paths are absolute, nothing is explained."""
-    return toml_text.tables(part.name, tables)
+    return toml_writer.tables(part.name, tables)
 
 
 def from_text(part: Part, text: str) -> tuple[Any, ...]:
@@ -22,4 +22,4 @@ def from_text(part: Part, text: str) -> tuple[Any, ...]:
     InputError
         Names line and column of what is wrong in the text.
     """
-    return getattr(file.parse(text, Path("scene.toml")), part.name)
+    return getattr(scene_file.parse(text, Path("scene.toml")), part.name)

@@ -9,8 +9,8 @@ from datetime import UTC, datetime, timedelta
 import bpy
 
 from ..run import times
-from ..shot.schema import parts
-from ..shot.settings import Time
+from ..shot.settings.schema import parts
+from ..shot.settings.settings import Time
 from ..shot.shot import Shot
 from . import job, keys, rows, run, working
 from .text import labelled
@@ -49,10 +49,10 @@ def moment(settings: bpy.types.PropertyGroup) -> datetime:
 
 
 class FIRETWIN_OT_jump(bpy.types.Operator):
-    """Show the frame nearest to this moment"""
+    """Show the frame nearest to this time"""
 
     bl_idname = "firetwin.jump"
-    bl_label = "Jump to a moment"
+    bl_label = "Jump to a time"
     bl_options = {"INTERNAL"}
 
     moment: bpy.props.StringProperty(options={"SKIP_SAVE"})
@@ -69,18 +69,16 @@ class FIRETWIN_OT_jump(bpy.types.Operator):
         settings = context.scene.firetwin
         frame = frame_of(settings, datetime.fromisoformat(self.moment))
         if not 1 <= round(frame) <= settings.frames:
-            self.report(
-                {"WARNING"}, "The frames do not reach that moment; widen Start and End, then build again"
-            )
+            self.report({"WARNING"}, "No frame shows that time; widen Start and End, then rebuild the scene")
         context.scene.frame_current = min(max(round(frame), 1), settings.frames)
         return {"FINISHED"}
 
 
 class FIRETWIN_OT_window(bpy.types.Operator):
-    """Let the frames begin or end at this moment of the run"""
+    """Set the first or last frame to this time of the run"""
 
     bl_idname = "firetwin.window"
-    bl_label = "Begin or end here"
+    bl_label = "Set first or last frame"
     bl_options = {"UNDO", "INTERNAL"}
 
     moment: bpy.props.StringProperty(options={"SKIP_SAVE"})
@@ -109,7 +107,7 @@ def moments(settings: bpy.types.PropertyGroup) -> list[list[str]]:
 
 
 class FIRETWIN_MT_moments(bpy.types.Menu):
-    """Dated moments of the run"""
+    """Dated events of the run"""
 
     bl_idname = "FIRETWIN_MT_moments"
     bl_label = "Jump to"
@@ -122,7 +120,7 @@ class FIRETWIN_MT_moments(bpy.types.Menu):
 
 
 class FIRETWIN_MT_start(bpy.types.Menu):
-    """The first frame at a dated moment of the run"""
+    """Set the first frame to a dated event of the run"""
 
     bl_idname = "FIRETWIN_MT_start"
     bl_label = "Begin at"
@@ -132,7 +130,7 @@ class FIRETWIN_MT_start(bpy.types.Menu):
 
 
 class FIRETWIN_MT_end(bpy.types.Menu):
-    """The last frame at a dated moment of the run"""
+    """Set the last frame to a dated event of the run"""
 
     bl_idname = "FIRETWIN_MT_end"
     bl_label = "End at"
@@ -172,7 +170,7 @@ def _end(text: str, other: str) -> datetime | None:
 
 
 class FIRETWIN_PT_time(bpy.types.Panel):
-    """Which moments of the run the frames show, and which one is shown now"""
+    """Model times of the frames, and the time that is shown"""
 
     bl_idname = "FIRETWIN_PT_time"
     bl_label = "Time"
@@ -204,7 +202,7 @@ class FIRETWIN_PT_time(bpy.types.Panel):
         if None not in ends and settings.time.frames > 1:
             step = (ends[1] - ends[0]).total_seconds() / (settings.time.frames - 1)
             speed = step * settings.time.fps
-            layout.label(text=f"{step:,.7g} s a frame, {speed:,.0f} times as fast")
+            layout.label(text=f"{step:,.7g} s per frame, {speed:,.0f} times real time")
 
 
 def _clock(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:

@@ -63,22 +63,24 @@ def remember(settings: bpy.types.PropertyGroup, run: Run) -> None:
 
 
 class FIRETWIN_OT_view(bpy.types.Operator):
-    """Look at the scene, as far as it reaches"""
+    """View the scene and adapt the clipping distance to it"""
 
     bl_idname = "firetwin.view"
     bl_label = "View scene"
     bl_options = {"INTERNAL"}
 
     whole: bpy.props.BoolProperty(
-        name="Whole run", description="From above the south, instead of through the camera", default=False
+        name="Whole run",
+        description="View from above, from the south; off: through the camera",
+        default=False,
     )
 
     @classmethod
     def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
         """The tooltip."""
         if properties.whole:
-            return "Look at the whole run from above the south, as far as the ground reaches"
-        return "Look through the scene's camera, as far as the ground reaches"
+            return "View the whole run from above, from the south; the clipping distance includes all terrain"
+        return "View through the scene's camera; the clipping distance includes all terrain"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

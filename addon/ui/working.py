@@ -25,7 +25,7 @@ _ICONS = {"INFO": "INFO", "WARNING": "ERROR", "ERROR": "CANCEL"}
 def free(cls: type[bpy.types.Operator]) -> bool:
     """Whether no work goes on; says so where it does."""
     if Job.current is not None:
-        cls.poll_message_set(f"{Job.current.name} is not finished; Stop, in Firetwin's sidebar, ends it")
+        cls.poll_message_set(f"{Job.current.name} is not finished; Stop in Firetwin's sidebar ends it")
     return Job.current is None
 
 
@@ -157,7 +157,7 @@ class Working:
         """Another file is opened, or Blender ends."""
         self.job.stop.now()
         self._end(context)
-        gone = Told(f"{self.job.name} stopped, for another file was opened", "WARNING")
+        gone = Told(f"{self.job.name} stopped because another file was opened", "WARNING")
         Job.last = Ended(self.job.name, (gone,), None)
 
     def _tell(self, work: Job, last: Told) -> None:
@@ -169,8 +169,8 @@ class Working:
 
     def _failed(self, work: Job, error: Exception, back: bool = False) -> set[str]:
         if isinstance(error, StoppedError):
-            undo = "the scene is as it was" if back else "undo takes back what was made"
-            kept = undo if work.touched else "what was finished is kept"
+            undo = "the scene is restored" if back else "undo restores the scene"
+            kept = undo if work.touched else "finished work is kept"
             self._tell(work, Told(f"{work.name} stopped; {kept}", "WARNING"))
         else:
             self._tell(work, Told(words(error), "ERROR"))
@@ -196,7 +196,7 @@ class Working:
 def _show(context: bpy.types.Context, work: Job | None) -> None:
     """Draw the sidebars and the status bar anew."""
     if context.workspace is not None:
-        how = "Stop in the sidebar, or Esc over it, ends this"
+        how = "Stop in the sidebar, or Esc over it, ends the task"
         context.workspace.status_text_set(f"{work.name}: {work.text}    {how}" if work else None)
     redraw()
 
@@ -226,7 +226,7 @@ def message(
     """What the operator's last work had to tell; while it goes on, how it is stopped."""
     column = layout.column(align=True)
     if Job.current is not None and Job.current.name == operator.bl_label:
-        text.paragraph(context, column, "Stop, or Esc with the pointer here, ends this")
+        text.paragraph(context, column, "Stop, or Esc with the pointer here, ends the task")
     elif Job.current is None:
         for each in told(operator):
             text.paragraph(context, column, keys.sentence(each.text), _ICONS[each.level])
@@ -247,7 +247,7 @@ def told(operator: type[bpy.types.Operator]) -> tuple[Told, ...]:
 
 
 class FIRETWIN_OT_stop(bpy.types.Operator):
-    """Stop what goes on, as Esc does with the pointer over this sidebar. What is finished is kept"""
+    """Stop the task, as Esc over this sidebar does. Finished work is kept"""
 
     bl_idname = "firetwin.stop"
     bl_label = "Stop"
@@ -256,7 +256,7 @@ class FIRETWIN_OT_stop(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if Job.current is None:
-            cls.poll_message_set("Nothing goes on")
+            cls.poll_message_set("No task is running")
         return Job.current is not None
 
     @reported
@@ -266,7 +266,7 @@ class FIRETWIN_OT_stop(bpy.types.Operator):
 
 
 class FIRETWIN_OT_copy(bpy.types.Operator):
-    """Copy the message with the versions of Firetwin, Blender and the system, for asking for help"""
+    """Copy the message with the versions of Firetwin, Blender and the system, for a support request"""
 
     bl_idname = "firetwin.copy"
     bl_label = "Copy details"

@@ -51,16 +51,16 @@ target = "fire"
 def build(scene: Path, frame: int, picture: Path | None = None, seed: int = 0) -> dict[str, float]:
     """Build the part of the first camera that holds a frame, and render it; cpu-s and MB of the building."""
     import bpy
-    from firetwin.jobs import render, setting
+    from firetwin.jobs import render, worker_scene
     from firetwin.render.picture import Picture
-    from firetwin.shot.choice import Choice
+    from firetwin.shot.source import Choice
 
     begun = time.process_time()
     shot = Choice(str(scene)).shot()
     ((part, _),) = render._parts(
         shot.of(shot.settings.cameras[0].name), [Picture(shot.settings.cameras[0].name, frame, "rgb")]
     )
-    stage = setting.build_scene(part, lambda *_: None, lambda _: None)
+    stage = worker_scene.build_scene(part, lambda *_: None, lambda _: None)
     found = {
         "cpu-s": time.process_time() - begun,
         "MB": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,

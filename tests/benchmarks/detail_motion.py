@@ -18,8 +18,8 @@ import json
 from pathlib import Path
 
 import numpy as np
-from firetwin.scene.smoke.boxes import Box
-from firetwin.scene.smoke.flow import Part
+from firetwin.smoke.domains import Box
+from firetwin.smoke.flow import Part
 from firetwin_core import flow
 from lines_of_sight import STEP, Grid, SolvedWind, expected, rays
 from numpy.typing import NDArray

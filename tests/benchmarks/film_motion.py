@@ -29,10 +29,10 @@ import bpy  # noqa: F401 (Blender's own libraries come first)
 import numpy as np
 from firetwin.bench.harness import Bench
 from firetwin.bench.volume import bundled_openvdb
-from firetwin.scene.smoke import bake, flow_frames
-from firetwin.scene.smoke.baker import Baker
-from firetwin.shot import file
+from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
+from firetwin.smoke import bake, flow_frames
+from firetwin.smoke.baker import Baker
 from firetwin_core import run
 from lines_of_sight import Grid, SolvedWind, expected
 from numpy.typing import NDArray
@@ -196,7 +196,7 @@ def main() -> None:
     scene = wanted.out / "motion.toml"
     if not wanted.measure:
         write(scene, wanted)
-    settings = file.read(scene)
+    settings = scene_file.read(scene)
     shot = Shot(settings, run.open(settings.run))
     if not wanted.measure:
         for name in CAMERAS:

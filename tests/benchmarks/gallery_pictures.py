@@ -219,8 +219,8 @@ def smoke_said(line: str) -> dict[str, object]:
 
 def _solve(scene: str) -> int:
     """Solve the flow of a scene's smoke up to its last frame, as each camera has it."""
-    from firetwin.scene.smoke.flow import Flow
-    from firetwin.shot.choice import Choice
+    from firetwin.shot.source import Choice
+    from firetwin.smoke.flow import Flow
 
     shot = Choice(scene=scene).shot()
     for camera in shot.settings.cameras:

@@ -3,8 +3,8 @@
     python tests/benchmarks/ground_pictures.py RUN OUT [--size 320] [--samples 8] [--errors 0.5 2] [--json]
 
 A drone's picture and a satellite's of bare ground, without forest, smoke and fire, whose meshes may be off by
-`ground.error` pixels, against those with FINEST; and one with FINEST and other grain: a smaller difference is
-not to be told from grain. Needs flip-evaluator (Andersson et al. 2020, doi
+`terrain.error` pixels, against those with FINEST; and one with FINEST and other grain: a smaller
+difference is not to be told from grain. Needs flip-evaluator (Andersson et al. 2020, doi
 10.1145/3406183: 0 the same, 1 as different as black and white).
 """
 
@@ -17,10 +17,10 @@ from dataclasses import replace
 from pathlib import Path
 
 import bpy
-from firetwin.jobs.setting import build_scene
-from firetwin.scene.ground import build
-from firetwin.shot import file
-from firetwin.shot.settings import Settings
+from firetwin.jobs.worker_scene import build_scene
+from firetwin.scene.terrain import build
+from firetwin.shot.settings import scene_file
+from firetwin.shot.settings.settings import Settings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 
@@ -67,7 +67,7 @@ def settings(folder: Path, out: Path, size: int, samples: int) -> Settings:
     )
     out.mkdir(parents=True, exist_ok=True)
     (out / "scene.toml").write_text(text, encoding="utf-8")
-    return file.read(out / "scene.toml")
+    return scene_file.read(out / "scene.toml")
 
 
 def drawn(shot: Shot, path: Path) -> tuple[int, float]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from firetwin.scene.smoke.flow import Part
+from firetwin.smoke.flow import Part
 from numpy.typing import NDArray
 
 STEP, FARTHEST = 20.0, 12_000.0  # m along a line of sight
@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 
 class View(Protocol):
-    """A camera that stands still: `firetwin.shot.path.Path`, whose first frame counts."""
+    """A camera that stands still: `firetwin.shot.cameras.path.Path`, whose first frame counts."""
 
     position: Array
     rotation: Array
@@ -48,7 +48,7 @@ class Grid:
 
 @dataclass(frozen=True)
 class SolvedWind:
-    """The wind (nz, rows, columns, 3) in the cells of a `firetwin.scene.smoke.flow.Part`, m/s."""
+    """The wind (nz, rows, columns, 3) in the cells of a `firetwin.smoke.flow.Part`, m/s."""
 
     part: Part
     wind: NDArray[np.float32]

@@ -37,9 +37,9 @@ SERIES = ("heat_flux", "temperature", "wind_east", "wind_north")
 
 def info(folder: Path) -> None:
     """All that `firetwin info` shows, of a run that nobody has asked."""
-    from firetwin.run import remembered
+    from firetwin.run import fact_cache
 
-    (folder / remembered.NAME).unlink(missing_ok=True)
+    (folder / fact_cache.NAME).unlink(missing_ok=True)
     info_again(folder)
 
 
@@ -99,7 +99,7 @@ STEPS: dict[str, Callable[[Path], float | None]] = {
 
 
 def _fire(folder: Path) -> tuple:
-    from firetwin.shot.fire import Fire
+    from firetwin.shot.fire.fire import Fire
 
     run = runs.open(folder)
     middle = 0.5 * (run.times[0] + run.times[-1])
@@ -115,7 +115,7 @@ def measure(step: str, folder: Path) -> dict[str, float]:
 
 def _step(name: str, folder: Path) -> None:
     importlib.import_module("firetwin.run.info")
-    importlib.import_module("firetwin.shot.fire")
+    importlib.import_module("firetwin.shot.fire.fire")
     importlib.import_module("firetwin.bench.planning")
     before = _most_held()
     begun, worked = time.perf_counter(), time.process_time()

@@ -22,11 +22,12 @@ from pathlib import Path
 import bpy
 import flip_evaluator
 import numpy as np
-from firetwin.jobs import setting
+from firetwin.jobs import worker_scene
 from firetwin.render import layers
-from firetwin.scene.smoke import bake, flow_material
-from firetwin.shot import file
+from firetwin.scene.smoke import flow_material
+from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
+from firetwin.smoke import bake
 from firetwin_core import run
 from numpy.typing import NDArray
 
@@ -37,7 +38,7 @@ class Bench:
     """One frame that is rendered again and again."""
 
     def __init__(self, scene: Path, frame: int, width: int, folder: Path) -> None:
-        settings = file.read(scene)
+        settings = scene_file.read(scene)
         size = width, round(width * 9 / 32) * 2
         settings = replace(
             settings,
@@ -45,7 +46,7 @@ class Bench:
             render=replace(settings.render, resolution=size, passes=("rgb",)),
         )
         self.shot = Shot(settings, run.open(settings.run)).of(settings.cameras[0].name)
-        self.scene = setting.build_scene(self.shot, lambda *_: None, lambda _: None).scene
+        self.scene = worker_scene.build_scene(self.shot, lambda *_: None, lambda _: None).scene
         self.scene.camera = next(thing for thing in self.scene.objects if thing.type == "CAMERA")
         bake.bake(self.shot, frames=[frame])
         layers.select(self.scene, ["rgb"])

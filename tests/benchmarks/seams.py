@@ -22,9 +22,9 @@ import json
 from pathlib import Path
 
 import numpy as np
-from firetwin.shot import file
-from firetwin.shot.ground import Ground
+from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
+from firetwin.shot.terrain.terrain import Ground
 from firetwin_core import run as runs
 from firetwin_core import sensor
 from numpy.typing import NDArray
@@ -99,13 +99,13 @@ def scene(folder: Path, out: Path, size: int, samples: int) -> Shot:
     )  # fmt: skip
     out.mkdir(parents=True, exist_ok=True)
     (out / "scene.toml").write_text(text, encoding="utf-8")
-    return Shot(file.read(out / "scene.toml"), run)
+    return Shot(scene_file.read(out / "scene.toml"), run)
 
 
 def draw(shot: Shot, path: Path) -> None:
     """The satellite's picture of the scene of all cameras."""
     import bpy
-    from firetwin.jobs.setting import build_scene
+    from firetwin.jobs.worker_scene import build_scene
 
     stage = build_scene(shot, lambda *_: None, print)
     stage.scene.camera = stage.camera("satellite")

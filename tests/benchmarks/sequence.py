@@ -17,7 +17,8 @@ from pathlib import Path
 
 import firetwin_core
 import numpy as np
-from firetwin.shot import burning, file
+from firetwin.shot.fire import burning
+from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
 from numpy.typing import NDArray
 
@@ -61,7 +62,7 @@ def pictures(folder: Path) -> NDArray[np.float32]:
 
 def measure(scene: Path, rendered: NDArray[np.float32]) -> dict[str, NDArray]:
     """Series over the frames."""
-    settings = file.read(scene)
+    settings = scene_file.read(scene)
     run = firetwin_core.run.open(settings.run)
     shot = Shot(settings, run)
     times, fire = shot.frames.times, shot.fire

@@ -31,7 +31,7 @@ cache = "{work}/cache"
 start = 2014-09-17T16:12:00-07:00
 end = 2014-09-17T16:12:01-07:00
 frames = 1
-[ground]
+[terrain]
 error = {error}
 [forest]
 density = "{density}"
@@ -81,12 +81,12 @@ ROWS = {
 def one(scene: Path, picture: Path) -> None:
     """Build and render a scene in this process; print seconds, MB, and how much there is in the scene."""
     import bpy
-    from firetwin.jobs import setting
-    from firetwin.shot.choice import Choice
+    from firetwin.jobs import worker_scene
+    from firetwin.shot.source import Choice
 
     held = _held()
     begun = time.process_time()
-    stage = setting.build_scene(Choice(str(scene)).shot(), lambda *_: None, lambda _: None)
+    stage = worker_scene.build_scene(Choice(str(scene)).shot(), lambda *_: None, lambda _: None)
     built = time.process_time()
     stage.scene.camera = stage.camera("view")
     stage.scene.frame_set(1)

@@ -21,9 +21,9 @@ import bpy  # noqa: F401 (Blender's own libraries come first)
 import numpy as np
 from firetwin.bench.harness import Bench
 from firetwin.bench.volume import bundled_openvdb
-from firetwin.scene.smoke.baker import Baker
-from firetwin.shot import file
+from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
+from firetwin.smoke.baker import Baker
 from firetwin_core import run, volume
 from numpy.typing import NDArray
 
@@ -98,7 +98,7 @@ def main() -> None:
     parser.add_argument("--seen", action="store_true")
     parser.add_argument("--json", action="store_true")
     given = parser.parse_args()
-    settings = file.read(given.scene)
+    settings = scene_file.read(given.scene)
     settings = replace(settings, smoke=replace(settings.smoke, complete=True))  # also what no camera sees
     shot = Shot(settings, run.open(settings.run))
     with tempfile.TemporaryDirectory() as scratch:

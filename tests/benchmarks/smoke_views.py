@@ -20,7 +20,7 @@ from pathlib import Path
 import bpy  # noqa: F401 (Blender's own libraries come first)
 import smoke_pictures
 import smoke_roots
-from firetwin.shot import file
+from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
 from firetwin_core import run
 
@@ -98,7 +98,7 @@ def rendered(model: Path, out: Path, view: str, method: str, size: tuple[int, in
 
 def roots(scene: Path) -> float:
     """Share of the places that burn with smoke within 100 m above them."""
-    settings = file.read(scene)
+    settings = scene_file.read(scene)
     settings = replace(settings, smoke=replace(settings.smoke, complete=True))
     with tempfile.TemporaryDirectory() as folder:
         shot = Shot(settings, run.open(settings.run))

@@ -20,10 +20,10 @@ from pathlib import Path
 import bpy  # noqa: F401 (Blender's own libraries come first)
 import firetwin_core
 import numpy as np
-from firetwin.scene.smoke.baker import Baker
-from firetwin.scene.smoke.flow import Flow
-from firetwin.shot import file
+from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
+from firetwin.smoke.baker import Baker
+from firetwin.smoke.flow import Flow
 from firetwin_core import run
 
 
@@ -36,7 +36,7 @@ def timed(work, *arguments) -> tuple[float, float]:
 
 def measured(scene: Path, frames: int, cache: Path) -> dict[str, float]:
     """All numbers."""
-    settings = file.read(scene)
+    settings = scene_file.read(scene)
     settings = replace(settings, cache=cache, smoke=replace(settings.smoke, method="flow"))
     shot = Shot(settings, run.open(settings.run))
     baker = Baker(shot)

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from firetwin.scene.forest import biomes, levels, models, stand
 from firetwin.scene.forest import build as forest
-from firetwin.scene.ground import build as ground
-from firetwin.scene.ground import fields, material
+from firetwin.scene.terrain import build as ground
+from firetwin.scene.terrain import fields, material
 from firetwin.shot.shot import Shot
 
 OTHERS = sorted(set(biomes.known()) - {"sierra_conifer"})
@@ -60,7 +60,7 @@ def test_roofs_stand_on_their_outlines_as_high_as_they_say(near_settings, run, s
     }
     path = tmp_path / "land.geojson"
     path.write_text(json.dumps({"type": "FeatureCollection", "features": [house]}))
-    shot = Shot(replace(near_settings, ground=replace(near_settings.ground, land_use=path)), run)
+    shot = Shot(replace(near_settings, terrain=replace(near_settings.terrain, land_use=path)), run)
     ground.build(shot, stage, None)
     roofs = bpy.data.objects["Firetwin Roofs"]
     points = np.array([vertex.co for vertex in roofs.data.vertices])

@@ -22,7 +22,7 @@ def test_building_twice_makes_the_same_scene_once(near_shot, stage, scene):
 def test_the_scene_is_grouped(built):
     scene = built.scene
     parts = {child.name for child in bpy.data.collections["Firetwin"].children}
-    assert {f"Firetwin {part}" for part in ("Ground", "Forest", "Cameras", "Light")} <= parts
+    assert {f"Firetwin {part}" for part in ("Terrain", "Forest", "Cameras", "Light")} <= parts
     assert scene.camera.name == "Firetwin Camera drone"
     assert (scene.frame_start, scene.frame_end) == (1, 3)
 

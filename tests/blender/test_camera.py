@@ -6,11 +6,11 @@ import pytest
 from bpy_extras.object_utils import world_to_camera_view
 from firetwin.blender import compat, owned
 from firetwin.scene.camera import build as cameras
-from firetwin.shot import targets
-from firetwin.shot.rigs.drone import Drone
-from firetwin.shot.rigs.lookout import Lookout, LookoutKey
-from firetwin.shot.rigs.satellite import Satellite
-from firetwin.shot.settings import Camera
+from firetwin.shot.cameras import targets
+from firetwin.shot.cameras.rigs.drone import Drone
+from firetwin.shot.cameras.rigs.lookout import Lookout, LookoutKey
+from firetwin.shot.cameras.rigs.satellite import Satellite
+from firetwin.shot.settings.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import lod
 from mathutils import Vector

@@ -8,14 +8,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from firetwin.scene import glow
-from firetwin.scene.light import exposure, meter, sky
-from firetwin.shot import emissions
-from firetwin.shot import settings as scene_settings
-from firetwin.shot.fire import Fire
-from firetwin.shot.rigs.drone import CameraKey, Drone
-from firetwin.shot.rigs.satellite import Satellite
-from firetwin.shot.scale import Scale
+from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
+from firetwin.shot.cameras.rigs.satellite import Satellite
+from firetwin.shot.fire import emissions
+from firetwin.shot.fire.fire import Fire
+from firetwin.shot.light import exposure, exposure_meter, sky
+from firetwin.shot.settings import settings as scene_settings
 from firetwin.shot.shot import Shot
+from firetwin.shot.smoke_scale import Scale
 from firetwin_core import run as runs
 
 MIDDLE = 38.845, -120.55
@@ -106,7 +106,7 @@ def test_smoke_that_is_thin_everywhere_glows_less(filmed, firestorm):
     shine = []
     for extinction in (0.0, 0.01, 0.004):
         shot = Shot(filmed(4.0, extinction=extinction), firestorm)
-        shine.append(meter.measure(shot, shot.paths[0], 1)[2].sum())
+        shine.append(exposure_meter.measure(shot, shot.paths[0], 1)[2].sum())
     assert shine[0] > shine[1] > shine[2] > 0.0
     assert shine[2] == pytest.approx(sky.THIN * shine[0])
 
@@ -118,7 +118,7 @@ def test_by_day_it_is_about_that_of_a_clear_day_wherever_the_camera_is(filmed, r
 
 def test_young_smoke_is_darker_than_old(filmed, run):
     shot = Shot(filmed(4.0, moment=DAY), run)
-    smoke = meter._smoke(shot, shot.frames.first)
+    smoke = exposure_meter._smoke(shot, shot.frames.first)
     assert np.all(np.diff(smoke.bright) >= 0.0)
     assert smoke.bright[0] < 0.4 < smoke.bright[-1] == 1.0
     most = smoke.depth.max(axis=1).argmax()
@@ -126,7 +126,7 @@ def test_young_smoke_is_darker_than_old(filmed, run):
     first = replace(smoke, place=smoke.place[one], radius=smoke.radius[one], depth=smoke.depth[one])
     south = smoke.place[most] - np.array([0.0, 9000.0, 0.0])
     north = np.tile([0.0, 1.0, 0.0], (len(south), 1))
-    depth, met, bright = meter._depth(first, south, north, np.inf)
+    depth, met, bright = exposure_meter._depth(first, south, north, np.inf)
     assert np.all((depth > 0.0) & (met < 9000.0))
     assert bright[0] < bright[-1] == 1.0
 
@@ -162,11 +162,11 @@ def test_ground_behind_a_ridge_lies_in_its_shade_and_slopes_to_the_sun_are_brigh
     land = SimpleNamespace(up=lambda x, _y: 300.0 * np.exp(-((np.asarray(x) / 150.0) ** 2)))
     sun = np.array([-np.cos(np.radians(20.0)), 0.0, np.sin(np.radians(20.0))])
     place = np.array([[-3000.0, 0.0, 0.0], [-100.0, 50.0, 0.0], [100.0, 0.0, 0.0], [500.0, 0.0, -40.0]])
-    open_land, sunny, lee, shaded = meter._facing(SimpleNamespace(bare_ground=land), place, sun)
+    open_land, sunny, lee, shaded = exposure_meter._facing(SimpleNamespace(bare_ground=land), place, sun)
     assert open_land == pytest.approx(sun[2], rel=1e-6)
     assert sunny > 2.0 * open_land
     assert lee == shaded == 0.0
-    assert meter._facing(SimpleNamespace(bare_ground=land), place + 1500.0, sun)[3] > 0.0
+    assert exposure_meter._facing(SimpleNamespace(bare_ground=land), place + 1500.0, sun)[3] > 0.0
 
 
 def test_what_the_scene_file_says_wins_at_every_frame(filmed, night_run):

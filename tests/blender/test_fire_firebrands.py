@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import firebrands, flames
-from firetwin.shot import burning
-from firetwin.shot.settings import Fire
+from firetwin.shot.fire import burning
+from firetwin.shot.settings.settings import Fire
 from firetwin.shot.shot import Shot
 from near_fire import FRAMES, moved
 

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from firetwin.data import sample
-from firetwin.shot import heat
-from firetwin.shot.fire import Fire
+from firetwin.shot.fire import heat_release
+from firetwin.shot.fire.fire import Fire
 from firetwin_core import flux
 from firetwin_core import run as runs
 from hypothesis import given, settings
@@ -49,7 +49,7 @@ def test_the_sample_keeps_its_heat(sample_run):
         found, cells = model.sources(float(time)), wanted(sample_run, float(time))
         lit += len(found.power)
         assert of_cells(found, len(cells)) == pytest.approx(cells, rel=1e-6, abs=1.0)
-        merged = heat.lights(found)
+        merged = heat_release.lights(found)
         assert merged.power.sum() == pytest.approx(cells.sum(), rel=1e-9)
         assert len(merged.power) <= 400
     assert lit > 1000
@@ -77,7 +77,7 @@ def test_burning_fuel_lies_in_the_cell_whose_heat_it_gives(run):
 @given(st.floats(60.0, 3600.0), st.floats(20.0, 1500.0))
 def test_a_cell_consumes_all_its_fuel_and_no_more(crossing, burn_out):
     age = np.linspace(0.0, crossing + 20.0 * burn_out, 40_001)
-    total, flaming = heat.consumed(age, crossing, burn_out)
+    total, flaming = heat_release.consumed(age, crossing, burn_out)
     assert np.sum(0.5 * (total[1:] + total[:-1]) * np.diff(age)) == pytest.approx(1.0, abs=1e-3)
     assert np.all((flaming >= 0.0) & (flaming <= total + 1e-18))
     assert np.all(np.diff(total[age > crossing]) <= 0.0)
@@ -90,7 +90,9 @@ def test_merging_lights_keeps_their_heat_and_its_centre(count, most, seed):
     position = random.uniform(-2000.0, 2000.0, (count, 3))
     power = random.exponential(1.0e8, count) * (random.random(count) < 0.8)
     none = np.full(count, -1)
-    merged = heat.lights(heat.Sources(position, power, 0.3 * power, 1e-9 * power, none, none), 300.0, most)
+    merged = heat_release.lights(
+        heat_release.Sources(position, power, 0.3 * power, 1e-9 * power, none, none), 300.0, most
+    )
     assert len(merged.power) <= most
     assert merged.power.sum() == pytest.approx(power.sum(), rel=1e-12)
     assert merged.flaming.sum() == pytest.approx(0.3 * power.sum(), rel=1e-9)
@@ -110,7 +112,9 @@ def test_merged_lights_change_gradually(most):
 
     def light(moment):
         power = 1.0e6 * (1.0 + np.sin(phase + moment)) ** 3
-        merged = heat.lights(heat.Sources(position, power, power, 1e-9 * power, none, none), 300.0, most)
+        merged = heat_release.lights(
+            heat_release.Sources(position, power, power, 1e-9 * power, none, none), 300.0, most
+        )
         gap = np.linalg.norm(places[:, None] - merged.position[None, :, :2], axis=-1)
         return (merged.power / (gap**2 + 250.0**2)).sum(axis=1)
 
@@ -135,5 +139,5 @@ def test_a_shot_keeps_the_heat_of_its_moments(shot, run):
 def test_no_lights_at_all(run):
     found = whole(run).sources(float(run.times[-1]) + 1.0)
     assert len(found.power) == 0
-    assert len(heat.lights(found).power) == 0
-    assert len(heat.lights(replace(found), count=0).power) == 0
+    assert len(heat_release.lights(found).power) == 0
+    assert len(heat_release.lights(replace(found), count=0).power) == 0

@@ -6,12 +6,12 @@ import pytest
 from firetwin.blender import owned
 from firetwin.scene import build
 from firetwin.scene.forest import build as forest
-from firetwin.scene.forest import models, plot, seen, stand
+from firetwin.scene.forest import models, plot, stand, visibility
 from firetwin.scene.forest.material import TORCHING
-from firetwin.shot.ground import NEVER
-from firetwin.shot.rigs.satellite import Satellite
-from firetwin.shot.settings import Camera
+from firetwin.shot.cameras.rigs.satellite import Satellite
+from firetwin.shot.settings.settings import Camera
 from firetwin.shot.shot import Shot
+from firetwin.shot.terrain.terrain import NEVER
 from firetwin_core import forest as core
 
 pytestmark = pytest.mark.usefixtures("whole_forest")
@@ -48,7 +48,7 @@ def test_instances_are_the_cores_trees_that_the_cameras_see(shot, stage):
     _planted(shot, stage)
     place, scale, _model = _instances("Firetwin Trees")
     wanted = _all_trees(shot)
-    visible = seen.visible(shot, wanted.position, wanted.scale, shot.settings.forest.draw_distance)
+    visible = visibility.visible(shot, wanted.position, wanted.scale, shot.settings.forest.draw_distance)
     assert 0 < visible.sum() < len(wanted.cell)
     assert place == pytest.approx(wanted.position[visible], abs=2e-3)
     assert scale == pytest.approx(np.repeat(wanted.scale[visible, None], 3, axis=1), rel=1e-5)

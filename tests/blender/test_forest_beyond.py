@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from firetwin.scene.forest import stand
-from firetwin.scene.ground import build as ground_build
-from firetwin.shot.rigs.drone import CameraKey, Drone
-from firetwin.shot.settings import Camera
+from firetwin.scene.terrain import build as ground_build
+from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
+from firetwin.shot.settings.settings import Camera
 from firetwin.shot.shot import Shot
 from mathutils.bvhtree import BVHTree
 

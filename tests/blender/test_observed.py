@@ -8,7 +8,7 @@ import pytest
 from firetwin.blender import owned
 from firetwin.scene.fire import build as fire
 from firetwin.scene.fire import observed as ribbons
-from firetwin.shot import observed
+from firetwin.shot.fire import observed
 from firetwin.shot.shot import Shot
 
 

@@ -7,7 +7,7 @@ import pytest
 from firetwin.blender import compat, nodes, owned
 from firetwin.render import layers
 from firetwin.scene import build
-from firetwin.scene.light.sky import HAZE
+from firetwin.shot.light.sky import HAZE
 from firetwin.shot.shot import Shot
 
 # What the window and Blender's own bookkeeping change, and what is worked out from other things.

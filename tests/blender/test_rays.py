@@ -8,12 +8,12 @@ import pytest
 from firetwin.blender import owned
 from firetwin.render import engine, rays
 from firetwin.scene import build
-from firetwin.shot.passes import _view
-from firetwin.shot.rigs.drone import CameraKey, Drone
-from firetwin.shot.rigs.minimap import Minimap
-from firetwin.shot.rigs.satellite import Satellite
-from firetwin.shot.rigs.vr import Vr
-from firetwin.shot.settings import Camera
+from firetwin.shot.cameras import pixel_rays
+from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
+from firetwin.shot.cameras.rigs.minimap import Minimap
+from firetwin.shot.cameras.rigs.satellite import Satellite
+from firetwin.shot.cameras.rigs.vr import Vr
+from firetwin.shot.settings.settings import Camera
 from firetwin.shot.shot import Shot
 
 KEYS = (CameraKey(0.0, 38.825, -120.56, 400.0, "point", 38.845, -120.55, 0.0),)
@@ -53,13 +53,13 @@ def test_a_ray_leads_to_the_point_that_its_depth_tells_of(settings, run, name):
     stage.scene.frame_set(2)
     bpy.context.view_layer.update()
     random = np.random.default_rng(4)
-    away = _view.of(shot, "one").meet  # lines of sight from so far count as parallel near what they meet
+    away = pixel_rays.of(shot, "one").meet  # lines of sight from so far count as parallel near what they meet
     depth = (away + random.uniform(-2000.0, 2000.0, size[::-1]) + 5000.0 * (away == 0.0)).astype(np.float32)
     eyes, origins, directions = rays_of(stage.scene, size, name == "vr")
     halves = np.split(depth, len(eyes))
     distance = np.concatenate([each.of_depth(half) for each, half in zip(eyes, halves, strict=True)])
     found = origins + directions * distance[..., None]
-    expected = _view.points(_view.of(shot, "one"), 2, depth)
+    expected = pixel_rays.points(pixel_rays.of(shot, "one"), 2, depth)
     off = np.linalg.norm(found - expected, axis=-1)
     assert off.max() < (15.0 if away else 0.05), "m; steps of 32 bits are 4 m at 36,000 km"
     assert np.linalg.norm(directions, axis=-1) == pytest.approx(1.0)

@@ -12,12 +12,13 @@ import numpy as np
 import plumes
 import pytest
 from firetwin.blender import compat, owned
-from firetwin.scene.smoke import bake, baker, cache
 from firetwin.scene.smoke import build as smoke
-from firetwin.shot import file, sight
-from firetwin.shot.rigs.satellite import Satellite
-from firetwin.shot.settings import Camera, Light, Smoke
+from firetwin.shot import visibility
+from firetwin.shot.cameras.rigs.satellite import Satellite
+from firetwin.shot.settings import scene_file as file
+from firetwin.shot.settings.settings import Camera, Light, Smoke
 from firetwin.shot.shot import Shot
+from firetwin.smoke import bake, baker, cache
 from firetwin_core import InputError, lod
 from firetwin_core import run as runs
 
@@ -167,7 +168,7 @@ def test_a_thermal_picture_shows_all_smoke(smoky, run, monkeypatch):
     shot = Shot(replace(smoky, cameras=(thermal, still)), run)
     assert bake.shot_frames(shot) == [1, 2, 3]
     shot.sights.distance(np.zeros((1, 3)))  # the ground that hides is made with true sights
-    monkeypatch.setattr(sight.lod, "Sight", lambda cameras, *_, **_more: len(cameras))
+    monkeypatch.setattr(visibility.lod, "Sight", lambda cameras, *_, **_more: len(cameras))
     assert [shot.sights.at(frame) for frame in (1, 2, 3)] == [1, 2, 1]
 
 

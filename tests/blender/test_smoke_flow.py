@@ -12,16 +12,16 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-from firetwin.scene.smoke import bake, boxes, flow, flow_frames, moments, plume, solving  # noqa: E402
-from firetwin.shot import rigs  # noqa: E402
+from firetwin.shot.cameras import rigs  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
+from firetwin.smoke import bake, domains, flow, flow_frames, integrator, plume_mass, snapshots  # noqa: E402
 from firetwin_core import run as runs  # noqa: E402
 
 
 @pytest.fixture
 def flowing(settings, few_cells, monkeypatch):
     """Settings of two frames whose smoke is a flow on few, large cells."""
-    monkeypatch.setattr(boxes, "_DOWNWIND", (0.0, 0.0))
+    monkeypatch.setattr(domains, "_DOWNWIND", (0.0, 0.0))
     camera = replace(settings.cameras[0], frames="1-2")
     time = replace(settings.time, start=datetime(2014, 9, 17, 21, 30, tzinfo=UTC), end=None, frames=40)
     smoke = replace(settings.smoke, enabled=True, method="flow", spin_up=120.0, voxel_size=200.0)
@@ -51,7 +51,7 @@ def test_what_frames_say_is_what_was_solved(shot):
     solved.ready(2)
     assert solved._live is not None
     for part, solver in zip(solved.parts, solved._live.solvers, strict=True):
-        moment = moments.load(part.moment(2))
+        moment = snapshots.load(part.moment(2))
         volume = solver.spacing**2 * np.diff(solver.levels)[: len(moment.fields["smoke"]), None, None]
         _nz, rows, columns = moment.fields["smoke"].shape
         west, south = moment.low
@@ -76,7 +76,7 @@ def test_the_smoke_is_that_of_the_heat(shot):
         sources = shot.fire.sources(solved.begin + slot)
         inside = np.all((sources.position[:, :2] > box.corner) & (sources.position[:, :2] < box.high), axis=1)
         given += 30.0 * min(1.0, (number + 1) * 30.0 / 300.0) * sources.smoke[inside].sum()
-    emitted = moments.load(solved.parts[0].moment(1)).mass["emitted"]
+    emitted = snapshots.load(solved.parts[0].moment(1)).mass["emitted"]
     assert emitted == pytest.approx(given, rel=1e-3)
 
 
@@ -84,24 +84,24 @@ def test_how_deep_smoke_is_comes_from_its_mass(shot):
     solved = flow.Flow(shot)
     solved.ready(1)
     (part, *_) = solved.parts
-    moment = moments.load(part.moment(1))
-    depth = plume.columns(part, *moments.smoke(part.moment(1)))
+    moment = snapshots.load(part.moment(1))
+    depth = plume_mass.columns(part, *snapshots.smoke(part.moment(1)))
     mass = depth.sum() * part.box.spacing**2 / 4000.0  # at 4 m2/g
     assert mass == pytest.approx(moment.mass["airborne"], rel=1e-3)
-    found = plume.measure(shot)
+    found = plume_mass.measure(shot)
     assert found.deepest >= depth.max() >= found.mean > 0.0
     assert found.deepest >= found.wide
     first, last = shot.frames.first, shot.frames.last
     power = [shot.fire.sources(time).smoke.sum() for time in np.arange(first + 0.5, last)]
     assert found.made == pytest.approx(np.sum(power), rel=0.02)
-    assert "of smoke in" in plume.words(shot)
-    assert "optical depth" in plume.words(shot)
+    assert "of smoke in" in plume_mass.words(shot)
+    assert "optical depth" in plume_mass.words(shot)
 
 
 def test_going_on_after_an_interruption_gives_the_same_bytes(flowing, run, tmp_path, monkeypatch):
     whole = flow.Flow(Shot(replace(flowing, cache=tmp_path / "whole"), run))
     whole.ready(2)
-    monkeypatch.setattr(solving, "_SAVE", 0.0)
+    monkeypatch.setattr(integrator, "_SAVE", 0.0)
     broken = replace(flowing, cache=tmp_path / "broken")
 
     before = []
@@ -126,19 +126,19 @@ def test_a_broken_checkpoint_is_left_and_made_anew(flowing, run, tmp_path, monke
     """Cut off, of other shapes, or no such file at all: solved from the beginning, to the same bytes."""
     whole = flow.Flow(Shot(replace(flowing, cache=tmp_path / "whole"), run))
     whole.ready(2)
-    monkeypatch.setattr(solving, "_SAVE", 0.0)
+    monkeypatch.setattr(integrator, "_SAVE", 0.0)
     other = flow.Flow(Shot(replace(flowing, cache=tmp_path / "other"), run))
     other.ready(1)
-    state = other.parts[-1].folder / solving.STATE
-    kept = moments.read(state)
+    state = other.parts[-1].folder / integrator.STATE
+    kept = snapshots.read(state)
     breaks = [
         lambda: state.write_bytes(state.read_bytes()[:50_000]),
         lambda: state.write_bytes(b""),
-        lambda: moments.write(state, kept | {"0_u": kept["0_u"][:, 1:]}),
-        lambda: moments.write(state, kept | {"1_smoke": kept["1_smoke"][:3]}),
-        lambda: moments.write(state, {name: kept[name] for name in kept if name != "1_account"}),
-        lambda: moments.write(state, kept | {"step": np.array([10**6])}),
-        lambda: moments.write(state, kept | {"step": np.array(["x"])}),
+        lambda: snapshots.write(state, kept | {"0_u": kept["0_u"][:, 1:]}),
+        lambda: snapshots.write(state, kept | {"1_smoke": kept["1_smoke"][:3]}),
+        lambda: snapshots.write(state, {name: kept[name] for name in kept if name != "1_account"}),
+        lambda: snapshots.write(state, kept | {"step": np.array([10**6])}),
+        lambda: snapshots.write(state, kept | {"step": np.array(["x"])}),
     ]
     for spoil in breaks:
         spoil()
@@ -159,35 +159,35 @@ def test_a_broken_moment_is_solved_again(flowing, run, tmp_path, spoil):
     solved.ready(1)
     path = solved.parts[0].moment(1)
     whole = path.read_bytes()
-    kept = moments.read(path)
+    kept = snapshots.read(path)
     if spoil == "cut":
         path.write_bytes(whole[: len(whole) // 2])
     elif spoil == "nothing":
         path.write_bytes(b"")
     elif spoil == "shapes":
-        moments.write(path, kept | {"smoke": kept["smoke"][1:]})
+        snapshots.write(path, kept | {"smoke": kept["smoke"][1:]})
     elif spoil == "place":  # of another box
-        moments.write(path, kept | {"low": np.array([9999, 0])})
+        snapshots.write(path, kept | {"low": np.array([9999, 0])})
     elif spoil == "middle":  # its list of contents is whole
         middle = len(whole) // 3
         path.write_bytes(whole[:middle] + bytes(2000) + whole[middle + 2000 :])
     else:
-        moments.write(path, {name: kept[name] for name in kept if name != "drift"})
+        snapshots.write(path, {name: kept[name] for name in kept if name != "drift"})
     place = bake.bake(shot, frames=[1])
     assert path.read_bytes() == whole
     assert (place / "far_000001.vdb").exists()
 
 
 def test_an_earlier_frame_than_the_checkpoint_is_solved(flowing, run, tmp_path, monkeypatch):
-    monkeypatch.setattr(solving, "_SAVE", 0.0)
+    monkeypatch.setattr(integrator, "_SAVE", 0.0)
     first = flow.Flow(Shot(replace(flowing, cache=tmp_path / "a"), run))
     first.ready(3)
     path = first.parts[0].moment(1)
-    whole, state = path.read_bytes(), (first.parts[-1].folder / solving.STATE).read_bytes()
+    whole, state = path.read_bytes(), (first.parts[-1].folder / integrator.STATE).read_bytes()
     path.unlink()
     flow.Flow(first.shot).ready(1)
     assert path.read_bytes() == whole
-    assert (first.parts[-1].folder / solving.STATE).read_bytes() == state
+    assert (first.parts[-1].folder / integrator.STATE).read_bytes() == state
 
 
 def test_only_what_is_asked_for_is_solved(shot):
@@ -332,8 +332,8 @@ def test_a_close_picture_from_above_has_a_nest(flowing, run):
 
 
 def test_no_box_is_wider_than_can_be_solved(shot, monkeypatch):
-    monkeypatch.setattr(boxes, "_WIDEST", 11_000.0)
-    monkeypatch.setattr(boxes, "_MARGIN", 30_000.0)
+    monkeypatch.setattr(domains, "_WIDEST", 11_000.0)
+    monkeypatch.setattr(domains, "_MARGIN", 30_000.0)
     box = flow.Flow(shot).parts[0].box
     assert max(box.shape) * box.spacing <= 12_000.0
 

@@ -11,11 +11,11 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 from firetwin.run import readers  # noqa: E402
-from firetwin.scene.smoke import bake, boxes, flow_frames, moments, outlook  # noqa: E402
-from firetwin.scene.smoke.flow import Flow  # noqa: E402
-from firetwin.shot import fit  # noqa: E402
-from firetwin.shot.rigs.drone import CameraKey, Drone  # noqa: E402
+from firetwin.shot import run_checks  # noqa: E402
+from firetwin.shot.cameras.rigs.drone import CameraKey, Drone  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
+from firetwin.smoke import bake, cost_estimate, domains, flow_frames, snapshots  # noqa: E402
+from firetwin.smoke.flow import Flow  # noqa: E402
 
 START = datetime(2014, 9, 17, 21, 0, tzinfo=UTC)
 CELL = 370.0  # m
@@ -25,7 +25,7 @@ SPLIT = 4  # fuel cells along one of the model's
 @pytest.fixture(autouse=True)
 def short_plumes(few_cells, monkeypatch):
     """Large cells, and few of them."""
-    monkeypatch.setattr(boxes, "_DOWNWIND", (0.0, 2000.0))
+    monkeypatch.setattr(domains, "_DOWNWIND", (0.0, 2000.0))
 
 
 @pytest.fixture
@@ -92,7 +92,7 @@ def shoot_flow(settings):
             smoke=replace(settings.smoke, enabled=True, method="flow", spin_up=120.0, voxel_size=200.0),
             cameras=(replace(settings.cameras[0], rig=Drone(keys=(key,)), frames="2"),),
         )
-        fit.check(made, run)
+        run_checks.check(made, run)
         return Shot(made, run)
 
     return shot
@@ -119,7 +119,7 @@ def baked(shot):
                 found.append(values)
     for part in Flow(shot).parts:
         assert np.isfinite(part.heights()).all()
-        mass = moments.load(part.moment(2)).mass
+        mass = snapshots.load(part.moment(2)).mass
         assert all(np.isfinite(value) for value in mass.values())
         assert mass["airborne"] + mass["left"] == pytest.approx(
             mass["initial"] + mass["emitted"] + mass["entered"] + mass["rounding"], rel=1e-6
@@ -191,10 +191,10 @@ def test_where_nothing_burns_there_is_no_smoke(make, shoot_flow, run):
 
 def test_what_solving_takes_is_said_before_it_and_not_after(make, shoot_flow):
     shot = shoot_flow(make())
-    said = outlook.words(shot)
+    said = cost_estimate.words(shot)
     assert said.startswith("the air over 2 min 30 s of the fire is solved once")
     assert str(shot.settings.cache) in said
     bake.bake(shot)
-    assert outlook.words(shot) == ""
+    assert cost_estimate.words(shot) == ""
     puffs = replace(shot.settings, smoke=replace(shot.settings.smoke, method="puffs"))
-    assert outlook.words(Shot(puffs, shot.run)) == ""
+    assert cost_estimate.words(Shot(puffs, shot.run)) == ""

@@ -13,9 +13,10 @@ import pytest
 from firetwin.blender import devices, owned, viewport
 from firetwin.errors import Error, InputError, input_error
 from firetwin.jobs import assets
-from firetwin.scene.smoke import outlook
-from firetwin.shot import file, fitted, passes
-from firetwin.shot.schema import parts
+from firetwin.shot import auto_framing, passes
+from firetwin.shot.settings import scene_file as file
+from firetwin.shot.settings.schema import parts
+from firetwin.smoke import cost_estimate
 from firetwin.ui import (
     build,
     camera_list,
@@ -77,11 +78,11 @@ def test_every_refusal_says_what_to_do(settings, run_folder, scene_file):
     assert "Build the scene first" in refusal(bpy.ops.firetwin.view)
     assert "Build the scene first" in refusal(bpy.ops.firetwin.jump)
     assert "Choose a camera" in refusal(bpy.ops.firetwin.camera_remove)
-    assert "Nothing goes on" in refusal(bpy.ops.firetwin.stop)
+    assert "No task is running" in refusal(bpy.ops.firetwin.stop)
     settings.run = str(run_folder)
     assert bpy.ops.firetwin.build.poll()  # the smoke is kept with our own files until the .blend is saved
     assert "Save the .blend file" in refusal(bpy.ops.firetwin.render)
-    assert "nothing of Firetwin's" in refusal(bpy.ops.firetwin.remove)
+    assert "nothing that Firetwin built" in refusal(bpy.ops.firetwin.remove)
     settings.output = str(run_folder.parent / "out")
     assert bpy.ops.firetwin.render.poll()
     job.Job.current = job.Job("Build scene", iter(()))
@@ -176,7 +177,7 @@ def test_cameras_that_nobody_chose_are_placed_for_the_window_that_somebody_chose
 
 def _new(folder, path):
     """The scene file that the command line would write."""
-    path.write_text(fitted.at(folder, path, path.parent / "cache").text)
+    path.write_text(auto_framing.at(folder, path, path.parent / "cache").text)
     return path
 
 
@@ -185,7 +186,7 @@ def test_solved_smoke_is_a_button_that_names_its_cost(settings, run_folder, monk
     settings.run = str(run_folder)
     assert settings.smoke.method == "puffs"
     assert "about " in settings.smoke_cost
-    asked = outlook.cost(replace(run.choice(settings), smoke="flow").shot())
+    asked = cost_estimate.cost(replace(run.choice(settings), smoke="flow").shot())
     assert settings.smoke_cost == asked.brief()
     layout = MagicMock()
     solve.draw(layout, settings)
@@ -203,7 +204,7 @@ def test_solved_smoke_is_a_button_that_names_its_cost(settings, run_folder, monk
     layout = MagicMock()
     solve.draw(layout, settings)
     assert not layout.operator.called
-    assert "no preview" in refusal(bpy.ops.firetwin.solve)
+    assert "solved already" in refusal(bpy.ops.firetwin.solve)
 
 
 def test_properties_say_what_the_schema_says(settings):
@@ -349,7 +350,7 @@ def test_build_leaves_a_scene_that_somebody_uses(settings, scene_file, somebody)
     assert scene_settings.settings(after) == scene_settings.settings(before)
     assert after.firetwin.frames == 3
     assert before.firetwin.frames == 0
-    assert "Scene stays as it is" in working.told(build.FIRETWIN_OT_build)[-1].text
+    assert "Scene is unchanged" in working.told(build.FIRETWIN_OT_build)[-1].text
 
 
 def test_building_again_builds_into_the_same_scene(settings, scene_file):
@@ -637,7 +638,7 @@ def test_esc_stops_work_only_with_the_pointer_over_the_sidebar(waiting):
     assert waiting.happens("ESC", x=900) == {"RUNNING_MODAL"}
     assert waiting.job.stop.asked
     assert waiting.goes_on() == {"CANCELLED"}
-    assert waiting.reports == [("WARNING", "Test stopped; what was finished is kept")]
+    assert waiting.reports == [("WARNING", "Test stopped; finished work is kept")]
     assert job.Job.current is None
 
 
@@ -660,7 +661,7 @@ def test_while_steps_are_taken_only_the_sidebar_can_be_used():
     assert work.happens("LEFTMOUSE") == work.happens("Z", x=900) == {"RUNNING_MODAL"}
     work.job.stop.now()
     assert work.goes_on() == {"FINISHED"}
-    assert work.reports == [("WARNING", "Test stopped; undo takes back what was made")]
+    assert work.reports == [("WARNING", "Test stopped; undo restores the scene")]
 
 
 def test_what_is_told_is_reported_and_stays_in_the_panel():
@@ -709,7 +710,7 @@ def test_another_file_ends_work_with_one_message(waiting):
     bpy.ops.wm.read_homefile(use_empty=True)
     assert job.Job.current is None
     assert waiting.job.stop.asked
-    assert [each.text for each in working.told(Operator)] == ["Test stopped, for another file was opened"]
+    assert [each.text for each in working.told(Operator)] == ["Test stopped because another file was opened"]
 
 
 def real(settings, **options):
@@ -735,7 +736,7 @@ def test_a_scene_deleted_during_a_build_ends_it_with_one_report(settings, scene_
 def test_edit_mode_entered_during_the_wait_ends_it_before_anything_is_touched(settings, scene_file):
     settings.scene_file = str(scene_file)
     work = real(settings)
-    while work.job.what != "clearing the stage":
+    while work.job.what != "removing the previous build":
         work.happens()
         time.sleep(0.01)
     bpy.ops.object.mode_set(mode="EDIT")
@@ -769,13 +770,13 @@ def drawn(kind, scene):
 def test_every_panel_can_be_drawn_at_any_time(settings, scene_file):
     kinds = [cls for cls in firetwin.ui.classes if issubclass(cls, bpy.types.Panel | bpy.types.Menu)]
     panels = [cls for cls in kinds if not hasattr(cls, "poll")]
-    assert {"Ground", "Forest", "Fire", "Smoke", "Light", "Sensors"} <= {cls.bl_label for cls in panels}
+    assert {"Terrain", "Forest", "Fire", "Smoke", "Light", "Sensors"} <= {cls.bl_label for cls in panels}
     for panel in panels:
         drawn(panel, bpy.context.scene)
     settings.scene_file = str(scene_file)
     bpy.ops.firetwin.build()
     assert "Built 3 frames of Test" in drawn(build.FIRETWIN_PT_build, bpy.context.scene)
-    assert "1,800 s a frame" in drawn(model_time.FIRETWIN_PT_time, bpy.context.scene)
+    assert "1,800 s per frame" in drawn(model_time.FIRETWIN_PT_time, bpy.context.scene)
     for kind in kinds:
         drawn(kind, bpy.context.scene)
     job.Job.current = job.Job("Build scene", iter(()))

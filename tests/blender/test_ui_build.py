@@ -9,9 +9,9 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.blender import owned
-from firetwin.jobs import sample, setting
-from firetwin.shot import file
-from firetwin.shot.choice import Choice
+from firetwin.jobs import sample, worker_scene
+from firetwin.shot.settings import scene_file as file
+from firetwin.shot.source import Choice
 from firetwin.ui import job, quality, scene_file, working
 from firetwin.ui import time as model_time
 
@@ -101,13 +101,13 @@ def everything(scene):
 @pytest.mark.slow  # two whole builds
 def test_panels_build_what_the_exported_scene_file_builds(opened, tmp_path):
     opened.light.haze, opened.fire.budget = 0.7, 500
-    opened.ground.error = 0.9
+    opened.terrain.error = 0.9
     bpy.ops.firetwin.build()
     objects, trees = everything(bpy.context.scene)
     scene_file.export(bpy.context.scene, tmp_path / "out.toml")
     shot = Choice(str(tmp_path / "out.toml")).shot()
-    assert (shot.settings.light.haze, shot.settings.ground.error) == (0.7, 0.9)
-    stage = setting.build_scene(shot, lambda *_: None, lambda _: None)
+    assert (shot.settings.light.haze, shot.settings.terrain.error) == (0.7, 0.9)
+    stage = worker_scene.build_scene(shot, lambda *_: None, lambda _: None)
     again, trees_again = everything(stage.scene)
     assert again.keys() == objects.keys()
     assert {"Firetwin Ground", "Firetwin Trees"} <= objects.keys()

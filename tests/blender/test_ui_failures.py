@@ -9,7 +9,7 @@ import pytest
 from firetwin.blender import owned
 from firetwin.errors import Error
 from firetwin.jobs.worker import StoppedError
-from firetwin.shot import file
+from firetwin.shot.settings import scene_file as file
 from firetwin.ui import build, camera_list, job, queue, run, scene_file, working
 from panel_scene import state
 
@@ -49,7 +49,7 @@ def test_a_build_stopped_at_any_step_leaves_the_scene_as_it_was(panel, plain_loo
     while (what := stopped_after(len(seen))) is not None:
         seen.append(what)
         assert state() == before, what
-    assert seen[:3] == ["Build scene", "reading the run", "clearing the stage"]
+    assert seen[:3] == ["Build scene", "reading the run", "removing the previous build"]
     assert {"building the ground", "lighting the fire", "naming the places"} <= set(seen)
     assert state() != before
 
@@ -112,7 +112,7 @@ def test_reading_a_run_that_is_stopped_says_how_to_go_on(panel):
     work.stop.now()
     with pytest.raises(StoppedError):
         work.run()
-    assert panel.problem.endswith("Read run does it")
+    assert panel.problem.endswith("use Read run")
     assert panel.facts
 
 

@@ -8,8 +8,8 @@ import panel_scene
 import pytest
 from bl_operators.presets import AddPresetBase
 from bpy_extras.io_utils import ExportHelper, ImportHelper
-from firetwin.jobs import assets, convert, render, sample, standing
-from firetwin.ui import flying, queue, working
+from firetwin.jobs import assets, convert, render, render_blend, sample
+from firetwin.ui import navigation, queue, working
 from mathutils import Euler, Matrix
 from panel_scene import state
 
@@ -34,7 +34,7 @@ def panel(blend, monkeypatch):
     """A built scene of the panel, and a view that looks from EYE."""
     firetwin.register()
     bpy.ops.wm.open_mainfile(filepath=str(blend))
-    monkeypatch.setattr(flying, "eye", lambda context: (EYE.copy(), 30.0, 36.0))
+    monkeypatch.setattr(navigation, "eye", lambda context: (EYE.copy(), 30.0, 36.0))
     yield bpy.context.scene.firetwin
     queue.clear()
     firetwin.unregister()
@@ -131,7 +131,7 @@ def test_undo_and_redo_go_round_every_operator(panel, blend, tmp_path, monkeypat
     monkeypatch.setattr(sample, "run", lambda folder, **_: shutil.copytree(blend.parent / "other", folder))
     monkeypatch.setattr(render, "run", lambda *_, **__: render.Made(1))
     monkeypatch.setattr(assets, "run", lambda *_, **__: 1)
-    monkeypatch.setattr(standing, "run", lambda *_, **__: 1)
+    monkeypatch.setattr(render_blend, "run", lambda *_, **__: 1)
     monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(tmp_path / path))
     (tmp_path / "presets" / "firetwin").mkdir(parents=True)
     bpy.ops.ed.undo_push(message="opened")

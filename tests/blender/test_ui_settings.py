@@ -9,9 +9,10 @@ import firetwin
 import pytest
 from firetwin.errors import Error
 from firetwin.scene.build import PARTS
-from firetwin.shot import file, schema
-from firetwin.shot.settings import Render, Settings
-from firetwin.ui import camera_list, changed, job, keys, scene_file, sections
+from firetwin.shot.settings import scene_file as file
+from firetwin.shot.settings import schema
+from firetwin.shot.settings.settings import Render, Settings
+from firetwin.ui import camera_list, changed_settings, job, keys, scene_file, sections
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -56,20 +57,20 @@ def test_every_scene_file_comes_back_from_a_saved_blend_file(panel, tmp_path):
 def test_what_an_artist_changes_is_what_comes_out(panel):
     whole = replace(file.read(EXAMPLES / "king_fire.toml"), render=Render(thermal_low=285.123456789))
     scene_file.fill(panel.id_data, whole)
-    panel.render.thermal_high, panel.ground.error = 700.1, 0.3
+    panel.render.thermal_high, panel.terrain.error = 700.1, 0.3
     found = scene_file.settings(panel.id_data)
-    assert (found.render.thermal_low, found.render.thermal_high, found.ground.error) == (
+    assert (found.render.thermal_low, found.render.thermal_high, found.terrain.error) == (
         285.123456789,
         700.1,
         0.3,
     )
     panel.render.thermal_low = 290.5
-    panel.time.start, panel.ground.photo_extent = "2014-09-17T16:10-07:00", "-121, 38.6, -120.2, 39.1"
+    panel.time.start, panel.terrain.photo_extent = "2014-09-17T16:10-07:00", "-121, 38.6, -120.2, 39.1"
     panel.cameras[0].name = "mine"
     found = scene_file.settings(panel.id_data)
     assert found.render.thermal_low == 290.5
     assert f"{found.time.start:%H:%M %Z}" == "23:10 UTC"
-    assert found.ground.photo_extent == (-121.0, 38.6, -120.2, 39.1)
+    assert found.terrain.photo_extent == (-121.0, 38.6, -120.2, 39.1)
     assert found.cameras[0] == replace(whole.cameras[0], name="mine")
     panel.render.use_thermal_low, panel.time.start = False, ""
     found = scene_file.settings(panel.id_data)
@@ -81,7 +82,7 @@ def test_what_an_artist_changes_is_what_comes_out(panel):
     [
         ("time", "start", "yesterday", 'Start: "yesterday" is no date and time; write it as'),
         ("time", "zone", "America/Los_Angles", 'Time.zone "America/Los_Angles" is not a time zone; did you'),
-        ("ground", "photo_extent", "west", 'Photo extent: "west" is no list'),
+        ("terrain", "photo_extent", "west", 'Photo extent: "west" is no list'),
         ("render", "passes", set(), "Render.passes is empty; name at least one"),
     ],
 )
@@ -120,19 +121,19 @@ def test_what_changed_since_it_was_built_is_known(panel):
     scene_file.fill(panel.id_data, file.read(EXAMPLES / "king_fire.toml"))
     panel.forest.budget = 1000
     assert panel.changed == ""  # nothing is built
-    changed.remember(panel, changed.seen(panel), tuple(PARTS))
+    changed_settings.remember(panel, changed_settings.seen(panel), tuple(PARTS))
     panel.forest.budget, panel.light.use_exposure, panel.time.frames = 900, True, 2
     panel.cameras[0].name = "mine"
     assert panel.changed == "time forest light cameras"
     panel.light.use_exposure = False
-    changed.remember(panel, changed.seen(panel), ("forest",))
-    changed.remember(panel, changed.seen(panel), ("cameras",))
+    changed_settings.remember(panel, changed_settings.seen(panel), ("forest",))
+    changed_settings.remember(panel, changed_settings.seen(panel), ("cameras",))
     assert panel.changed == "time cameras"  # what is built elsewhere hangs on them too
-    changed.remember(panel, changed.seen(panel), tuple(PARTS))
+    changed_settings.remember(panel, changed_settings.seen(panel), tuple(PARTS))
     assert panel.changed == ""
     panel.run = "/elsewhere"
     assert panel.changed == "run"
-    changed.forget(panel)
+    changed_settings.forget(panel)
     panel.forest.budget = 800
     assert panel.changed == ""
 

@@ -8,9 +8,9 @@ import pytest
 from firetwin.blender import viewport
 from firetwin.scene import build
 from firetwin.scene.forest import build as forest
-from firetwin.scene.forest import fate, preview
+from firetwin.scene.forest import fire_effects, preview
 from firetwin.scene.forest.levels import LEVELS
-from firetwin.scene.ground import solid
+from firetwin.scene.terrain import solid_view
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 
@@ -52,7 +52,7 @@ def test_others_stand_in_for_a_large_forest(near_shot, scene, few, plain_looks):
 
 
 def test_burned_grass_stands_for_itself_too(near_shot, monkeypatch):
-    monkeypatch.setattr(fate, "torching_intensity", lambda height: np.full(len(height), -1.0))
+    monkeypatch.setattr(fire_effects, "torching_intensity", lambda height: np.full(len(height), -1.0))
     render = replace(near_shot.settings.render, skip=False)
     grass = forest._grass(Shot(replace(near_shot.settings, render=render), near_shot.run))
     assert set(grass["snag_model"]) == set(grass["model"]) == {0, 1}
@@ -100,23 +100,23 @@ def test_a_small_forest_stays_as_it_is(near_shot, scene, plain_looks):
 
 def test_the_solid_view_shows_fuel_scar_and_water(settings, run_folder, scene, plain_looks):
     shot = Shot(settings, runs.open(run_folder))
-    build.build(shot, scene, ("ground",))
+    build.build(shot, scene, ("terrain",))
     data = bpy.data.objects["Firetwin Ground"].data
-    assert data.color_attributes.active_color.name == solid.NAME
+    assert data.color_attributes.active_color.name == solid_view.NAME
     row, column = (axis.ravel() for axis in np.indices(shot.ground.shape).astype(float))
-    found = solid.colours(shot, row, column).reshape(*shot.ground.shape, 3)
+    found = solid_view.colours(shot, row, column).reshape(*shot.ground.shape, 3)
     ground = shot.ground
     inside = ground.burned > 0.5
     before = inside & (ground.burn_time <= shot.frames.first)
     during = inside & (ground.burn_time > shot.frames.first) & (ground.burn_time <= shot.frames.last)
     assert before.sum() > 10
     assert during.sum() > 10
-    assert found[before] == pytest.approx(np.broadcast_to(solid.BURNED, found[before].shape))
-    assert found[during] == pytest.approx(np.broadcast_to(solid.BURNS, found[during].shape))
+    assert found[before] == pytest.approx(np.broadcast_to(solid_view.BURNED, found[before].shape))
+    assert found[during] == pytest.approx(np.broadcast_to(solid_view.BURNS, found[during].shape))
     dense = (ground.fields.canopy_fuel > 2.0) & ~inside & (ground.bare < 0.01) & (ground.water < 0.5)
-    assert found[dense] == pytest.approx(np.broadcast_to(solid.FOREST, found[dense].shape), rel=0.05)
+    assert found[dense] == pytest.approx(np.broadcast_to(solid_view.FOREST, found[dense].shape), rel=0.05)
     ground.__dict__["water"] = np.ones(ground.shape)
-    assert np.all(solid.colours(shot, row, column) == np.float32(solid.WATER))
+    assert np.all(solid_view.colours(shot, row, column) == np.float32(solid_view.WATER))
 
 
 def test_a_file_opens_with_views_that_show_the_scene():

@@ -6,7 +6,7 @@ import bpy
 import firetwin
 from firetwin.blender import compat
 from firetwin.errors import Error
-from firetwin.shot import file
+from firetwin.shot.settings import scene_file as file
 from firetwin.ui import queue, scene_file
 from scene_text import BARE, NO_SMOKE, THREE_FRAMES, TINY
 

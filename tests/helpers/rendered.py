@@ -4,7 +4,7 @@ from firetwin.jobs import render
 from firetwin.progress import silent, untold
 from firetwin.render import plan
 from firetwin.render.store import Store
-from firetwin.shot.choice import Choice
+from firetwin.shot.source import Choice
 
 
 def everything(folder, text):

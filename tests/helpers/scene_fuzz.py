@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 from firetwin import cli
 from firetwin.render import plan
-from firetwin.shot import schema
-from firetwin.shot.choice import Choice
-from firetwin.shot.rigs import kinds
-from firetwin.shot.settings import Settings
+from firetwin.shot.cameras.rigs import kinds
+from firetwin.shot.settings import schema
+from firetwin.shot.settings.settings import Settings
+from firetwin.shot.source import Choice
 from hypothesis import strategies as st
 
 PLACE = {"latitude": 38.843, "longitude": -120.546}
@@ -117,7 +117,7 @@ def plain(kind):
     return {
         "run": "run",
         "time": {"frames": 2},
-        "ground": {"near_radius": 0.0, "apron": 2000.0},
+        "terrain": {"near_radius": 0.0, "apron": 2000.0},
         "forest": {"density": "paper"},
         "fire": {"firebrands": 0},
         "smoke": {"enabled": False},

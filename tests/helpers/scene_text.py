@@ -1,7 +1,7 @@
 """Parts of scene files that tests share: what makes a scene quick to build and to render."""
 
 BARE = """\
-[ground]
+[terrain]
 near_radius = 0.0
 apron = 20000.0
 [forest]
@@ -24,7 +24,7 @@ frames = 3
 """
 
 NO_PLANTS = """\
-[ground]
+[terrain]
 near_radius = 0.0
 apron = 20000.0
 [forest]
@@ -49,7 +49,7 @@ run = "run"
 frames = 1
 [smoke]
 enabled = false
-[ground]
+[terrain]
 near_radius = {near}
 apron = {apron}
 {key}
@@ -71,7 +71,7 @@ cache = "cache"
 start = 2014-09-17T21:00:00Z
 end = 2014-09-17T22:00:00Z
 frames = 3
-[ground]
+[terrain]
 near_radius = 0.0
 apron = 20000.0
 [forest]

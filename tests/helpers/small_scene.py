@@ -19,12 +19,12 @@ from firetwin.scene.fire import firebrand_material  # noqa: E402
 from firetwin.scene.fire import material as flame_material  # noqa: E402
 from firetwin.scene.forest import material as tree_material  # noqa: E402
 from firetwin.scene.forest import preview  # noqa: E402
-from firetwin.scene.ground import material as ground_material  # noqa: E402
-from firetwin.scene.smoke import boxes  # noqa: E402
-from firetwin.shot import settings as scene_settings  # noqa: E402
-from firetwin.shot.rigs.drone import CameraKey, Drone  # noqa: E402
-from firetwin.shot.scale import Scale  # noqa: E402
+from firetwin.scene.terrain import material as ground_material  # noqa: E402
+from firetwin.shot.cameras.rigs.drone import CameraKey, Drone  # noqa: E402
+from firetwin.shot.settings import settings as scene_settings  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
+from firetwin.shot.smoke_scale import Scale  # noqa: E402
+from firetwin.smoke import domains  # noqa: E402
 from firetwin_core import run as runs  # noqa: E402
 from firetwin_core import sensor  # noqa: E402
 from scene_text import PANEL  # noqa: E402
@@ -125,7 +125,7 @@ def _settings(run_folder, folder):
             end=datetime(2014, 9, 17, 22, 0, tzinfo=UTC),
             frames=3,
         ),
-        ground=scene_settings.Ground(near_radius=0.0, apron=20_000.0),
+        terrain=scene_settings.Ground(near_radius=0.0, apron=20_000.0),
         forest=scene_settings.Forest(density="paper"),
         smoke=scene_settings.Smoke(enabled=False),
         cameras=(scene_settings.Camera("drone", Drone(keys=keys)),),
@@ -138,7 +138,7 @@ def near_settings(settings):
     """The same with a detailed ground and a stand."""
     return replace(
         settings,
-        ground=replace(settings.ground, near_radius=1500.0),
+        terrain=replace(settings.terrain, near_radius=1500.0),
         forest=replace(settings.forest, density="stand", budget=3000, draw_distance=1500.0),
     )
 
@@ -253,12 +253,12 @@ def whole_forest(monkeypatch):
 @pytest.fixture
 def few_cells(monkeypatch):
     """A flow of smoke on few, large cells, with a nest that begins late."""
-    monkeypatch.setattr(boxes, "_LEVELS", (150.0, 600.0, 10))
-    monkeypatch.setattr(boxes, "_NEST_LEVELS", (120.0, 400.0, 11))
-    monkeypatch.setattr(boxes, "_NEST", 72)
-    monkeypatch.setattr(boxes, "_MARGIN", 2000.0)
-    monkeypatch.setattr(boxes, "LEAD", 40.0)
-    monkeypatch.setattr(boxes, "_part", lambda shot: 1.0)
+    monkeypatch.setattr(domains, "_LEVELS", (150.0, 600.0, 10))
+    monkeypatch.setattr(domains, "_NEST_LEVELS", (120.0, 400.0, 11))
+    monkeypatch.setattr(domains, "_NEST", 72)
+    monkeypatch.setattr(domains, "_MARGIN", 2000.0)
+    monkeypatch.setattr(domains, "LEAD", 40.0)
+    monkeypatch.setattr(domains, "_part", lambda shot: 1.0)
     monkeypatch.setattr(Shot, "scale", Scale())
 
 

@@ -7,7 +7,7 @@ from firetwin.jobs import assets as job
 from firetwin.progress import silent, untold
 from firetwin.scene import assets
 from firetwin.scene.forest import models
-from firetwin.shot import file
+from firetwin.shot.settings import scene_file
 
 KINDS = ("objects", "materials", "node_groups")
 
@@ -28,7 +28,7 @@ def few(monkeypatch):
 
 
 def test_trees_materials_and_groups_are_assets_in_catalogues(settings, few, library):
-    settings.path.write_text(file.text(settings))
+    settings.path.write_text(scene_file.text(settings))
     count = job.in_blender({"scene": str(settings.path)}, str(library), silent, untold)
     assert "Studio" not in bpy.data.scenes
     bpy.ops.wm.read_factory_settings(use_empty=True)

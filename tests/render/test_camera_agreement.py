@@ -9,17 +9,17 @@ from bpy_extras.object_utils import world_to_camera_view
 from firetwin.render import engine, layers
 from firetwin.render.picture import Picture
 from firetwin.scene.camera import build as cameras
-from firetwin.scene.ground import build as ground
-from firetwin.shot import rigs
-from firetwin.shot.rigs.chase import Chase
-from firetwin.shot.rigs.drone import CameraKey, Drone
-from firetwin.shot.rigs.lookout import Lookout, LookoutKey
-from firetwin.shot.rigs.minimap import Minimap
-from firetwin.shot.rigs.mounted import Mounted
-from firetwin.shot.rigs.orbit import Orbit
-from firetwin.shot.rigs.poses import Pose, Poses
-from firetwin.shot.rigs.satellite import Satellite
-from firetwin.shot.settings import Camera
+from firetwin.scene.terrain import build as ground
+from firetwin.shot.cameras import rigs
+from firetwin.shot.cameras.rigs.chase import Chase
+from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
+from firetwin.shot.cameras.rigs.lookout import Lookout, LookoutKey
+from firetwin.shot.cameras.rigs.minimap import Minimap
+from firetwin.shot.cameras.rigs.mounted import Mounted
+from firetwin.shot.cameras.rigs.orbit import Orbit
+from firetwin.shot.cameras.rigs.poses import Pose, Poses
+from firetwin.shot.cameras.rigs.satellite import Satellite
+from firetwin.shot.settings.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
 from mathutils import Vector

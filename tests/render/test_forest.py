@@ -2,7 +2,7 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.scene import build
-from firetwin.scene.forest import seen
+from firetwin.scene.forest import visibility
 
 pytestmark = pytest.mark.usefixtures("whole_forest")
 
@@ -11,7 +11,7 @@ def test_skipping_what_no_camera_sees_does_not_change_the_picture(shot, stage, s
     build.build(shot, scene)
     skipped = shoot(scene, "rgb")
     count = len(bpy.data.objects["Firetwin Trees"].data.vertices)
-    monkeypatch.setattr(seen, "visible", lambda _shot, places, *_, **_more: np.ones(len(places), bool))
+    monkeypatch.setattr(visibility, "visible", lambda _shot, places, *_, **_more: np.ones(len(places), bool))
     build.build(shot, scene)
     full = shoot(scene, "rgb")
     assert len(bpy.data.objects["Firetwin Trees"].data.vertices) > 1.5 * count

@@ -6,7 +6,7 @@ import pytest
 from firetwin.blender import nodes
 from firetwin.scene.forest import build as forest
 from firetwin.scene.forest import levels, library, models
-from firetwin.shot.ground import NEVER
+from firetwin.shot.terrain.terrain import NEVER
 from mathutils import Vector
 
 MODELS = models.trees()

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from firetwin.blender import compat
 from firetwin.render import groups
-from firetwin.shot import settings as scene_settings
+from firetwin.shot.settings import settings as scene_settings
 from firetwin_core import sensor
 
 HEIGHT, WIDTH = 24, 40

@@ -4,7 +4,7 @@ import bpy
 import pytest
 from firetwin.blender import nodes
 from firetwin.scene import haze
-from firetwin.scene.light import sky
+from firetwin.shot.light import sky
 
 
 def _red(stage, amount):

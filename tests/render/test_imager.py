@@ -7,11 +7,11 @@ from firetwin.render import engine, layers, pictures
 from firetwin.render.picture import Picture
 from firetwin.render.sharing import making
 from firetwin.scene.camera import build as cameras
-from firetwin.scene.ground import build as ground
+from firetwin.scene.terrain import build as ground
 from firetwin.shot import passes
-from firetwin.shot.rigs.satellite import Satellite
+from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.satellites import imager
-from firetwin.shot.settings import Camera
+from firetwin.shot.settings.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
 

@@ -11,11 +11,11 @@ from firetwin.render import engine, integrated, layers, pictures
 from firetwin.render.picture import Picture
 from firetwin.render.sharing import making
 from firetwin.scene import build
-from firetwin.scene.smoke import bake, baker, close_up
 from firetwin.shot import passes
-from firetwin.shot.rigs.drone import CameraKey, Drone
-from firetwin.shot.settings import Camera, Time
+from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
+from firetwin.shot.settings.settings import Camera, Time
 from firetwin.shot.shot import Shot
+from firetwin.smoke import bake, baker, close_up
 from firetwin_core import sensor
 
 KEY = CameraKey(0.0, 38.815, -120.56, 500.0, "point", 38.842, -120.552, 300.0)

@@ -11,7 +11,7 @@ from firetwin.render.picture import Picture
 from firetwin.render.sharing import making
 from firetwin.scene import infrared
 from firetwin.scene.build import PARTS
-from firetwin.shot import passes, temperature
+from firetwin.shot import air_temperature, passes
 from firetwin.shot.passes import thermal
 from firetwin_core import sensor
 
@@ -24,7 +24,7 @@ def plain(settings, stage, scene, shot):
     """A plane of 300 K under a 250 K sky, with a glowing card (800 K) and smoke before the camera."""
     parts = {name.title(): stage.part(name.title()) for name in PARTS}
     _quad(
-        parts["Ground"],
+        parts["Terrain"],
         "Ground",
         [(-9e4, -9e4, 0), (9e4, -9e4, 0), (9e4, 9e4, 0), (-9e4, 9e4, 0)],
         _surface("Ground", 300.0, shot, stage),
@@ -141,7 +141,7 @@ def test_the_thermal_picture_shows_its_temperatures(render, settings, shot):
     images = render("thermal")
     kelvin = images[THERMAL][..., 0]
     low, high = thermal.scale(shot, 2)
-    coldest = temperature.coldest_ground(shot.run, shot.frames.time(2), (8.0, 14.0))
+    coldest = air_temperature.coldest_ground(shot.run, shot.frames.time(2), (8.0, 14.0))
     assert (low, high) == (coldest, settings.render.thermal_high)
     expected = sensor.colour(kelvin, low, high, settings.thermal.palette, thermal.KNEE)
     shown = images["drone/thermal/drone_thermal_000002.png"][..., :3]
@@ -184,8 +184,8 @@ def test_layers_leave_out_what_their_sensor_does_not_see(plain):
         return {part.name for part in parts if part.exclude}
 
     assert left_out("rgb") == set()
-    assert left_out("thermal") == {"Firetwin Places"}
-    assert left_out("depth") == {"Firetwin Smoke", "Firetwin Fire", "Firetwin Places"}
+    assert left_out("thermal") == {"Firetwin Labels"}
+    assert left_out("depth") == {"Firetwin Smoke", "Firetwin Fire", "Firetwin Labels"}
 
 
 def test_depth_is_drawn_without_materials_unless_one_is_an_artists(plain):

@@ -11,10 +11,10 @@ from firetwin.render.picture import Picture
 from firetwin.render.sharing import making
 from firetwin.scene import build, infrared
 from firetwin.shot import passes
+from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
+from firetwin.shot.cameras.rigs.mounted import Mounted
 from firetwin.shot.passes import masks
-from firetwin.shot.rigs.drone import CameraKey, Drone
-from firetwin.shot.rigs.mounted import Mounted
-from firetwin.shot.settings import Camera
+from firetwin.shot.settings.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
 

@@ -16,7 +16,7 @@ run = "{run}"
 [time]
 start = 2014-09-17T21:30:00Z
 frames = 1
-[ground]
+[terrain]
 near_radius = 0.0
 apron = 20000.0
 [forest]

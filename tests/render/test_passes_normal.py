@@ -15,7 +15,7 @@ def render(settings, shot, stage, tmp_path):
     """A plane that rises to the north by the given slope, from straight above; smoke and flames before it."""
 
     def shoot(slope):
-        ground = stage.part("Ground")
+        ground = stage.part("Terrain")
         corners = [(-500, -500), (500, -500), (500, 500), (-500, 500)]
         mesh = bpy.data.meshes.new("Plane")
         mesh.from_pydata([(x, y, slope * y) for x, y in corners], [], [(0, 1, 2, 3)])

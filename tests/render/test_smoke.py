@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from firetwin.render import layers
 from firetwin.scene import build
-from firetwin.scene.smoke import bake
-from firetwin.shot.settings import Smoke
+from firetwin.shot.settings.settings import Smoke
 from firetwin.shot.shot import Shot
+from firetwin.smoke import bake
 
 
 @pytest.fixture

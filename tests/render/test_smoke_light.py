@@ -6,8 +6,9 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.blender import compat, nodes
-from firetwin.scene.smoke import flow_frames, flow_material
+from firetwin.scene.smoke import flow_material
 from firetwin.shot.shot import Shot
+from firetwin.smoke import flow_frames
 from firetwin_core import sensor, volume
 
 RADIUS, EXTINCTION, VOXEL = 400.0, 0.02, 50.0  # m, 1/m, m

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from firetwin.render import engine
 from firetwin.scene import haze
-from firetwin.scene.smoke import bake
 from firetwin.scene.smoke import build as smoke
-from firetwin.shot.scale import Scale
-from firetwin.shot.settings import Smoke
+from firetwin.shot.settings.settings import Smoke
 from firetwin.shot.shot import Shot
+from firetwin.shot.smoke_scale import Scale
+from firetwin.smoke import bake
 
 VOXEL = 40.0
 SHAPE = (96, 48, 224)

@@ -5,7 +5,7 @@ import numpy as np
 from firetwin.render import layers
 from firetwin.scene import build
 from firetwin.scene.forest import preview
-from firetwin.scene.ground import solid
+from firetwin.scene.terrain import solid_view
 from firetwin.shot.shot import Shot
 
 
@@ -20,7 +20,7 @@ def test_renders_do_not_know_of_the_viewport(near_settings, run, stage, scene, s
         scene.frame_set(2)
         if most > 200:
             data = bpy.data.objects["Firetwin Ground"].data
-            data.attributes.remove(data.attributes[solid.NAME])
+            data.attributes.remove(data.attributes[solid_view.NAME])
         pictures.append((shoot(scene, "rgb"), shoot(scene, "thermal")))
     assert pictures[0][0].std() > 0.01
     for one, other in zip(*pictures, strict=True):

@@ -5,15 +5,15 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from firetwin.jobs import standing
+from firetwin.jobs import render_blend
 from firetwin.render import engine, layers
 from firetwin.render.picture import Picture
 from firetwin.scene.camera import build as cameras
-from firetwin.scene.ground import build as ground
-from firetwin.shot.passes import _view
-from firetwin.shot.rigs._key import CameraKey
-from firetwin.shot.rigs.vr import Vr
-from firetwin.shot.settings import Camera
+from firetwin.scene.terrain import build as ground
+from firetwin.shot.cameras import pixel_rays
+from firetwin.shot.cameras.rigs._key import CameraKey
+from firetwin.shot.cameras.rigs.vr import Vr
+from firetwin.shot.settings.settings import Camera
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
 
@@ -55,7 +55,7 @@ def test_depth_pose_and_terrain_agree_in_both_eyes_and_near_things_shift_the_rig
     assert level + 0.5 == pytest.approx([SIZE / 4, 3 * SIZE / 4], abs=0.5)  # the horizon, straight ahead
 
     # The ground: where depth and pose say that it is.
-    place = _view.points(view, FRAME, depth)
+    place = pixel_rays.points(view, FRAME, depth)
     seen = (depth > 220.0) & (np.abs(place[..., :2]).max(axis=-1) < 4000.0)
     earth = place.copy()
     earth[..., 2] = shot.ground.up(*(np.nan_to_num(place[..., k]).ravel() for k in (0, 1))).reshape(SIZE, -1)
@@ -89,7 +89,7 @@ def test_a_scene_as_it_stands_keeps_both_eyes_and_their_size(settings, run, scen
     engine.apply(shot.settings, scene)
     for percent, across in ((100, SIZE), (50, SIZE // 2)):
         scene.render.resolution_percentage = percent
-        stands = standing._as_it_stands(shot, scene)
+        stands = render_blend._as_it_stands(shot, scene)
         assert stands.settings.render.resolution == (across, across)
         engine.size(stands.settings, scene)
         size = scene.render.resolution_x, scene.render.resolution_y, scene.render.use_multiview

@@ -15,8 +15,8 @@ import bpy
 import firetwin
 import numpy as np
 from firetwin.blender import compat, owned
-from firetwin.shot import file
-from firetwin.ui import flying, scene_file
+from firetwin.shot.settings import scene_file as file
+from firetwin.ui import navigation, scene_file
 from firetwin_core import sensor
 from mathutils import Euler, Matrix
 
@@ -27,7 +27,7 @@ run = "{run}"
 start = 2014-09-17T16:00:00-07:00
 end = 2014-09-17T16:24:00-07:00
 frames = 3
-[ground]
+[terrain]
 near_radius = 0.0
 apron = 20000.0
 [forest]
@@ -38,7 +38,7 @@ draw_distance = 1500.0
 enabled = false
 [light]
 haze = 0.7
-[places]
+[labels]
 enabled = true
 [render]
 resolution = [64, 36]
@@ -158,7 +158,7 @@ if __name__ == "__main__":
     verb, *paths = sys.argv[1:]
     bpy.ops.wm.read_factory_settings()
     firetwin.register()
-    flying.eye = lambda context: (EYE.copy(), 30.0, 36.0)  # there is no view here
+    navigation.eye = lambda context: (EYE.copy(), 30.0, 36.0)  # there is no view here
     if verb == "save":
         save(*map(Path, paths))
     else:

@@ -15,11 +15,11 @@ from firetwin.errors import InputError
 from firetwin.jobs import build as build_job
 from firetwin.jobs import render as render_job
 from firetwin.jobs import worker
-from firetwin.scene.smoke import bake
-from firetwin.shot import file
-from firetwin.shot.choice import Choice
-from firetwin.shot.settings import Smoke
+from firetwin.shot.settings import scene_file
+from firetwin.shot.settings.settings import Smoke
 from firetwin.shot.shot import Shot
+from firetwin.shot.source import Choice
+from firetwin.smoke import bake
 from firetwin.ui import queue
 from panel_scene import state
 
@@ -78,7 +78,7 @@ def test_a_full_disk_is_a_message_and_what_was_there_stays(panel, blend, run, ti
         build_job.save(place / "scene.blend")
     panel.output = str(blend.parent / "out")
     assert state() == before
-    whole = file.read(blend.with_suffix(".toml"))
+    whole = scene_file.read(blend.with_suffix(".toml"))
     smoky = Shot(replace(whole, cache=place / "cache", smoke=Smoke(method="puffs")), run)
     with pytest.raises(InputError, match="the disk is full"):
         bake.bake(smoky, frames=[1])

@@ -8,7 +8,7 @@
 # Debian's development release has that Blender, with Python 3.14. It is kept in build/debian/sid, or in
 # $FIRETWIN_DEBIAN/sid (tests/system/in_debian.sh); the core is built there, and a zip made that carries it. The pictures
 # and the logs are then in build/shared/window, those of the artists' page in page/ there (they belong into
-# examples/pictures/). No display is needed. $FIRETWIN_PATIENCE is how many seconds it waits
+# docs/pictures/). No display is needed. $FIRETWIN_PATIENCE is how many seconds it waits
 # for any one thing (1800).
 # Exit status 1: something is not as it should be; 77: there is no such folder, and what was skipped is said.
 set -euo pipefail

@@ -2,22 +2,22 @@
 
 import numpy as np
 import pytest
-from firetwin.scene.smoke import air
+from firetwin.smoke import atmosphere
 
 
 @pytest.mark.parametrize("sun", [-40.0, -4.0, 0.0, 50.0])
 @pytest.mark.parametrize("ground", [0.0, 1200.0, 2800.0])
 def test_the_sky_is_clear_and_the_air_stable(sun, ground):
-    around = air.air(sun, ground)
-    pressure = air._pressure(ground + around.height)
-    humidity = around.water / air._held(around.potential_temperature, pressure)
+    around = atmosphere.air(sun, ground)
+    pressure = atmosphere._pressure(ground + around.height)
+    humidity = around.water / atmosphere._held(around.potential_temperature, pressure)
     assert humidity.min() > 0.0
     assert humidity.max() <= 0.8 + 1e-9
     assert np.all(np.diff(around.potential_temperature) > 0.0)
 
 
 def test_nights_are_cold_below_and_no_warmer_aloft():
-    day, night = air.air(50.0, 1200.0), air.air(-40.0, 1200.0)
+    day, night = atmosphere.air(50.0, 1200.0), atmosphere.air(-40.0, 1200.0)
     assert night.potential_temperature[0] < day.potential_temperature[0] - 5.0
     high = day.height >= 3300.0
     assert night.potential_temperature[high] == pytest.approx(day.potential_temperature[high])
@@ -26,6 +26,6 @@ def test_nights_are_cold_below_and_no_warmer_aloft():
 def test_air_holds_the_water_that_tables_say():
     """Saturation mixing ratios at 1000 hPa in g/kg are from the Smithsonian Meteorological Tables."""
     celsius = np.array([0.0, 20.0, 30.0])
-    held = air._held(celsius + 273.15, np.full(3, 1e5))
+    held = atmosphere._held(celsius + 273.15, np.full(3, 1e5))
     mixing = held / (1.0 - held)
     assert mixing == pytest.approx(np.array([3.84, 14.95, 27.69]) * 1e-3, rel=0.01)

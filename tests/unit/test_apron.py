@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from firetwin.shot import apron, noise
+from firetwin.shot.terrain import apron, noise
 
 CELL = (74.0, 74.0)
 

@@ -5,7 +5,7 @@ import os
 import pytest
 from firetwin.errors import Error
 from firetwin.jobs import bake, worker
-from firetwin.shot.choice import Choice
+from firetwin.shot.source import Choice
 from scene_text import DRONE, NO_PLANTS, TINY
 
 SMOKY = """\

@@ -8,7 +8,7 @@ from firetwin.run.models.arrival import from_share, held
 from firetwin.run.models.grid import Grid
 from firetwin.run.score import grid as score_grid
 from firetwin.run.score.overlap import Overlap
-from firetwin.shot import fuel
+from firetwin.shot.fire import fuel
 from firetwin_core import run as runs
 from hypothesis import given
 from hypothesis import strategies as st

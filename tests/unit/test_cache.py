@@ -5,7 +5,7 @@ import time
 
 import pytest
 from firetwin import cli
-from firetwin.scene.smoke import cache
+from firetwin.smoke import cache
 
 HOUR = 3600.0
 

@@ -9,7 +9,7 @@ from datetime import datetime
 import numpy as np
 import pytest
 from firetwin import cli
-from firetwin.shot import file
+from firetwin.shot.settings import scene_file
 from small_run import RUN_TOML, small_fields
 
 
@@ -220,13 +220,13 @@ def test_new_writes_a_scene_file_says_what_it_chose_and_overwrites_nothing(make_
     assert (result.returncode, result.stdout) == (0, f"{out}\n"), result.stderr
     assert all(f"firetwin: {name}: " in result.stderr for name in ("overview", "chase", "flank", "satellite"))
     assert "most active" in result.stderr
-    assert file.read(out).run.resolve() == folder.resolve()
+    assert scene_file.read(out).run.resolve() == folder.resolve()
     out.write_text("mine")
     again = firetwin("new", folder, "-o", out)
     assert_one_line(again, 2, "scene.toml is there", "--overwrite")
     assert out.read_text() == "mine"
     assert firetwin("new", folder, "-o", out, "--overwrite").returncode == 0
-    assert file.read(out).cameras
+    assert scene_file.read(out).cameras
 
 
 def test_new_films_the_moments_that_are_asked_for(make_run, tmp_path):
@@ -234,7 +234,7 @@ def test_new_films_the_moments_that_are_asked_for(make_run, tmp_path):
     moments = "2014-09-16T21:45:30-07:00", "2014-09-16T21:46:30-07:00"
     result = firetwin("new", folder, "-o", out, "--start", moments[0], "--end", moments[1])
     assert result.returncode == 0, result.stderr
-    found = file.read(out).time
+    found = scene_file.read(out).time
     assert (found.start, found.end) == tuple(map(datetime.fromisoformat, moments))
     late = firetwin("new", folder, "-o", tmp_path / "x.toml", "--end", "2015-01-01T00:00Z")
     assert_one_line(late, 2, "--end", "2014-09-17T04:47:00Z")
@@ -252,7 +252,7 @@ def test_a_run_folder_stands_for_a_scene_file_that_fits_it(make_run, tmp_path):
     assert "firetwin new " in result.stderr
     (kept,) = (tmp_path / "cache").glob("run-*.toml")
     assert firetwin("new", folder, "-o", "scene.toml", cwd=tmp_path).returncode == 0
-    found, written = file.read(kept), file.read(tmp_path / "scene.toml")
+    found, written = scene_file.read(kept), scene_file.read(tmp_path / "scene.toml")
     assert found.cache.resolve() == written.cache.resolve() == tmp_path / "cache"
     assert found.run.resolve() == written.run.resolve() == folder
     assert replace(found, path=written.path, run=written.run, cache=written.cache) == written

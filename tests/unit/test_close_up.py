@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from firetwin.scene.smoke import close_up
+from firetwin.smoke import close_up
 from hypothesis import given
 from hypothesis import strategies as st
 

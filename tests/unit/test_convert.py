@@ -15,7 +15,7 @@ from firetwin import cli
 from firetwin.errors import Error, InputError, UsageError
 from firetwin.jobs import convert, worker
 from firetwin.run import readers
-from firetwin.run.models import headway, netcdf, write
+from firetwin.run.models import heartbeat, netcdf, write
 from firetwin_core import run as runs
 
 
@@ -147,7 +147,7 @@ def test_reading_says_that_it_goes_on(tmp_path, monkeypatch):
     """A sign for each part that is read, so that neither many files nor slow ones are taken for a hang."""
     paths, _ = made.cfbm(tmp_path, count=5)
     signs = []
-    monkeypatch.setattr(headway, "_OFTEN", 0.0)
+    monkeypatch.setattr(heartbeat, "_OFTEN", 0.0)
     monkeypatch.setattr(worker, "sign", lambda: signs.append(1))
     in_process(paths, tmp_path / "out")
     assert len(signs) > 5 * 6  # opened, and five fields of each

@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-PAGE = ROOT / "examples/artists.md"
+PAGE = ROOT / "docs/artists.md"
 
 
 def followed():
@@ -30,4 +30,4 @@ def test_the_pages_pictures_are_there_and_small():
     assert len(sizes) >= 5
     assert max(sizes.values()) <= 150_000
     assert sum(sizes.values()) < 1_000_000
-    assert "examples/artists.md" in (ROOT / "README.md").read_text("utf-8")
+    assert "docs/artists.md" in (ROOT / "README.md").read_text("utf-8")

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from firetwin.shot import burning, emissions, heat
-from firetwin.shot.fire import Fire
+from firetwin.shot.fire import burning, emissions, heat_release
+from firetwin.shot.fire.fire import Fire
 from firetwin_core import run as runs
 from small_run import FX, FY, NT, NX, NY, RUN_TOML
 
@@ -55,8 +55,8 @@ def test_smoke_of_timber_is_that_of_litter_and_crowns_in_both_phases(make_run):
     found, fuel = fire.sources(140.0), fire.fuel
     lit = np.flatnonzero((fuel.begin < 140.0) & np.isin(fuel.cell, found.cell))
     age, crossing = 140.0 - fuel.begin[lit], fuel.crossing[lit]
-    lost, flames = heat.consumed(age, crossing, fuel.slow[lit], LITTER.residence)
-    crowns, _ = heat.consumed(age, crossing, CROWN.burn_out[0])
+    lost, flames = heat_release.consumed(age, crossing, fuel.slow[lit], LITTER.residence)
+    crowns, _ = heat_release.consumed(age, crossing, CROWN.burn_out[0])
     smoke = fuel.surface[lit] * (flames * LITTER.smoke[0] + (lost - flames) * LITTER.smoke[1])
     smoke += fuel.canopy[lit] * crowns * CROWN.smoke[0]
     heat_of = fuel.surface[lit] * (flames * LITTER.heat[0] + (lost - flames) * LITTER.heat[1])
@@ -75,7 +75,9 @@ def test_smoke_of_timber_is_that_of_litter_and_crowns_in_both_phases(make_run):
 def test_merging_sources_keeps_their_smoke(make_run):
     found = fire_of(make_run, 2.0, 1.0).sources(60.0)
     for most in (1, 5, 400):
-        assert heat.lights(found, 300.0, most).smoke.sum() == pytest.approx(found.smoke.sum(), rel=1e-9)
+        assert heat_release.lights(found, 300.0, most).smoke.sum() == pytest.approx(
+            found.smoke.sum(), rel=1e-9
+        )
 
 
 def test_grass_smoke_is_paler_thinner_and_less_than_that_of_timber(make_run, tmp_path):

@@ -20,7 +20,7 @@ from firetwin import files
 from firetwin.data import sample
 from firetwin.errors import FULL, InputError, disk_is_full, no_room, writing
 from firetwin.jobs import worker
-from firetwin.render import png, whole
+from firetwin.render import png, verify
 from firetwin.render.store import NAME, Store
 from firetwin_core import Error, sensor
 
@@ -252,7 +252,7 @@ def picture(request, tmp_path):
 
 
 def test_a_whole_picture_passes(picture):
-    whole.picture(picture, (64, 36))
+    verify.picture(picture, (64, 36))
 
 
 @pytest.mark.parametrize("left", [0, 1, 40, 0.5, -1, -4, -12, -40])
@@ -260,15 +260,15 @@ def test_a_picture_that_is_cut_off_does_not(picture, left):
     data = picture.read_bytes()
     picture.write_bytes(data[: int(left * len(data)) if isinstance(left, float) else left])
     with pytest.raises(InputError, match=rf"a\{picture.suffix}: .*render it again"):
-        whole.picture(picture, (64, 36))
+        verify.picture(picture, (64, 36))
 
 
 def test_a_picture_of_another_size_or_none_does_not(picture):
     with pytest.raises(InputError, match="64 x 36 pixels instead of 32 x 36"):
-        whole.picture(picture, (32, 36))
+        verify.picture(picture, (32, 36))
     picture.unlink()
     with pytest.raises(InputError, match="render it again"):
-        whole.picture(picture, (64, 36))
+        verify.picture(picture, (64, 36))
 
 
 def test_a_damaged_picture_on_a_full_disk_says_so(picture, tiny):
@@ -277,7 +277,7 @@ def test_a_damaged_picture_on_a_full_disk_says_so(picture, tiny):
     _fill(tiny)
     path.write_bytes(path.read_bytes()[:100])
     with pytest.raises(InputError, match="the disk is full"):
-        whole.picture(path, (64, 36))
+        verify.picture(path, (64, 36))
 
 
 def test_a_film_is_walked_through(tmp_path):
@@ -285,14 +285,14 @@ def test_a_film_is_walked_through(tmp_path):
     boxes = [(b"ftyp", b"isom"), (b"mdat", b"x" * 99), (b"moov", b"y" * 9)]
     data = b"".join(struct.pack(">I4s", len(body) + 8, kind) + body for kind, body in boxes)
     path.write_bytes(data)
-    whole.film(path)
+    verify.film(path)
     for left in (0, 4, 12, 50, len(data) - 17, len(data) - 1):
         path.write_bytes(data[:left])
         with pytest.raises(InputError, match="cut off"):
-            whole.film(path)
+            verify.film(path)
     path.unlink()
     with pytest.raises(InputError, match="missing"):
-        whole.film(path)
+        verify.film(path)
 
 
 def test_notes_of_how_long_it_took_are_taken_out_of_a_picture(tmp_path):
@@ -317,7 +317,7 @@ def test_a_system_without_time_zones_says_what_to_install():
 import sys, zoneinfo
 zoneinfo.reset_tzpath([])  # as on Windows
 sys.modules["tzdata"] = None
-from firetwin.shot import settings
+from firetwin.shot.settings import settings
 print(settings._zone("America/Los_Angeles"))
 """
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
@@ -328,6 +328,6 @@ def test_nothing_of_rendering_needs_locks_of_one_system():
     code = """
 import sys
 sys.modules["fcntl"] = None
-import firetwin.render.store, firetwin.render.claims, firetwin.jobs.render, firetwin.scene.smoke.bake
+import firetwin.render.store, firetwin.render.leases, firetwin.jobs.render, firetwin.smoke.bake
 """
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from firetwin.data import sample, stored
 from firetwin.run import readers
-from firetwin.shot import flight
-from firetwin.shot.path import hidden
-from firetwin.shot.rigs._key import CameraKey
-from firetwin.shot.rigs.drone import Drone
-from firetwin.shot.settings import Camera, Forest, Ground, Settings, Time
+from firetwin.shot.cameras import flight
+from firetwin.shot.cameras.path import hidden
+from firetwin.shot.cameras.rigs._key import CameraKey
+from firetwin.shot.cameras.rigs.drone import Drone
+from firetwin.shot.settings.settings import Camera, Forest, Ground, Settings, Time
 from firetwin.shot.shot import Shot
 
 pyproj = pytest.importorskip("pyproj")
@@ -34,7 +34,7 @@ def flown(run, frames=40, near_radius=1500.0, minutes=20, **drone):
             end=datetime(2014, 9, 17, 16, minutes, tzinfo=UTC),
             frames=frames,
         ),
-        ground=Ground(near_radius=near_radius, apron=1000.0),
+        terrain=Ground(near_radius=near_radius, apron=1000.0),
         forest=Forest(trees=False),
         cameras=(Camera("scout", Drone(**drone)),),
     )

@@ -5,8 +5,8 @@ from dataclasses import fields
 import numpy as np
 import pytest
 from firetwin.run import blocks
-from firetwin.shot import burning
-from firetwin.shot import fuel as fuels
+from firetwin.shot.fire import burning
+from firetwin.shot.fire import fuel as fuels
 from firetwin_core import InputError
 from firetwin_core import run as runs
 from small_run import FX, FY, small_fields

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.run.observations import features
-from firetwin.shot import land_use
-from firetwin.shot.choice import Choice
+from firetwin.shot.source import Choice
+from firetwin.shot.terrain import land_use
 from firetwin_core import run as runs
 from scene_text import GROUND_ALONE
 
@@ -116,10 +116,10 @@ def test_no_plant_stands_on_water_roads_fields_and_buildings(make):
 
 
 def test_without_a_map_there_is_nothing(make_run):
-    from firetwin.shot.settings import Ground, Settings
+    from firetwin.shot.settings.settings import Ground, Settings
     from firetwin.shot.shot import Shot
 
-    shot = Shot(Settings(ground=Ground(apron=0.0)), runs.open(make_run()))
+    shot = Shot(Settings(terrain=Ground(apron=0.0)), runs.open(make_run()))
     assert land_use.pictures(shot) == {}
     assert not land_use.mapped(shot, np.zeros((3, 3))).any()
 

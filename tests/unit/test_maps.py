@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from firetwin.run import areas, blocks, content, info, maps, remembered, thumbnails
+from firetwin.run import areas, blocks, content, fact_cache, info, maps, thumbnails
 from firetwin_core import run as runs
 from PIL import Image
 from small_run import FX, FY, small_fields
@@ -196,7 +196,7 @@ def test_facts_of_other_files_are_found_anew(settled):
 
 def test_facts_of_another_program_are_found_anew(settled, monkeypatch):
     info.gather(settled, ZONE)
-    monkeypatch.setattr(remembered, "_program", dict)
+    monkeypatch.setattr(fact_cache, "_program", dict)
     monkeypatch.setattr(info, "_find", nobody)
     with pytest.raises(AssertionError, match="asked again"):
         info.gather(settled, ZONE)
@@ -205,17 +205,17 @@ def test_facts_of_another_program_are_found_anew(settled, monkeypatch):
 def test_files_that_may_still_change_are_not_remembered(run, monkeypatch):
     monkeypatch.setattr(content, "_YOUNG", 3600.0)
     info.gather(run, ZONE)
-    assert not (Path(run.path) / remembered.NAME).exists()
+    assert not (Path(run.path) / fact_cache.NAME).exists()
 
 
 @pytest.mark.parametrize("damage", ["", "[]", '{"key"', '{"key": 1}', "\x00\xff"])
 def test_damaged_facts_count_for_nothing(settled, damage):
     facts = info.gather(settled, ZONE)
-    (Path(settled.path) / remembered.NAME).write_bytes(damage.encode("latin1"))
+    (Path(settled.path) / fact_cache.NAME).write_bytes(damage.encode("latin1"))
     assert info.gather(settled, ZONE) == facts
 
 
 def test_where_nothing_can_be_remembered_facts_are_found(settled):
-    (Path(settled.path) / remembered.NAME).mkdir()
+    (Path(settled.path) / fact_cache.NAME).mkdir()
     assert info.gather(settled, ZONE)["name"] == "Small"
     assert list((Path(settled.path)).glob(".*.part*")) == []

@@ -11,7 +11,7 @@ import pytest
 from firetwin.errors import Error, InputError
 from firetwin.jobs import convert
 from firetwin.run import areas, info, released
-from firetwin.run.models import fuels, heat
+from firetwin.run.models import fuels, heat_from_intensity
 from firetwin_core import run as runs
 
 START = made.START.replace(tzinfo=UTC)
@@ -472,7 +472,7 @@ def test_a_front_that_stands_or_meets_another_has_a_speed():
     x = np.arange(20) * 30.0
     arrival = np.minimum(x, 600.0 - x) / 0.5  # two fronts that meet
     arrival[5:] += np.where(x[5:] < 330.0, 4000.0, 0.0)  # one of which stood for long
-    found = heat.spread(np.tile(arrival, (4, 1)), (30.0, 30.0))
+    found = heat_from_intensity.spread(np.tile(arrival, (4, 1)), (30.0, 30.0))
     np.testing.assert_allclose(found, 0.5)
 
 

@@ -6,19 +6,22 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from firetwin.errors import InputError, UsageError
-from firetwin.render import dataset, fingerprint, plan, whole
+from firetwin.imaging import sheet as _sheet
+from firetwin.render import dataset, fingerprint, plan, verify
 from firetwin.render.picture import Picture
 from firetwin.render.store import Store, describe
 from firetwin.run import info
-from firetwin.shot import file, mount, passes
-from firetwin.shot.passes import _map, _sheet, masks, pose
+from firetwin.shot import passes
+from firetwin.shot.cameras import mount
+from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
+from firetwin.shot.cameras.rigs.lookout import Lookout, LookoutKey
+from firetwin.shot.cameras.rigs.minimap import Minimap
+from firetwin.shot.cameras.rigs.mounted import Mounted
+from firetwin.shot.cameras.rigs.satellite import Satellite
+from firetwin.shot.passes import _map, masks, pose
 from firetwin.shot.passes import fused as fused_pass
-from firetwin.shot.rigs.drone import CameraKey, Drone
-from firetwin.shot.rigs.lookout import Lookout, LookoutKey
-from firetwin.shot.rigs.minimap import Minimap
-from firetwin.shot.rigs.mounted import Mounted
-from firetwin.shot.rigs.satellite import Satellite
-from firetwin.shot.settings import Camera, Ground, Render, Settings, Time
+from firetwin.shot.settings import scene_file
+from firetwin.shot.settings.settings import Camera, Ground, Render, Settings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from firetwin_core import sensor
@@ -38,7 +41,7 @@ def shot(make_run):
     def make(*cameras):
         ground = Ground(near_radius=0.0, apron=5000.0)
         render = Render(resolution=(320, 180))
-        settings = Settings(time=Time(frames=5), ground=ground, cameras=cameras, render=render)
+        settings = Settings(time=Time(frames=5), terrain=ground, cameras=cameras, render=render)
         return Shot(settings, runs.open(make_run()))
 
     return make
@@ -77,7 +80,7 @@ def test_a_mount_that_is_not_there_is_an_error(tmp_path, line, words):
     scene = tmp_path / "scene.toml"
     scene.write_text(SCENE + line)
     with pytest.raises(InputError) as caught:
-        file.read(scene)
+        scene_file.read(scene)
     assert words in caught.value.reason
 
 
@@ -208,9 +211,9 @@ def test_a_cut_off_sidecar_is_no_whole_file(tmp_path):
     path = tmp_path / "pose.json"
     path.write_text('{"pose": ')
     with pytest.raises(InputError, match="is no JSON"):
-        whole.picture(path, (1, 1))
+        verify.picture(path, (1, 1))
     path.write_text("{}")
-    whole.picture(path, (1, 1))
+    verify.picture(path, (1, 1))
 
 
 def test_the_index_lists_frames_that_have_picture_and_sidecar(shot, tmp_path):
@@ -358,7 +361,7 @@ def test_the_map_shows_front_and_scar_whatever_its_ground(make_run, tmp_path, mi
     fields = {"fuel_arrival_time": np.tile(arrival, (rows, 1)).astype(np.float32)}
     cameras = (DRONE, Camera("map", Minimap("drone", 3000.0), passes=("rgb",)))[: 2 if minimap else 1]
     ground, render = Ground(near_radius=0.0, apron=5000.0), Render(resolution=(640, 360))
-    settings = Settings(time=Time(frames=5), ground=ground, cameras=cameras, render=render)
+    settings = Settings(time=Time(frames=5), terrain=ground, cameras=cameras, render=render)
     made = Shot(settings, runs.open(make_run(**fields)))
     view = made.of("drone").paths[0]
     axes = _sheet.Sheet(640, 360).panel(2, "MAP")
@@ -419,7 +422,7 @@ def test_masks_in_eevee_are_refused_in_the_file_and_on_the_command_line(shot, tm
     scene = tmp_path / "scene.toml"
     scene.write_text('[render]\nengine = "eevee"\npasses = ["masks"]\n' + SCENE.split("[[cameras]]\nkind")[0])
     with pytest.raises(InputError, match=r"scene\.toml:3:1: .*cannot record masks with EEVEE"):
-        file.read(scene)
+        scene_file.read(scene)
     made = shot(DRONE)
     made.settings = replace(made.settings, render=replace(made.settings.render, engine="eevee"))
     assert plan.pictures(made, "1", names="rgb")

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.run import maps, observations, readers
-from firetwin.shot import observed
-from firetwin.shot.choice import Choice
+from firetwin.shot.fire import observed
+from firetwin.shot.source import Choice
 from matplotlib.colors import to_hex
 
 RING = [[-120.595, 38.903], [-120.590, 38.903], [-120.590, 38.907], [-120.595, 38.907], [-120.595, 38.903]]
@@ -27,7 +27,7 @@ def scene(make_run, tmp_path):
         "latitude,longitude,acq_date,acq_time,scan,track,instrument\n38.905,-120.592,2014-09-17,446,0.4,0.4,VIIRS\n"
     )
     path = tmp_path / "scene.toml"
-    path.write_text(f'run = "{make_run()}"\n[ground]\napron = 0.0\n[fire]\nobserved = "seen"\n')
+    path.write_text(f'run = "{make_run()}"\n[terrain]\napron = 0.0\n[fire]\nobserved = "seen"\n')
     return path
 
 

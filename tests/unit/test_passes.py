@@ -6,11 +6,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from firetwin.shot import passes, temperature
-from firetwin.shot.passes import _bar, _view
+from firetwin.imaging import colour_bar
+from firetwin.shot import air_temperature, passes
+from firetwin.shot.cameras import pixel_rays
+from firetwin.shot.cameras.path import Path
 from firetwin.shot.passes import thermal as thermal_pass
-from firetwin.shot.path import Path
-from firetwin.shot.settings import Camera, Render, Settings, Thermal, Time
+from firetwin.shot.settings.settings import Camera, Render, Settings, Thermal, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from firetwin_core import sensor
@@ -22,7 +23,7 @@ def test_passes_come_in_their_order():
     assert [name for name in KNOWN if name in ("thermal", "depth", "rgb")] == ["rgb", "depth", "thermal"]
     orders = [each.order for each in KNOWN.values()]
     assert orders == sorted(set(orders))
-    assert passes.helps()["rgb"] == "The visible picture"
+    assert passes.helps()["rgb"] == "Visible picture"
 
 
 @pytest.mark.parametrize("name", KNOWN)
@@ -131,9 +132,9 @@ def test_the_detector_of_the_settings_measures(tmp_path):
 
 
 def test_a_bar_of_round_temperatures_stands_at_the_right(tmp_path):
-    assert _bar.marks(290.0, 1000.0, 5.0, 20.0)[-1] == 1000.0
-    assert all(kelvin % 10 == 0 for kelvin in _bar.marks(290.0, 1000.0, 5.0, 20.0))
-    assert len(_bar.marks(299.0, 301.0, 5.0, 20.0)) >= 3
+    assert colour_bar.marks(290.0, 1000.0, 5.0, 20.0)[-1] == 1000.0
+    assert all(kelvin % 10 == 0 for kelvin in colour_bar.marks(290.0, 1000.0, 5.0, 20.0))
+    assert len(colour_bar.marks(299.0, 301.0, 5.0, 20.0)) >= 3
     _, picture = thermal(tmp_path, scene(180, 320), palette="inferno")
     bare = sensor.colour(np.full((180, 320), 300.0), 290.0, 1000.0, "inferno", 5.0)
     bar = picture[20:160, 312:316].mean(axis=(1, 2))
@@ -154,12 +155,12 @@ def view(perspective):
 def test_points_of_a_depth_are_where_the_ground_is(perspective):
     planar = np.full((20, 40), 1000.0, np.float32)
     planar[0] = 1e10
-    found = _view.points(view(perspective), 1, planar)
+    found = pixel_rays.points(view(perspective), 1, planar)
     assert np.isnan(found[0]).all()
     assert np.abs(found[1:, :, 2]).max() < 1e-9
     assert found[10, 20, :2] == pytest.approx([10.0 - 12.5, 20.0 - 12.5])  # half a pixel right and down
     assert found[19, 39, :2] == pytest.approx([10.0 - 250.0 + 12.5, 20.0 - 500.0 + 12.5])
-    ranges = _view.ranges(view(perspective), 1, planar)
+    ranges = pixel_rays.ranges(view(perspective), 1, planar)
     expected = np.linalg.norm(found - view(True).position[0], axis=-1) if perspective else planar
     np.testing.assert_allclose(ranges[1:], expected[1:], rtol=1e-6)
     assert np.all(ranges[0] == np.float32(1e10))
@@ -168,10 +169,10 @@ def test_points_of_a_depth_are_where_the_ground_is(perspective):
 def test_a_camera_that_zooms_sees_by_its_lens_of_that_frame():
     zoomed = dataclasses.replace(view(True), wider=np.array([2.0]))
     planar = np.full((20, 40), 1000.0, np.float32)
-    near, far = (_view.points(each, 1, planar) - each.position[0] for each in (view(True), zoomed))
+    near, far = (pixel_rays.points(each, 1, planar) - each.position[0] for each in (view(True), zoomed))
     np.testing.assert_allclose(far[..., :2], 2.0 * near[..., :2])
     expected = np.linalg.norm(far, axis=-1)
-    np.testing.assert_allclose(_view.ranges(zoomed, 1, planar), expected, rtol=1e-6)
+    np.testing.assert_allclose(pixel_rays.ranges(zoomed, 1, planar), expected, rtol=1e-6)
 
 
 class Seen(Shot):
@@ -232,14 +233,14 @@ def test_ends_of_scales_are_those_of_the_shot_and_read_once(make_run, monkeypatc
     assert low == pytest.approx(0.0, abs=0.01)
     assert high == pytest.approx(15.0, abs=0.01)
     assert shot.coldest_moment < 306.0
-    monkeypatch.setattr(temperature, "at", None)
-    monkeypatch.setattr(temperature, "mean", None)
+    monkeypatch.setattr(air_temperature, "at", None)
+    monkeypatch.setattr(air_temperature, "mean", None)
     assert (shot.warmest, shot.coldest_moment) == ((low, high), shot.coldest_moment)
 
 
 def test_the_thermal_scale_follows_the_moment_alone(make_run, monkeypatch):
     """A dawn and a noon 20 K warmer: each frame's palette begins at its own air, in whatever shot it is."""
-    monkeypatch.setattr(temperature.sun, "at", lambda run, time: (180.0, 40.0))
+    monkeypatch.setattr(air_temperature.sun, "at", lambda run, time: (180.0, 40.0))
     night = np.full((3, 4, 5), 285.0, np.float32)
     run = runs.open(make_run(temperature=night + np.array([0.0, 10.0, 20.0], np.float32)[:, None, None]))
     made = Shot(Settings(time=Time(frames=3)), run)

@@ -7,16 +7,17 @@ from pathlib import Path
 import jsonschema
 import pytest
 from firetwin.errors import InputError
-from firetwin.shot import file, rigs, schema
-from firetwin.shot.json_schema import json_schema
-from firetwin.shot.settings import Camera, Settings
+from firetwin.shot.cameras import rigs
+from firetwin.shot.settings import scene_file, schema
+from firetwin.shot.settings.json_schema import json_schema
+from firetwin.shot.settings.settings import Camera, Settings
 
 TOWER = '''\
 """A tower: a camera on the ground."""
 from dataclasses import dataclass
 
-from firetwin.shot.rigs import Rig
-from firetwin.shot.schema import key
+from firetwin.shot.cameras.rigs import Rig
+from firetwin.shot.settings.schema import key
 
 
 @dataclass(frozen=True)
@@ -66,12 +67,12 @@ def test_the_kinds_are_known():
 def test_a_kind_is_added_by_one_file(tower, tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text('[[cameras]]\nkind = "tower"\nname = "lookout"\nmast = 30\n')
-    camera = file.read(path).cameras[0]
+    camera = scene_file.read(path).cameras[0]
     assert camera == Camera("lookout", tower(mast=30.0))
     assert camera.kind == "tower"
-    settings = dataclasses.replace(file.read(path), path=Path("scene.toml"))
-    assert "mast = 30.0                 # length of the mast, m (default 20.0)" in file.text(settings)
-    assert "kind of camera: on the ground, turning round" in file.text(settings)
+    settings = dataclasses.replace(scene_file.read(path), path=Path("scene.toml"))
+    assert "mast = 30.0                 # length of the mast, m (default 20.0)" in scene_file.text(settings)
+    assert "kind of camera: on the ground, turning round" in scene_file.text(settings)
     tables = [{"kind": "tower", "mast": 30.0, "turns": 1, "frames": "", "resolution": None}]
     assert schema.chosen(settings, {"camera"}) == {"cameras": tables}
     validator = jsonschema.Draft202012Validator(json_schema(Settings))
@@ -93,6 +94,6 @@ def test_mistakes_in_an_added_kind_have_their_place(tower, tmp_path, lines, line
     path = tmp_path / "scene.toml"
     path.write_text(f'[[cameras]]\nkind = "tower"\n{lines}\n')
     with pytest.raises(InputError) as caught:
-        file.read(path)
+        scene_file.read(path)
     assert (caught.value.line, caught.value.column) == (line, 1)
     assert words in caught.value.reason

@@ -7,14 +7,16 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.render import fingerprint
-from firetwin.shot import file, fit, path, targets
-from firetwin.shot.rigs._key import CameraKey
-from firetwin.shot.rigs.chase import Chase
-from firetwin.shot.rigs.drone import Drone
-from firetwin.shot.rigs.lookout import Lookout, LookoutKey
-from firetwin.shot.rigs.minimap import Minimap
-from firetwin.shot.rigs.satellite import ORBIT, Satellite
-from firetwin.shot.settings import Camera, Forest, Ground, Settings, Time
+from firetwin.shot import run_checks
+from firetwin.shot.cameras import path, targets
+from firetwin.shot.cameras.rigs._key import CameraKey
+from firetwin.shot.cameras.rigs.chase import Chase
+from firetwin.shot.cameras.rigs.drone import Drone
+from firetwin.shot.cameras.rigs.lookout import Lookout, LookoutKey
+from firetwin.shot.cameras.rigs.minimap import Minimap
+from firetwin.shot.cameras.rigs.satellite import ORBIT, Satellite
+from firetwin.shot.settings import scene_file
+from firetwin.shot.settings.settings import Camera, Forest, Ground, Settings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import lod
 from firetwin_core import run as runs
@@ -37,7 +39,7 @@ def run(make_run):
 def shot_of(run, *cameras, frames=21):
     settings = Settings(
         time=Time(start=datetime(2014, 9, 17, 4, 45, tzinfo=UTC), frames=frames),
-        ground=Ground(near_radius=0.0, apron=3000.0),
+        terrain=Ground(near_radius=0.0, apron=3000.0),
         forest=Forest(trees=False),
         cameras=cameras,
     )
@@ -129,7 +131,7 @@ def test_a_minimap_that_follows_nobody_is_an_error(tmp_path, follows):
         f'[[cameras]]\nkind = "minimap"\nname = "map"\nfollows = "{follows}"\n'
     )
     with pytest.raises(InputError, match=r"scene.toml:8:1: camera \"map\" follows \"\w+\", and no other"):
-        file.read(scene)
+        scene_file.read(scene)
 
 
 def test_a_geostationary_satellite_is_over_the_equator_and_sees_rows_of_parallels(run):
@@ -162,7 +164,7 @@ def test_a_satellite_that_cannot_see_the_fire_is_an_error(run, tmp_path, east, w
     scene = tmp_path / "scene.toml"
     scene.write_text(f'[[cameras]]\nkind = "satellite"\nname = "goes"\ngeostationary = {east}\n')
     with pytest.raises(InputError, match=words) as caught:
-        fit.check(file.read(scene), run)
+        run_checks.check(scene_file.read(scene), run)
     assert caught.value.line == 4
 
 

@@ -5,12 +5,12 @@ from datetime import UTC, datetime
 import numpy as np
 import pytest
 from firetwin.cli import main
-from firetwin.shot import passes, temperature
-from firetwin.shot.fire import Fire
-from firetwin.shot.rigs.satellite import Satellite
+from firetwin.shot import air_temperature, passes
+from firetwin.shot.cameras.rigs.satellite import Satellite
+from firetwin.shot.fire.fire import Fire
 from firetwin.shot.satellites import geotiff, imager
 from firetwin.shot.satellites.grid import ORBIT, EvenGrid, FixedGrid, pixel_areas
-from firetwin.shot.settings import Camera, Render, Settings, Time
+from firetwin.shot.settings.settings import Camera, Render, Settings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from firetwin_core import sensor
@@ -175,9 +175,9 @@ def test_the_scar_is_warm_and_cools(burning):
         seen(burning(0.0, fuel_arrival_time=each, canopy_fuel=canopy), "viirs")
         for each, canopy in ((arrival, timber), (arrival - 36_000.0, timber), (arrival, 0.0 * timber))
     )
-    assert fresh.long == pytest.approx(300.0 + temperature.cooling(3600.0), abs=0.1)
+    assert fresh.long == pytest.approx(300.0 + air_temperature.cooling(3600.0), abs=0.1)
     assert np.all((old.long > 300.5) & (old.long < fresh.long))
-    assert grass.long == pytest.approx(300.0 + temperature.cooling(3600.0, 15.0), abs=0.1)
+    assert grass.long == pytest.approx(300.0 + air_temperature.cooling(3600.0, 15.0), abs=0.1)
 
 
 def test_a_geotiff_lies_where_its_pixels_are(burning, tmp_path):

@@ -10,9 +10,10 @@ from pathlib import Path
 import pytest
 from any_settings import any_table
 from firetwin.errors import InputError
-from firetwin.shot import file, frame_list, places, schema
-from firetwin.shot.rigs import kinds
-from firetwin.shot.settings import Camera, Ground, OtherRun, Settings, Time
+from firetwin.shot.cameras.rigs import kinds
+from firetwin.shot.settings import frame_list, scene_file, schema
+from firetwin.shot.settings import toml_positions as places
+from firetwin.shot.settings.settings import Camera, Ground, OtherRun, Settings, Time
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -48,7 +49,7 @@ def load(tmp_path):
     def write_and_load(text):
         path = tmp_path / "scene.toml"
         path.write_text(text, encoding="utf-8")
-        return file.read(path)
+        return scene_file.read(path)
 
     return write_and_load
 
@@ -66,7 +67,7 @@ def test_values_are_read_and_the_rest_is_default(load, tmp_path):
     assert [camera.kind for camera in loaded.cameras] == ["drone", "satellite"]
     assert loaded.cameras[0].rig.keys[1].target == "head"
     assert loaded.cameras[1].rig == kinds()["satellite"]()
-    assert loaded.ground == Ground()
+    assert loaded.terrain == Ground()
 
 
 def test_an_empty_file_is_all_defaults(load, tmp_path):
@@ -87,7 +88,7 @@ def test_folders_may_be_absolute_or_at_home(load, monkeypatch, tmp_path):
 MISTAKES = [
     ("kind =", "kidn =", 20, 1, ['unknown key "kidn"', 'did you mean "kind"?']),
     ("[render]", "[rendr]", 8, 2, ['unknown key "rendr"', '"render"']),
-    ("[render]", "[terrain]\n[render]", 8, 2, ["[terrain] is called [ground]"]),
+    ("[render]", "[ground]\n[terrain]\n[render]", 9, 2, ["[ground] is the former name of [terrain]"]),
     (
         "[render]",
         "[light]\nterrain = 1\n[render]",
@@ -116,7 +117,7 @@ MISTAKES = [
     ("latitude = 39.0", "latitude = 390", 16, 20, ["from -90 to 90", "not 390"]),
     ("latitude = 39.0", "height = 1e22", 16, 20, ["cameras.keys.height", "at most 1,000,000", "1e+22"]),
     ("latitude = 39.0", "target_height = -1e22", 16, 20, ["cameras.keys.target_height", "-12,000"]),
-    ("[render]", "[ground]\napron = 1e12\n[render]", 9, 1, ["ground.apron", "from 0 to 1,000,000"]),
+    ("[render]", "[terrain]\napron = 1e12\n[render]", 9, 1, ["terrain.apron", "from 0 to 1,000,000"]),
     ("latitude = 39.0", "latitude = nan", 16, 20, ["must be a number"]),
     ("latitude = 39.0", "latitude = 1" + 400 * "0", 16, 20, ["larger"]),
     ("at = 1.0", "at = 0", 16, 10, ["must rise"]),
@@ -166,18 +167,18 @@ def test_mistakes_are_named_with_their_place(load, tmp_path, old, new, line, col
 
 def test_what_is_found_later_has_a_place_too(load):
     loaded = load(SCENE)
-    error = file.error_at(loaded.path, ("cameras", 0, "keys", 1, "latitude"), "is far away")
+    error = scene_file.error_at(loaded.path, ("cameras", 0, "keys", 1, "latitude"), "is far away")
     assert str(error) == f"{loaded.path}:16:20: is far away"
-    error = file.error_at(loaded.path, ("cameras", 1, "keys", 0, "latitude"), "is far away")
+    error = scene_file.error_at(loaded.path, ("cameras", 1, "keys", 0, "latitude"), "is far away")
     assert str(error) == f"{loaded.path}:18:3: is far away"  # what is not written stands where its table does
 
 
 def test_a_missing_file_and_one_that_is_not_text(tmp_path):
     with pytest.raises(InputError, match="no such scene file"):
-        file.read(tmp_path / "none.toml")
+        scene_file.read(tmp_path / "none.toml")
     (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(InputError, match="cannot be read as text"):
-        file.read(tmp_path / "bytes.toml")
+        scene_file.read(tmp_path / "bytes.toml")
 
 
 def test_a_text_too_deep_to_read(load):
@@ -187,19 +188,19 @@ def test_a_text_too_deep_to_read(load):
 
 def test_a_folder_is_no_scene_file(tmp_path):
     with pytest.raises(InputError, match="is a folder, and a scene file is wanted, such as examples/"):
-        file.read(tmp_path)
+        scene_file.read(tmp_path)
     (tmp_path / "shot.toml").touch()
     with pytest.raises(InputError, match=r"is wanted, such as .*shot\.toml$"):
-        file.read(tmp_path)
+        scene_file.read(tmp_path)
     (tmp_path / "run.toml").touch()
     with pytest.raises(InputError, match="is a run folder, and a scene file is wanted") as caught:
-        file.read(tmp_path)
+        scene_file.read(tmp_path)
     assert f"firetwin new {tmp_path} -o " in caught.value.reason
 
 
 def test_the_example_is_what_its_own_settings_are_written_as():
     text = EXAMPLE.read_text(encoding="utf-8")
-    assert code(text) == code(file.text(file.read(EXAMPLE)))
+    assert code(text) == code(scene_file.text(scene_file.read(EXAMPLE)))
     assert max(len(line) for line in text.splitlines()) <= 130
 
 
@@ -215,7 +216,7 @@ def test_the_text_of_settings_holds_every_key_and_explains_it_once():
     ]
     texts = Counter((part.name, part.key.described()) for _, part in schema.walk(Settings))
     cameras = tuple(Camera(f"c{i}", rig) for i, rig in enumerate(rigs))
-    text = file.text(Settings(cameras=cameras, runs=(OtherRun(),)))
+    text = scene_file.text(Settings(cameras=cameras, runs=(OtherRun(),)))
     assert max(len(line) for line in text.splitlines()) <= 130
     for _, part in schema.walk(Settings):
         name = part.key.tag or part.name
@@ -226,11 +227,14 @@ def test_the_text_of_settings_holds_every_key_and_explains_it_once():
 
 
 def test_comments_stand_in_a_column_and_name_the_default(load):
-    lines = file.text(load('run = "x"\n[time]\nfps = 12')).splitlines()
+    lines = scene_file.text(load('run = "x"\n[time]\nfps = 12')).splitlines()
     assert lines[0] == 'run = "x"        # run folder, such as `firetwin sample` writes (default "sample")'
-    assert lines[1] == 'cache = "cache"  # smoke volumes are kept here and used again'
+    assert lines[1] == 'cache = "cache"  # folder of smoke volumes, kept and reused'
     assert "fps = 12                        # frames per second of the films (default 24)" in lines
-    assert 'zone = ""                       # zone of the clock in the films; empty, the run\'s' in lines
+    assert (
+        'zone = ""                       # time zone of the clock in the films; empty: the run\'s zone'
+        in lines
+    )
     start = "# start = 2014-09-17T21:30:00Z  # model time of the first frame, with its zone"
     assert any(line.startswith(start) for line in lines)
 
@@ -238,7 +242,7 @@ def test_comments_stand_in_a_column_and_name_the_default(load):
 def test_folders_are_written_as_the_settings_own_folder_sees_them(tmp_path, monkeypatch):
     def run_in(folder, path):
         whole = Settings(path=Path(path), run=Path(folder))
-        return tomllib.loads(file.text(whole))["run"]
+        return tomllib.loads(scene_file.text(whole))["run"]
 
     assert run_in("/a/b/run", "/a/b/scene.toml") == "run"
     assert run_in("/a/run", "/a/b/scene.toml") == "/a/run"
@@ -259,7 +263,7 @@ def test_folders_are_written_as_the_settings_own_folder_sees_them(tmp_path, monk
     ],
 )
 def test_times_are_written_in_the_zone_of_the_films(moment, zone, written):
-    assert f"\nstart = {written} " in file.text(Settings(time=Time(start=moment, zone=zone)))
+    assert f"\nstart = {written} " in scene_file.text(Settings(time=Time(start=moment, zone=zone)))
 
 
 def test_every_number_has_bounds():
@@ -279,10 +283,12 @@ def test_every_number_has_bounds():
 def test_settings_come_back_from_their_text(tmp_path_factory, whole):
     folder = tmp_path_factory.getbasetemp()
     path = folder / "scene.toml"
-    path.write_text(file.text(whole), encoding="utf-8")
-    back = file.read(path)
-    ground = dataclasses.replace(back.ground, **moved(back.ground, folder, "elevation", "photo", "land_use"))
-    places = dataclasses.replace(back.places, **moved(back.places, folder, "file"))
+    path.write_text(scene_file.text(whole), encoding="utf-8")
+    back = scene_file.read(path)
+    terrain = dataclasses.replace(
+        back.terrain, **moved(back.terrain, folder, "elevation", "photo", "land_use")
+    )
+    labels = dataclasses.replace(back.labels, **moved(back.labels, folder, "file"))
     fire = dataclasses.replace(back.fire, **moved(back.fire, folder, "observed"))
     cameras = tuple(
         dataclasses.replace(camera, rig=dataclasses.replace(camera.rig, **moved(camera.rig, folder, "track")))
@@ -293,8 +299,8 @@ def test_settings_come_back_from_their_text(tmp_path_factory, whole):
         back,
         path=whole.path,
         runs=runs,
-        ground=ground,
-        places=places,
+        terrain=terrain,
+        labels=labels,
         fire=fire,
         cameras=cameras,
         **moved(back, folder, "run", "cache"),
@@ -361,3 +367,17 @@ def test_lists_of_frames_that_cannot_be_say_what_to_write(text, words):
 @given(st.sets(st.integers(1, 30)))
 def test_lists_of_frames_come_back(frames):
     assert frame_list.parse(frame_list.write(sorted(frames)), 30) == (sorted(frames) or list(range(1, 31)))
+
+
+def test_former_names_of_sections_are_read_and_noted(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text("seed = 3\n[ground]\napron = 7.0\n\n[places]\nenabled = true\n")
+    found = scene_file.read(path)
+    assert (found.terrain.apron, found.labels.enabled) == (7.0, True)
+    assert [note.removeprefix(f"{path}:") for note in found.notes] == [
+        "2:2: [ground] is called [terrain] now; the old name is read in this version only",
+        "5:2: [places] is called [labels] now; the old name is read in this version only",
+    ]
+    path.write_text("[ground]\napron = -1.0\n")
+    with pytest.raises(scene_file.InputError, match=r":2:1: terrain\.apron"):
+        scene_file.read(path)

@@ -7,7 +7,7 @@ import sys
 import polite
 import pytest
 import scene_fuzz
-from firetwin.shot.rigs import kinds
+from firetwin.shot.cameras.rigs import kinds
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 

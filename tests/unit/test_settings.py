@@ -8,16 +8,17 @@ from pathlib import Path
 
 import jsonschema
 import pytest
-from firetwin.shot import file, passes, schema
-from firetwin.shot.json_schema import json_schema
-from firetwin.shot.rigs import kinds
-from firetwin.shot.rigs._key import CameraKey
-from firetwin.shot.settings import Camera, Fire, Render, Settings, Time
+from firetwin.shot import passes
+from firetwin.shot.cameras.rigs import kinds
+from firetwin.shot.cameras.rigs._key import CameraKey
+from firetwin.shot.settings import scene_file, schema
+from firetwin.shot.settings.json_schema import json_schema
+from firetwin.shot.settings.settings import Camera, Fire, Render, Settings, Time
 
 ROOT = Path(__file__).parents[2]
 DRONE, SATELLITE = kinds()["drone"], kinds()["satellite"]
 ASPECTS = {
-    *("time", "ground", "forest", "fire", "smoke", "light", "camera"),
+    *("time", "terrain", "forest", "fire", "smoke", "light", "camera"),
     *("picture", "grain", "thermal", "film", "passes"),
 }
 
@@ -60,7 +61,7 @@ def test_every_default_is_right():
 # Where, what is put there, where the complaint is and words that it must hold.
 WRONG = [
     (("time", "frames"), 0, ["time.frames", "from 1 to 100,000, not 0"]),
-    (("ground", "error"), 0.0, ["ground.error", "from 0.001 to 1,000, not 0"]),
+    (("terrain", "error"), 0.0, ["terrain.error", "from 0.001 to 1,000, not 0"]),
     (("fire", "budget"), -1, ["fire.budget", "from 0 to 10,000,000, not -1"]),
     (("fire", "emitters"), "fronts", ['"front" or "cells", not "fronts"', 'did you mean "front"?']),
     (("render", "resolution"), (640, 20000), ["from 16 to 16,384, not 20000"]),
@@ -99,11 +100,11 @@ def test_what_a_product_depends_on_is_chosen_by_aspect():
     found = schema.chosen(SETTINGS, {"thermal"})
     assert found["render"] == {"thermal_low": None, "thermal_high": 800.0}
     assert found["thermal"]["band"] == "lwir"
-    found = schema.chosen(SETTINGS, {"ground"})["forest"]  # the colours of what grows on it
+    found = schema.chosen(SETTINGS, {"terrain"})["forest"]  # the colours of what grows on it
     assert set(found) == {"biome", "greenness", "shrub_cover", "tree_cover"}
-    for aspect in ("ground", "forest", "fire", "smoke"):
+    for aspect in ("terrain", "forest", "fire", "smoke"):
         found = schema.chosen(SETTINGS, {aspect})
-        assert set(found) == {"seed", aspect, "render"} | ({"forest"} if aspect == "ground" else set())
+        assert set(found) == {"seed", aspect, "render"} | ({"forest"} if aspect == "terrain" else set())
         assert found["render"] == {"skip": True} | ({} if aspect == "smoke" else {"chunk": 480})
     assert set(schema.chosen(SETTINGS, {"light"})) == {"light"}
     assert schema.chosen(SETTINGS, set()) == {}
@@ -176,9 +177,9 @@ def test_the_json_schema_is_one():
     found = json_schema(Settings)
     jsonschema.Draft202012Validator.check_schema(found)
     assert found["properties"]["time"]["properties"]["start"]["format"] == "date-time"
-    error = found["properties"]["ground"]["properties"]["error"]
+    error = found["properties"]["terrain"]["properties"]["error"]
     assert error == {
-        "description": "how far the mesh may be above or below what cameras see, pixels; more is coarser",
+        "description": "mesh tolerance: largest vertical error seen by a camera, pixels; larger is coarser",
         "type": "number",
         "minimum": 0.001,
         "maximum": 1000,
@@ -191,7 +192,7 @@ def test_the_json_schema_is_one():
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_the_json_schema_accepts_the_examples(path):
-    file.read(path)
+    scene_file.read(path)
     VALIDATOR.validate(as_json(tomllib.loads(path.read_text(encoding="utf-8"))))
 
 
@@ -199,13 +200,13 @@ REFUSED = [
     "sed = 1",
     "seed = -1",
     "run = 3",
-    "[terrain]",
+    "[terrains]",
     "[time]\nframes = 0",
     "[time]\nframes = true",
     "[time]\nframes = 1.5",
     '[time]\nstart = "yesterday"\nfps = "12"',
-    "[ground]\nerror = 0",
-    "[ground]\napron = -1",
+    "[terrain]\nerror = 0",
+    "[terrain]\napron = -1",
     "[forest]\ntrees = 1",
     '[fire]\nemitters = "edge"',
     "[light]\nexposure = 21",
@@ -230,6 +231,6 @@ REFUSED = [
 def test_the_json_schema_refuses_what_the_reader_refuses(tmp_path, text):
     path = tmp_path / "scene.toml"
     path.write_text(text)
-    with pytest.raises(file.InputError):
-        file.read(path)
+    with pytest.raises(scene_file.InputError):
+        scene_file.read(path)
     assert not VALIDATOR.is_valid(as_json(tomllib.loads(text)))

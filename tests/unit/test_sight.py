@@ -5,11 +5,11 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
-from firetwin.shot import accuracy, shade
-from firetwin.shot.rigs.orbit import Orbit
-from firetwin.shot.rigs.satellite import Satellite
-from firetwin.shot.settings import Camera, Forest, Ground, Render, Settings, Time
+from firetwin.shot.cameras.rigs.orbit import Orbit
+from firetwin.shot.cameras.rigs.satellite import Satellite
+from firetwin.shot.settings.settings import Camera, Forest, Ground, Render, Settings, Time
 from firetwin.shot.shot import Shot
+from firetwin.shot.terrain import mesh_tolerance, shadow_casters
 from firetwin_core import lod
 from firetwin_core import run as runs
 from small_run import FX, FY, NX, NY
@@ -32,7 +32,7 @@ def film(make_run):
                 end=datetime(2014, 9, 17, 4, 50, tzinfo=UTC),
                 frames=9,
             ),
-            ground=Ground(near_radius=1500.0, apron=0.0),
+            terrain=Ground(near_radius=1500.0, apron=0.0),
             forest=Forest(trees=False),
             cameras=cameras,
         )
@@ -104,15 +104,15 @@ def test_without_skipping_all_counts_as_seen_and_is_drawn_as_from_near_by(film):
     assert not whole.sights.drawn_from(place).any()
     assert some.sights.at(1) is not None
     assert whole.sights.at(1) is None
-    tolerance = [accuracy.wanted(shot).tolerance for shot in (some, whole)]
+    tolerance = [mesh_tolerance.wanted(shot).tolerance for shot in (some, whole)]
     assert np.all(tolerance[1] <= tolerance[0] + 1e-6)
     assert tolerance[1].max() < 0.03 < tolerance[0].max()
 
 
 @pytest.mark.parametrize("rig", [ORBIT, Satellite(swath=1000.0)])
 def test_ground_is_drawn_no_more_exactly_than_heights_are_known(film, rig):
-    shot = film(Camera("a", rig), ground=Ground(near_radius=1500.0, apron=0.0, error=1.0e-6))
-    assert np.unique(accuracy.wanted(shot).tolerance)[0] == np.float32(0.02)
+    shot = film(Camera("a", rig), terrain=Ground(near_radius=1500.0, apron=0.0, error=1.0e-6))
+    assert np.unique(mesh_tolerance.wanted(shot).tolerance)[0] == np.float32(0.02)
 
 
 @pytest.mark.parametrize("shape", [(1, 1), (1, 4), (4, 1)])
@@ -122,9 +122,9 @@ def test_few_blocks_may_shade_each_other(film, shape):
     )
     seen = np.zeros(shape, bool)
     shot = film(Camera("a", ORBIT))
-    assert not shade.with_shade(shot, place, np.zeros(shape), seen).any()
+    assert not shadow_casters.with_shade(shot, place, np.zeros(shape), seen).any()
     seen[0, 0] = True
-    assert shade.with_shade(shot, place, np.zeros(shape), seen)[0, 0]
+    assert shadow_casters.with_shade(shot, place, np.zeros(shape), seen)[0, 0]
 
 
 @pytest.mark.parametrize("bearing", [0.0, 90.0, 225.0])
@@ -141,11 +141,11 @@ def test_ground_that_shades_what_is_seen_counts(bearing):
         centre[row, column, 2] = wall
         seen = np.zeros((side, side), bool)
         seen[side // 2, side // 2] = True
-        low = shade._widest(-centre[..., 2]) * -1.0
+        low = shadow_casters._widest(-centre[..., 2]) * -1.0
         rest = np.flatnonzero(~seen)
         found = np.zeros((side, side), bool)
-        found.ravel()[rest] = shade._reaches(
-            centre, np.full((side, side), 1.0), low, shade._widest(seen), rest, bearing, height
+        found.ravel()[rest] = shadow_casters._reaches(
+            centre, np.full((side, side), 1.0), low, shadow_casters._widest(seen), rest, bearing, height
         )
         assert found[row, column] == (away < 1.0), away
         found[row, column] = False
@@ -163,6 +163,6 @@ def test_no_drawn_ground_is_under_its_floor(film):
     drawn = ground.point(*ground.places(row, column))[:, 2]
     gap = drawn - corners[row.astype(int), column.astype(int)]
     assert gap.min() > -1e-6
-    flat = film(Camera("a", ORBIT), ground=Ground(near_radius=0.0, apron=0.0)).ground
+    flat = film(Camera("a", ORBIT), terrain=Ground(near_radius=0.0, apron=0.0)).ground
     coarse = flat.frame.forward_grid(flat.fields.latitude, flat.fields.longitude, flat.fields.elevation)
     np.testing.assert_array_equal(flat.floor(), coarse)

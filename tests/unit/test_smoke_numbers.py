@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from firetwin.scene.smoke.boxes import Box
-from firetwin.scene.smoke.flow import Part
-from firetwin.shot.scale import Scale
+from firetwin.shot.smoke_scale import Scale
+from firetwin.smoke.domains import Box
+from firetwin.smoke.flow import Part
 
 pytest.importorskip("scipy")
 pytest.importorskip("matplotlib")

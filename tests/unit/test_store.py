@@ -12,16 +12,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 from firetwin.errors import InputError, UsageError
-from firetwin.render import claims, fingerprint, manifest, plan, store
-from firetwin.render.claims import Claims
+from firetwin.render import fingerprint, leases, manifest, plan, store
+from firetwin.render.leases import Claims
 from firetwin.render.picture import Picture
 from firetwin.render.store import Store
 from firetwin.run import content
-from firetwin.shot import passes, sources
-from firetwin.shot import settings as s
-from firetwin.shot.rigs._key import CameraKey
-from firetwin.shot.rigs.drone import Drone
-from firetwin.shot.rigs.satellite import Satellite
+from firetwin.shot import code_fingerprint, passes
+from firetwin.shot.cameras.rigs._key import CameraKey
+from firetwin.shot.cameras.rigs.drone import Drone
+from firetwin.shot.cameras.rigs.satellite import Satellite
+from firetwin.shot.settings import settings as s
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 
@@ -236,8 +236,8 @@ def test_what_one_claims_another_cannot(tmp_path, monkeypatch):
 
 
 def test_the_claims_of_who_gives_no_sign_of_life_are_taken_over(tmp_path, monkeypatch):
-    monkeypatch.setattr(claims, "BEAT", 0.05)
-    monkeypatch.setattr(claims, "PATIENCE", 0.5)
+    monkeypatch.setattr(leases, "BEAT", 0.05)
+    monkeypatch.setattr(leases, "PATIENCE", 0.5)
     with Store(tmp_path, create=True) as made, Claims(made, "living") as living, Claims(made, "me") as me:
         assert living.take("frame 1")
         dead = Claims(made, "dead")
@@ -272,7 +272,7 @@ def test_a_picture_depends_on_the_settings_that_it_shows():
     assert (
         changes(time=replace(SETTINGS.time, fps=5, zone="UTC")) == {"fused"} | compared
     )  # they tell the time
-    assert changes(ground=s.Ground(apron=1.0)) == everything
+    assert changes(terrain=s.Ground(apron=1.0)) == everything
     assert changes(render=s.Render(resolution=(64, 36))) == everything
     assert changes(render=s.Render(samples=7)) == lit
     assert changes(light=s.Light(haze=0.5)) == lit
@@ -404,11 +404,13 @@ def test_the_first_reading_of_a_large_run_shows_how_far_it_is(make_run, tmp_path
 
 
 def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatch):
-    shutil.copytree(sources.PACKAGE, tmp_path / "addon", ignore=shutil.ignore_patterns("__pycache__"))
-    monkeypatch.setattr(sources, "PACKAGE", tmp_path / "addon")
+    shutil.copytree(
+        code_fingerprint.PACKAGE, tmp_path / "addon", ignore=shutil.ignore_patterns("__pycache__")
+    )
+    monkeypatch.setattr(code_fingerprint, "PACKAGE", tmp_path / "addon")
 
     def keys():
-        sources._hash.cache_clear()
+        code_fingerprint._hash.cache_clear()
         made = {n: fingerprint.of_picture(SETTINGS, {}, "drone", n) for n in passes.known()}
         return {name: content.fingerprint(each) for name, each in made.items()}
 
@@ -421,16 +423,16 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
     shown = {"rgb", "thermal", "thermal_map", "edl", "overlay", "fused", "masks", "split", "difference"}
     assert changed("scene/smoke/material.py") == shown
     assert changed("scene/fire/flames.py") == shown
-    assert changed("scene/ground/build.py") == set(passes.known())
+    assert changed("scene/terrain/build.py") == set(passes.known())
     assert changed("scene/haze.py") == set(passes.known())
-    assert changed("shot/fire.py") == set(passes.known())
+    assert changed("shot/fire/fire.py") == set(passes.known())
     assert changed("render/engine.py") == set(passes.known())
     assert changed("ui/render.py") == changed("bench/text.py") == changed("render/store.py") == set()
     before = keys()
-    path = tmp_path / "addon" / "scene/smoke/bake.py"
+    path = tmp_path / "addon" / "smoke/bake.py"
     path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
     assert keys() == before
-    sources._hash.cache_clear()
+    code_fingerprint._hash.cache_clear()
 
 
 def test_files_in_the_making_are_cleared_away(tmp_path):

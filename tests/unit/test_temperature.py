@@ -5,8 +5,9 @@ from datetime import datetime
 import numpy as np
 import pytest
 from firetwin.run import times
-from firetwin.shot import sun, temperature
-from firetwin.shot.settings import BANDS
+from firetwin.shot import air_temperature
+from firetwin.shot.light import sun
+from firetwin.shot.settings.settings import BANDS
 from firetwin_core import run as runs
 from firetwin_core import sensor
 from hypothesis import given
@@ -29,7 +30,7 @@ def at(run, moment):
 def test_by_night_no_level_ground_is_colder(run, band):
     """Ground 70/30 K colder than the air, of any emissivity down to stone's, under a sky of 250 K."""
     time = at(run, NIGHT)
-    low, air = temperature.coldest_ground(run, time, band), temperature.coldest(run, time)
+    low, air = air_temperature.coldest_ground(run, time, band), air_temperature.coldest(run, time)
     for emissivity in (0.94, 0.96, 0.985, 1.0):
         radiance = emissivity * sensor.radiance(air - 70.0 / 30.0, band)
         shown = sensor.brightness_temperature(
@@ -41,7 +42,7 @@ def test_by_night_no_level_ground_is_colder(run, band):
 
 def test_by_day_the_air_is_the_coldest(run):
     time = at(run, NOON)
-    assert temperature.coldest_ground(run, time, BANDS["lwir"]) == temperature.coldest(run, time)
+    assert air_temperature.coldest_ground(run, time, BANDS["lwir"]) == air_temperature.coldest(run, time)
 
 
 def test_the_suns_height_alone_changes_it_and_smoothly(run):
@@ -49,7 +50,7 @@ def test_the_suns_height_alone_changes_it_and_smoothly(run):
     start = at(run, DUSK) - 3600.0
     minutes = start + 60.0 * np.arange(120)
     below = [
-        temperature.coldest(run, time) - temperature.coldest_ground(run, time, BANDS["lwir"])
+        air_temperature.coldest(run, time) - air_temperature.coldest_ground(run, time, BANDS["lwir"])
         for time in minutes
     ]
     assert below[0] == 0.0

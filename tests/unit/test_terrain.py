@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from firetwin.shot import noise
+from firetwin.shot.terrain import noise
 from firetwin_core import set_threads, terrain
 from hypothesis import given, settings
 from hypothesis import strategies as st

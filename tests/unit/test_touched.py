@@ -25,11 +25,11 @@ def near(changed, limit=3):
     [
         ("tests/unit/test_geo.py", "unit/test_geo.py", 0),
         ("addon/render/store.py", "unit/test_store.py", 1),
-        ("addon/scene/smoke/boxes.py", "blender/test_smoke_flow.py", 2),
-        ("addon/scene/smoke/boxes.py", "unit/test_smoke_mass.py", 3),
-        ("addon/shot/track_csv.py", "unit/test_track.py", 3),  # by the module that imports it
+        ("addon/smoke/domains.py", "blender/test_smoke_flow.py", 2),
+        ("addon/smoke/domains.py", "unit/test_smoke_mass.py", 3),
+        ("addon/shot/cameras/track_csv.py", "unit/test_track.py", 3),  # by the module that imports it
         ("tests/helpers/plumes.py", "unit/test_volume.py", 1),
-        ("tests/helpers/small_run.py", "unit/test_relief.py", 1),
+        ("tests/helpers/small_run.py", "unit/test_elevation.py", 1),
         ("tests/unit/conftest.py", "unit/test_geo.py", 3),
         ("cpp/flow/solver.cpp", "unit/test_flow.py", 2),
         ("cpp/base/noise.hpp", "unit/test_terrain.py", 2),  # terrain includes it
@@ -42,7 +42,7 @@ def test_what_is_near(changed, test, distance):
 
 
 def test_what_is_far_is_left_out():
-    assert "unit/test_geo.py" not in near("addon/scene/smoke/boxes.py")
+    assert "unit/test_geo.py" not in near("addon/smoke/domains.py")
     assert near("vcpkg" + ".json") == {}
 
 
@@ -55,7 +55,7 @@ def test_most_modules_have_a_test_of_their_name_or_one_that_imports_them():
 def test_what_takes_too_long_is_left_out_and_said(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(touched, "SECONDS", tmp_path / "seconds.json")
     monkeypatch.setattr(touched, "MOST", 11.0)
-    changed = ROOT / "addon/scene/smoke/boxes.py"
+    changed = ROOT / "addon/smoke/domains.py"
     assert len(list(touched.nearest([changed]))) == 2  # of 5 s, which nobody has measured
     assert "more files of tests are near" in capsys.readouterr().err
     test = ROOT / "tests/unit/test_geo.py"

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from firetwin import cli
 from firetwin.errors import InputError
-from firetwin.shot import file, fit, sources, track
-from firetwin.shot.rigs.drone import Drone
-from firetwin.shot.settings import Camera, Forest, Ground, Settings, Time
+from firetwin.shot import code_fingerprint, run_checks
+from firetwin.shot.cameras import track
+from firetwin.shot.cameras.rigs.drone import Drone
+from firetwin.shot.settings import scene_file
+from firetwin.shot.settings.settings import Camera, Forest, Ground, Settings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from hypothesis import HealthCheck, given
@@ -67,7 +69,7 @@ def following(run, path, frames=5, **drone):
     """A shot of the whole small run, two minutes, with a drone on a track."""
     settings = Settings(
         time=Time(frames=frames),
-        ground=Ground(near_radius=0.0, apron=3000.0),
+        terrain=Ground(near_radius=0.0, apron=3000.0),
         forest=Forest(trees=False),
         cameras=(Camera("scout", Drone(track=path, **drone)),),
     )
@@ -123,21 +125,21 @@ def test_times_are_the_runs_or_begin_with_the_shot_or_fill_it(write, run, moment
 def test_times_of_another_day_are_an_error_with_a_remedy(write, run):
     path = write("a.gpx", GPX.replace("2014", "2023"))
     scene = write("scene.toml", f'[[cameras]]\nname = "scout"\ntrack = "{path.name}"\n')
-    settings = file.read(scene)
+    settings = scene_file.read(scene)
     with pytest.raises(InputError) as caught:
-        fit.check(settings, run)
+        run_checks.check(settings, run)
     assert (caught.value.path, caught.value.line) == (str(scene), 3)
     assert "follows a.gpx, which was flown 2023-09-17T04:45:00Z to" in caught.value.reason
     assert 'track_times = "start" or "shot"' in caught.value.reason
     later = replace(settings.cameras[0].rig, track_times="start")
-    fit.check(replace(settings, cameras=(Camera("scout", later),)), run)
+    run_checks.check(replace(settings, cameras=(Camera("scout", later),)), run)
 
 
 def test_a_place_off_the_ground_is_an_error(write, run):
     scene = write("scene.toml", '[[cameras]]\nname = "scout"\ntrack = "a.gpx"\n')
     write("a.gpx", GPX.replace("38.908", "48.908"))
     with pytest.raises(InputError, match=r'scene.toml:3:1: camera "scout" is at 48.908 N'):
-        fit.check(file.read(scene), run)
+        run_checks.check(scene_file.read(scene), run)
 
 
 BAD = {
@@ -225,7 +227,7 @@ def test_what_is_exported_and_flown_again_is_the_same_track(make_run, write, tmp
     """Over rough ground, banking and lifted by its clearance: places within a tenth of a millimetre."""
     make_run()
     text = (
-        'run = "run"\n[time]\nframes = 31\n[ground]\napron = 3000.0\n[forest]\ntrees = false\n'
+        'run = "run"\n[time]\nframes = 31\n[terrain]\napron = 3000.0\n[forest]\ntrees = false\n'
         '[[cameras]]\nname = "first"\nclearance = 40.0\nbank = 1.0\n'
         "[[cameras.keys]]\nat = 0.0\nlatitude = 38.8995\nlongitude = -120.599\nheight = 60.0\n"
         "target_latitude = 38.905\ntarget_longitude = -120.59\n"
@@ -251,7 +253,7 @@ def test_what_is_exported_and_flown_again_is_the_same_track(make_run, write, tmp
 def test_another_track_makes_other_pictures(write):
     path = write("a.gpx", GPX)
     cameras = [Camera("scout", Drone(track=path))]
-    before = sources.of((), cameras)
-    assert before == sources.of((), cameras)
+    before = code_fingerprint.of((), cameras)
+    assert before == code_fingerprint.of((), cameras)
     path.write_text(GPX.replace("1550.0", "1551.0"))
-    assert before != sources.of((), cameras)
+    assert before != code_fingerprint.of((), cameras)

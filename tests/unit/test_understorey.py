@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from firetwin.scene.forest import fate, models, understorey
-from firetwin.shot.rigs.drone import CameraKey, Drone
-from firetwin.shot.settings import Camera, Forest, Ground, Render, Settings
+from firetwin.scene.forest import fire_effects, models, understorey
+from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
+from firetwin.shot.settings.settings import Camera, Forest, Ground, Render, Settings
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from hypothesis import given
@@ -35,7 +35,7 @@ def film(make_run):
         if not folder:
             folder.append(make_run(fuel_elevation=slope.astype(np.float32), **arrays))
         settings = Settings(
-            ground=Ground(near_radius=1500.0, apron=0.0),
+            terrain=Ground(near_radius=1500.0, apron=0.0),
             forest=Forest(trees=False, **forest),
             cameras=cameras,
             render=Render(resolution=(640, 360)),
@@ -143,17 +143,17 @@ def test_high_cameras_need_none(film):
 @given(st.lists(st.floats(0.0, 1e6), min_size=2, max_size=2), st.floats(0.5, 60.0))
 def test_a_fiercer_fire_scorches_higher_and_torches_more(intensity, height):
     low, high = sorted(intensity)
-    assert fate.scorch_height(low) <= fate.scorch_height(high)
-    needed = fate.torching_intensity(0.25 * height)
+    assert fire_effects.scorch_height(low) <= fire_effects.scorch_height(high)
+    needed = fire_effects.torching_intensity(0.25 * height)
     assert (low > needed) <= (high > needed)
-    assert needed <= fate.torching_intensity(0.25 * (height + 1.0))  # tall crowns are out of reach
+    assert needed <= fire_effects.torching_intensity(0.25 * (height + 1.0))  # tall crowns are out of reach
 
 
 def test_published_values():
     # Alexander and Cruz (2012, Forestry 85:99): 3.2 m at 100 kW/m, 14.8 m at 1000 kW/m
-    assert fate.scorch_height([100.0, 1000.0]) == pytest.approx([3.2, 14.8], abs=0.05)
+    assert fire_effects.scorch_height([100.0, 1000.0]) == pytest.approx([3.2, 14.8], abs=0.05)
     # Van Wagner (1977): a crown 7 m up with foliage at 100 % (h = 3050 kJ/kg)
-    assert fate.torching_intensity(7.0) == pytest.approx((0.010 * 7.0 * 3050.0) ** 1.5)
+    assert fire_effects.torching_intensity(7.0) == pytest.approx((0.010 * 7.0 * 3050.0) ** 1.5)
 
 
 def test_fate_follows_the_cells_intensity(film):
@@ -164,7 +164,7 @@ def test_fate_follows_the_cells_intensity(film):
 
     def of(fuel):
         shot.ground.fields.surface_fuel[:] = fuel
-        return fate.of(shot, row, column, height, key)
+        return fire_effects.of(shot, row, column, height, key)
 
     shot.ground.burn_time[:] = 2000.0 * np.arange(shot.ground.shape[1])
     mild, fierce = of(0.1), of(4.0)
@@ -172,5 +172,5 @@ def test_fate_follows_the_cells_intensity(film):
     assert np.all(mild.torched <= fierce.torched)
     assert mild.torched.mean() < 0.1 < 0.9 < fierce.torched.mean()
     assert 0.1 < mild.scorch.mean() < 0.9
-    again = fate.of(shot, row[::7], column[::7], height[::7], key[::7])
+    again = fire_effects.of(shot, row[::7], column[::7], height[::7], key[::7])
     assert np.array_equal(again.torched, fierce.torched[::7])

@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.render import fingerprint, spherical
-from firetwin.shot import file, sphere
-from firetwin.shot.rigs._key import CameraKey
-from firetwin.shot.rigs.drone import Drone
-from firetwin.shot.rigs.satellite import Satellite
-from firetwin.shot.rigs.vr import Vr
-from firetwin.shot.settings import Camera, Forest, Ground, Render, Settings, Time
+from firetwin.shot.cameras import panorama
+from firetwin.shot.cameras.rigs._key import CameraKey
+from firetwin.shot.cameras.rigs.drone import Drone
+from firetwin.shot.cameras.rigs.satellite import Satellite
+from firetwin.shot.cameras.rigs.vr import Vr
+from firetwin.shot.settings import scene_file
+from firetwin.shot.settings.settings import Camera, Forest, Ground, Render, Settings, Time
 from firetwin.shot.shot import Shot
 from firetwin_core import run as runs
 from firetwin_core import sensor
@@ -27,7 +28,7 @@ KEY = CameraKey(0.0, *PLACE, 120.0, "point", 38.905, -120.593)
 def shot_of(run, *cameras, resolution=(512, 512)):
     settings = Settings(
         time=Time(start=datetime(2014, 9, 17, 4, 45, tzinfo=UTC), frames=5),
-        ground=Ground(near_radius=0.0, apron=3000.0),
+        terrain=Ground(near_radius=0.0, apron=3000.0),
         forest=Forest(trees=False),
         cameras=cameras,
         render=Render(resolution=resolution),
@@ -72,8 +73,8 @@ def test_it_flies_as_a_drone_with_its_keys_does(run):
 def test_its_files_hang_on_the_code_of_the_drone_too(run):
     shot = shot_of(run, Camera("vr", Vr(keys=(KEY,))), Camera("drone", Drone(keys=(KEY,))))
     made = {c: fingerprint.of_picture(shot.settings, {}, c, "rgb")["sources"] for c in ("vr", "drone")}
-    assert {"shot/rigs/vr.py", "shot/rigs/drone.py"} <= set(made["vr"])
-    assert "shot/rigs/vr.py" not in made["drone"]
+    assert {"shot/cameras/rigs/vr.py", "shot/cameras/rigs/drone.py"} <= set(made["vr"])
+    assert "shot/cameras/rigs/vr.py" not in made["drone"]
 
 
 # What it sees.
@@ -137,10 +138,10 @@ def test_what_it_cannot_be_is_said(tmp_path, old, new, line, words):
         "interocular = 0.1\nkeys = [{ latitude = 38.9, longitude = -120.5 }]\n"
     )
     path.write_text(scene)
-    assert file.read(path).cameras[0].rig.interocular == 0.1
+    assert scene_file.read(path).cameras[0].rig.interocular == 0.1
     path.write_text(scene.replace(old, new))
     with pytest.raises(InputError) as error:
-        file.read(path)
+        scene_file.read(path)
     assert words in str(error.value)
     assert error.value.line == line
 
@@ -149,8 +150,8 @@ def test_what_it_cannot_be_is_said(tmp_path, old, new, line, words):
 
 
 def test_pixels_of_two_eyes_are_where_the_picture_has_them():
-    bearing, elevation = sphere.pixels(8, 8)
-    along = sphere.direction(bearing, elevation)
+    bearing, elevation = panorama.pixels(8, 8)
+    along = panorama.direction(bearing, elevation)
     assert np.linalg.norm(along, axis=-1) == pytest.approx(1.0)
     assert (along[[0, 3, 4, 7], :, 1] > 0.0).tolist() == [[True] * 8, [False] * 8] * 2  # each eye: up, down
     assert (along[1, [0, 7], 2] > 0.8).all()  # behind

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import input_error
-from . import given_wind, made, netcdf
+from . import from_arrival_time, given_wind, netcdf
 from .given_wind import Wind
 
 DOMAIN = ("SWx", "SWy", "Lx", "Ly", "refYear", "refDay", "BBoxWSEN", "t0", "Lt")
@@ -70,7 +70,9 @@ class _Places:
         return found.astype(np.float32)
 
 
-def take(path: Path, paths: list[Path], x: NDArray, y: NDArray, maps: made.Maps, told: list[str]) -> None:
+def take(
+    path: Path, paths: list[Path], x: NDArray, y: NDArray, maps: from_arrival_time.Maps, told: list[str]
+) -> None:
     """Put a landscape's fuel, altitude and wind at places (m) into maps, and say what came from where."""
     box = domain(path)
     if not box:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ...errors import Error
 from ..areas import area_factors, metres_per_degree
-from . import needed
+from . import optional_packages
 
 Array = NDArray[np.float64]
 _ROWS = 256  # of the new grid that are looked up at once
@@ -260,7 +260,7 @@ def _orderly(axis: Array) -> bool:
 
 
 def _pyproj(projection: str):  # noqa: ANN202
-    pyproj = needed.package("pyproj")
+    pyproj = optional_packages.package("pyproj")
     try:
         return pyproj.Transformer.from_crs(projection, "EPSG:4326", always_xy=True)
     except pyproj.exceptions.CRSError as error:

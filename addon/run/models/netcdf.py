@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Error, InputError, input_error
-from . import classic, headway, needed
+from . import heartbeat, netcdf3_length, optional_packages
 
 _MAGIC = (b"\x89HDF\r\n\x1a\n", b"CDF\x01", b"CDF\x02", b"CDF\x05")
 _OPEN = 8  # files at once
@@ -50,7 +50,7 @@ class File:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        library = needed.package("netCDF4")
+        library = optional_packages.package("netCDF4")
         with self.sense():
             self.data = library.Dataset(str(path))
             self.data.set_auto_maskandscale(False)
@@ -58,14 +58,14 @@ class File:
             self._cached: set[str] = set()
             self.dimensions = {name: len(each) for name, each in self.data.dimensions.items()}
             if self.data.disk_format == "NETCDF3":
-                size, need = path.stat().st_size, classic.needed(path)
+                size, need = path.stat().st_size, netcdf3_length.needed(path)
                 if size < need:
                     raise self.error(f"has {size} bytes where its header says {need}; it is incomplete")
 
     @contextmanager
     def sense(self) -> Iterator[None]:
         """What goes wrong within names the file; that it goes on is said."""
-        headway.sign()
+        heartbeat.sign()
         try:
             yield
         except Error:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Error, InputError, input_error
-from . import headway, needed
+from . import heartbeat, optional_packages
 from .grid import Grid, project
 
 _LARGEST = 1 << 29  # values
@@ -125,7 +125,7 @@ def read(path: Path) -> Raster:
     InputError
         It cannot be read.
     """
-    headway.sign()
+    heartbeat.sign()
     try:
         with path.open("rb") as file:
             ascii_grid = file.read(5).lower() == b"ncols"
@@ -138,7 +138,7 @@ def read(path: Path) -> Raster:
 
 
 def _read_gdal(path: Path) -> Raster:
-    rasterio = needed.package("rasterio")
+    rasterio = optional_packages.package("rasterio")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", rasterio.errors.NotGeoreferencedWarning)
         with rasterio.open(path) as source:

@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Error, input_error
-from . import dates, heat
+from . import dates
+from . import infrared_detections as heat
 from .feature import Feature, Polygon
 
 __all__ = [

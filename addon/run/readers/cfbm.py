@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import input_error
-from ..models import arrival, beside, fuels, netcdf
+from ..models import arrival, companion_rasters, fuels, netcdf
 from ..models.grid import Grid
 from ..models.model import Model, Options
 
@@ -40,7 +40,7 @@ def read(paths: list[Path], options: Options) -> Model:
     first = files(ours[0])
     grid = Grid(*(first.read(name).astype(np.float64) for name in ("lats", "lons")))
     shape = grid.shape
-    land = beside.find(paths)
+    land = companion_rasters.find(paths)
 
     def get(name: str, i: int) -> NDArray:
         values = files(ours[i]).read(name)

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import input_error
-from ..models import beside, made, raster
+from ..models import companion_rasters, from_arrival_time, raster
 from ..models.model import Model, Options
 
 NAME = "ELMFIRE output"
@@ -36,10 +36,10 @@ def read(paths: list[Path], options: Options) -> Model:
     if len(cases) > 1:
         told.append(f"of {len(cases)} cases it is {case}")
     arrival = raster.read(first)
-    land = beside.find(paths, look=True)
+    land = companion_rasters.find(paths, look=True)
     projection = options.projection or arrival.projection or land.projection
     grid, said = arrival.grid(projection, options.at)
-    maps = made.Maps(np.where(arrival.values < 0, np.nan, arrival.values))
+    maps = from_arrival_time.Maps(np.where(arrival.values < 0, np.nan, arrival.values))
     files = [first]
     for path in paths:
         found = re.fullmatch(rf"(flin|vs|hpua)_{case}_{seconds:0>7}", path.stem)
@@ -51,7 +51,9 @@ def read(paths: list[Path], options: Options) -> Model:
             setattr(maps, name, np.where(layer.values > 0, layer.values * np.float64(unit), np.nan))
             files.append(path)
     made_of = Options(options.start, options.at, projection, options.interval)
-    return made.model(maps, grid, land, made_of, "ELMFIRE", files, [*told, said] if said else told)
+    return from_arrival_time.model(
+        maps, grid, land, made_of, "ELMFIRE", files, [*told, said] if said else told
+    )
 
 
 def _key(path: Path) -> tuple[str, str]:

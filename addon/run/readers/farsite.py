@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import input_error
-from ..models import beside, made, raster
+from ..models import companion_rasters, from_arrival_time, raster
 from ..models.model import Model, Options
 
 NAME = "FARSITE or FlamMap output"
@@ -31,7 +31,7 @@ def read(paths: list[Path], options: Options) -> Model:
         "arrival times are in minutes, intensity in kW/m, rate of spread in m/min, heat per area in kJ/m2"
     ]
     values = arrival.values * np.float64(60.0)
-    maps = made.Maps(np.where(values < 0, np.nan, values))
+    maps = from_arrival_time.Maps(np.where(values < 0, np.nan, values))
     files = [first]
     for path in paths:
         role = raster.role(path)
@@ -41,8 +41,10 @@ def read(paths: list[Path], options: Options) -> Model:
                 raise input_error(path, 0, 0, "has another grid than the arrival times")
             setattr(maps, role, np.where(layer.values > 0, layer.values * np.float64(_UNITS[role]), np.nan))
             files.append(path)
-    land = beside.find(paths, look=True)
+    land = companion_rasters.find(paths, look=True)
     projection = options.projection or arrival.projection or land.projection
     grid, said = arrival.grid(projection, options.at)
     made_of = Options(options.start, options.at, projection, options.interval)
-    return made.model(maps, grid, land, made_of, "FARSITE or FlamMap", files, [*told, said] if said else told)
+    return from_arrival_time.model(
+        maps, grid, land, made_of, "FARSITE or FlamMap", files, [*told, said] if said else told
+    )

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import input_error
-from ..models import beside, forefire_land, made, netcdf, one_run
+from ..models import companion_rasters, forefire_land, from_arrival_time, netcdf, one_run
 from ..models.grid import Grid
 from ..models.model import Model, Options
 from ..models.raster import local
@@ -50,13 +50,13 @@ def read(paths: list[Path], options: Options) -> Model:
     ny, nx = arrival.shape
     x = domain["SWx"] + domain["Lx"] / nx * (np.arange(nx) + 0.5)
     y = domain["SWy"] + domain["Ly"] / ny * (np.arange(ny) + 0.5)
-    land = beside.find(paths)
+    land = companion_rasters.find(paths)
     scape = forefire_land.find(paths, path)
     grid = _grid(x, y, domain, arrival, fronts, options, scape, told)
-    maps = made.Maps(arrival)
+    maps = from_arrival_time.Maps(arrival)
     if scape:
         forefire_land.take(scape, paths, x, y, maps, told)
-    return made.model(maps, grid, land, options, "ForeFire", [path], told)
+    return from_arrival_time.model(maps, grid, land, options, "ForeFire", [path], told)
 
 
 def _begun(options: Options, domain: dict, arrival: NDArray, fronts: list, told: list[str]) -> Options:
@@ -73,9 +73,9 @@ def _begun(options: Options, domain: dict, arrival: NDArray, fronts: list, told:
         told.append(
             f"the last front is of {max(dated):%Y-%m-%d %H:%M:%S} UTC: times count from {start:%H:%M:%S}"
         )
-        return made.with_start(options, start)
+        return from_arrival_time.with_start(options, start)
     told.append("times count from midnight (UTC) of refDay in refYear; the time of day is not said otherwise")
-    return made.with_start(options, day)
+    return from_arrival_time.with_start(options, day)
 
 
 def _fronts(paths: list[Path], told: list[str]) -> list[tuple[datetime | None, float, float, float, float]]:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import input_error
-from ..models import beside, made, needed, netcdf
+from ..models import companion_rasters, from_arrival_time, netcdf, optional_packages
 from ..models.grid import Grid
 from ..models.model import Model, Options
 
@@ -46,7 +46,7 @@ def read(paths: list[Path], options: Options) -> Model:
         )
         raise first.error(reason)
     grid, projection = _grid(first, axes, options, next(iter(fields.values()))["variable"])
-    land, told = beside.find(paths), []
+    land, told = companion_rasters.find(paths), []
 
     def get(name: str, path: Path, *index: int) -> NDArray:
         entry = fields[name]
@@ -60,11 +60,11 @@ def read(paths: list[Path], options: Options) -> Model:
         return get(name, ours[0], *[0] * (len(shape) - 2))
 
     if "heat_flux" not in fields:
-        maps = made.Maps(still("fuel_arrival_time").astype(np.float64))
+        maps = from_arrival_time.Maps(still("fuel_arrival_time").astype(np.float64))
         for name in ("surface_fuel", "canopy_fuel", "elevation", "fuel_category"):
             if name in fields:
                 setattr(maps, name.removesuffix("_fuel").removeprefix("fuel_"), still(name))
-        return made.model(maps, grid, land, options, "netCDF", ours, told)
+        return from_arrival_time.model(maps, grid, land, options, "netCDF", ours, told)
 
     frames = sorted(
         ((moment, path, i) for path in ours for i, moment in enumerate(_moments(files(path), axes, options))),
@@ -140,7 +140,7 @@ def _crs(file: netcdf.File, of: str) -> str:
     with file.sense():
         variable = file.variables[name]
         return (
-            needed.package("pyproj")
+            optional_packages.package("pyproj")
             .CRS.from_cf({k: variable.getncattr(k) for k in variable.ncattrs()})
             .to_wkt()
         )
@@ -171,10 +171,12 @@ def _moments(file: netcdf.File, axes: dict[str, str], options: Options) -> list[
         str(file.attribute("calendar", name, "standard")),
     )
     if " since " not in units:
-        begin = made.begun(options, file.path)
+        begin = from_arrival_time.begun(options, file.path)
         return [begin + timedelta(seconds=float(each)) for each in values]
     with file.sense():
-        dates = needed.package("netCDF4").num2date(values, units, calendar, only_use_cftime_datetimes=False)
+        dates = optional_packages.package("netCDF4").num2date(
+            values, units, calendar, only_use_cftime_datetimes=False
+        )
         return [
             datetime(*each.timetuple()[:6], each.microsecond, tzinfo=UTC) for each in np.atleast_1d(dates)
         ]

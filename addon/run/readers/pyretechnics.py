@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Error, input_error
-from ..models import beside, given_wind, made, one_run
+from ..models import companion_rasters, from_arrival_time, given_wind, one_run
 from ..models.given_wind import Wind
 from ..models.grid import Grid
 from ..models.model import Model, Options
@@ -48,7 +48,7 @@ def read(paths: list[Path], options: Options) -> Model:
         raise input_error(path, 0, 0, f"time_of_arrival has shape {minutes.shape}, not rows and columns")
     told = ["times are in minutes, fireline_intensity in kW/m, spread_rate in m/min; rows are from the south"]
     burned = np.isfinite(minutes) & (minutes >= 0)
-    maps = made.Maps(np.where(burned, minutes * 60.0, np.nan))
+    maps = from_arrival_time.Maps(np.where(burned, minutes * 60.0, np.nan))
     for name, field, unit in (("fireline_intensity", "intensity", 1e3), ("spread_rate", "speed", 1 / 60.0)):
         if name in found:
             setattr(maps, field, np.where(burned & (found[name] > 0), found[name] * unit, np.nan))
@@ -57,7 +57,9 @@ def read(paths: list[Path], options: Options) -> Model:
             setattr(maps, name.removesuffix("_fuel").removeprefix("fuel_"), found[name])
     maps.wind = _wind(path, found, told)
     grid = _grid(path, found, options, told)
-    return made.model(maps, grid, beside.find(paths, look=True), options, "pyretechnics", [path], told)
+    return from_arrival_time.model(
+        maps, grid, companion_rasters.find(paths, look=True), options, "pyretechnics", [path], told
+    )
 
 
 def _wind(path: Path, found: dict[str, NDArray], told: list[str]) -> Wind | None:

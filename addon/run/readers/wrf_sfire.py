@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Error
-from ..models import arrival, beside, fuels, netcdf
+from ..models import arrival, companion_rasters, fuels, netcdf
 from ..models.grid import Grid
 from ..models.model import Model, Options
 from ..models.raster import local
@@ -100,7 +100,7 @@ class _Wrf:
 def read(paths: list[Path], options: Options) -> Model:
     """The series as a model."""
     wrf = _Wrf([path for path in paths if sniff(path)])
-    land = beside.find(paths)
+    land = companion_rasters.find(paths)
     told = []
     moments = [frame.moment for frame in wrf.frames]
     start, said = _start(wrf.first, moments[0])
@@ -275,7 +275,7 @@ def _dry_density(wrf: _Wrf, i: int) -> NDArray:
     return (wrf.read("P", i) + wrf.read("PB", i)) / (np.float32(_RD) * _kelvin(wrf, i) * moist)
 
 
-def _still(wrf: _Wrf, model: Model, land: beside.Land, options: Options, told: list[str]) -> None:
+def _still(wrf: _Wrf, model: Model, land: companion_rasters.Land, options: Options, told: list[str]) -> None:
     fine = model.air is not None
     if wrf.has("ZSF"):
         model.still["fuel_elevation"] = lambda: wrf.fire("ZSF", 0)

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from ...blender import compat, owned
 from ...blender.owned import Stage
-from ...shot import sparse, turning
-from ...shot.path import Path, clip
+from ...shot.cameras import rotation, sparse_keys
+from ...shot.cameras.path import Path, clip
 from ...shot.shot import Shot
-from . import hand, made
+from . import edit_detection, read_edits
 
 # How far a picture may be off between keys: turned, zoomed, or moved as the nearest ground sees it, pixels.
 _PIXELS = 0.05
@@ -30,7 +30,7 @@ def build(shot: Shot, stage: Stage) -> list[bpy.types.Object]:
     names = [view.camera.name for view in shot.paths]
     there = {name: thing for name in names if (thing := stage.camera(name)) is not None}
     collection = stage.part("Cameras", keep=there.values())
-    hand.place(stage, shot.local_frame)
+    read_edits.place(stage, shot.local_frame)
     built = [_camera(view, collection, shot, there.get(view.camera.name)) for view in shot.paths]
     if stage.scene.camera is None and built:
         stage.scene.camera = built[0]
@@ -56,9 +56,9 @@ def _camera(
     if thing is None:
         thing = owned.add(collection, name, data, what=f"camera {view.camera.name}")
     data.clip_start, data.clip_end = clip(view, shot.ground)
-    if not hand.rigged(thing):
+    if not read_edits.rigged(thing):
         _set(view, shot, thing)
-    made.remember(thing)
+    edit_detection.remember(thing)
     return thing
 
 
@@ -74,8 +74,8 @@ def _set(view: Path, shot: Shot, thing: bpy.types.Object) -> None:
     """Give an object the way and the lens of a path."""
     data = thing.data
     moved, turned, zoomed = _tolerance(view, shot)
-    compat.remove_fcurves(data, made.LENS)
-    compat.remove_fcurves(thing, made.POSE)
+    compat.remove_fcurves(data, edit_detection.LENS)
+    compat.remove_fcurves(thing, edit_detection.POSE)
     data.sensor_fit, data.sensor_width = "HORIZONTAL", view.sensor
     if view.around:
         _see_around(data, view.apart)
@@ -87,7 +87,7 @@ def _set(view: Path, shot: Shot, thing: bpy.types.Object) -> None:
         data.type, data.ortho_scale = "ORTHO", 2.0 * view.half[0]
     thing.rotation_mode, thing.scale = "QUATERNION", (1.0, 1.0, 1.0)
     _animate(thing, "location", view.position, moved)
-    quaternions = turning.quaternions(view.rotation)
+    quaternions = rotation.quaternions(view.rotation)
     _animate(thing, "rotation_quaternion", quaternions, 0.5 * turned)  # half the angle is in them
 
 
@@ -95,6 +95,6 @@ def _animate(block: bpy.types.ID, what: str, values: NDArray[np.float64], tolera
     """Set a property to values (frames, channels) in keys as few as that allows; one that stays has none."""
     setattr(block, what, values[0] if values.shape[1] > 1 else values[0, 0])
     if np.linalg.norm(values - values[0], axis=1).max() > 0.1 * tolerance:
-        kept, slopes = sparse.keys(values, tolerance)
+        kept, slopes = sparse_keys.keys(values, tolerance)
         for axis in range(values.shape[1]):
             compat.animate_smoothly(block, what, axis, kept + 1, values[kept, axis], slopes[:, axis])

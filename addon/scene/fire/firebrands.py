@@ -12,9 +12,10 @@ import numpy as np
 from firetwin_core import geo, particles
 from numpy.typing import NDArray
 
-from ...shot import burning, noise
-from ...shot.ground import Ground
+from ...shot.fire import burning
 from ...shot.shot import Shot
+from ...shot.terrain import noise
+from ...shot.terrain.terrain import Ground
 from . import flames
 
 REACH = 1800.0  # m from a camera; sparks farther away than this are below what a picture shows

@@ -12,11 +12,12 @@ import numpy as np
 from firetwin_core import flux, lod, particles
 from numpy.typing import NDArray
 
-from ...shot import burning, noise
-from ...shot.ground import bilinear
-from ...shot.path import Path
+from ...shot.cameras.path import Path
+from ...shot.fire import burning
 from ...shot.shot import Shot
-from ..forest import fate
+from ...shot.terrain import noise
+from ...shot.terrain.terrain import bilinear
+from ..forest import fire_effects
 from ..forest.stand import Stand
 
 SIGHT = 12_000.0  # m; fronts farther than this are the ground's glowing edge alone
@@ -212,7 +213,7 @@ def torches(shot: Shot, grown: Stand) -> Points:
     key = grown.key[near].T
     luck, size, late, seed = (noise.uniform(*key, shot.settings.seed + 400 + k) for k in range(4))
     lit = (luck < _TORCHES * canopy / (canopy + 1.0)) & (arrival <= last)
-    lit &= fate.of(shot, row, column, grown.height[near], grown.key[near]).torched
+    lit &= fire_effects.of(shot, row, column, grown.height[near], grown.key[near]).torched
     residence = 30.0 + 30.0 * size
     arrival = arrival + 20.0 * late
     chosen = np.flatnonzero(lit & (arrival + residence > first))

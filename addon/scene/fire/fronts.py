@@ -8,7 +8,7 @@ from firetwin_core.run import Run
 
 from ...blender import nodes, owned
 from ...blender.owned import Stage
-from ...shot import fronts
+from ...shot.fire import fronts
 from ...shot.shot import Shot
 from .. import clock, glow, haze
 from . import observed

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...shot import heat
-from ...shot.path import Path
+from ...shot.cameras.path import Path
+from ...shot.fire import heat_release as heat
+from ...shot.light import exposure
 from ...shot.shot import Shot
-from ..light import exposure
 
 LIGHT = 6.0e-4  # W of light for each luminous W of heat by night; chosen by eye
 _REACH = 9000.0  # m from a camera; light on ground farther away is not seen

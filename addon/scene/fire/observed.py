@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from ...blender import nodes, owned
 from ...blender.owned import Stage
-from ...shot import observed
-from ...shot.observed import Line
+from ...shot.fire import observed
+from ...shot.fire.observed import Line
 from ...shot.shot import Shot
 from .. import glow, haze
 

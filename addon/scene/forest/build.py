@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
-from ...shot import noise
-from ...shot.ground import NEVER, bilinear
+from ...shot.cameras.rigs.satellite import HEIGHT
 from ...shot.passes import masks
-from ...shot.rigs.satellite import HEIGHT
 from ...shot.shot import Shot
+from ...shot.terrain import noise
+from ...shot.terrain.terrain import NEVER, bilinear
 from .. import clock
-from . import cells, fate, models, openings, preview, seen, understorey
+from . import fire_effects, models, preview, stand_structure, understorey, visibility, visible_cells
 from .library import drawn, grass_models, levelled, tree_models
 from .material import TORCHING
 from .stand import Stand
@@ -64,10 +64,10 @@ def algorithm2(shot: Shot) -> dict[str, NDArray]:
         shot.relief.fuel,
         shot.local_frame,
         seed=seed,
-        mask=cells.counting(shot, _TALLEST, reach, *axes, shot.relief.fuel),
+        mask=visible_cells.counting(shot, _TALLEST, reach, *axes, shot.relief.fuel),
     )
-    position = seen.settled(shot.ground, found.position)
-    kept = np.flatnonzero(seen.visible(shot, position, found.scale, reach))
+    position = visibility.settled(shot.ground, found.position)
+    kept = np.flatnonzero(visibility.visible(shot, position, found.scale, reach))
     cell = found.cell[kept]
     first = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[found.size_class[kept]]
     model = first + found.model[kept]
@@ -95,12 +95,12 @@ def _below(shot: Shot, things: understorey.Things) -> dict[str, NDArray]:
 def _grass(shot: Shot) -> dict[str, NDArray]:
     run, ground, seed = shot.run, shot.ground, shot.settings.seed
     axes = run.fuel_latitude, run.fuel_longitude
-    mask = cells.counting(shot, _GRASS, GRASS_DISTANCE, *axes, shot.relief.fuel)
+    mask = visible_cells.counting(shot, _GRASS, GRASS_DISTANCE, *axes, shot.relief.fuel)
     found = core.grass(run.surface_fuel, *axes, shot.relief.fuel, ground.frame, seed=seed, mask=mask)
-    position = seen.settled(ground, found.position)
+    position = visibility.settled(ground, found.position)
     moved = np.abs(position[:, 2] - found.position[:, 2]) > 0.0
     position[moved, 2] -= 0.7
-    kept = np.flatnonzero(seen.visible(shot, position, _GRASS, GRASS_DISTANCE))
+    kept = np.flatnonzero(visibility.visible(shot, position, _GRASS, GRASS_DISTANCE))
     cell, position = found.cell[kept], position[kept]
     model = (noise.uniform(cell, 7, seed) < 0.5).astype(np.int64)
     scale, width = found.scale[kept], np.ones(len(cell))
@@ -122,10 +122,10 @@ def _points(
     ground, seed = shot.ground, shot.settings.seed
     row, column = ground.under(position)
     tint, dead = (
-        openings.alike(position, size, noise.uniform(key, second, seed + 300 + k), seed + 330 + 10 * k)
+        stand_structure.alike(position, size, noise.uniform(key, second, seed + 300 + k), seed + 330 + 10 * k)
         for k, size in enumerate(_ALIKE)
     )
-    burned = fate.of(shot, row, column, scale, np.stack([key, second], axis=-1))
+    burned = fire_effects.of(shot, row, column, scale, np.stack([key, second], axis=-1))
     size = np.select([scale > 20.0, scale > 12.0], [0, 1], 2)
     return {
         "position": position,
@@ -188,7 +188,7 @@ def _drawn(tree: nodes.Tree, shot: Shot) -> nodes.Value | bool:
 
     To it the ground's colour is the forest, as everywhere else in its picture.
     """
-    if not seen.too_far(shot):
+    if not visibility.too_far(shot):
         return True
     camera = tree.output("GeometryNodeInputActiveCamera")
     place = tree.output("GeometryNodeObjectInfo", {"Object": camera}, "Location")

@@ -12,9 +12,9 @@ from firetwin_core.run import Run
 from numpy.typing import NDArray
 
 from ...run import fuel_category
-from ...shot import land_use, noise
-from ...shot.ground import Ground, bilinear
 from ...shot.shot import Shot
+from ...shot.terrain import land_use, noise
+from ...shot.terrain.terrain import Ground, bilinear
 from . import biomes, patterns
 
 _REACH = 180.0  # m, half-width of the means that a hollow lies below (by eye)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .growth import Leaves
+from .branching import Leaves
 from .habit import Fit
 from .shape import Array, Shape
 

@@ -12,7 +12,7 @@ import bpy
 
 from ...blender import nodes
 from ...blender.owned import Stage
-from ...shot import heat
+from ...shot.fire import heat_release
 from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import granite, haze, infrared, temperature
@@ -195,7 +195,7 @@ def _leaves(
     x, y, z = tree.separate(tree.output("ShaderNodeNewGeometry", name="Position"))
     flicker = tree.noise(tree.combine(x, y, (z - age * 6.0) * _TONGUES), 4.0, 2.0)
     short = min(
-        shot.fire.smoke.residence / heat.FLAMING, 1.0
+        shot.fire.smoke.residence / heat_release.FLAMING, 1.0
     )  # of what timber burns, in the time that it does
     bush = max(short, _BUSH)
     crown = (

@@ -15,9 +15,9 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from . import floor, levels, species
+from . import forest_floor, levels, species
 from . import habit as habits
-from .growth import dead, grown, wood
+from .branching import dead, grown, wood
 from .habit import Habit
 from .shape import FOLIAGE, Shape
 
@@ -155,12 +155,12 @@ def undergrowth() -> list[Model]:
     """What lies and grows under the trees, in the order of its numbers, which go on from theirs."""
     brush = [(habits.MANZANITA, 150), (habits.CEANOTHUS, 151)]  # the seeds of the living
     return [
-        *(Model("brush", "snag", partial(floor.burned_brush, habit, seed)) for habit, seed in brush),
-        *(Model("log", "living", partial(floor.log, 160 + k)) for k in range(len(LOGS))),
-        *(Model("rock", "living", partial(floor.rock, 170 + k)) for k in range(len(ROCKS))),
-        *(Model("tuft", "living", partial(floor.tuft, 180 + k)) for k in range(len(TUFTS))),
-        *(Model("tuft", "snag", partial(floor.stubble, 180 + k)) for k in range(len(STUBBLE))),
-        *(Model("twigs", "living", partial(floor.twigs, 190 + k)) for k in range(len(TWIGS))),
+        *(Model("brush", "snag", partial(forest_floor.burned_brush, habit, seed)) for habit, seed in brush),
+        *(Model("log", "living", partial(forest_floor.log, 160 + k)) for k in range(len(LOGS))),
+        *(Model("rock", "living", partial(forest_floor.rock, 170 + k)) for k in range(len(ROCKS))),
+        *(Model("tuft", "living", partial(forest_floor.tuft, 180 + k)) for k in range(len(TUFTS))),
+        *(Model("tuft", "snag", partial(forest_floor.stubble, 180 + k)) for k in range(len(STUBBLE))),
+        *(Model("twigs", "living", partial(forest_floor.twigs, 190 + k)) for k in range(len(TWIGS))),
     ]
 
 
@@ -176,7 +176,7 @@ def elsewhere() -> list[Model]:
         *(Model(kind, "living", partial(tree, habit, 200 + k)) for k, (kind, habit) in enumerate(high)),
         *(Model("brush", "living", partial(tree, habit, 220 + k)) for k, habit in enumerate(brush)),
         *(
-            Model("brush", "snag", partial(floor.burned_brush, habit, 220 + k))
+            Model("brush", "snag", partial(forest_floor.burned_brush, habit, 220 + k))
             for k, habit in enumerate(brush)
         ),
         *(Model("oak", "living", partial(tree, species.ACACIA, 230 + k)) for k in range(len(ACACIAS))),

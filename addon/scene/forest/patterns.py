@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...shot import noise as shot_noise
+from ...shot.terrain import noise as shot_noise
 from . import shader_noise
 from .biomes import OpenLand
 

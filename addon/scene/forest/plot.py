@@ -12,9 +12,9 @@ from firetwin_core.geo import LocalFrame
 from numpy.typing import NDArray
 
 from ...run import areas, fuel_category
-from ...shot.relief import between
 from ...shot.shot import Shot
-from . import cells, openings
+from ...shot.terrain.elevation import between
+from . import stand_structure, visible_cells
 
 _CELL = 74.0  # m, least size of a cell beyond the run; its fuels are invented in larger patches
 _OTHER = 7919  # added to the seed: land beyond is no copy of the run's
@@ -64,8 +64,8 @@ def of(shot: Shot, height: float, reach: float) -> list[Plot]:
     """
     run, seed = shot.run, shot.settings.seed
     axes, elevation = (run.fuel_latitude, run.fuel_longitude), shot.relief.fuel
-    mask = cells.counting(shot, height, reach, *axes, elevation)
-    fuel = openings.with_lone(shot, fuel_category.canopy(run), *_lines(shot, *axes), mask)
+    mask = visible_cells.counting(shot, height, reach, *axes, elevation)
+    fuel = stand_structure.with_lone(shot, fuel_category.canopy(run), *_lines(shot, *axes), mask)
     own = Plot(*axes, fuel, elevation, mask & (fuel > 0.0), float(np.prod(shot.ground.cell)), seed)
     beyond = _beyond(shot, height, reach)
     return [own] if beyond is None else [own, beyond]
@@ -92,8 +92,8 @@ def _beyond(shot: Shot, height: float, reach: float) -> Plot | None:
         between(field, row, column).astype(np.float32) for field in (fields.canopy_fuel, fields.elevation)
     )
     out = ~(inside[0][:, None] & inside[1][None, :])
-    mask = cells.counting(shot, height, reach, *axes, elevation, out)
-    fuel = openings.with_lone(shot, fuel, row, column, mask)
+    mask = visible_cells.counting(shot, height, reach, *axes, elevation, out)
+    fuel = stand_structure.with_lone(shot, fuel, row, column, mask)
     area = max(ground.cell[0], _CELL) * max(ground.cell[1], _CELL)
     return Plot(*axes, fuel, elevation, mask & (fuel > 0.0), area, shot.settings.seed + _OTHER)
 

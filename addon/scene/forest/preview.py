@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...blender import owned
-from ...shot import noise
 from ...shot.shot import Shot
+from ...shot.terrain import noise
 from . import models
 from .levels import LEVELS
 from .material import TORCHING

@@ -12,10 +12,10 @@ import numpy as np
 from firetwin_core import forest as core
 from numpy.typing import NDArray
 
-from ...shot import noise
-from ...shot.ground import bilinear, widened
 from ...shot.shot import Shot
-from . import biomes, models, openings, plot, seen
+from ...shot.terrain import noise
+from ...shot.terrain.terrain import bilinear, widened
+from . import biomes, models, plot, stand_structure, visibility
 from .plot import Plot
 
 TALLEST = 42.0  # m; the core's largest tree
@@ -66,14 +66,16 @@ def grow(shot: Shot) -> Stand:
     reach = settings.forest.draw_distance
     plots = plot.of(shot, TALLEST, reach) if settings.forest.density == "stand" else []
     found = _planted(shot, plots)
-    position = seen.settled(shot.ground, found.position)
+    position = visibility.settled(shot.ground, found.position)
     key = np.stack([found.key >> 32, found.key & 0xFFFFFFFF], axis=-1)
     distance = shot.sights.distance(position)
-    fade = _fade(distance, reach) if shot.pixel[1] > seen.PIXEL else 1.0
+    fade = _fade(distance, reach) if shot.pixel[1] > visibility.PIXEL else 1.0
     chosen = (noise.uniform(*key.T, settings.seed + 202) < fade) & (distance > CLEARING)
     stands = noise.uniform(*key[chosen].T, settings.seed + 203)
-    chosen[chosen] = stands < openings.kept(shot, position[chosen])
-    chosen[chosen] = seen.visible(shot, position[chosen], found.scale[chosen], reach, found.width[chosen])
+    chosen[chosen] = stands < stand_structure.kept(shot, position[chosen])
+    chosen[chosen] = visibility.visible(
+        shot, position[chosen], found.scale[chosen], reach, found.width[chosen]
+    )
     chosen = np.flatnonzero(chosen)
     model = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[found.size_class[chosen]]
     height, width = found.scale[chosen].astype(float), found.width[chosen]
@@ -146,7 +148,7 @@ def _kept(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
     for each, beside in zip(plots, besides, strict=True):
         distance = shot.sights.distance(each.places(shot.local_frame, beside))
         pixels.append(np.minimum(distance * near if np.isfinite(near) else np.inf, parallel))
-        fade = _fade(distance, reach) if parallel > seen.PIXEL else 1.0
+        fade = _fade(distance, reach) if parallel > visibility.PIXEL else 1.0
         stems.append(core.stems(each.canopy_fuel[beside]) * each.mask[beside] * fade * each.area)
 
     def count(full: float) -> float:
@@ -182,7 +184,7 @@ def _of_species(
     elevation = bilinear(ground.fields.elevation, *ground.under(position))
     share = np.array([_share(each, elevation) for each in sorts])
     part = np.cumsum(share, axis=0) / np.maximum(share.sum(axis=0), 1.0e-9)
-    lot = openings.alike(position, _PATCH, noise.uniform(*key.T, seed + 222), seed + 340)
+    lot = stand_structure.alike(position, _PATCH, noise.uniform(*key.T, seed + 222), seed + 340)
     number = np.minimum((lot > part).sum(axis=0), len(sorts) - 1)
     which = noise.uniform(*key.T, seed + 223)
     model = np.array(

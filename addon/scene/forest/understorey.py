@@ -12,9 +12,9 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...shot import land_use, noise
-from ...shot.ground import bilinear
 from ...shot.shot import Shot
+from ...shot.terrain import land_use, noise
+from ...shot.terrain.terrain import bilinear
 from . import biomes, cover, field_lines, models
 
 _PIXELS = 2.0  # least height of what is drawn, pixels; of half of what is as tall
@@ -251,7 +251,7 @@ def _scattered(shot: Shot, kind: Kind, number: int, pixel: float, budget: int) -
         density = density * 2.0 * noise.smoothstep(-0.45, 0.45, waves)
     if kind.also is not None:
         density = density * kind.also(place)
-    if shot.settings.ground.land_use is not None:
+    if shot.settings.terrain.land_use is not None:
         density = density * ~land_use.keeps_out(shot, place)
     stands = np.flatnonzero(lot(2, cells) < density * width**2)
     cells, place, height, tall = cells[stands], place[stands], height[stands], tall[stands]

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
+from ...shot.light import exposure
+from ...shot.light.sky import NIGHT_SKY, State, over
 from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import haze, infrared
-from . import exposure
-from .sky import NIGHT_SKY, State, over
 
 _KEYS = 25  # the sky changes at this many moments of the shot
 _SKY = 0.12  # strength of the sky texture; more drowns the sunlit side of smoke

@@ -11,8 +11,9 @@ import bpy
 from ...blender import compat, owned
 from ...blender.owned import Stage
 from ...shot.shot import Shot
-from . import bake, baker, flow_frames, flow_material, layers, material, view
-from .flow import Flow
+from ...smoke import bake, baker, flow_frames, view
+from ...smoke.flow import Flow
+from . import flow_material, layers, material
 
 _MAX_STEPS = 8192  # Cycles lengthens steps of rays that would need more; 1024 of them are 12 km
 

@@ -16,10 +16,11 @@ import numpy as np
 
 from ...blender import nodes
 from ...blender.owned import Stage
+from ...shot.light import exposure
 from ...shot.shot import Shot
+from ...smoke import flow_frames
 from .. import haze, infrared
-from ..light import exposure
-from . import flow_frames, material, sunlit
+from . import material, sunlit
 
 _PALE, _FRESH = (
     (0.80, 0.77, 0.73),

@@ -9,12 +9,12 @@ import numpy as np
 from firetwin_core import sensor, volume
 
 from ...blender.owned import Stage, ours
-from ...shot import temperature
-from ...shot.settings import BANDS
+from ...shot import air_temperature
+from ...shot.light import sky
+from ...shot.settings.settings import BANDS
 from ...shot.shot import Shot
 from .. import haze, infrared
 from .. import temperature as airs
-from ..light import sky
 from . import sunlit
 
 _TABLE = 180.0, 360.0, 0.5  # K, of the air; and between the temperatures whose radiance is told
@@ -88,7 +88,7 @@ def warm(shot: Shot, stage: Stage, frame: int) -> dict[str, Any]:
         "elevation": elevation,
         "corner": corner,
         "spacing": spacing,
-        "lapse": temperature.LAPSE,
+        "lapse": air_temperature.LAPSE,
         "radiance": table,
         "coldest": first,
         "kelvin_step": step,

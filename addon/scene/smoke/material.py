@@ -13,10 +13,10 @@ import numpy as np
 
 from ...blender import nodes
 from ...blender.owned import Stage
+from ...shot.light import exposure, sky
 from ...shot.shot import Shot
+from ...smoke import view
 from .. import haze, infrared
-from ..light import exposure, sky
-from . import view
 
 EXTINCTION_PER_DILUTION = 0.04  # 1/m: 4 m2/g (fresh biomass smoke, Reid et al. 2005) times 10 mg/m3
 OPACITY = 5.0, 16.0  # times that, for ash near the ground and for cloud water aloft; chosen by eye

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from ...blender import nodes, owned
 from ...blender.owned import Stage
 from ...shot.shot import Shot
+from ...smoke.domains import Box
 from . import illumination
-from .boxes import Box
 
 NAME = "Smoke Shadow"
 _OVER = 45.0  # m over the ground, as tall as all but the tallest trees

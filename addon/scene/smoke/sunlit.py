@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...blender import nodes
+from ...shot.light.sky import State
 from ...shot.shot import Shot
 from ..light.build import key, moments
-from ..light.sky import State
 
 OFTENER = 0.5, 0.3  # weights beside light scattered once, of a ball and a plume beside 24 and 32 bounces
 _GROUND = 0.07  # albedo of forest and ash, which light smoke from below (assumed)

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..settings import Camera, Settings
+    from ..settings.settings import Camera, Settings
     from ..shot import Shot
 
 Files = Mapping[str, Path]

@@ -14,9 +14,10 @@ import numpy as np
 from firetwin_core import sensor
 from numpy.typing import NDArray
 
-from ..rigs.satellite import Satellite
+from ...imaging import colour_bar
+from ..cameras import pixel_rays
+from ..cameras.rigs.satellite import Satellite
 from ..satellites import imager
-from . import _bar, _view
 
 if TYPE_CHECKING:
     from ..shot import Shot
@@ -28,7 +29,7 @@ _GREY = 0.12
 
 def draw(png: Path, depth: Path, shot: Shot, camera: str, frame: int, long: bool) -> None:
     """Write the brightness temperature of the long or the short band with bar, time and label."""
-    view = _view.of(shot, camera)
+    view = pixel_rays.of(shot, camera)
     instrument, grid = _instrument(shot, view.camera.rig)
     moment = shot.moment(frame)
     try:
@@ -38,15 +39,17 @@ def draw(png: Path, depth: Path, shot: Shot, camera: str, frame: int, long: bool
     planar = sensor.read_image(depth)[..., 0]
     kelvin = np.full(planar.shape, np.nan)
     if seen is not None:
-        kelvin = _register(shot, _view.points(view, frame, planar), seen, seen.long if long else seen.short)
+        kelvin = _register(
+            shot, pixel_rays.points(view, frame, planar), seen, seen.long if long else seen.short
+        )
     most = instrument.saturation[long]
     low = min(shot.coldest_moment, most - 1.0)
     shown = sensor.colour(kelvin, low, most, PALETTE, KNEE)
     shown[np.isnan(kelvin)] = _GREY
-    _bar.draw(shown, low, most, PALETTE, KNEE)
+    colour_bar.draw(shown, low, most, PALETTE, KNEE)
     wave = instrument.long if long else instrument.short
     lines = [f"{instrument.name} {wave:g} um", f"{moment:%Y-%m-%d %H:%M}Z", instrument.label(moment.year)]
-    _bar.title(shown, lines)
+    colour_bar.title(shown, lines)
     sensor.write_image(png, shown)
 
 

@@ -17,11 +17,11 @@ from matplotlib.patches import Polygon, Rectangle
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
-from .. import fronts
-from ..ground import bilinear
+from ..fire import fronts
+from ..terrain.terrain import bilinear
 
 if TYPE_CHECKING:
-    from ..path import Path
+    from ..cameras.path import Path
     from ..shot import Shot
 
 _LATELY = 1800.0  # s; what burned since is orange

@@ -22,10 +22,10 @@ def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, 
     import numpy as np
     from firetwin_core import sensor
 
-    from . import _view
+    from ..cameras import pixel_rays
 
     planar = sensor.read_image(files["exr"])[..., 0]
-    both = np.stack([planar, _view.ranges(_view.of(shot, camera), frame, planar)], axis=-1)
+    both = np.stack([planar, pixel_rays.ranges(pixel_rays.of(shot, camera), frame, planar)], axis=-1)
     about = {"Comment": "m; planar: along the camera's axis, range: along the line of sight"}
     sensor.write_image(files["exr"], both, about, ["planar", "range"])
 
@@ -33,7 +33,7 @@ def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, 
 PASS = Pass(
     name="depth",
     order=20,
-    help="Metres to ground and trees, along the axis and the line of sight, 32-bit EXR",
+    help="Depth of terrain and trees, along the axis and along the line of sight, m, 32-bit EXR",
     files=("exr",),
     output="Depth",
     enable="use_pass_z",
@@ -41,6 +41,6 @@ PASS = Pass(
     samples=1,
     pixel_centres=True,
     shapes=True,
-    shows=frozenset({"time", "camera", "picture", "ground", "forest"}),
+    shows=frozenset({"time", "camera", "picture", "terrain", "forest"}),
     finish=finish,
 )

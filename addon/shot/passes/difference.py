@@ -30,23 +30,24 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     from firetwin_core import sensor
 
     from ...errors import Error
-    from .. import fronts
-    from . import _view
+    from .. import comparison
+    from ..cameras import pixel_rays
+    from ..fire import fronts
 
     try:
-        from . import _beside
+        from ...imaging import split_screen
     except ModuleNotFoundError as error:
         raise Error(f"the difference pass needs {error.name}, not in Blender: pip install it") from None
     rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
     planar = sensor.read_image(needed["depth"]["exr"])[..., 0]
-    points = _view.points(_view.of(shot, camera), frame, planar)
+    points = pixel_rays.points(pixel_rays.of(shot, camera), frame, planar)
     names, colours = [shot.title, *shot.others], fronts.colours(shot)
     pictures, keys = [], []
     for label, kinds in zip(shot.others, classes(shot, points, frame), strict=True):
         shades = [BOTH, colours[shot.title], colours[label]]
         pictures.append(tinted(rgb, kinds, shades))
         keys.append(list(zip(shades, ("burned in both", f"only {names[0]}", f"only {label}"), strict=True)))
-    sensor.write_image(files["png"], _beside.sheet(pictures, keys, _beside.foot(shot, frame)))
+    sensor.write_image(files["png"], split_screen.sheet(pictures, keys, comparison.caption(shot, frame)))
 
 
 def classes(shot: Shot, points: NDArray[np.float64], frame: int) -> list[NDArray[np.uint8]]:
@@ -57,7 +58,7 @@ def classes(shot: Shot, points: NDArray[np.float64], frame: int) -> list[NDArray
     import numpy as np
 
     from ...run import times
-    from ..fronts import reach
+    from ..fire.fronts import reach
 
     ground = np.isfinite(points).all(axis=-1)
     latitude, longitude, _ = shot.local_frame.reverse(points[ground])
@@ -88,12 +89,12 @@ def tinted(rgb: NDArray, kinds: NDArray[np.uint8], shades: list[str]) -> NDArray
 PASS = Pass(
     name="difference",
     order=75,
-    help="Where the first run has burned and others in [[runs]] have not, tinted in its picture",
+    help="Visible picture, tinted where burned areas of the first run and of other [[runs]] differ",
     files=("png",),
     output="",
     filmed=True,
     captions=False,
-    shows=frozenset({"time", "camera", "film", "picture", "ground"}),
+    shows=frozenset({"time", "camera", "film", "picture", "terrain"}),
     compares=True,
     needs=("rgb", "depth"),
     finish=finish,

@@ -29,7 +29,7 @@ def finish(files: Files, needed: Mapping[str, Files], _shot: Shot, _camera: str,
 PASS = Pass(
     name="edl",
     order=40,
-    help="The picture with eye-dome lighting from its depth",
+    help="Visible picture with eye-dome lighting from depth",
     files=("png",),
     output="",
     filmed=True,

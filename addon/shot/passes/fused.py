@@ -18,7 +18,7 @@ from . import Files, Pass, pose
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from ..path import Path
+    from ..cameras.path import Path
     from ..shot import Shot
 
 _ABOVE = {"orthometric": "MSL", "ellipsoidal": "WGS84"}
@@ -32,13 +32,14 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     from ...errors import Error
 
     try:
-        from . import _map, _sheet
+        from ...imaging import sheet as _sheet
+        from . import _map
     except ModuleNotFoundError as error:
         raise Error(f"the fused pass needs {error.name}, which is not in Blender: pip install it") from None
-    from .. import mount
-    from . import _view, thermal
+    from ..cameras import mount, pixel_rays
+    from . import thermal
 
-    view = _view.of(shot, camera)
+    view = pixel_rays.of(shot, camera)
     taken = mount.taken(shot.settings, shot.cameras, camera, PASS)
     low, high = thermal.scale(shot, frame)
     sheet = _sheet.Sheet(*PASS.size(shot.resolution(view.camera)))
@@ -49,8 +50,8 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     pixels = {"rgb": rgb, "thermal": kelvin, "depth": depth}
     parts = {need: _part(shot, view, frame, taken[need][0], pixels[need].shape) for need in pixels}
     sheet.picture(0, "VISIBLE", rgb, parts["rgb"], outlined={part: need for need, part in parts.items()})
-    sheet.thermal(1, kelvin, low, high, shot.settings.thermal.palette, parts["thermal"])
-    sheet.depth(3, depth, _view.SKY, parts["depth"])
+    sheet.thermal(1, kelvin, low, high, shot.settings.thermal.palette, thermal.KNEE, parts["thermal"])
+    sheet.depth(3, depth, pixel_rays.SKY, parts["depth"])
     panel = sheet.panel(2, "MAP")
     if mount.MAP in taken:
         photo = sensor.read_image(needed[mount.MAP]["png"])[..., :3]
@@ -83,9 +84,9 @@ def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
     import numpy as np
 
     from ...run import info, times
-    from . import _view
+    from ..cameras import pixel_rays
 
-    view, moment = _view.of(shot, camera), shot.moment(frame)
+    view, moment = pixel_rays.of(shot, camera), shot.moment(frame)
     here = pose.pose(shot, view, frame)
     places = (("latitude", "NS"), ("longitude", "EW"))
     degrees = [f"{abs(here[name]):.5f}° {signs[here[name] < 0.0]}" for name, signs in places]
@@ -111,16 +112,16 @@ def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
 PASS = Pass(
     name="fused",
     order=60,
-    help="Visible, thermal, depth and a map in one picture, with time, place and scales",
+    help="One picture of visible, thermal, depth and a map, with time, place and scales",
     files=("png",),
     output="",
     filmed=True,
     captions=False,
-    shows=frozenset({"time", "camera", "film", "ground", "thermal"}),
+    shows=frozenset({"time", "camera", "film", "terrain", "thermal"}),
     needs=("rgb", "thermal", "depth"),
     mount=True,
     flat=True,
     rows=720,
-    sources=("shot/rigs/mounted.py", "shot/rigs/minimap.py"),
+    sources=("shot/cameras/rigs/mounted.py", "shot/cameras/rigs/minimap.py"),
     finish=finish,
 )

@@ -5,5 +5,5 @@ from __future__ import annotations
 from ._band import band
 
 PASS = band(
-    "imager_long", 51, "What a satellite's imager measures in the thermal infrared (11.2 µm)", long=True
+    "imager_long", 51, "Brightness temperature of a satellite imager, thermal infrared (11.2 µm)", long=True
 )

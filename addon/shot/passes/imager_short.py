@@ -5,5 +5,5 @@ from __future__ import annotations
 from ._band import band
 
 PASS = band(
-    "imager_short", 50, "What a satellite's imager measures in the middle infrared (3.9 µm)", long=False
+    "imager_short", 50, "Brightness temperature of a satellite imager, middle infrared (3.9 µm)", long=False
 )

@@ -80,8 +80,8 @@ def finish(files: Files, _needed: Mapping[str, Files], _shot: Shot, _camera: str
 PASS = Pass(
     name="masks",
     order=27,
-    help="Class of each pixel (fire, smoke, tree, burned, ground, sky) and number of each tree, EXR and PNG; "
-    "a tree has one number in all frames, cameras and films",
+    help="Class masks (fire, smoke, tree, burned, ground, sky) and tree instance numbers, EXR and PNG; "
+    "a tree has the same number in all frames, cameras and films",
     files=("exr", "png"),
     output="Image",
     leaves_out=("lamps",),
@@ -89,6 +89,6 @@ PASS = Pass(
     masks=True,
     channels="colour",
     pixel_centres=True,
-    shows=frozenset({"time", "camera", "picture", "ground", "forest", "fire", "smoke"}),
+    shows=frozenset({"time", "camera", "picture", "terrain", "forest", "fire", "smoke"}),
     finish=finish,
 )

@@ -11,7 +11,7 @@ from . import Pass
 PASS = Pass(
     name="normal",
     order=25,
-    help="Unit vectors east, north, up that ground and trees face, 32-bit EXR",
+    help="Surface normals of terrain and trees (east, north, up), 32-bit EXR",
     files=("exr",),
     output="Normal",
     enable="use_pass_normal",
@@ -19,5 +19,5 @@ PASS = Pass(
     samples=1,
     channels="colour",
     pixel_centres=True,
-    shows=frozenset({"time", "camera", "picture", "ground", "forest"}),
+    shows=frozenset({"time", "camera", "picture", "terrain", "forest"}),
 )

@@ -31,7 +31,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, _camera: str, 
 PASS = Pass(
     name="overlay",
     order=45,
-    help="The picture with the hot spots of the infrared one over it",
+    help="Visible picture overlaid with the hot spots of the thermal pass",
     files=("png",),
     output="",
     filmed=True,

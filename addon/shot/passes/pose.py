@@ -22,7 +22,7 @@ from . import Files, Pass, file_of, of_camera
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from ..path import Path
+    from ..cameras.path import Path
     from ..shot import Shot
 
 UNITS = {
@@ -40,9 +40,9 @@ def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, 
     """Write what is known of the camera in this frame."""
     import json
 
-    from . import _view
+    from ..cameras import pixel_rays
 
-    text = json.dumps(described(shot, _view.of(shot, camera), frame), indent=1) + "\n"
+    text = json.dumps(described(shot, pixel_rays.of(shot, camera), frame), indent=1) + "\n"
     files["json"].write_text(text, encoding="utf-8")
 
 
@@ -73,7 +73,7 @@ def pose(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
     """Place and direction; heights count from the datum of the run's elevations."""
     import numpy as np
 
-    from .. import path
+    from ..cameras import path
 
     here, turn, frame_of = view.position[frame - 1], view.rotation[frame - 1], shot.local_frame
     latitude, longitude, height = (float(value[0]) for value in frame_of.reverse(here[None]))
@@ -117,9 +117,9 @@ def intrinsics(view: Path, frame: int, width: int, height: int) -> dict[str, Any
 PASS = Pass(
     name="pose",
     order=5,
-    help="Place, direction, lens, time and units of each frame for machines, JSON",
+    help="Camera position, orientation, lens, time and units of each frame, JSON",
     files=("json",),
     output="",
-    shows=frozenset({"time", "camera", "picture", "ground", "passes"}),
+    shows=frozenset({"time", "camera", "picture", "terrain", "passes"}),
     finish=finish,
 )

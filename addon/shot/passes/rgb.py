@@ -10,7 +10,7 @@ from . import Pass
 PASS = Pass(
     name="rgb",
     order=10,
-    help="The visible picture",
+    help="Visible picture",
     files=("png", "exr"),
     output="Image",
     data=False,
@@ -18,6 +18,6 @@ PASS = Pass(
     bits=16,
     filmed=True,
     shows=frozenset(
-        {"time", "camera", "picture", "ground", "forest", "fire", "smoke", "light", "grain", "places"}
+        {"time", "camera", "picture", "terrain", "forest", "fire", "smoke", "light", "grain", "labels"}
     ),
 )

@@ -22,10 +22,11 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
 
     from ...errors import Error
     from ...run import info, times
-    from .. import fronts
+    from .. import comparison
+    from ..fire import fronts
 
     try:
-        from . import _beside
+        from ...imaging import split_screen
     except ModuleNotFoundError as error:
         raise Error(f"the split pass needs {error.name}, which is not in Blender: pip install it") from None
     moment, colours, drawn = shot.moment(frame), fronts.colours(shot), shot.settings.fire.fronts
@@ -36,13 +37,13 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
         acres = info.burned(run, [times.seconds(run, moment)])[0] / info.ACRE
         others = [(colours[other], f"front of {other}") for other in colours if other != label]
         keys.append([(colours[label], f"{label}  {acres:,.0f} acres"), *(others if drawn else ())])
-    sensor.write_image(files["png"], _beside.sheet(pictures, keys, _beside.foot(shot, frame)))
+    sensor.write_image(files["png"], split_screen.sheet(pictures, keys, comparison.caption(shot, frame)))
 
 
 PASS = Pass(
     name="split",
     order=70,
-    help="The pictures of all runs in [[runs]] side by side, with names and time",
+    help="Split screen: the pictures of all [[runs]] side by side, with names and time",
     files=("png",),
     output="",
     filmed=True,

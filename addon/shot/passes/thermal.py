@@ -37,8 +37,8 @@ def finish(
     import numpy as np
     from firetwin_core import sensor
 
-    from ..settings import BANDS
-    from . import _bar
+    from ...imaging import colour_bar
+    from ..settings.settings import BANDS
 
     settings = shot.settings.thermal
     table = sensor.PlanckTable(BANDS[settings.band])
@@ -59,26 +59,26 @@ def finish(
     sensor.write_image(files["exr"], np.stack(list(channels.values()), axis=-1), about, list(channels))
     low, high = scale(shot, frame)
     shown = sensor.colour(channels["kelvin"], low, high, settings.palette, KNEE)
-    _bar.draw(shown, low, high, settings.palette, KNEE)
+    colour_bar.draw(shown, low, high, settings.palette, KNEE)
     sensor.write_image(files["png"], shown)
 
 
 def scale(shot: Shot, frame: int) -> tuple[float, float]:
     """Temperatures (K) at the cold and the hot end of the palette in a frame."""
-    from .. import temperature
-    from ..settings import BANDS
+    from .. import air_temperature
+    from ..settings.settings import BANDS
 
     low, high = shot.settings.render.thermal_low, shot.settings.render.thermal_high
     if low is None:
         band = BANDS[shot.settings.thermal.band]
-        low = min(temperature.coldest_ground(shot.run, shot.frames.time(frame), band), high - 1.0)
+        low = min(air_temperature.coldest_ground(shot.run, shot.frames.time(frame), band), high - 1.0)
     return low, high
 
 
 PASS = Pass(
     name="thermal",
     order=30,
-    help="Infrared radiance and brightness temperature, 32-bit EXR, and a picture of them",
+    help="Infrared radiance and brightness temperature, 32-bit EXR, and a PNG in palette colours",
     files=("exr", "png"),
     output="Image",
     leaves_out=("lamps",),
@@ -86,7 +86,7 @@ PASS = Pass(
     through_smoke=True,
     filmed=True,
     shows=frozenset(
-        {"time", "camera", "picture", "ground", "forest", "fire", "smoke", "light", "grain", "thermal"}
+        {"time", "camera", "picture", "terrain", "forest", "fire", "smoke", "light", "grain", "thermal"}
     ),
     finish=finish,
 )

@@ -26,19 +26,19 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     import numpy as np
     from firetwin_core import sensor
 
-    from .. import temperature
-    from ..ground import bilinear
-    from . import _view
+    from .. import air_temperature
+    from ..cameras import pixel_rays
+    from ..terrain.terrain import bilinear
 
     now = float(shot.frames.time(frame))
-    above, _ = temperature.warmth(shot.run, now - shot.averaged, now)
+    above, _ = air_temperature.warmth(shot.run, now - shot.averaged, now)
     planar = sensor.read_image(needed["depth"]["exr"])[..., 0]
-    point = _view.points(_view.of(shot, camera), frame, planar)
+    point = pixel_rays.points(pixel_rays.of(shot, camera), frame, planar)
     ground = np.isfinite(point).all(axis=-1)
     warmth = np.full(planar.shape, np.nan)
     if ground.any():
         latitude, longitude, _ = shot.local_frame.reverse(point[ground])
-        warmth[ground] = bilinear(above, *temperature.indices(shot.run, latitude, longitude))
+        warmth[ground] = bilinear(above, *air_temperature.indices(shot.run, latitude, longitude))
     rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
     sensor.write_image(files["png"], sensor.thermal_composite(rgb, warmth, *shot.warmest))
 
@@ -46,7 +46,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
 PASS = Pass(
     name="thermal_map",
     order=35,
-    help="The picture with colours of the model's mean temperature added",
+    help="Visible picture with the model's mean temperature added in colour",
     files=("png",),
     output="",
     filmed=True,

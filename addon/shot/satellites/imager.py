@@ -33,9 +33,10 @@ from firetwin_core import sensor
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from .. import burning, temperature
-from ..fire import Fire
-from ..ground import bilinear
+from .. import air_temperature
+from ..fire import burning
+from ..fire.fire import Fire
+from ..terrain.terrain import bilinear
 from .grid import Array, EvenGrid, FixedGrid, Grid, pixel_areas
 
 FIRE = 1000.0  # K
@@ -234,13 +235,13 @@ def _background(grid: Grid, fire: Fire, time: float, rows: NDArray, columns: NDA
     row = (rows[:, None] + inside).reshape(len(rows), 1, _PARTS, 1)
     column = (columns[:, None] + inside).reshape(1, len(columns), 1, _PARTS)
     latitude, longitude = grid.reverse(*np.broadcast_arrays(row, column))
-    kelvin = bilinear(temperature.at(run, time), *temperature.indices(run, latitude, longitude))
+    kelvin = bilinear(air_temperature.at(run, time), *air_temperature.indices(run, latitude, longitude))
     fuel_row, fuel_column = (
-        np.rint(temperature.index(axis, place)).astype(np.int64)
+        np.rint(air_temperature.index(axis, place)).astype(np.int64)
         for axis, place in ((run.fuel_latitude, latitude), (run.fuel_longitude, longitude))
     )
     age = time - fire.arrival[fuel_row, fuel_column]
-    kelvin = kelvin + temperature.cooling(
+    kelvin = kelvin + air_temperature.cooling(
         np.where(age > 0.0, age, 0.0), fire.residence[fuel_row, fuel_column]
     )
     return kelvin.reshape(len(rows), len(columns), -1)

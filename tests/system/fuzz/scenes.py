@@ -68,13 +68,13 @@ def serve(folder):
     channel = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)
     import bpy  # noqa: F401 (before the core)
-    from firetwin.jobs import setting
-    from firetwin.scene.smoke import bake
+    from firetwin.jobs import worker_scene
+    from firetwin.smoke import bake
 
     def build(shot):
         if shot.settings.smoke.enabled:
             bake.bake(shot)
-        setting.build_scene(shot, lambda *_: None, lambda _: None)
+        worker_scene.build_scene(shot, lambda *_: None, lambda _: None)
 
     os.chdir(folder)
     for asked in sys.stdin:

@@ -17,7 +17,7 @@ NAME = "bl_ext.user_default.firetwin"
 BUNDLED = ("firetwin_core", "astral", "tqdm", "tzdata")
 SCENE = """\
 run = "run"
-[ground]
+[terrain]
 near_radius = 0.0
 apron = 5000.0
 [forest]

@@ -1,4 +1,4 @@
-"""The artists' page, `examples/artists.md`, followed word by word, with its pictures.
+"""The artists' page, `docs/artists.md`, followed word by word, with its pictures.
 
 Every button, menu entry and panel that the page names stands in it in **bold**, everything to be typed in
 `code`: `Page.next` takes them in their order, so that page and session cannot say different things. What
@@ -18,7 +18,7 @@ from pathlib import Path
 import bpy
 from hands import FOLDER, alone, built, call, check, here, idle, picture, say, settings, soon, tab, ui, view
 
-PAGE = Path(__file__).parents[3] / "examples/artists.md"
+PAGE = Path(__file__).parents[3] / "docs/artists.md"
 _SIDEBAR, _WINDOW = "254x636+767+84", "1050x690+2+28"  # of the screen of 1280 x 800, with the usual sidebar
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from firetwin_core.run import Run
 
 from ....run import blocks, fuel_category, times
-from ....shot import biomes
+from ....shot import biome_names
 from ....shot.shot import Shot
 from ._biome import Biome, Colour, Land, OpenLand, Plants, Season, Species
 
@@ -60,7 +60,7 @@ class Here:
 @functools.cache
 def known() -> dict[str, Biome]:
     """Every biome by name."""
-    return {name: importlib.import_module(f".{name}", __name__).BIOME for name in biomes.names()}
+    return {name: importlib.import_module(f".{name}", __name__).BIOME for name in biome_names.names()}
 
 
 def of(shot: Shot) -> Here:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ....shot import noise
+from ....shot.terrain import noise
 
 Colour = tuple[float, float, float]
 Pair = tuple[Colour, Colour]  # the darkest and the lightest of a thing

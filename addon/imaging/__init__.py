@@ -1,0 +1,1 @@
+"""Pictures drawn from arrays: colour bar, sheet of panels, split screen."""

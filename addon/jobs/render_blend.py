@@ -1,0 +1,130 @@
+"""Render a .blend file as it stands, with all that was changed by hand, as `render` renders settings."""
+
+from __future__ import annotations
+
+import hashlib
+import itertools
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ..errors import Error
+from ..progress import Progress, Tell, count, share, silent, untold
+from ..shot.shot import Shot
+from ..shot.source import Choice
+from . import worker
+from .render import Asked, frames_of, make, smoky
+
+
+def run(
+    choice: Choice,
+    blend: Path,
+    scene: str,
+    asked: Asked,
+    progress: Progress = silent,
+    tell: Tell = untold,
+    stop: worker.Stop | None = None,
+) -> int:
+    """Render what is asked for of a scene in a .blend file, then the films: of the one run that it shows.
+
+    Parameters
+    ----------
+    choice
+        What the scene was built from: frames, passes, colours of thermal pictures and films are its.
+    asked
+        With `resume`, what was made of this very file is kept.
+
+    Returns
+    -------
+    How many pictures were made.
+    """
+    from ..render import plan
+    from ..render.store import Store
+    from ..shot import passes
+
+    shot = choice.shot()
+    planned = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
+    wanted = [each for each in planned if "@" not in each.camera and not passes.known()[each.name].compares]
+    with blend.open("rb") as file:
+        digest = hashlib.file_digest(file, "sha256").hexdigest()
+    made_with = _made_with(digest, wanted)
+    with Store(asked.out, create=True) as store:
+        before = 0 if asked.resume else store.number()
+        undone = plan.missing(store, wanted, made_with, before)
+        task = {
+            "choice": choice.plain(),
+            "blend": str(blend),
+            "scene": scene,
+            "made_with": [[*pair, values] for pair, values in made_with.items()],
+            "after": before,
+        }
+        tell(f"rendering {count(len(undone), 'picture')} of {blend.name} as it stands")
+        make(f"{__name__}:in_blender", task, undone, store, shot, progress, tell, stop)
+    return len(undone)
+
+
+def _made_with(digest: str, wanted: list[Any]) -> dict[tuple[str, str], dict[str, Any]]:
+    """What says of a picture that it is of this .blend file, by camera and pass."""
+    from ..render.fingerprint import versions
+    from ..shot import passes
+
+    pairs = {(p.camera, p.name) for p in wanted}
+    pairs |= {(camera, need) for camera, name in pairs for need in passes.known()[name].needs}
+    about = {"versions": versions(), "blend": digest}
+    return {(camera, name): {**about, "camera": camera, "pass": name} for camera, name in sorted(pairs)}
+
+
+def in_blender(
+    choice: dict[str, str],
+    blend: str,
+    scene: str,
+    out: str,
+    pictures: list[list[Any]],
+    made_with: list[list[Any]],
+    owner: str,
+    after: int,
+    progress: Progress,
+    tell: Tell,
+) -> None:
+    """Open the file and render these pictures of it, then films of these cameras and passes."""
+    import bpy
+
+    from ..blender import devices, owned
+    from ..render import engine, layers, sharing, video
+    from ..render import pictures as making_pictures
+    from ..render.picture import Picture
+    from ..smoke import prefetch
+
+    bpy.ops.wm.open_mainfile(filepath=blend, load_ui=False)
+    stage = owned.stage(bpy.data.scenes[scene])
+    layers.mend(stage.scene)
+    shot = _as_it_stands(Choice(**choice).shot(), stage.scene)
+    todo = [Picture(*picture) for picture in pictures]
+    if stage.scene.render.engine == "CYCLES":
+        tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
+    known = {(camera, name): values for camera, name, values in made_with}
+    frames, done = frames_of(todo), 0
+    with (
+        sharing.making(Path(out), known, owner, after) as making,
+        prefetch.smoke(shot, smoky(shot, todo), progress, tell) as ready,
+    ):
+        for camera, group in itertools.groupby(todo, key=lambda picture: picture.camera):
+            if stage.camera(camera) is None:
+                raise Error(f'the camera "{camera}" is not in the scene {scene}; build the cameras again')
+            wanted, alone = list(group), shot.of(camera)
+            engine.size(alone.settings, stage.scene)
+            part = share(progress, done, frames, "rendering")
+            making_pictures.render(alone, stage, making, wanted, part, ready, tell)
+            done += frames_of(wanted)
+        video.make(shot, making, progress)
+
+
+def _as_it_stands(shot: Shot, scene: Any) -> Shot:
+    """The shot with the scene's engine and size of pictures, those of two eyes one above the other."""
+    render, part = scene.render, scene.render.resolution_percentage / 100.0
+    sides = render.resolution_x, render.resolution_y * (2 if render.use_multiview else 1)
+    size = tuple(2 * max(round(side * part / 2), 8) for side in sides)
+    engine = "cycles" if render.engine == "CYCLES" else "eevee"
+    settings = shot.settings
+    as_drawn = replace(settings.render, resolution=size, engine=engine)
+    return Shot(replace(settings, render=as_drawn), shot.run)

@@ -1,0 +1,179 @@
+"""A run of models that give one map of arrival times: its heat flux is made here."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from datetime import datetime
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import Error, input_error
+from . import fuels, heat_from_intensity
+from .companion_rasters import Land
+from .given_wind import Wind
+from .grid import Grid
+from .model import Model, Moving, Options
+
+
+@dataclass
+class Maps:
+    """What the files say, on one grid.
+
+    Attributes
+    ----------
+    arrival
+        (ny, nx) s since the start, NaN where never.
+    intensity, speed, per_area
+        W/m, m/s and J/m2 where the fire came; None: not said.
+    surface, canopy, elevation, category
+        kg/m2, kg/m2, m and numbers of fuel models; None: what lies beside says it.
+    wind
+        m/s along columns and rows at a time (s); None: not said.
+    """
+
+    arrival: NDArray
+    intensity: NDArray | None = None
+    speed: NDArray | None = None
+    per_area: NDArray | None = None
+    surface: NDArray | None = None
+    canopy: NDArray | None = None
+    elevation: NDArray | None = None
+    category: NDArray | None = None
+    wind: Wind | None = None
+
+
+def model(
+    maps: Maps, grid: Grid, land: Land, options: Options, source: str, files: list[Path], told: list[str]
+) -> Model:
+    """A run of these maps; the start is the option's (`begun`)."""
+    if maps.arrival.shape != grid.shape:
+        raise input_error(files[0], 0, 0, f"has arrival times {maps.arrival.shape} on a grid of {grid.shape}")
+    for name in ("intensity", "speed", "per_area"):
+        values = getattr(maps, name)
+        if values is not None and values.shape != grid.shape:
+            raise input_error(files[0], 0, 0, f"has {name} {values.shape} on a grid of {grid.shape}")
+    fuel = _fuel(maps, grid, land, options.projection, told)
+    category = fuel.category
+    lasts = fuels.burn_out(category if category is not None else np.full(grid.shape, np.nan))
+    told.append("heat flux is made of fuel and arrival: all surface and canopy fuel burns, at 17.433 MJ/kg")
+    told.append(
+        "a spot's heat comes out at a rate that falls evenly to 0 at three mean burning times of its fuel"
+    )
+    try:
+        release = heat_from_intensity.Release.of(
+            maps.arrival, heat_from_intensity.of_fuel(fuel.surface + fuel.canopy), lasts, options.interval
+        )
+    except Error as error:
+        raise input_error(files[0], 0, 0, str(error)) from None
+    kept = {} if category is None else {"fuel_category": lambda: category}
+    ground = maps.elevation if maps.elevation is not None else land.elevation(grid, options.projection)
+    return Model(
+        source=source,
+        name=f"{source} run",
+        start=begun(options, files[0]),
+        times=release.times,
+        grid=grid,
+        fuel_grid=grid,
+        still={
+            "elevation": lambda: ground,
+            "surface_fuel": lambda: fuel.surface,
+            "canopy_fuel": lambda: fuel.canopy,
+            "fuel_arrival_time": lambda: maps.arrival,
+            **kept,
+        },
+        moving={"heat_flux": release.flux, **_blowing(maps.wind, grid, release.times)},
+        files=files,
+        projection=options.projection,
+        assumptions=told + land.assumptions,
+    )
+
+
+def _blowing(wind: Wind | None, grid: Grid, times: NDArray[np.float64]) -> dict[str, Moving]:
+    """The fields of a run for a wind."""
+    if wind is None:
+        return {}
+
+    def along(axis: int, index: int) -> NDArray:
+        return np.broadcast_to(grid.east_north(*wind(float(times[index])))[axis], grid.shape)
+
+    return {name: partial(along, axis) for axis, name in enumerate(("wind_east", "wind_north"))}
+
+
+def begun(options: Options, path: Path) -> datetime:
+    """The moment that times count from, which only the user knows.
+
+    Raises
+    ------
+    InputError
+        `--start` is not given.
+    """
+    if options.start is None:
+        reason = "does not say when the fire began; say it: --start 2014-09-17T04:45:00Z"
+        raise input_error(path, 0, 0, reason)
+    return options.start
+
+
+def with_start(options: Options, start: datetime) -> Options:
+    """The same options, of a start that files say, unless the user says one."""
+    return options if options.start else replace(options, start=start)
+
+
+@dataclass(frozen=True)
+class _Fuel:
+    """kg/m2 and numbers of fuel models of each cell; None: nothing says the numbers."""
+
+    surface: NDArray
+    canopy: NDArray
+    category: NDArray | None
+
+
+def _fuel(maps: Maps, grid: Grid, land: Land, projection: str, told: list[str]) -> _Fuel:
+    """What the maps or what lies beside say; else by the model's heat per area, else the same everywhere."""
+    category = maps.category if maps.category is not None else land.category(grid, projection)
+    canopy = np.nan_to_num(maps.canopy if maps.canopy is not None else land.canopy(grid, projection))
+    burned, own = np.isfinite(maps.arrival), _own_heat(maps, grid, told)
+    by_heat = None if own is None else np.maximum(own / fuels.HEAT - canopy, 0.0)
+    if maps.surface is not None:
+        surface, known = np.nan_to_num(maps.surface), np.isfinite(maps.surface)
+    elif category is not None:
+        surface = fuels.loads(category) if maps.category is not None else land.surface(grid, projection)
+        known = np.isfinite(category)
+    elif by_heat is not None:
+        told.append("surface fuel is heat per area over 17.433 MJ/kg where it burned, their mean elsewhere")
+        surface = np.where(burned, by_heat, by_heat[burned].mean() if burned.any() else 0.0)
+        return _Fuel(surface.astype(np.float32), canopy, None)
+    else:
+        return _Fuel(land.surface(grid, projection), canopy, None)
+    lacks = burned & ~known
+    if by_heat is not None and lacks.any():
+        told.append(
+            f"{lacks.sum():,} burned cells of no known fuel have it by heat per area over 17.433 MJ/kg"
+        )
+        surface = np.where(lacks, by_heat, surface)
+    _compare(own, (surface + canopy)[burned], burned, told)
+    return _Fuel(surface.astype(np.float32), canopy, category)
+
+
+def _own_heat(maps: Maps, grid: Grid, told: list[str]) -> NDArray | None:
+    """The model's heat per area (J/m2), no more than of the heaviest fuel; None: it says none."""
+    if maps.per_area is not None:
+        heats = np.nan_to_num(np.asarray(maps.per_area, np.float64))
+        return np.minimum(heats, fuels.HEAT * fuels.HEAVIEST)
+    if maps.intensity is None:
+        return None
+    whence = ", by the time of arrival at the neighbours that it came from" if maps.speed is None else ""
+    told.append(f"heat per area is fireline intensity over rate of spread{whence}")
+    return heat_from_intensity.of_intensity(maps.arrival, maps.intensity, maps.speed, grid.cell)
+
+
+def _compare(own: NDArray | None, load: NDArray, burned: NDArray, told: list[str]) -> None:
+    """Say how the model's own heat compares with the fuel's, which is what the run releases."""
+    total = float(heat_from_intensity.of_fuel(load).sum())
+    if own is not None and total > 0:
+        told.append(f"the model's heat per area is {float(own[burned].sum()) / total:.3g} times its fuel's")
+    without = int((load <= 0).sum())
+    if without:
+        told.append(f"{without:,} burned cells have no fuel on the map and release no heat")

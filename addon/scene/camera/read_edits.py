@@ -1,0 +1,263 @@
+"""What an artist did to camera objects, and back into the settings: pose, lens, name."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import bpy
+import numpy as np
+from firetwin_core import geo
+from mathutils import Euler, Matrix, Quaternion
+from numpy.typing import NDArray
+
+from ...blender import compat, owned
+from ...blender.owned import Stage
+from ...shot.cameras import rotation as turning
+from ...shot.cameras import sparse_keys
+from ...shot.cameras.rigs import _lens, poses
+from ...shot.settings.settings import Camera
+from . import edit_detection, ground_raycast
+
+_PLACE = "firetwin_place"  # of the root: latitude and longitude of the scene's origin
+_PIXEL = 0.25  # how far a picture may be off between poses; at keys that people set it is not
+_LEAST = 0.02  # m that a camera may be off in any case
+_PREFIX = f"{owned.ROOT} Camera "
+
+
+def place(stage: Stage, frame: geo.LocalFrame) -> None:
+    """Keep where on the Earth the scene's origin is."""
+    stage.root[_PLACE] = [frame.latitude, frame.longitude]
+
+
+def local_frame(stage: Stage) -> geo.LocalFrame | None:
+    """East, north and up of the scene; None before cameras are built."""
+    where = stage.root.get(_PLACE)
+    return None if where is None else geo.LocalFrame(*where, 0.0)
+
+
+def rigged(thing: bpy.types.Object) -> bool:
+    """Whether something of an artist's moves an object: then its own place and turn are left alone."""
+    data = thing.animation_data
+    return bool(
+        thing.parent
+        or any(not each.mute for each in thing.constraints)
+        or any((*thing.delta_location, *thing.delta_rotation_euler))
+        or (data is not None and (data.drivers or data.nla_tracks))
+    )
+
+
+@dataclass(frozen=True)
+class Flown:
+    """What a camera object does in every frame of the shot.
+
+    Attributes
+    ----------
+    place, rotation
+        (frames, 3) m and (frames, 3, 3), columns right, up and back, in the scene.
+    lens
+        (frames,) focal length, mm.
+    sensor
+        Width of the chip that pictures are as wide as, mm.
+    keyed
+        Frames, from 0, that the artist set keys at.
+    """
+
+    place: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    lens: NDArray[np.float64]
+    sensor: float
+    keyed: tuple[int, ...]
+
+
+def flown(scene: bpy.types.Scene, thing: bpy.types.Object, frames: int, size: tuple[int, int]) -> Flown:
+    """Where the object is in each frame, whatever moves it.
+
+    Parameters
+    ----------
+    size
+        Width and height of its pictures, pixels.
+    """
+    place, quaternion = _through_frames(scene, thing, frames) if rigged(thing) else _by_curves(thing, frames)
+    (lens,) = _curves(thing.data, "lens", frames).T
+    return Flown(place, turning.matrices(quaternion), lens, _sensor(thing.data, size), _keyed(thing, frames))
+
+
+def _by_curves(thing: bpy.types.Object, frames: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Places (frames, 3) and quaternions (frames, 4) of an object that nothing but its own curves moves."""
+    place = _curves(thing, "location", frames)
+    if thing.rotation_mode == "QUATERNION":
+        return place, _curves(thing, "rotation_quaternion", frames)
+    if thing.rotation_mode == "AXIS_ANGLE":
+        turns = (Quaternion(row[1:], row[0]) for row in _curves(thing, "rotation_axis_angle", frames))
+    else:
+        rows = _curves(thing, "rotation_euler", frames)
+        turns = (Euler(row, thing.rotation_mode).to_quaternion() for row in rows)
+    return place, np.array([tuple(turn) for turn in turns], np.float64)
+
+
+def _curves(block: bpy.types.ID, name: str, frames: int) -> NDArray[np.float64]:
+    """A property of a data-block in every frame (frames, channels)."""
+    still = np.atleast_1d(np.array(getattr(block, name), np.float64))
+    found = np.repeat(still[None], frames, axis=0)
+    for curve in compat.fcurves(block):
+        if curve.data_path == name and not curve.mute:
+            found[:, curve.array_index] = [curve.evaluate(frame) for frame in range(1, frames + 1)]
+    return found
+
+
+def _through_frames(
+    scene: bpy.types.Scene, thing: bpy.types.Object, frames: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Places (frames, 3) and quaternions (frames, 4) of an object on which something else acts."""
+    before, layer = (scene.frame_current, scene.frame_subframe), scene.view_layers[0]
+    found = []
+    try:
+        for frame in range(1, frames + 1):
+            scene.frame_set(frame)
+            found.append(pose_of(thing.evaluated_get(layer.depsgraph).matrix_world))
+    finally:
+        scene.frame_set(before[0], subframe=before[1])
+    place, turn = (np.array(column) for column in zip(*found, strict=True))
+    return place, turning.quaternions(turn)
+
+
+def _keyed(thing: bpy.types.Object, frames: int) -> tuple[int, ...]:
+    curves = (*compat.fcurves(thing), *compat.fcurves(thing.data))
+    found = {round(point.co[0]) - 1 for curve in curves for point in curve.keyframe_points}
+    return tuple(sorted(frame for frame in found if 0 <= frame < frames))
+
+
+def _sensor(data: bpy.types.Camera, size: tuple[int, int]) -> float:
+    """Width of the chip (mm) with which this focal length shows as much from left to right."""
+    width, height = size
+    if data.sensor_fit == "VERTICAL":
+        return data.sensor_height * width / height
+    if data.sensor_fit == "AUTO" and height > width:
+        return data.sensor_width * width / height
+    return data.sensor_width
+
+
+def poses_of(seen: Flown, frame: geo.LocalFrame, width: int, near: float = 0.0) -> poses.Poses:
+    """The kind of camera that goes as a camera object was seen to go, in as few poses as that allows.
+
+    Parameters
+    ----------
+    width
+        Of its pictures, pixels.
+    near
+        How far away the nearest ground is, m: what it may be off hangs on that.
+    """
+    pixel = seen.sensor / seen.lens.max() / width
+    values = np.hstack(
+        [
+            seen.place / max(_PIXEL * pixel * near, _LEAST),
+            turning.quaternions(seen.rotation) / (0.5 * _PIXEL * pixel),  # half the angle is in them
+            np.log(seen.lens)[:, None] / (_PIXEL * 2.0 / width),
+        ]
+    )
+    still = np.ptp(values, axis=0).max() < 0.1
+    kept = np.zeros(1, np.int64) if still else sparse_keys.fit(values, 1.0, seen.keyed)
+    at = kept / max(len(seen.lens) - 1, 1)
+    lens = np.array([_short(each) for each in seen.lens[kept]])
+    keys = poses.keyed(frame, at, seen.place[kept], seen.rotation[kept], lens)
+    return poses.Poses(_short(seen.lens[0]), _short(seen.sensor), keys)
+
+
+def _short(value: float) -> float:
+    """The shortest number that is the same float32: 17.3, not 17.299999237."""
+    return float(str(np.float32(value)))
+
+
+def pull(
+    scene: bpy.types.Scene,
+    cameras: Sequence[Camera],
+    size: tuple[int, int],
+    frames: int,
+    tell: Callable[[str], None] = lambda text: None,
+) -> tuple[Camera, ...]:
+    """The cameras of the settings with what an artist did to their objects in a scene.
+
+    Parameters
+    ----------
+    size
+        Width and height of pictures whose camera does not say it.
+    frames
+        Of the shot.
+    tell
+        Is given what settings cannot say.
+    """
+    found = list(cameras)
+    if not owned.built(scene):
+        return tuple(found)
+    stage = owned.stage(scene)
+    frame, taken = local_frame(stage), {each.name for each in cameras}
+    for i, before in enumerate(cameras):
+        thing = stage.camera(before.name)
+        if (
+            frame is None
+            or thing is None
+            or thing.type != "CAMERA"
+            or not (what := edit_detection.changed(thing))
+        ):
+            continue
+        name = _name(thing.name, before.name, taken - {before.name}) if "name" in what else before.name
+        taken.add(name)
+        found[i], words = _pulled(stage, thing, replace(found[i], name=name), what, frames, size)
+        owned.mark(thing, f"camera {name}")
+        found = [_following(each, before.name, name) for each in found]
+        if words:
+            tell(f'camera "{name}": {words}')
+        else:
+            edit_detection.remember(thing)
+    return tuple(found)
+
+
+def _pulled(
+    stage: Stage,
+    thing: bpy.types.Object,
+    before: Camera,
+    what: set[str],
+    frames: int,
+    size: tuple[int, int],
+) -> tuple[Camera, str]:
+    """The camera with what was changed, and what cannot be said."""
+    data, size = thing.data, before.resolution or size
+    if not what & {"pose", "lens"}:
+        return before, ""
+    if data.type == "ORTHO" and "pose" not in what and hasattr(before.rig, "swath"):
+        return replace(before, rig=replace(before.rig, swath=_short(data.ortho_scale))), ""
+    if data.type != "PERSP":
+        return before, f"a scene file cannot say how a camera of type {data.type.lower()} was changed by hand"
+    words = "a scene file knows no shift of the lens" if data.shift_x or data.shift_y else ""
+    still = data.animation_data is None and not isinstance(before.rig, poses.Poses)
+    if what & {"pose", "lens"} == {"lens"} and still and isinstance(before.rig, _lens.Lens):
+        lens = {"focal_length": _short(data.lens), "sensor_width": _short(_sensor(data, size))}
+        return replace(before, rig=replace(before.rig, **lens)), words
+    seen = flown(stage.scene, thing, frames, size)
+    near = 0.5 * ground_raycast.height(stage, seen.place[:: max(len(seen.place) // 50, 1)])
+    rig = poses_of(seen, local_frame(stage), size[0], near)
+    return replace(before, rig=rig), words
+
+
+def _following(camera: Camera, old: str, new: str) -> Camera:
+    """A camera that follows one that was renamed."""
+    if old == new or getattr(camera.rig, "follows", None) != old:
+        return camera
+    return replace(camera, rig=replace(camera.rig, follows=new))
+
+
+def _name(text: str, before: str, taken: set[str]) -> str:
+    """A camera's name that an object's name gives: letters, digits, - and _, and no other camera's."""
+    given = re.sub(r"[^A-Za-z0-9_-]+", "-", text.removeprefix(_PREFIX)).strip("-_") or before
+    found, number = given, 2
+    while found in taken:
+        found, number = f"{given}-{number}", number + 1
+    return found
+
+
+def pose_of(matrix: Matrix) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Place (3,) and matrix (3, 3) of a Blender matrix, without scale."""
+    found = np.array(matrix, np.float64)
+    return found[:3, 3], found[:3, :3] / np.linalg.norm(found[:3, :3], axis=0)

@@ -1,0 +1,135 @@
+"""What lies and grows on the forest's floor: logs, rocks, tufts of grass, fallen twigs and burned brush.
+
+Models are a metre tall, as trees are; a log's height is its thickness. Shapes and numbers are chosen by eye.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .branching import grown
+from .habit import Habit
+from .shape import BARK, FOLIAGE, Array, Shape
+
+_DEAD_WOOD = (0.085, 0.068, 0.052)  # weathered
+_STRAW = (0.150, 0.118, 0.058)
+_STONE = (0.16, 0.155, 0.145)
+_TURNS = (4, 3, 2, 1)  # of level 0 to 3: how often a rock's faces are split
+_GOLDEN = 2.399963  # rad
+
+
+def log(seed: int, level: int) -> Shape:
+    """A fallen trunk along x, 12 to 20 times as long as thick, a little crooked, with stubs of branches."""
+    random, shape = np.random.default_rng(seed), Shape()
+    length, sides = random.uniform(12.0, 20.0), (11, 9, 7, 5)[level]
+    at = np.linspace(-0.5, 0.5, (9, 7, 5, 3)[level]) * length
+    thick = 0.5 - 0.20 * (at / length + 0.5) + 0.03 * np.sin(5.0 * at / length + seed)
+    ends = np.array([at[0] - 0.02, *at, at[-1] + 0.02])  # closed by rings without width
+    bend = 0.35 * np.sin(2.2 * ends / length + random.uniform(0.0, 6.0))
+    up = np.interp(ends, at, thick) - 0.10 + 0.05 * np.cos(3.0 * ends / length)
+    way = np.stack([ends, bend, up], axis=-1)
+    shape.limbs(way[None], np.array([[0.01, *thick, 0.01]]), sides, _DEAD_WOOD)
+    if level < 3:
+        n = (14, 10, 6)[level]
+        foot = random.uniform(-0.45, 0.45, n) * length
+        turn = random.uniform(0.1, np.pi - 0.1, n)  # none goes into the ground
+        ahead = np.stack([0.4 * np.ones(n), np.cos(turn), np.sin(turn)], axis=-1)
+        root = np.stack([foot, np.interp(foot, ends, bend), np.interp(foot, ends, up)], axis=-1)
+        reach = random.uniform(0.6, 2.0, (n, 1, 1))
+        shape.limbs(
+            root[:, None] + ahead[:, None] * reach * np.array([0.2, 1.0])[None, :, None],
+            np.broadcast_to([0.07, 0.03], (n, 2)),
+            3,
+            _DEAD_WOOD,
+        )
+    return shape
+
+
+def rock(seed: int, level: int) -> Shape:
+    """A boulder: a ball cut by planes, as joints cut granite; a quarter of it is in the ground."""
+    random, shape = np.random.default_rng(seed), Shape()
+    points, faces = _ball(_TURNS[level])
+    cuts = random.normal(0.0, 1.0, (9, 3))
+    cuts /= np.linalg.norm(cuts, axis=1, keepdims=True)
+    depth = random.uniform(0.55, 0.85, 9)
+    waves = random.normal(0.0, 2.2, (6, 3))
+    lumps = np.sin(points @ waves.T + random.uniform(0.0, 6.0, 6)).sum(1)
+    points = points * (1.0 + 0.035 * lumps)[:, None]
+    for normal, limit in zip(cuts, depth, strict=True):
+        over = np.maximum(points @ normal - limit, 0.0)
+        points = points - 0.85 * over[:, None] * normal
+    points *= random.uniform([0.8, 0.6, 0.5], [1.2, 1.0, 0.75])
+    low, high = points[:, 2].min(), points[:, 2].max()
+    points[:, 2] -= low + 0.25 * (high - low)
+    shape.add(points, faces, BARK, _STONE)
+    return shape.scaled(float(points[:, 2].max()))
+
+
+def tuft(seed: int, level: int, burned: bool = False) -> Shape:
+    """A bunch of dry grass; burned, its black stubble."""
+    random, shape = np.random.default_rng(seed), Shape()
+    n, wider = ((70, 1.0), (48, 1.3), (24, 1.9), (10, 3.0))[level]
+    angle = _GOLDEN * np.arange(n) + random.normal(0.0, 0.3, n)
+    out = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=-1)
+    tall = random.uniform(0.45, 1.0, (n, 1)) * (0.22 if burned else 1.0)
+    lean = random.uniform(0.1, 0.8, (n, 1)) * tall
+    foot = out * random.uniform(0.02, 0.22, (n, 1))
+    side = np.cross(out, [0.0, 0.0, 1.0]) * (0.016 * wider) * random.uniform(0.7, 1.3, (n, 1))
+    rise = np.array([0.0, 0.0, 1.0])
+    middle = foot + 0.35 * lean * out + 0.6 * tall * rise
+    points = np.stack([foot - side, foot + side, middle + side, middle - side], axis=1)
+    tip = foot + lean * out + tall * (1.0 - 0.25 * lean) * rise
+    points = np.concatenate([points, tip[:, None]], axis=1)
+    faces = (np.arange(n)[:, None, None] * 5 + np.array([(0, 1, 2), (0, 2, 3), (3, 2, 4)])).reshape(-1, 3)
+    colour = np.array(_STRAW) * random.uniform(0.6, 1.3, (n, 1))
+    shape.add(points.reshape(-1, 3), faces, FOLIAGE, np.repeat(colour, 5, axis=0))
+    return shape.scaled(1.0 if burned else float(tip[:, 2].max()))
+
+
+def stubble(seed: int, level: int) -> Shape:
+    """What fire leaves of a tuft."""
+    return tuft(seed, level, burned=True)
+
+
+def twigs(seed: int, level: int) -> Shape:
+    """Fallen twigs and small branches, eight times as wide as tall."""
+    random, shape, n = np.random.default_rng(seed), Shape(), (26, 20, 12, 6)[level]
+    angle = random.uniform(0.0, 2.0 * np.pi, n)
+    middle = np.column_stack([random.normal(0.0, 1.9, (n, 2)), random.uniform(0.02, 0.3, n)])
+    half = np.stack([np.cos(angle), np.sin(angle), random.uniform(0.0, 0.25, n)], axis=-1)
+    half = half * random.lognormal(0.1, 0.5, (n, 1))
+    bend = random.normal(0.0, 0.12, (n, 3)) * [1.0, 1.0, 0.3]
+    way = np.stack([middle - half, middle + bend, middle + half], axis=1)
+    way[..., 2] = np.maximum(way[..., 2], 0.0)
+    thick = random.uniform(0.05, 0.14, (n, 1)) * (26.0 / n) ** 0.5 * np.array([1.0, 0.8, 0.5])
+    shape.limbs(way, thick, 3, _DEAD_WOOD)
+    return shape.scaled(float(way[..., 2].max() + 0.05))
+
+
+def burned_brush(habit: Habit, seed: int, level: int) -> Shape:
+    """What fire leaves of a bush: its black stems."""
+    limbs, leaves = grown(habit, seed)
+    shape, height = Shape(), float(leaves.corners()[..., 2].max())
+    kept = np.arange(0, len(limbs.root), (1, 1, 2, 4)[level])
+    steps = np.broadcast_to([0.0, 0.45, 0.85], (len(limbs.root), 3))
+    thick = (0.012 + 0.010 * limbs.length[:, None]) * (1.1 - steps) * (1.0, 1.0, 1.5, 2.5)[level]
+    shape.limbs(limbs.at(steps)[kept], thick[kept], 3 if level < 2 else 2, habit.wood)
+    return shape.scaled(height)
+
+
+def _ball(turns: int) -> tuple[Array, NDArray[np.int64]]:
+    """Points (n, 3) and triangles (m, 3) of a ball: an octahedron, its faces split so often in four."""
+    points = np.array([(1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, -1, 0), (0, 0, -1)], float)
+    a, b, c, d, e, f = range(6)
+    faces = np.array([(a, b, c), (b, d, c), (d, e, c), (e, a, c), (b, a, f), (d, b, f), (e, d, f), (a, e, f)])
+    for _ in range(turns):
+        edges = np.sort(faces[:, [(0, 1), (1, 2), (2, 0)]].reshape(-1, 2), axis=1)
+        known, number = np.unique(edges, axis=0, return_inverse=True)
+        middle = points[known].sum(axis=1)
+        x, y, z = (number.reshape(-1, 3) + len(points)).T
+        points = np.concatenate([points, middle / np.linalg.norm(middle, axis=1, keepdims=True)])
+        i, j, k = faces.T
+        parts = ((i, x, z), (x, j, y), (z, y, k), (x, y, z))
+        faces = np.concatenate([np.stack(each, axis=-1) for each in parts])
+    return points, faces

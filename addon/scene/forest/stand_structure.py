@@ -1,0 +1,95 @@
+"""How a stand is uneven: its ragged edges, its gaps, trees alone beyond it, and patches of trees alike.
+
+A fuel cell says how much grows in it, not where. Sierra forests of mixed conifers are clumps and openings
+(Larson and Churchill 2012, Forest Ecology and Management 267:74-92), and end in ragged edges with single
+trees beyond them; sizes and shares here are chosen by eye. Edges stand on average where the cells' do.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...shot.shot import Shot
+from ...shot.terrain import land_use, noise
+from ...shot.terrain.terrain import bilinear, box, widened
+from . import biomes, cover, field_lines
+
+LONE_FUEL = 0.02  # kg/m2; stands for the trees of cells without canopy fuel: 57 stems a hectare, up to 15 m
+_FULL = 0.06  # part of the ground that all of these cover (half-grown oaks; assumed)
+_GROUPED, _HOLLOW = 4.0, 1.2  # how much denser they are in groups and hollows; by eye
+_MEAN = 1.6  # of the logarithm of that, so that the mean is 1: half its variance
+_ALONG, _AMID = 14.0, 0.25  # times as dense are trees along hedges and draws, and amid fields; by eye
+_BESIDE = 0.35  # the same of trees that stand beside draws
+_BARE = 0.5  # part of the ground without fuel from which on nothing stands there
+_SEED = 6  # cells; so far from others trees stand alone
+_LONE = 0.5  # part of these that is there in their clumps
+_EDGE, _RAGGED = 38.0, 0.6  # m, size of an edge's bays; how far they reach, cells
+_GAP, _OPEN = 62.0, 0.88  # m, size of gaps; part of their trees that is missing
+
+Array = NDArray[np.float64]
+
+
+def with_lone(
+    shot: Shot, fuel: NDArray, row: Array, column: Array, where: NDArray[np.bool_]
+) -> NDArray[np.float32]:
+    """Canopy fuel (fy, fx) of cells at rows (fy,) and columns (fx,) of the ground, with that of lone trees.
+
+    They stand within `_SEED` cells of others, or everywhere where the biome has them everywhere, and not in
+    lakes or where the fuel is unknown; known they are in the chosen cells (fy, fx) and the ones beside these.
+    """
+    fuel = fuel.astype(np.float32)
+    inside = box(where, more=1 + _SEED)
+    if inside is None:
+        return fuel
+    part = fuel[inside]
+    lines = [np.round(at[along]).astype(int) for at, along in zip((row, column), inside, strict=True)]
+    dry = shot.ground.water[np.ix_(*lines)] < 0.5
+    if biomes.of(shot).biome.species:
+        near = shot.ground.bare[np.ix_(*lines)] < _BARE
+    else:
+        near = widened(part > LONE_FUEL, _SEED)
+    part[(part <= LONE_FUEL) & dry & near] = LONE_FUEL
+    return fuel
+
+
+def kept(shot: Shot, position: Array) -> Array:
+    """Part (n,) 0..1 of the stems at places (n, 3) that stand."""
+    ground, seed = shot.ground, shot.settings.seed
+    x, y = position[:, 0], position[:, 1]
+    row, column = ground.under(position)
+    empty = bilinear((ground.fields.canopy_fuel <= LONE_FUEL).astype(np.float64), row, column)
+    wet = bilinear(ground.water, row, column)
+    bays = noise.fractal(x, y, _EDGE, 2, seed + 410)
+    gaps = noise.fractal(x, y, _GAP, 2, seed + 420)
+    stand = noise.smoothstep(0.70, 0.30, empty + _RAGGED * bays)
+    stand = stand * (1.0 - _OPEN * noise.smoothstep(0.38, 0.60, gaps))
+    lone = _LONE * noise.smoothstep(-0.1, 0.5, bays) * (empty > 0.0)
+    if (biome := biomes.of(shot).biome).species:
+        lone = _scattered(shot, biome.tree_cover, position) * (empty > 0.0)
+    if shot.settings.terrain.land_use is not None:
+        wet = np.where(land_use.keeps_out(shot, position), 1.0, wet)
+    return np.maximum(stand, lone) * (wet < 0.3)
+
+
+def _scattered(shot: Shot, part: float, position: Array) -> Array:
+    """Part (n,) of the trees of open land that stand so that `part` of it is under them, most in hollows."""
+    x, y = position[:, :2].T
+    groups = noise.fractal(x, y, 4.0 * _GAP, 3, shot.settings.seed + 430)
+    hollow = bilinear(cover.hollows(shot.ground), *shot.ground.under(position))
+    found = part / _FULL * np.exp(_GROUPED * groups + _HOLLOW * hollow - _MEAN)
+    land = biomes.of(shot).biome.open_land
+    if land is not None and land.draws:
+        found = found * (_BESIDE + (_ALONG - _BESIDE) * cover.draws(land, position))
+    if land is not None and land.hedge > 0.0:
+        off = field_lines.fields(field_lines.NUMPY, x, y, land.field)[0]
+        found = np.where(off < land.hedge, _ALONG, _AMID) * found
+        found[land_use.mapped(shot, position)] = 0.0
+    return found
+
+
+def alike(position: Array, size: float, chance: Array, seed: int) -> Array:
+    """Numbers (n,) spread over 0..1 about as evenly as `chance` (n,), but alike in patches of `size` m."""
+    patch = noise.fractal(position[:, 0], position[:, 1], size, 2, seed) / 0.4
+    own = np.log(np.maximum(chance, 1.0e-6) / np.maximum(1.0 - chance, 1.0e-6))
+    return 1.0 / (1.0 + np.exp(-0.8 * 1.702 * patch - 0.6 * own))

@@ -1,0 +1,32 @@
+"""Materials of labels: even light for letters, darkness for their rim, both clear as they fade."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ...blender import nodes
+from ...shot.light import exposure
+from ...shot.shot import Shot
+
+FADE = "fade"
+COLOURS = {"Letters": (0.95, 0.95, 0.92), "Rim": (0.004, 0.004, 0.005)}
+_LIGHT = 4.0  # radiance of white at exposure 0, which AgX shows nearly white
+_SOLID = 0.999  # part of letters that hides; what is all solid would be a surface to depth
+_CLEAR = 0.15  # part of the rim that one sees through
+
+
+def build(shot: Shot, name: str, colour: tuple[float, float, float]) -> bpy.types.Material:
+    """Build "Firetwin Labels <name>", as bright in a picture by night as by day."""
+    material, tree = nodes.material(f"Firetwin Labels {name}", colour)
+    stops = float(exposure.at(shot, np.array([0.5 * (1 + shot.frames.count)]))[0])
+    shown = tree.input("Colour", colour, "As it shows in the picture", "Label")
+    bright = tree.input("Brightness", _LIGHT * 2.0**-stops, "Against the exposure of the picture", "Label")
+    solid = _SOLID if name == "Letters" else 1.0 - _CLEAR
+    part = tree.attribute(FADE, "INSTANCER") * solid
+    nodes.flames(tree, tree.separate(shown)[0] * bright * part, 0.0, 0.0)  # smoke is before or behind them
+    left = 1.0 - part  # a sum, not a mix of shaders, of which rays would choose one: that is grain
+    clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(left, left, left)})
+    tree.surface(tree.add_shader(tree.emission(shown, bright * part), clear))
+    material.cycles.emission_sampling = "NONE"
+    return material

@@ -1,0 +1,69 @@
+"""The ground: one continuous mesh, as fine as cameras see it, with its fields as images."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from firetwin_core import terrain
+from numpy.typing import NDArray
+
+from ...blender import owned
+from ...blender.owned import Stage
+from ...shot.shot import Shot
+from ...shot.terrain import mesh_tolerance
+from ..forest.stand import Stand
+from . import buildings, fields, material, solid_view
+
+Shape = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]
+
+
+def build(shot: Shot, stage: Stage, grown: Stand | None, shaped: Shape | None = None) -> bpy.types.Object:
+    """Build "Firetwin Ground", of its `shape` where that is known.
+
+    Its mesh carries point attributes: `elevation` (m) and `grid`, where each point is in the images of the
+    ground's fields (see `fields`); and `solid_view`, its colours in Blender's solid view.
+    """
+    collection, ground = stage.part("Terrain"), shot.ground
+    row, column, triangles = shaped or shape(shot)
+    latitude, longitude = ground.places(row, column)
+    coarse = ground.frame.forward(latitude, longitude, ground.height(row, column))
+    height = ground.height(row, column, ground.detail(*coarse.T))
+    data = bpy.data.meshes.new("Firetwin Ground")
+    _fill(data, ground.frame.forward(latitude, longitude, height), triangles)
+    data.attributes.new("elevation", "FLOAT", "POINT").data.foreach_set("value", height.astype(np.float32))
+    place = fields.place(ground.shape, row, column, ground.fields.margin)
+    data.attributes.new(fields.GRID, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", place.ravel())
+    solid_view.paint(shot, data, row, column)
+    data.materials.append(
+        material.build(shot, stage, fields.images(shot, grown), fields.photos(shot), fields.maps(shot))
+    )
+    buildings.build(shot, stage)
+    return owned.add(collection, "Ground", data)
+
+
+def shape(shot: Shot) -> Shape:
+    """Vertices by fractional row and column (n,), and triangles (m, 3): no finer than cameras can tell."""
+    ground, wanted = shot.ground, mesh_tolerance.wanted(shot)
+    return terrain.mesh(
+        wanted.place,
+        wanted.tolerance,
+        wanted.fine,
+        ground.surface,
+        ground.eyes,
+        ground.near_radius,
+        ground.fields.margin,
+    )
+
+
+def _fill(data: bpy.types.Mesh, positions: NDArray[np.float64], triangles: NDArray[np.int32]) -> None:
+    """Write vertices and triangles into an empty mesh, smooth shaded.
+
+    By attributes: Blender copies these at once, but looks at vertices and corners one by one.
+    """
+    data.vertices.add(len(positions))
+    data.attributes["position"].data.foreach_set("vector", positions.astype(np.float32).ravel())
+    data.loops.add(triangles.size)
+    data.attributes[".corner_vert"].data.foreach_set("value", triangles.ravel())
+    data.polygons.add(len(triangles))
+    data.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
+    data.update(calc_edges=True)

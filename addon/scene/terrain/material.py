@@ -1,0 +1,231 @@
+"""Material of the ground: what grows on it, and what the fire has made of it, as a function of time.
+
+age = model time - arrival, so one static mesh shows every minute: flames at the edge, embers, char and ash.
+Reflectances are a picture's, chosen by eye against photographs, not measured.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import bpy
+
+from ...blender import nodes
+from ...blender.owned import Stage
+from ...shot.passes import masks
+from ...shot.shot import Shot
+from ...shot.terrain import orthophoto
+from .. import haze
+from ..forest import biomes
+from ..forest.biomes import Here
+from . import burn_scar, fields, infrared_radiance, open_land, rock_outcrops, shading_inputs, vegetation_cover
+from .shading_inputs import Place
+
+_FAR, _ON_ROCK = 1.5, 2.0  # pixels, the least size of noise where trees are part of the ground
+
+_WAVES = (500.0, 4000.0)  # m from the camera between which waves grow smaller than pixels (by eye)
+_BLUR = 0.12  # roughness of a mirror of waves that are not drawn (by eye)
+
+
+def build(
+    shot: Shot,
+    stage: Stage,
+    images: dict[str, bpy.types.Image],
+    photos: Sequence[tuple[orthophoto.Picture, bpy.types.Image]] = (),
+    maps: Mapping[str, Sequence[tuple[orthophoto.Picture, bpy.types.Image]]] | None = None,
+) -> bpy.types.Material:
+    """Build "Firetwin Ground", which reads the fields of these images and is coloured by these photos.
+
+    `maps` are the user's land use by `land_use.LAYERS`.
+    """
+    material, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
+    biome = biomes.of(shot)
+    with tree.frame("Fields"):
+        known = fields.Fields(tree, images)
+        lake = known["water"] > 0.5
+    seen = _seen(tree, shot, stage, known, lake, photos, biome, maps or {})
+    warmth, kind = _data(tree, shot, stage, known, lake)
+    tree.surface(nodes.mask_switch(tree, nodes.thermal_switch(tree, seen, warmth), kind))
+    material.cycles.emission_sampling = "NONE"  # as lamps, its small lights would be noise
+    return material
+
+
+def _seen(
+    tree: nodes.Tree,
+    shot: Shot,
+    stage: Stage,
+    known: fields.Fields,
+    lake: nodes.Value,
+    photos: Sequence[tuple[orthophoto.Picture, bpy.types.Image]],
+    biome: Here,
+    maps: Mapping[str, Sequence[tuple[orthophoto.Picture, bpy.types.Image]]],
+) -> nodes.Value:
+    """Shader of the picture. Shaders are mixed, not colours: Cycles leaves out one that has no part."""
+    outcrops = biome.biome.outcrops
+    with tree.frame("Place and time"):
+        here = shading_inputs.of(tree, known, shot, whole=False)
+        bare = shading_inputs.rock(tree, here, outcrops)
+    with tree.frame("Rock"):
+        rock = _rock(tree, here, biome)
+    with tree.frame("Soil"):
+        ground = tree.mix_shader(bare, _soil(tree, here, biome), rock)
+    for picture, image in photos:
+        with tree.frame("Photo"):
+            ground = _photographed(tree, here, picture, image, ground)
+    for layer, drawn in maps.items():
+        for picture, image in drawn:
+            with tree.frame(f"Land use: {layer}"):
+                ground = _mapped(tree, here, layer, picture, image, ground)
+    with tree.frame("Water"):
+        ground = tree.mix_shader(lake, ground, _water(tree, here))
+    with tree.frame("Flames and embers"):
+        ground = tree.add_shader(ground, burn_scar.light(tree, shot, here, here.burned * (1.0 - bare)))
+    with tree.frame("Air"):
+        ground = haze.apply(tree, ground, stage)
+    with tree.frame("Light of other ground"):
+        camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
+        return tree.mix_shader(camera, _plain(tree, known, biome), ground)
+
+
+def _data(
+    tree: nodes.Tree, shot: Shot, stage: Stage, known: fields.Fields, lake: nodes.Value
+) -> tuple[nodes.Value, nodes.Value]:
+    """Infrared radiance, and the class of the masks: of all octaves of noise, however large pixels are."""
+    outcrops = biomes.of(shot).biome.outcrops
+    with tree.frame("Place and time of data"):
+        here = shading_inputs.of(tree, known, shot, whole=True)
+        bare = shading_inputs.rock(tree, here, outcrops)
+        fuel = here.burned * (1.0 - bare)
+        flaming, embers = (fuel * part for part in burn_scar.glow(tree, here))
+    with tree.frame("Infrared"):
+        facing = tree.output("ShaderNodeNewGeometry", name="Normal")
+        warmth = infrared_radiance.radiance(tree, shot, stage, here, bare, lake, facing, (flaming, embers))
+    with tree.frame("Masks"):
+        alight = (flaming > masks.ALIGHT) * (masks.FIRE - masks.BURNED)
+        kind = here.burned * (alight + (masks.BURNED - masks.GROUND)) + masks.GROUND
+    return warmth, kind
+
+
+def _matt(tree: nodes.Tree, colour: nodes.Value, normal: nodes.Value | None) -> nodes.Value:
+    inputs = {"Color": colour, "Roughness": 0.6}
+    return tree.output("ShaderNodeBsdfDiffuse", inputs if normal is None else {**inputs, "Normal": normal})
+
+
+def _bump(tree: nodes.Tree, height: nodes.Value, strength: float = 0.9) -> nodes.Value:
+    """Normal of a surface of this height (m), which Cycles works out three times."""
+    return tree.output("ShaderNodeBump", {"Strength": strength, "Distance": 1.0, "Height": height})
+
+
+def _soil(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
+    """What is not rock: seen from afar, and where trees are drawn one by one."""
+    made = []
+    for grown, there in ((vegetation_cover.far, here.coarser(_FAR)), (vegetation_cover.close, here)):
+        colour, height = grown(tree, there, biome)
+        normal = _bump(tree, height)
+        char = _grained(tree, there, burn_scar.charred(tree, there))
+        green = _matt(tree, _grained(tree, there, colour), normal)
+        made.append(tree.mix_shader(here.burned, green, _matt(tree, char, normal)))
+    return tree.mix_shader(here.near, *made)
+
+
+def _grained(tree: nodes.Tree, here: Place, colour: nodes.Value) -> nodes.Value:
+    """Colour of the floor with needles, soil and shadows between them, on average the same."""
+    grain = tree.mix_colour(here.duff.ramp(-0.5, 0.5), (0.22, 0.20, 0.18), (1.78, 1.80, 1.82))
+    return tree.mix_colour(1.0, colour, grain, "MULTIPLY")
+
+
+def _rock(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
+    colour, height = rock_outcrops.look(tree, here)
+    if biome.biome.open_land is not None:
+        colour, height = _weathered(tree, here, biome, colour, height)
+    normal = _bump(tree, height)
+    bare = _matt(tree, colour, normal)
+    crowns, where = vegetation_cover.on_rock(tree, here.coarser(_ON_ROCK), biome)
+    wooded = tree.mix_shader(where, bare, _matt(tree, crowns, normal))
+    return tree.mix_shader(here.near, wooded, bare)
+
+
+def _weathered(
+    tree: nodes.Tree, here: Place, biome: Here, colour: nodes.Value, height: nodes.Value
+) -> tuple[nodes.Value, nodes.Value]:
+    """Rock of another land than the Sierra, and soil in its place where it is not steep."""
+    colour = tree.mix_colour(1.0, colour, biome.biome.rock, "MULTIPLY")
+    flat = here.slope.smoothstep(0.14, 0.05)
+    soil = tree.mix_colour(here.burned * 0.6, open_land.bare(tree, here, biome), (0.045, 0.042, 0.040))
+    return tree.mix_colour(flat, colour, soil), tree.mix(flat, height, here.grain.noise(3.0, 3.0) * 0.4)
+
+
+def _plain(tree: nodes.Tree, known: fields.Fields, biome: Here) -> nodes.Value:
+    """The ground as it lights what is near: nobody sees its detail there."""
+    canopy = known["canopy_fuel"].smoothstep(0.0, 0.7)
+    land = biome.biome.open_land
+    grass = (
+        (0.080, 0.070, 0.045)
+        if land is None
+        else vegetation_cover.between(biome.green, land.straw, land.green)
+    )
+    green = tree.mix_colour(canopy, grass, (0.030, 0.040, 0.018))
+    green = tree.mix_colour(known["bare"], green, (0.120, 0.110, 0.100))
+    burned = (nodes.model_time(tree) > known["burn_time"]) * (known["burned"] > 0.5)
+    colour = tree.mix_colour(burned, green, (0.035, 0.030, 0.027))
+    return tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
+
+
+def _photographed(
+    tree: nodes.Tree,
+    here: Place,
+    picture: orthophoto.Picture,
+    image: bpy.types.Image,
+    ground: nodes.Value,
+) -> nodes.Value:
+    """The ground with the photo's colour where it has any and nothing burned: heights are in its light."""
+    shown = _picture(tree, here, picture, image)
+    counts = tree.pick(shown, "Alpha") * (1.0 - here.burned)
+    return tree.mix_shader(counts, ground, _matt(tree, tree.pick(shown, "Color"), None))
+
+
+def _mapped(
+    tree: nodes.Tree,
+    here: Place,
+    layer: str,
+    picture: orthophoto.Picture,
+    image: bpy.types.Image,
+    ground: nodes.Value,
+) -> nodes.Value:
+    """The ground with a layer of the user's land use: its colour, with grain; what is soft burns."""
+    shown = _picture(tree, here, picture, image)
+    counts = tree.pick(shown, "Alpha")
+    if layer == "water":
+        return tree.mix_shader(counts, ground, _water(tree, here))
+    grain = here.grain.noise(11.0, 5.0, 0.7).ramp(0.25, 0.75, 0.72, 1.28)
+    broad = here.grain.noise(140.0, 3.0, 0.6).ramp(0.3, 0.7, 0.86, 1.14)
+    tone = grain * broad if layer == "soft" else broad
+    colour = tree.mix_colour(1.0, tree.pick(shown, "Color"), tree.combine(tone, tone, tone), "MULTIPLY")
+    if layer == "soft":
+        counts = counts * (1.0 - here.burned)
+    return tree.mix_shader(counts, ground, _matt(tree, colour, None))
+
+
+def _picture(
+    tree: nodes.Tree, here: Place, picture: orthophoto.Picture, image: bpy.types.Image
+) -> bpy.types.Node:
+    """The node of a picture that lies on the ground."""
+    scale = 1.0 / (picture.high - picture.low)
+    across = tree.vector("SUBTRACT", here.position, (*picture.low, 0.0))
+    at = tree.vector("MULTIPLY", across, (*scale, 0.0))
+    return tree.node("ShaderNodeTexImage", {"Vector": at}, image=image, extension="CLIP")
+
+
+def _water(tree: nodes.Tree, here: Place) -> nodes.Value:
+    """Dark water that mirrors the sky, more at grazing angles, ruffled by the wind.
+
+    Waves that a picture cannot show blur the mirror instead (Cox and Munk 1954: slopes as a distribution).
+    """
+    shown = here.distance.ramp(*_WAVES, 1.0, 0.0)
+    normal = _bump(tree, here.grain.noise(7.0, 2.0) * shown * 0.05, 0.5)
+    colour = tree.input("Water Colour", (0.010, 0.022, 0.024), "Of deep lakes, seen from above", "Water")
+    rough = tree.input("Water Roughness", 0.22, "How blurred a lake mirrors the sky", "Water", most=1.0)
+    deep = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
+    blur = rough + (1.0 - shown) * _BLUR
+    mirror = tree.output("ShaderNodeBsdfGlossy", {"Roughness": blur, "Normal": normal})
+    return tree.mix_shader(tree.output("ShaderNodeFresnel", {"IOR": 1.33}), deep, mirror)

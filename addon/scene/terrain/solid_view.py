@@ -1,0 +1,45 @@
+"""Colours of the ground where no shader runs: in the solid view, whose attribute colours show them.
+
+They do not follow time, so that a frame change costs nothing: what burns during the shot is a colour of its
+own. No render reads them.
+"""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...shot.shot import Shot
+from ...shot.terrain.terrain import bilinear
+from ..forest import biomes
+
+NAME = "solid_view"
+BARE, GRASS, FOREST, WATER = (0.30, 0.28, 0.25), (0.22, 0.17, 0.08), (0.035, 0.070, 0.022), (0.02, 0.09, 0.20)
+BURNED, BURNS = (0.020, 0.017, 0.016), (0.120, 0.036, 0.014)  # before the first frame, and by the last one
+_DENSE = 1.2  # kg/m2 of canopy fuel that hide the grass
+
+
+def paint(shot: Shot, data: bpy.types.Mesh, row: NDArray[np.float64], column: NDArray[np.float64]) -> None:
+    """Give the mesh's points, at fractional rows and columns (n,), its active colours."""
+    painted = data.attributes.new(NAME, "BYTE_COLOR", "POINT")
+    found = colours(shot, row, column)
+    painted.data.foreach_set("color", np.pad(found, [(0, 0), (0, 1)], constant_values=1.0).ravel())
+    data.color_attributes.active_color = data.color_attributes[NAME]
+
+
+def colours(shot: Shot, row: NDArray[np.float64], column: NDArray[np.float64]) -> NDArray[np.float32]:
+    """(n, 3) scene-linear red, green and blue: what grows there, lakes, and where it has burned."""
+    ground = shot.ground
+
+    def at(field: NDArray) -> NDArray[np.float64]:
+        return bilinear(np.asarray(field, np.float64), row, column)[:, None]
+
+    dense = np.clip(at(ground.fields.canopy_fuel) / _DENSE, 0, 1)
+    grass = GRASS if (land := biomes.of(shot).biome.open_land) is None else land.straw
+    shade = np.array(grass) + (np.array(FOREST) - grass) * dense
+    shade = shade + (np.array(BARE) - shade) * np.clip(at(ground.bare), 0, 1)
+    arrival = ground.arrival_at(row, column)[:, None]
+    shade = np.where(arrival <= shot.frames.last, BURNS, shade)
+    shade = np.where(arrival <= shot.frames.first, BURNED, shade)
+    return np.where(at(ground.water) > 0.5, WATER, shade).astype(np.float32)

@@ -1,0 +1,151 @@
+"""What grows on the ground where it has not burned: canopy seen from afar, and the floor between trees."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...blender import nodes
+from ..band_limited_noise import Grain
+from ..forest.biomes import Biome, Colour, Here
+from . import open_land as lands
+from .shading_inputs import Place
+
+_CROWNS_SEEN = (5000.0, 15_000.0)  # m from the camera at which crowns are full and gone
+_MEADOW = ((0.070, 0.070, 0.040), (0.110, 0.092, 0.052))  # of high and of low meadows in the dry season
+_SPRING = (0.062, 0.090, 0.030)  # of all of them when they are green
+_ON_ROCK = 0.5  # m that crowns on rock are farther apart
+
+
+@dataclass
+class Crowns:
+    """Crowns that are drawn by the ground, by cells some metres wide."""
+
+    dark: nodes.Value  # 0..1, how deep between crowns
+    tint: nodes.Value  # 0..1, from crown to crown
+    alone: nodes.Value  # 1 where one stands amid brush or on rock
+
+
+def crowns(tree: nodes.Tree, place: Place, size: float, groups: nodes.Value) -> Crowns:
+    """Crowns in cells of `size` m. From afar one is less than a pixel: its mean is shown, without grain."""
+    sharp = place.distance.ramp(*_CROWNS_SEEN, 1.0, 0.2)
+    deep = tree.cells(place.position, size).smoothstep(0.34, 0.70)
+    tint, lone, _ = tree.separate(tree.cells(place.position, size, "Color"))
+    alone = (lone + (groups - 0.5) * 0.8) > 0.72
+    return Crowns(tree.mix(sharp, 0.52, deep), tree.mix(sharp, 0.5, tint), tree.mix(sharp, 0.25, alone))
+
+
+def far(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
+    """Colour and height (m) where trees are part of the ground."""
+    grain = place.grain
+    fine, patch, groups = _fine(grain), _patch(grain), _groups(grain)
+    seen = crowns(tree, place, here.biome.crown, groups)
+    cover = place.canopy + (patch - 0.5) * 0.9 + (groups - 0.5) * 1.6 + (fine - 0.5) * 0.6
+    # On the apron fuel's patches are as large as its cells: noise makes edges of all sizes of them. It is
+    # noise that is there already, as each is worked out three times for the bumps.
+    cover = cover + (patch - 0.5) * (place.beyond * place.canopy.smoothstep(0.0, 0.2)) * 3.6
+    hills = (patch - 0.5) * (place.beyond * place.relief)  # too fine for its mesh
+    if here.biome.open_land is None:
+        cover = tree.math("MAXIMUM", cover.smoothstep(0.0, 0.7), seen.alone * 0.85)
+    else:  # lone trees are too few to be seen
+        cover = cover.smoothstep(0.0, 0.7) * place.canopy.smoothstep(0.01, 0.1)
+    canopy = tree.mix_colour(seen.dark, _canopy(tree, grain, seen.tint, here), here.biome.between)
+    if here.biome.open_land is not None:
+        open_ground, height = lands.look(tree, place, here)
+        wooded = cover * (1.0 - seen.dark) * (0.7 * here.biome.crown)
+        height = wooded + (1.0 - cover) * height + fine * 0.5 + hills
+        return tree.mix_colour(cover, open_ground, canopy), height
+    open_ground = _open_ground(tree, place, fine, patch, seen.tint, here)
+    height = cover * (1.0 - seen.dark) * 9.0 + fine * 2.0 + hills
+    return tree.mix_colour(cover, open_ground, canopy), height
+
+
+def on_rock(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
+    """Colour of lone trees on rock, and where they stand (0..1).
+
+    They have cells of their own, so that these are worked out on rock alone.
+    """
+    biome = here.biome
+    seen = crowns(tree, place, biome.crown + _ON_ROCK, _groups(place.grain))
+    lit = tree.mix_colour(0.5, _needles(tree, seen.tint, here), biome.shade)
+    where = seen.alone * 0.8 * (1.0 - place.burned)
+    return tree.mix_colour(seen.dark, lit, biome.between), where
+
+
+def close(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
+    """Colour and height (m) where trees and brush stand there one by one."""
+    fine, patch = _fine(place.grain), _patch(place.grain)
+    height: nodes.Value | None = None
+    if here.biome.open_land is None:
+        tint = tree.separate(tree.cells(place.position, here.biome.crown, "Color"))[0]
+        open_ground = _open_ground(tree, place, fine, patch, tint, here)
+    else:
+        open_ground, height = lands.look(tree, place, here)
+    floor = (place.canopy + (patch - 0.5) * 0.5 + (fine - 0.5) * 0.4).smoothstep(0.0, 0.35)
+    litter = tree.mix_colour(fine.smoothstep(0.3, 0.7), *here.biome.litter)
+    needles = tree.mix_colour(fine, (0.036, 0.025, 0.015), (0.078, 0.054, 0.033))
+    beside = place.pixel.ramp(0.02, 0.20, 1.0, 0.0)  # brush is a colour but where it stands one by one
+    litter = tree.mix_colour(beside, litter, needles)
+    green = place.grain.noise(5.0, 4.0, 0.65).smoothstep(0.47, 0.60) * (1.0 - beside * 0.85)
+    scrub = tree.mix_colour(green, litter, here.biome.scrub)
+    if height is None:
+        height = fine * 2.0
+    return tree.mix_colour(floor, open_ground, scrub), height + place.duff * 0.12
+
+
+def _fine(grain: Grain) -> nodes.Value:
+    return grain.noise(24.0, 4.0, 0.65)
+
+
+def _patch(grain: Grain) -> nodes.Value:
+    return grain.noise(420.0, 4.0, 0.6)
+
+
+def _needles(tree: nodes.Tree, tint: nodes.Value, here: Here) -> nodes.Value:
+    """Colour of crowns in the sun."""
+    dark, light = (seasonal(here.biome, colour, here.green) for colour in here.biome.needles)
+    deep = tree.input("Forest Dark", dark, "Darkest crowns of the far forest", "Forest")
+    pale = tree.input("Forest Light", light, "Lightest crowns of the far forest", "Forest")
+    return tree.mix_colour(tint, deep, pale)
+
+
+def _groups(grain: Grain) -> nodes.Value:
+    return grain.noise(120.0, 3.0, 0.7)
+
+
+def _stands(grain: Grain) -> nodes.Value:
+    return grain.noise(1500.0, 5.0, 0.6)
+
+
+def _canopy(tree: nodes.Tree, grain: Grain, tint: nodes.Value, here: Here) -> nodes.Value:
+    """Colour of crowns in the sun, stand by stand."""
+    dark = _needles(tree, tint, here)
+    stands = _stands(grain)
+    dark = tree.mix_colour(stands.smoothstep(0.40, 0.62), dark, tree.mix_colour(0.6, dark, here.biome.stands))
+    clumps = grain.noise(70.0, 3.0, 0.65).smoothstep(0.36, 0.64)
+    return tree.mix_colour(clumps, tree.mix_colour(0.75, dark, here.biome.shade), dark)
+
+
+def _open_ground(
+    tree: nodes.Tree, place: Place, fine: nodes.Value, patch: nodes.Value, tint: nodes.Value, here: Here
+) -> nodes.Value:
+    """Colour of the Sierra's meadows, soil and brush."""
+    dry = place.elevation.ramp(500.0, 1500.0, 1.0, 0.0)
+    meadow = tree.mix_colour(dry, *(between(here.green, colour, _SPRING) for colour in _MEADOW))
+    soil = tree.mix_colour(fine, (0.115, 0.080, 0.050), (0.190, 0.140, 0.095))
+    brush = place.grain.noise(34.0, 5.0, 0.7) + (patch - 0.5) * 0.7 + dry * -0.12
+    shrub = tree.mix_colour(tint, (0.030, 0.038, 0.017), (0.052, 0.058, 0.028))
+    open_ground = tree.mix_colour(fine.smoothstep(0.38, 0.62), meadow, tree.mix_colour(0.55, meadow, soil))
+    return tree.mix_colour(brush.smoothstep(0.36, 0.52) * 0.92, open_ground, shrub)
+
+
+def between(part: float, first: Colour, second: Colour) -> Colour:
+    """A colour so far between two others."""
+    return tuple(np.add(first, part * np.subtract(second, first)).tolist())
+
+
+def seasonal(biome: Biome, colour: Colour, green: float) -> Colour:
+    """Colour of crowns, of which some shed their leaves."""
+    part = biome.deciduous * (1.0 - green)
+    return tuple(np.multiply(colour, 1.0 + part * (np.array(biome.withered) - 1.0)).tolist())

@@ -1,0 +1,202 @@
+"""The moving front of a shot, where cameras are to be placed: its places, how it runs, how large it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import extent
+from ..fire import burning
+from ..shot import Shot
+from ..terrain.terrain import NEVER, UNKNOWN, Ground, box
+from . import straight_plume
+from .straight_plume import Plume
+
+_QUANTILES = (0.1, 0.5, 0.9)  # of what burns in the window: moments at which the front is looked at
+_ABOVE = 2.0  # m over the ground: the flames' (assumed)
+_SPREAD = (0.001, 5.0)  # m/s
+_STILL = 0.5  # m/s; a weaker wind has no side
+_ALOFT = 2.0  # wind that smoke drifts in over that near the ground (assumed)
+_BREEZE = 3.0  # m/s, of a wind that nobody measured and the fire runs with (assumed)
+_ONE_WAY = 0.3  # resultant over mean of the spread's velocities; less than this has no head (assumed)
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Front:
+    """Where the front is at a few moments of the window; empty where nothing burns.
+
+    Attributes
+    ----------
+    frames
+        (m,) indices of the frames nearest to the moments, from 0.
+    point, velocity, moment
+        Of n places: (n, 3) m in the scene, a little over the ground; (n, 2) m/s east and north; and (n,)
+        which of the moments.
+    low, high
+        (2,) corners of the ground that has burned when the window ends, m.
+    fire
+        Diagonal of the largest fire of it, m; `size` is that of all.
+    runs
+        Whether anything catches fire in the window; else places are those that burn nearest in time.
+    """
+
+    shot: Shot
+    frames: NDArray[np.int64]
+    point: Array
+    velocity: Array
+    moment: NDArray[np.int64]
+    low: Array
+    high: Array
+    fire: float
+    runs: bool
+
+    @property
+    def ground(self) -> Ground:
+        """The ground without detail near cameras."""
+        return self.shot.bare_ground
+
+    @cached_property
+    def size(self) -> float:
+        """Diagonal of what has burned, m, at least two cells of the fuel grid."""
+        return max(float(np.hypot(*(self.high - self.low))), 2.0 * max(self.ground.cell))
+
+    @cached_property
+    def wind(self) -> Array:
+        """Unit vector (2,) that smoke goes to: with the wind, or the spread where none is known; or 0."""
+        wind = np.array(self.shot.wind)
+        speed = float(np.hypot(*wind))
+        if speed > _STILL:
+            return wind / speed
+        return self.heading
+
+    @property
+    def drift(self) -> Array:
+        """(2,) m/s that smoke drifts with: the wind, or a breeze that the fire runs with; 0 where none is."""
+        wind = np.array(self.shot.wind)
+        return _ALOFT * (wind if float(np.hypot(*wind)) > _STILL else _BREEZE * self.heading)
+
+    @cached_property
+    def plumes(self) -> list[Plume]:
+        """The smoke of each moment."""
+        ground, frames = self.ground, self.shot.frames
+        near = box(ground.arrival < NEVER, more=2)
+        crossing = np.zeros(ground.arrival[near].shape)
+        row, column = np.nonzero(ground.arrival[near] < NEVER)
+        known = np.where(ground.arrival[near] < NEVER, ground.arrival[near], np.nan)
+        crossing[row, column] = burning.crossing(known, row, column)
+        return [
+            straight_plume.at(ground, near, crossing, frames.times[frame], self.drift)
+            for frame in self.frames
+        ]
+
+    @cached_property
+    def heading(self) -> Array:
+        """Unit vector (2,) that the fire runs to; 0 where it runs to no side more than to others."""
+        if len(self.velocity) == 0:
+            return np.zeros(2)
+        resultant = self.velocity.mean(axis=0)
+        length = float(np.hypot(*resultant))
+        return (
+            resultant / length
+            if length > _ONE_WAY * float(np.hypot(*self.velocity.T).mean())
+            else np.zeros(2)
+        )
+
+    @cached_property
+    def crowns(self) -> bool:
+        """Whether trees stand where it burns or round it."""
+        fields = self.ground.fields
+        row, column = (
+            (v.astype(np.int64) for v in self.ground.under(self.point)) if len(self.point) else ([], [])
+        )
+        return bool(len(row)) and float(np.mean(fields.canopy_fuel[row, column] > 0.01)) > 0.05
+
+
+def some(chosen: NDArray[np.int64], most: int) -> NDArray[np.int64]:
+    """At most so many of these, evenly spread."""
+    return chosen[np.unique(np.linspace(0, len(chosen) - 1, min(len(chosen), most)).round().astype(np.int64))]
+
+
+def of(shot: Shot) -> Front:
+    """The front of a shot."""
+    ground, frames = shot.bare_ground, shot.frames
+    near = box(ground.arrival < NEVER, more=2)
+    burned = ground.arrival <= max(frames.last, frames.first + 1.0)
+    within = box(burned)
+    if near is None or within is None:
+        return _nothing(shot)
+    inside = ground.arrival[burned]
+    inside = inside[inside >= frames.first]
+    times = np.quantile(inside, _QUANTILES) if len(inside) else np.array([frames.middle])
+    found = [_at(ground, near, float(time)) for time in times]
+    moment = np.repeat(np.arange(len(times)), [len(part[0]) for part in found])
+    index = np.clip(np.round((times - frames.first) / max(frames.step, 1.0e-9)), 0, frames.count - 1)
+    return Front(
+        shot,
+        index.astype(np.int64),
+        *(np.concatenate(parts) for parts in zip(*found, strict=True)),
+        moment,
+        *_corners(ground, *within),
+        extent.largest(burned[within], ground.cell),
+        len(inside) > 0,
+    )
+
+
+def _nothing(shot: Shot) -> Front:
+    """Of a run in which nothing burns, with the corners of all of it."""
+    whole = slice(shot.bare_ground.fields.margin, -shot.bare_ground.fields.margin or None)
+    none = np.zeros(0, np.int64)
+    corners = _corners(shot.bare_ground, whole, whole)
+    return Front(shot, none, np.empty((0, 3)), np.empty((0, 2)), none, *corners, 0.0, False)
+
+
+def _corners(ground: Ground, rows: slice, columns: slice) -> tuple[Array, Array]:
+    """Least and greatest x and y (2,) of rows and columns of the grid, m."""
+    fields = ground.fields
+    latitude, longitude = fields.latitude[rows][[0, -1]], fields.longitude[columns][[0, -1]]
+    place = ground.frame.forward_grid(latitude, longitude, np.zeros((2, 2))).reshape(-1, 3)
+    return place[:, :2].min(axis=0), place[:, :2].max(axis=0)
+
+
+def _at(ground: Ground, near: tuple[slice, slice], time: float) -> tuple[Array, Array]:
+    """Places and velocities of the cells that the front is in at a model time, or nearest in time."""
+    arrival, burn_time = ground.arrival[near], ground.burn_time[near]
+    row, column = np.nonzero(arrival < NEVER)
+    crossing = burning.crossing(np.where(arrival < NEVER, arrival, np.nan), row, column)
+    late = np.abs(arrival[row, column] - time) / crossing
+    here = np.flatnonzero(late <= 0.5)
+    if len(here) == 0:
+        here = np.argsort(late, kind="stable")[:20]
+    row, column = row[here], column[here]
+    known = np.where(burn_time < UNKNOWN, burn_time, np.nan)
+    slope = np.stack(
+        [_slope(known, row, column, axis, size) for axis, size in ((1, ground.cell[1]), (0, ground.cell[0]))],
+        axis=-1,
+    )
+    steep = np.maximum(np.hypot(*slope.T), 1.0e-9)
+    velocity = slope / steep[:, None] * np.clip(1.0 / steep, *_SPREAD)[:, None]
+    row, column = row + near[0].start, column + near[1].start
+    fields = ground.fields
+    point = ground.frame.forward(
+        fields.latitude[row], fields.longitude[column], fields.elevation[row, column] + _ABOVE
+    )
+    return point, velocity
+
+
+def _slope(time: Array, row: Array, column: Array, axis: int, size: float) -> Array:
+    """Slope (n,) of arrival times along an axis, s/m: central differences, one-sided where one is unknown."""
+    ends = []
+    for step in (-1, 1):
+        at = [row, column]
+        at[axis] = np.clip(at[axis] + step, 0, time.shape[axis] - 1)
+        ends.append(time[at[0], at[1]])
+    here = time[row, column]
+    sides = np.stack([here - ends[0], ends[1] - here])
+    with np.errstate(invalid="ignore"):
+        known = np.isfinite(sides)
+        return np.where(known, sides, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1) / size

@@ -1,0 +1,123 @@
+"""How thick smoke about is between a camera and the front, before any smoke is solved: straight plumes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..fire import emissions
+from ..terrain.terrain import NEVER, Ground
+
+_LONG = 3.0  # burn-out times after which a cell counts as cold
+_WIDE = 0.4  # half-width of a plume over the way it has drifted (by eye)
+# m4/s3 of buoyancy flux for a kg/s of fuel: g / (pi cp rho T) of its heat.
+_BUOYANCY = 8.8e-6 * emissions.HEAT
+_BRIGGS = 1.6  # of the bent-over plume: it is 1.6 F^(1/3) x^(2/3) / U high at x m (Briggs 1971)
+_RISES = (0.2, 2.0)  # height over the way, of straight plumes that stand for bent ones (assumed)
+_WEAK = 2.0  # m/s; weaker winds count as so strong: fires draw air in
+_BLOCKS = 7  # along the longer side: sources in a block are one
+_STEPS, _NEAR = 16, 0.01  # places where smoke is looked for on a line of sight, from this part of it on
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Plume:
+    """Smoke of one moment.
+
+    Attributes
+    ----------
+    source, rate
+        (k, 3) m where it comes from, and (k,) kg/s.
+    wind
+        (2,) m/s that it drifts with.
+    least
+        Half-width at its source, m.
+    rise
+        Height over the way that it has drifted.
+    """
+
+    source: Array
+    rate: Array
+    wind: Array
+    least: float
+    rise: float
+
+    def depth(self, eye: Array, place: Array) -> Array:
+        """Optical depth (n,) of the smoke between a camera and places (n, 3).
+
+        Each source's smoke is even across a plume that drifts with the wind, rises and widens along straight
+        lines; without a wind it stands over the source.
+        """
+        if len(self.rate) == 0 or len(place) == 0:
+            return np.zeros(len(place))
+        speed = float(np.hypot(*self.wind))
+        axis = np.array([*self.wind / speed, self.rise]) if speed > 0.0 else np.array([0.0, 0.0, 1.0])
+        axis /= np.linalg.norm(axis)
+        part = np.geomspace(_NEAR, 1.0, _STEPS)
+        line = place + part[:, None, None] * (eye - place)  # (steps, n, 3)
+        away = line[:, :, None] - self.source  # (steps, n, sources, 3)
+        along = away @ axis
+        across = np.sqrt(np.maximum(np.sum(away**2, axis=-1) - along**2, 0.0))
+        half = self.least + _WIDE * np.maximum(along, 0.0)
+        inside = (along > 0.0) & (across < half)
+        dense = np.where(inside, self.rate / (np.pi * half**2), 0.0).sum(axis=-1)  # kg/(m s)
+        pieces = np.gradient(part)[:, None] * np.linalg.norm(eye - place, axis=1)
+        return emissions.EXTINCTION / max(speed, _WEAK) * (dense * pieces).sum(axis=0)
+
+
+def at(ground: Ground, near: tuple[slice, slice], crossing: Array, time: float, wind: Array) -> Plume:
+    """The smoke of a moment (s).
+
+    Parameters
+    ----------
+    near, crossing
+        Rows and columns of the grid that hold all that burns, and how long the front takes across each of
+        their cells, s.
+    """
+    fields = ground.fields
+    arrival = ground.arrival[near]
+    surface, canopy = fields.surface_fuel[near], fields.canopy_fuel[near]
+    kind = emissions.kind(surface, canopy)
+    burn_out = np.maximum(crossing, emissions.burn_out(surface, kind))
+    with np.errstate(over="ignore", invalid="ignore"):
+        age = (time - arrival) / burn_out
+    row, column = np.nonzero((arrival < NEVER) & (age >= 0.0) & (age < _LONG))
+    per_kg = emissions.column("smoke", 0)
+    smoke = (surface * per_kg[kind] + canopy * per_kg[emissions.CROWN])[row, column]
+    burns = ground.cell[0] * ground.cell[1] * np.exp(-age[row, column]) / burn_out[row, column]
+    fuel = float((burns * (surface + canopy)[row, column]).sum())
+    row, column = row + near[0].start, column + near[1].start
+    point = ground.frame.forward(
+        fields.latitude[row], fields.longitude[column], fields.elevation[row, column]
+    )
+    return Plume(*_merged(point, smoke * burns), wind, 0.5 * max(ground.cell), _rise(point, fuel, wind))
+
+
+def _rise(point: Array, fuel: float, wind: Array) -> float:
+    """Height over the way of the smoke of a whole fire, where it has drifted a third of the fire's size.
+
+    Parameters
+    ----------
+    fuel
+        That it burns, kg/s.
+    """
+    if len(point) == 0:
+        return _RISES[0]
+    way = max(float(np.hypot(*np.ptp(point[:, :2], axis=0))) / 3.0, 100.0)
+    slope = _BRIGGS * (_BUOYANCY * fuel / way) ** (1.0 / 3.0) / max(float(np.hypot(*wind)), _WEAK)
+    return float(np.clip(slope, *_RISES))
+
+
+def _merged(point: Array, rate: Array) -> tuple[Array, Array]:
+    """Sources (n, 3) of rates (n,) as one for each block, at their centres."""
+    if rate.sum() <= 0.0:
+        return np.empty((0, 3)), np.empty(0)
+    size = max(float(np.ptp(point[:, :2], axis=0).max()) / _BLOCKS, 1.0)
+    _, block = np.unique(np.floor(point[:, :2] / size), axis=0, return_inverse=True)
+    total = np.bincount(block.ravel(), rate)
+    centre = np.stack([np.bincount(block.ravel(), rate * point[:, k]) for k in range(3)], axis=-1)
+    some = total > 0.0
+    return centre[some] / total[some, None], total[some]

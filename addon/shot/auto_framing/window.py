@@ -1,0 +1,104 @@
+"""Which part of a run a film shows: the most active."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from datetime import datetime
+
+import numpy as np
+from firetwin_core.run import Run
+from numpy.typing import ArrayLike, NDArray
+
+from ...run import areas, times, zone
+from .. import extent
+from ..settings.settings import Time
+
+FRAMES, FPS = 48, 12  # four seconds, as of the example
+_PACE = 20.0  # m of the fire's size for a second of the window: 24 minutes for 29 km, as of the example
+_SHORTEST, _LONGEST = 300.0, 7200.0  # s (by eye: smoke has to hang together from frame to frame)
+_STEP = 60.0  # s; windows begin and end at whole minutes of the run
+
+Array = NDArray[np.float64]
+
+
+def of(run: Run, asked: Time) -> tuple[Time, str]:
+    """The [time] of a film of a run, and a line about it: what is `asked`, or else the most active part."""
+    first, last = float(run.times[0]), float(run.times[-1])
+    there = zone.of(run)
+    whole = Time(frames=FRAMES, fps=FPS, zone=there)
+    if asked.start or asked.end:
+        chosen = replace(whole, start=asked.start, end=asked.end)
+        start, end = asked.start or times.moment(run, first), asked.end or times.moment(run, last)
+        return chosen, f"{_words(start, end, there)}, as asked"
+    if last <= first:
+        return replace(whole, frames=1), "the one moment of the run"
+    arrival = run.fuel_arrival_time()
+    row, column, fuel = _burned(run, arrival)
+    if len(row) == 0:
+        return whole, "all of the run, in which nothing burns"
+    came, seconds = arrival[row, column], length(_size(run, arrival <= last), last - first)
+    begin = most_active(came, fuel, first, last, seconds)
+    start, end = (times.moment(run, time) for time in (begin, begin + seconds))
+    part = float(fuel[(came >= begin) & (came <= begin + seconds)].sum() / fuel.sum())
+    words = (
+        f"{_words(start, end, there)}, the most active {seconds / 60.0:.0f} minutes: "
+        f"{100.0 * part:.0f} % of the fuel that burns in the run"
+    )
+    return replace(whole, start=start, end=end), words
+
+
+def length(size: float, whole: float) -> float:
+    """Seconds that a film of a fire of `size` m shows, of a run that lasts `whole` s."""
+    wanted = np.round(np.clip(size / _PACE, _SHORTEST, _LONGEST) / _STEP) * _STEP
+    return float(min(wanted, whole))
+
+
+def most_active(arrival: ArrayLike, fuel: ArrayLike, first: float, last: float, length: float) -> float:
+    """When (s) the window of `length` s begins in which the front reaches most fuel.
+
+    Of the windows within the run that begin at whole minutes after `first`, and the last one; the earliest
+    where several are as good.
+
+    Parameters
+    ----------
+    arrival, fuel
+        (n,) when the front reaches pieces of ground, s, and what burns there, any unit.
+    first, last
+        Model times of the run, s.
+    """
+    arrival, fuel = np.asarray(arrival, np.float64), np.asarray(fuel, np.float64)
+    order = np.argsort(arrival)
+    total = np.concatenate([[0.0], np.cumsum(fuel[order])])
+    begin = np.append(np.arange(first, last - length, _STEP), max(last - length, first))
+    before, by = (
+        np.searchsorted(arrival[order], begin + more, side)
+        for more, side in ((0.0, "left"), (length, "right"))
+    )
+    return float(begin[np.argmax(total[by] - total[before])])
+
+
+def _burned(run: Run, arrival: Array) -> tuple[Array, Array, Array]:
+    """Row and column of the fuel cells that burn during the run, and the fuel of each, kg/m2.
+
+    Where the run knows of no fuel every cell counts alike.
+    """
+    first, last = float(run.times[0]), float(run.times[-1])
+    with np.errstate(invalid="ignore"):
+        row, column = np.nonzero((arrival >= first) & (arrival <= last))
+    fuel = sum(
+        np.nan_to_num(field[row, column].astype(np.float64)) for field in (run.surface_fuel, run.canopy_fuel)
+    )
+    return row, column, fuel if np.any(fuel > 0.0) else np.ones(len(row))
+
+
+def _size(run: Run, burned: NDArray[np.bool_]) -> float:
+    """Diagonal of the largest fire of a run, m."""
+    within = run.latitude, run.longitude
+    width, height = areas.cell_size(run.fuel_latitude, run.fuel_longitude, None, within)
+    return extent.largest(burned, (height, width))
+
+
+def _words(start: datetime, end: datetime, zone: str) -> str:
+    """``12 Aug 2022 14:00 to 14:05 -07``; with two dates where they differ."""
+    first, last = (times.text(moment, zone).split(" ") for moment in (start, end))
+    return f"{' '.join(first[:4])} to {' '.join(last[3:] if first[:3] == last[:3] else last)}"

@@ -1,0 +1,1 @@
+"""Cameras without Blender: paths, lenses, rotations, recorded tracks; `rigs` has one file for each kind."""

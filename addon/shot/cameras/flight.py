@@ -1,0 +1,156 @@
+"""How cameras fly: smoothly along geodesics, clear of the ground all the way, leaning and trembling."""
+
+from __future__ import annotations
+
+import zlib
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..terrain import noise
+from ..terrain.terrain import Ground
+from . import path
+from .path import Array
+
+_APART = 5.0  # m between the places of a way where the ground under it is looked at
+_PLACES = 400_000  # most of them
+_STILL = 0.05  # m from frame to frame; what moves less keeps its heading
+_GRAVITY = 9.80665  # m/s2
+_STEEPEST = np.radians(60.0)  # of a bank
+
+
+@dataclass(frozen=True)
+class Waypoints:
+    """Places to fly through.
+
+    Attributes
+    ----------
+    at
+        (n,) when, rising.
+    latitude, longitude
+        (n,) degrees.
+    height
+        (n,) m above the sea (the datum of the run's elevations), or above the ground.
+    over_ground
+        (n,) which of the heights are above the ground.
+    """
+
+    at: Array
+    latitude: Array
+    longitude: Array
+    height: Array
+    over_ground: NDArray[np.bool_]
+
+    def flown(self, ground: Ground, moments: Array) -> Array:
+        """Where (frames, 3), m in the scene, one is at moments that are counted as `at` is.
+
+        Places go along the chords between waypoints and are set on the ellipsoid by their own normals, so
+        that a leg is a geodesic (a normal section is within millimetres of it over any run); heights go
+        smoothly from one to the next by themselves.
+        """
+        frame = ground.frame
+        above = ground.point(self.latitude, self.longitude, self.height)
+        height = np.where(self.over_ground, frame.reverse(above)[2], self.height)
+        chord = frame.forward(self.latitude, self.longitude, np.zeros(len(self.at)))
+        inside = np.stack([path.smooth(self.at, chord[:, axis], moments) for axis in range(3)], axis=-1)
+        latitude, longitude, _ = frame.reverse(inside)
+        return frame.forward(latitude, longitude, path.smooth(self.at, height, moments))
+
+
+def short(ground: Ground, position: Array, clearance: Array) -> Array:
+    """How much higher (frames,) cameras must be for the ground to stay `clearance` away, also between frames.
+
+    The way is straight from frame to frame: a frame needs what any place of the two legs that it ends needs.
+    Between the places that are looked at, the ground counts as rising half as much again as from one to the
+    next.
+
+    Parameters
+    ----------
+    position
+        (frames, 3) m in the scene.
+    clearance
+        (frames,) m above the ground.
+    """
+    if len(position) == 1:
+        return np.maximum(ground.up(*position.T[:2]) + clearance - position[:, 2], 0.0)
+    length = np.linalg.norm(np.diff(position, axis=0), axis=1)
+    apart = max(_APART, float(length.sum()) / _PLACES)
+    count = np.maximum(np.ceil(length / apart).astype(np.int64), 1) + 1  # with both ends of every leg
+    first, leg = np.cumsum(count) - count, np.repeat(np.arange(len(count)), count)
+    part = (np.arange(count.sum()) - first[leg]) / (count[leg] - 1.0)
+    place = position[leg] + part[:, None] * (position[leg + 1] - position[leg])
+    wanted = clearance[leg] + part * (clearance[leg + 1] - clearance[leg])
+    up = ground.up(place[:, 0], place[:, 1])
+    rise = 0.5 * np.abs(np.diff(up)) * (leg[1:] == leg[:-1])
+    up = up + np.maximum(np.append(rise, 0.0), np.append(0.0, rise))
+    needed = np.maximum(np.maximum.reduceat(up + wanted - place[:, 2], first), 0.0)
+    return np.maximum(np.append(needed, 0.0), np.append(0.0, needed))
+
+
+def heading(position: Array) -> Array:
+    """Bearings (frames,), radians clockwise from north and without jumps, along a way (frames, 3).
+
+    What stands still keeps the bearing it came with, or has that with which it will leave; north if never.
+    """
+    if len(position) == 1:
+        return np.zeros(1)
+    east, north = np.gradient(position[:, :2], axis=0).T
+    moving = np.flatnonzero(np.hypot(east, north) > _STILL)
+    if len(moving) == 0:
+        return np.zeros(len(position))
+    before = np.searchsorted(moving, np.arange(len(position)), "right") - 1
+    kept = moving[np.maximum(before, 0)]
+    return np.unwrap(np.arctan2(east[kept], north[kept]))
+
+
+def ahead(position: Array, tilt: Array, distance: float = 1000.0) -> Array:
+    """Points (frames, 3) that far ahead on a way (frames, 3), `tilt` (degrees) under the horizon."""
+    bearing, down = heading(position), np.radians(tilt)
+    flat = np.cos(down)
+    along = np.stack([np.sin(bearing) * flat, np.cos(bearing) * flat, -np.sin(down)], axis=-1)
+    return position + distance * along
+
+
+def bank(position: Array, step: float) -> Array:
+    """Angles (frames,), radians to the right, by which an aircraft leans in a coordinated turn.
+
+    tan(angle) = speed x rate of turn / gravity, with `step` seconds from frame to frame.
+    """
+    if len(position) < 3 or step <= 0.0:
+        return np.zeros(len(position))
+    speed = np.hypot(*np.gradient(position[:, :2], step, axis=0).T)
+    turning = np.gradient(heading(position), step)
+    return np.clip(np.arctan(speed * turning / _GRAVITY), -_STEEPEST, _STEEPEST)
+
+
+def rolled(rotation: Array, angle: Array) -> Array:
+    """Rotations (frames, 3, 3) leaning to the right by angles (frames,), radians."""
+    return rotation @ _about(2, -angle)
+
+
+def trembling(rotation: Array, strength: float, seed: int, name: str) -> Array:
+    """Rotations (frames, 3, 3) that shake about all three axes, each by normal deviates.
+
+    Parameters
+    ----------
+    strength
+        Standard deviation, degrees.
+    seed, name
+        What the deviates of each frame hang on, beside its number.
+    """
+    frame = np.arange(len(rotation))
+    first = (seed + zlib.crc32(name.encode())) % 2**31
+    for axis in range(3):
+        deviate = noise.normal(*(noise.uniform(frame, axis, first + k) for k in (0, 1)))
+        rotation = rotation @ _about(axis, np.radians(strength) * deviate)
+    return rotation
+
+
+def _about(axis: int, angle: Array) -> Array:
+    """Rotations (n, 3, 3) about an axis by angles (n,), counter-clockwise as it points at the viewer."""
+    turn = np.repeat(np.eye(3)[None], len(angle), axis=0)
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    turn[:, i, i] = turn[:, j, j] = np.cos(angle)
+    turn[:, j, i], turn[:, i, j] = np.sin(angle), -np.sin(angle)
+    return turn

@@ -1,0 +1,51 @@
+"""What the sensors of a mount give to a pass of the camera that they are on, such as its fused view.
+
+What the camera records itself is its own. What it does not record comes from the first sensor on its mount
+that does, and the map from the first minimap that follows it and records the visible picture. What none of
+them records is made for the camera. A sensor that films other frames than the camera gives nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from .. import passes
+from .rigs.minimap import Minimap
+from .rigs.mounted import Mounted
+
+if TYPE_CHECKING:
+    from ..settings.settings import Camera, Settings
+
+MAP = "map"
+
+
+def taken(
+    settings: Settings, cameras: Sequence[Camera], name: str, made: passes.Pass
+) -> dict[str, tuple[str, str]]:
+    """Camera and pass that each need of a pass of the camera `name` is taken from.
+
+    Parameters
+    ----------
+    cameras
+        All of the scene file's.
+    """
+    found = {need: (name, need) for need in made.needs}
+    if not made.mount:
+        return found
+    (camera,) = (each for each in cameras if each.name == name)
+    own = _records(settings, camera)
+    for other in cameras:
+        if other.rig.leader(cameras) is not camera or other.frames not in ("", camera.frames):
+            continue
+        records = _records(settings, other)
+        if isinstance(other.rig, Mounted):
+            free = (need for need in made.needs if need in records - own and found[need][0] == name)
+            found |= {need: (other.name, need) for need in free}
+        elif isinstance(other.rig, Minimap) and "rgb" in records:
+            found.setdefault(MAP, (other.name, "rgb"))
+    return found
+
+
+def _records(settings: Settings, camera: Camera) -> set[str]:
+    return {each.name for each in passes.of_camera(settings, camera)}

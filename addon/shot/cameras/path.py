@@ -1,0 +1,205 @@
+"""Where a camera is and where it looks in every frame, without Blender."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..terrain import noise
+from ..terrain.terrain import Ground
+
+if TYPE_CHECKING:
+    from firetwin_core import geo
+
+    from ..settings.settings import Camera
+
+SENSOR = 36.0  # mm, width of the film
+UP = np.array([0.0, 0.0, 1.0])
+_NEAREST = 0.5  # m
+_HIGHEST_AIR = 20_000.0  # m, over any smoke
+_HIGHEST = 1500.0  # m; a camera is not raised more than this to see over a ridge
+_LOOKS = 600  # frames at most whose lines of sight are looked at for ridges
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Path:
+    """A camera's way through the shot.
+
+    Attributes
+    ----------
+    position
+        (frames, 3) metres in the scene.
+    rotation
+        (frames, 3, 3) matrices whose columns are the camera's right, up and back.
+    target
+        (frames, 3) where it looks.
+    half
+        Tangents of half the horizontal and vertical angle of view; where lines of sight are parallel, half
+        the width and height of the picture in metres. Of a lens that zooms, those of its longest.
+    perspective
+        Whether lines of sight meet in the camera; else they are parallel.
+    hidden
+        (frames,) metres that the camera would have to be higher than its keys say to see its target over the
+        ridges between; None where nobody asked.
+    sensor
+        Width of the chip or film, mm.
+    wider
+        (frames,) how many times as large `half` is in each frame; None: 1 always.
+    meet
+        Where lines of sight meet so far away that they count as parallel: how far, m, from what it looks at;
+        `half` is there. 0: never.
+    around
+        It sees all round, in a picture that holds every direction: `half` is half of its angles, radians.
+    apart
+        How far its eyes are apart, m; they stand right and left of `position` as seen in each direction.
+    width
+        Of its pictures (of one eye), pixels; the shot knows it.
+    """
+
+    camera: Camera
+    position: Array
+    rotation: Array
+    target: Array
+    half: tuple[float, float]
+    perspective: bool = True
+    hidden: Array | None = None
+    sensor: float = SENSOR
+    wider: Array | None = None
+    meet: float = 0.0
+    around: bool = False
+    apart: float = 0.0
+    width: int = 0
+
+    @property
+    def pixel(self) -> float:
+        """Size of its smallest pixels: in perspective m per m of distance, and with parallel lines m."""
+        return 2.0 * self.half[0] / self.width
+
+    @property
+    def halves(self) -> Array:
+        """`half` in every frame (frames, 2)."""
+        wider = np.ones(len(self.position)) if self.wider is None else self.wider
+        return wider[:, None] * np.array(self.half)
+
+
+def finest(paths: list[Path]) -> tuple[float, float]:
+    """Sizes of the smallest pixels of each kind (see `Path.pixel`), infinite without a camera of it."""
+    return tuple(
+        min((path.pixel for path in paths if path.perspective == near), default=np.inf)
+        for near in (True, False)
+    )
+
+
+def eyes(ways: list[Array], radius: float) -> Array:
+    """(m, 3) places along ways (n, 3) each, a quarter of `radius` apart: where the ground needs detail."""
+    kept: list[Array] = []
+    for way in ways:
+        last = None
+        for place in way:
+            if last is None or np.linalg.norm(place - last) > 0.25 * radius:
+                kept.append(place)
+                last = place
+    return np.array(kept).reshape(-1, 3)
+
+
+def smooth(at: Array, values: Array, moments: Array) -> Array:
+    """Monotone cubic through (at, values), held outside (Fritsch and Butland 1984: no overshoot)."""
+    if len(at) == 1:
+        return np.full(len(moments), values[0])
+    gap, delta = np.diff(at), np.diff(values)
+    if np.any(gap <= 0.0):
+        at, keep = np.unique(at, return_index=True)
+        return smooth(at, values[keep], moments)
+    secant = delta / gap
+    slope = np.zeros(len(at))
+    if len(at) > 2:
+        left, right = 2.0 * gap[1:] + gap[:-1], gap[1:] + 2.0 * gap[:-1]
+        same = secant[:-1] * secant[1:] > 0.0
+        safe = np.where(same, secant[:-1], 1.0), np.where(same, secant[1:], 1.0)
+        slope[1:-1] = np.where(same, (left + right) / (left / safe[0] + right / safe[1]), 0.0)
+    slope[0], slope[-1] = secant[0], secant[-1]
+    t = np.clip(moments, at[0], at[-1])
+    i = np.clip(np.searchsorted(at, t, "right") - 1, 0, len(gap) - 1)
+    s = (t - at[i]) / gap[i]
+    a, b = values[i], values[i + 1]
+    bend = gap[i] * s * (1.0 - s) * ((1.0 - s) * slope[i] - s * slope[i + 1])
+    return a + (b - a) * noise.smoothstep(0.0, 1.0, s) + bend
+
+
+def hidden(ground: Ground, position: Array, target: Array, margin: float = 40.0) -> Array:
+    """How much higher (frames,) cameras must be to see their target over the ridges between, by `margin`.
+
+    Of a long film that is looked at in `_LOOKS` frames, linear between.
+    """
+    frames = np.arange(len(position))
+    some = np.unique(np.linspace(0, len(frames) - 1, min(len(frames), _LOOKS)).round().astype(int))
+    part = np.linspace(0.03, 0.85, 40)[:, None, None]  # of the way; near the target any slope hides it
+    way = position[some] + part * (target - position)[some]
+    ridge = ground.up(way[..., 0].ravel(), way[..., 1].ravel()).reshape(way.shape[:2])
+    needed = (ridge + margin - way[..., 2]) / (1.0 - part[..., 0])
+    return np.interp(frames, some, np.clip(needed.max(axis=0), 0.0, _HIGHEST))
+
+
+def eased(short: Array) -> Array:
+    """Heights to add (frames,): at least `short`, changing smoothly over a sixth of the shot."""
+    reach = max(len(short) // 12, 1)
+    padded = np.pad(short, 2 * reach, "edge")
+    highest = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(1)
+    window = np.hanning(2 * reach + 3)[1:-1]
+    return np.convolve(highest, window / window.sum(), "valid")
+
+
+def blend(at: Array, aims: Array, moments: Array) -> Array:
+    """Between two keys the aim goes smoothly from that of one to that of the other."""
+    if len(at) == 1:
+        return aims[0]
+    i = np.clip(np.searchsorted(at, moments, "right") - 1, 0, len(at) - 2)
+    s = noise.smoothstep(0.0, 1.0, (moments - at[i]) / np.maximum(at[i + 1] - at[i], 1.0e-9))[:, None]
+    frames = np.arange(len(moments))
+    return aims[i, frames] * (1.0 - s) + aims[i + 1, frames] * s
+
+
+def look(position: Array, target: Array, up: Array = UP) -> Array:
+    """Rotations (n, 3, 3) that look from `position` at `target` with the horizon level: across `up` (3,)."""
+    back = position - target
+    back /= np.maximum(np.linalg.norm(back, axis=1, keepdims=True), 1.0e-9)
+    right = np.cross(up, back)
+    length = np.linalg.norm(right, axis=1, keepdims=True)
+    right = np.where(length > 1.0e-6, right / np.maximum(length, 1.0e-9), [1.0, 0.0, 0.0])
+    return np.stack([right, np.cross(back, right), back], axis=-1)
+
+
+def compass(frame: geo.LocalFrame, place: Array) -> tuple[Array, Array, Array]:
+    """East, north and up, unit vectors (3,), of a place (3,) in the scene, whose up is not the scene's."""
+    latitude, longitude, height = (float(v[0]) for v in frame.reverse(place[None]))
+    north = frame.forward([latitude - 1.0e-3, latitude + 1.0e-3], [longitude] * 2, [height] * 2)
+    up = frame.forward([latitude] * 2, [longitude] * 2, [height - 1000.0, height + 1000.0])
+    north, up = ((ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0]) for ends in (north, up))
+    return np.cross(north, up), north, up
+
+
+def clip(view: Path, ground: Ground) -> tuple[float, float]:
+    """Nearest and farthest distance (m) that a camera draws: all of the ground and of the air over it.
+
+    Cameras over all that is drawn begin half-way to it, so that depth keeps its digits.
+    """
+    latitude, longitude = (np.linspace(axis[0], axis[-1], 17) for axis in _axes(ground))
+    heights = [float(ground.fields.elevation.min()), _HIGHEST_AIR]
+    points = np.concatenate(
+        [ground.frame.forward_grid(latitude, longitude, np.full((17, 17), h)).reshape(-1, 3) for h in heights]
+    )
+    middle = view.position.mean(axis=0)
+    spread = float(np.linalg.norm(view.position - middle, axis=1).max())
+    away = np.linalg.norm(points - middle, axis=1)
+    above = view.position[:, 2].min() > points[:, 2].max()
+    near = 0.5 * (float(away.min()) - spread) if above else 0.0
+    return max(near, _NEAREST), 1.05 * (float(away.max()) + spread)
+
+
+def _axes(ground: Ground) -> tuple[Array, Array]:
+    return ground.fields.latitude, ground.fields.longitude

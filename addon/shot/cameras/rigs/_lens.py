@@ -1,0 +1,31 @@
+"""The lens and the chip (or film) of a camera in perspective."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ...settings.bounds import SENSOR as WIDTH
+from ...settings.schema import key
+from ..path import SENSOR
+from . import Rig
+
+if TYPE_CHECKING:
+    from ...settings.settings import Camera
+    from ...shot import Shot
+
+FOCAL_LENGTH = {"unit": "mm", "at_least": 1, "at_most": 5000}
+
+
+@dataclass(frozen=True)
+class Lens(Rig):
+    """A kind of camera that has a lens."""
+
+    focal_length: float = key(28.0, "focal length", **FOCAL_LENGTH)
+    sensor_width: float = key(SENSOR, "sensor width; 36: full frame, 13.2: 1 inch, 6.4: small drone", **WIDTH)
+
+    def half(self, camera: Camera, shot: Shot) -> tuple[float, float]:
+        """Tangents of half the angles of view, across and up; pictures are as wide as the chip."""
+        width, height = shot.resolution(camera)
+        half = 0.5 * self.sensor_width / self.focal_length
+        return half, half * height / width

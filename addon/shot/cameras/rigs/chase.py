@@ -1,0 +1,61 @@
+"""A chase: a camera that goes along with the head of the fire and keeps it in the picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...settings.bounds import AIM, ANGLE, CLEARANCE, HEIGHT, LENGTH
+from ...settings.schema import key
+from .. import flight, path, targets
+from ..path import Path
+from ._lens import Lens
+
+if TYPE_CHECKING:
+    from ...settings.settings import Camera
+    from ...shot import Shot
+    from ...terrain.terrain import Ground
+    from ._view import View
+
+
+@dataclass(frozen=True)
+class Chase(Lens):
+    """Perspective camera that follows the head of the fire."""
+
+    distance: float = key(1500.0, "horizontal distance from the head", **LENGTH)
+    side: float = key(
+        180.0, "bearing from the head, relative to its course; 180: behind, 90: right, 0: in front", **ANGLE
+    )
+    height: float = key(400.0, "approximate height above the terrain", **HEIGHT)
+    target_height: float = key(100.0, "target height above the terrain", **AIM)
+    clearance: float = key(50.0, "minimum height above the terrain", **CLEARANCE)
+    over_ridges: bool = key(True, "rise until no ridge hides the head")
+
+    @classmethod
+    def seeing(cls, view: View) -> Chase:
+        """As far from the head, and as high above the ground, as the eye is from the middle of the view."""
+        return cls(**view.lens, distance=max(view.away, 1.0), height=view.above)
+
+    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+        """Beside the head, whose place and course are smooth over a fifth of the shot, and looking at it."""
+        target = targets.follow("head", ground, shot.frames.times, self.target_height)
+        away = targets.smoothed(flight.heading(target)) + np.radians(self.side)
+        position = target + self.distance * np.stack([np.sin(away), np.cos(away), 0.0 * away], axis=-1)
+        position[:, 2] = targets.smoothed(ground.up(position[:, 0], position[:, 1])) + self.height
+        short = flight.short(ground, position, np.full(len(away), self.clearance))
+        hidden = path.hidden(ground, position, target)
+        position[:, 2] += path.eased(np.maximum(short, hidden) if self.over_ridges else short)
+        return Path(
+            camera,
+            position,
+            path.look(position, target),
+            target,
+            self.half(camera, shot),
+            hidden=hidden,
+            sensor=self.sensor_width,
+        )
+
+
+RIG = Chase

@@ -1,0 +1,164 @@
+"""A drone: a camera in perspective that flies from key to key."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path as File
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...settings.bounds import CLEARANCE
+from ...settings.schema import Where, key
+from .. import flight, path, targets
+from ..flight import Waypoints
+from ..path import Array, Path
+from ..track import MOMENTS, read
+from ._key import CameraKey, rising
+from ._lens import Lens
+
+if TYPE_CHECKING:
+    from firetwin_core.run import Run
+
+    from ...frames import Frames
+    from ...settings.settings import Camera
+    from ...shot import Shot
+    from ...terrain.terrain import Ground
+    from . import Place
+    from ._view import View
+
+_CLEARANCE = 0.35  # of the height asked for above the ground that stays over hills between keys
+
+
+@dataclass(frozen=True)
+class Drone(Lens):
+    """Perspective camera that flies smoothly from key to key or along a track."""
+
+    over_ridges: bool = key(
+        False, 'rise until no ridge hides the target "head" or "fire"; otherwise keep the height'
+    )
+    clearance: float = key(10.0, "minimum height above the terrain, also between frames", **CLEARANCE)
+    bank: float = key(0.0, "bank in turns; 1: as an aircraft, 0: level horizon", at_least=0, at_most=1)
+    vibration: float = key(
+        0.0,
+        "standard deviation of vibration about each axis; 0.02: a good gimbal",
+        unit="degrees",
+        at_least=0,
+        at_most=5,
+    )
+    track: File | None = key(  # noqa: RUF009
+        None,
+        "flight track, .gpx, .kml or .csv; keys then set only the view (no keys: ahead)",
+        shows=(),
+    )
+    track_times: str = key("own", "time base of a track with times", choices=MOMENTS)
+    keys: tuple[CameraKey, ...] = key((), "position and view at one time")
+
+    @classmethod
+    def seeing(cls, view: View) -> Drone:
+        """It hovers there and looks at what is in the middle of the view."""
+        place = view.latitude, view.longitude, max(view.height, 1.0)
+        return cls(**view.lens, keys=(CameraKey(0.0, *place, "point", *view.aim, above="sea"),))
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """A drone is somewhere, and its moments rise."""
+        if not self.keys and self.track is None:
+            return ("keys",), "has no [[cameras.keys]] and no track; a drone needs at least one key"
+        return rising(self.keys)
+
+    def places(self) -> list[Place]:
+        """Its keys, and the points that it looks at."""
+        found: list[Place] = []
+        for i, at in enumerate(self.keys):
+            if self.track is None:
+                found.append((("keys", i, "latitude"), at.latitude, at.longitude))
+            if at.target == "point":
+                found.append((("keys", i, "target_latitude"), at.target_latitude, at.target_longitude))
+        if self.track is not None:
+            found += [(("track",), *corner) for corner in read(self.track).corners()]
+        return found
+
+    def reads(self) -> list[File]:
+        """Its track."""
+        return [] if self.track is None else [self.track]
+
+    def misfit(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
+        """A track that keeps its own times is flown while the frames are."""
+        if self.track is None or self.track_times != "own":
+            return None
+        missed = read(self.track).missed(run, frames)
+        return (("track",), f"follows {self.track.name}, which {missed}") if missed else None
+
+    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+        """Smooth between keys or along its track, over the hills between, looking at its targets."""
+        count = shot.frames.count
+        moments = np.linspace(0.0, 1.0, count)
+        keys = sorted(self.keys, key=lambda each: each.at) or [CameraKey(target="ahead")]
+        clearance = np.full(count, self.clearance)
+        if self.track is None:
+            way = _waypoints(keys)
+            position = way.flown(ground, moments)
+            over = path.smooth(way.at, np.where(way.over_ground, way.height, 0.0), moments)
+            clearance = np.maximum(clearance, _CLEARANCE * over)
+        else:
+            recorded = read(self.track)
+            way, shown = recorded.at(self.track_times, shot.run, shot.frames, ground.frame)
+            position = way.flown(ground, shown)
+        moving = _moving(keys, shot, ground)
+        target = self._target(keys, position, moments, shot, ground, moving)
+        short = flight.short(ground, position, clearance)
+        hidden = np.zeros(count)
+        if any(each.target in targets.MOVING for each in keys):  # nobody could know where the fire would be
+            hidden = path.hidden(ground, position, target)
+        if self.over_ridges:
+            short = np.maximum(short, hidden)
+        position[:, 2] += path.eased(short)
+        target = self._target(keys, position, moments, shot, ground, moving)
+        rotation = path.look(position, target)
+        if self.bank > 0.0:
+            rotation = flight.rolled(rotation, self.bank * flight.bank(position, shot.frames.step))
+        if self.vibration > 0.0:
+            rotation = flight.trembling(rotation, self.vibration, shot.settings.seed, camera.name)
+        half = self.half(camera, shot)
+        return Path(camera, position, rotation, target, half, hidden=hidden, sensor=self.sensor_width)
+
+    def _target(
+        self,
+        keys: list[CameraKey],
+        position: Array,
+        moments: Array,
+        shot: Shot,
+        ground: Ground,
+        moving: dict[tuple[str, float], Array],
+    ) -> Array:
+        """Where it looks (frames, 3) from there."""
+        at = np.array([each.at for each in keys])
+        aims = [_aim(each, position, shot, ground, moving) for each in keys]
+        return path.blend(at, np.array(aims), moments)
+
+
+def _waypoints(keys: list[CameraKey]) -> Waypoints:
+    columns = ("at", "latitude", "longitude", "height")
+    values = (np.array([getattr(each, name) for each in keys], np.float64) for name in columns)
+    return Waypoints(*values, np.array([each.above == "ground" for each in keys]))
+
+
+def _moving(keys: list[CameraKey], shot: Shot, ground: Ground) -> dict[tuple[str, float], Array]:
+    """Where what moves is in every frame (frames, 3), by its name and the height above the ground."""
+    wanted = {(each.target, each.target_height) for each in keys if each.target in targets.MOVING}
+    return {each: targets.follow(each[0], ground, shot.frames.times, each[1]) for each in wanted}
+
+
+def _aim(
+    at: CameraKey, position: Array, shot: Shot, ground: Ground, moving: dict[tuple[str, float], Array]
+) -> Array:
+    """Where a key points in every frame (frames, 3)."""
+    if at.target == "ahead":
+        return flight.ahead(position, np.full(len(position), at.tilt))
+    if at.target == "point":
+        place = ground.point(at.target_latitude, at.target_longitude, at.target_height)
+        return np.repeat(place, shot.frames.count, axis=0)
+    return moving[at.target, at.target_height]
+
+
+RIG = Drone

@@ -1,0 +1,92 @@
+"""A lookout: a camera on a mast that turns and zooms."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...settings.bounds import ANGLE, HEIGHT
+from ...settings.schema import Where, key
+from .. import path
+from ..path import Path
+from ._key import rising
+from ._lens import Lens
+
+if TYPE_CHECKING:
+    from ...settings.settings import Camera
+    from ...shot import Shot
+    from ...terrain.terrain import Ground
+    from . import Place
+    from ._view import View
+
+_FAR = 5000.0  # m, of the points that it counts as looking at
+
+
+@dataclass(frozen=True)
+class LookoutKey:
+    """Where a lookout looks at one time."""
+
+    at: float = key(0.0, "time of the key; 0: first frame, 1: last frame", at_least=0, at_most=1)
+    pan: float = key(0.0, "bearing, clockwise from north; the camera turns the shorter way", **ANGLE)
+    tilt: float = key(
+        0.0, "angle below the horizon; negative is up", unit="degrees", at_least=-89, at_most=89
+    )
+    zoom: float = key(1.0, "zoom factor of the focal length", at_least=0.01, at_most=1000)
+
+
+@dataclass(frozen=True)
+class Lookout(Lens):
+    """Camera on a fixed mast that pans, tilts and zooms from key to key."""
+
+    latitude: float = key(0.0, "mast latitude", unit="degrees north", at_least=-90, at_most=90)
+    longitude: float = key(
+        0.0, "mast longitude; west is negative", unit="degrees east", at_least=-180, at_most=180
+    )
+    height: float = key(20.0, "mast height above the terrain", **HEIGHT)
+    keys: tuple[LookoutKey, ...] = key((), "view at one time; without keys the camera looks north")
+
+    @classmethod
+    def seeing(cls, view: View) -> Lookout:
+        """A mast as high as the eye."""
+        keys = (LookoutKey(0.0, view.heading, float(np.clip(view.tilt, -89.0, 89.0))),)
+        return cls(
+            **view.lens, latitude=view.latitude, longitude=view.longitude, height=view.above, keys=keys
+        )
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """Its moments rise."""
+        return rising(self.keys)
+
+    def places(self) -> list[Place]:
+        """Where it stands."""
+        return [(("latitude",), self.latitude, self.longitude)]
+
+    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+        """It stays; bearings count from the north and tilts from the horizon of its own place."""
+        count = shot.frames.count
+        keys = self.keys or (LookoutKey(),)
+        at, pan, tilt, zoom = np.array([[k.at, k.pan, k.tilt, k.zoom] for k in keys], np.float64).T
+        moments = np.linspace(0.0, 1.0, count)
+        pan = path.smooth(at, np.unwrap(np.radians(pan)), moments)
+        tilt = np.radians(path.smooth(at, tilt, moments))
+        zoom = np.exp(path.smooth(at, np.log(zoom), moments))
+        place = ground.point(self.latitude, self.longitude, self.height)
+        east, north, up = path.compass(ground.frame, place[0])
+        flat = np.sin(pan)[:, None] * east + np.cos(pan)[:, None] * north
+        position = np.repeat(place, count, axis=0)
+        target = position + _FAR * (np.cos(tilt)[:, None] * flat - np.sin(tilt)[:, None] * up)
+        across, high = self.half(camera, shot)
+        return Path(
+            camera,
+            position,
+            path.look(position, target, up),
+            target,
+            (across / float(zoom.max()), high / float(zoom.max())),
+            wider=zoom.max() / zoom,
+            sensor=self.sensor_width,
+        )
+
+
+RIG = Lookout

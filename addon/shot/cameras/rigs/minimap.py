@@ -1,0 +1,52 @@
+"""A minimap: a map to scale that goes along with another camera."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...settings.bounds import SWATH
+from ...settings.schema import key
+from ..path import Path
+from . import Rig
+from .satellite import down
+
+if TYPE_CHECKING:
+    from ...settings.settings import Camera
+    from ...shot import Shot
+    from ...terrain.terrain import Ground
+    from ._view import View
+
+
+@dataclass(frozen=True)
+class Minimap(Rig):
+    """Orthographic camera straight above another camera, with north up."""
+
+    follows: str = key("", "name of the followed camera; empty: the first camera that follows none")
+    swath: float = key(6000.0, "swath: width of the picture on the terrain", **SWATH)
+
+    @classmethod
+    def seeing(cls, view: View) -> Minimap:
+        """As wide as the view."""
+        return cls(swath=view.width)
+
+    def leader(self, cameras: Sequence[Camera]) -> Camera | None:
+        """The camera that it follows; None where there is none of that name, or none at all."""
+        found = (each for each in cameras if not hasattr(each.rig, "follows"))
+        return next((each for each in found if self.follows in ("", each.name)), None)
+
+    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+        """Over the camera that it follows in every frame; over the middle of the run without one."""
+        leader = self.leader(shot.cameras)
+        east, north = np.zeros((2, shot.frames.count))
+        if leader is not None:
+            way = leader.rig.path(leader, shot, ground)
+            east, north = (way.target if way.meet else way.position).T[:2]
+        place = np.stack([east, north, ground.up(east, north)], axis=-1)
+        return down(camera, shot, place, self.swath)
+
+
+RIG = Minimap

@@ -1,0 +1,59 @@
+"""A mounted sensor: one more camera on the mount of another, with a lens of its own if it has one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from ...settings.bounds import SENSOR as WIDTH
+from ...settings.schema import Where, key
+from ..path import SENSOR, Path
+from . import Rig
+from ._lens import FOCAL_LENGTH, Lens
+
+if TYPE_CHECKING:
+    from ...settings.settings import Camera
+    from ...shot import Shot
+    from ...terrain.terrain import Ground
+
+
+@dataclass(frozen=True)
+class Mounted(Rig):
+    """Second sensor on another camera's mount, with the same position and direction.
+
+    Without a focal length its field of view is that camera's; pixels then agree if resolutions do.
+    """
+
+    follows: str = key("", "name of the perspective camera that carries it")
+    focal_length: float | None = key(
+        None, "focal length of its own lens; if left out, that camera's", **FOCAL_LENGTH
+    )
+    sensor_width: float = key(SENSOR, "width of its own sensor, used with its own focal length", **WIDTH)
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """It is on some mount."""
+        return None if self.follows else (("follows",), "has no follows; name the camera it is mounted with")
+
+    def leader(self, cameras: Sequence[Camera]) -> Camera | None:
+        """The camera whose mount it shares; None where none in perspective has the name."""
+        found = (each for each in cameras if isinstance(each.rig, Lens))
+        return next((each for each in found if each.name == self.follows), None)
+
+    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+        """The way of the camera that it follows, seen by its own lens."""
+        leader = self.leader(shot.cameras)
+        way = self.through(leader.rig.path(leader, shot, ground))
+        width, height = shot.resolution(camera)
+        half = way.half[0], way.half[0] * height / width
+        return replace(way, camera=camera, half=half, hidden=None)  # that camera warns of ridges
+
+    def through(self, way: Path) -> Path:
+        """The way of the mount's camera seen by its own lens, in square pictures if it has one."""
+        if self.focal_length is None:
+            return way
+        own = 0.5 * self.sensor_width / self.focal_length
+        return replace(way, half=(own, own), sensor=self.sensor_width, wider=None)
+
+
+RIG = Mounted

@@ -1,0 +1,128 @@
+"""Poses: a camera put where somebody wants it, moment by moment, as it is flown and keyed by hand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...settings.bounds import AIM, ANGLE
+from ...settings.schema import Where, key
+from .. import path, sparse_keys
+from .. import rotation as turning
+from ..path import Path
+from ._key import rising
+from ._lens import FOCAL_LENGTH, Lens
+
+if TYPE_CHECKING:
+    from firetwin_core import geo
+
+    from ...settings.settings import Camera
+    from ...shot import Shot
+    from ...terrain.terrain import Ground
+    from . import Place
+    from ._view import View
+
+_FAR = 5000.0  # m, of the points that it counts as looking at
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Position and orientation of a camera at one time, independent of the terrain."""
+
+    at: float = key(0.0, "time of the key; 0: first frame, 1: last frame", at_least=0, at_most=1)
+    latitude: float = key(0.0, "camera latitude", unit="degrees north", at_least=-90, at_most=90)
+    longitude: float = key(
+        0.0, "camera longitude; west is negative", unit="degrees east", at_least=-180, at_most=180
+    )
+    height: float = key(2000.0, "camera height above sea level", **AIM)
+    heading: float = key(0.0, "heading, clockwise from north", **ANGLE)
+    tilt: float = key(
+        0.0, "angle below the horizon; negative is up", unit="degrees", at_least=-90, at_most=90
+    )
+    roll: float = key(0.0, "roll to the right", **ANGLE)
+    lens: float | None = key(None, "focal length; if left out, the camera's", **FOCAL_LENGTH)
+
+
+@dataclass(frozen=True)
+class Poses(Lens):
+    """Perspective camera that moves through poses flown or keyed by hand."""
+
+    keys: tuple[Pose, ...] = key((), "pose at one time")
+
+    @classmethod
+    def seeing(cls, view: View) -> Poses:
+        """The view itself."""
+        pose = Pose(0.0, view.latitude, view.longitude, view.height, view.heading, view.tilt, view.roll)
+        return cls(**view.lens, keys=(pose,))
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """It is somewhere, and its moments rise."""
+        if not self.keys:
+            return ("keys",), "has no [[cameras.keys]]; poses need at least one"
+        return rising(self.keys)
+
+    def places(self) -> list[Place]:
+        """Its poses."""
+        return [(("keys", i, "latitude"), at.latitude, at.longitude) for i, at in enumerate(self.keys)]
+
+    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+        """Cubics from pose to pose: places in the scene, quaternions, and logarithms of focal lengths."""
+        keys, frame = self.keys, ground.frame
+        columns = ((each.latitude, each.longitude, each.height) for each in keys)
+        place = frame.forward(*np.array([*columns], np.float64).T.copy())
+        matrix = np.array([_matrix(frame, at, each) for at, each in zip(place, keys, strict=True)])
+        lens = np.log([[each.lens or self.focal_length] for each in keys])
+        at = np.array([each.at for each in keys], np.float64)
+        values = np.hstack([place, turning.quaternions(matrix), lens])
+        moments = np.linspace(0.0, 1.0, shot.frames.count)
+        shown = sparse_keys.through(at, values, moments)
+        exact = {round(moment, 12): k for k, moment in enumerate(at)}
+        for i, moment in enumerate(moments):  # not one bit off in the frames of its keys
+            if (k := exact.get(round(float(moment), 12))) is not None:
+                shown[i] = values[k]
+        rotation, wider = turning.matrices(shown[:, 3:7]), np.exp(-shown[:, 7])
+        across, high = self.half(camera, shot)
+        longest = float(wider.min()) * self.focal_length
+        return Path(
+            camera,
+            shown[:, :3],
+            rotation,
+            shown[:, :3] - _FAR * rotation[:, :, 2],
+            (across * longest, high * longest),
+            wider=wider / wider.min(),
+            sensor=self.sensor_width,
+        )
+
+
+def _matrix(frame: geo.LocalFrame, place: path.Array, pose: Pose) -> path.Array:
+    return turning.turned(frame, place, pose.heading, pose.tilt, pose.roll)
+
+
+def keyed(
+    frame: geo.LocalFrame, at: path.Array, place: path.Array, rotation: path.Array, lens: path.Array
+) -> tuple[Pose, ...]:
+    """Poses of a camera at moments (k,): places (k, 3) and matrices (k, 3, 3) in the scene, lenses (k,) mm.
+
+    Parameters
+    ----------
+    lens
+        Where all are one, the poses leave it to the camera's focal length.
+    """
+    latitude, longitude, height = frame.reverse(place)
+    several = bool(np.ptp(lens) > 0.0)
+    return tuple(
+        Pose(
+            float(at[k]),
+            float(latitude[k]),
+            float(longitude[k]),
+            float(height[k]),
+            *turning.angles(frame, place[k], rotation[k]),
+            float(lens[k]) if several else None,
+        )
+        for k in range(len(at))
+    )
+
+
+RIG = Poses

@@ -1,0 +1,119 @@
+"""A satellite: a camera far above that looks straight down, or from its place over the equator."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ....run.frame import local_frame
+from ...settings.bounds import SWATH
+from ...settings.schema import Where, key
+from .. import path
+from ..path import Array, Path
+from . import Rig
+from ._key import CameraKey, rising
+
+if TYPE_CHECKING:
+    from firetwin_core import geo
+    from firetwin_core.run import Run
+
+    from ...frames import Frames
+    from ...settings.settings import Camera
+    from ...shot import Shot
+    from ...terrain.terrain import Ground
+    from . import Place
+    from ._view import View
+
+HEIGHT = 60_000.0  # m above the ground, over any smoke
+ORBIT = 35_786_023.0  # m above the equator: 42,164.160 km from the middle of the Earth, less 6,378.137 km
+_LOWEST = 5.0  # degrees over the horizon, where air and hills are in the way
+
+
+@dataclass(frozen=True)
+class Satellite(Rig):
+    """Orthographic camera that looks straight down, or a geostationary camera.
+
+    It views the latitude and longitude of its first key; without keys, the middle of the run.
+    """
+
+    swath: float = key(56_000.0, "swath: width of the picture on the terrain", **SWATH)
+    geostationary: float | None = key(
+        None,
+        "longitude of a geostationary orbit, 35,786 km high; if left out, straight down",
+        unit="degrees east",
+        at_least=-180,
+        at_most=180,
+    )
+    keys: tuple[CameraKey, ...] = key(
+        (), "the first key is the point viewed; without keys, the middle of the run"
+    )
+
+    @classmethod
+    def seeing(cls, view: View) -> Satellite:
+        """Straight over the middle of the view, and as wide."""
+        return cls(swath=view.width, keys=(CameraKey(0.0, *view.aim),))
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """Its moments rise."""
+        return rising(self.keys)
+
+    def places(self) -> list[Place]:
+        """Where it stands."""
+        return [(("keys", i, "latitude"), at.latitude, at.longitude) for i, at in enumerate(self.keys)]
+
+    def misfit(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
+        """From there it sees the place."""
+        if self.geostationary is None:
+            return None
+        frame = local_frame(run)
+        first = self.keys[0] if self.keys else frame
+        place = frame.forward([first.latitude], [first.longitude], [0.0])[0]
+        over = _over_horizon(place, self._eye(frame), frame)
+        if over >= _LOWEST:
+            return None
+        where = f"{over:.0f} degrees over the horizon of" if over > 0.0 else "under the horizon of"
+        reason = (
+            f"is {where} the fire from {self.geostationary:g} E; -137 is one that sees the west of America"
+        )
+        return ("geostationary",), reason
+
+    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+        """It stays where it is."""
+        first = self.keys[0] if self.keys else ground.frame
+        place = np.repeat(ground.point(first.latitude, first.longitude), shot.frames.count, axis=0)
+        if self.geostationary is None:
+            return down(camera, shot, place, self.swath)
+        position = np.repeat(self._eye(ground.frame)[None], len(place), axis=0)
+        tilt = np.radians(ground.frame.latitude)
+        axis = np.array([0.0, np.cos(tilt), np.sin(tilt)])  # the Earth's: rows of its pictures are parallels
+        rotation = path.look(position, place, axis)
+        distance = float(np.linalg.norm(position[0] - place[0]))
+        return Path(camera, position, rotation, place, half(camera, shot, self.swath), False, meet=distance)
+
+    def _eye(self, frame: geo.LocalFrame) -> Array:
+        """Its place (3,) in the scene as Blender can hold it, to 2 or 4 m: pose and picture are then one."""
+        return frame.forward([0.0], [self.geostationary], [ORBIT])[0].astype(np.float32).astype(np.float64)
+
+
+def _over_horizon(place: Array, eye: Array, frame: geo.LocalFrame) -> float:
+    """Height (degrees) of an eye over the horizon of a place, both (3,) in the scene."""
+    way = (eye - place) / np.linalg.norm(eye - place)
+    return float(np.degrees(np.arcsin(way @ path.compass(frame, place)[2])))
+
+
+def down(camera: Camera, shot: Shot, place: Array, swath: float) -> Path:
+    """A way over places (frames, 3) on the ground, looking straight down with north up."""
+    position = place + np.array([0.0, 0.0, HEIGHT])
+    rotation = np.repeat(np.eye(3)[None], len(place), axis=0)
+    return Path(camera, position, rotation, place, half(camera, shot, swath), perspective=False)
+
+
+def half(camera: Camera, shot: Shot, swath: float) -> tuple[float, float]:
+    """Half the width and height (m) of a picture that is so wide."""
+    width, height = shot.resolution(camera)
+    return 0.5 * swath, 0.5 * swath * height / width
+
+
+RIG = Satellite

@@ -1,0 +1,141 @@
+"""Moving targets for cameras, from arrival times: the head of the fire and its middle."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import extent
+from ..terrain.terrain import NEVER, UNKNOWN, Ground, box
+
+Array = NDArray[np.float64]
+
+MOVING = ("head", "fire")  # what moves by itself
+_RECENT = 1800.0  # s; ground of a large fire reached within this time belongs to the moving front
+_KNOTS = 24  # the target is worked out at this many moments and is smooth between them
+_BLOCK = 1500.0  # m; parts of the front that are compared in a large fire
+_LARGE = 20_000.0  # m, size of a fire from which on both count; of a smaller one they are smaller
+_CELLS = 4.0  # of the fuel grid: parts are no smaller, and the front is as deep
+_STAY = 4.0  # blocks from the head that is followed to one that is e times as strong and is not
+
+
+def follow(target: str, ground: Ground, times: Array, above: float) -> Array:
+    """Where (frames, 3) a camera looks that follows the "head" of the fire or the middle of the "fire".
+
+    Parameters
+    ----------
+    above
+        Height of that over the ground, m.
+    """
+    east, north = (head if target == "head" else middle)(ground, times)
+    place = ground.point(*ground.geodetic(east, north), above)
+    place[:, 2] = smoothed(place[:, 2])
+    return place
+
+
+def head(ground: Ground, times: Array) -> tuple[Array, Array]:
+    """East and north (frames,) of the part of the front that advances fastest."""
+    east, north, arrival, speed = _burned(ground)
+    block, recent = _scale(ground, speed, times[-1])
+    return _follow(times, lambda t, last: _head_at(t, last, east, north, arrival, speed, block, recent))
+
+
+def middle(ground: Ground, times: Array) -> tuple[Array, Array]:
+    """East and north (frames,) of the middle of the ground that burns."""
+    east, north, arrival, speed = _burned(ground)
+    recent = _scale(ground, speed, times[-1])[1]
+    return _follow(times, lambda t, last: _middle_at(t, last, east, north, arrival, recent))
+
+
+def smoothed(values: Array) -> Array:
+    """Moving average over a fifth of the shot, ends continued."""
+    reach = max(len(values) // 10, 1)
+    window = np.hanning(2 * reach + 3)[1:-1]
+    return np.convolve(np.pad(values, reach, "edge"), window / window.sum(), "valid")
+
+
+def _burned(ground: Ground) -> tuple[Array, Array, Array, Array]:
+    """East, north (m), arrival (s) and rate of spread (m/s) of every cell that burns."""
+    near = box(ground.arrival < NEVER, more=1)
+    if near is None:
+        return np.empty(0), np.empty(0), np.empty(0), np.empty(0)
+    arrival, time = ground.arrival[near], ground.burn_time[near]
+    burned = arrival < NEVER
+    with np.errstate(divide="ignore"):
+        slope = np.hypot(*np.gradient(np.where(time < UNKNOWN, time, np.nan), *ground.cell))
+    row, column = (at + part.start for at, part in zip(np.nonzero(burned), near, strict=True))
+    latitude, longitude = ground.places(row, column)
+    point = ground.frame.forward(latitude, longitude, ground.fields.elevation[row, column])
+    speed = 1.0 / np.clip(np.nan_to_num(slope[burned], nan=10.0), 0.1, 100.0)
+    return point[:, 0], point[:, 1], arrival[burned], np.minimum(speed, 5.0)
+
+
+def _follow(times: Array, place: object) -> tuple[Array, Array]:
+    """Places at a few moments, joined and smoothed over the shot."""
+    knots = np.linspace(times[0], times[-1], min(len(times), _KNOTS))
+    last, found = None, []
+    for time in knots:
+        last = place(time, last)
+        found.append(last)
+    track = np.array(found)
+    return tuple(smoothed(np.interp(times, knots, track[:, axis])) for axis in (0, 1))
+
+
+def _scale(ground: Ground, speed: Array, time: float) -> tuple[float, float]:
+    """Size (m) of the parts of the front that are compared, and for how long (s) ground belongs to it.
+
+    Parameters
+    ----------
+    speed
+        (n,) of all that burns, m/s.
+    time
+        By when the size of the largest fire counts, s.
+    """
+    size = extent.largest(ground.arrival <= time, ground.cell)
+    if size <= 0.0:
+        return _BLOCK, _RECENT
+    part, cells = min(size / _LARGE, 1.0), _CELLS * max(ground.cell)
+    return max(part * _BLOCK, cells), min(max(part * _RECENT, cells / float(np.median(speed))), _RECENT)
+
+
+def _front(time: float, arrival: Array, recent: float) -> Array:
+    """Indices of the cells reached in the `recent` s before `time`; the nearest in time where none are."""
+    found = np.flatnonzero((arrival <= time) & (arrival > time - recent))
+    if len(found) or len(arrival) == 0:
+        return found
+    return np.argsort(np.abs(arrival - time))[:50]
+
+
+def _head_at(
+    time: float,
+    last: Array | None,
+    east: Array,
+    north: Array,
+    arrival: Array,
+    speed: Array,
+    size: float,
+    recent: float,
+) -> Array:
+    front = _front(time, arrival, recent)
+    if len(front) == 0:
+        return np.zeros(2) if last is None else last
+    e, n = east[front], north[front]
+    weight = speed[front] ** 2 * np.exp((arrival[front] - time) / (0.5 * recent))
+    block = np.round(e / size).astype(np.int64) * 1_000_003 + np.round(n / size).astype(np.int64)
+    blocks, member = np.unique(block, return_inverse=True)
+    total = np.bincount(member, weight, len(blocks))
+    centre = np.stack([np.bincount(member, weight * v, len(blocks)) / total for v in (e, n)], axis=-1)
+    if last is not None:  # stay with the head that is followed unless another is much faster
+        total = total * np.exp(-np.linalg.norm(centre - last, axis=1) / (_STAY * size))
+    best = centre[np.argmax(total)]
+    near = weight * np.exp(-((e - best[0]) ** 2 + (n - best[1]) ** 2) / (2.0 * size**2))
+    return np.array([np.sum(near * e), np.sum(near * n)]) / np.sum(near)
+
+
+def _middle_at(
+    time: float, last: Array | None, east: Array, north: Array, arrival: Array, recent: float
+) -> Array:
+    front = _front(time, arrival, recent)
+    if len(front) == 0:
+        return np.zeros(2) if last is None else last
+    return np.array([np.mean(east[front]), np.mean(north[front])])

@@ -1,0 +1,238 @@
+"""Recorded flights: GPX, KML and CSV files, and which moments of a shot show them.
+
+Heights are above the sea, as the run's elevations are (no geoid is applied). A file without heights lies on
+the ground, over which a drone keeps its clearance.
+"""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ...errors import input_error
+from ...run import times
+from .flight import Waypoints
+from .path import Array
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from firetwin_core import geo
+    from firetwin_core.run import Run
+
+    from ..frames import Frames
+
+MOMENTS = {"own": "UTC", "start": "from frame 1 on", "shot": "over all frames"}
+
+
+class Point(NamedTuple):
+    """A point of a file and its line.
+
+    The height, if any, is m above the sea or the ground; the moment, if any, is UTC or 0..1 of the shot.
+    """
+
+    line: int
+    latitude: float
+    longitude: float
+    height: float | None
+    over_ground: bool = False
+    moment: datetime | float | None = None
+
+
+@dataclass(frozen=True)
+class Track:
+    """A flight.
+
+    Attributes
+    ----------
+    latitude, longitude, height, over_ground
+        (n,) as in `Waypoints`.
+    utc
+        (n,) s since 1970, rising; None where the file has no times.
+    part
+        (n,) 0..1 of the shot, rising; None where the file does not say.
+    """
+
+    latitude: Array
+    longitude: Array
+    height: Array
+    over_ground: Array
+    utc: Array | None = None
+    part: Array | None = None
+
+    def at(self, moments: str, run: Run, frames: Frames, frame: geo.LocalFrame) -> tuple[Waypoints, Array]:
+        """Where to be when, and the moments (frames,) of the frames, counted alike.
+
+        The rule: "own" times are model times by their UTC; with "start" the first point is flown in the first
+        frame and the rest as long after it as recorded, in model time; with "shot" the first point is flown
+        in the first frame and the last in the last. Parts of the shot are what they say. A track without
+        either is flown over the whole shot at one speed.
+        """
+        own = self.utc is not None and moments != "shot"
+        if own:
+            first = times.moment(run, 0.0).timestamp() if moments == "own" else self.utc[0] - frames.first
+            at, shown = self.utc - first, frames.times
+        else:
+            at, shown = self._parts(frame), np.linspace(0.0, 1.0, frames.count)
+        return Waypoints(at, self.latitude, self.longitude, self.height, self.over_ground), shown
+
+    def _parts(self, frame: geo.LocalFrame) -> Array:
+        """Parts (n,) of the shot: as said, by time, or by the way gone."""
+        if self.part is not None:
+            return self.part
+        if self.utc is not None:
+            gone = self.utc - self.utc[0]
+        else:
+            place = frame.forward(self.latitude, self.longitude, self.height)
+            gone = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(place, axis=0), axis=1)))
+        return gone / max(gone[-1], 1.0e-9)
+
+    def corners(self) -> list[tuple[float, float]]:
+        """Latitude and longitude of the points farthest to each side."""
+        ends = {int(f(v)) for f in (np.argmin, np.argmax) for v in (self.latitude, self.longitude)}
+        return [(float(self.latitude[i]), float(self.longitude[i])) for i in sorted(ends)]
+
+    def missed(self, run: Run, frames: Frames) -> str:
+        """What to say where its own times are none of the shot's; empty where some are."""
+        if self.utc is None:
+            return ""
+        flown = [datetime.fromtimestamp(self.utc[i], UTC) for i in (0, -1)]
+        shown = [times.moment(run, t) for t in (frames.first, frames.last)]
+        if flown[0] <= shown[1] and flown[1] >= shown[0]:
+            return ""
+        words = (" to ".join(f"{t:%Y-%m-%dT%H:%M:%SZ}" for t in pair) for pair in (flown, shown))
+        return 'was flown {} and the frames show {}; write track_times = "start" or "shot"'.format(*words)
+
+
+def read(path: Path) -> Track:
+    """The flight in a file, whose name tells its format.
+
+    Raises
+    ------
+    InputError
+        Names the file, the line and what to do.
+    """
+    reader = _readers().get(path.suffix.lower())
+    if reader is None:
+        raise input_error(path, 0, 0, "is no .gpx, .kml or .csv file; save the track as one of them")
+    try:
+        state = path.stat()
+        return _read(path, state.st_mtime_ns, state.st_size)
+    except FileNotFoundError:
+        raise input_error(path, 0, 0, "no such track; see track in the scene file") from None
+    except OSError as error:
+        raise input_error(path, 0, 0, f"cannot be read: {error.strerror}") from None
+
+
+def _readers() -> dict[str, object]:
+    from . import track_csv, track_xml
+
+    return {".gpx": track_xml.gpx, ".kml": track_xml.kml, ".csv": track_csv.points}
+
+
+@functools.lru_cache(maxsize=16)
+def _read(path: Path, _changed: int, _size: int) -> Track:
+    return _made(path, list(_readers()[path.suffix.lower()](path)))
+
+
+def _made(path: Path, points: Sequence[Point]) -> Track:
+    """Points, checked, as a track."""
+    if not points:
+        raise input_error(path, 0, 0, "holds no track: it needs points with latitude and longitude")
+    for point in points:
+        if not (abs(point.latitude) <= 90.0 and abs(point.longitude) <= 180.0):
+            place = f"{point.latitude:g}, {point.longitude:g}"
+            reason = f"{place} is no latitude (-90 to 90) and longitude (-180 to 180)"
+            raise input_error(path, point.line, 0, reason)
+    with_height = _all_or_none(path, points, "height", "a height", "give all points one, or none")
+    with_moment = _all_or_none(path, points, "moment", "a time", "give all points one, or none")
+    utc = part = None
+    if with_moment:
+        points = _rising(path, points)
+        moments = [point.moment for point in points]
+        if isinstance(moments[0], datetime):
+            utc = np.array([moment.timestamp() for moment in moments])
+        else:
+            part = np.array(moments)
+    latitude, longitude = (np.array([p[k] for p in points]) for k in (1, 2))
+    height = np.array([p.height if with_height else 0.0 for p in points])
+    over = np.array([p.over_ground or not with_height for p in points])
+    return Track(latitude, longitude, height, over, utc, part)
+
+
+def _all_or_none(path: Path, points: Iterable[Point], name: str, what: str, remedy: str) -> bool:
+    """Whether the points have it.
+
+    Raises
+    ------
+    InputError
+        Some have and some have not.
+    """
+    lacking = [point for point in points if getattr(point, name) is None]
+    if lacking and any(getattr(point, name) is not None for point in points):
+        raise input_error(path, lacking[0].line, 0, f"a point without {what} among others with one; {remedy}")
+    return not lacking
+
+
+def _rising(path: Path, points: Sequence[Point]) -> list[Point]:
+    """Points whose times rise; a point written twice counts once."""
+    kept = [points[0]]
+    for point in points[1:]:
+        last = kept[-1]
+        if point.moment > last.moment:
+            kept.append(point)
+        elif point.moment < last.moment or point[1:4] != last[1:4]:
+            reason = (
+                f"is at {_said(point.moment)}, not later than the point before it; put the points in order"
+            )
+            raise input_error(path, point.line, 0, reason)
+    return kept
+
+
+def _said(moment: datetime | float) -> str:
+    return (
+        f"{moment:g}"
+        if isinstance(moment, float)
+        else moment.astimezone(UTC).isoformat().replace("+00:00", "Z")
+    )
+
+
+def moment(path: Path, line: int, text: str, zone: bool = False) -> datetime:
+    """A time in UTC; one without a zone is in UTC already, unless it must have a `zone`.
+
+    Raises
+    ------
+    InputError
+        It is none.
+    """
+    try:
+        found = datetime.fromisoformat(text.strip())
+        if found.tzinfo is None and not zone:
+            found = found.replace(tzinfo=UTC)
+        if found.tzinfo is not None:
+            return found.astimezone(UTC)
+    except (ValueError, OverflowError):
+        pass
+    raise input_error(path, line, 0, f'"{text.strip()[:40]}" is no time such as 2014-09-17T21:30:00Z')
+
+
+def number(path: Path, line: int, text: str | None, what: str) -> float:
+    """A finite number.
+
+    Raises
+    ------
+    InputError
+        It is none.
+    """
+    try:
+        found = float(text or "")
+    except ValueError:
+        found = np.nan
+    if not np.isfinite(found):
+        raise input_error(path, line, 0, f'the {what} is "{(text or "").strip()[:40]}", which is no number')
+    return found

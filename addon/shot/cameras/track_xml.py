@@ -1,0 +1,156 @@
+"""Tracks in GPX and KML, both ways in and GPX out.
+
+Read with expat: a file with a document type is refused, for entities in it can grow without bound.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import NamedTuple
+from xml.parsers import expat
+from xml.sax.saxutils import escape
+
+import numpy as np
+
+from ...errors import input_error
+from .track import Point, moment, number
+
+_GROUND = {"clampToGround", "relativeToGround", "clampToSeaFloor", "relativeToSeaFloor"}
+
+
+class _Element(NamedTuple):
+    name: str
+    parent: str
+    line: int
+    attributes: dict[str, str]
+    text: str
+
+
+def gpx(path: Path) -> Iterator[Point]:
+    """Points of the tracks of a GPX file, one after the other; of its routes where it has no track."""
+    found = _elements(path, {"trkpt", "rtept", "ele", "time"})
+    wanted = "trkpt" if any(each.name == "trkpt" for each in found) else "rtept"
+    inside: dict[str, _Element] = {}
+    for each in found:
+        if each.name in ("ele", "time"):
+            inside |= {each.name: each} if each.parent == wanted else {}
+        elif each.name == wanted:
+            place = (number(path, each.line, each.attributes.get(name), name) for name in ("lat", "lon"))
+            ele, time = inside.get("ele"), inside.get("time")
+            yield Point(
+                each.line,
+                *place,
+                number(path, ele.line, ele.text, "height <ele>") if ele else None,
+                moment=moment(path, time.line, time.text) if time else None,
+            )
+            inside = {}
+
+
+def kml(path: Path) -> Iterator[Point]:
+    """Points of the tracks (gx:Track) of a KML file; of its lines where it has none."""
+    found = _elements(path, {"when", "coord", "Track", "altitudeMode", "coordinates", "LineString"})
+    if any(each.name == "Track" for each in found):
+        yield from _tracks(path, found)
+    else:
+        yield from _lines(path, found)
+
+
+def _tracks(path: Path, found: list[_Element]) -> Iterator[Point]:
+    when, coord, mode = [], [], "clampToGround"
+    for each in found:
+        if each.name == "Track":
+            if when and len(when) != len(coord):
+                reason = (
+                    f"a track of {len(when)} times <when> and {len(coord)} places <gx:coord>; make them equal"
+                )
+                raise input_error(path, each.line, 0, reason)
+            for i, place in enumerate(coord):
+                at = moment(path, when[i].line, when[i].text) if when else None
+                yield _kml_point(path, place.line, place.text.split(), mode)._replace(moment=at)
+            when, coord, mode = [], [], "clampToGround"
+        elif each.parent == "Track":
+            mode = each.text.strip() if each.name == "altitudeMode" else mode
+            when += [each] if each.name == "when" else []
+            coord += [each] if each.name == "coord" else []
+
+
+def _lines(path: Path, found: list[_Element]) -> Iterator[Point]:
+    places, mode = None, "clampToGround"
+    for each in found:
+        if each.name == "LineString":
+            if places is not None:
+                for match in re.finditer(r"\S+", places.text):
+                    line = places.line + places.text.count("\n", 0, match.start())
+                    yield _kml_point(path, line, match[0].split(","), mode)
+            places, mode = None, "clampToGround"
+        elif each.parent == "LineString":
+            mode = each.text.strip() if each.name == "altitudeMode" else mode
+            places = each if each.name == "coordinates" else places
+
+
+def _kml_point(path: Path, line: int, parts: list[str], mode: str) -> Point:
+    """Longitude, latitude and perhaps height, which counts as `mode` says."""
+    if len(parts) not in (2, 3):
+        raise input_error(path, line, 0, "a place is longitude, latitude and height, in this order")
+    longitude, latitude = (number(path, line, text, "longitude or latitude") for text in parts[:2])
+    height = number(path, line, parts[2], "height") if len(parts) == 3 else None
+    if mode.startswith("clamp"):
+        return Point(line, latitude, longitude, 0.0, over_ground=True)
+    return Point(line, latitude, longitude, height, over_ground=mode in _GROUND)
+
+
+def _elements(path: Path, wanted: set[str]) -> list[_Element]:
+    """Elements of these names (without prefixes) in the order in which they end, so the inner ones first."""
+    parser = expat.ParserCreate()
+    found: list[_Element] = []
+    opened: list[tuple[str, int, dict[str, str], list[str]]] = []
+
+    def start(name: str, attributes: dict[str, str]) -> None:
+        opened.append((name.rpartition(":")[2], parser.CurrentLineNumber, attributes, []))
+
+    def end(_: str) -> None:
+        name, line, attributes, text = opened.pop()
+        if name in wanted:
+            found.append(_Element(name, opened[-1][0] if opened else "", line, attributes, "".join(text)))
+
+    def text(words: str) -> None:
+        if opened[-1][0] in wanted:
+            opened[-1][3].append(words)
+
+    def refuse(*_: object) -> None:
+        reason = "has a document type (<!DOCTYPE), which no track needs and which may be an attack; remove it"
+        raise input_error(path, parser.CurrentLineNumber, 0, reason)
+
+    parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.CharacterDataHandler, parser.StartDoctypeDeclHandler = text, refuse
+    try:
+        with path.open("rb") as file:
+            parser.ParseFile(file)
+    except expat.ExpatError as error:
+        reason = f"is not whole XML ({expat.ErrorString(error.code)}); export the track again"
+        raise input_error(path, error.lineno, error.offset + 1, reason) from None
+    except (LookupError, ValueError) as error:
+        raise input_error(path, 1, 0, f"cannot be read as XML: {error}") from None
+    return found
+
+
+def gpx_text(
+    name: str, latitude: np.ndarray, longitude: np.ndarray, height: np.ndarray, moments: list[datetime]
+) -> str:
+    """A GPX 1.1 file of one track: (n,) degrees to 0.1 mm, m to 0.1 mm, times to a microsecond."""
+    points = "\n".join(
+        f'<trkpt lat="{y:.9f}" lon="{x:.9f}"><ele>{h:.4f}</ele><time>{_utc(moment)}</time></trkpt>'
+        for y, x, h, moment in zip(latitude, longitude, height, moments, strict=True)
+    )
+    return (
+        '<?xml version="1.0" encoding="UTF-8"?>\n'
+        '<gpx version="1.1" creator="Firetwin" xmlns="http://www.topografix.com/GPX/1/1">\n'
+        f"<trk><name>{escape(name)}</name><trkseg>\n{points}\n</trkseg></trk>\n</gpx>\n"
+    )
+
+
+def _utc(moment: datetime) -> str:
+    return moment.astimezone(UTC).isoformat().replace("+00:00", "Z")

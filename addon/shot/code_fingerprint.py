@@ -1,0 +1,77 @@
+"""Which of our own code makes an aspect of a product: so that files know what made them.
+
+The rule: the code of an aspect is the folder of its name in ``scene``, and beside it where there is one.
+Whatever is made, so do the modules that lie loose in ``scene``, what is in `EVERYWHERE`, the cameras' rigs,
+and the compiled core. With them come the files that the rigs read.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import inspect
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+import firetwin_core
+
+from ..run.content import sha256
+from .cameras import rigs
+from .settings.settings import Camera
+
+EVERYWHERE = (
+    "scene",
+    "scene/forest/biomes",
+    "blender",
+    "run",
+    "shot",
+    "shot/cameras",
+    "shot/fire",
+    "shot/light",
+    "shot/settings",
+    "shot/terrain",
+    "shot/cameras/rigs/_key.py",
+    "shot/cameras/rigs/_lens.py",
+)
+PACKAGE = Path(__file__).parents[1]
+
+
+def of(aspects: Iterable[str], cameras: Iterable[Camera], *more: str | Path) -> dict[str, str]:
+    """Hashes of the code that makes these aspects as these cameras see them, by folder or file.
+
+    Parameters
+    ----------
+    more
+        Further files of the package, such as "render/engine.py", or of other places.
+    """
+    cameras = list(cameras)
+    wanted = [place for name in sorted(aspects) for place in (name, f"scene/{name}")]
+    folders = [place for place in wanted if (PACKAGE / place).is_dir()]
+    rigs = {file for camera in cameras for file in _modules(type(camera.rig))}
+    places = [PACKAGE / place for place in (*EVERYWHERE, *folders, *rigs, *more)]
+    read = {path.name: sha256(path)[:16] for camera in cameras for path in camera.rig.reads()}
+    return {"core": _core()} | dict(sorted(map(_hash, places))) | read
+
+
+def _modules(rig: type) -> set[str]:
+    """Files of a rig and of the other rigs that its module names."""
+    mine = sys.modules[rig.__module__]
+    others = (getattr(thing, "__module__", None) or "" for thing in vars(mine).values())
+    names = {name for name in others if name.startswith(f"{rigs.__name__}.")}
+    return {inspect.getfile(sys.modules[name]) for name in {rig.__module__, *names}}
+
+
+@functools.cache
+def _hash(place: Path) -> tuple[str, str]:
+    """Name and hash of a file, or of a folder's modules without those in its folders; on any system alike."""
+    name = place.relative_to(PACKAGE).as_posix() if place.is_relative_to(PACKAGE) else place.name
+    found = hashlib.sha256()
+    for path in sorted(place.glob("*.py")) if place.is_dir() else [place]:
+        found.update(path.name.encode() + b"\0" + path.read_bytes().replace(b"\r\n", b"\n") + b"\0")
+    return name, found.hexdigest()[:16]
+
+
+@functools.cache
+def _core() -> str:
+    return sha256(Path(firetwin_core.__file__))[:16]

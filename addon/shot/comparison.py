@@ -1,0 +1,198 @@
+"""The other runs of a scene file: each is a shot of its own, with the first one's cameras and clock.
+
+A camera is where it is by the first run's ground and fire; in another run it is at the same place of the
+Earth at the same moment of UTC, whatever that run's grid, start and projection are. Heights count from the
+datum of each run's elevations, so they are best given in one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from datetime import datetime
+from typing import TYPE_CHECKING
+
+import numpy as np
+from firetwin_core import geo
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from ..progress import Progress, silent
+from ..run import readers, times
+from . import frames, passes
+from .cameras.path import Path
+from .settings import scene_file
+from .settings.settings import Camera, Settings
+from .shot import Shot
+from .terrain import elevation
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from .terrain.terrain import Ground
+
+_AXES = 1000.0 * np.vstack([np.zeros(3), np.eye(3)])  # m
+_BURIED = 1.0  # m under another run's ground, from which on it is told
+
+
+def opened(settings: Settings) -> dict[str, Run]:
+    """The other runs by their names.
+
+    Raises
+    ------
+    InputError
+        Names the line of the scene file and what is wrong with the run.
+    """
+    found = {}
+    for i, each in enumerate(settings.runs):
+        try:
+            found[each.name] = readers.open(each.path)
+        except InputError as error:
+            if not settings.path.is_file():
+                raise
+            raise scene_file.error_at(settings.path, ("runs", i, "path"), f"runs.path: {error}") from None
+    return found
+
+
+def check(settings: Settings, run: Run, others: Mapping[str, Run]) -> None:
+    """See whether every run has every moment of the shot.
+
+    Raises
+    ------
+    InputError
+        Names the line of the run that has not, and the window that all have.
+    """
+    if not others:
+        return
+    shown = frames.of(settings.time, run)
+    first, last = times.moment(run, shown.first), times.moment(run, shown.last)
+    spans = {name: _span(other) for name, other in {"": run, **others}.items()}
+    low, high = max(span[0] for span in spans.values()), min(span[1] for span in spans.values())
+    remedy = (
+        f"set time.start and time.end within {times.iso(low)} to {times.iso(high)}, which all runs have"
+        if low < high
+        else "the runs have no moment in common"
+    )
+    for i, (name, other) in enumerate(others.items()):
+        begin, end = spans[name]
+        if not (begin <= first and last <= end):
+            reason = (
+                f'run "{name}" has {times.iso(begin)} to {times.iso(end)}, and the shot shows '
+                f"{times.iso(first)} to {times.iso(last)}; {remedy}"
+            )
+            raise scene_file.error_at(settings.path, ("runs", i, "path"), reason)
+        elevation.check(settings, other)
+
+
+def _span(run: Run) -> tuple[datetime, datetime]:
+    return times.moment(run, float(run.times[0])), times.moment(run, float(run.times[-1]))
+
+
+class Beside(Shot):
+    """A shot of another run: its cameras fly as those of `first` do, and are named ``camera@run``.
+
+    Attributes
+    ----------
+    first
+        The shot of the first run, of the same cameras.
+    label
+        Name of the run.
+    """
+
+    def __init__(self, first: Shot, label: str) -> None:
+        self.first, self.label = first, label
+        settings, shown = first.settings, first.frames
+        begin, end = (times.moment(first.run, time) for time in (shown.first, shown.last))
+        own = next(each for each in settings.runs if each.name == label)
+        super().__init__(
+            replace(
+                settings,
+                run=own.path,
+                runs=(),
+                time=replace(settings.time, start=begin, end=end if shown.count > 1 else None),
+                render=replace(settings.render, passes=_alone(settings.render.passes)),
+                cameras=tuple(_renamed(camera, label) for camera in settings.cameras),
+            ),
+            first.others[label],
+        )
+        self.cameras = tuple(_renamed(camera, label) for camera in first.cameras)
+        self.others = first.others
+
+    def inputs(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
+        """Those of its own run, and of the first, by which the cameras fly."""
+        flown = self.first.inputs((), progress)
+        return super().inputs(leave_out, progress) | {f"first {name}": each for name, each in flown.items()}
+
+    def of(self, name: str) -> Shot:
+        """The same shot with this camera alone."""
+        return Beside(self.first.of(name.partition("@")[0]), self.label)
+
+    def neighbours(self) -> dict[str, Run]:
+        """The runs that this one stands beside, by name."""
+        return {name: run for name, run in super().neighbours().items() if name != self.label} | {
+            self.first.title: self.first.run
+        }
+
+    @property
+    def title(self) -> str:
+        """What the run is called."""
+        return self.label
+
+    def _paths(self, ground: Ground) -> list[Path]:
+        pairs = zip(self.first.paths, self.settings.cameras, strict=True)
+        return [carried(path, camera, self.first.local_frame, self.local_frame) for path, camera in pairs]
+
+    def warnings(self) -> list[str]:
+        """What an artist should know of this run beside the first."""
+        found = []
+        if self.run.vertical != self.first.run.vertical:
+            found.append(
+                f'heights of run "{self.label}" are {self.run.vertical}, those of the first '
+                f"{self.first.run.vertical}: cameras are as far off over its ground as the geoid is"
+            )
+        for view in self.near:
+            ground = self.ground.up(*view.position[:, :2].T)
+            depth = float(np.max(ground - view.position[:, 2]))
+            if depth > _BURIED:
+                found.append(f'camera "{view.camera.name}" is up to {depth:,.0f} m under the ground there')
+        return found
+
+
+def carried(path: Path, camera: Camera, here: geo.LocalFrame, there: geo.LocalFrame) -> Path:
+    """A path in another local frame: the same places of the Earth and the same directions."""
+    corners = there.forward(*here.reverse(_AXES))
+    turn = (corners[1:] - corners[0]).T / 1000.0  # columns: where the axes of `here` point to
+
+    def moved(points: NDArray[np.float64]) -> NDArray[np.float64]:
+        return corners[0] + points @ turn.T
+
+    return replace(
+        path,
+        camera=camera,
+        position=moved(path.position),
+        rotation=turn @ path.rotation,
+        target=moved(path.target),
+        hidden=None,
+    )
+
+
+def _renamed(camera: Camera, label: str) -> Camera:
+    """A camera, and the one that it follows, as they are called in another run."""
+    follows = getattr(camera.rig, "follows", "")
+    rig = replace(camera.rig, follows=passes.view_of(follows, label)) if follows else camera.rig
+    name = passes.view_of(camera.name, label)
+    return replace(camera, name=name, rig=rig, passes=_alone(camera.passes))
+
+
+def _alone(names: tuple[str, ...]) -> tuple[str, ...]:
+    """Passes with what those that compare runs are made from in their place."""
+    return passes.in_other_runs(names) or names
+
+
+def caption(shot: Shot, frame: int) -> list[str]:
+    """The time of a frame, and whether any of the runs is synthetic."""
+    runs = [shot.run, *shot.others.values()]
+    made_up = sum(run.synthetic for run in runs)
+    note = ["synthetic" if made_up == len(runs) else f"{made_up} of {len(runs)} runs synthetic"]
+    return [*(note if made_up else []), times.text(shot.moment(frame), shot.settings.time.zone)]

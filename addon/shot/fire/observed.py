@@ -1,0 +1,156 @@
+"""What was seen of the fire (`fire.observed`), as lines on the ground that appear at their dates.
+
+A perimeter is there from its date on; when the next one of its file is, it fades. A satellite's pixel is a
+square of its size for twelve hours, the longest from one overpass by day or night to the next. Heat that an
+infrared flight saw is there for a day, as flights come by night, or until the next flight; sources too small
+for a polygon are circles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import InputError
+from ...progress import Progress, silent
+from ...run import areas, content, observations, times
+from ..settings import scene_file
+from ..settings.settings import Settings
+
+if TYPE_CHECKING:
+    from ..shot import Shot
+
+ABOVE = 25.0  # m over the ground: over most crowns, which would hide them
+FOREVER = 1e12  # s
+_SHOWN = 12 * 3600.0  # s, of a detection
+_FLIGHT = 24 * 3600.0  # s, of an infrared flight's heat
+_SOURCE = 30.0  # m, radius of the circle round an isolated source of heat, at least
+_MOST = 60_000  # points of a perimeter
+_STEP = 20.0  # m from point to point, so that lines follow the ground
+
+
+@dataclass(frozen=True)
+class Line:
+    """A closed line: points (n, 3) in the scene (m), model times (s) when it is there, fades and is gone.
+
+    `kind` is one of `heat.KINDS`, or "" of perimeters and satellites' pixels.
+    """
+
+    points: NDArray[np.float64]
+    start: float
+    fades: float
+    end: float
+    kind: str = ""
+
+
+def files(settings: Settings) -> list[Path]:
+    """The file that is named, or those of the folder."""
+    path = settings.fire.observed
+    if path is None:
+        return []
+    if not path.is_dir():
+        return [path]
+    return observations.inside(path)
+
+
+def check(settings: Settings) -> None:
+    """See whether the files can be read, and whether there are any.
+
+    Raises
+    ------
+    InputError
+        Names the file and what to do.
+    """
+    if settings.fire.observed is not None and not files(settings):
+        raise scene_file.error_at(
+            settings.path, ("fire", "observed"), "fire.observed is a folder without observations"
+        )
+    try:
+        observations.read(files(settings))
+    except InputError as error:
+        if not settings.path.is_file():
+            raise
+        raise scene_file.error_at(settings.path, ("fire", "observed"), f"fire.observed: {error}") from None
+
+
+def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
+    """SHA-256 of each file."""
+    return {
+        f"observed {path.name}": content.of_file(path, settings.cache, progress) for path in files(settings)
+    }
+
+
+def lines(shot: Shot) -> list[Line]:
+    """Every line, in the order of their dates."""
+    found = observations.read(files(shot.settings))
+    every = [*_perimeters(shot, found), *_pixels(shot, found), *_heat(shot, found)]
+    return sorted(every, key=lambda line: line.start)
+
+
+def _perimeters(shot: Shot, found: observations.Observations) -> Iterator[Line]:
+    for i, each in enumerate(found.perimeters):
+        later = (p.time for p in found.perimeters[i + 1 :] if p.time > each.time and p.source == each.source)
+        after = next(later, None)
+        fades = FOREVER if after is None else times.seconds(shot.run, after)
+        start = times.seconds(shot.run, each.time)
+        rings = [ring for polygon in each.polygons for ring in polygon]
+        step = max(_STEP, sum(_length(ring) for ring in rings) / _MOST)
+        for ring in rings:
+            yield Line(_draped(shot, ring, step), start, fades, FOREVER)
+
+
+def _heat(shot: Shot, found: observations.Observations) -> Iterator[Line]:
+    radius = max(_SOURCE, 1.5 * shot.settings.fire.observed_width)
+    turn = np.linspace(0.0, 2.0 * np.pi, 12, endpoint=False)
+    for each in found.heat:
+        start = times.seconds(shot.run, each.time)
+        later = [times.seconds(shot.run, h.time) for h in found.heat if h.time > each.time]
+        end = min([start + _FLIGHT, *later])
+        rings = [ring for polygon in each.polygons for ring in polygon]
+        for longitude, latitude in each.points:
+            north, east = areas.metres_per_degree(latitude)
+            x, y = longitude + radius * np.cos(turn) / east, latitude + radius * np.sin(turn) / north
+            rings.append(np.column_stack([x, y]))
+        step = max(_STEP, sum(_length(ring) for ring in rings) / _MOST)
+        for ring in rings:
+            yield Line(_draped(shot, ring, step), start, end, end, each.kind)
+
+
+def _pixels(shot: Shot, found: observations.Observations) -> Iterator[Line]:
+    for each in found.detections:
+        for time, latitude, longitude, size in zip(
+            each.time, each.latitude, each.longitude, each.size, strict=True
+        ):
+            north, east = areas.metres_per_degree(latitude)
+            x, y = (
+                np.array([-0.5, 0.5, 0.5, -0.5]) * size / east,
+                np.array([-0.5, -0.5, 0.5, 0.5]) * size / north,
+            )
+            ring = np.column_stack([longitude + x, latitude + y])
+            start = times.seconds(shot.run, time)
+            yield Line(_draped(shot, ring, _STEP), start, start + _SHOWN, start + _SHOWN)
+
+
+def _metres(ring: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Lengths (n,) of a ring's sides."""
+    north, east = areas.metres_per_degree(float(ring[:, 1].mean()))
+    return np.hypot(*((np.roll(ring, -1, axis=0) - ring) * [east, north]).T)
+
+
+def _length(ring: NDArray[np.float64]) -> float:
+    return float(_metres(ring).sum())
+
+
+def _draped(shot: Shot, ring: NDArray[np.float64], step: float) -> NDArray[np.float64]:
+    """Points (n, 3) along a ring in degrees, no farther apart than `step` m, above the ground."""
+    counts = np.maximum(np.ceil(_metres(ring) / step), 1).astype(int)
+    side = np.repeat(np.arange(len(ring)), counts)
+    along = np.concatenate([np.arange(count) / count for count in counts])
+    place = ring[side] + (np.roll(ring, -1, axis=0) - ring)[side] * along[:, None]
+    middle = float(shot.run.longitude[0] + shot.run.longitude[-1]) / 2
+    return shot.ground.point(place[:, 1], areas.turned(place[:, 0], middle), ABOVE)

@@ -1,0 +1,1 @@
+"""Light without Blender: sun and moon, the sky, and what a camera is exposed for."""

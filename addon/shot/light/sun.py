@@ -1,0 +1,91 @@
+"""Where sun and moon are, and how bright the moon is, at a place and time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import datetime
+
+import numpy as np
+from astral import Observer
+from astral import moon as lunar
+from astral.sun import azimuth, elevation
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from ...run import times
+
+NIGHT = -1.0  # degrees of the sun under which the moon shines
+_STARS = (150.0, 40.0)  # degrees of bearing and height; where what light there is comes from without a moon
+_MONTH = 28.0  # days, of astral's phase of the moon
+_HAZE = 0.2  # optical depth of air for moonlight, at the zenith (assumed)
+
+
+@dataclass(frozen=True)
+class Moon:
+    """The moon: bearing and height (degrees), and its light on level ground facing it over a full moon's."""
+
+    bearing: float
+    height: float
+    light: float
+
+
+NO_MOON = Moon(*_STARS, 0.0)
+
+
+def angles(latitude: float, longitude: float, moment: datetime) -> tuple[float, float]:
+    """Bearing clockwise from north and height over the horizon with refraction, degrees (NOAA)."""
+    observer = Observer(latitude, longitude, 0.0)
+    return azimuth(observer, moment), elevation(observer, moment)
+
+
+def air_mass(height: float) -> float:
+    """Air between us and a sun at `height` degrees, 1 at the zenith (Kasten and Young 1989)."""
+    return float(1.0 / (np.sin(np.radians(height)) + 0.50572 * (height + 6.07995) ** -1.6364))
+
+
+def direct(height: float) -> float:
+    """Direct sunlight (W/m2) square to a sun at this height (degrees); 0 below the horizon.
+
+    1353 x 0.7^(m^0.678) through m masses of air (A. B. Meinel and M. P. Meinel 1976, "Applied Solar Energy").
+    """
+    return float(1353.0 * 0.7 ** (air_mass(height) ** 0.678)) if height > 0.0 else 0.0
+
+
+def direction(bearing: float, height: float) -> NDArray[np.float64]:
+    """Unit vector (east, north, up) towards a bearing and height in degrees."""
+    bearing, height = np.radians(bearing), np.radians(height)
+    return np.array([np.sin(bearing) * np.cos(height), np.cos(bearing) * np.cos(height), np.sin(height)])
+
+
+def light(bearing: float, height: float, night: Moon = NO_MOON) -> NDArray[np.float64]:
+    """Unit vector towards what throws shadows: the sun at this bearing and height (degrees), or the moon."""
+    if height > NIGHT:
+        return direction(bearing, max(height, 0.5))
+    return direction(night.bearing, night.height) if night.light > 0.0 else direction(*_STARS)
+
+
+def moon(run: Run, time: float) -> Moon:
+    """The moon over the middle of the run's grid at a model time.
+
+    Its light goes with the angle a (degrees) between sun and earth seen from it as 10^(-0.4 (0.026 a +
+    4e-9 a^4)) (K. Krisciunas and B. E. Schaefer 1991, "A model of the brightness of moonlight", PASP 103).
+    """
+    moment, observer = times.moment(run, time), Observer(*_middle(run), 0.0)
+    height = lunar.elevation(observer, moment)
+    if height <= 0.0:
+        return NO_MOON
+    angle = abs(180.0 - 360.0 * lunar.phase(moment) / _MONTH)
+    bright = 10.0 ** (-0.4 * (0.026 * angle + 4.0e-9 * angle**4))
+    through = np.exp(-_HAZE / max(np.sin(np.radians(height)), 0.02))
+    return Moon(lunar.azimuth(observer, moment), height, float(bright * through))
+
+
+def at(run: Run, time: float) -> tuple[float, float]:
+    """Bearing and height (degrees) at the middle of the run's grid at a model time (s)."""
+    return angles(*_middle(run), times.moment(run, time))
+
+
+def _middle(run: Run) -> tuple[float, float]:
+    """Latitude and longitude of the middle of the run's grid, degrees."""
+    latitude, longitude = (float(axis[0] + axis[-1]) / 2.0 for axis in (run.latitude, run.longitude))
+    return latitude, longitude

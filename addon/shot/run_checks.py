@@ -1,0 +1,75 @@
+"""Do settings fit their run? What can only be said when both are known."""
+
+from __future__ import annotations
+
+import numpy as np
+from firetwin_core.run import Run
+
+from ..run import areas, labels, times
+from . import frames
+from .fire import observed
+from .settings import scene_file
+from .settings.settings import Settings
+from .terrain import elevation, land_use, orthophoto
+
+
+def check(settings: Settings, run: Run) -> None:
+    """Check the time window, the cameras' places, what else they say of the run, and the user's own files.
+
+    Raises
+    ------
+    InputError
+        Names the line of the scene file, or the file.
+    """
+    _window(settings, run)
+    elevation.check(settings, run)
+    orthophoto.check(settings, run)
+    land_use.check(settings, run)
+    observed.check(settings)
+    if settings.labels.enabled and settings.labels.file:
+        labels.read(settings.labels.file)
+    for index, camera in enumerate(settings.cameras):
+        for where, latitude, longitude in camera.rig.places():
+            _near(settings, run, ("cameras", index, *where), camera.name, latitude, longitude)
+        if found := camera.rig.misfit(run, frames.of(settings.time, run)):
+            reason = f'camera "{camera.name}" {found[1]}'
+            raise scene_file.error_at(settings.path, ("cameras", index, *found[0]), reason)
+
+
+def _window(settings: Settings, run: Run) -> None:
+    first, last = float(run.times[0]), float(run.times[-1])
+    for name in ("start", "end"):
+        moment = getattr(settings.time, name)
+        if moment is not None and not first <= times.seconds(run, moment) <= last:
+            span = " to ".join(f"{times.moment(run, t):%Y-%m-%dT%H:%M:%SZ}" for t in (first, last))
+            reason = f"time.{name} lies outside of the run, which has {span}"
+            raise scene_file.error_at(settings.path, ("time", name), reason)
+
+
+def _near(
+    settings: Settings,
+    run: Run,
+    where: tuple[str | int, ...],
+    camera: str,
+    latitude: float,
+    longitude: float,
+) -> None:
+    """Raise where a point is beyond the ground that is drawn."""
+    middle = [float(axis[0] + axis[-1]) / 2 for axis in (run.latitude, run.longitude)]
+    place = float(areas.turned(longitude, middle[1]))
+    if -90 < latitude < 90:
+        dx, dy = areas.spacing([middle[0] - 0.5, middle[0] + 0.5], [middle[1] - 0.5, middle[1] + 0.5])
+        east, north = (place - middle[1]) * dx, (latitude - middle[0]) * dy
+        far = float(np.hypot(east, north))
+    else:
+        far = np.inf
+    inside = min(run.latitude) <= latitude <= max(run.latitude)
+    inside = inside and min(run.longitude) <= place <= max(run.longitude)
+    if not inside and far > settings.terrain.apron:
+        what = "looks at a point" if str(where[-1]).startswith("target") else "is"
+        reason = (
+            f'camera "{camera}" {what} at {latitude:g} N {longitude:g} E, {far / 1e3:,.0f} km from the '
+            f"middle of the run ({middle[0]:.2f} N {middle[1]:.2f} E); "
+            f"the ground ends at {settings.terrain.apron / 1e3:g} km"
+        )
+        raise scene_file.error_at(settings.path, where, reason)

@@ -1,0 +1,241 @@
+"""Reads a scene file: TOML in, checked `Settings` out, and every mistake named with its line and column."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import os
+import re
+import tomllib
+import typing
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from ...errors import InputError, input_error
+from .did_you_mean import suggestion
+from .schema import Key, Part, Where, either, items, parts, wrong
+from .settings import FORMER, Settings
+from .toml_positions import places
+from .toml_writer import text
+
+__all__ = ["error_at", "parse", "read", "text"]
+
+
+def read(path: str | Path) -> Settings:
+    """Read and check a scene file; relative paths in it start at its own folder.
+
+    Raises
+    ------
+    InputError
+        Names the file, the line and column of the mistake, and what to do about it.
+    """
+    path = Path(path)
+    text = _load(path)
+    settings = parse(text, path)
+    if found := wrong(settings):
+        raise _Reader(path, text).error(*found)
+    return settings
+
+
+def parse(text: str, path: Path) -> Settings:
+    """The settings in a text as if it were the file `path`: types are checked, values are not.
+
+    Raises
+    ------
+    InputError
+        As `read`.
+    """
+    try:
+        values = tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise _syntax_error(path, text, str(error)) from None
+    reader = _Reader(path, text)
+    return reader.table(Settings, reader.current(values), ())
+
+
+def error_at(path: Path, where: Where, reason: str) -> InputError:
+    """An error about the value that the names and indices `where` lead to, found only after reading."""
+    return _Reader(path, _load(path)).error(where, reason)
+
+
+def _load(path: Path) -> str:
+    if path.is_dir():
+        raise input_error(path, 0, 0, _folder(path))
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        raise input_error(path, 0, 0, "no such scene file; examples/king_fire.toml shows every key") from None
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise input_error(path, 0, 0, f"cannot be read as text: {reason}") from None
+
+
+def _folder(path: Path) -> str:
+    """What to say of a folder where a scene file is wanted."""
+    if (path / "run.toml").is_file():
+        return (
+            f"is a run folder, and a scene file is wanted; this writes one: firetwin new {path} -o SCENE.toml"
+        )
+    inside = sorted(path.glob("*.toml"))
+    return "is a folder, and a scene file is wanted, such as " + (
+        f"{inside[0]}" if inside else "examples/king_fire.toml, which shows every key"
+    )
+
+
+def _syntax_error(path: Path, text: str, message: str) -> InputError:
+    """Tomllib ends its messages in "(at line 3, column 7)" or "(at end of document)"."""
+    found = re.search(r" \(at line (\d+), column (\d+)\)$", message)
+    reason = re.sub(r" \(at .*\)$", "", message)
+    line, column = (int(found[1]), int(found[2])) if found else (max(1, len(text.splitlines())), 0)
+    return input_error(path, line, column, f"not valid TOML: {reason[:1].lower()}{reason[1:]}")
+
+
+class _Reader:
+    """Makes dataclasses of tables; bounds and choices are left to `schema.wrong`."""
+
+    def __init__(self, path: Path, text: str) -> None:
+        self.path = path
+        self.places = {_current(where): at for where, at in places(text).items()}
+        self.former: list[str] = []
+
+    def error(self, where: Where, reason: str) -> InputError:
+        """An error at the place of a key, or of the nearest thing round it that is written down."""
+        while where and where not in self.places:
+            where = where[:-1]
+        line, column = self.places.get(where, (0, 0))
+        return input_error(self.path, line, column, reason)
+
+    def current(self, values: dict[str, Any]) -> dict[str, Any]:
+        """Sections under the names that they have now; former ones are noted."""
+        for name in [name for name in values if name in FORMER]:
+            now = FORMER[name]
+            if now in values:
+                raise self.error((now,), f"[{name}] is the former name of [{now}], which is there too")
+            line, column = self.places[(now,)]
+            reason = f"[{name}] is called [{now}] now; the old name is read in this version only"
+            self.former.append(str(input_error(self.path, line, column, reason)))
+        return {FORMER.get(name, name): value for name, value in values.items()}
+
+    def table(self, kind: type, values: dict[str, Any], where: Where) -> Any:
+        """A table of the file as the dataclass `kind`, with what it leaves out at its default."""
+        own = {part.name: part for part in parts(kind) if not part.key.kinds}
+        rig = next((part for part in parts(kind) if part.key.kinds), None)
+        rig_kind, tag = self.kind(rig.key, values, where) if rig else (None, ())
+        flat = {part.name: part for part in parts(rig_kind)} if rig_kind else {}
+        for name in values:
+            if name not in own and name not in flat and name not in tag:
+                raise self.error((*where, name), self.unknown(name, [*tag, *own, *flat], rig, where))
+        fields = {name: self.part(part, values, where) for name, part in own.items()}
+        if rig:
+            fields[rig.name] = rig_kind(
+                **{name: self.part(part, values, where) for name, part in flat.items()}
+            )
+        own = {"path": self.path, "notes": tuple(self.former)} if kind is Settings else {}
+        return kind(**fields, **own)
+
+    def kind(self, key: Key, values: dict[str, Any], where: Where) -> tuple[type, tuple[str]]:
+        """The dataclass that the key `tag` of a table chooses, and the tag."""
+        here, name = (*where, key.tag), values.get(key.tag, key.usual)
+        if reason := key.wrong(self.expect(str, name, here)):
+            raise self.error(here, f"{_dotted(here)} {reason}")
+        return key.kinds()[name], (key.tag,)
+
+    def unknown(self, name: str, known: list[str], rig: Part | None, where: Where) -> str:
+        """What to say of a key that is none."""
+        kinds = rig.key.kinds() if rig else {}
+        having = [kind for kind, made in kinds.items() if name in (part.name for part in parts(made))]
+        if having:
+            return f"{name} belongs to {rig.key.tag} {either(having)}; known here: {', '.join(known)}"
+        place = f"in [{_dotted(where)}]" if where else "in a scene file"
+        return f'unknown key "{name}" {place}' + (
+            suggestion(name, known) or f"; known here: {', '.join(known)}"
+        )
+
+    def part(self, part: Part, values: dict[str, Any], where: Where) -> Any:
+        """The value of one key of a table."""
+        if part.name in values:
+            return self.value(part.type, values[part.name], (*where, part.name))
+        own = part.type is Path and part.default is not None
+        return self.path.parent / part.default if own else part.default
+
+    def value(self, kind: Any, value: Any, where: Where) -> Any:
+        """A value of the file as the type that its dataclass field declares."""
+        if isinstance(value, int) and abs(value) >= 2**63:
+            raise self.error(where, f"{_dotted(where)} is larger than a number in TOML may be")
+        if dataclasses.is_dataclass(kind):
+            return self.table(kind, self.expect(dict, value, where), where)
+        if typing.get_origin(kind) is tuple:
+            return self.tuple(kind, self.expect(list, value, where), where)
+        if kind is Path:
+            return self.path.parent / os.path.expanduser(self.name(value, where))
+        if kind is datetime:
+            return self.moment(self.expect(datetime, value, where), where)
+        if kind is float:
+            if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+                raise self.error(where, f"{_dotted(where)} must be a number, not {_shown(value)}")
+            return float(value)
+        return self.expect(kind, value, where)
+
+    def name(self, value: Any, where: Where) -> str:
+        """The name of a file or folder."""
+        if "\0" in self.expect(str, value, where):
+            raise self.error(
+                where, f"{_dotted(where)} holds the character of number 0, which no file's name may"
+            )
+        return value
+
+    def moment(self, moment: datetime, where: Where) -> datetime:
+        """A time in UTC."""
+        if moment.tzinfo is None:
+            reason = "has no zone; end it in Z (UTC) or in an offset like -07:00"
+            raise self.error(where, f"{_dotted(where)} {reason}")
+        try:
+            return moment.astimezone(UTC)
+        except OverflowError:
+            raise self.error(where, f"{_dotted(where)} lies outside of the years 1 to 9999") from None
+
+    def tuple(self, kind: Any, values: list[Any], where: Where) -> tuple[Any, ...]:
+        """A list of the file as the tuple that `kind` declares."""
+        inner = items(kind, len(values))
+        if len(inner) != len(values):
+            raise self.error(where, f"{_dotted(where)} must hold {len(inner)} values, not {len(values)}")
+        return tuple(
+            self.value(k, v, (*where, i)) for i, (k, v) in enumerate(zip(inner, values, strict=True))
+        )
+
+    def expect(self, kind: type, value: Any, where: Where) -> Any:
+        """The value, which has to be of this type."""
+        if type(value) is kind:
+            return value
+        raise self.error(where, f"{_dotted(where)} must be {_TYPES[kind]}, not {_shown(value)}")
+
+
+def _current(where: Where) -> Where:
+    """A place under the name that its section has now."""
+    return (FORMER.get(str(where[0]), where[0]), *where[1:]) if where else where
+
+
+_TYPES = {
+    dict: "a table",
+    list: "a list in [ ]",
+    str: "text in quotes",
+    int: "a whole number",
+    bool: "true or false",
+    datetime: "a date and time such as 2014-09-17T21:30:00Z",
+}
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f'"{value}"'
+    return {dict: "a table", list: "a list"}.get(type(value), str(value))
+
+
+def _dotted(where: Where) -> str:
+    """("cameras", 0, "keys", 1) -> ``cameras.keys (number 2)``: counted from one, as people do."""
+    return ".".join(str(p) for p in where if isinstance(p, str)) + "".join(
+        f" (number {p + 1})" for p in where[-1:] if isinstance(p, int)
+    )

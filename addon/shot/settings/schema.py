@@ -1,0 +1,290 @@
+"""What a dataclass of settings says about its keys, and what follows from it for any such dataclass.
+
+Each field that a file may hold is made by `key`, or by `one_of` where one of several dataclasses may stand.
+A field of another dataclass is a section, a field of tuples of one a list of tables; other fields, such as
+the path of the file itself, are no keys.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import operator
+import types
+import typing
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from .did_you_mean import suggestion
+
+Names = Mapping[str, str] | tuple[str, ...]
+Where = tuple[str | int, ...]
+
+
+@dataclass(frozen=True)
+class Key:
+    """What is known of one key.
+
+    Attributes
+    ----------
+    help
+        One line without unit and trailing period. What follows a semicolon is a remark.
+    unit
+        Such as "m"; empty for counts and texts.
+    at_least, above, at_most
+        Bounds of a number, or of each number of a list.
+    choices
+        The names that a text, or each text of a list, may be: a tuple, or a mapping to a few words about
+        each; or a function that returns one of them.
+    check
+        Returns what else is wrong with a value, as words that follow the key's name, or None.
+    shows
+        Aspects of a product that the key changes; None: those of what it is in, or the name of its section.
+    kinds
+        Where one of several dataclasses may stand: each by its name. Their keys lie flat beside `tag`.
+    tag, usual
+        The key that chooses the kind, and the kind that stands where it is left out.
+    """
+
+    help: str
+    unit: str = ""
+    at_least: float | None = None
+    above: float | None = None
+    at_most: float | None = None
+    choices: Names | Callable[[], Names] | None = None
+    check: Callable[[Any], str | None] | None = None
+    shows: tuple[str, ...] | None = None
+    kinds: Callable[[], Mapping[str, type]] | None = None
+    tag: str = ""
+    usual: str = ""
+
+    def names(self) -> dict[str, str]:
+        """The choices, each with a few words about it ("" where there are none)."""
+        names = self.choices() if callable(self.choices) else self.choices or ()
+        return dict(names) if isinstance(names, Mapping) else dict.fromkeys(names, "")
+
+    def described(self) -> str:
+        """Help with its unit: ``how far it is filled, m; 0 leaves it empty``."""
+        head, mark, remark = self.help.partition(";")
+        return (f"{head}, {self.unit}" if self.unit else head) + mark + remark
+
+    def wrong(self, value: Any) -> str | None:
+        """What is wrong with a value of the right type, as words that follow the key's name."""
+        if value is None:
+            return None
+        for item in value if isinstance(value, tuple) else (value,):
+            if reason := self._bounds(item) or self._choice(item, listed=isinstance(value, tuple)):
+                return reason
+        if self.choices and isinstance(value, tuple) and len(set(value)) < len(value):
+            return f'names "{next(v for v in value if value.count(v) > 1)}" twice'
+        return self.check(value) if self.check else None
+
+    def _bounds(self, value: Any) -> str | None:
+        low, above, high = self.at_least, self.above, self.at_most
+        rules = (
+            (low, operator.ge, "at least"),
+            (above, operator.gt, "above"),
+            (high, operator.le, "at most"),
+        )
+        known = [rule for rule in rules if rule[0] is not None]
+        if all(holds(value, bound) for bound, holds, _ in known):
+            return None
+        words = " and ".join(f"{word} {_number(bound)}" for bound, _, word in known)
+        if low is not None and high is not None:
+            words = f"from {_number(low)} to {_number(high)}"
+        return f"must be {words}, not {value:{'' if isinstance(value, int) else '.12g'}}"
+
+    def _choice(self, value: Any, listed: bool) -> str | None:
+        if self.choices is None or value in (names := self.names()):
+            return None
+        must = f'holds "{value}"; each must be' if listed else "must be"
+        return f"{must} {either(names)}" + ("" if listed else f', not "{value}"') + suggestion(value, names)
+
+
+def _number(value: float) -> str:
+    return f"{value:,}" if isinstance(value, int) else f"{value:,g}"
+
+
+def either(names: Iterable[str]) -> str:
+    """``"a", "b" or "c"``."""
+    *most, last = [f'"{name}"' for name in names]
+    return f"{', '.join(most)} or {last}" if most else last
+
+
+def key(
+    default: Any = dataclasses.MISSING,
+    help: str = "",
+    *,
+    default_factory: Any = dataclasses.MISSING,
+    unit: str = "",
+    at_least: float | None = None,
+    above: float | None = None,
+    at_most: float | None = None,
+    choices: Names | Callable[[], Names] | None = None,
+    check: Callable[[Any], str | None] | None = None,
+    shows: tuple[str, ...] | None = None,
+) -> Any:
+    """Make the field of a key, or of a section; see `Key` for what the arguments mean."""
+    known = Key(help, unit, at_least, above, at_most, choices, check, shows)
+    return dataclasses.field(default=default, default_factory=default_factory, metadata={"key": known})
+
+
+def one_of(kinds: Callable[[], Mapping[str, type]], help: str, *, tag: str, usual: str) -> Any:
+    """Make the field of one of several dataclasses, with keys that lie flat beside the key `tag`."""
+    known = Key(help, choices=lambda: tuple(kinds()), kinds=kinds, tag=tag, usual=usual)
+    return dataclasses.field(default_factory=lambda: kinds()[usual](), metadata={"key": known})
+
+
+class Part(NamedTuple):
+    """One key of a dataclass."""
+
+    field: dataclasses.Field
+    key: Key
+    type: Any  # as declared, without "| None"
+
+    @property
+    def name(self) -> str:
+        """Name of the field."""
+        return self.field.name
+
+    @property
+    def default(self) -> Any:
+        """What stands where a file leaves the key out."""
+        made = self.field.default_factory
+        return self.field.default if made is dataclasses.MISSING else made()
+
+    @property
+    def table(self) -> type | None:
+        """The dataclass of a section or of a list of tables."""
+        inner = (self.type, *typing.get_args(self.type))
+        return next((kind for kind in inner if dataclasses.is_dataclass(kind)), None)
+
+    @property
+    def tables(self) -> bool:
+        """Whether it is a list of tables."""
+        return self.table is not None and self.table is not self.type
+
+
+@functools.cache
+def parts(kind: type) -> tuple[Part, ...]:
+    """Keys of a dataclass in their order."""
+    hints = typing.get_type_hints(kind)
+    fields = [field for field in dataclasses.fields(kind) if "key" in field.metadata]
+    return tuple(Part(field, field.metadata["key"], _declared(hints[field.name])) for field in fields)
+
+
+def _declared(hint: Any) -> Any:
+    return hint.__args__[0] if isinstance(hint, types.UnionType) else hint
+
+
+def kind_of(known: Key, value: Any) -> str:
+    """Name of the kind that `value` is one of."""
+    return next(name for name, kind in known.kinds().items() if type(value) is kind)
+
+
+def summary(kind: type) -> str:
+    """First line of a dataclass's docstring, without its period and with a small first letter."""
+    line = (kind.__doc__ or "").strip().partition("\n")[0].rstrip(".")
+    return line[:1].lower() + line[1:]
+
+
+def walk(kind: type, section: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Part]]:
+    """Every key of a dataclass and of those in it: the section that it is in, and the key.
+
+    A key that several kinds have (see `one_of`) comes once for each of them.
+    """
+    for part in parts(kind):
+        yield section, part
+        for inner in part.key.kinds().values() if part.key.kinds else ():
+            yield from walk(inner, section)
+        if part.table:
+            yield from walk(part.table, (*section, part.name))
+
+
+def wrong(settings: Any, section: tuple[str, ...] = ()) -> tuple[Where, str] | None:
+    """First of what is wrong with settings whose types are right: where, and what in words.
+
+    A dataclass may have a method `wrong` of its own, for what no single key can say; that of a kind (see
+    `one_of`) is called by what it stands in.
+    """
+    own = getattr(settings, "wrong", None)
+    return _wrong_key(settings, section) or (own() if own else None)
+
+
+def _wrong_key(settings: Any, section: tuple[str, ...]) -> tuple[Where, str] | None:
+    for part in parts(type(settings)):
+        value, here = getattr(settings, part.name), (*section, part.name)
+        if part.key.kinds:
+            if found := _wrong_key(value, section):
+                return found
+        elif reason := part.key.wrong(value):
+            return (part.name,), f"{'.'.join(here)} {reason}"
+        elif found := _wrong_inside(part, value, here):
+            return (part.name, *found[0]), found[1]
+    return None
+
+
+def _wrong_inside(part: Part, value: Any, section: tuple[str, ...]) -> tuple[Where, str] | None:
+    if not part.tables:
+        return wrong(value, section) if part.table else None
+    for i, table in enumerate(value):
+        if found := wrong(table, section):
+            return (i, *found[0]), found[1]
+    return None
+
+
+def chosen(settings: Any, shows: Iterable[str], camera: str | None = None) -> dict[str, Any]:
+    """The keys that change any of the aspects `shows`, as JSON can carry them: equal where the settings are.
+
+    Parameters
+    ----------
+    camera
+        Name of the only one to take out of lists of tables that have names.
+    """
+    return _chosen(settings, frozenset(shows), camera, ())
+
+
+def _chosen(
+    settings: Any, shows: frozenset[str], camera: str | None, inherited: tuple[str, ...]
+) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for part in parts(type(settings)):
+        value = getattr(settings, part.name)
+        aspects = part.key.shows if part.key.shows is not None else inherited
+        if part.key.kinds:
+            tag = {part.key.tag: kind_of(part.key, value)} if shows & {*aspects} else {}
+            found |= tag | _chosen(value, shows, camera, aspects)
+        elif part.table:
+            aspects = aspects or (part.name,)
+            tables = [t for t in (value if part.tables else (value,)) if camera in (None, _name(t, camera))]
+            inner = [table for t in tables if (table := _chosen(t, shows, camera, aspects))]
+            found |= {part.name: inner if part.tables else inner[0]} if inner else {}
+        elif shows & {*aspects}:
+            found[part.name] = plain(part.type, value)
+    return found
+
+
+def _name(table: Any, otherwise: str | None) -> str | None:
+    return getattr(table, "name", otherwise)
+
+
+def plain(kind: Any, value: Any) -> Any:
+    """A value as JSON can carry it: the same for equal values, however they are written."""
+    if isinstance(value, tuple):
+        return list(value)
+    if isinstance(value, datetime):
+        return value.astimezone(UTC).isoformat()
+    if isinstance(value, Path):
+        return value.as_posix()
+    if kind is float and value is not None:
+        return float(value) + 0.0  # no -0.0, which JSON writes in another way
+    return value
+
+
+def items(kind: Any, count: int) -> tuple[Any, ...]:
+    """Types of the `count` items of a tuple declared as `kind`, or of as many as it must hold."""
+    inner = typing.get_args(kind)
+    return inner[:1] * count if inner[-1] is Ellipsis else inner

@@ -1,0 +1,572 @@
+"""Every setting once: its type, default, unit, bounds, choices and help, and what it changes.
+
+The file, its check, the panels, the schema for editors and the fingerprints of products come from here.
+Times are UTC, lengths metres and angles degrees. What a key changes is named by aspects: that of its section
+unless it says otherwise, "camera" for all of a camera, and of [render] "picture" (all pictures), "grain"
+(what is not data) and "thermal". "film" is what only films show, "passes" what sidecars list.
+"""
+
+# ruff: noqa: RUF009 (`key` makes a field)
+
+from __future__ import annotations
+
+import zoneinfo
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from .. import biome_names, passes
+from ..cameras import rigs
+from . import frame_list
+from .bounds import file_name, twice
+from .did_you_mean import suggestion
+from .schema import Where, key, kind_of, one_of, parts
+
+BANDS = {"lwir": (8.0, 14.0), "mwir": (3.4, 4.1)}  # um, of infrared cameras
+MOST_RUNS = 3  # beside the first
+FORMER = {"ground": "terrain", "places": "labels"}
+"""Former names of sections, which scene files and .blend files of the last version have."""
+
+_LARGEST_SEED = 2**31 - 1  # Cycles takes no larger one
+
+
+def _zone(value: str) -> str | None:
+    if not value:
+        return None
+    try:
+        zoneinfo.ZoneInfo(value)
+    except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):
+        if not zoneinfo.available_timezones():  # Windows has none of its own
+            return "cannot be looked up: install the Python package tzdata"
+        return f'"{value}" is not a time zone' + suggestion(value, sorted(zoneinfo.available_timezones()))
+    return None
+
+
+def _even(value: tuple[int, int] | None) -> str | None:
+    if value is None or all(side % 2 == 0 for side in value):
+        return None
+    return "must be two even numbers of pixels (video needs even ones)"
+
+
+def _at_least_one(value: tuple[str, ...]) -> str | None:
+    return None if value else 'is empty; name at least one, such as "rgb"'
+
+
+def _box(value: tuple[float, ...]) -> str | None:
+    if not value or (len(value) == 4 and value[0] < value[2] and -90.0 <= value[1] < value[3] <= 90.0):
+        return None
+    return "must be west, south, east and north in degrees, as [-121.0, 38.6, -120.2, 39.1]"
+
+
+@dataclass(frozen=True)
+class Time:
+    """Model times that the frames show. Frames are spread evenly from `start` to `end`."""
+
+    start: datetime | None = key(
+        None, "model time of the first frame, with its zone; if left out, the run's first time"
+    )
+    end: datetime | None = key(None, "model time of the last frame; if left out, the run's last time")
+    frames: int = key(48, "number of frames, spread evenly from start to end", at_least=1, at_most=100_000)
+    fps: int = key(24, "frames per second of the films", at_least=1, at_most=240, shows=("film",))
+    zone: str = key(
+        "", "time zone of the clock in the films; empty: the run's zone", check=_zone, shows=("film",)
+    )
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """The end comes last."""
+        if self.start and self.end and self.end <= self.start:
+            return ("end",), "time.end must be later than time.start"
+        return None
+
+
+@dataclass(frozen=True)
+class Ground:
+    """The run's terrain with relief near the cameras, and an apron to the horizon."""
+
+    near_radius: float = key(
+        4000.0,
+        "distance from a camera's path within which relief finer than the run's grid is added",
+        unit="m",
+        at_least=0,
+        at_most=100_000,
+    )
+    error: float = key(
+        0.05,
+        "mesh tolerance: largest vertical error seen by a camera; larger is coarser",
+        unit="pixels",
+        at_least=0.001,
+        at_most=1000,
+    )
+    elevation: Path | None = key(
+        None,
+        "digital elevation model, a GeoTIFF in any projection; overrides the run's heights where it has data",
+        shows=(),
+    )
+    photo: Path | None = key(
+        None,
+        "orthophoto of unburned terrain: a GeoTIFF, or a PNG or JPEG with a world file in degrees",
+        shows=(),
+    )
+    photo_extent: tuple[float, ...] = key(
+        (),
+        "bounds of a PNG or JPEG without a world file: west, south, east, north",
+        unit="degrees",
+        check=_box,
+        shows=(),
+    )
+    land_use: Path | None = key(
+        None,
+        "fields, tracks, roads, water and buildings: polygons and lines, .geojson or .gpkg",
+        shows=(),
+    )
+    apron: float = key(
+        110_000.0,
+        "half-width of the terrain drawn around the run; a small one shows its edge",
+        unit="m",
+        at_least=0,
+        at_most=1_000_000,
+    )
+
+
+@dataclass(frozen=True)
+class Forest:
+    """Trees and grass."""
+
+    biome: str = key(
+        "auto",
+        'vegetation type, such as "maquis" or "boreal"; "auto" selects it by place and fuel',
+        choices=biome_names.choices,
+        shows=("terrain", "forest"),
+    )
+    greenness: float | None = key(
+        None,
+        "greenness of grass; 0: cured, 1: green; if left out, by date and hemisphere",
+        at_least=0,
+        at_most=1,
+        shows=("terrain", "forest"),
+    )
+    shrub_cover: float | None = key(
+        None,
+        "smallest share of open land under shrubs, except in sierra_conifer; if left out, by fuel and biome",
+        at_least=0,
+        at_most=1,
+        shows=("terrain", "forest"),
+    )
+    tree_cover: float | None = key(
+        None,
+        "share of open land under single trees, except in sierra_conifer; if left out, by biome",
+        at_least=0,
+        at_most=1,
+        shows=("terrain", "forest"),
+    )
+    trees: bool = key(True, "draw trees where the run has canopy fuel")
+    grass: bool = key(True, "draw clumps of grass where the run has surface fuel")
+    density: str = key(
+        "stand",
+        "tree density",
+        choices={"stand": "hundreds per hectare, by canopy fuel", "paper": "one tree per fuel cell"},
+    )
+    budget: int = key(
+        200_000,
+        "approximate limit on trees in a stand; distant trees are fewer and wider",
+        at_least=1,
+        at_most=10_000_000,
+    )
+    understorey: int = key(
+        40_000,
+        "limit on shrubs, logs, rocks and grass tufts near the cameras; 0: none",
+        at_least=0,
+        at_most=10_000_000,
+    )
+    draw_distance: float = key(
+        12_000.0,
+        "draw distance of trees from the nearest camera; beyond it the terrain's colour represents them",
+        unit="m",
+        at_least=0,
+        at_most=1_000_000,
+    )
+
+
+@dataclass(frozen=True)
+class Fire:
+    """Flames, firebrands and glowing ash."""
+
+    emitters: str = key(
+        "front",
+        "placement of flames",
+        choices={"front": "along the front", "cells": "one per burning model cell"},
+    )
+    flames: bool = key(True, "draw the flames")
+    flame_length: str = key(
+        "auto",
+        "flame length formula",
+        choices={"auto": "by fuel", "thomas": "crown fire", "byram": "surface fire"},
+    )
+    budget: int = key(
+        20_736, "limit on flames drawn at once; the nearest are drawn", at_least=0, at_most=10_000_000
+    )
+    embers: bool = key(True, "draw glowing spots in the ash; the thermal view shows their heat in any case")
+    firebrands: int = key(
+        3000,
+        "limit on firebrands in the air at once, within 1.8 km of the cameras; 0: none",
+        at_least=0,
+        at_most=100_000,
+    )
+    torches: bool = key(True, "draw torching: crowns near the cameras flare up when the front reaches them")
+    observed: Path | None = key(
+        None,
+        "observed perimeters or detections, drawn by date: .geojson, .shp, .kml, .gpkg, .csv or a folder",
+        shows=(),
+    )
+    observed_width: float = key(
+        40.0, "line width of observed perimeters and of fronts", unit="m", above=0, at_most=5000
+    )
+    fronts: bool = key(False, "draw the fronts of the other [[runs]] as lines on the terrain")
+
+
+@dataclass(frozen=True)
+class Smoke:
+    """The smoke volume."""
+
+    enabled: bool = key(True, "draw the smoke")
+    method: str = key(
+        "flow",
+        "smoke model for a run without smoke fields",
+        choices={"flow": "flow solved once per shot", "puffs": "quick preview"},
+    )
+    spin_up: float | None = key(
+        None,
+        "spin-up of a flow before the first frame; if left out, by the fire's size: 1800 for 15 km",
+        unit="s",
+        at_least=0,
+        at_most=172_800,
+    )
+    cell_budget: float = key(
+        3.0,
+        "limit on flow cells solved per second of model time; more are finer and take longer",
+        unit="millions",
+        at_least=0.1,
+        at_most=1000,
+    )
+    cloud_base: float = key(
+        4200.0,
+        "cloud base above sea level; condensation turns a flow's smoke white above it",
+        unit="m",
+        at_least=0,
+        at_most=100_000,
+    )
+    voxel_size: float = key(
+        0.0,
+        "edge length of a voxel; 0: chosen by the distance of the nearest camera",
+        unit="m",
+        at_least=0,
+        at_most=100_000,
+    )
+    max_age: float = key(5400.0, "age at which a puff is removed", unit="s", above=0, at_most=10_000_000)
+    extinction: float = key(
+        0.0,
+        "extinction of dense smoke; smaller is faster, 0: chosen as voxel_size is",
+        unit="1/m",
+        at_least=0,
+        at_most=10,
+    )
+    lighting: str = key(
+        "solved",
+        "illumination of solved smoke",
+        choices={
+            "solved": "once per frame",
+            "traced": "by Cycles: noisier, sun can be moved",
+        },
+    )
+    draw: str = key(
+        "integrated",
+        "volume rendering",
+        choices={"integrated": "ray march of solved smoke", "volume": "by Cycles, as F12 does"},
+    )
+    complete: bool = key(False, "write smoke outside of all views too, and temperature and flame grids")
+
+
+@dataclass(frozen=True)
+class Light:
+    """Haze, exposure and the light of the flames."""
+
+    haze: float = key(1.0, "strength of haze; 0: none, 1: a dry September day", at_least=0, at_most=100)
+    exposure: float | None = key(
+        None,
+        "exposure; if left out, exposure metering per camera: about 0.5 by day, up to 4 by night",
+        unit="stops",
+        at_least=-20,
+        at_most=20,
+    )
+    lamps: int = key(
+        48,
+        "limit on lamps that light terrain and trees for the flames when the sun is low; 0: none",
+        at_least=0,
+        at_most=500,
+    )
+
+
+@dataclass(frozen=True)
+class Places:
+    """Labels of towns, lakes and summits, in the visible picture only."""
+
+    enabled: bool = key(False, "draw the labels")
+    file: Path | None = key(
+        None,
+        "places to label: GeoJSON, or CSV with name, latitude, longitude; if left out, the fire's own",
+        shows=(),
+    )
+    size: float = key(0.035, "letter height", unit="heights of the picture", at_least=0.001, at_most=0.5)
+    distance: float = key(
+        60_000.0,
+        "distance from the camera at which labels have faded out",
+        unit="m",
+        at_least=1,
+        at_most=10_000_000,
+    )
+
+
+@dataclass(frozen=True)
+class Thermal:
+    """The infrared camera of the thermal view. By default the detector is ideal."""
+
+    band: str = key("lwir", "wavelength band", choices={"lwir": "8 to 14 µm", "mwir": "3.4 to 4.1 µm"})
+    palette: str = key(
+        "white-hot",
+        "colour palette of the picture",
+        choices=("white-hot", "black-hot", "ironbow", "inferno"),
+    )
+    vapour: float = key(
+        10.0,
+        "absolute humidity at sea level (path attenuation); 0: no attenuation",
+        unit="g/m³",
+        at_least=0,
+        at_most=40,
+    )
+    blur: float = key(
+        0.0, "standard deviation of the point spread function", unit="pixels", at_least=0, at_most=20
+    )
+    noise: float = key(
+        0.0, "noise-equivalent temperature difference (NETD) at 300 K", unit="K", at_least=0, at_most=100
+    )
+    saturation: float = key(
+        0.0, "detector saturation temperature; 0: no limit", unit="K", at_least=0, at_most=3000
+    )
+    bits: int = key(
+        0, "bit depth of counts in the EXR, up to saturation; 0: no counts", at_least=0, at_most=16
+    )
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """Counts end somewhere."""
+        if self.bits and not self.saturation:
+            return ("bits",), "thermal.bits needs thermal.saturation, which fills the range of the counts"
+        return None
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A camera: its passes, and its rig (the kind of camera, with position and motion)."""
+
+    name: str = key("drone", "name of the camera, its folder and its files", check=file_name, shows=())
+    rig: Any = one_of(rigs.kinds, "kind of camera", tag="kind", usual=rigs.USUAL)
+    passes: tuple[str, ...] = key(
+        (), 'passes, such as ["rgb"]; empty: those of [render]', choices=passes.helps, shows=("passes",)
+    )
+    frames: str = key("", 'frames, such as "24" or "1-48:4"; empty: all')
+    resolution: tuple[int, int] | None = key(
+        None,
+        "picture width and height, both even; if left out, those of [render]",
+        unit="pixels",
+        at_least=16,
+        at_most=16384,
+        check=_even,
+    )
+
+    @property
+    def kind(self) -> str:
+        """Name of the kind of camera."""
+        rig = next(part for part in parts(Camera) if part.name == "rig")
+        return kind_of(rig.key, self.rig)
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """What its rig finds."""
+        found = self.rig.wrong()
+        return (found[0], f'camera "{self.name}" {found[1]}') if found else None
+
+
+@dataclass(frozen=True)
+class OtherRun:
+    """Another run of the same place and time, filmed by the same cameras."""
+
+    name: str = key(
+        "what-if", 'name of the run; its camera "drone" is called drone@what-if', check=file_name, shows=()
+    )
+    path: Path = key(Path("what-if"), "folder of the run", shows=())
+
+
+@dataclass(frozen=True)
+class Render:
+    """How frames are rendered."""
+
+    engine: str = key(
+        "cycles",
+        "render engine",
+        choices={"cycles": "path tracing", "eevee": "rasterizing: faster, needs OpenGL"},
+        shows=("picture",),
+    )
+    device: str = key(
+        "auto",
+        "device of Cycles",
+        choices={"auto": "a GPU if there is one", "cpu": "the processor", "gpu": ""},
+        shows=(),
+    )
+    resolution: tuple[int, int] = key(
+        (640, 360),
+        "width and height, both even",
+        unit="pixels",
+        at_least=16,
+        at_most=16384,
+        check=_even,
+        shows=("picture",),
+    )
+    samples: int = key(
+        6,
+        "samples per pixel; 3: a quick film, 12 to 24: a final picture",
+        at_least=1,
+        at_most=65536,
+        shows=("grain",),
+    )
+    denoise: bool = key(
+        True, "denoise the picture; depth and temperatures are never denoised", shows=("grain",)
+    )
+    passes: tuple[str, ...] = key(
+        ("rgb", "depth", "thermal"),
+        "passes that cameras record",
+        choices=passes.helps,
+        check=_at_least_one,
+        shows=("passes",),
+    )
+    video: bool = key(True, "write rgb and thermal films of cameras with more than one frame", shows=())
+    seed: int = key(0, "random seed of the render noise", at_least=0, at_most=_LARGEST_SEED, shows=("grain",))
+    skip: bool = key(
+        True,
+        "frustum culling, occlusion culling and level of detail; false: none, for comparison",
+        shows=("terrain", "forest", "fire", "smoke"),
+    )
+    chunk: int = key(
+        480,
+        "frames of a film built together; fewer need less memory, 0: all at once",
+        at_least=0,
+        at_most=_LARGEST_SEED,
+        shows=("terrain", "forest", "fire"),
+    )
+    thermal_low: float | None = key(
+        None,
+        "lower end of the thermal palette; if left out, the frame's coldest ground",
+        unit="K",
+        above=0,
+        at_most=10_000,
+        shows=("thermal",),
+    )
+    thermal_high: float = key(
+        800.0, "upper end of the thermal palette", unit="K", shows=("thermal",), above=0, at_most=10_000
+    )
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """The thermal picture's colours have a range."""
+        if self.thermal_low is not None and self.thermal_high <= self.thermal_low:
+            return ("thermal_high",), "render.thermal_high must be above render.thermal_low"
+        return None
+
+
+@dataclass(frozen=True)
+class Settings:
+    """All settings of one scene file."""
+
+    path: Path = Path("scene.toml")  # the file itself; relative paths in it start at its folder
+    notes: tuple[str, ...] = field(default=(), compare=False)  # what its reader has to tell
+    run: Path = key(Path("sample"), "run folder, such as `firetwin sample` writes", shows=())
+    cache: Path = key(Path("cache"), "folder of smoke volumes, kept and reused", shows=())
+    seed: int = key(
+        1,
+        "random seed of trees, flames and puffs; the fire stays the same",
+        at_least=0,
+        at_most=_LARGEST_SEED,
+        shows=("terrain", "forest", "fire", "smoke"),
+    )
+    time: Time = key(default_factory=Time, help="model times that the frames show")
+    terrain: Ground = key(
+        default_factory=Ground, help="the run's grid, relief near the cameras and an apron to the horizon"
+    )
+    forest: Forest = key(default_factory=Forest, help="trees and grass")
+    fire: Fire = key(default_factory=Fire, help="flames, firebrands and glowing ash")
+    smoke: Smoke = key(default_factory=Smoke, help="the smoke volume")
+    light: Light = key(default_factory=Light, help="haze, exposure and the light of the flames")
+    labels: Places = key(default_factory=Places, help="labels of towns, lakes and summits in the picture")
+    thermal: Thermal = key(default_factory=Thermal, help="infrared camera of the thermal view")
+    render: Render = key(default_factory=Render, help="how frames are rendered")
+    runs: tuple[OtherRun, ...] = key(
+        (), "another run, filmed by the same cameras at the same times; at most 3"
+    )
+    cameras: tuple[Camera, ...] = key((), "a camera and what it records", shows=("camera",))
+
+    def wrong(self) -> tuple[Where, str] | None:
+        """Names of cameras differ, and their frames are among those of the scene."""
+        i = twice([camera.name for camera in self.cameras])
+        if i is not None:
+            reason = (
+                f'a second camera is named "{self.cameras[i].name}"; names must differ, not by capitals alone'
+            )
+            return ("cameras", i, "name"), reason
+        for i, camera in enumerate(self.cameras):
+            try:
+                frame_list.parse(camera.frames, self.time.frames)
+            except ValueError as error:
+                return ("cameras", i, "frames"), f"cameras.frames: {error}"
+        return self._leaderless() or self._impossible() or self._alone()
+
+    def _alone(self) -> tuple[Where, str] | None:
+        """What is wrong with the other runs, or asked of them and there are none."""
+        names = [each.name for each in self.runs]
+        i = twice(names)
+        if i is not None:
+            reason = f'a second run is named "{names[i]}"; names must differ, not by capitals alone'
+            return ("runs", i, "name"), reason
+        if len(names) > MOST_RUNS:
+            reason = f"runs has {len(names)} tables; beside the first run at most {MOST_RUNS}"
+            return ("runs", MOST_RUNS), reason
+        for where, listed in (
+            (("render", "passes"), self.render.passes),
+            *((("cameras", i, "passes"), camera.passes) for i, camera in enumerate(self.cameras)),
+        ):
+            if not names and (found := [name for name in listed if passes.known()[name].compares]):
+                return where, f'passes has "{found[0]}", which compares runs; add [[runs]] or leave it out'
+        return None
+
+    def _impossible(self) -> tuple[Where, str] | None:
+        """What is asked of cameras and cannot be."""
+        for i, camera in enumerate(self.cameras):
+            width, height = camera.resolution or self.render.resolution
+            if camera.rig.around and self.render.engine != "cycles":
+                reason = f'camera "{camera.name}" sees all round, which EEVEE cannot; render it with Cycles'
+                return ("cameras", i, "kind"), reason
+            for each in passes.of_camera(self, camera):
+                if reason := passes.refused(each, camera, self.render.engine):
+                    return ("cameras", i, "passes") if camera.passes else ("render", "passes"), reason
+            if camera.rig.around and width != height:
+                reason = (
+                    f'camera "{camera.name}" needs a square resolution, such as [2048, 2048]: two pictures '
+                    f"one above the other, each twice as wide as high; it has {width} x {height}"
+                )
+                return ("cameras", i, "resolution"), reason
+        return None
+
+    def _leaderless(self) -> tuple[Where, str] | None:
+        for i, camera in enumerate(self.cameras):
+            name = getattr(camera.rig, "follows", "")
+            if name and camera.rig.leader(self.cameras) is None:
+                others = [each.name for each in self.cameras if not hasattr(each.rig, "follows")]
+                reason = f'camera "{camera.name}" follows "{name}", and no other camera has this name'
+                return ("cameras", i, "follows"), reason + suggestion(name, others)
+        return None

@@ -1,0 +1,83 @@
+"""What to work on: a scene file, a run folder on its own, or a scene file with other folders or engine."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .settings import scene_file
+from .settings.settings import Settings
+
+if TYPE_CHECKING:
+    from .shot import Shot
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Plain text, so that it can be handed to another process; an empty one leaves the scene file's word.
+
+    Attributes
+    ----------
+    scene
+        Scene file. Without one settings are fitted to the run (see `fitted`).
+    run, cache
+        Folders in place of the scene file's.
+    engine, device
+        Render engine and what Cycles renders on, in place of the scene file's.
+    smoke
+        `smoke.method`, in place of the scene file's.
+    beside
+        Name of one of the scene file's other runs, which is shown in place of the first.
+    """
+
+    scene: str = ""
+    run: str = ""
+    cache: str = ""
+    engine: str = ""
+    device: str = ""
+    smoke: str = ""
+    beside: str = ""
+
+    def plain(self) -> dict[str, str]:
+        """The choice as `Choice(**plain)` takes it."""
+        return asdict(self)
+
+    def settings(self) -> Settings:
+        """The scene file, or what fits the run, with what stands in for it."""
+        from . import auto_framing
+
+        if self.scene:
+            found = scene_file.read(self.scene)
+        else:
+            found = auto_framing.at(Path(self.run), Path(self.run), Path("cache")).settings
+        folders = {name: Path(text) for name in ("run", "cache") if (text := getattr(self, name))}
+        render = {name: text for name in ("engine", "device") if (text := getattr(self, name))}
+        smoke = replace(found.smoke, method=self.smoke or found.smoke.method)
+        return replace(found, render=replace(found.render, **render), smoke=smoke, **folders)
+
+    def shot(self) -> Shot:
+        """The settings and their run, which fit each other.
+
+        Raises
+        ------
+        InputError
+            Names the file, line and column of what is wrong, and what to do.
+        UsageError
+            The scene file has no other run of the name.
+        """
+        from ..errors import UsageError
+        from ..run import readers
+        from . import comparison as beside
+        from . import run_checks
+        from .shot import Shot
+
+        settings = self.settings()
+        run = readers.open(settings.run)
+        run_checks.check(settings, run)
+        shot = Shot(settings, run)
+        beside.check(settings, run, shot.others)
+        if self.beside and self.beside not in shot.others:
+            names = ", ".join(shot.others) or "none"
+            raise UsageError(f'--run: there is no "{self.beside}" in [[runs]]; the scene has {names}')
+        return beside.Beside(shot, self.beside) if self.beside else shot

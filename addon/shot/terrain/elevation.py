@@ -1,0 +1,234 @@
+"""Heights of the ground in a shot: the run's, or an elevation model of the user's own where it has any.
+
+Everything that stands on the ground takes its heights from here. Where the model ends or has no data the
+run's go on, and over `_BLEND` metres the one becomes the other.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from ...run import areas
+from ..settings.settings import Settings
+from .raster import Array, Raster, extent, said
+
+_BLEND = 600.0  # m
+_UNITS = {
+    "": 1.0, "m": 1.0, "metre": 1.0, "meter": 1.0, "metres": 1.0, "meters": 1.0,
+    "ft": 0.3048, "foot": 0.3048, "feet": 0.3048, "international foot": 0.3048,
+    "us-ft": 1200.0 / 3937.0, "us survey foot": 1200.0 / 3937.0, "us_survey_foot": 1200.0 / 3937.0,
+    "ussurveyfoot": 1200.0 / 3937.0, "foot_us": 1200.0 / 3937.0,
+}  # fmt: skip
+_POSSIBLE = (-1000.0, 9500.0)  # m; no ground on Earth is lower or higher
+_FEET = (2.9, 3.7)  # times the run's heights, and a model is taken to be in feet
+_FAR = 500.0  # m that most heights may differ from the run's
+_APRON = 2048  # points a side that the apron's heights are made from
+
+
+class Relief:
+    """Heights of a run's grids, m; NaN where neither the run nor the model has any.
+
+    Parameters
+    ----------
+    model
+        The elevation model; None: the run's heights alone.
+    """
+
+    def __init__(self, run: Run, model: Raster | None = None) -> None:
+        self.run, self.model = run, model
+
+    @property
+    def fuel(self) -> NDArray[np.float32]:
+        """(fy, fx) of the fuel grid."""
+        return self._fuel[0]
+
+    @property
+    def share(self) -> NDArray[np.float32]:
+        """(fy, fx) 0..1, how far the heights of the fuel grid are the model's."""
+        return self._fuel[1]
+
+    @cached_property
+    def _fuel(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        run = self.run
+        return self.mixed(run.fuel_latitude, run.fuel_longitude, run.fuel_elevation)
+
+    @cached_property
+    def coarse(self) -> NDArray[np.float32]:
+        """(ny, nx) of the model grid."""
+        return self.mixed(self.run.latitude, self.run.longitude, self.run.elevation)[0]
+
+    @cached_property
+    def air(self) -> NDArray[np.float32]:
+        """(ay, ax) of the places of what the run has on levels."""
+        run = self.run
+        if not run.has("air_latitude"):
+            return self.coarse
+        at = []
+        for axis, places in ((run.latitude, run.air_latitude), (run.longitude, run.air_longitude)):
+            rising = np.argsort(axis)
+            at.append(np.interp(places, axis[rising], rising.astype(np.float64)))
+        own = between(run.elevation, *at).astype(np.float32)
+        return self.mixed(run.air_latitude, run.air_longitude, own)[0]
+
+    def rows(self, first: int, last: int) -> NDArray[np.float32]:
+        """Some rows of `fuel`; of the run's own no more is read."""
+        return self.fuel[first:last] if self.model else self.run.fuel_rows("fuel_elevation", first, last)
+
+    def mixed(self, latitude: Array, longitude: Array, own: NDArray) -> tuple[NDArray, NDArray[np.float32]]:
+        """Heights (ny, nx) of a grid whose `own` they are where the model has none, and the model's share.
+
+        The share is 1 where all is the model's, 0 where nothing is.
+        """
+        if self.model is None or not self.model.overlaps(latitude, longitude):
+            return own, np.zeros(own.shape, np.float32)
+        found = self.read(latitude, longitude)
+        known = np.isfinite(found)
+        share = np.where(known, 1.0, 0.0).astype(np.float32)
+        between = np.isfinite(own)
+        share[between] = ramp(known, max(round(_BLEND / _spacing(latitude, longitude)), 1))[between]
+        own_there, found = np.where(between, own, found), np.where(known, found, own)
+        return (own_there + share * (found - own_there)).astype(own.dtype), share
+
+    def read(self, latitude: Array, longitude: Array) -> NDArray[np.float32]:
+        """The model's heights (ny, nx), m, NaN where it has none; the axes may be uneven, or fall."""
+        even = [_even(axis) for axis in (latitude, longitude)]
+        found = self.model.on_grid(*even)[0] * unit(self.model)
+        found[(found < _POSSIBLE[0]) | (found > _POSSIBLE[1])] = np.nan
+        row, column = (
+            (axis - regular[0]) / (regular[1] - regular[0])
+            for axis, regular in zip((latitude, longitude), even, strict=True)
+        )
+        if all(np.abs(at - np.round(at)).max() < 1.0e-6 for at in (row, column)):
+            return found[np.ix_(np.round(row).astype(int), np.round(column).astype(int))]
+        return between(found, row, column)
+
+
+def of(settings: Settings, run: Run) -> Relief:
+    """Heights for a scene.
+
+    Raises
+    ------
+    InputError
+        The elevation model cannot be used.
+    """
+    return Relief(run, Raster(settings, "elevation") if settings.terrain.elevation else None)
+
+
+def check(settings: Settings, run: Run) -> None:
+    """See whether an elevation model is one, and has heights of this run's ground in a known unit.
+
+    Raises
+    ------
+    InputError
+        Names the file and what to do.
+    """
+    model = of(settings, run).model
+    if model is None:
+        return
+    if model.unit not in _UNITS:
+        raise model.error(f'has heights in "{model.unit}", and metres or feet are wanted: gdal_calc.py')
+    if not model.overlaps(run.latitude, run.longitude):
+        raise model.error(f"covers {said(model.bounds)}, beside the run, which covers {said(extent(run))}")
+    height, latitude, longitude = model.glimpse(extent(run))
+    height = height * unit(model)
+    own = _own(run, latitude, longitude)
+    here = np.isfinite(own) & np.isfinite(height)
+    if not here.any():
+        if not Relief(run, model).share.any():
+            raise model.error("has no data at any place of the run")
+        return
+    height, own = height[here], own[here]
+    wrong = (height < _POSSIBLE[0]) | (height > _POSSIBLE[1])
+    if wrong.any():
+        raise model.error(
+            f"has heights of {height[wrong][0]:g} m; if that means no data: "
+            f"gdal_edit.py -a_nodata {height[wrong][0] / unit(model):g} {model.path.name}"
+        )
+    _compare(model, height, own)
+
+
+def _compare(model: Raster, height: Array, own: Array) -> None:
+    """Raise where heights are not those of the run's places by far."""
+    times = float(np.sum(height * own) / max(np.sum(own * own), 1.0))
+    off = float(np.median(height - own))
+    if abs(off) > _FAR and _FEET[0] < times < _FEET[1]:
+        raise model.error(
+            f"has heights {times:.2f} times the run's: they look like feet; say so with "
+            f"gdal_edit.py -units ft {model.path.name}, and they are turned into metres"
+        )
+    if abs(off) > _FAR:
+        raise model.error(
+            f"is {abs(off):,.0f} m {'above' if off > 0.0 else 'below'} the run's ground for the most part; "
+            "heights in metres above the sea are wanted, in its first band"
+        )
+
+
+def unit(model: Raster) -> float:
+    """Metres in a unit of the model's heights."""
+    return _UNITS[model.unit]
+
+
+def ramp(known: NDArray[np.bool_], width: int) -> NDArray[np.float32]:
+    """1 where all points (ny, nx) within `width` steps are known, falling smoothly to 0 where one is not.
+
+    What lies beyond the grid counts as its edge does.
+    """
+    total, kept = np.zeros(known.shape, np.float32), known
+    for _ in range(width):
+        if kept.all() and not total.any():
+            return np.ones(known.shape, np.float32)
+        total += kept
+        kept = _eroded(kept)
+    total /= np.float32(width)
+    return total * total * (np.float32(3.0) - np.float32(2.0) * total)
+
+
+def _eroded(known: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    for axis in (0, 1):
+        padded = np.pad(known, [(1, 1) if k == axis else (0, 0) for k in (0, 1)], "edge")
+        parts = (padded.take(range(k, k + known.shape[axis]), axis) for k in range(3))
+        known = np.logical_and.reduce(list(parts))
+    return known
+
+
+def _spacing(latitude: Array, longitude: Array) -> float:
+    """Least distance of rows or columns, m."""
+    scale = areas.metres_per_degree(float(np.mean(latitude)))
+    steps = (np.abs(np.diff(axis)) * k for axis, k in zip((latitude, longitude), scale, strict=True))
+    return max(min((float(step.min()) for step in steps if len(step)), default=_BLEND), 1.0)
+
+
+def _even(axis: Array) -> Array:
+    """An even, ascending axis over the same stretch, as fine as this one or of `_APRON` points."""
+    low, high = float(axis.min()), float(axis.max())
+    if len(axis) == 1:
+        return np.array([low, low + 1.0e-3])
+    count = round((high - low) / float(np.abs(np.diff(axis)).min())) + 1
+    if len(axis) != count:
+        count = min(count, max(_APRON, len(axis)))
+    return np.linspace(low, high, count)
+
+
+def between(field: NDArray[np.float32], row: Array, column: Array) -> NDArray[np.float32]:
+    """Bilinear values at all crossings of fractional rows and columns; NaN beside what is not known."""
+    for axis, at in enumerate((row, column)):
+        low = np.clip(np.floor(at).astype(int), 0, field.shape[axis] - 2)
+        part = (at - low).astype(np.float32).reshape((-1, 1) if axis == 0 else (1, -1))
+        field = field.take(low, axis) * (1.0 - part) + field.take(low + 1, axis) * part
+    return field
+
+
+def _own(run: Run, latitude: Array, longitude: Array) -> Array:
+    """The run's heights (n,) in the model cells that hold these places, NaN outside of the run."""
+    index, inside = [], np.ones(len(latitude), bool)
+    middle = 0.5 * float(run.longitude[0] + run.longitude[-1])
+    for axis, at in ((run.latitude, latitude), (run.longitude, areas.turned(longitude, middle))):
+        rising = np.argsort(axis)
+        inside &= (at >= axis.min()) & (at <= axis.max())
+        near = np.interp(at, axis[rising], np.arange(len(axis)))
+        index.append(rising[np.round(near).astype(int)])
+    return np.where(inside, run.elevation[tuple(index)], np.nan)

@@ -1,0 +1,330 @@
+"""The user's map of land use: fields, tracks, roads, water and buildings, as pictures of the ground.
+
+A GeoJSON or GeoPackage of polygons and lines in degrees. What each is is read from its properties, in
+OpenStreetMap's words: `building`, `highway`, `waterway`, `natural`, `landuse`, or one of our own in `kind`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from ...errors import input_error
+from ...progress import Progress, silent
+from ...run import content
+from ...run.observations import Feature, feature, features
+from .. import rasterize
+from ..settings import scene_file
+from ..settings.settings import Settings
+from . import noise
+from .orthophoto import Picture
+from .raster import extent, overlap, said
+
+if TYPE_CHECKING:
+    from ..shot import Shot
+
+LAYERS = ("soft", "hard", "water")
+"""What burns over, what does not, and lakes and rivers; each a picture, from below."""
+
+_LARGEST = 3072  # pixels of a picture's side
+_FINEST = 0.5  # m, of a pixel
+_STOREY, _ROOF = 3.0, 4.0  # m: of a building's level, and of one that says nothing of its height (assumed)
+_SOLID = 0.8  # of a colour's strength, from which on nothing grows through it
+_BEYOND = 50.0  # m round the map that count as mapped
+
+Array = NDArray[np.float64]
+Rings = tuple[Array, ...]
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What a feature may be. Colours (sRGB, 0..1) and widths are by eye.
+
+    Attributes
+    ----------
+    layer
+        One of `LAYERS`.
+    colours
+        Of which each feature has one.
+    width
+        Of a line, m.
+    strength
+        How far its colour counts; less than `_SOLID`: trees and bushes may stand there.
+    """
+
+    layer: str
+    colours: tuple[tuple[float, float, float], ...]
+    width: float = 3.0
+    strength: float = 1.0
+
+
+KINDS = {  # from the lowest to what lies over the others
+    "meadow": Kind("soft", ((0.30, 0.34, 0.18), (0.35, 0.35, 0.20), (0.27, 0.33, 0.16)), strength=0.75),
+    "field": Kind(
+        "soft",
+        ((0.45, 0.40, 0.26), (0.27, 0.32, 0.15), (0.34, 0.28, 0.20), (0.40, 0.37, 0.22), (0.24, 0.30, 0.14)),
+    ),
+    "bare": Kind("hard", ((0.43, 0.39, 0.33), (0.39, 0.35, 0.30))),
+    "water": Kind("water", ((0.10, 0.16, 0.17),), 4.0),
+    "track": Kind("hard", ((0.44, 0.38, 0.30),), 3.0),
+    "road": Kind("hard", ((0.27, 0.27, 0.28),), 7.0),
+    "building": Kind("hard", ((0.33, 0.31, 0.29),), 6.0),
+}
+
+_TRACKS = ("track", "path", "footway", "bridleway", "cycleway", "steps", "pedestrian")
+_WORDS = {
+    "waterway": {"": "water"},
+    "natural": {
+        "water": "water",
+        "wetland": "meadow",
+        "sand": "bare",
+        "scree": "bare",
+        "grassland": "meadow",
+    },
+    "landuse": {
+        **dict.fromkeys(("farmland", "orchard", "vineyard", "allotments"), "field"),
+        **dict.fromkeys(("meadow", "grass", "pasture", "village_green", "recreation_ground"), "meadow"),
+        **dict.fromkeys(("reservoir", "basin"), "water"),
+        **dict.fromkeys(("quarry", "construction", "landfill", "brownfield"), "bare"),
+    },
+}
+_WIDTHS = {  # m, by highway or waterway
+    **{"motorway": 14.0, "trunk": 11.0, "primary": 9.0, "secondary": 8.0, "service": 4.0, "path": 1.5},
+    **{
+        "footway": 1.5,
+        "cycleway": 2.5,
+        "river": 14.0,
+        "canal": 8.0,
+        "stream": 2.5,
+        "ditch": 1.5,
+        "drain": 1.5,
+    },
+}
+
+
+@dataclass(frozen=True)
+class Thing:
+    """A feature of the map in the scene.
+
+    Attributes
+    ----------
+    kind
+        One of `KINDS`.
+    polygons
+        Each its rings (n, 2), the outer first, east and north, m.
+    lines
+        (n, 2) east and north, m.
+    width
+        Of the lines, m.
+    height
+        Of a building, m.
+    number
+        Its place in the file.
+    """
+
+    kind: str
+    polygons: tuple[Rings, ...]
+    lines: Rings
+    width: float
+    height: float
+    number: int
+
+
+@dataclass(frozen=True)
+class Map:
+    """All of the map in the scene: its things, and the corners (2,) of the rectangle that it covers, m."""
+
+    things: tuple[Thing, ...]
+    low: Array
+    high: Array
+
+
+_MAPS: WeakKeyDictionary[Shot, Map | None] = WeakKeyDictionary()
+_PICTURES: WeakKeyDictionary[Shot, dict[str, list[Picture]]] = WeakKeyDictionary()
+
+
+def kind_of(properties: Mapping[str, Any]) -> str | None:
+    """Which of `KINDS` a feature is by its properties; None: none of them."""
+    words = {str(key).lower(): str(value).lower() for key, value in properties.items() if value is not None}
+    if (own := words.get("kind", "")) in KINDS:
+        return own
+    if words.get("building", "no") not in ("no", ""):
+        return "building"
+    if highway := words.get("highway"):
+        return "track" if highway in _TRACKS else "road"
+    for key, known in _WORDS.items():
+        if key in words:
+            return known.get(words[key], known.get(""))
+    return None
+
+
+def check(settings: Settings, run: Run) -> None:
+    """See whether a map of land use is one, and shows any of this run's ground.
+
+    Raises
+    ------
+    InputError
+        Names the file and what to do.
+    """
+    if settings.terrain.land_use is None:
+        return
+    found = _read(settings)
+    corners = np.concatenate([ring for each in found for ring in _rings(each)])
+    (west, south), (east, north) = corners.min(axis=0), corners.max(axis=0)
+    bounds = (float(west), float(south), float(east), float(north))
+    if not overlap(bounds, run.latitude, run.longitude):
+        reason = f"covers {said(bounds)}, beside the run, which covers {said(extent(run))}"
+        raise input_error(settings.terrain.land_use, 0, 0, reason)
+
+
+def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
+    """What the map's colours and roofs depend on: SHA-256 of the file."""
+    path = settings.terrain.land_use
+    return {"land use": content.of_file(path, settings.cache, progress)} if path else {}
+
+
+def of(shot: Shot) -> Map | None:
+    """The map of a shot; None: there is none."""
+    if shot.settings.terrain.land_use is None:
+        return None
+    if shot not in _MAPS:
+        _MAPS[shot] = _placed(shot, _read(shot.settings))
+    return _MAPS[shot]
+
+
+def pictures(shot: Shot) -> dict[str, list[Picture]]:
+    """Pictures of each of `LAYERS` that the map has: all of it, and what is near cameras finer."""
+    known = of(shot)
+    if known is None:
+        return {}
+    if shot not in _PICTURES:
+        frames = _frames(shot, known)
+        layers = [each for each in LAYERS if any(KINDS[thing.kind].layer == each for thing in known.things)]
+        _PICTURES[shot] = {each: [_drawn(shot, known, each, *frame) for frame in frames] for each in layers}
+    return _PICTURES[shot]
+
+
+def mapped(shot: Shot, place: Array) -> NDArray[np.bool_]:
+    """Whether the map covers places (n, 2) in the scene, m: nothing is invented there."""
+    known = of(shot)
+    if known is None:
+        return np.zeros(len(place), bool)
+    return np.all((place[:, :2] > known.low - _BEYOND) & (place[:, :2] < known.high + _BEYOND), axis=1)
+
+
+def keeps_out(shot: Shot, place: Array) -> NDArray[np.bool_]:
+    """Whether no plant stands at places (n, 2 or 3) in the scene, m: water, roads, fields and buildings."""
+    out = np.zeros(len(place), bool)
+    for layer, drawn in pictures(shot).items():
+        for picture in drawn:
+            size = np.array(picture.pixels.shape[1::-1])
+            at = np.floor((place[:, :2] - picture.low) / (picture.high - picture.low) * size).astype(int)
+            inside = np.flatnonzero(np.all((at >= 0) & (at < size), axis=1))
+            x, y = at[inside].T
+            out[inside] |= picture.pixels[y, x, 3] > 255.0 * (_SOLID if layer == "soft" else 0.5)
+    return out
+
+
+def _read(settings: Settings) -> list[tuple[str, Feature]]:
+    """Features of known kinds.
+
+    Raises
+    ------
+    InputError
+    """
+    path = settings.terrain.land_use
+    assert path is not None
+    where = "terrain", "land_use"
+    if path.suffix.lower() not in (".geojson", ".json", ".gpkg"):
+        raise scene_file.error_at(settings.path, where, f"terrain.land_use: {path} is no .geojson or .gpkg")
+    if not path.is_file():
+        raise scene_file.error_at(settings.path, where, f"terrain.land_use: there is no file {path}")
+    every = features(path)
+    found = [(kind, each) for each in every if (kind := kind_of(each.properties)) and _rings((kind, each))]
+    if not found:
+        reason = f"has no polygon or line whose kind is one of {', '.join(KINDS)}, nor OpenStreetMap's tags"
+        raise input_error(path, 0, 0, reason)
+    return found
+
+
+def _rings(found: tuple[str, Feature]) -> list[feature.Ring]:
+    _, each = found
+    return [*(polygon[0] for polygon in each.polygons), *each.lines]
+
+
+def _placed(shot: Shot, found: list[tuple[str, Feature]]) -> Map:
+    def scene(ring: Array) -> Array:
+        return shot.bare_ground.point(ring[:, 1], ring[:, 0])[:, :2]
+
+    things = []
+    for number, (kind, each) in enumerate(found):
+        words = {key.lower(): str(value).lower() for key, value in each.properties.items()}
+        told = feature.finite(words.get("width", "").removesuffix("m"))
+        usual = _WIDTHS.get(words.get("highway", words.get("waterway", "")), KINDS[kind].width)
+        levels = feature.finite(words.get("building:levels"))
+        height = feature.finite(words.get("height", "").removesuffix("m"))
+        things.append(
+            Thing(
+                kind,
+                tuple(tuple(map(scene, polygon)) for polygon in each.polygons),
+                tuple(map(scene, each.lines)),
+                min(told or usual, 200.0),
+                min(height or (levels or 0.0) * _STOREY or _ROOF, 400.0),
+                number,
+            )
+        )
+    order = list(KINDS)
+    things.sort(key=lambda thing: order.index(thing.kind))
+    every = np.concatenate([ring for t in things for ring in (*(p[0] for p in t.polygons), *t.lines)])
+    return Map(tuple(things), every.min(axis=0), every.max(axis=0))
+
+
+def _frames(shot: Shot, known: Map) -> list[tuple[Array, Array]]:
+    """Corners of the pictures to draw: of all of the map, and of what is near cameras."""
+    ground = shot.ground
+    low, high = known.low - _BEYOND, known.high + _BEYOND
+    frames = [(low, high)]
+    if len(ground.eyes) and np.max(high - low) / _LARGEST > 2.0 * _FINEST:
+        eyes = ground.eyes[:, :2]
+        radius = min(ground.near_radius, 1500.0)
+        near = np.clip(eyes.min(axis=0) - radius, low, high), np.clip(eyes.max(axis=0) + radius, low, high)
+        if np.all(near[1] - near[0] > 10.0) and np.max(near[1] - near[0]) < 0.7 * np.max(high - low):
+            frames.append(near)
+    return frames
+
+
+def _drawn(shot: Shot, known: Map, layer: str, low: Array, high: Array) -> Picture:
+    """One layer of the map as a picture."""
+    size = np.clip(np.ceil((high - low) / _FINEST), 2, _LARGEST).astype(int)
+    pixel = (high - low) / size
+    pixels = np.zeros((size[1], size[0], 4), np.uint8)
+    for thing in known.things:
+        kind = KINDS[thing.kind]
+        if kind.layer != layer:
+            continue
+        lot, bright = noise.uniform([thing.number] * 2, [7, 8], shot.settings.seed)
+        colour = np.array(kind.colours[int(lot * len(kind.colours))])
+        tone = 0.92 + 0.16 * float(bright)
+        for window, cover in _covers(thing, low, pixel, pixels.shape[:2]):
+            part = pixels[window]
+            over = np.maximum(cover * kind.strength, part[..., 3] / 255.0)
+            part[..., :3] = np.where(
+                cover[..., None] > 0.0, 255.0 * np.clip(colour * tone, 0, 1), part[..., :3]
+            )
+            part[..., 3] = np.rint(255.0 * over)
+    return Picture(low, high, pixels)
+
+
+def _covers(thing: Thing, low: Array, pixel: Array, shape: tuple[int, int]) -> list[rasterize.Covered]:
+    found = [
+        rasterize.filled([(ring - low) / pixel for ring in polygon], shape) for polygon in thing.polygons
+    ]
+    width = thing.width / float(np.mean(pixel))
+    found += [rasterize.stroked((line - low) / pixel, width, shape) for line in thing.lines]
+    return [each for each in found if each is not None]

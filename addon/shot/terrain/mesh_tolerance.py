@@ -1,0 +1,168 @@
+"""How exactly the ground has to be drawn, place by place: by what cameras see of it, and from how near."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import shadow_casters
+
+if TYPE_CHECKING:
+    from ..shot import Shot
+
+UNSEEN = 50.0  # m; ground that is neither seen nor throws shadows on what is may be so far off
+_BLOCK = 150.0  # m; ground is asked about in squares of about this size
+_MARGIN = 200.0  # m beside the views, from where ground still gives light to what is in them
+_NEAREST = 60.0  # m; ground nearer than this is drawn as if it were so far away
+_EXACT = 0.02  # m; no elevation model is as exact
+_FINEST = 6.0  # m; waves of the relief are 26 m and longer
+_SPACING = 8.0  # errors, between the places where the surface is compared with its mesh
+_LIMIT = 6_000_000  # such places; more than this and they are farther apart
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """What is asked of the mesh.
+
+    Attributes
+    ----------
+    place
+        (ny, nx, 3) points of the ground's grid without what is added near cameras, m.
+    tolerance
+        (ny, nx) largest vertical error, m.
+    fine
+        (ny - 1, nx - 1) how often each cell is halved, so that heights between the grid's points count.
+    """
+
+    place: NDArray[np.float32]
+    tolerance: NDArray[np.float32]
+    fine: NDArray[np.uint8]
+
+
+def wanted(shot: Shot) -> Accuracy:
+    """The accuracy that `terrain.error` asks for, which is in pixels of whichever camera sees most."""
+    ground = shot.ground
+    place = _places(shot)
+    size = max(round(_BLOCK / max(ground.cell)), 1)
+    centre, radius, rise, shape = _blocks(place, size, 4.0 * ground.rough)
+    tolerance, distance = _tolerance(shot, centre, radius, rise, shape)
+    fine = _halvings(shot, tolerance, distance)
+    tolerance, fine = (
+        np.repeat(np.repeat(v.reshape(shape), size, axis=0), size, axis=1) for v in (tolerance, fine)
+    )
+    rows, columns = ground.shape
+    fine = fine[: rows - 1, : columns - 1]
+    return Accuracy(place, _at_points(tolerance[: rows - 1, : columns - 1]), _within_limit(fine))
+
+
+def _places(shot: Shot) -> NDArray[np.float32]:
+    """Points (ny, nx, 3) of the grid, m; off by at most 8 mm at the apron's end."""
+    fields, frame = shot.ground.fields, shot.ground.frame
+    place = np.empty((*fields.elevation.shape, 3), np.float32)
+    for first in range(0, len(place), 256):
+        part = slice(first, first + 256)
+        place[part] = frame.forward_grid(fields.latitude[part], fields.longitude, fields.elevation[part])
+    return place
+
+
+def _blocks(
+    place: NDArray[np.float32], size: int, more: float
+) -> tuple[NDArray, NDArray, NDArray, tuple[int, int]]:
+    """Blocks of `size` cells: middles (n, 3), radii (n,) that hold all of each, m, and how many there are.
+
+    Third, how far the ground of each is above and below its middle (n,), m; `more` is added to both.
+    """
+    rows, columns = (np.arange(0, count - 1, size) for count in place.shape[:2])
+    low, high = place[rows][:, columns], place
+    ends = [
+        np.minimum(first + size, count - 1)
+        for first, count in zip((rows, columns), place.shape[:2], strict=True)
+    ]
+    high = place[ends[0]][:, ends[1]]
+    z = place[..., 2]
+    least, most = z.copy(), z.copy()
+    for axis, (first, last) in enumerate(zip((rows, columns), ends, strict=True)):
+        inner = (np.minimum.reduceat(least, first, axis), np.maximum.reduceat(most, first, axis))
+        least, most = (
+            f(part, np.take(whole, last, axis))
+            for f, part, whole in zip((np.minimum, np.maximum), inner, (least, most), strict=True)
+        )
+    centre = np.stack([*(0.5 * (low[..., k] + high[..., k]) for k in (0, 1)), 0.5 * (least + most)], axis=-1)
+    across = np.hypot(*(0.5 * np.abs(high[..., k] - low[..., k]) for k in (0, 1)))
+    radius = np.hypot(1.05 * across, 0.5 * (most - least)) + more
+    rise = 0.5 * (most - least) + more
+    return (
+        *(v.astype(np.float64) for v in (centre.reshape(-1, 3), radius.ravel(), rise.ravel())),
+        least.shape,
+    )
+
+
+def most(shot: Shot, distance: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Bound of the vertical error (m) of ground that is seen, by its distance (m) from the nearest camera."""
+    angle, pixel = _views(shot)
+    near = np.zeros(distance.shape) if angle is None else _allowed(angle * np.maximum(distance, _NEAREST))
+    return np.minimum(np.maximum(near, pixel or 0.0), UNSEEN)
+
+
+def _allowed(error: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Errors (n,) that cameras in perspective allow, m, within what is possible and what is drawn anyway."""
+    return np.clip(error, _EXACT, UNSEEN)
+
+
+def _views(shot: Shot) -> tuple[float | None, float | None]:
+    """Errors that may be seen: of cameras in perspective, m for each m of distance; of others, m."""
+    error = shot.settings.terrain.error
+    angle, pixel = (error * size if np.isfinite(size) else None for size in shot.pixel)
+    return angle, None if pixel is None else max(pixel, _EXACT)
+
+
+def _tolerance(
+    shot: Shot, centre: NDArray, radius: NDArray, rise: NDArray, shape: tuple[int, int]
+) -> tuple[NDArray, NDArray]:
+    """Largest vertical error (n,) of blocks, m, and how near cameras come that see them; infinite if none."""
+    tolerance, distance = np.full(len(centre), UNSEEN), np.full(len(centre), np.inf)
+    angle, pixel = _views(shot)
+
+    def shaded(seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        return shadow_casters.with_shade(
+            shot, centre.reshape(*shape, 3), rise.reshape(shape), seen.reshape(shape)
+        ).ravel()
+
+    near = np.zeros(len(centre), bool)
+    if angle is not None:
+        near = shot.sights.seen(centre, radius, margin=_MARGIN)
+        seen = shaded(near)
+        distance[seen] = np.maximum(shot.sights.distance(centre[seen]) - radius[seen], _NEAREST)
+        drawn = np.maximum(shot.sights.drawn_from(centre[seen]) - radius[seen], _NEAREST)
+        tolerance[seen] = _allowed(angle * drawn)
+    if pixel is not None:
+        far = shot.sights.seen(centre, radius, margin=_MARGIN, pixel=np.inf, perspective=False)
+        seen = shaded(near | far)
+        tolerance[seen] = np.minimum(tolerance[seen], pixel)
+    return tolerance, distance
+
+
+def _halvings(shot: Shot, tolerance: NDArray, distance: NDArray) -> NDArray[np.int64]:
+    """How often cells of blocks are halved: where the surface has more than its grid, as errors ask for."""
+    ground = shot.ground
+    finest = min(_FINEST, max(ground.cell) / ground.patch.parts) if ground.patch else _FINEST
+    spacing = np.maximum(_SPACING * tolerance, finest)
+    halvings = np.ceil(np.log2(max(ground.cell) / spacing)).astype(np.int64)
+    return np.where(distance < ground.near_radius, np.maximum(halvings, 1), 0)
+
+
+def _within_limit(fine: NDArray[np.int64]) -> NDArray[np.uint8]:
+    """Halvings, fewer where they are most until there are no more than `_LIMIT` places."""
+    while np.sum(4.0**fine, where=fine > 0) > _LIMIT:
+        fine = np.minimum(fine, max(int(fine.max()) - 1, 0))
+    return fine.astype(np.uint8)
+
+
+def _at_points(cells: NDArray[np.float64]) -> NDArray[np.float32]:
+    """Values at the grid's points: the least of the cells round each."""
+    padded = np.pad(cells, 1, "edge")
+    down = np.minimum(padded[:-1], padded[1:])
+    return np.minimum(down[:, :-1], down[:, 1:]).astype(np.float32)

@@ -1,0 +1,315 @@
+"""The user's own orthophoto: colours of the ground as pictures in scene coordinates.
+
+A GeoTIFF says itself where it lies. A PNG or JPEG has a world file beside it (.pgw, .jgw or .wld) or
+`terrain.photo_extent`, both in degrees.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from firetwin_core import sensor
+from firetwin_core.run import Run
+from numpy.typing import NDArray
+
+from ...errors import InputError, input_error
+from ...progress import Progress, silent
+from ...run import areas, content
+from ..settings import scene_file
+from ..settings.settings import Settings
+from .elevation import between, ramp
+from .raster import Array, Raster, extent, overlap, said
+
+if TYPE_CHECKING:
+    from ..shot import Shot
+
+_LARGEST = 3072  # pixels of a picture's side
+_STRIP = 256  # rows that are made at once
+_LATTICE = 128.0  # m between places that are looked up; between them, 0.2 m off at most in the sample run
+_FADE = 6  # pixels at its rim, over which it gives way to the invented ground
+_TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+
+Pixels = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Picture:
+    """Colours of a part of the ground, seen from straight above.
+
+    Attributes
+    ----------
+    low, high
+        (2,) east and north of its corners, m.
+    pixels
+        (h, w, 4) the southern row first: colour as pictures have it (sRGB), and how far it counts.
+    """
+
+    low: Array
+    high: Array
+    pixels: Pixels
+
+
+def check(settings: Settings, run: Run) -> None:
+    """See whether an orthophoto is one, and shows any of this run's ground.
+
+    Raises
+    ------
+    InputError
+        Names the file and what to do.
+    """
+    if settings.terrain.photo is None:
+        if settings.terrain.photo_extent:
+            where = "terrain", "photo_extent"
+            raise scene_file.error_at(settings.path, where, "terrain.photo_extent needs a terrain.photo")
+        return
+    path = settings.terrain.photo
+    if path.exists() and not path.is_file():  # a pipe would be waited for
+        reason = f"terrain.photo: {path} is no file; name a GeoTIFF, PNG or JPEG"
+        raise scene_file.error_at(settings.path, ("terrain", "photo"), reason)
+    source = _source(settings)
+    if not overlap(source.bounds, run.latitude, run.longitude):
+        raise source.error(f"covers {said(source.bounds)}, beside the run, which covers {said(extent(run))}")
+
+
+def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
+    """What the photo's colours depend on: SHA-256 of it and of its world file, and its extent."""
+    path = settings.terrain.photo
+    if path is None:
+        return {}
+    parts = [path, *([world] if (world := _world_file(path)) else [])]
+    found = {f"photo {part.suffix}": content.of_file(part, settings.cache, progress) for part in parts}
+    return found | {"photo extent": str(settings.terrain.photo_extent)}
+
+
+def pictures(shot: Shot) -> list[Picture]:
+    """All of the photo as one picture, and what is near cameras as another if the photo is finer there."""
+    if shot.settings.terrain.photo is None:
+        return []
+    source, ground = _source(shot.settings), shot.ground
+    rows, columns = (
+        np.array([axis[0], axis[-1]]) for axis in (ground.fields.latitude, ground.fields.longitude)
+    )
+    west, south, east, north = source.bounds
+    rows, columns = (
+        np.clip([south, north], *rows),
+        np.clip(areas.turned([west, east], columns.mean()), *columns),
+    )
+    corners = ground.point(*(v.ravel() for v in np.meshgrid(rows, columns)))[:, :2]
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    step = max(source.resolution, _pixel(shot))
+    made = [_picture(shot, source, low, high, step)]
+    radius = ground.near_radius
+    if len(ground.eyes) and radius > 0.0:
+        near = (f(ground.eyes[:, :2], axis=0) for f in (np.min, np.max))
+        low, high = np.clip(next(near) - radius, low, high), np.clip(next(near) + radius, low, high)
+        coarse = float(np.max((made[0].high - made[0].low) / made[0].pixels.shape[1::-1]))
+        if np.all(high - low > step) and max(step, np.max(high - low) / _LARGEST) < 0.7 * coarse:
+            made.append(_picture(shot, source, low, high, step))
+    return made
+
+
+def _pixel(shot: Shot) -> float:
+    """Half of the smallest pixel (m) that shows ground, 200 m from cameras in perspective."""
+    sizes = [view.pixel * (200.0 if view.perspective else 1.0) for view in shot.paths]
+    return 0.5 * min(sizes, default=1.0)
+
+
+def _picture(shot: Shot, source: _Source, low: Array, high: Array, step: float) -> Picture:
+    """A part of the ground, no finer than `step` (m) or `_LARGEST` allow, made strip by strip."""
+    size = np.clip(np.ceil((high - low) / step), 2, _LARGEST).astype(int)
+    pixels = np.zeros((size[1], size[0], 4), np.uint8)
+    east, north = (low[k] + (np.arange(size[k]) + 0.5) / size[k] * (high[k] - low[k]) for k in (0, 1))
+    place = _Places(shot, low, high)
+    for first in range(0, size[1], _STRIP):
+        rows = north[first : first + _STRIP]
+        found = source.colours(*place(east, rows), float(np.min((high - low) / size)))
+        found[..., 3] = np.nan_to_num(found[..., 3])
+        pixels[first : first + len(rows)] = np.rint(255.0 * np.clip(np.nan_to_num(found), 0.0, 1.0))
+    known = pixels[..., 3] > 0
+    soft = ramp(np.pad(known, 1), _FADE)[1:-1, 1:-1]
+    pixels[..., 3] = np.rint(pixels[..., 3] * soft)
+    return Picture(low, high, pixels)
+
+
+class _Places:
+    """Latitude and longitude at scene coordinates: looked up on a lattice, and bilinear between."""
+
+    def __init__(self, shot: Shot, low: Array, high: Array) -> None:
+        counts = np.ceil((high - low) / _LATTICE).astype(int) + 1
+        self.low, self.step = low, (high - low) / np.maximum(counts - 1, 1)
+        counts = np.maximum(counts, 2)
+        axes = [low[k] + np.arange(counts[k]) * self.step[k] for k in (0, 1)]
+        east, north = (v.ravel() for v in np.meshgrid(*axes))
+        self.fields = [v.reshape(counts[::-1]) for v in shot.ground.geodetic(east, north)]
+
+    def __call__(self, east: Array, north: Array) -> tuple[Array, Array]:
+        """(n, m) degrees, of n norths and m easts."""
+        row, column = (north - self.low[1]) / self.step[1], (east - self.low[0]) / self.step[0]
+        return tuple(between(field, row, column) for field in self.fields)
+
+
+class _Source:
+    """An orthophoto of any kind: `bounds` (west, south, east, north), degrees, and `resolution`, m."""
+
+    bounds: tuple[float, float, float, float]
+    resolution: float
+
+    def error(self, reason: str) -> InputError:
+        """An error about the file."""
+        raise NotImplementedError
+
+    def colours(self, latitude: Array, longitude: Array, step: float) -> NDArray[np.float32]:
+        """(h, w, 4) colours 0..1 and 1 where they are known, at places (h, w) about `step` metres apart."""
+        raise NotImplementedError
+
+
+def _source(settings: Settings) -> _Source:
+    path = settings.terrain.photo
+    try:
+        with path.open("rb") as stream:
+            start = stream.read(8)
+    except OSError as error:
+        reason = f"terrain.photo: {path} cannot be read: {error.strerror}"
+        raise scene_file.error_at(settings.path, ("terrain", "photo"), reason) from None
+    return _Tiff(settings) if start.startswith(_TIFF) else _Plain(settings)
+
+
+class _Tiff(_Source):
+    def __init__(self, settings: Settings) -> None:
+        self.raster = Raster(settings, "photo")
+        self.bounds, self.resolution = self.raster.bounds, self.raster.resolution
+        if self.raster.types[0] != "uint8":
+            raise self.error(
+                f"has {self.raster.types[0]} values, and colours of 8 bits are wanted: "
+                f"gdal_translate -ot Byte -scale {self.raster.path.name} OTHER.tif"
+            )
+        self.bands = {1: 1, 2: 2, 3: 3}.get(self.raster.count, 4)
+
+    def error(self, reason: str) -> InputError:
+        return self.raster.error(reason)
+
+    def colours(self, latitude: Array, longitude: Array, step: float) -> NDArray[np.float32]:
+        scale = areas.metres_per_degree(float(latitude.mean()))
+        axes = [_axis(v, step / metres) for v, metres in zip((latitude, longitude), scale, strict=True)]
+        found = self.raster.on_grid(*axes, bands=self.bands) / np.float32(255.0)
+        row, column = (
+            (v - axis[0]) / (axis[1] - axis[0]) for v, axis in zip((latitude, longitude), axes, strict=True)
+        )
+        return _rgba(_bilinear(np.moveaxis(found, 0, -1), row, column))
+
+
+class _Plain(_Source):
+    def __init__(self, settings: Settings) -> None:
+        self.path = settings.terrain.photo
+        try:
+            pixels = sensor.read_image(self.path)
+        except InputError as error:
+            reason = f"terrain.photo: {self.path} {error.reason}"
+            raise scene_file.error_at(settings.path, ("terrain", "photo"), reason) from None
+        self.pixels = np.rint(255.0 * np.clip(pixels, 0.0, 1.0)).astype(np.uint8)
+        self.affine = self._affine(settings)
+        height, width = self.pixels.shape[:2]
+        corners = (
+            np.array([[x, y, 1.0] for x in (-0.5, width - 0.5) for y in (-0.5, height - 0.5)]) @ self.affine.T
+        )
+        (west, south), (east, north) = corners.min(axis=0), corners.max(axis=0)
+        self.bounds = (west, south, east, north)
+        if not (-90.0 <= south < north <= 90.0 and west < east <= west + 360.0 and abs(west) <= 360.0):
+            raise self.error(
+                "is not placed in degrees by its world file; make a GeoTIFF of it: "
+                f"gdal_translate -a_srs EPSG:NNNN {self.path.name} OTHER.tif"
+            )
+        scale = np.array(areas.metres_per_degree(0.5 * (south + north)))
+        metres = np.array([north - south, east - west]) * scale
+        self.resolution = float(np.min(metres / (height, width)))
+
+    def _affine(self, settings: Settings) -> Array:
+        """(2, 3): longitude and latitude of the middles of pixels from column, row and 1."""
+        extent = settings.terrain.photo_extent
+        if extent:
+            west, south, east, north = extent
+            height, width = self.pixels.shape[:2]
+            dx, dy = (east - west) / width, (south - north) / height
+            return np.array([[dx, 0.0, west + 0.5 * dx], [0.0, dy, north + 0.5 * dy]])
+        world = _world_file(self.path)
+        if world is None:
+            raise self.error(
+                "has no world file beside it (.pgw, .jgw or .wld); say where it lies with "
+                "terrain.photo_extent = [west, south, east, north] in degrees"
+            )
+        try:
+            a, d, b, e, c, f = map(float, world.read_text(encoding="utf-8").split())
+        except (OSError, ValueError):
+            raise input_error(world, 0, 0, "is no world file: six numbers are wanted, one a line") from None
+        if not np.isfinite([a, d, b, e, c, f]).all() or abs(a * e - b * d) == 0.0:
+            raise input_error(world, 0, 0, "is no world file: its pixels have no area")
+        return np.array([[a, b, c], [d, e, f]])
+
+    def error(self, reason: str) -> InputError:
+        return input_error(self.path, 0, 0, reason)
+
+    def colours(self, latitude: Array, longitude: Array, step: float) -> NDArray[np.float32]:
+        inverse = np.linalg.inv(self.affine[:, :2])
+        east = areas.turned(longitude, 0.5 * (self.bounds[0] + self.bounds[2])) - self.affine[0, 2]
+        north = latitude - self.affine[1, 2]
+        column, row = (inverse[k, 0] * east + inverse[k, 1] * north for k in (0, 1))
+        size = max(int(step / self.resolution), 1)
+        return _rgba(_bilinear(self._thinned(size), (row + 0.5) / size - 0.5, (column + 0.5) / size - 0.5))
+
+    def _thinned(self, size: int) -> NDArray[np.float32]:
+        """Means of size x size pixels each."""
+        return self._means.setdefault(size, _means(self.pixels, size))
+
+    @cached_property
+    def _means(self) -> dict[int, NDArray[np.float32]]:
+        return {}
+
+
+def _means(pixels: Pixels, size: int) -> NDArray[np.float32]:
+    height, width, bands = pixels.shape
+    pixels = np.pad(pixels, [(0, -height % size), (0, -width % size), (0, 0)], "edge")
+    shape = pixels.shape[0] // size, size, pixels.shape[1] // size, size, bands
+    return pixels.reshape(shape).mean(axis=(1, 3), dtype=np.float32) / np.float32(255.0)
+
+
+def _axis(values: Array, step: float) -> Array:
+    """An even axis over all of these values and a little more."""
+    low, high = values.min() - 2.0 * step, values.max() + 2.0 * step
+    return np.linspace(low, high, max(int(np.ceil((high - low) / step)), 1) + 1)
+
+
+def _bilinear(field: NDArray[np.float32], row: Array, column: Array) -> NDArray[np.float32]:
+    """Values (h, w, bands) between pixels; NaN beyond the outermost pixels' edges."""
+    height, width, bands = field.shape
+    inside = (row >= -0.5) & (row <= height - 0.5) & (column >= -0.5) & (column <= width - 0.5)
+    low, left = (np.clip(np.floor(at), 0, max(n - 2, 0)) for at, n in ((row, height), (column, width)))
+    v, u = (np.clip(at, 0.0, 1.0).astype(np.float32)[..., None] for at in (row - low, column - left))
+    first = (low * width + left).astype(np.int32)
+    right, down = min(1, width - 1), min(1, height - 1) * width
+    flat = np.ascontiguousarray(field).reshape(-1, bands)
+    below = flat.take(first, axis=0) * (1 - u) + flat.take(first + right, axis=0) * u
+    above = flat.take(first + down, axis=0) * (1 - u) + flat.take(first + down + right, axis=0) * u
+    found = below * (1 - v) + above * v
+    found[~inside] = np.nan
+    return found
+
+
+def _rgba(found: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Grey, grey and alpha, RGB or RGB and alpha (h, w, bands) with NaN for unknown -> (h, w, 4)."""
+    bands = found.shape[-1]
+    grey = bands < 3
+    alpha = found[..., -1] if bands in (2, 4) else np.ones(found.shape[:2], np.float32)
+    colour = np.repeat(found[..., :1], 3, axis=-1) if grey else found[..., :3]
+    alpha = np.where(np.isfinite(found).all(axis=-1), alpha, 0.0)
+    return np.concatenate([colour, alpha[..., None]], axis=-1).astype(np.float32)
+
+
+def _world_file(path: Path) -> Path | None:
+    """The file beside a picture that says where it lies; None: there is none."""
+    ends = {".png": ".pgw", ".jpg": ".jgw", ".jpeg": ".jgw"}.get(path.suffix.lower())
+    names = [path.with_suffix(end) for end in (ends, ".wld") if end] + [Path(f"{path}w")]
+    return next((name for name in names if name.is_file()), None)

@@ -1,0 +1,393 @@
+"""The ground as a function: its height and fuels at any place, which the mesh, trees and cameras share."""
+
+from __future__ import annotations
+
+import copy
+import functools
+
+import numpy as np
+from firetwin_core import terrain
+from firetwin_core.run import Run
+from numpy.typing import ArrayLike, NDArray
+
+from ...run import areas, fuel_category
+from ...run.frame import local_frame
+from ..fire import burning
+from ..settings.settings import Settings
+from . import apron, dem_patch, noise
+from .elevation import Relief
+
+NEVER = 1.0e9  # arrival time of places that never burned, s
+UNKNOWN = 1.0e8  # the same in `burn_time`: less, so that little is lost beside a place that burned
+_LEVEL = 0.05  # m
+_SPREAD = (0.01, 5.0)  # m/s
+_RINGS = 3  # cells beyond the last perimeter whose arrival times are made up
+RELIEF = 7.0  # standard deviation of the added relief where slopes are 45 degrees, m
+_OCTAVES = ((210.0, 1.0), (105.0, 0.55), (52.0, 0.27), (26.0, 0.12))  # of the relief: m, weight
+_SHARP = 2.4
+_RELIEF_LEVEL, _RELIEF_MEAN = 0.25, 0.55  # its strength on level ground, the mean of its shape
+_LEAST_SHAPE = (1.0 - _SHARP) * sum(weight for _, weight in _OCTAVES)  # gradient noise is within -1..1
+
+Array = NDArray[np.float64]
+
+
+class Ground:
+    """Height and fuel over the run's fuel grid and the apron round it.
+
+    Within `near_radius` of the given eyes the surface between grid points is smooth (Catmull-Rom) with added
+    relief; farther away it is bilinear, as the tree heights of the core are. The two are blended.
+
+    Parameters
+    ----------
+    arrival
+        (fy, fx) s, when the front is in the middle of each fuel cell; NaN where never.
+
+    Attributes
+    ----------
+    made_up
+        Whether the run is synthetic: islands that the fire left out are invented in such a one alone.
+    eyes
+        (m, 3) camera places in the scene, m; without any the ground is bilinear everywhere.
+    surface
+        What the ground has near eyes, more than between its grid points: Catmull-Rom, and ridges and gullies.
+    patch
+        What an elevation model says in their place; None: nothing.
+    rough
+        How far (m) the surface may be from the bilinear ground, about.
+    """
+
+    def __init__(self, settings: Settings, run: Run, arrival: Array, relief: Relief | None = None) -> None:
+        self._relief = relief or Relief(run)
+        self.frame = local_frame(run)
+        latitude, longitude = run.fuel_latitude, run.fuel_longitude
+        width, height = areas.cell_size(
+            latitude, longitude, self.frame.latitude, (run.latitude, run.longitude)
+        )
+        north, east = areas.metres_per_degree(self.frame.latitude)
+        known = apron.Fields(
+            _ascending(latitude, height / north),
+            _ascending(longitude, width / east),
+            *(
+                np.nan_to_num(_oriented(field, latitude, longitude), copy=False)
+                for field in (self._relief.fuel, fuel_category.canopy(run), run.surface_fuel)
+            ),
+        )
+        self.cell = (
+            north * float(np.mean(np.diff(known.latitude))),
+            east * float(np.mean(np.diff(known.longitude))),
+        )
+        self.fields = apron.extend(
+            known,
+            self.cell,
+            settings.terrain.apron,
+            settings.seed,
+            lambda *grid: self._relief.mixed(*grid)[0],
+        )
+        self._share = np.pad(_oriented(self._relief.share, latitude, longitude), self.fields.margin)
+        self.seed, self.near_radius = settings.seed, settings.terrain.near_radius
+        self.made_up = run.synthetic
+        self._set_arrival(_oriented(arrival, latitude, longitude), float(run.times[-1]))
+        self.eyes = np.empty((0, 3))
+        self.bare, self.water = _bare(self.fields), _water(self.fields)
+        if run.has(fuel_category.FIELD):
+            number = run.fuel_rows(fuel_category.FIELD, 0, len(latitude))
+            said = _oriented(number == fuel_category.WATER, latitude, longitude)
+            self.water = np.maximum(self.water, np.pad(said, self.fields.margin))
+        slope = np.hypot(*np.gradient(self.fields.elevation, *self._metres()))
+        self._slope = np.minimum(slope, 1.0)
+        self.surface, self.patch, self.rough = self._surface(), None, RELIEF
+
+    def _surface(self, patch: dem_patch.Patch | None = None) -> terrain.Surface:
+        return terrain.Surface(
+            self.fields.elevation,
+            self._slope,
+            1.0 - self.water,
+            self.cell,
+            _OCTAVES,
+            strength=RELIEF,
+            level=_RELIEF_LEVEL,
+            sharp=_SHARP,
+            mean=_RELIEF_MEAN,
+            seed=self.seed + 90,
+            patch=patch,
+        )
+
+    def seen_from(self, eyes: ArrayLike) -> Ground:
+        """The same ground with detail near these places (m, 3) in the scene, m."""
+        seen = copy.copy(self)
+        seen.eyes = np.asarray(eyes, np.float64).reshape(-1, 3)
+        if self._relief.model and self.near_radius > 0.0 and (near := seen._round_eyes(seen._grid())):
+            seen.patch = dem_patch.patch(self.fields, self._share, self._relief, self.cell, near)
+        if seen.patch:
+            seen.surface = self._surface(seen.patch)
+            seen.rough = max(RELIEF, float(np.abs(seen.patch.offset).max()))
+        return seen
+
+    def _grid(self) -> Array:
+        """Scene points (ny, nx, 3) of the grid, m."""
+        return self.frame.forward_grid(self.fields.latitude, self.fields.longitude, self.fields.elevation)
+
+    def padded(self, field: NDArray, latitude: Array, longitude: Array) -> NDArray:
+        """A field of the run's fuel grid, whose axes these are, on the ground's; NaN in the apron."""
+        return np.pad(_oriented(field, latitude, longitude), self.fields.margin, constant_values=np.nan)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of the grid, apron included."""
+        return self.fields.elevation.shape
+
+    def _metres(self) -> tuple[Array, Array]:
+        """Rough metres along both axes, for slopes."""
+        north, east = areas.metres_per_degree(self.frame.latitude)
+        return self.fields.latitude * north, self.fields.longitude * east
+
+    def _set_arrival(self, arrival: Array, end: float) -> None:
+        """Arrival times (s) within the last perimeter and a few cells beyond, and what of the ground burns.
+
+        Beyond the perimeter they go on at the pace of the front beside it. `burned` is above 0.5 where the
+        front has passed by the `end` of the run (s): where it still moves then, its place lies between the
+        centres of two cells as their times say; where it has stopped, half-way.
+        """
+        margin, reached = self.fields.margin, np.isfinite(arrival)
+        self.arrival = np.full(self.shape, NEVER)
+        self.burn_time, self.burned = np.full(self.shape, UNKNOWN), np.zeros(self.shape)
+        near = box(reached, more=_RINGS)
+        if near is None:
+            return
+        end = max(end, float(np.max(arrival, initial=end, where=reached)))
+        arrival, reached = arrival[near], reached[near]
+        crossing = np.zeros(arrival.shape)
+        least = burning.least_crossing(max(self.cell))
+        crossing[reached] = burning.crossing(arrival, *np.nonzero(reached), least)
+        time, crossing, known = _beyond(np.where(reached, arrival, 0.0), crossing, reached)
+        part = np.clip(0.5 + (end - time) / np.where(known, crossing, 1.0), 0.0, 1.0)
+        burned = np.where(known & (reached | (time > end)), part, 0.0)
+        if self.made_up:
+            row, column = np.nonzero(burned)
+            north, east = (
+                (at + lines.start) * size
+                for at, lines, size in zip((row, column), near, self.cell, strict=True)
+            )
+            patches = noise.fractal(east, north, 800.0, 3, self.seed + 70)
+            burned[row, column] *= 1.0 - noise.smoothstep(0.50, 0.68, patches)  # islands left out, 6 %
+        inner = slice(margin, -margin or None)
+        self.arrival[inner, inner][near] = np.where(reached, arrival, NEVER)
+        self.burn_time[inner, inner][near] = np.where(known, time, UNKNOWN)
+        self.burned[inner, inner][near] = burned
+
+    def indices(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
+        """Fractional row and column of places, held inside the grid."""
+        fields = self.fields
+        row = np.interp(latitude, fields.latitude, np.arange(len(fields.latitude)))
+        longitude = areas.turned(longitude, 0.5 * (fields.longitude[0] + fields.longitude[-1]))
+        return row, np.interp(longitude, fields.longitude, np.arange(len(fields.longitude)))
+
+    def places(self, row: ArrayLike, column: ArrayLike) -> tuple[Array, Array]:
+        """Latitude and longitude of fractional rows and columns."""
+        fields = self.fields
+        latitude = np.interp(row, np.arange(len(fields.latitude)), fields.latitude)
+        return latitude, np.interp(column, np.arange(len(fields.longitude)), fields.longitude)
+
+    def detail(self, east: ArrayLike, north: ArrayLike, up: ArrayLike = 0.0) -> Array:
+        """Weight 0..1 of the near surface: 1 within 0.6 of the near radius of an eye, 0 beyond it."""
+        east, north, up = (np.asarray(v, np.float32) for v in np.broadcast_arrays(east, north, up))
+        if self.near_radius <= 0.0 or len(self.eyes) == 0:
+            return np.zeros(east.shape)
+        nearest = np.full(east.shape, np.inf, np.float32)
+        for eye in self.eyes.astype(np.float32):
+            square = (east - eye[0]) ** 2 + (north - eye[1]) ** 2 + (up - eye[2]) ** 2
+            np.minimum(nearest, square, out=nearest)
+        return noise.smoothstep(self.near_radius, 0.6 * self.near_radius, np.sqrt(nearest))
+
+    def height(self, row: ArrayLike, column: ArrayLike, detail: ArrayLike = 0.0) -> Array:
+        """Height above the datum (m) at fractional rows and columns, given the weight of detail there."""
+        row, column, detail = np.broadcast_arrays(row, column, np.asarray(detail, np.float64))
+        height = bilinear(self.fields.elevation, row, column)
+        near = np.flatnonzero(detail.ravel() > 0.0)
+        if len(near):
+            r, c, w = (v.ravel()[near] for v in (row, column, detail))
+            flat = height.ravel()
+            flat[near] += w * self.surface.detail(r, c)
+            height = flat.reshape(row.shape)
+        return height
+
+    def floor(self) -> Array:
+        """Scene points (ny, nx, 3) of the grid, lowered where need be: no ground is under them.
+
+        Over a quad of the grid ground is nowhere lower than the lowest of its corners. Far from eyes that is
+        so as quads are drawn as they are. Near them Catmull-Rom is at most 1/8 of the second differences off
+        the straight line along one axis and 1.25/8 along the other, as its weights' sizes add up to 1.25; and
+        relief goes down to RELIEF times the slope's factor times the least of its octaves together. Where an
+        elevation model says more, its lowest point within a quad counts.
+        """
+        place = self._grid()
+        near = self._round_eyes(place)
+        if near is None or self.near_radius <= 0.0:
+            return place
+        height = self.fields.elevation[near]
+        bend = sum(np.abs(_second_difference(height, axis)) for axis in (0, 1)) * (1.25 / 8.0)
+        relief = RELIEF * (_RELIEF_LEVEL + self._slope[near]) * (_RELIEF_MEAN - _LEAST_SHAPE)
+        place[near] = self.frame.forward_grid(
+            self.fields.latitude[near[0]],
+            self.fields.longitude[near[1]],
+            height - np.maximum(widened(bend, 2) + relief, widened(self._hollows()[near], 1)),
+        )
+        return place
+
+    def _hollows(self) -> NDArray[np.float32]:
+        """How far (ny, nx) m an elevation model goes below the grid's ground in the next cell."""
+        below = np.zeros(self.shape, np.float32)
+        if self.patch:
+            below[self.patch.place] = self.patch.hollows()
+        return below
+
+    def _round_eyes(self, place: Array) -> tuple[slice, slice] | None:
+        """Rows and columns of the grid, whose points are `place`, that hold all that is near an eye."""
+        if len(self.eyes) == 0:
+            return None
+        low, high = (f(self.eyes[:, :2], axis=0) for f in (np.min, np.max))
+        more = self.near_radius + 4.0 * max(self.cell)
+        inside = np.all((place[..., :2] > low - more) & (place[..., :2] < high + more), axis=-1)
+        return box(inside)
+
+    def point(self, latitude: ArrayLike, longitude: ArrayLike, above: ArrayLike = 0.0) -> Array:
+        """Scene points (n, 3) at a height above the ground (m) at places (degrees)."""
+        latitude, longitude, above = (
+            np.atleast_1d(np.asarray(v, np.float64)) for v in np.broadcast_arrays(latitude, longitude, above)
+        )
+        row, column = self.indices(latitude, longitude)
+        coarse = self.frame.forward(latitude, longitude, self.height(row, column))
+        weight = self.detail(coarse[:, 0], coarse[:, 1], coarse[:, 2])
+        return self.frame.forward(latitude, longitude, self.height(row, column, weight) + above)
+
+    def geodetic(self, east: ArrayLike, north: ArrayLike) -> tuple[Array, Array]:
+        """Latitude and longitude of the ground at scene coordinates (m); the vertical leans there."""
+        east, north = (np.atleast_1d(np.asarray(v, np.float64)) for v in np.broadcast_arrays(east, north))
+        up = -(east**2 + north**2) / (2.0 * 6_371_000.0)
+        for _ in range(3):
+            latitude, longitude, _height = self.frame.reverse(np.stack([east, north, up], axis=-1))
+            row, column = self.indices(latitude, longitude)
+            up = self.frame.forward(latitude, longitude, self.height(row, column))[:, 2]
+        return latitude, longitude
+
+    def under(self, position: NDArray[np.float64]) -> tuple[Array, Array]:
+        """Fractional row and column of scene points (n, 3) m, along the vertical there."""
+        latitude, longitude, _height = self.frame.reverse(position)
+        return self.indices(latitude, longitude)
+
+    def up(self, east: ArrayLike, north: ArrayLike) -> Array:
+        """Scene z (n,) of the ground at scene coordinates (m)."""
+        return self.point(*self.geodetic(east, north))[:, 2]
+
+    def sample(self, field: Array, east: ArrayLike, north: ArrayLike) -> Array:
+        """A field of the grid (apron included), bilinear at scene coordinates (m)."""
+        return bilinear(field, *self.indices(*self.geodetic(east, north)))
+
+    def arrival_at(self, row: ArrayLike, column: ArrayLike) -> Array:
+        """Arrival time (s) at fractional rows and columns; NEVER in islands and where most never burned."""
+        burned = bilinear(self.burned, row, column)
+        return np.where(burned >= 0.5, bilinear(self.burn_time, row, column), NEVER)
+
+    def spread(self, row: Array, column: Array) -> Array:
+        """Rate of spread (m/s): the inverse of the arrival time's slope over one cell."""
+        slope = []
+        for axis, size in enumerate(self.cell):
+            shift = (0.5, 0.0) if axis == 0 else (0.0, 0.5)
+            times = [
+                bilinear(self.burn_time, row + sign * shift[0], column + sign * shift[1])
+                for sign in (1.0, -1.0)
+            ]
+            slope.append((times[0] - times[1]) / size)
+        return np.clip(1.0 / np.maximum(np.hypot(*slope), 1.0e-6), *_SPREAD)
+
+
+def _ascending(axis: Array, size: float) -> Array:
+    """An axis from its least value to its greatest; one value becomes two, a cell of `size` apart."""
+    if len(axis) == 1:
+        return axis[0] + size * np.array([-0.5, 0.5])
+    return axis[::-1] if axis[0] > axis[-1] else axis
+
+
+def _oriented(field: Array, latitude: Array, longitude: Array) -> Array:
+    """A field of the run as (ny, nx) on the ascending axes."""
+    field = field.astype(np.float64)
+    for number, axis in enumerate((latitude, longitude)):
+        if len(axis) == 1:
+            field = np.repeat(field, 2, number)
+        elif axis[0] > axis[-1]:
+            field = np.flip(field, number)
+    return field
+
+
+def _fuelless(fields: apron.Fields) -> NDArray[np.bool_]:
+    return (fields.surface_fuel < 0.05) & (fields.canopy_fuel < 0.01)
+
+
+def _water(fields: apron.Fields) -> Array:
+    """Lakes, 0 or 1: ground without fuel that is as level as only water is, 5 cm over three cells."""
+    if min(fields.elevation.shape) < 3:
+        return np.zeros(fields.elevation.shape)
+    level = widened(fields.elevation, 1) + widened(-fields.elevation, 1) < _LEVEL
+    bare = _fuelless(fields)
+    inner = (level & bare).astype(np.float64)
+    return np.where(bare & (inner + _neighbours(inner) > 0.0), 1.0, 0.0)
+
+
+def _bare(fields: apron.Fields) -> Array:
+    """Part of the ground near each grid point without fuel, 0..1: soft, so that noise can break its edge."""
+    bare = _fuelless(fields).astype(np.float64)
+    for _ in range(2):
+        bare = (bare + _neighbours(bare)) / 9.0
+    return bare
+
+
+def box(chosen: NDArray[np.bool_], more: int = 0) -> tuple[slice, slice] | None:
+    """Rows and columns that hold all that is chosen (ny, nx), and `more` to each side; None: nothing is."""
+    slices = []
+    for axis, count in enumerate(chosen.shape):
+        hit = np.flatnonzero(chosen.any(axis=1 - axis))
+        if len(hit) == 0:
+            return None
+        slices.append(slice(max(int(hit[0]) - more, 0), min(int(hit[-1]) + 1 + more, count)))
+    return slices[0], slices[1]
+
+
+def _beyond(time: Array, crossing: Array, known: NDArray[np.bool_]) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Times and crossings (s) of cells, those of `_RINGS` rings around them, and which cells these are."""
+    time, crossing, known = time.copy(), crossing.copy(), known.copy()
+    for _ in range(_RINGS):
+        weight = _neighbours(known.astype(np.float64))
+        grow = ~known & (weight > 0.0)
+        pace = _neighbours(crossing * known)[grow] / weight[grow]
+        time[grow] = _neighbours(time * known)[grow] / weight[grow] + pace
+        crossing[grow] = pace
+        known |= grow
+    return time, crossing, known
+
+
+def _neighbours(field: Array) -> Array:
+    """Sum over the eight neighbours."""
+    padded = np.pad(field, 1)
+    three = padded[:-2] + padded[1:-1] + padded[2:]
+    return three[:, :-2] + three[:, 1:-1] + three[:, 2:] - field
+
+
+def _second_difference(field: Array, axis: int) -> Array:
+    """Of neighbours along an axis; beyond the ends the field goes on level."""
+    padded = np.pad(field, [(1, 1) if k == axis else (0, 0) for k in (0, 1)], "edge")
+    return np.diff(padded, 2, axis)
+
+
+def widened(field: NDArray, reach: int) -> NDArray:
+    """The largest value within `reach` rows and columns."""
+    for axis in (0, 1):
+        padded = np.pad(field, [(reach, reach) if k == axis else (0, 0) for k in (0, 1)], "edge")
+        windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1, axis)
+        field = functools.reduce(np.maximum, np.moveaxis(windows, -1, 0))
+    return field
+
+
+def bilinear(field: Array, row: ArrayLike, column: ArrayLike) -> Array:
+    """Values of `field` (ny, nx) between its points."""
+    row, column = np.broadcast_arrays(np.asarray(row, np.float64), np.asarray(column, np.float64))
+    return terrain.bilinear(field, row.ravel(), column.ravel()).reshape(row.shape)

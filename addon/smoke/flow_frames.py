@@ -1,0 +1,345 @@
+"""Writes the frames of a solved flow as OpenVDB files, with detail below its cells. Needs no Blender.
+
+A frame is one file, or two: the nest's part, and the rest with larger voxels; where they meet, one fades into
+the other. Grids: `density`, the extinction in 1/m; `fresh`, 1 where smoke is young and 0 where it is old;
+`sun` and `sky`, how much of their light comes there, see `LIGHT`; `hidden`, 1 where smoke is so far behind
+other smoke that no camera sees it, see `DEEP`; and `glow`, the light of flames, 1 amid 1 GW of them, in the
+dark.
+"""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from firetwin_core import flow, lod, volume
+from numpy.typing import NDArray
+
+from ..shot.cameras.path import SENSOR
+from ..shot.shot import WIDE_LENS, Shot
+from ..shot.smoke_scale import Scale
+from ..shot.terrain import noise
+from . import flame_light, snapshots
+from .close_up import Window
+from .domains import Box
+from .flow import Flow, Part
+
+GRIDS = ("density", "fresh", "sun", "sky", "hidden", "glow")
+"""All of one voxel size: `sky` on voxels of twice the size takes 10 of 40 MB less, but Cycles 4.5 draws each
+grid off by half a voxel of its own, and took 12.6 instead of 10.3 processor seconds for a picture.
+"""
+LIGHT = 0.65 / 4, 0.5
+"""Parts of the optical depth that dim `sun` and `sky`. Light that smoke scatters forwards goes on as if it
+had not been: 0.36 of 0.86 to 0.95 for an asymmetry of 0.6 (Joseph, Wiscombe and Weinman 1976); 0.65 is left.
+The fourth root of that light is kept, which half floats hold four times as deep.
+"""
+DEEP = 6.0  # optical depth behind which smoke is `hidden`: 0.25 % of its light is left
+_THICKEST = 0.03  # 1/m, at which extinction levels off: more is as opaque and takes shorter steps
+_NEAR = (20.0, 36.0)  # m, voxels of the nest: the smallest and the largest
+_PIXELS = 4.0  # that a voxel is wide where it lies between them: finer smoke shows no better, and costs more
+_FAR = 80.0  # m, of the rest
+_ALONE = 60.0  # m, the least without a nest
+_LUMPS = {True: (340.0, (3.5, 2.5, 2.5)), False: (1100.0, (2.5, 1.5, 1.5))}  # m; blur of the drift, cells
+_SURFACE_STEP = 40.0  # m
+_INSIDE, _FADE = 600.0, (700.0, 4000.0)  # m from a box's side where smoke ends, and in which it fades
+_TORN, _TEARS, _EDGE = 0.8, 6000.0, 1.4  # of that way, m: how ragged smoke ends; and how steeply at the side
+_THINNING = 6  # power of the fade at the far end: what is thick hides as much until a hundredth is left
+_SEEN = 1e-9  # kg/m3; thinner smoke is not looked at
+_THIN = 5.0e-5  # 1/m; thinner smoke is left out
+_AGES = 20.0, 600.0  # s, of dark and of white smoke
+_BLOCK, _ROUND = 16, 300.0  # voxels; m round a block that count as it: of light that smoke passes on
+
+# Lengths, times and extinctions are those of a fire on cells of `scale.REFERENCE` m.
+
+Array = NDArray[np.float64]
+Brick = tuple[NDArray[np.float32], float, list[float]]
+"""Values (nx, ny, nz), voxel size and the first voxel's middle (m), as `volume.lit` gives and takes them."""
+Eyes = tuple[Array, Array]
+"""Where smoke is seen from, as `Sights.eyes` gives it."""
+
+
+@dataclass(frozen=True)
+class Beyond:
+    """What a layer is to the one within it: optical depths to the sun, and the smoke that hides (1/m)."""
+
+    depths: Brick | None = None
+    smoke: Brick | None = None
+
+
+@dataclass(frozen=True)
+class _Painted:
+    """A layer's smoke with the light in it, how much of it is drawn (nx, ny), and the flow's masses (kg)."""
+
+    lit: volume.LitSmoke
+    share: Array
+    origin: tuple[float, float, float]
+    mass: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A part of the smoke as it is drawn: voxels of one size (m) in files of one name."""
+
+    name: str
+    part: Part
+    voxel: float
+    fine: bool
+    close: bool = False
+    """Of the part only what lies in a frame's window."""
+
+    def file(self, folder: Path, frame: int) -> Path:
+        """Its volume of a frame."""
+        return folder / f"{self.name}_{frame:06d}.vdb"
+
+
+def layers(shot: Shot, solved: Flow) -> list[Layer]:
+    """The layers of a shot's smoke; the last, which is written last, is named "smoke" as all smoke is."""
+    parts = solved.parts
+    if not parts:
+        return []
+    wanted, length = shot.settings.smoke.voxel_size, shot.scale.length
+    far = length(_FAR)
+    if len(parts) == 1:
+        near = min(max(_PIXELS * _pixel(shot), length(_ALONE)), far)
+        return [Layer("smoke", parts[0], wanted or near, False)]
+    near = float(np.clip(_PIXELS * _pixel(shot), *map(length, _NEAR)))
+    return [Layer("far", parts[0], max(wanted, far), False), Layer("smoke", parts[1], wanted or near, True)]
+
+
+def _pixel(shot: Shot) -> float:
+    """Size (m) at the fire of the smallest pixel of a picture."""
+    plain = SENSOR / WIDE_LENS / shot.settings.render.resolution[0]  # where no camera is in perspective
+    return shot.fire_distance * (shot.pixel[0] if shot.near else plain)
+
+
+def thickest(scale: Scale) -> float:
+    """Extinction (1/m) at which that of smoke levels off."""
+    return _THICKEST / scale.ratio
+
+
+def thinnest(scale: Scale) -> float:
+    """Extinction (1/m) of smoke that is left out."""
+    return _THIN / scale.ratio
+
+
+class Painter:
+    """Writes the volumes of one layer.
+
+    Parameters
+    ----------
+    inner
+        The box that a finer layer draws.
+    """
+
+    def __init__(self, shot: Shot, layer: Layer, inner: Box | None) -> None:
+        self.shot, self.layer, self.inner = shot, layer, inner
+        self.scale = layer.part.scale
+        self._thin = thinnest(self.scale)
+
+    def write(
+        self,
+        path: Path,
+        frame: int,
+        lights: tuple[Array, Array] | None,
+        sight: lod.Sight | None,
+        metadata: dict[str, str],
+        eyes: Eyes | None = None,
+        beyond: Beyond | None = None,
+    ) -> tuple[volume.Frame, Beyond]:
+        """Write a frame's volume, or of it what is seen.
+
+        Parameters
+        ----------
+        lights
+            Positions (n, 3) m and powers (n,) W of flames; without them there is no glow.
+        eyes
+            Where all that see the frame do; left out, no smoke is hidden.
+        beyond
+            The layer before, round this one.
+
+        Returns
+        -------
+        The frame, and what this layer is to the next; smoke dims the sun whether this layer draws it or not.
+        """
+        painted = self._paint(frame, lights, sight, beyond)
+        voxel, origin = self.layer.voxel, painted.origin
+        grids = painted.lit.grids(painted.share, self._thin)
+        smoke = None
+        if eyes is not None:
+            outer = beyond.smoke if beyond else None
+            grids["hidden"], smoke = volume.hidden(grids["density"], voxel, *eyes, DEEP, origin, outer)
+        written = volume.write(
+            path,
+            grids,
+            voxel,
+            origin,
+            tolerance=1e-6,
+            metadata=metadata | {f"smoke_{name}_kg": f"{value:.9g}" for name, value in painted.mass.items()},
+            sight=sight,
+            within="density",
+        )
+        return written, Beyond(painted.lit.depths, smoke)
+
+    def bricks(
+        self,
+        frame: int,
+        lights: tuple[Array, Array] | None,
+        sight: lod.Sight | None,
+        beyond: Beyond | None = None,
+        window: Window | None = None,
+    ) -> tuple[volume.Bricks, Beyond]:
+        """The same for rays to be marched through, and no file.
+
+        Parameters
+        ----------
+        window
+            What of it is painted again, more finely.
+        """
+        painted = self._paint(frame, lights, sight, beyond, window)
+        return painted.lit.bricks(painted.share, self._thin), Beyond(painted.lit.depths)
+
+    def _paint(
+        self,
+        frame: int,
+        lights: tuple[Array, Array] | None,
+        sight: lod.Sight | None,
+        beyond: Beyond | None,
+        window: Window | None = None,
+    ) -> _Painted:
+        moment = snapshots.load(self.layer.part.moment(frame))
+        voxel = self.layer.voxel
+        origin, surface, end, share, count = self._brick(moment, window)
+        wanted = _wanted(sight, origin, (*surface.shape, count), voxel, self.scale.length(_ROUND))
+        smoke = self._detail(moment, lights).paint_sparse(
+            origin, voxel, surface, end, count, wanted, self._thin
+        )
+        toward = self.shot.light(float(self.shot.frames.times[frame - 1]))
+        lit = volume.LitSmoke(smoke, toward, *LIGHT, beyond.depths if beyond else None)
+        return _Painted(lit, share, origin, moment.mass)
+
+    @functools.cached_property
+    def _heights(self) -> Array:
+        """Of the ground and of cells' middles (1 + nz, rows, columns), m, as the solver has them."""
+        return np.concatenate([self.layer.part.ground[None], self.layer.part.heights()])
+
+    def _brick(
+        self, moment: snapshots.Moment, window: Window | None
+    ) -> tuple[tuple[float, float, float], Array, Array, Array, int]:
+        """Centre of the first voxel; of columns the ground, what is there, what of that is drawn; height."""
+        box, voxel = self.layer.part.box, self.layer.voxel
+        _nz, rows, columns = moment.fields["smoke"].shape
+        low = np.array(box.corner) + np.array(moment.low) * box.spacing
+        last = low + np.array([columns, rows]) * box.spacing
+        if self.layer.close and window is not None:
+            low, last = np.clip([window.low, window.high], low, last)
+        first = np.floor(low / voxel) * voxel
+        nx, ny = (max(2, int(np.ceil(side / voxel))) for side in last - first)
+        x, y = first[0] + np.arange(nx) * voxel, first[1] + np.arange(ny) * voxel
+        surface = _sampled(self._surface, self._surface_step, box.corner, x, y)
+        heights = self._heights[1:, moment.low[1] : moment.low[1] + rows, moment.low[0] :][:, :, :columns]
+        seen = moment.fields["smoke"] > _SEEN
+        lowest = float(surface.min())
+        base = np.floor(lowest / voxel) * voxel
+        top = float(heights[: len(seen)][seen].max(initial=lowest)) + 2.0 * box.spacing
+        origin = (float(first[0]), float(first[1]), float(base))
+        end, share = self._shares(x[:, None], y[None, :], window)
+        return origin, surface, end, share, max(2, int((top - base) / voxel))
+
+    @property
+    def _surface_step(self) -> float:
+        """Between places of the true ground, m."""
+        return self.scale.length(_SURFACE_STEP)
+
+    @functools.cached_property
+    def _surface(self) -> Array:
+        """The true ground over the box (nx, ny) every `_surface_step` m."""
+        box = self.layer.part.box
+        x, y = (
+            np.arange(low, high + self._surface_step, self._surface_step)
+            for low, high in zip(box.corner, box.high, strict=True)
+        )
+        up = self.shot.bare_ground.up(np.repeat(x, len(y)), np.tile(y, len(x)))
+        return up.reshape(len(x), len(y))
+
+    def _shares(self, x: Array, y: Array, window: Window | None = None) -> tuple[Array, Array]:
+        """How much smoke there is at places, for light, and how much of that this layer draws, 0 to 1."""
+        box = self.layer.part.box
+        if self.layer.fine:
+            close = 0.0 if window is None else window.share(x, y)
+            drawn = self._inside(box, x, y, _FADE[0])
+            return np.ones((x + y).shape), drawn * (close if self.layer.close else 1.0 - close)
+        torn = _TORN * noise.fractal(x, y, self.scale.length(_TEARS), 6, self.shot.settings.seed, 0.6)
+        end = self._inside(box, x, y, _FADE[1], torn) ** _THINNING
+        return end, np.ones_like(end) if self.inner is None else 1.0 - self._inside(
+            self.inner, x, y, _FADE[0]
+        )
+
+    def _inside(self, box: Box, x: Array, y: Array, fade: float, torn: Array | float = 0.0) -> Array:
+        """0 outside of a box and near its sides, 1 farther in than `fade`; `torn` is added, of that way."""
+        low, high = box.corner, box.high
+        depth = np.minimum(np.minimum(x - low[0], high[0] - x), np.minimum(y - low[1], high[1] - y))
+        way = (depth - self.scale.length(_INSIDE)) / self.scale.length(fade)
+        return np.clip(np.minimum(way + torn, _EDGE * way), 0.0, 1.0)
+
+    def _detail(self, moment: snapshots.Moment, lights: tuple[Array, Array] | None) -> flow.Detail:
+        box, shot = self.layer.part.box, self.shot
+        nz, rows, columns = moment.fields["smoke"].shape
+        west, south = moment.low
+        heights = self._heights[: nz + 1, south : south + rows, west : west + columns]
+        corner = tuple(low + at * box.spacing for low, at in zip(box.corner, moment.low, strict=True))
+        size, blur = _LUMPS[self.layer.fine]
+        mix = shot.fire.smoke
+        # Thresholds are those of a crown fire's smoke: of thinner smoke, as warm, they are as much lower.
+        fields = moment.fields | {"smoke": moment.fields["smoke"] / np.float32(mix.dilution)}
+        scale = self.layer.part.scale
+        levels = np.array(box.levels)
+        return flow.Detail(
+            **fields,
+            spacing=box.spacing,
+            corner=corner,
+            levels=0.5 * (levels[1:] + levels[:-1])[:nz],
+            heights=heights[1:],
+            ground=heights[0],
+            weights=moment.weights,
+            turns=moment.turns,
+            glow=None
+            if lights is None
+            else flame_light.glow(lights, heights[1:], box.spacing, corner, scale),
+            size=scale.length(size),
+            scale=scale.ratio,
+            blur=blur,
+            opacity=mix.opacity,
+            condensation=shot.settings.smoke.cloud_base,
+            thickest=shot.settings.smoke.extinction or thickest(scale),
+            ages=(scale.time(_AGES[0]), scale.time(_AGES[1])),
+            seed=shot.settings.seed,
+        )
+
+
+def _wanted(
+    sight: lod.Sight | None,
+    origin: tuple[float, float, float],
+    shape: tuple[int, int, int],
+    voxel: float,
+    around: float,
+) -> NDArray[np.bool_] | None:
+    """Which blocks of a brick anything that is seen lies in; `volume.write` leaves out the others' voxels."""
+    if sight is None:
+        return None
+    side = _BLOCK * voxel
+    blocks = tuple(-(-count // _BLOCK) for count in shape)
+    place = np.stack(np.indices(blocks), axis=-1).reshape(-1, 3) * side + origin + 0.5 * (side - voxel)
+    radius = 0.5 * np.sqrt(3.0) * side + around
+    return lod.seen(place, np.full(len(place), radius), sight, shadows=True).reshape(blocks)
+
+
+def _sampled(values: Array, step: float, corner: tuple[float, float], x: Array, y: Array) -> Array:
+    """Values (nx, ny) every `step` m from a corner, at places x and y; linear between."""
+    i, j = ((at - low) / step for at, low in zip((x, y), corner, strict=True))
+    i, j = (np.clip(at, 0.0, count - 1.001) for at, count in zip((i, j), values.shape, strict=True))
+    a, b = i.astype(np.int64), j.astype(np.int64)
+    u, v = (i - a)[:, None], (j - b)[None, :]
+    corners = [values[np.ix_(a + e, b + n)] for e in (0, 1) for n in (0, 1)]
+    return (corners[0] * (1 - v) + corners[1] * v) * (1 - u) + (corners[2] * (1 - v) + corners[3] * v) * u

@@ -1,0 +1,259 @@
+"""Solving a flow of smoke step by step, and going on where that was interrupted. Needs no Blender."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from firetwin_core import flow
+from numpy.typing import NDArray
+
+from .. import files
+from ..errors import writing
+from ..progress import Progress
+from ..shot.fire import burning
+from ..shot.shot import Shot
+from ..shot.smoke_scale import FINER, Scale
+from . import atmosphere, cache, domains, snapshots
+
+if TYPE_CHECKING:
+    from .flow import Flow, Part
+
+STATE = "state.npz"
+WORK = "the smoke's flow"
+CONVECTED = 0.7  # of the heat rises with the air; the rest is radiated (Freeborn et al. 2008)
+_BURN = 30.0  # s between two looks at what burns
+_RAMP = 300.0  # s in which the fire grows to its strength: a sudden one would bang
+# Standard deviation of the logarithm of what single flames give off, alike within m and s.
+_GUSTS = 0.6, 400.0, 90.0
+_FINE_GUSTS = 0.9, 180.0, 45.0  # the same in the nest: single runs of flames
+_SIDES, _TOP = (
+    (40.0, 8.0),
+    60.0,
+)  # s, in which air at the sides of box and nest, and at the top, comes to rest
+_DRAG = 300.0  # s, in which the lowest level does; as long as that is deep
+_DEPTH = 90.0  # m, over which heat and smoke go in
+_DRIFT = 240.0  # s before the first frame from which detail is carried along; twice what it lasts
+_SAVE = 30.0  # s of work that an interruption may cost
+_LONGEST_STEP = 1.2  # times the scale's step, where frames are that far apart
+
+
+class StoppedError(Exception):
+    """Somebody asked for the end of solving."""
+
+
+class Live:
+    """A flow being solved: solvers, their drift, and how far they are, which is not beyond `frame`."""
+
+    def __init__(self, whole: Flow, frame: int) -> None:
+        self.whole = whole
+        shot = whole.shot
+        self.scale = shot.scale
+        self.lead, self.slots = shot.scale.time(domains.LEAD), shot.scale.time(_BURN)
+        self.step, self.frame = 0, 0
+        self.steps, self.frame_of = _schedule(whole)
+        self.work = self._work()
+        self.saved, self.saved_step = time.monotonic(), 0
+        self.slot: int | None = None
+        self.winds = _winds(shot, whole.begin)
+        self.solvers = [self._outer(whole.parts[0])]
+        self.drifts: list[flow.Drift] = []
+        self._resume(self._step_of(frame))
+        self._widen()
+
+    @property
+    def now(self) -> float:
+        """Model time, s."""
+        return self.whole.begin + self.solvers[0].time
+
+    def solve(self, frame: int, progress: Progress, last: int) -> None:
+        """Go on to a frame and keep what is passed; `progress` counts the work up to the frame `last`."""
+        end, total = self._step_of(frame), int(self.work[self._step_of(last)])
+        with cache.in_use(self.whole.parts[-1].folder):
+            self._keep()
+            while self.step < end:
+                progress(int(self.work[self.step]), total, WORK)
+                if self.whole.stop.is_set():
+                    raise StoppedError
+                self._advance(self.steps[self.step])
+                self.step += 1
+                self._widen()
+                self._keep()
+                if time.monotonic() - self.saved > _SAVE:
+                    self._save()
+            progress(int(self.work[end]), total, WORK)
+            if self.step == len(self.steps):
+                (self.whole.parts[-1].folder / STATE).unlink(missing_ok=True)
+
+    def _step_of(self, frame: int) -> int:
+        return next(step for step, each in self.frame_of.items() if each == frame)
+
+    def _work(self) -> NDArray[np.int64]:
+        """What the steps up to each cost, in steps of the box alone."""
+        left = self.whole.shot.spin_up - np.concatenate([[0.0], np.cumsum(self.steps)[:-1]])
+        cost = np.ones(len(self.steps))
+        if len(self.whole.parts) > 1:
+            cells = [np.prod(part.box.shape) * len(part.box.levels) for part in self.whole.parts]
+            each = [_count(dt, self.scale) * cells[1] / cells[0] for dt in self.steps]
+            cost += np.where(left <= self.lead + 1e-6, each, 0.0)
+        return np.round(np.concatenate([[0.0], np.cumsum(cost)])).astype(np.int64)
+
+    def _advance(self, dt: float) -> None:
+        self._burn()
+        for number, solver in enumerate(self.solvers):
+            count = 1 if number == 0 else _count(dt, self.scale)
+            solver.step(dt / count, count)
+        for drift in self.drifts:
+            drift.advance()
+
+    def _widen(self) -> None:
+        """Begin the nest, and the detail's drift, once it is time."""
+        left = self.whole.shot.frames.first - self.now
+        if len(self.whole.parts) > len(self.solvers) and left <= self.lead + 1e-6:
+            self.solvers.append(self._inner(self.whole.parts[1]))
+            self.slot = None
+        if left <= self.scale.time(_DRIFT) + 1e-6:
+            self.drifts += [self._drift(solver) for solver in self.solvers[len(self.drifts) :]]
+
+    def _burn(self) -> None:
+        """Have what burns now give off heat and smoke, and the wind blow."""
+        slot = math.floor(self.solvers[0].time / self.slots + 1e-6)
+        if slot == self.slot:
+            return
+        time = self.whole.begin + slot * self.slots
+        self.solvers[0].set_wind(atmosphere.wind(self.winds[min(slot, len(self.winds) - 1)]))
+        found = self.whole.shot.fire.sources(time)
+        ramp = min(1.0, (slot + 1) * _BURN / _RAMP)
+        for solver in self.solvers:
+            solver.set_sources(found.position[:, :2], CONVECTED * ramp * found.power, ramp * found.smoke)
+        self.slot = slot
+
+    def _keep(self) -> None:
+        frame = self.frame_of.get(self.step)
+        if frame is None:
+            return
+        self.frame = frame
+        for part, solver, drift in zip(self.whole.parts, self.solvers, self.drifts, strict=True):
+            if not part.has(frame):
+                snapshots.keep(part.moment(frame), solver, drift)
+
+    def _save(self) -> None:
+        self.saved = time.monotonic()
+        if self.step <= self.saved_step:  # what is kept is farther on
+            return
+        kept: dict[str, NDArray[Any]] = {"step": np.array([self.step])}
+        for number, solver in enumerate(self.solvers):
+            kept |= {f"{number}_{name}": values for name, values in solver.state().items()}
+        for number, drift in enumerate(self.drifts):
+            kept |= {f"{number}_drift": drift.values(), f"{number}_drift_time": np.array([drift.time])}
+        path = self.whole.parts[-1].folder / STATE
+        files.write(path, lambda part: snapshots.write(part, kept))
+        self.saved, self.saved_step = time.monotonic(), self.step
+
+    def _resume(self, end: int) -> None:
+        """Go on from what was saved, if that is a moment before what is asked for and whole."""
+        path = self.whole.parts[-1].folder / STATE
+        try:
+            kept = snapshots.read(path)
+            step = int(kept["step"][0])
+            if not 0 <= step <= len(self.steps):
+                raise ValueError
+            if step > end:
+                self.saved_step = step
+                return
+            self._restore(kept)
+        except FileNotFoundError:
+            return
+        except (snapshots.BrokenError, LookupError, TypeError, ValueError):
+            with writing(path):
+                path.unlink(missing_ok=True)
+            self.solvers, self.drifts = [self._outer(self.whole.parts[0])], []
+            return
+        self.step = self.saved_step = step
+        self.frame = max((f for step, f in self.frame_of.items() if step <= self.step), default=0)
+
+    def _restore(self, kept: dict[str, NDArray[Any]]) -> None:
+        if "1_u" in kept:
+            self.solvers.append(self._inner(self.whole.parts[1]))
+        for number, solver in enumerate(self.solvers):
+            mine = {name[2:]: values for name, values in kept.items() if name[:2] == f"{number}_"}
+            solver.restore(mine)
+            if "drift" in mine:
+                self.drifts.append(self._drift(solver))
+                self.drifts[-1].restore(float(mine["drift_time"][0]), mine["drift"])
+
+    def _drift(self, solver: flow.Solver) -> flow.Drift:
+        return flow.Drift(solver, self.scale.time(0.5 * _DRIFT))
+
+    def _outer(self, part: Part) -> flow.Solver:
+        shot, box = self.whole.shot, part.box
+        around = atmosphere.air(shot.sun(shot.frames.middle)[1], part.mean)
+        return flow.Solver(
+            box.levels,
+            box.shape,
+            box.spacing,
+            around.height,
+            around.potential_temperature,
+            atmosphere.wind(self.winds[0]),
+            water=around.water,
+            pressure=around.pressure,
+            corner=box.corner,
+            ground=part.ground,
+            gust_strength=_GUSTS[0],
+            gust_size=self.scale.length(_GUSTS[1]),
+            gust_time=self.scale.time(_GUSTS[2]),
+            seed=shot.settings.seed,
+            **self._around(_SIDES[0]),
+        )
+
+    def _inner(self, part: Part) -> flow.Solver:
+        box = part.box
+        return self.solvers[0].nest(
+            box.levels,
+            box.shape,
+            box.spacing,
+            box.corner,
+            ground=part.ground,
+            gust_strength=_FINE_GUSTS[0],
+            gust_size=self.scale.length(_FINE_GUSTS[1]),
+            gust_time=self.scale.time(_FINE_GUSTS[2]),
+            seed=self.whole.shot.settings.seed,
+            **self._around(_SIDES[1]),
+        )
+
+    def _around(self, sides: float) -> dict[str, float]:
+        """How the box's surroundings reach into it, and how high sources are."""
+        return {
+            "side_time": self.scale.time(sides),
+            "top_time": self.scale.time(_TOP),
+            "ground_time": self.scale.length(_DRAG),
+            "source_depth": self.scale.length(_DEPTH),
+        }
+
+
+def _count(dt: float, scale: Scale) -> int:
+    """Steps of the nest in one of the box's."""
+    return max(1, round(dt * FINER / scale.step))
+
+
+def _schedule(whole: Flow) -> tuple[list[float], dict[int, int]]:
+    """Every step's length, s, and which frame is reached after so many steps."""
+    frames, step = whole.shot.frames, whole.shot.scale.step
+    lead = math.ceil(whole.shot.spin_up / step)
+    steps = [whole.shot.spin_up / lead] * lead if lead else []
+    frame_of = {lead: 1}
+    between = max(1, math.ceil(frames.step / (_LONGEST_STEP * step) - 1e-9))
+    for frame in range(2, frames.count + 1):
+        steps += [frames.step / between] * between
+        frame_of[len(steps)] = frame
+    return steps, frame_of
+
+
+def _winds(shot: Shot, begin: float) -> list[tuple[float, float]]:
+    """The run's wind near the ground at every look at what burns."""
+    slot = shot.scale.time(_BURN)
+    count = max(1, math.ceil((shot.frames.last - begin) / slot) + 1)
+    found = burning.wind_at(shot.run, begin + slot * np.arange(count), shot.fire.surroundings)
+    return [(float(east), float(north)) for east, north in np.nan_to_num(found)]

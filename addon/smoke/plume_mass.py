@@ -1,0 +1,109 @@
+"""How much smoke a shot has, and how thick it is from above, in words beside what was measured of others.
+
+Needs no Blender. Optical depths are those of the smoke's mass alone, at 4 m2/g in green light: what is drawn
+of it besides (ash and droplets of a crown fire's column, see `flow_frames`) is a matter of looks.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..shot.fire import emissions
+from ..shot.shot import Shot
+from . import baker, snapshots
+from .flow import Flow, Part
+
+_WIDE = 1000.0  # m; satellites and photometers see means over about as much
+_SMOKY = 0.1  # optical depth from which a column counts as the plume's
+_LOOKS = 3  # at most so many of the shot's moments
+
+# Over burning savanna in Zambia, at 440 nm (Eck et al. 2003, doi 10.1029/2002JD002321); of wildfires in the
+# western United States, at 550 nm, where photometers saw 0.5 to 3 (Ye et al. 2022, doi 10.3390/rs14236113).
+# Both are of smoke that has spread; young plumes near the fire are deeper than either can tell.
+_PUBLISHED = {
+    False: ("of savanna fires", 0.4, 2.5, "Eck et al. 2003"),
+    True: ("of western wildfires", 0.5, 3.0, "Ye et al. 2022"),
+}
+
+
+@dataclass(frozen=True)
+class Plume:
+    """Smoke of a shot.
+
+    Attributes
+    ----------
+    made
+        kg of PM2.5 given off from the first frame to the last.
+    deepest, wide, mean
+        Optical depths from above: the largest of a column of cells, and of the mean of columns over a
+        kilometre, and the mean over all of the plume; None where no moments are kept.
+    """
+
+    made: float
+    deepest: float | None = None
+    wide: float | None = None
+    mean: float | None = None
+
+
+def measure(shot: Shot) -> Plume:
+    """What is known of the smoke of a shot, from the moments that are kept of its flow."""
+    frames = shot.frames
+    made = shot.fire.smoke_made(frames.first, frames.last)
+    if not baker.solved(shot):
+        return Plume(made)
+    looks = np.unique(np.linspace(1, frames.count, min(_LOOKS, frames.count)).round().astype(int)).tolist()
+    found = [
+        [_depths(part, frame) for frame in looks if part.has(frame)] for part in Flow(shot).parts
+    ]  # of the box, and of a nest, which does not hold all of the plume
+    if not found or not found[0]:
+        return Plume(made)
+    deepest, wide = (max(depths[k] for each in found for depths in each) for k in (0, 1))
+    return Plume(made, deepest, wide, max(depths[2] for depths in found[0]))
+
+
+def words(shot: Shot) -> str:
+    """The same in words."""
+    found, mix = measure(shot), shot.fire.smoke
+    shares = [
+        f"{round(100.0 * share)} % {kind.name}"
+        for kind, share in zip(emissions.KINDS, mix.shares, strict=True)
+        if share >= 0.005
+    ]
+    text = f"{_mass(found.made)} of smoke in {_minutes(shot)}, from {', '.join(shares)}"
+    if found.deepest is None:
+        return text
+    where, low, high, source = _PUBLISHED[bool(mix.dark > 0.75)]
+    return (
+        f"{text}; optical depth from above {found.deepest:.2g} where it is deepest, {found.wide:.2g} over a "
+        f"kilometre, {found.mean:.2g} over the plume (smoke {where}, spread: {low:g} to {high:g}, {source})"
+    )
+
+
+def _depths(part: Part, frame: int) -> tuple[float, float, float]:
+    """Optical depths of a moment: the largest of a column and over `_WIDE`, and the plume's mean."""
+    depth = columns(part, *snapshots.smoke(part.moment(frame)))
+    side = max(1, round(_WIDE / part.box.spacing))
+    padded = np.pad(depth, [(0, -count % side) for count in depth.shape])
+    blocks = padded.reshape(padded.shape[0] // side, side, padded.shape[1] // side, side)
+    plume = depth[depth > _SMOKY]
+    return float(depth.max()), float(blocks.mean(axis=(1, 3)).max()), float(plume.mean() if len(plume) else 0)
+
+
+def columns(part: Part, low: tuple[int, int], smoke: NDArray[np.float32]) -> NDArray[np.float64]:
+    """Optical depth (ny, nx), straight down, of smoke (nz, ny, nx), kg/m3, from column and row `low` on."""
+    (west, south), (_, rows, across) = low, smoke.shape
+    thick = np.diff(part.box.levels)[: len(smoke)]
+    ground = part.ground[south : south + rows, west : west + across]
+    squeezed = 1.0 - (ground - part.mean) / part.top  # levels lie closer over what is high
+    return emissions.EXTINCTION * squeezed * np.tensordot(thick, smoke.astype(np.float64), 1)
+
+
+def _mass(kilograms: float) -> str:
+    return f"{kilograms / 1000.0:,.3g} t" if kilograms >= 1000.0 else f"{kilograms:,.3g} kg"
+
+
+def _minutes(shot: Shot) -> str:
+    return f"{(shot.frames.last - shot.frames.first) / 60.0:,.3g} min"

@@ -1,0 +1,55 @@
+"""Frames that one of a shot's cameras films alone: their smoke is that of this camera's own shot."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections import Counter
+from collections.abc import Iterable
+from pathlib import Path
+
+from .. import files
+from ..shot.shot import Shot
+from . import baker, flow_frames
+from .flow import Flow
+from .view import resolution
+
+
+def frames(shot: Shot, wanted: Iterable[int]) -> list[tuple[Shot, list[int]]]:
+    """Those of the `wanted` frames that one of several cameras films alone, with the shot of that camera.
+
+    None of a camera for which smoke is drawn otherwise than for all of them.
+    """
+    cameras = shot.settings.cameras
+    if len(cameras) < 2 or shot.settings.smoke.complete or not shot.settings.render.skip:
+        return []
+    filmed = {camera.name: set(shot.frames_of(camera)) for camera in cameras}
+    count = Counter(frame for each in filmed.values() for frame in each)
+    own = {
+        name: [frame for frame in wanted if count[frame] == 1 and frame in each]
+        for name, each in filmed.items()
+    }
+    shots = [(shot.of(name), listed) for name, listed in own.items() if listed]
+    drawn = _drawn(shot) if shots else None
+    return [(one, listed) for one, listed in shots if _drawn(one) == drawn]
+
+
+def link(source: Path, place: Path, listed: Iterable[int]) -> None:
+    """Give volumes of one folder of the cache a place in another too; copies where a disk has no links."""
+    for path in (path for frame in listed for path in sorted(source.glob(f"*_{frame:06d}.vdb"))):
+        files.write(place / path.name, lambda part, path=path: _same(path, part))
+
+
+def _same(path: Path, part: Path) -> None:
+    try:
+        os.link(path, part)
+    except OSError:
+        shutil.copyfile(path, part)
+
+
+def _drawn(shot: Shot) -> list[object]:
+    """What of the cameras decides how fine smoke is."""
+    if not baker.solved(shot):
+        return [resolution(shot).voxel]
+    flow = Flow(shot)
+    return [flow.key(), [(each.name, each.voxel) for each in flow_frames.layers(shot, flow)]]

@@ -1,0 +1,188 @@
+"""What is kept of a solved flow at a moment: the smoke's block of cells, in one file. Needs no Blender."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from firetwin_core import flow
+from numpy.typing import NDArray
+
+from .. import files
+
+_NONE = 1e-15  # kg/m3; thinner smoke is left out
+_UNSEEN = 3e-10  # kg/m3; what else is known of thinner smoke is not kept
+_DRIFT_STEP = 4.0  # m, to which drift is rounded
+_PACKING = 1  # of zlib: three times as fast as the usual, files a tenth larger
+
+_NAMES = ("smoke", "age", "rise", "warmth", "drift", "low", "weights", "turns", "mass")
+
+Fields = dict[str, NDArray[Any]]
+
+
+class BrokenError(Exception):
+    """A file is cut off, or is no moment of this flow."""
+
+
+@dataclass(frozen=True)
+class Moment:
+    """A block of a flow's cells that reaches down to the ground.
+
+    Attributes
+    ----------
+    low
+        Column and row of the block's first cell.
+    fields
+        smoke, age, rise, warmth (nz, ny, nx) and drift (nz, ny, nx, 2, 3) as `firetwin_core.flow` has them.
+    weights, turns
+        Of the drift's two phases.
+    mass
+        The flow's account of smoke, kg.
+    """
+
+    low: tuple[int, int]
+    fields: Fields
+    weights: tuple[float, float]
+    turns: tuple[int, int]
+    mass: dict[str, float]
+
+
+def keep(path: Path, solver: flow.Solver, drift: flow.Drift) -> None:
+    """Write what a flow is now."""
+    smoke = solver.smoke()
+    there = smoke > _NONE
+    block = tuple(_range(there.any(axis=axes)) for axes in ((1, 2), (0, 2), (0, 1)))
+    block = (slice(0, max(block[0].stop, 2)), *(slice(part.start // 2 * 2, part.stop) for part in block[1:]))
+    unseen = smoke[block] < _UNSEEN
+    kept: Fields = {"smoke": smoke[block]}
+    for name, found in (
+        ("age", solver.age()),
+        ("rise", solver.velocity()[..., 2]),
+        ("warmth", solver.warmth()),
+    ):
+        kept[name] = np.where(unseen, 0.0, np.clip(found[block], -6e4, 6e4)).astype(np.float16)
+    moved = drift.values()[tuple(slice(part.start // 2, part.stop // 2 + 1) for part in block)]
+    kept["drift"] = (np.round(moved / _DRIFT_STEP) * _DRIFT_STEP).astype(np.float16)
+    mass = solver.mass()
+    kept |= {
+        "low": np.array([block[2].start, block[1].start]),
+        "weights": np.array(drift.weights),
+        "turns": np.array(drift.turns),
+        "mass": np.array([mass[name] for name in sorted(mass)]),
+    }
+    files.write(path, lambda part: write(part, kept, _PACKING))
+
+
+def load(path: Path) -> Moment:
+    """Read what `keep` wrote.
+
+    Raises
+    ------
+    BrokenError
+        It is not whole.
+    """
+    kept = read(path)
+    try:
+        smoke, drift = kept["smoke"], kept["drift"].astype(np.float32)
+        for axis, count in enumerate(smoke.shape):
+            drift = _doubled(drift, axis, count)
+        fields = {name: kept[name].astype(np.float32) for name in ("smoke", "age", "rise", "warmth")}
+        names = sorted(("initial", "emitted", "entered", "left", "airborne", "rounding"))
+        if drift.shape != (*smoke.shape, 2, 3) or any(each.shape != smoke.shape for each in fields.values()):
+            raise BrokenError(path)
+        return Moment(
+            (int(kept["low"][0]), int(kept["low"][1])),
+            fields | {"drift": drift},
+            (float(kept["weights"][0]), float(kept["weights"][1])),
+            (int(kept["turns"][0]), int(kept["turns"][1])),
+            dict(zip(names, map(float, kept["mass"]), strict=True)),
+        )
+    except (LookupError, TypeError, ValueError) as error:
+        raise BrokenError(path) from error
+
+
+def smoke(path: Path) -> tuple[tuple[int, int], NDArray[np.float32]]:
+    """Of what `keep` wrote the block's first column and row, and the smoke alone (nz, ny, nx), kg/m3.
+
+    Raises
+    ------
+    BrokenError
+        It is not whole.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            west, south = file["low"]
+            return (int(west), int(south)), file["smoke"]
+    except (OSError, EOFError, LookupError, TypeError, ValueError, zipfile.BadZipFile, zlib.error) as error:
+        raise BrokenError(path) from error
+
+
+def whole(path: Path, shape: tuple[int, int, int]) -> bool:
+    """Whether a file is there that looks like a moment of a flow of so many cells; quick."""
+    try:
+        with zipfile.ZipFile(path) as file:
+            if set(file.namelist()) != {f"{name}.npy" for name in _NAMES}:
+                return False
+            low, smoke = (_header(file, "low"), _header(file, "smoke"))
+            west, south = np.lib.format.read_array(io.BytesIO(file.read("low.npy")))
+    except (OSError, LookupError, TypeError, ValueError, zipfile.BadZipFile):
+        return False
+    ends = (0, int(south), int(west))
+    return (
+        low == (2,)
+        and len(smoke) == 3
+        and all(at >= 0 and at + count <= most for at, count, most in zip(ends, smoke, shape, strict=True))
+    )
+
+
+def read(path: Path) -> Fields:
+    """All arrays of a file that `write` wrote.
+
+    Raises
+    ------
+    BrokenError
+        It is not whole.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            return {name: file[name] for name in file.files}
+    except FileNotFoundError:
+        raise
+    except (OSError, EOFError, LookupError, TypeError, ValueError, zipfile.BadZipFile, zlib.error) as error:
+        raise BrokenError(path) from error
+
+
+def _header(file: zipfile.ZipFile, name: str) -> tuple[int, ...]:
+    """The shape of one of a file's arrays."""
+    with file.open(f"{name}.npy") as part:
+        np.lib.format.read_magic(part)
+        return np.lib.format.read_array_header_1_0(part)[0]
+
+
+def write(path: Path, arrays: Fields, packing: int = 0) -> None:
+    """Write arrays as an .npz file of the same bytes whenever it is written."""
+    way = zipfile.ZIP_DEFLATED if packing else zipfile.ZIP_STORED
+    with zipfile.ZipFile(path, "w", way) as file:
+        for name, array in arrays.items():
+            part = io.BytesIO()
+            np.lib.format.write_array(part, np.ascontiguousarray(array), allow_pickle=False)
+            file.writestr(zipfile.ZipInfo(f"{name}.npy"), part.getbuffer(), way, packing or None)
+
+
+def _doubled(values: NDArray[np.float32], axis: int, count: int) -> NDArray[np.float32]:
+    """Values of every other one of `count` places, at all of them; linear between."""
+    values = np.moveaxis(values, axis, 0)
+    found = np.repeat(values, 2, 0)
+    found[1:-1:2] = 0.5 * (values[:-1] + values[1:])
+    return np.moveaxis(found[:count], 0, axis)
+
+
+def _range(there: NDArray[np.bool_]) -> slice:
+    """From the first to the last that is there; one cell where none is."""
+    found = np.flatnonzero(there)
+    return slice(int(found[0]), int(found[-1]) + 1) if len(found) else slice(0, 1)

@@ -1,0 +1,119 @@
+"""Window and cameras that fit the run, in the panel, as long as nobody chose others."""
+
+from __future__ import annotations
+
+import functools
+import json
+from dataclasses import asdict
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+from ..blender import owned
+from ..shot.settings.schema import parts, plain
+from ..shot.settings.settings import Settings, Time
+from . import camera_list, keys
+from .job import Away, Steps
+
+if TYPE_CHECKING:
+    from firetwin_core.run import Run
+
+_WINDOW = ("start", "end")
+
+
+def found(run: Run, start: datetime | None = None, end: datetime | None = None) -> dict[str, Any]:
+    """What fits a run, as JSON can hold it: cameras, values of [time], and lines about both.
+
+    Parameters
+    ----------
+    start, end
+        When the shot starts and ends; left out, its most active part is looked for.
+    """
+    from ..run import content
+
+    return _found(
+        run.path, content.fingerprint({"files": content.stamps(run), "start": run.start}), start, end
+    )
+
+
+@functools.lru_cache(maxsize=8)
+def _found(folder: str, stamps: str, start: datetime | None, end: datetime | None) -> dict[str, Any]:
+    """The same of the run in a folder as it is now."""
+    from ..run import readers
+    from ..shot import auto_framing
+
+    run = readers.open(folder)
+    fits = auto_framing.of(run, Settings(run=Path(folder), time=Time(start, end)))
+    values = {part.name: plain(part.type, getattr(fits.settings.time, part.name)) for part in parts(Time)}
+    return {"cameras": camera_list.text(fits.settings.cameras), "time": values, "lines": fits.lines}
+
+
+def put(panel: bpy.types.PropertyGroup, fits: dict[str, Any]) -> None:
+    """Let the panel show what fits its run, where it shows defaults or what fitted before."""
+    before = _usual(panel)
+    here = camera_list.text(camera_list.cameras(panel))
+    if not panel.scene_file:
+        _put_time(panel.time, before.get("time", {}), fits["time"])
+    if here in ("", before.get("cameras", "")):
+        if not here and not panel.scene_file:
+            panel.smoke.method = "puffs"  # a preview: what more takes is told first
+        camera_list.fill(panel, camera_list.listed(fits["cameras"]))
+    panel.usual = json.dumps(fits | {"placed_for": [fits["time"][name] for name in _WINDOW]})
+
+
+def again(uid: int) -> Steps:
+    """Place cameras that nobody chose anew, where somebody chose other moments than they were placed for."""
+    from ..run import readers, times
+
+    panel = owned.scene(uid).firetwin
+    usual, time = _usual(panel), _time_of(panel)
+    window = [plain(datetime, moment) for moment in (time.start, time.end)]
+    here = camera_list.text(camera_list.cameras(panel))
+    if panel.scene_file or here != usual.get("cameras") or window == usual["placed_for"]:
+        return ""
+    run = readers.open(bpy.path.abspath(panel.run))
+    first, last = (times.moment(run, float(run.times[i])) for i in (0, -1))
+    if time.wrong() or any(moment and not first <= moment <= last for moment in (time.start, time.end)):
+        return ""  # which is told by what reads the settings
+    fits = yield Away("placing the cameras", lambda **_: found(run, time.start, time.end))
+    panel = owned.scene(uid).firetwin
+    camera_list.fill(panel, camera_list.listed(fits["cameras"]))
+    kept = {"cameras": fits["cameras"], "lines": fits["lines"], "placed_for": window}
+    panel.usual = json.dumps(usual | kept)
+    return ""
+
+
+def lines(panel: bpy.types.PropertyGroup) -> list[str]:
+    """What is said of them, as long as they are the panel's cameras."""
+    told, names = _told(panel.usual)
+    return told if [item.name for item in panel.cameras] == names else []
+
+
+@functools.lru_cache(maxsize=8)
+def _told(usual: str) -> tuple[list[str], list[str]]:
+    """Lines, and names of the cameras, as drawing wants them: at once."""
+    kept = json.loads(usual or "{}")
+    return kept.get("lines", []), [each.name for each in camera_list.listed(kept.get("cameras", ""))]
+
+
+def _usual(panel: bpy.types.PropertyGroup) -> dict[str, Any]:
+    return json.loads(panel.usual or "{}")
+
+
+def _time_of(panel: bpy.types.PropertyGroup) -> Time:
+    return Time(**{part.name: keys.take(panel.time, part) for part in parts(Time)})
+
+
+def _put_time(group: bpy.types.PropertyGroup, before: dict[str, Any], now: dict[str, Any]) -> None:
+    """Let keys of [time] that show their default, or what fitted the run before, show what fits this one."""
+    for part in parts(Time):
+        if not keys.differs(group, part) or keys.shows(group, part, _values(before)[part.name]):
+            keys.put(group, part, _values(now)[part.name])
+
+
+def _values(kept: dict[str, Any]) -> dict[str, Any]:
+    """Values of [time] from what JSON holds of them; defaults where it holds nothing."""
+    moments = {name: datetime.fromisoformat(kept[name]) for name in _WINDOW if kept.get(name)}
+    return asdict(Time()) | kept | moments

@@ -1,0 +1,22 @@
+"""What was done to camera objects by hand, taken over into the panel's cameras."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..scene.camera import read_edits
+from . import camera_list
+
+
+def pull(scene: bpy.types.Scene) -> list[str]:
+    """Take it over; sentences about what settings cannot say."""
+    panel, told = scene.firetwin, []
+    if not panel.frames:  # nothing is built
+        return told
+    before = camera_list.cameras(panel)
+    size = tuple(panel.render.resolution)
+    found = read_edits.pull(scene, before, size, panel.frames, told.append)
+    for item, old, new in zip(panel.cameras, before, found, strict=True):
+        if new != old:
+            camera_list.put(item, new)
+    return told

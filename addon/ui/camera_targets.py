@@ -1,0 +1,174 @@
+"""What cameras look at, as empties, and what they fly along, as curves: both an artist's to move."""
+
+from __future__ import annotations
+
+import itertools
+
+import bpy
+import numpy as np
+from mathutils import Vector, geometry
+
+from ..blender import compat, owned
+from ..errors import Error
+from ..scene.camera import ground_raycast, read_edits
+from ..shot.cameras import sparse_keys, targets
+from . import go_to, navigation, run
+from .job import Away, Steps
+from .working import Working, reported
+
+AIM, PATH = "Firetwin Aim", "Firetwin Path"  # names of the constraints
+_TARGETS = (
+    ("head", "Head of the fire", "Part of the front with the highest rate of spread, in every frame"),
+    ("fire", "Centre of the fire", "Centre of the burning terrain, in every frame"),
+    ("point", "Ground in the view", "Terrain in the centre of this view"),
+    ("station", "Place", "A place by its name or coordinates; empty: the text of Go to"),
+    ("object", "Active object", "Active object, such as a label"),
+    ("none", "Nothing", "Remove the target; the camera's own keys set its direction"),
+)
+_ABOVE = 100.0  # m, of an aim over the ground that burns
+_CLOSE = 1.0  # m that an aim may be off the way of what moves
+
+
+class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
+    """Add an empty as the look-at target of the scene's camera: the fire, a point or a place"""
+
+    bl_idname = "firetwin.camera_aim"
+    bl_label = "Look at"
+    bl_options = {"REGISTER", "UNDO"}
+
+    target: bpy.props.EnumProperty(name="Target", description="Look-at target of the camera", items=_TARGETS)
+    place: bpy.props.StringProperty(
+        name="Place", description="Name or coordinates of the place to look at", options={"SKIP_SAVE"}
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return navigation.flown(cls, context) and navigation.filming(cls, context)
+
+    def steps(self, context: bpy.types.Context) -> Steps:
+        """Find the place, then make the empty and the constraint."""
+        scene, target, at = context.scene, self.target, self.place or context.scene.firetwin.go_to
+        uid, name, other = scene.session_uid, scene.camera.name, context.active_object
+        way = None
+        if target == "point":
+            matrix = navigation.eye(context)[0]
+            place, turn = read_edits.pose_of(matrix)
+            met = ground_raycast.hit(owned.stage(scene), place, -turn[:, 2])
+            way = np.array([met if met is not None else place - 2000.0 * turn[:, 2]])
+        elif target == "station":
+            met = go_to.place(scene, at)
+            if met is None:
+                raise Error(f'no place here is called "{at}"; choose one of the list, or type coordinates')
+            way = np.array([met])
+        elif target in targets.MOVING:
+            chosen = run.choice(scene.firetwin)
+            shot = yield Away("reading the run", lambda **_: chosen.shot())
+            yield "finding the fire"
+            way = targets.follow(target, shot.bare_ground, shot.frames.times, _ABOVE)
+        yield "turning the camera"
+        scene = owned.scene(uid)
+        thing = scene.objects[name]
+        _unhook(thing, AIM)
+        if target == "none":
+            return f"{name} looks in the direction of its keys"
+        empty = other if target == "object" else _empty(scene, at if target == "station" else target, way)
+        if empty is None or empty == thing:
+            return "Select another object as the target first"
+        hook = thing.constraints.new("TRACK_TO")
+        hook.name, hook.target = AIM, empty
+        hook.track_axis, hook.up_axis = "TRACK_NEGATIVE_Z", "UP_Y"
+        return f"{name} looks at {empty.name}"
+
+
+def _empty(scene: bpy.types.Scene, target: str, way: np.ndarray) -> bpy.types.Object:
+    """A new empty of the artist's that goes a way (frames, 3) in few keys."""
+    empty = bpy.data.objects.new(f"Aim at {target}", None)
+    empty.empty_display_type, empty.empty_display_size = "SPHERE", 100.0
+    scene.collection.objects.link(empty)
+    empty.location = way[0]
+    if len(way) > 1:
+        kept, slopes = sparse_keys.keys(way, _CLOSE)
+        for axis in range(3):
+            compat.animate_smoothly(empty, "location", axis, kept + 1, way[kept, axis], slopes[:, axis])
+        owned.unmark(empty.animation_data.action)
+    return empty
+
+
+def _unhook(thing: bpy.types.Object, name: str) -> None:
+    for each in [each for each in thing.constraints if each.name == name]:
+        thing.constraints.remove(each)
+
+
+class FIRETWIN_OT_camera_path(bpy.types.Operator):
+    """Draw the path of the scene's camera as a curve, or make it follow the selected curve.
+
+    The curve can be edited. The position along it is keyed on the constraint "Firetwin Path"
+    """
+
+    bl_idname = "firetwin.camera_path"
+    bl_label = "Draw path"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not navigation.flown(cls, context) or not navigation.filming(cls, context):
+            return False
+        if context.scene.camera.constraints.get(PATH):
+            cls.poll_message_set("The camera follows a curve: edit the curve, or remove the constraint")
+            return False
+        return True
+
+    @reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        scene, thing, chosen = context.scene, context.scene.camera, context.active_object
+        if chosen is not None and chosen.type == "CURVE" and chosen.select_get():
+            curve, factors = chosen, {1: 0.0, scene.firetwin.frames: 1.0}
+        else:
+            keyed = _keyed(scene, thing)
+            if len(keyed) < 2:
+                self.report({"WARNING"}, "Set two keys of the camera, or select a curve, first")
+                return {"CANCELLED"}
+            curve, factors = _drawn(scene, thing, keyed)
+        curve.data.use_path = True
+        compat.remove_fcurves(thing, ("location",))
+        thing.location = (0.0, 0.0, 0.0)
+        hook = thing.constraints.new("FOLLOW_PATH")
+        hook.name, hook.target, hook.use_fixed_location = PATH, curve, True
+        thing.constraints.move(len(thing.constraints) - 1, 0)
+        for frame, factor in factors.items():
+            hook.offset_factor = factor
+            thing.keyframe_insert(f'constraints["{PATH}"].offset_factor', frame=frame)
+        self.report({"INFO"}, f"{thing.name} follows {curve.name}")
+        return {"FINISHED"}
+
+
+def _keyed(scene: bpy.types.Scene, thing: bpy.types.Object) -> dict[int, Vector]:
+    """Where a camera is at the frames that its place is keyed at."""
+    curves = [curve for curve in compat.fcurves(thing) if curve.data_path == "location"]
+    frames = sorted({round(point.co[0]) for curve in curves for point in curve.keyframe_points})
+    at = {curve.array_index: curve for curve in curves}
+    return {f: Vector(at[i].evaluate(f) if i in at else thing.location[i] for i in range(3)) for f in frames}
+
+
+def _drawn(
+    scene: bpy.types.Scene, thing: bpy.types.Object, keyed: dict[int, Vector]
+) -> tuple[bpy.types.Object, dict[int, float]]:
+    """A curve of the artist's through places, and how far along it the camera is at their frames."""
+    data = bpy.data.curves.new(f"Path of {thing.name}", "CURVE")
+    data.dimensions, data.resolution_u = "3D", 32
+    spline = data.splines.new("BEZIER")
+    spline.bezier_points.add(len(keyed) - 1)
+    for point, place in zip(spline.bezier_points, keyed.values(), strict=True):
+        point.co = place
+        point.handle_left_type = point.handle_right_type = "AUTO"
+    curve = bpy.data.objects.new(data.name, data)
+    scene.collection.objects.link(curve)
+    scene.view_layers[0].update()  # so that handles are where "AUTO" puts them
+    points, length = spline.bezier_points, [0.0]
+    for a, b in itertools.pairwise(points):
+        steps = geometry.interpolate_bezier(a.co, a.handle_right, b.handle_left, b.co, 65)
+        length.append(length[-1] + sum((q - p).length for p, q in itertools.pairwise(steps)))
+    return curve, {frame: at / (length[-1] or 1.0) for frame, at in zip(keyed, length, strict=True)}
+
+
+classes = (FIRETWIN_OT_camera_aim, FIRETWIN_OT_camera_path)

@@ -1,0 +1,148 @@
+"""Go to a place or a moment: by coordinates, by a name, by a date, smoothly or at once."""
+
+from __future__ import annotations
+
+import re
+import time
+import zoneinfo
+from datetime import UTC, datetime
+
+import bpy
+from mathutils import Euler, Quaternion, Vector
+
+from ..blender import owned
+from ..escaped import escaped
+from ..scene.camera import ground_raycast, read_edits
+from . import place_names, run, working
+from .navigation import flown, space
+
+_NUMBER = r"\s*(-?\d+(?:\.\d*)?)\s*°?\s*"
+_PAIR = re.compile(rf"{_NUMBER}([NS]?)[\s,;]*(?<=[\sNSns,;]){_NUMBER}([EW]?)\s*", re.IGNORECASE)
+_DATE = re.compile(r"\s*(\d{4}-\d\d-\d\d)[ T](\d\d?:\d\d)\s*(Z|UTC)?\s*", re.IGNORECASE)
+_SECONDS, _STEP = 1.5, 1.0 / 30.0  # of the flight, and between its pictures
+
+
+def coordinates(text: str) -> tuple[float, float] | None:
+    """Latitude and longitude, degrees north and east, that a text says; None where it says none."""
+    found = _PAIR.fullmatch(text)
+    if found is None:
+        return None
+    latitude = float(found[1]) * (-1.0 if found[2].upper() == "S" else 1.0)
+    longitude = float(found[3]) * (-1.0 if found[4].upper() == "W" else 1.0)
+    return (latitude, longitude) if abs(latitude) <= 90.0 and abs(longitude) <= 360.0 else None
+
+
+def moment(panel: bpy.types.PropertyGroup, text: str) -> datetime | None:
+    """The moment that a text says: a date and time, or words of something reported."""
+    if found := _DATE.fullmatch(text):
+        zone = UTC if found[3] else zoneinfo.ZoneInfo(panel.zone)
+        return datetime.fromisoformat(f"{found[1]} {found[2]:0>5}").replace(tzinfo=zone).astimezone(UTC)
+    wanted, moments = text.strip().lower(), run.read(panel.facts)["moments"] if panel.facts else []
+    found = (time for time, words in moments if wanted and wanted in words.lower())
+    return next(map(datetime.fromisoformat, found), None)
+
+
+def frame_of(panel: bpy.types.PropertyGroup, when: datetime) -> int:
+    """The frame that shows a moment, or the nearest one."""
+    passed = (when - datetime.fromisoformat(panel.first_time)).total_seconds()
+    frame = 1 + round(passed / panel.seconds_per_frame) if panel.seconds_per_frame else 1
+    return min(max(frame, 1), panel.frames)
+
+
+def place(scene: bpy.types.Scene, text: str) -> Vector | None:
+    """Where in the scene a text says: coordinates on the ground, a known place, or an object by its name."""
+    stage, pair = owned.stage(scene), coordinates(text)
+    if pair is None and (label := place_names.find(scene.firetwin, text)):
+        pair = label.latitude, label.longitude
+    if pair:
+        east, north, _ = read_edits.local_frame(stage).forward([pair[0]], [pair[1]], [0.0])[0]
+        ground = ground_raycast.up(stage, (east, north))
+        return None if ground is None else Vector((east, north, ground))
+    wanted = text.strip().lower()
+    found = [thing for thing in scene.objects if wanted and wanted in thing.name.lower()]
+    found.sort(key=lambda thing: (thing.name.lower() != wanted, len(thing.name)))
+    return found[0].matrix_world.translation.copy() if found else None
+
+
+class FIRETWIN_OT_go(bpy.types.Operator):
+    """Move this view to coordinates, a name, a date or a reported event"""
+
+    bl_idname = "firetwin.go"
+    bl_label = "Go to"
+    bl_options = {"REGISTER"}
+
+    text: bpy.props.StringProperty(name="Where", description="Place, date or event; empty: the text of Go to")
+    smooth: bpy.props.BoolProperty(
+        name="Smooth", description="Move the view smoothly; off: jump", default=True
+    )
+    distance: bpy.props.FloatProperty(
+        name="Distance", description="Distance from the place", default=2500.0, min=1.0, unit="LENGTH"
+    )
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return flown(cls, context)
+
+    @working.reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        scene, text = context.scene, self.text or context.scene.firetwin.go_to
+        where = place(scene, text)
+        if where is None and (when := moment(scene.firetwin, text)) is not None:
+            scene.frame_set(frame_of(scene.firetwin, when))
+            self.report({"INFO"}, f"Frame {scene.frame_current}, the nearest to {when:%d %b %Y %H:%M} UTC")
+            return {"FINISHED"}
+        if where is None:
+            self.report({"WARNING"}, f'"{escaped(text)}" is no known name and no place on the terrain')
+            return {"CANCELLED"}
+        shown = space(context)
+        if shown is not None:
+            _fly(context, shown.region_3d, where, self.distance, self.smooth and not bpy.app.background)
+        return {"FINISHED"}
+
+
+def _fly(
+    context: bpy.types.Context,
+    region: bpy.types.RegionView3D,
+    where: Vector,
+    distance: float,
+    smooth: bool,
+) -> None:
+    """Turn the view to a place, from as far and from the side that it looks from."""
+    if region.view_perspective == "CAMERA":
+        camera = context.scene.camera.matrix_world
+        region.view_perspective, region.view_distance = "PERSP", distance
+        region.view_rotation = camera.to_quaternion()
+        region.view_location = camera.translation - camera.col[2].to_3d() * distance
+    start = region.view_location.copy(), region.view_rotation.copy(), region.view_distance
+    bearing = region.view_rotation.to_euler().z
+    end = where, Euler((1.05, 0.0, bearing)).to_quaternion(), distance
+    if not smooth:
+        _stand(region, start, end, 1.0)
+        return
+    began = time.monotonic()  # a slow window shows fewer pictures, and is there as soon
+
+    def step() -> float | None:
+        part = min((time.monotonic() - began) / _SECONDS, 1.0)
+        try:
+            _stand(region, start, end, part * part * (3.0 - 2.0 * part))
+        except ReferenceError:  # the window or the file is another one
+            return None
+        return _STEP if part < 1.0 else None
+
+    bpy.app.timers.register(step)
+
+
+def _stand(
+    region: bpy.types.RegionView3D,
+    start: tuple[Vector, Quaternion, float],
+    end: tuple[Vector, Quaternion, float],
+    part: float,
+) -> None:
+    """Part of the way, high enough in the middle to see where one flies."""
+    region.view_location = start[0].lerp(end[0], part)
+    region.view_rotation = start[1].slerp(end[1], part)
+    over = 0.5 * (end[0] - start[0]).length * 4.0 * part * (1.0 - part)
+    region.view_distance = start[2] + (end[2] - start[2]) * part + over
+
+
+classes = (FIRETWIN_OT_go,)

@@ -1,0 +1,298 @@
+"""Cameras from what is seen in the window: new ones, keys where one has flown to, and lenses."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+
+from ..blender import compat, owned
+from ..scene.camera import ground_raycast, read_edits
+from ..shot.cameras import rigs, rotation
+from ..shot.cameras.lenses import LENSES
+from ..shot.cameras.rigs._view import View
+from ..shot.settings.settings import Camera
+from . import camera_edits, camera_list, job, keys, run, working
+from .job import Away, Steps, Told
+from .working import Working
+
+_AHEAD = 2000.0  # m, where a view looks that meets no ground
+_SENSOR = 36.0  # mm, of the lens that stands in for a view
+
+_kinds: list[tuple[str, str, str]] = []  # Blender keeps no reference of its own to these texts
+
+
+def space(context: bpy.types.Context) -> bpy.types.SpaceView3D | None:
+    """The 3D view whose sidebar was clicked, or one of the window; None without any."""
+    if context.space_data is not None and context.space_data.type == "VIEW_3D":
+        return context.space_data
+    areas = context.window.screen.areas if context.window is not None else ()
+    return next((area.spaces.active for area in areas if area.type == "VIEW_3D"), None)
+
+
+def eye(context: bpy.types.Context) -> tuple[Matrix, float, float]:
+    """Where the 3D view looks from, as a camera's matrix, and a lens and a chip (mm) that show as much."""
+    shown, camera = space(context), context.scene.camera
+    region = shown.region_3d if shown is not None else None  # the sidebar's own region has none
+    if region is None or (region.view_perspective == "CAMERA" and camera is not None):
+        return camera.matrix_world.copy(), camera.data.lens, camera.data.sensor_width
+    matrix = region.view_matrix.inverted()
+    if region.view_perspective == "ORTHO":
+        matrix.translation = region.view_location + matrix.col[2].to_3d() * region.view_distance
+        return matrix, shown.lens, 2.0 * _SENSOR
+    return matrix, 0.5 * _SENSOR * region.window_matrix[0][0], _SENSOR
+
+
+def view(stage: owned.Stage, matrix: Matrix, lens: float, sensor: float) -> View:
+    """What is seen from there, for kinds of camera to be made of."""
+    frame = read_edits.local_frame(stage)
+    place, turn = read_edits.pose_of(matrix)
+    met = ground_raycast.hit(stage, place, -turn[:, 2])
+    flat = Vector((-turn[0, 2], -turn[1, 2], 0.0))
+    ahead = Vector(place) + (flat.normalized() if flat.length > 0.0 else flat) * _AHEAD
+    aim = np.array(ahead if met is None else met)
+    (latitude, to_latitude), (longitude, to_longitude), (height, _) = frame.reverse(np.array([place, aim]))
+    under = ground_raycast.up(stage, place)
+    return View(
+        float(latitude),
+        float(longitude),
+        float(height),
+        max(float(place[2] - (under or 0.0)), 1.0),
+        *rotation.angles(frame, place, turn),
+        (float(to_latitude), float(to_longitude)),
+        float(np.hypot(*(aim - place)[:2])),
+        float(place[2] - aim[2]),
+        round(lens, 3),
+        round(sensor, 3),
+    )
+
+
+def flown(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+    """Whether there is a scene of ours to fly in; says what is missing."""
+    if not working.editable(cls, context):
+        return False
+    if not context.scene.firetwin.first_time:
+        cls.poll_message_set("Build the scene first")
+    return bool(context.scene.firetwin.first_time)
+
+
+def filming(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+    """Whether the scene has a camera that can be changed; says what is missing."""
+    if not working.editable(cls, context):
+        return False
+    thing = context.scene.camera
+    if thing is None or thing.type != "CAMERA":
+        cls.poll_message_set("Add a camera first")
+        return False
+    if thing.library is not None or thing.data.library is not None:
+        cls.poll_message_set("This camera is linked from another file: change it there, or make it local")
+        return False
+    return True
+
+
+def kind_items(self: object, context: bpy.types.Context) -> list[tuple[str, str, str]]:
+    """Kinds of camera, what is put exactly where one looks from first."""
+    names = sorted(rigs.kinds(), key=lambda name: name != "poses")
+    _kinds[:] = [(name, keys.label(name), _first_line(rigs.kinds()[name])) for name in names]
+    return _kinds
+
+
+def _first_line(kind: type) -> str:
+    return (kind.__doc__ or "").strip().partition("\n")[0].rstrip(".")
+
+
+class FIRETWIN_OT_camera_add(Working, bpy.types.Operator):
+    """Add a camera with the frustum of this view"""
+
+    bl_idname = "firetwin.camera_add"
+    bl_label = "Add camera from view"
+    bl_options = {"REGISTER", "UNDO"}
+
+    kind: bpy.props.EnumProperty(name="Kind", description="Kind of camera", items=kind_items)
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return flown(cls, context) and run.ready(cls, context)
+
+    def steps(self, context: bpy.types.Context) -> Steps:
+        """Write its table, then build the cameras again."""
+        from ..scene import build
+
+        scene, kind = context.scene, self.kind
+        uid, stage = scene.session_uid, owned.stage(scene)
+        for text in camera_edits.pull(scene):
+            yield Told(text, "WARNING")
+        rig = rigs.kinds()[kind].seeing(view(stage, *eye(context)))
+        taken = {item.name for item in scene.firetwin.cameras}
+        name = next(name for n in range(1, 1000) if (name := kind if n == 1 else f"{kind}{n}") not in taken)
+        item = camera_list.add(scene.firetwin, Camera(name, rig))
+        try:
+            chosen = run.choice(scene.firetwin)
+            shot = yield Away("reading the run", lambda **_: chosen.shot())
+        except Exception:
+            panel = owned.scene(uid).firetwin
+            panel.cameras.remove(panel.cameras.find(item.name))
+            raise
+        yield from build.steps(shot, owned.scene(uid), ("cameras",))
+        scene = owned.scene(uid)
+        scene.camera = owned.stage(scene).camera(name)
+        return f'Added the camera "{name}"; rebuild the scene to add trees and fine terrain in its frustum'
+
+
+class FIRETWIN_OT_camera_key(bpy.types.Operator):
+    """Key the scene's camera at this frame with the position of this view (after Walk or Fly, for example).
+
+    The camera is raised to its clearance above the terrain
+    """
+
+    bl_idname = "firetwin.camera_key"
+    bl_label = "Set key here"
+    bl_options = {"REGISTER", "UNDO"}
+
+    clearance: bpy.props.FloatProperty(
+        name="Clearance",
+        description="Minimum height above the terrain",
+        default=10.0,
+        min=0.0,
+        unit="LENGTH",
+    )
+    lens: bpy.props.BoolProperty(name="Lens too", description="Key the focal length too", default=False)
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not flown(cls, context) or not filming(cls, context):
+            return False
+        thing = context.scene.camera
+        if any(each.type == "FOLLOW_PATH" for each in thing.constraints) or thing.parent:
+            cls.poll_message_set("The camera follows a curve or has a parent: move that object instead")
+            return False
+        return True
+
+    @working.reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        scene, thing = context.scene, context.scene.camera
+        stage, matrix = owned.stage(scene), eye(context)[0]
+        lifted = ground_raycast.lift(stage, matrix.translation, self.clearance)
+        turn = matrix.to_quaternion()
+        if thing.rotation_mode == "QUATERNION":
+            turn.make_compatible(thing.rotation_quaternion)
+        else:
+            compat.remove_fcurves(thing, ("rotation_euler", "rotation_axis_angle"))
+            thing.rotation_mode = "QUATERNION"
+        thing.location = matrix.translation + Vector((0.0, 0.0, lifted))
+        thing.rotation_quaternion = turn
+        turned = () if thing.constraints else ("rotation_quaternion",)  # an aim turns it
+        for name in ("location", *turned):
+            thing.keyframe_insert(name, frame=scene.frame_current)
+        if self.lens:
+            thing.data.keyframe_insert("lens", frame=scene.frame_current)
+        words = f"Keyed {thing.name} at frame {scene.frame_current}"
+        self.report({"INFO"}, words + (f", {lifted:,.0f} m higher than the view" if lifted else ""))
+        self._warn(stage, thing)
+        return {"FINISHED"}
+
+    def _warn(self, stage: owned.Stage, thing: bpy.types.Object) -> None:
+        """Say where between keys the ground comes too near."""
+        frames = stage.scene.firetwin.frames
+        size = stage.scene.render.resolution_x, stage.scene.render.resolution_y
+        places = read_edits.flown(stage.scene, thing, frames, size).place
+        short = [ground_raycast.lift(stage, place, self.clearance) for place in places]
+        if max(short) > 0.5:
+            worst = int(np.argmax(short))
+            self.report(
+                {"WARNING"},
+                f"In frame {worst + 1} the path is {max(short):,.0f} m too low: set a key there too",
+            )
+
+
+class FIRETWIN_OT_camera_lens(bpy.types.Operator):
+    """Set lens and sensor of the scene's camera to those of a drone, thermal or film camera"""
+
+    bl_idname = "firetwin.camera_lens"
+    bl_label = "Lens and sensor"
+    bl_options = {"REGISTER", "UNDO"}
+
+    preset: bpy.props.EnumProperty(
+        name="Lens",
+        description="Lens and sensor",
+        items=tuple((name, each.name, each.about) for name, each in LENSES.items()),
+    )
+
+    @classmethod
+    def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """The tooltip."""
+        return LENSES[properties.preset].about
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not filming(cls, context):
+            return False
+        if context.scene.camera.data.type != "PERSP":
+            cls.poll_message_set("Choose a perspective camera as the scene's camera first")
+            return False
+        return True
+
+    @working.reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        data, lens = context.scene.camera.data, LENSES[self.preset]
+        compat.remove_fcurves(data, ("lens",))
+        data.sensor_fit = "HORIZONTAL"
+        data.lens, data.sensor_width = lens.focal_length, lens.sensor_width
+        return {"FINISHED"}
+
+
+class FIRETWIN_MT_lenses(bpy.types.Menu):
+    """Lenses and sensors of drones, thermal cameras and film cameras"""
+
+    bl_idname = "FIRETWIN_MT_lenses"
+    bl_label = "Lens and Sensor"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        for name, each in LENSES.items():
+            self.layout.operator(FIRETWIN_OT_camera_lens.bl_idname, text=each.name).preset = name
+
+
+class FIRETWIN_PT_flying(bpy.types.Panel):
+    """Manual camera work from this view"""
+
+    bl_idname = "FIRETWIN_PT_flying"
+    bl_label = "By Hand"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Firetwin"
+    bl_parent_id = "FIRETWIN_PT_cameras"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return bool(context.scene.firetwin.first_time)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, scene = self.layout, context.scene
+        column = layout.column()
+        column.enabled = job.Job.current is None
+        column.operator_menu_enum(
+            FIRETWIN_OT_camera_add.bl_idname, "kind", text="Add camera from view", icon="OUTLINER_OB_CAMERA"
+        )
+        column.prop(scene, "camera", text="")
+        row = column.row(align=True)
+        row.operator_context = "INVOKE_REGION_WIN"  # the sidebar is no view
+        row.operator("view3d.walk", text="Walk", icon="VIEW_PAN")
+        row.operator("view3d.fly", text="Fly", icon="ORIENTATION_GIMBAL")
+        column.operator(FIRETWIN_OT_camera_key.bl_idname, icon="KEY_HLT")
+        row = column.row(align=True)
+        row.operator_menu_enum("firetwin.camera_aim", "target", text="Look at", icon="CON_TRACKTO")
+        row.operator("firetwin.camera_path", text="Draw path", icon="CON_FOLLOWPATH")
+        column.menu("FIRETWIN_MT_named", icon="TRACKER")
+        column.menu(FIRETWIN_MT_lenses.bl_idname, icon="CAMERA_DATA")
+        row = column.row(align=True)
+        row.prop(scene.firetwin, "go_to", text="", icon="VIEWZOOM", placeholder="38.82 -120.55")
+        row.operator("firetwin.go", text="", icon="FORWARD")
+
+
+classes = (
+    FIRETWIN_OT_camera_add,
+    FIRETWIN_OT_camera_key,
+    FIRETWIN_OT_camera_lens,
+    FIRETWIN_MT_lenses,
+    FIRETWIN_PT_flying,
+)

@@ -1,0 +1,54 @@
+"""Places with names: the user's list of [labels], or else those that are known of the run's fire."""
+
+from __future__ import annotations
+
+import functools
+from pathlib import Path
+
+import bpy
+
+from ..errors import Error
+from ..run import labels
+from . import run
+
+
+def known(panel: bpy.types.PropertyGroup) -> tuple[labels.Label, ...]:
+    """All of them; none where the user's list cannot be read, which building the places says."""
+    if not panel.labels.file:
+        found = run.read(panel.facts).get("places", ()) if panel.facts else ()
+        return tuple(labels.Label(*each) for each in found)
+    path = Path(bpy.path.abspath(panel.labels.file))
+    try:
+        return _read(path, path.stat().st_mtime_ns)
+    except (Error, OSError):
+        return ()
+
+
+@functools.lru_cache(maxsize=4)
+def _read(path: Path, changed: int) -> tuple[labels.Label, ...]:
+    return tuple(labels.read(path))
+
+
+def find(panel: bpy.types.PropertyGroup, text: str) -> labels.Label | None:
+    """The place with this name, or the first whose name has it."""
+    wanted = text.strip().lower()
+    found = [place for place in known(panel) if wanted and wanted in place.name.lower()]
+    return min(found, key=lambda place: place.name.lower() != wanted, default=None)
+
+
+class FIRETWIN_MT_named(bpy.types.Menu):
+    """Point the scene's camera at a town, lake, summit or station of the list of places"""
+
+    bl_idname = "FIRETWIN_MT_named"
+    bl_label = "Look at a Place"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        found = known(context.scene.firetwin)
+        for place in found:
+            aim = self.layout.operator("firetwin.camera_aim", text=place.name)
+            aim.target, aim.place = "station", place.name
+        if not found:
+            self.layout.label(text="No places are known: choose a file under Labels", icon="INFO")
+
+
+classes = (FIRETWIN_MT_named,)

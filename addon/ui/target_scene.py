@@ -1,0 +1,109 @@
+"""Which scene the window builds into: one that nobody uses yet, ours, or a new one."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ..blender import compat, owned
+from . import properties
+
+_STARTUP = {"Camera", "Cube", "Light"}
+_STARTUP_WORLD = {"ShaderNodeOutputWorld", "ShaderNodeBackground"}
+_STARTUP_GREY = (0.05087609,) * 3
+
+
+def prepare(scene: bpy.types.Scene, part: bool) -> tuple[int, str]:
+    """Make ready the scene to build into.
+
+    Parameters
+    ----------
+    part
+        Only a part is built again: where there is something of ours, that is the place.
+
+    Returns
+    -------
+    `session_uid` of the scene, what to tell
+    """
+    if owned.ours(scene) or (part and owned.built(scene)):
+        return scene.session_uid, ""
+    if not vacant(scene):
+        made = owned.new_scene()
+        properties.copy(scene, made)
+        _show(scene, made)
+        return made.session_uid, f"in a new scene, {made.name}; {scene.name} is unchanged"
+    gone = _clear(scene)
+    owned.adopt(scene)
+    return (
+        scene.session_uid,
+        "the startup cube, light and camera are removed (undo restores them)" if gone else "",
+    )
+
+
+def vacant(scene: bpy.types.Scene) -> bool:
+    """Whether a scene holds nothing, or what Blender starts with, untouched."""
+    tree, editor = compat.compositor(scene), scene.sequence_editor
+    return (
+        (not scene.collection.all_objects or _startup(scene))
+        and _plain(scene.world)
+        and (tree is None or not tree.nodes)
+        and scene.animation_data is None
+        and (editor is None or not editor.strips)
+        and len(scene.view_layers) == 1
+    )
+
+
+def _startup(scene: bpy.types.Scene) -> bool:
+    """Whether there are just the cube, light and camera that a new file begins with."""
+    cube = scene.objects.get("Cube")
+    return (
+        not bpy.data.filepath
+        and {thing.name for thing in scene.collection.all_objects} == _STARTUP
+        and cube.type == "MESH"
+        and len(cube.data.vertices) == 8
+        and cube.matrix_world.is_identity
+    )
+
+
+def _plain(world: bpy.types.World | None) -> bool:
+    """Whether a world is none, or the grey one that a new file begins with."""
+    if world is None:
+        return True
+    if world.library is not None or world.animation_data is not None or world.node_tree is None:
+        return False
+    nodes = world.node_tree.nodes
+    light = next((node for node in nodes if node.bl_idname == "ShaderNodeBackground"), None)
+    if light is None or {node.bl_idname for node in nodes} != _STARTUP_WORLD:
+        return False
+    colour, strength = (light.inputs[name].default_value for name in ("Color", "Strength"))
+    return np.allclose((*colour[:3], strength), (*_STARTUP_GREY, 1.0), rtol=1.0e-4)
+
+
+def _clear(scene: bpy.types.Scene) -> bool:
+    """Remove the startup objects and world of a vacant scene; whether there were such objects."""
+    things = list(scene.collection.all_objects)
+    bpy.data.batch_remove(things)
+    world, scene.world = scene.world, None
+    if world is not None and world.users == 0:
+        bpy.data.worlds.remove(world)
+    return bool(things)
+
+
+def _show(before: bpy.types.Scene, after: bpy.types.Scene) -> None:
+    """Have the present window show another scene."""
+    window = bpy.context.window
+    if window is not None and window.scene == before:
+        window.scene = after
+
+
+def remove(scene: bpy.types.Scene) -> None:
+    """Take away what is ours in a scene; one that was made for it goes too, unless something was added."""
+    from ..render import layers
+    from ..scene import build
+
+    made = owned.ours(scene, owned.MADE)
+    if owned.ours(scene):
+        layers.remove(scene)
+    build.remove(scene)
+    if made and vacant(scene) and not scene.collection.children and len(bpy.data.scenes) > 1:
+        bpy.data.scenes.remove(scene)

@@ -1,0 +1,40 @@
+"""Settings of .blend files that were saved while sections had other names."""
+
+import bpy
+import firetwin
+import pytest
+from firetwin.blender import compat, owned
+from firetwin.ui import former_names
+
+
+@pytest.fixture
+def panel(scene):
+    firetwin.register()
+    yield scene.firetwin
+    firetwin.unregister()
+
+
+def test_a_file_of_the_last_version_keeps_its_settings(panel, tmp_path):
+    """Such a file is made of one of this version, whose section is stored under its former name."""
+    panel.terrain.error, panel.labels.enabled, panel.forest.budget = 0.7, True, 17
+    stored = compat.stored(bpy.context.scene)["firetwin"]
+    for former, name in (("ground", "terrain"), ("places", "labels")):
+        stored[former] = stored[name].to_dict()
+        del stored[name]
+    assert panel.terrain.error != pytest.approx(0.7)
+    collection = owned.mark(bpy.data.collections.new("Firetwin Ground"), "Ground")
+    bpy.context.scene.collection.children.link(collection)
+    path = tmp_path / "former.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    found = bpy.context.scene.firetwin
+    assert (found.terrain.error, found.labels.enabled, found.forest.budget) == (pytest.approx(0.7), True, 17)
+    assert owned.ours(bpy.data.collections["Firetwin Terrain"], "Terrain")
+    assert "ground" not in compat.stored(bpy.context.scene)["firetwin"]
+
+
+def test_nothing_is_left_when_the_extension_goes(panel):
+    assert former_names.adopt in bpy.app.handlers.load_post
+    firetwin.unregister()
+    assert former_names.adopt not in bpy.app.handlers.load_post
+    firetwin.register()

@@ -1,0 +1,57 @@
+"""Labels face the camera, are as large in every picture, fade, and are in the visible picture alone."""
+
+from dataclasses import replace
+
+import bpy
+import numpy as np
+import pytest
+from firetwin.scene import build
+from firetwin.shot.settings.settings import Places
+from firetwin.shot.shot import Shot
+
+
+@pytest.fixture
+def labelled(settings, tmp_path):
+    path = tmp_path / "places.csv"
+    path.write_text(
+        "name,latitude,longitude\nNear,38.840,-120.555\nFar,38.872,-120.545\nElsewhere,10.0,20.0\n"
+    )
+    return replace(settings, labels=Places(enabled=True, file=path, size=0.1))
+
+
+def instances():
+    graph = bpy.context.evaluated_depsgraph_get()
+    graph.update()
+    return [i.matrix_world.copy() for i in graph.object_instances if i.is_instance]
+
+
+def test_labels_stand_on_their_places_and_face_the_camera(labelled, run, scene):
+    shot = Shot(labelled, run)
+    build.build(shot, scene, ("cameras", "labels"))
+    found = instances()
+    wanted = shot.ground.point([38.840, 38.872], [-120.555, -120.545])  # one lies beyond the ground
+    assert np.array([m.translation[:] for m in found]) == pytest.approx(wanted, abs=0.01)
+    eye = np.array(scene.camera.matrix_world.translation)
+    turned = np.array(scene.camera.matrix_world.to_3x3())
+    wide = 2.0 * shot.paths[0].half[0]
+    for matrix, place in zip(found, wanted, strict=True):
+        scale = matrix.to_scale()[0]
+        assert np.array(matrix.to_3x3()) / scale == pytest.approx(turned, abs=1e-3)
+        assert scale == pytest.approx(0.1 * wide * 36 / 64 * np.linalg.norm(place - eye), rel=1e-3)
+
+
+def test_labels_beyond_their_distance_are_gone(labelled, run, scene):
+    near = replace(labelled, labels=replace(labelled.labels, distance=3000.0))
+    shot = Shot(near, run)
+    build.build(shot, scene, ("cameras", "labels"))
+    eye = np.array(scene.camera.matrix_world.translation)
+    away = np.linalg.norm(shot.ground.point([38.840, 38.872], [-120.555, -120.545]) - eye, axis=1)
+    assert list(away < 3000.0) == [True, False]
+    assert len(instances()) == 1
+    build.remove(scene)
+    assert not [font for font in bpy.data.fonts if font.users]  # the typeface was lent
+
+
+def test_off_by_default(settings, run, scene):
+    build.build(Shot(settings, run), scene, ("cameras", "labels"))
+    assert "Firetwin Labels" not in {thing.name for thing in bpy.data.objects}

@@ -1,0 +1,178 @@
+"""Cameras in the window: from what is seen, keyed there, aimed, on curves; going to places and moments."""
+
+import bpy
+import firetwin
+import numpy as np
+import panel_scene
+import pytest
+from firetwin.blender import owned
+from firetwin.scene.camera import ground_raycast, read_edits
+from firetwin.shot.cameras import rigs
+from firetwin.shot.cameras.lenses import LENSES
+from firetwin.shot.cameras.rigs.poses import Poses
+from firetwin.ui import camera_list, camera_targets, go_to, navigation
+from mathutils import Euler, Matrix
+
+EYE = Matrix.Translation((-500.0, -2500.0, 2400.0)) @ Euler((1.2, 0.0, -0.2)).to_matrix().to_4x4()
+
+
+@pytest.fixture(scope="module")
+def blend(run_folder, tmp_path_factory):
+    """A scene that the panel built, as a file: opening it takes less than building it for each test."""
+    return panel_scene.build(run_folder, tmp_path_factory.mktemp("flying"))
+
+
+@pytest.fixture
+def panel(blend, tmp_path, monkeypatch):
+    """A built scene of the panel, and a view that looks from EYE."""
+    firetwin.register()
+    bpy.ops.wm.open_mainfile(filepath=str(blend))
+    settings = bpy.context.scene.firetwin
+    settings.output = str(tmp_path / "out")
+    monkeypatch.setattr(navigation, "eye", lambda context: (EYE.copy(), 30.0, 36.0))
+    yield settings
+    firetwin.unregister()
+
+
+def _back(thing, frame):
+    bpy.context.scene.frame_set(frame)
+    return thing.matrix_world.translation.copy(), -thing.matrix_world.col[2].to_3d()
+
+
+def test_every_kind_of_camera_can_be_made_from_a_view(panel):
+    stage = owned.stage(bpy.context.scene)
+    seen = navigation.view(stage, EYE, 30.0, 36.0)
+    assert seen.tilt == pytest.approx(90.0 - np.degrees(1.2), abs=0.1)
+    assert seen.above == pytest.approx(2400.0 - ground_raycast.up(stage, EYE.translation), abs=1.0)
+    for kind, made in rigs.kinds().items():
+        assert isinstance(made.seeing(seen), made), kind
+
+
+def test_a_camera_from_the_view_sees_what_the_view_sees(panel):
+    scene = bpy.context.scene
+    for kind, name, off in (
+        ("poses", "poses", 0.01),
+        ("drone", "drone2", 0.01),
+        ("lookout", "lookout", 20.0),
+        ("orbit", "orbit", 30.0),
+    ):
+        assert bpy.ops.firetwin.camera_add(kind=kind) == {"FINISHED"}
+        camera = camera_list.get(panel.cameras[-1])
+        assert (camera.name, camera.kind) == (name, kind)
+        thing = owned.stage(scene).camera(name)
+        assert scene.camera == thing
+        place, ahead = _back(thing, 1)
+        assert np.linalg.norm(place - EYE.translation) < off
+        assert np.degrees(ahead.angle(-EYE.col[2].to_3d())) < (0.001 if kind == "poses" else 1.0)
+        assert thing.data.lens == pytest.approx(30.0)
+
+
+def test_keys_are_set_where_the_view_is_and_never_in_the_ground(panel, monkeypatch):
+    scene = bpy.context.scene
+    bpy.ops.firetwin.camera_add(kind="poses")
+    stage, thing = owned.stage(scene), scene.camera
+    ground = ground_raycast.up(stage, (0.0, 0.0))
+    low = Matrix.Translation((0.0, 0.0, ground - 50.0)) @ Euler((1.4, 0.0, 0.5)).to_matrix().to_4x4()
+    bpy.ops.firetwin.camera_key()
+    scene.frame_set(3)
+    monkeypatch.setattr(navigation, "eye", lambda context: (low, 30.0, 36.0))
+    bpy.ops.firetwin.camera_key(clearance=20.0)
+    place, ahead = _back(thing, 3)
+    assert place.z == pytest.approx(ground + 20.0, abs=0.01)
+    assert ahead.angle(-low.col[2].to_3d()) < 1e-4
+    assert (_back(thing, 1)[0] - EYE.translation).length < 0.01
+    assert bpy.ops.firetwin.build(part="cameras") == {"FINISHED"}
+    rig = camera_list.get(panel.cameras[-1]).rig
+    assert isinstance(rig, Poses)
+    assert (rig.keys[0].at, rig.keys[-1].at) == (0.0, 1.0)
+    assert (_back(thing, 3)[0] - place).length < 0.01
+
+
+def test_a_camera_looks_at_an_empty_that_follows_the_fire_or_stands_at_a_place(panel, tmp_path):
+    scene = bpy.context.scene
+    for target, name in (("fire", "Aim at fire"), ("point", "Aim at point")):
+        assert bpy.ops.firetwin.camera_aim(target=target) == {"FINISHED"}
+        empty = scene.objects[name]
+        for frame in (1, 3):
+            place, ahead = _back(scene.camera, frame)
+            assert ahead.angle(empty.matrix_world.translation - place) < 1e-3
+    assert len(scene.camera.constraints) == 1
+    (tmp_path / "places.csv").write_text("name,latitude,longitude\nStation 61,38.84,-120.55\n")
+    panel.labels.file = str(tmp_path / "places.csv")
+    assert bpy.ops.firetwin.camera_aim(target="station", place="station 61") == {"FINISHED"}
+    empty = scene.objects["Aim at station 61"]
+    assert (empty.location - go_to.place(scene, "38.84 -120.55")).length < 0.01
+    place, ahead = _back(scene.camera, 2)
+    assert ahead.angle(empty.matrix_world.translation - place) < 1e-3
+    with pytest.raises(RuntimeError, match='no place here is called "elsewhere"'):
+        bpy.ops.firetwin.camera_aim(target="station", place="elsewhere")
+    assert len(scene.camera.constraints) == 1
+    bpy.ops.firetwin.camera_aim(target="none")
+    assert not scene.camera.constraints
+    assert bpy.ops.firetwin.build() == {"FINISHED"}
+    assert "Aim at fire" in scene.objects  # the artist's own
+
+
+def test_a_way_becomes_a_curve_that_the_camera_follows(panel):
+    scene, thing = bpy.context.scene, bpy.context.scene.camera
+    thing.animation_data_clear()
+    places = {1: (0.0, 0.0, 3000.0), 2: (900.0, 200.0, 3100.0), 3: (1200.0, 1500.0, 2900.0)}
+    for frame, place in places.items():
+        thing.location = place
+        thing.keyframe_insert("location", frame=frame)
+    assert bpy.ops.firetwin.camera_path() == {"FINISHED"}
+    hook = thing.constraints[camera_targets.PATH]
+    for frame, place in places.items():
+        assert np.linalg.norm(_back(thing, frame)[0] - Matrix.Translation(place).translation) < 2.0
+    hook.target.data.splines[0].bezier_points[1].co.z += 500.0
+    before = [_back(thing, frame)[0] for frame in (1, 2, 3)]
+    assert before[1].z > 3400.0
+    assert bpy.ops.firetwin.build() == {"FINISHED"}
+    assert thing.constraints[camera_targets.PATH] == hook  # the rebuild leaves it alone
+    keys = camera_list.get(panel.cameras[0]).rig.keys
+    frame = read_edits.local_frame(owned.stage(scene))
+    flown = frame.forward(*np.array([(k.latitude, k.longitude, k.height) for k in keys]).T.copy())
+    assert np.linalg.norm(flown - np.array([tuple(place) for place in before]), axis=1).max() < 0.01
+
+
+def test_lenses_say_what_they_are_and_reach_the_table(panel):
+    for name, lens in LENSES.items():
+        assert bpy.ops.firetwin.camera_lens(preset=name) == {"FINISHED"}
+        assert 1.0 < lens.focal_length < 1000.0
+        assert lens.source
+    bpy.ops.firetwin.camera_lens(preset="thermal_drone")
+    bpy.ops.firetwin.build(part="cameras")
+    rig = camera_list.get(panel.cameras[0]).rig
+    assert (rig.focal_length, rig.sensor_width) == (13.6, 7.68)
+
+
+@pytest.mark.parametrize(
+    ("text", "pair"),
+    [
+        ("38.82 -120.55", (38.82, -120.55)),
+        ("38.82 N, 120.55 W", (38.82, -120.55)),
+        ("38.82° N 120.55° W", (38.82, -120.55)),
+        ("33.9S;18.4E", (-33.9, 18.4)),
+        ("Georgetown 61", None),
+        ("3882", None),
+        ("98 120", None),
+    ],
+)
+def test_coordinates_are_read_as_people_write_them(text, pair):
+    assert go_to.coordinates(text) == pair
+
+
+def test_one_goes_to_places_names_and_moments(panel):
+    scene = bpy.context.scene
+    where = go_to.place(scene, "38.84 -120.55")
+    latitude, longitude, _ = read_edits.local_frame(owned.stage(scene)).reverse(np.array([tuple(where)]))
+    assert (latitude[0], longitude[0]) == (pytest.approx(38.84, abs=1e-3), pytest.approx(-120.55, abs=1e-3))
+    assert (go_to.place(scene, "camera drone") - scene.camera.matrix_world.translation).length < 1e-3
+    assert go_to.place(scene, "nowhere at all") is None
+    assert bpy.ops.firetwin.go(text="2014-09-17 13:30") == {"FINISHED"}  # by longitude UTC-8
+    assert scene.frame_current == 2
+    assert bpy.ops.firetwin.go(text="2014-09-17 21:58 UTC") == {"FINISHED"}
+    assert scene.frame_current == 3
+    assert bpy.ops.firetwin.go(text="run begins") == {"FINISHED"}  # a dated moment of the run
+    assert scene.frame_current == 1
+    assert bpy.ops.firetwin.go(text="nowhere at all") == {"CANCELLED"}

@@ -1,0 +1,310 @@
+"""Settings that fit a run: the most active part of it, and cameras that show most of the front."""
+
+import dataclasses
+import zoneinfo
+from datetime import timedelta
+from pathlib import Path
+
+import numpy as np
+import pytest
+import whole_run
+from firetwin.run import readers, zone
+from firetwin.shot import auto_framing, run_checks
+from firetwin.shot.auto_framing import candidates, front, overview, straight_plume, visible_share, window
+from firetwin.shot.fire import emissions
+from firetwin.shot.settings import scene_file
+from firetwin.shot.settings.settings import Time
+from firetwin.shot.shot import Shot
+from firetwin.shot.source import Choice
+from small_run import small_fields
+
+HOURS = tuple(3600.0 * np.arange(0.0, 25.0, 6.0))
+
+
+def hills(x, y):
+    """Ridges 1.5 km apart and 600 m high, across the wind."""
+    return 300.0 + 300.0 * np.cos(2.0 * np.pi * x / 1500.0) + 60.0 * np.cos(2.0 * np.pi * y / 900.0)
+
+
+def basin(x, y):
+    """A plain behind a wall 300 m high on the windward side."""
+    return np.where((x < 100.0) & (x > -100.0), 300.0, 0.0)
+
+
+FIRES = {
+    "prescribed": {"cell": 5.0, "speed": 0.1, "canopy": 1.0},
+    "grass": {"cell": 20.0, "cells": 150, "speed": 0.9},
+    "hills": {"cell": 60.0, "cells": 120, "speed": 1.2, "height": hills, "canopy": 1.5},
+    "basin": {"cell": 30.0, "speed": 0.2, "height": basin, "fires": ((300.0, 0.0, 0.0),), "cells": 100},
+    "mega": {"cell": 1000.0, "cells": 140, "speed": 1.2, "times": HOURS},
+    "calm": {"cell": 20.0, "wind": (0.0, 0.0)},
+    "windless": {"cell": 20.0, "wind": None},
+    "south": {"cell": 25.0, "at": (-42.7, 146.5), "wind": (-3.0, -3.0), "canopy": 0.8},
+    "north": {"cell": 25.0, "at": (70.0, 25.0)},
+    "line": {"cell": 25.0, "at": (-16.5, 179.999)},
+    "several": {
+        "cell": 60.0,
+        "cells": 150,
+        "fires": ((-2500.0, -1500.0, 0.0), (2500.0, 2000.0, 900.0), (0.0, 3000.0, 1200.0)),
+    },
+    "begins": {"cell": 10.0, "fires": ((0.0, 0.0, 3000.0),)},
+    "ended": {"cell": 10.0, "cells": 40, "fires": ((0.0, 0.0, 0.0),), "times": (0.0, 3600.0, 86_400.0)},
+    "slow output": {"cell": 300.0, "cells": 80, "times": HOURS, "arrival": False, "speed": 0.1},
+}
+
+
+@pytest.fixture(scope="module")
+def fit_of(tmp_path_factory):
+    """Settings fitted to one of FIRES, and its run."""
+    known = {}
+
+    def found(name):
+        if name not in known:
+            folder = whole_run.write(tmp_path_factory.mktemp("fitted") / "run", **FIRES[name])
+            known[name] = auto_framing.at(folder, folder.parent / "scene.toml", folder.parent / "cache")
+        return known[name], readers.open(known[name].settings.run)
+
+    return found
+
+
+@pytest.mark.parametrize("name", FIRES)
+def test_each_camera_shows_at_least_half_of_the_front_it_films(fit_of, name):
+    found, run = fit_of(name)
+    run_checks.check(found.settings, run)
+    assert list(found.shares) == ["overview", "chase", "flank", "satellite"]
+    assert min(found.shares.values()) >= candidates.LEAST, found.lines
+
+
+@pytest.mark.parametrize("name", ["prescribed", "hills", "mega", "several"])
+def test_what_is_said_to_show_is_what_the_shot_sees(fit_of, name):
+    """Over its own ground, with detail near cameras, by the views that everything else is skipped by."""
+    found, run = fit_of(name)
+    for camera in ("overview", "satellite"):
+        shot = Shot(found.settings, run).of(camera)
+        points = front.of(shot).point
+        seen = shot.sights.seen(points, 1.0, pixel=np.inf)
+        assert seen.mean() >= max(found.shares[camera] - 0.02, candidates.LEAST)
+
+
+@pytest.mark.parametrize("name", FIRES)
+def test_the_overview_has_the_whole_front_in_its_picture_and_the_horizon_over_it(fit_of, name):
+    found, run = fit_of(name)
+    shot = Shot(found.settings, run)
+    moving, view = front.of(shot), shot.of("overview").paths[0]
+    local = (moving.point - view.position[0]) @ view.rotation[0]
+    x, y = (local[:, axis] / -local[:, 2] / view.half[axis] for axis in (0, 1))
+    assert (local[:, 2] < 0.0).all()
+    assert np.mean((np.abs(x) < 0.95) & (np.abs(y) < 0.97)) > 0.95
+    assert -0.6 < np.median(y) < 0.1, "below the middle, under its smoke"
+    horizon = np.tan(np.arcsin(-view.rotation[0][2, 2] * -1.0)) / view.half[1]
+    assert horizon > 0.1
+    assert view.position[0, 2] > shot.ground.up(*view.position[0, :2])[0]
+
+
+def test_the_overview_stands_to_windward_with_the_sun_behind_it(fit_of):
+    found, run = fit_of("grass")  # wind from the west, and the sun in the south-west
+    shot = Shot(found.settings, run)
+    way = candidates.bearing(shot.of("overview").paths[0]) % 360.0
+    assert 200.0 < way < 320.0
+    assert "windward" in found.cameras["overview"]
+    found, run = fit_of("calm")
+    way = candidates.bearing(Shot(found.settings, run).of("overview").paths[0])
+    azimuth, height = Shot(found.settings, run).sun(0.0)
+    assert height > 0.0
+    assert np.cos(np.radians(way - azimuth)) > 0.8
+
+
+def test_a_wall_before_the_fire_moves_the_camera(fit_of):
+    """From the west, from where the wind comes and the camera would be low, a wall hides the fire."""
+    walled, run = fit_of("basin")
+    moving = front.of(Shot(walled.settings, run))
+    low = overview._camera(moving, moving.point, 270.0, 13.0)
+    assert visible_share.Visible(moving).seen(candidates.path(moving, low)).share < candidates.LEAST
+    assert walled.shares["overview"] >= candidates.LEAST
+
+
+def test_smoke_drifts_with_the_wind_and_rises_from_a_strong_fire(fit_of):
+    found, run = fit_of("grass")  # wind from the west
+    moving = front.of(Shot(found.settings, run))
+    smoke = moving.plumes[1]
+    assert smoke.rate.sum() > 0.0
+    head = np.array([[moving.high[0], 0.5 * (moving.low[1] + moving.high[1]), 2.0]])
+    way = moving.size * np.array([1.0, 0.0, smoke.rise])
+    assert smoke.depth(head[0] + way, head)[0] > 1.5, "from where its smoke goes"
+    back = head[0] - np.array([2.0 * moving.size, 0.0, 0.0])
+    tail = np.array([[moving.low[0], head[0, 1], 2.0]])
+    assert smoke.depth(back, tail)[0] < 0.1, "from windward"
+    weak = straight_plume.at(moving.ground, *_burning(moving), moving.shot.frames.first, 4.0 * smoke.wind)
+    assert weak.rise < smoke.rise, "a strong wind bends it"
+
+
+def _burning(moving):
+    near = moving.ground.arrival.shape
+    return (slice(0, near[0]), slice(0, near[1])), np.full(near, 60.0)
+
+
+def test_a_plume_holds_the_smoke_that_its_fuel_gives():
+    """Through a plume across the wind: smoke per metre of the way it drifts, over its width."""
+    one = straight_plume.Plume(np.zeros((1, 3)), np.array([2.0]), np.array([4.0, 0.0]), 1.0, 0.5)
+    axis = np.array([1.0, 0.0, 0.5])
+    for along in (100.0, 1000.0):
+        place = along * axis / np.linalg.norm(axis) + np.array([0.0, 2000.0, 0.0])
+        eye = place - np.array([0.0, 4000.0, 0.0])
+        lines = place + np.array([[0.0, 0.0, 0.0]])
+        half = 1.0 + 0.4 * along
+        expected = emissions.EXTINCTION * 2.0 / 4.0 / (np.pi * half**2) * 2.0 * half
+        fine = [
+            one.depth(eye, lines + np.array([0.0, move, 0.0]))[0] for move in np.linspace(-1900.0, 0.0, 200)
+        ]
+        assert np.mean(fine) == pytest.approx(expected, rel=0.5)
+    twice = straight_plume.Plume(np.zeros((1, 3)), np.array([4.0]), np.array([4.0, 0.0]), 1.0, 0.5)
+    assert twice.depth(eye, lines) == pytest.approx(2.0 * one.depth(eye, lines))
+
+
+def test_a_grass_fires_smoke_hides_less_than_a_forests(tmp_path):
+    grass, forest = (
+        whole_run.write(tmp_path / name, **FIRES["grass"] | {"canopy": canopy})
+        for name, canopy in (("grass", 0.0), ("forest", 3.0))
+    )
+    depths = []
+    for folder in (grass, forest):
+        found = auto_framing.at(folder, tmp_path / "s.toml", tmp_path)
+        moving = front.of(Shot(found.settings, readers.open(folder)))
+        eye = np.array([*(moving.high + moving.size * moving.wind), moving.size])
+        depths.append(np.median(moving.plumes[1].depth(eye, moving.point[moving.moment == 1])))
+    assert depths[1] > 1.5 * depths[0]
+
+
+def test_cameras_are_as_large_as_the_fire(fit_of):
+    small, large = fit_of("prescribed")[0], fit_of("mega")[0]
+    distance = {
+        each: [
+            np.linalg.norm(
+                (view := candidates.path(front.of(Shot(found.settings, run)), camera)).position - view.target,
+                axis=1,
+            ).mean()
+            for camera in found.settings.cameras[:3]
+        ]
+        for each, (found, run) in (("small", fit_of("prescribed")), ("large", fit_of("mega")))
+    }
+    assert distance["small"][0] < 700.0
+    assert distance["large"][0] > 30_000.0
+    assert (np.array(distance["large"]) > 2.5 * np.array(distance["small"])).all()
+    assert small.settings.cameras[3].rig.swath < 1500.0
+    assert large.settings.cameras[3].rig.swath > 50_000.0
+
+
+@pytest.mark.parametrize("name", FIRES)
+def test_no_window_of_the_run_is_more_active(fit_of, name):
+    found, run = fit_of(name)
+    time = found.settings.time
+    first, last = float(run.times[0]), float(run.times[-1])
+    begin, end = ((moment - _start(run)).total_seconds() for moment in (time.start, time.end))
+    assert first <= begin < end <= last
+    arrival = run.fuel_arrival_time()
+    arrival = arrival[(arrival >= first) & (arrival <= last)]
+    held = np.count_nonzero((arrival >= begin) & (arrival <= end))
+    length = end - begin
+    others = np.arange(first, last - length, 60.0)
+    counts = [np.count_nonzero((arrival >= other) & (arrival <= other + length)) for other in others]
+    assert held >= max(counts, default=0)
+
+
+def _start(run):
+    from firetwin.run import times
+
+    return times.moment(run, 0.0)
+
+
+def test_cameras_are_placed_for_a_window_that_is_asked_for(fit_of):
+    found, run = fit_of("grass")
+    start, end = _start(run) + timedelta(minutes=10), _start(run) + timedelta(minutes=15)
+    path, folder = found.settings.path, Path(run.path)
+    early = auto_framing.at(folder, path, found.settings.cache, Time(start, end))
+    assert (early.settings.time.start, early.settings.time.end) == (start, end)
+    assert early.settings.time.frames == found.settings.time.frames
+    assert "as asked" in early.window
+    assert early.settings.cameras != found.settings.cameras
+    assert min(early.shares.values()) >= candidates.LEAST
+
+
+def test_a_run_of_one_moment_is_a_still(make_run):
+    whole = small_fields()
+    folder = make_run(**{name: values[2:] for name, values in whole.items() if values.ndim == 3})
+    found = auto_framing.at(folder, folder.parent / "scene.toml", folder.parent / "cache")
+    assert found.settings.time.frames == 1
+    run_checks.check(found.settings, readers.open(folder))
+    assert "one moment" in found.window
+
+
+def test_a_window_is_where_the_fuel_burns_not_where_the_area_grows():
+    arrival = np.array([10.0] * 50 + [5000.0] * 10)
+    fuel = np.array([0.1] * 50 + [5.0] * 10)
+    begin = window.most_active(arrival, fuel, 0.0, 7200.0, 600.0)
+    assert begin <= 5000.0 <= begin + 600.0
+    assert window.most_active(arrival, np.ones(60), 0.0, 7200.0, 600.0) == 0.0
+    assert window.length(400.0, 1e5) == 300.0
+    assert window.length(29_000.0, 1e5) == pytest.approx(24 * 60.0, abs=60.0)
+    assert window.length(29_000.0, 600.0) == 600.0
+
+
+@pytest.mark.parametrize("name", ["prescribed", "several", "line"])
+def test_the_file_reads_back_as_the_settings_and_is_what_a_run_alone_gets(fit_of, name, monkeypatch):
+    found, run = fit_of(name)
+    path = found.settings.path
+    path.write_text(found.text, encoding="utf-8")
+    assert scene_file.read(path) == found.settings
+    monkeypatch.chdir(path.parent)
+    alone = Choice(run=run.path).settings()
+    same = {"path": found.settings.path, "run": found.settings.run, "cache": found.settings.cache}
+    assert dataclasses.replace(alone, **same) == found.settings
+    assert (alone.run, alone.cache.absolute()) == (Path(run.path), found.settings.cache)
+
+
+def test_the_file_is_short_and_every_key_in_it_is_explained(fit_of):
+    found, _ = fit_of("grass")
+    lines = found.text.splitlines()
+    assert len(lines) < 90
+    assert max(map(len, lines)) <= 130
+    explained = {line.split(" = ")[0] for line in lines if " = " in line and "  # " in line}
+    assert {line.split(" = ")[0] for line in lines if " = " in line and line[0] != "#"} == explained
+    assert {"start", "end", "frames", "fps", "method", "samples", "resolution"} <= explained
+    assert "apron" not in explained, "nobody has to know"
+    for camera, words in found.cameras.items():
+        above = found.text.split(f'name = "{camera}"')[0].split("[[cameras]]")[-2].split("\n\n")[-1]
+        assert " ".join(above.replace("# ", "").split()).lower() == f"{words}.".lower()
+
+
+def test_a_run_that_burns_nothing_is_seen_whole(make_run):
+    folder = make_run(fuel_arrival_time=np.full((8, 10), np.nan, np.float32))
+    found = auto_framing.at(folder, folder.parent / "scene.toml", folder.parent / "cache")
+    run = readers.open(folder)
+    run_checks.check(found.settings, run)
+    assert list(found.cameras) == ["overview", "satellite"]
+    view = Shot(found.settings, run).of("overview").paths[0]
+    corners = Shot(found.settings, run).ground.point(run.latitude[[0, -1]], run.longitude[[0, -1]])
+    local = (corners - view.position[0]) @ view.rotation[0]
+    assert (np.abs(local[:, 0] / -local[:, 2]) < view.half[0]).all()
+
+
+def test_a_fire_that_is_over_is_seen_from_afar_alone(tmp_path):
+    folder = whole_run.write(tmp_path / "run", **FIRES["grass"])
+    for name, change in (("fuel_arrival_time", lambda values: values - 1e5), ("heat_flux", np.zeros_like)):
+        np.save(folder / f"{name}.npy", change(np.load(folder / f"{name}.npy")))
+    found = auto_framing.at(folder, tmp_path / "scene.toml", tmp_path / "cache")
+    assert list(found.cameras) == ["overview", "satellite"]
+    assert "nothing burns" in found.window
+
+
+@pytest.mark.parametrize(
+    ("longitude", "name", "hours"),
+    [(9.0, "Etc/GMT-1", 1), (-120.0, "Etc/GMT+8", -8), (0.0, "Etc/GMT", 0), (179.9, "Etc/GMT-12", 12)],
+)
+def test_a_fire_is_told_in_the_time_of_its_place(tmp_path, longitude, name, hours):
+    run = readers.open(whole_run.write(tmp_path / "run", cells=8, at=(42.0, longitude)))
+    assert zone.of(run) == name
+    assert zoneinfo.ZoneInfo(name).utcoffset(None).total_seconds() == 3600.0 * hours
+
+
+def test_a_known_fire_is_told_in_its_own_zone(make_run):
+    assert zone.of(readers.open(make_run())) == "America/Los_Angeles"

@@ -1,0 +1,59 @@
+"""What to work on: a scene file with other things in its place, or a run alone; what ridges do is told."""
+
+import numpy as np
+import pytest
+from firetwin.shot import run_checks
+from firetwin.shot.source import Choice
+from firetwin_core import InputError
+from small_run import FX, FY, small_fields
+
+
+def test_a_choice_is_a_scene_file_with_other_things_in_its_place(make_run, tmp_path):
+    folder = make_run()
+    (tmp_path / "scene.toml").write_text('run = "elsewhere"\n')
+    shot = Choice(str(tmp_path / "scene.toml"), str(folder), str(tmp_path / "c"), "eevee", "cpu").shot()
+    assert shot.run.name == "Small"
+    assert (shot.settings.render.engine, shot.settings.render.device) == ("eevee", "cpu")
+    assert shot.settings.cache == tmp_path / "c"
+    assert not shot.settings.cameras
+    with pytest.raises(InputError, match="elsewhere"):
+        Choice(str(tmp_path / "scene.toml")).shot()
+
+
+def test_a_run_alone_has_cameras_that_fit_it(make_run):
+    shot = Choice(run=str(make_run())).shot()
+    run_checks.check(shot.settings, shot.run)
+    assert [camera.name for camera in shot.settings.cameras] == ["overview", "chase", "flank", "satellite"]
+    assert shot.settings.smoke.method == "flow"
+    assert Choice(run=str(shot.settings.run), smoke="puffs").shot().settings.smoke.method == "puffs"
+    assert Choice(**Choice(run="here", engine="eevee").plain()) == Choice(run="here", engine="eevee")
+
+
+def test_a_camera_that_ridges_hide_is_told_and_stays(make_run, tmp_path):
+    """A ridge stands between a low lookout and the fire."""
+    fields = small_fields()
+    elevation = np.full_like(fields["elevation"], 500.0)
+    elevation[:, 2] = 1500.0
+    arrival = np.full((FY, FX), np.nan, np.float32)
+    arrival[:, 8:] = np.linspace(0.0, 100.0, FY)[:, None]
+    folder = make_run(elevation=elevation, fuel_arrival_time=arrival)
+    scene = tmp_path / "scene.toml"
+
+    def shot(raised):
+        scene.write_text(
+            f'run = "{folder}"\n[time]\nframes = 2\n[terrain]\nnear_radius = 0.0\napron = 0.0\n'
+            f'[[cameras]]\nname = "lookout"\nover_ridges = {raised}\n'
+            'keys = [{latitude = 38.9045, longitude = -120.6, height = 60.0, target = "fire"}]\n'
+        )
+        return Choice(str(scene)).shot()
+
+    low, high = shot("false"), shot("true")
+    above = [s.paths[0].position[0][2] - s.ground.up(*s.paths[0].position[0][:2])[0] for s in (low, high)]
+    assert above[0] == pytest.approx(60.0, abs=1.0)
+    assert above[1] > 500.0
+    (text,) = low.warnings()
+    assert "2 of 2 frames" in text
+    would = float(text.split(";")[1].split()[0].replace(",", ""))
+    assert would == pytest.approx(above[1], abs=1.0)
+    (text,) = high.warnings()
+    assert f"{above[1] - above[0]:,.0f} m higher" in text
