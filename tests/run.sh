@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Sets up, then runs what a change has to pass: format and lint, tests/unit, tests/blender, and a frame of each pass.
+# Sets up, then runs what a change has to pass: format and lint, the documentation, tests/unit, tests/blender, and a
+# frame of each pass.
 # On 2 cores it takes about 5 minutes on a fresh machine and 3 afterwards.
 #
 #   tests/run.sh          that
@@ -25,12 +26,16 @@ pytest() {
 examples/setup.sh --with-tests
 echo "== format and lint"
 tests/lint.sh
+if [[ -x .venv/bin/mkdocs ]]; then
+  echo "== documentation"
+  NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --strict --quiet
+fi
 echo "== unit: no Blender"
 pytest tests/unit
 echo "== blender: scenes"
 pytest tests/blender
 echo "== render: a frame of each pass"
-pytest tests/render/test_passes.py tests/render/test_passes_normal.py tests/render/test_layers.py tests/render/test_beside.py
+pytest tests/render/test_passes.py tests/render/test_passes_normal.py tests/render/test_layers.py tests/render/test_comparison.py
 if $all; then
   tests/slow.sh $((40 * 60 - SECONDS))
 fi

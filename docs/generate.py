@@ -1,0 +1,231 @@
+"""Writes the pages that say what the code says: settings.md and passes_and_cameras.md, beside this file.
+
+``.venv/bin/python docs/generate.py``; a test compares the pages with the code.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+import sys
+from collections.abc import Iterator
+from datetime import datetime
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, get_args
+
+from firetwin.shot import passes
+from firetwin.shot.cameras import rigs
+from firetwin.shot.settings.schema import Key, Part, parts, plain
+from firetwin.shot.settings.settings import Camera, Settings
+
+FOLDER = Path(__file__).parent
+HEAD = "<!-- made by docs/generate.py; change the code, not this page -->\n"
+NAMES = {
+    bool: "true or false",
+    int: "whole number",
+    float: "number",
+    str: "text",
+    Path: "path",
+    datetime: "time",
+}
+
+
+def table(head: tuple[str, ...], rows: Iterator[tuple[str, ...]]) -> str:
+    """A Markdown table."""
+    lines = [head, tuple("---" for _ in head), *rows]
+    return (
+        "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)
+        + "\n"
+    )
+
+
+def value(part: Part) -> str:
+    """A key's default as a scene file writes it."""
+    if part.table:
+        return "none"
+    found = plain(part.type, part.default)
+    if found is None or found == "" or found == []:
+        return "left out"
+    if isinstance(found, bool):
+        return f"`{str(found).lower()}`"
+    return f"`{found}`".replace("'", '"') if not isinstance(found, str) else f'`"{found}"`'
+
+
+def kind(part: Part) -> str:
+    """Type, unit and bounds of a key."""
+    if part.table:
+        return "list of tables" if part.tables else "table"
+    inner = get_args(part.type)
+    name = f"list of {NAMES[inner[0]]}s".replace("texts", "text") if inner else NAMES[part.type]
+    key = part.key
+    bounds = [
+        f"{word} {number:,.12g}"
+        for word, number in (("from", key.at_least), ("above", key.above), ("to", key.at_most))
+        if number is not None
+    ]
+    return ", ".join(each for each in (name, key.unit, " ".join(bounds)) if each)
+
+
+def meaning(key: Key, listed: bool = True) -> str:
+    """A key's help and its choices."""
+    names = key.names() if listed else {}
+    choices = [f'`"{name}"`' + (f" {text}" if text else "") for name, text in names.items()]
+    return key.help + (": " + "; ".join(choices) if choices else "")
+
+
+def keys(found: list[Part]) -> str:
+    """A table of keys; choices that are passes have a page of their own."""
+    rows = (
+        (f"`{p.name}`", value(p), kind(p), meaning(p.key, listed=p.key.choices is not passes.helps))
+        for p in found
+    )
+    out = table(("key", "default", "what it takes", "meaning"), rows)
+    inner = [f"\nEach table of `{p.name}`:\n\n{keys(list(parts(p.table)))}" for p in found if p.table]
+    return out + "".join(inner)
+
+
+def columns(block: str) -> str:
+    """A table of reStructuredText, with columns under its rulers, as Markdown."""
+    ruler, head, _, *rows, _ = block.splitlines()
+    starts = [found.start() for found in re.finditer("=+", ruler)]
+    cells = [tuple(line[a:b].strip() for a, b in pairwise([*starts, None])) for line in (head, *rows)]
+    return table(cells[0], iter(cells[1:]))
+
+
+def prose(text: str | None, module: str = "") -> str:
+    """A docstring as Markdown: tables as they stand, ``code`` in single quotes, no places in the code."""
+    blocks = [block for block in re.split(r"\n\n+", inspect.cleandoc(text or ""))]
+    blocks = [columns(block) if block.startswith("===") else block.replace("``", "`") for block in blocks]
+    return "\n\n".join(re.sub(r"\s*\((?:see `[\w.]+`|`[a-z_]+\.[\w.]+`)\)", "", block) for block in blocks)
+
+
+def settings() -> str:
+    """Every section of a scene file with its keys."""
+    sections = [part for part in parts(Settings) if part.table]
+    own = [part for part in parts(Settings) if not part.table]
+    out = [
+        HEAD,
+        "# Settings\n",
+        SETTINGS,
+        "## At the top\n",
+        keys(own),
+    ]
+    for part in sections:
+        name = f"[[{part.name}]]" if part.tables else f"[{part.name}]"
+        inner = [each for each in parts(part.table) if not each.key.kinds]
+        out += [
+            f"## `{name}`\n",
+            f"{sentence(inspect.cleandoc(part.table.__doc__ or part.key.help))}\n",
+            keys(inner),
+        ]
+        if part.table is Camera:
+            out.append(
+                "Keys of each kind of camera are on the page [Passes and cameras](passes_and_cameras.md).\n"
+            )
+    return "\n".join(out)
+
+
+def sentence(text: str) -> str:
+    """A text with a full stop."""
+    text = text.strip()
+    return text[:1].upper() + text[1:] + ("" if text.endswith(".") else ".")
+
+
+def pass_section(each: passes.Pass) -> str:
+    """One pass."""
+    files = [passes.file_of("CAMERA", each.name, 1, suffix) for suffix in each.files]
+    facts = [f"Files: {', '.join(f'`{file}`' for file in files)}"]
+    if each.made_from:
+        facts.append(f"Made from: {', '.join(f'[`{name}`](#{name})' for name in each.made_from)}")
+    if each.leaves_out:
+        facts.append(f"Leaves out: {', '.join(each.leaves_out)}")
+    if each.samples:
+        facts.append(f"Rays per pixel: {each.samples}")
+    facts += ["A film is made of it"] if each.filmed else []
+    facts += ["Not for cameras that see all round"] if each.flat else []
+    facts += ["Compares the runs of `[[runs]]`"] if each.compares else []
+    text = prose(sys.modules[f"{passes.__name__}.{each.name}"].__doc__)
+    return f"### {each.name}\n\n{text}\n\n" + "\n".join(f"- {fact}." for fact in facts) + "\n"
+
+
+def rig_section(name: str, rig: type) -> str:
+    """One kind of camera."""
+    texts = (prose(sys.modules[rig.__module__].__doc__), prose(rig.__doc__), keys(list(parts(rig))))
+    return "\n\n".join((f"### {name}", *texts))
+
+
+SETTINGS = """\
+A scene file is TOML. Each section below is a table of it, and each key has a default.
+`examples/king_fire.toml` shows and explains every key. `firetwin new RUN -o my_scene.toml` writes a short
+one. Lengths are metres and angles degrees. Relative paths start at the scene file's folder.
+
+`firetwin schema > firetwin.json` and a first line `#:schema firetwin.json` let a TOML editor complete and
+check a scene file. A section that has got another name is read under its former name, with a note:
+`[ground]` is now `[terrain]`, `[places]` is `[labels]`.
+"""
+
+PASSES = """\
+A pass is one kind of picture that a camera records. `[render] passes` names those of all cameras; a
+camera's own `passes` come instead. A file in `addon/shot/passes/` is one pass. EXR files have 32 bits a
+number; `rgb` has them scene-linear.
+
+`fused`, `split` and `difference` need matplotlib. `imager_short` and `imager_long` are ABI's for a
+satellite over the equator, else VIIRS's; no satellite took such a picture in 2014. `pose` with `rgb` also
+writes an index for nerfstudio, `CAMERA/transforms.json`. `thermal_map` and `edl` follow the FIRETWIN paper.
+`normal` and `masks` take one more render, of one ray a pixel. The `[thermal]` section sets the band (8 to
+14 or 3.4 to 4.1 µm), the palette and the detector's flaws.
+
+Compositor groups for films of your own give what the passes give from files, within 1e-5: *Firetwin Thermal
+Blend*, *Thermal Camera*, *Eye Dome* and *Overlay*. They are in every scene that is built.
+"""
+
+CAMERAS = """\
+`kind` of `[[cameras]]` names one of these; a file in `addon/shot/cameras/rigs/` is one. Lenses and chips
+are in millimetres. Keys have handles that can be moved in Blender.
+
+A drone looks ahead, at a point or at the fire, and stays above its clearance. It flies from key to key or
+along a GPX, KML or CSV track. `firetwin track SCENE.toml --camera NAME --out FILE.gpx` writes a camera's
+way; a drone with `track = "FILE.gpx"` flies it again. Heights of tracks count from the datum of the run's
+elevations.
+
+`vr` needs Cycles. The left eye's equirectangular picture lies above the right one's. Stills say so in XMP
+(GPano), films in `st3d` and `sv3d`. A `satellite` looks straight down and to scale from above all smoke, or
+from its longitude over the equator in perspective.
+
+Three examples, each one command, write into `examples/out/NAME`. `examples/film.sh drone_feed` gives all
+feeds of a drone's mount, with their fused view, sidecars and masks. `examples/film.sh satellite` gives the
+whole run from space, in true colour and both bands. `examples/film.sh vr` gives a clip for headsets.
+`examples/rigs.toml` has one of each of the other cameras. All four film the synthetic sample run.
+"""
+
+
+def passes_and_cameras() -> str:
+    """Every pass and every kind of camera."""
+    known, kinds = passes.known(), rigs.kinds()
+    return "\n".join(
+        [
+            HEAD,
+            "# Passes and cameras\n",
+            "## Passes\n",
+            PASSES,
+            table(("pass", "what a camera records"), ((f"[`{n}`](#{n})", p.help) for n, p in known.items())),
+            *(pass_section(each) for each in known.values()),
+            "## Cameras\n",
+            CAMERAS,
+            *(rig_section(name, rig) for name, rig in kinds.items()),
+        ]
+    )
+
+
+PAGES: dict[str, Any] = {"settings.md": settings, "passes_and_cameras.md": passes_and_cameras}
+
+
+def pages() -> dict[str, str]:
+    """Text of each page by its name."""
+    return {name: make().rstrip("\n") + "\n" for name, make in PAGES.items()}
+
+
+if __name__ == "__main__":
+    for name, text in pages().items():
+        (FOLDER / name).write_text(text, encoding="utf-8")
