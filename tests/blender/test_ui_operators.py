@@ -124,6 +124,7 @@ def call(name, options, folder):
     return getattr(bpy.ops.firetwin, name)("EXEC_DEFAULT", True, **filled)
 
 
+@pytest.mark.slow  # every operator, undone and redone
 def test_undo_and_redo_go_round_every_operator(panel, blend, tmp_path, monkeypatch):
     """What an operator changes comes back with undo and again with redo; others change nothing."""
     assert {*CHANGES, *KEEPS, *LISTENS} == set(OPERATORS)
