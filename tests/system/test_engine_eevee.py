@@ -35,7 +35,7 @@ import bpy
 import numpy as np
 from firetwin.blender import compat, nodes, owned
 from firetwin.scene import infrared
-from firetwin.shot import file
+from firetwin.shot.settings import scene_file as file
 from firetwin.shot.shot import Shot
 from firetwin_core import run, sensor
 

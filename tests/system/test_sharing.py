@@ -193,7 +193,7 @@ def test_a_changed_source_of_the_smoke_makes_what_shows_smoke_again(render, pack
     out = tmp_path / "out"
     render(out, smoke="true")
     before, cache = _made(out), set((tmp_path / "cache").iterdir())
-    source = package / "firetwin" / "scene" / "smoke" / "stability.py"
+    source = package / "firetwin" / "smoke" / "stability.py"
     source.write_text(source.read_text() + "\nMORE = 1\n")
     render(out, smoke="true")
     again = _passes(before, _made(out))
