@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from firetwin_core import terrain
 from numpy.typing import NDArray
 
 from ...errors import input_error
@@ -60,14 +61,13 @@ class _Places:
 
     def between(self, values: NDArray) -> NDArray[np.float32]:
         """Bilinear between the middles of cells; those at the edge go on outwards."""
-        found = values.astype(np.float64)
-        for axis, share in enumerate((self.up, self.across)):
-            at = np.clip(share * values.shape[axis] - 0.5, 0, values.shape[axis] - 1)
-            low = np.minimum(at.astype(int), max(values.shape[axis] - 2, 0))
-            high = np.minimum(low + 1, values.shape[axis] - 1)
-            part = np.expand_dims(at - low, 1 - axis)
-            found = found.take(low, axis) * (1.0 - part) + found.take(high, axis) * part
-        return found.astype(np.float32)
+        row, column = (
+            np.clip(share * count - 0.5, 0, count - 1)
+            for share, count in zip((self.up, self.across), values.shape, strict=True)
+        )
+        places = np.meshgrid(row, column, indexing="ij")
+        found = terrain.bilinear(values.astype(np.float64), *(each.ravel() for each in places))
+        return found.reshape(places[0].shape).astype(np.float32)
 
 
 def take(
