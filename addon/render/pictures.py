@@ -43,7 +43,7 @@ def render(
         Its note is the picture of the last frame, relative to the output folder.
     ready
         Called before each frame, with the frames that come after it: what the frame shows has to be on the
-        disk when this returns, or is what it returns (see `scene.smoke.ahead`).
+        disk when this returns, or is what it returns (see `smoke.prefetch`).
     tell
         Told what an artist should know of the pictures.
 

@@ -2,7 +2,7 @@
 
 ``store.sqlite`` holds for every finished file its size, its SHA-256 and the fingerprint of the settings that
 made it, and for every fingerprint these settings in full. Several renders, also of several machines, may
-share a folder (see `claims`). ``manifest.json`` tells the same for people and other programs.
+share a folder (see `leases`). ``manifest.json`` tells the same for people and other programs.
 """
 
 from __future__ import annotations

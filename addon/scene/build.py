@@ -16,7 +16,7 @@ from .camera import build as camera
 from .fire import build as fire
 from .forest import build as forest
 from .forest import stand
-from .labels import build as places
+from .labels import build as labels
 from .light import build as light
 from .smoke import build as smoke
 from .terrain import build as ground
@@ -92,7 +92,7 @@ def steps(
         "smoke": lambda: smoke.build(shot.whole, stage()),
         "light": lambda: [tell(text) for text in light.build(shot.whole, stage())],
         "cameras": lambda: camera.build(shot, stage()),
-        "labels": lambda: places.build(shot, stage()),
+        "labels": lambda: labels.build(shot, stage()),
     }
     for part, text in PARTS.items():
         if part in parts:

@@ -6,9 +6,9 @@ the direct sun S (`shot.sun.direct`) on a surface that faces it, less 70 W/m2 of
 a clear sky; h is 30 W m-2 K-1 for bare ground and 80 for crowns, which stay within some kelvin of the air
 (both assumed). Shadows of ridges and trees do not cool the ground.
 
-Burned ground cools by `shot.temperature.cooling`: 97 K above the rest after ten minutes, 38 K after an hour,
-19 K after four, where timber burned for two minutes; 12 K after ten minutes
-where grass burned for a quarter of one. Flames are 1000-1500 K (Frankman et al. 2008); a pixel of the burning
+Burned ground cools by `shot.air_temperature.cooling`: 97 K above the rest after ten minutes, 38 K after
+an hour, 19 K after four, where timber burned for two minutes; 12 K after ten minutes where grass burned for a
+quarter of one. Flames are 1000-1500 K (Frankman et al. 2008); a pixel of the burning
 edge mixes flames with gaps, so they are drawn at 1000-1200 K.
 """
 

@@ -16,8 +16,7 @@ from ..errors import UsageError
 from ..progress import Progress, silent
 from ..run import content, times, zone
 from ..run.frame import local_frame
-from . import air_temperature, frames, passes
-from . import smoke_scale as scale
+from . import air_temperature, frames, passes, smoke_scale
 from .cameras import path
 from .cameras.path import SENSOR, Path
 from .fire import burning, flame_depth
@@ -85,8 +84,8 @@ class Shot:
     @cached_property
     def scale(self) -> Scale:
         """How fine the air over the fire is solved, and its smoke drawn."""
-        long = scale.extent(self.run, self.arrival, self.frames.first, self.frames.last)
-        return scale.choose(long, max(burning.fuel_cell(self.run)), self.settings.smoke.cell_budget)
+        long = smoke_scale.extent(self.run, self.arrival, self.frames.first, self.frames.last)
+        return smoke_scale.choose(long, max(burning.fuel_cell(self.run)), self.settings.smoke.cell_budget)
 
     @property
     def spin_up(self) -> float:

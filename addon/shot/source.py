@@ -20,7 +20,7 @@ class Choice:
     Attributes
     ----------
     scene
-        Scene file. Without one settings are fitted to the run (see `fitted`).
+        Scene file. Without one settings are fitted to the run (see `auto_framing`).
     run, cache
         Folders in place of the scene file's.
     engine, device
@@ -68,16 +68,15 @@ class Choice:
         """
         from ..errors import UsageError
         from ..run import readers
-        from . import comparison as beside
-        from . import run_checks
+        from . import comparison, run_checks
         from .shot import Shot
 
         settings = self.settings()
         run = readers.open(settings.run)
         run_checks.check(settings, run)
         shot = Shot(settings, run)
-        beside.check(settings, run, shot.others)
+        comparison.check(settings, run, shot.others)
         if self.beside and self.beside not in shot.others:
             names = ", ".join(shot.others) or "none"
             raise UsageError(f'--run: there is no "{self.beside}" in [[runs]]; the scene has {names}')
-        return beside.Beside(shot, self.beside) if self.beside else shot
+        return comparison.Beside(shot, self.beside) if self.beside else shot

@@ -112,7 +112,7 @@ def check(path: Path, size: int) -> None:
 
 
 def _kept(folder: Path) -> Kept:
-    """A folder's volumes; of those that lie in several folders (see `alone`) each has its part."""
+    """A folder's volumes; of those that lie in several folders (see `shared_frames`) each has its part."""
     states = [path.stat() for path in folder.iterdir() if _OURS.fullmatch(path.name)]
     size = sum(state.st_size // max(state.st_nlink, 1) for state in states)
     return Kept(folder, size, folder.stat().st_mtime)

@@ -1,9 +1,9 @@
 """Smoke as a flow of the air, solved once per shot and kept at the moments of its frames. Needs no Blender.
 
 It is solved from `Shot.spin_up` seconds before the first frame on a box round the fire, and a while before
-it also on a finer one where cameras look (see `boxes`). What it is made of are the model's own heat and the
-smoke that goes with it; wind, temperature and water around are those of `air`. Nothing that it depends on
-but the finer box comes from the cameras.
+it also on a finer one where cameras look (see `domains`). What it is made of are the model's own heat and the
+smoke that goes with it; wind, temperature and water around are those of `atmosphere`. Nothing that it depends
+on but the finer box comes from the cameras.
 
 Moments lie in ``<cache>/<key>/moment_000001.npz``, one folder for each box, and beside them `solving.STATE`,
 from which solving goes on where it was interrupted. Both are the same to the last byte however often it was.

@@ -23,7 +23,7 @@ _TICK = 0.5  # s between two looks
 _SHOWN = 6  # thumbnails
 
 Run = Callable[..., int]
-"""What renders: `standing.run`."""
+"""What renders: `render_blend.run`."""
 
 
 @dataclass

@@ -36,10 +36,11 @@ def loads(category: NDArray, table: str = "standard") -> NDArray[np.float32]:
 
 
 def burn_out(category: NDArray) -> NDArray[np.float32]:
-    """Seconds from the front's arrival until a spot has burned out, in `heat`'s form, by fuel model.
+    """Seconds from the front's arrival until a spot has burned out, by fuel model.
 
-    Three mean burning times of WRF-SFIRE (weight / 0.85): that form's mean is a third of its end. Scott and
-    Burgan's models take those of Anderson's of the same kind: grass 7, shrubs 100, timber and slash 900 s.
+    The form is that of `heat_from_intensity`. Three mean burning times of WRF-SFIRE (weight /
+    0.85): that form's mean is a third of its end. Scott and Burgan's models take those of Anderson's of the
+    same kind: grass 7, shrubs 100, timber and slash 900 s.
     """
     weight = dict(enumerate(_WEIGHT, 1))
     kinds = {10: 7, 12: 7, 14: 100, 16: 900, 18: 900, 20: 900}

@@ -16,8 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import Error, input_error
-from . import dates
-from . import infrared_detections as heat
+from . import dates, infrared_detections
 from .feature import Feature, Polygon
 
 __all__ = [
@@ -75,7 +74,7 @@ class Heat:
     time
         UTC.
     kind
-        One of `heat.KINDS`.
+        One of `infrared_detections.KINDS`.
     polygons
         As those of a perimeter.
     points
@@ -209,10 +208,10 @@ def _sorted(
     hot: dict[tuple[datetime, str], list[Feature]] = {}
     left = 0
     for feature in features:
-        kind = heat.kind(path, feature)
-        if kind in heat.KINDS and (feature.polygons or len(feature.points)):
+        kind = infrared_detections.kind(path, feature)
+        if kind in infrared_detections.KINDS and (feature.polygons or len(feature.points)):
             hot.setdefault((moment or dates.of(path, feature, assumptions), kind), []).append(feature)
-        elif kind in ("", heat.PERIMETER) and feature.polygons:
+        elif kind in ("", infrared_detections.PERIMETER) and feature.polygons:
             when = moment or dates.of(path, feature, assumptions)
             burned.setdefault(when, []).extend(feature.polygons)
         else:

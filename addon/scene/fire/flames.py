@@ -202,8 +202,8 @@ def _whole(place: Array, length: Array, shot: Shot) -> NDArray[np.bool_]:
 def torches(shot: Shot, grown: Stand) -> Points:
     """Crowns of the stand that flare up when the front reaches them: tall, thin and short-lived.
 
-    Of the crowns that burn (`fate`) the denser the canopy the more flare up, for half a minute to a minute
-    and up to twice the tree's height (assumed).
+    Of the crowns that burn (`fire_effects`) the denser the canopy the more flare up, for half a minute
+    to a minute and up to twice the tree's height (assumed).
     """
     ground, (first, last) = shot.ground, shot.moments[[0, -1]]
     near = np.flatnonzero((grown.distance < _TORCH_SIGHT) & (grown.height > 6.0))

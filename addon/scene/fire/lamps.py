@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...shot.cameras.path import Path
-from ...shot.fire import heat_release as heat
+from ...shot.fire import heat_release
 from ...shot.light import exposure
 from ...shot.shot import Shot
 
@@ -80,8 +80,8 @@ def place(shot: Shot) -> Lamps:
     position, power, moment, distance = position[lit], power[lit], moment[lit], distance[lit]
     weight = power / (distance**2 + size(_NEAR) ** 2)
     merged = np.full(len(weight), -1)
-    spots = heat.Sources(position, weight, weight, 0.0 * weight, merged, merged)
-    whole = heat.lights(spots, size(_BLOCK), 1_000_000)
+    spots = heat_release.Sources(position, weight, weight, 0.0 * weight, merged, merged)
+    whole = heat_release.lights(spots, size(_BLOCK), 1_000_000)
     centre = _centres(whole.position, whole.power, shot.settings.light.lamps, shot.settings.seed)
     gap = _gaps(position, centre)
     share = 1.0 / (gap + size(_SHARED) ** 2) ** 3
@@ -98,13 +98,13 @@ def place(shot: Shot) -> Lamps:
     )
 
 
-def _around(sources: heat.Sources, near: list[Path], block: float) -> heat.Sources:
+def _around(sources: heat_release.Sources, near: list[Path], block: float) -> heat_release.Sources:
     """Sources near the cameras, those close together merged."""
     kept = np.zeros(len(sources.power), bool)
     for view in near:
         low, high = view.position[:, :2].min(0) - _REACH, view.position[:, :2].max(0) + _REACH
         kept |= ((sources.position[:, :2] > low) & (sources.position[:, :2] < high)).all(axis=1)
-    return heat.lights(sources.take(np.flatnonzero(kept)), block, len(kept) * 4 + 1)
+    return heat_release.lights(sources.take(np.flatnonzero(kept)), block, len(kept) * 4 + 1)
 
 
 def moments(shot: Shot) -> Array:

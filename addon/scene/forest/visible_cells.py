@@ -25,7 +25,7 @@ def counting(
     elevation: NDArray,
     among: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.bool_]:
-    """Cells (fy, fx) of a grid where a plant of at most this height (m) may count, as in `seen.visible`.
+    """Cells (fy, fx) of a grid where a plant of at most this height (m) may count (`visibility.visible`).
 
     Parameters
     ----------

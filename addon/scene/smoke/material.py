@@ -116,7 +116,7 @@ def glow_inputs(tree: nodes.Tree, shot: Shot) -> tuple[nodes.Value, nodes.Value]
 
 
 def glowing(density: nodes.Value) -> nodes.Value:
-    """Part of the flames' light that smoke of this extinction (1/m) gives on, as `meter` counts it."""
+    """Part of the flames' light that smoke of this extinction (1/m) gives on, also to the exposure meter."""
     return density.ramp(*sky.THICK, sky.THIN, 1.0)
 
 

@@ -1,6 +1,6 @@
 """Hot spots of the infrared picture over the visible one: where it is hotter than 350 K, in full from 450 K.
 
-Sunlit ground stays below, and what burned minutes ago shows faintly (see `shot.temperature.cooling`); the two
+Sunlit ground stays below, and what burned minutes ago shows faintly (`shot.air_temperature.cooling`); the two
 temperatures are chosen by eye. The palette is an ironbow-like one over the scale of the thermal picture.
 """
 

@@ -9,7 +9,8 @@ both as [thermal]'s detector measures them; and `signal`, its counts, where it h
 temperatures by a palette, spread towards the cold end, with a bar of temperatures.
 
 The palette begins at the coldest that level ground or air is at the moment (a tenth of the air is colder; see
-`temperature.coldest_ground`): by day the air, by night stone, which has cooled below it and mirrors the sky.
+`air_temperature.coldest_ground`): by day the air, by night stone, which has cooled below it and mirrors the
+sky.
 That hangs on the run, the time and the band alone: nights and noons of one film show their relief alike, and
 nothing that comes into view or flares up changes the colours. `thermal_low` holds it in one place, where
 colours are to mean the same all through.

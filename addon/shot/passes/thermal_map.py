@@ -2,9 +2,9 @@
 
 The run's `temperature` is averaged over ten minutes, or the time between two frames where that is longer. The
 gradient black, purple, red, orange, yellow, white shows how much warmer that air is than unburned air as
-high (`shot.temperature.warmth`): the paper does not say where its gradient begins, and over the whole field
-cold ridges and warm valleys would take up most of it, and redden all that does not burn. Black is what a
-hundredth of the unburned cells are above, white the warmest of the shot, so that colours mean the same in
+high (`shot.air_temperature.warmth`): the paper does not say where its gradient begins, and over the whole
+field cold ridges and warm valleys would take up most of it, and redden all that does not burn. Black is what
+a hundredth of the unburned cells are above, white the warmest of the shot, so that colours mean the same in
 every frame. The colour where the ground is seen, by the depth, is added to the picture's pixels (0..1) and
 held at 1. It is the model's air, not what an infrared camera sees.
 """
