@@ -7,12 +7,15 @@ import contextlib
 import importlib
 import io
 import json
+import mmap
 import os
 import resource
 import shutil
 import signal
+import struct
 import subprocess
 import sys
+import time
 import warnings
 from pathlib import Path
 from typing import NamedTuple
@@ -27,7 +30,10 @@ CUTS = (0.0, 0.01, 0.3, 0.6, 0.9, 0.999)
 """Of its length."""
 
 MEMORY = 6 << 30  # bytes that a process may take
-SECONDS = 60  # of the processor, after which a conversion counts as one that never ends
+SECONDS = 20  # of the processor, after which a conversion counts as one that never ends
+SILENT = 10  # s of those without a heartbeat: a library hangs, and `convert.PATIENCE` ends that
+
+_heartbeat = mmap.mmap(-1, 8)  # the last one in processor seconds; shared with the processes forked
 
 
 class End(NamedTuple):
@@ -167,9 +173,10 @@ def _convert(paths, options, folder):
     from firetwin import cli
     from firetwin.jobs import convert
     from firetwin.run import info, readers, zone
+    from firetwin.run.models import heartbeat
 
     out, said = folder / "out", io.StringIO()
-    with contextlib.redirect_stderr(said):
+    with contextlib.redirect_stderr(said), heartbeat.to(_beat):
         try:
             if options is None:
                 run = readers.open(paths[0].parent)
@@ -182,6 +189,16 @@ def _convert(paths, options, folder):
             if options is not None and (out / "run.toml").exists():
                 said.write(" (and yet there is a run)")
     return said.getvalue()
+
+
+def _beat():
+    _heartbeat[:] = struct.pack("d", time.process_time())
+
+
+def _hangs(kind, used):
+    """What is wrong with a conversion that never ended: one that gives no heartbeat is ended by its parent."""
+    silent = used - struct.unpack("d", _heartbeat)[0]
+    return "" if kind != "folder" and silent > SILENT else "hangs"
 
 
 def _main(kind, folder, count, seed):
@@ -207,7 +224,8 @@ def _main(kind, folder, count, seed):
             path.write_bytes(data)
             said, status = _forked(paths, asked, folder)
             ended = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
-            wrong = polite.rude(said) if not ended else "hangs" if ended == signal.SIGXCPU else ""
+            hangs = ended in (signal.SIGXCPU, signal.SIGKILL)
+            wrong = polite.rude(said) if not ended else _hangs(kind, SECONDS) if hangs else ""
             if wrong:
                 kept = Path("build/fuzz/findings") / f"{kind}-{seed}-{path.name}"
                 kept.parent.mkdir(parents=True, exist_ok=True)
@@ -219,6 +237,7 @@ def _main(kind, folder, count, seed):
 
 def _forked(paths, options, folder):
     """What was said in a process of its own, and how that ended."""
+    _heartbeat[:] = bytes(8)
     ear, mouth = os.pipe()
     pid = os.fork()
     if pid == 0:
