@@ -196,7 +196,7 @@ def _beat():
 
 
 def _hangs(kind, used):
-    """What is wrong with a conversion that never ended: one that gives no heartbeat is ended by its parent."""
+    """What is wrong with a conversion that never ended; its parent ends one without a heartbeat."""
     silent = used - struct.unpack("d", _heartbeat)[0]
     return "" if kind != "folder" and silent > SILENT else "hangs"
 
