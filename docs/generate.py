@@ -138,13 +138,13 @@ def pass_section(each: passes.Pass) -> str:
     facts = [f"Files: {', '.join(f'`{file}`' for file in files)}"]
     if each.made_from:
         facts.append(f"Made from: {', '.join(f'[`{name}`](#{name})' for name in each.made_from)}")
-    if each.leaves_out:
-        facts.append(f"Leaves out: {', '.join(each.leaves_out)}")
-    if each.samples:
+    if isinstance(each, passes.RenderedPass) and each.excludes:
+        facts.append(f"Leaves out: {', '.join(each.excludes)}")
+    if isinstance(each, passes.RenderedPass) and each.samples:
         facts.append(f"Rays per pixel: {each.samples}")
-    facts += ["A film is made of it"] if each.filmed else []
-    facts += ["Not for cameras that see all round"] if each.flat else []
-    facts += ["Compares the runs of `[[runs]]`"] if each.compares else []
+    facts += ["A film is made of it"] if each.film else []
+    facts += ["Not for cameras that see all round"] if each.single_view else []
+    facts += ["Compares the runs of `[[runs]]`"] if isinstance(each, passes.ComparisonPass) else []
     text = prose(sys.modules[f"{passes.__name__}.{each.name}"].__doc__)
     return f"### {each.name}\n\n{text}\n\n" + "\n".join(f"- {fact}." for fact in facts) + "\n"
 

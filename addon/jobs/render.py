@@ -164,7 +164,7 @@ def in_blender(
 
     shot = Choice(**choice).shot()
     asked = [Picture(*picture) for picture in pictures]
-    todo = [picture for picture in asked if not passes.known()[picture.name].compares]
+    todo = [picture for picture in asked if not passes.compares(picture.name)]
     drawn = set(todo)
     if todo:
         _check_device(shot)
@@ -299,7 +299,8 @@ def smoky(shot: Shot, wanted: list[Any]) -> list[int]:
         name
         for name in {picture.name for picture in wanted}
         if any(
-            "smoke" in known[each].shows for _, each in plan.seen(shot, [p for p in wanted if p.name == name])
+            "smoke" in known[each].aspects
+            for _, each in plan.seen(shot, [p for p in wanted if p.name == name])
         )
     }
     return sorted({picture.frame for picture in wanted if picture.name in smoky})

@@ -44,7 +44,7 @@ def run(
 
     shot = choice.shot()
     planned = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
-    wanted = [each for each in planned if "@" not in each.camera and not passes.known()[each.name].compares]
+    wanted = [each for each in planned if "@" not in each.camera and not passes.compares(each.name)]
     with blend.open("rb") as file:
         digest = hashlib.file_digest(file, "sha256").hexdigest()
     made_with = _made_with(digest, wanted)
@@ -69,7 +69,7 @@ def _made_with(digest: str, wanted: list[Any]) -> dict[tuple[str, str], dict[str
     from ..shot import passes
 
     pairs = {(p.camera, p.name) for p in wanted}
-    pairs |= {(camera, need) for camera, name in pairs for need in passes.known()[name].needs}
+    pairs |= {(camera, need) for camera, name in pairs for need in passes.known()[name].made_from}
     about = {"versions": versions(), "blend": digest}
     return {(camera, name): {**about, "camera": camera, "pass": name} for camera, name in sorted(pairs)}
 

@@ -36,7 +36,7 @@ def _finish(shot: Shot, making: Making, part: Path, picture: Picture) -> None:
     each, out = passes.known()[picture.name], making.store.out
     labels = [run.name for run in shot.settings.runs]
     needed = {name: _files(picture, picture.camera, name, out) for name in each.made_from}
-    for name, label in itertools.product(each.across, labels):
+    for name, label in itertools.product(each.needs_of_all, labels):
         needed[passes.view_of(name, label)] = _files(
             picture, passes.view_of(picture.camera, label), name, out
         )

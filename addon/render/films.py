@@ -26,7 +26,7 @@ def missing(shot: Shot, store: Store, made_with: Fingerprints) -> Iterator[Film]
     """
     if not shot.settings.render.video:
         return
-    filmed = [each.name for each in passes.known().values() if each.filmed]
+    filmed = [each.name for each in passes.known().values() if each.film]
     for camera in shot.views:
         for name in filmed:
             if (camera, name) not in made_with:

@@ -44,7 +44,7 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
     run
         Hashes of the run's fields.
     """
-    aspects = passes.known()[name].aspects
+    aspects = passes.known()[name].all_aspects
     (mine,) = (each for each in settings.cameras if each.name == camera)
     leader = mine.rig.leader(settings.cameras)
     cameras = [mine] if leader is None else [mine, leader]
@@ -79,7 +79,7 @@ def _modules(name: str) -> list[str]:
     helpers = map(str, sorted(Path(passes.__file__).parent.glob("_[a-z]*.py")))
     return [
         file,
-        *each.sources,
+        *each.code,
         *(helpers if each.finish else ()),
         *(module for need in each.made_from for module in _modules(need)),
     ]
@@ -126,7 +126,7 @@ def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silen
 def _beside(shot: Shot, name: str, progress: Progress) -> dict[str, Any]:
     """What a pass shows of other runs than its own."""
     each = passes.known()[name]
-    if not each.compares and not (shot.settings.fire.fronts and "fire" in each.aspects):
+    if not passes.compares(name) and not (shot.settings.fire.fronts and "fire" in each.all_aspects):
         return {}
     cache = shot.settings.cache
     found = {label: content.inputs(run, cache, (), progress) for label, run in shot.neighbours().items()}

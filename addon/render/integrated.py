@@ -106,8 +106,8 @@ class Drawing:
             known, halves = passes.known()[picture.name], []
             for number, found in eyes:
                 channels = found[picture.name]
-                pixels = channels["Combined" if known.output == "Image" else known.output]
-                if known.masks:
+                pixels = channels["Combined" if known.socket == "Image" else known.socket]
+                if passes.records_masks(known):
                     clear = Eye(self.shot, self.stage, channels, number, smoke).transmittance()
                     pixels = pixels * clear[..., None]
                 halves.append(pixels)

@@ -15,7 +15,7 @@ import bpy
 from ..blender import compat, nodes, owned
 from ..blender.owned import Stage
 from ..shot import passes
-from ..shot.passes import Pass
+from ..shot.passes import Pass, RenderedPass
 from ..shot.settings.settings import Settings
 from . import groups
 from .picture import Picture
@@ -34,11 +34,11 @@ def build(settings: Settings, stage: Stage) -> None:
     mend(stage.scene)
     for each in _rendered():
         layer = _layer(stage.scene, each)
-        layer[nodes.THERMAL] = 1.0 if each.data else 0.0
-        layer[nodes.MASKS] = 1.0 if each.masks else 0.0
-        layer.cycles.use_denoising = not each.data and settings.render.denoise
-        if each.enable:
-            setattr(layer, each.enable, True)
+        layer[nodes.THERMAL] = 0.0 if each.shading == "light" else 1.0
+        layer[nodes.MASKS] = 1.0 if each.shading == "masks" else 0.0
+        layer.cycles.use_denoising = each.shading == "light" and settings.render.denoise
+        if each.layer_property:
+            setattr(layer, each.layer_property, True)
         layer.use = still(each) or each.name in settings.render.passes
         layer.samples = each.samples or 0
         _leave_out(layer, each, None)
@@ -121,11 +121,11 @@ def select(scene: bpy.types.Scene, names: Iterable[str]) -> None:
 
 @contextmanager
 def plain(scene: bpy.types.Scene, names: Iterable[str]) -> Iterator[None]:
-    """Within, layers of passes that show shapes alone draw all in black: no material costs any time.
+    """Within, layers of passes that show geometry alone draw all in black: no material costs any time.
 
     Ours that these layers see let nothing through. Where there are materials of an artist's they stay.
     """
-    shapes = {f"pass {name}" for name in names if passes.known()[name].shapes}
+    shapes = {f"pass {name}" for name in names if _geometry_only(name)}
     found = [layer for layer in scene.view_layers if layer.get(owned.MARK) in shapes]
     if not found or not all(owned.ours(each) for each in bpy.data.materials if each.users):
         yield
@@ -159,12 +159,17 @@ def still(each: Pass) -> bool:
     return "png" in each.files and each.finish is None
 
 
-def _rendered() -> list[Pass]:
+def _rendered() -> list[RenderedPass]:
     """Passes with a view layer."""
-    return [each for each in passes.known().values() if each.output]
+    return [each for each in passes.known().values() if isinstance(each, RenderedPass)]
 
 
-def _layer(scene: bpy.types.Scene, each: Pass) -> bpy.types.ViewLayer:
+def _geometry_only(name: str) -> bool:
+    each = passes.known()[name]
+    return isinstance(each, RenderedPass) and each.geometry_only
+
+
+def _layer(scene: bpy.types.Scene, each: RenderedPass) -> bpy.types.ViewLayer:
     """The view layer of a pass: there already, else the one that a new scene begins with, else a new one."""
     what = f"pass {each.name}"
     for layer in scene.view_layers:
@@ -176,12 +181,12 @@ def _layer(scene: bpy.types.Scene, each: Pass) -> bpy.types.ViewLayer:
     return owned.mark(layer, what)
 
 
-def _leave_out(layer: bpy.types.ViewLayer, each: Pass, parts: Collection[str] | None) -> None:
+def _leave_out(layer: bpy.types.ViewLayer, each: RenderedPass, parts: Collection[str] | None) -> None:
     """Exclude the collections that a pass does not see: of these parts, None: of all."""
     for child in _parts(layer):
         part = str(child.collection[owned.MARK]).lower()
         if parts is None or part in parts:
-            child.exclude = part in each.leaves_out or (each.data and part == "labels")
+            child.exclude = part in each.excludes or (each.shading != "light" and part == "labels")
 
 
 def _parts(layer: bpy.types.ViewLayer) -> Iterator[bpy.types.LayerCollection]:
@@ -211,34 +216,34 @@ def _compositor(scene: bpy.types.Scene) -> None:
                 owned.mark(node, node.get(owned.MARK, ""))
 
 
-def _record(scene: bpy.types.Scene, tree: bpy.types.NodeTree, each: Pass) -> None:
+def _record(scene: bpy.types.Scene, tree: bpy.types.NodeTree, each: RenderedPass) -> None:
     """From a pass's view layer to its EXR, and to the picture that is shown."""
     source = tree.nodes.new(SOURCE)
     source.scene = scene
     source.layer = of_pass(scene, each.name).name
-    image = source.outputs[each.output]
+    image = source.outputs[each.socket]
     if still(each):
         image = compat.bloom(tree, image, Threshold=2.0, Maximum=20.0, Strength=0.25)
         compat.composite(tree, image)
-    if each.channels == "grey" and each.output == "Image":
+    if each.channels == "grey" and each.socket == "Image":
         parts = tree.nodes.new("CompositorNodeSeparateColor")  # all channels hold the same number
         tree.links.new(image, parts.inputs[0])
         image = parts.outputs[0]
     _file(tree, each, image)
 
 
-def _file(tree: bpy.types.NodeTree, each: Pass, image: bpy.types.NodeSocket) -> None:
+def _file(tree: bpy.types.NodeTree, each: RenderedPass, image: bpy.types.NodeSocket) -> None:
     """Write this to the pass's EXR."""
     node = compat.exr_output(tree, f"Firetwin {each.name} EXR", image, each.channels == "grey", each.bits)
     node.mute = True
     owned.mark(node, f"exr {each.name}")
 
 
-def _image(tree: bpy.types.NodeTree, each: Pass) -> bpy.types.NodeSocket:
+def _image(tree: bpy.types.NodeTree, each: RenderedPass) -> bpy.types.NodeSocket:
     """What `_record` has made of a pass's view layer."""
     ours = [node for node in tree.nodes if owned.ours(node)]
     source = next(node for node in ours if node.bl_idname == SOURCE and node.layer == each.name)
-    image = source.outputs[each.output]
+    image = source.outputs[each.socket]
     for link in tree.links:
         if link.from_socket == image and owned.ours(link.to_node) and link.to_node.bl_idname in _BETWEEN:
             return link.to_node.outputs[0]

@@ -16,7 +16,11 @@ from .picture import Picture
 def exact() -> tuple[str, ...]:
     """Passes whose files Blender's own render makes as ours: others need rays of their own, or more work."""
     known = passes.known().items()
-    return tuple(name for name, each in known if each.output and not each.pixel_centres and not each.finish)
+    return tuple(name for name, each in known if _exact(each))
+
+
+def _exact(each: passes.Pass) -> bool:
+    return isinstance(each, passes.RenderedPass) and not each.pixel_centres and not each.finish
 
 
 def to_files(stage: Stage, out: Path, camera: str, names: tuple[str, ...]) -> None:

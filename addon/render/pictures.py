@@ -133,7 +133,7 @@ class _Frame:
         lacking = {need for need in own - set(names) if plan.missing(store, [self.pictures[need]], made_with)}
         drawn = [known[name] for name in known if name in names or name in lacking]
         made = {self.pictures[each.name] for each in drawn}
-        self.draw([self.pictures[each.name] for each in drawn if each.output])
+        self.draw([self.pictures[each.name] for each in drawn if isinstance(each, passes.RenderedPass)])
         for each in drawn:
             if each.finish:
                 pairs = taken.get(each.name, {})

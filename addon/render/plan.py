@@ -55,7 +55,7 @@ def pictures(
     for name, view in itertools.product(chosen, views):
         if reason := passes.refused(passes.known()[name], shot.camera(view), settings.render.engine):
             raise UsageError(f"--passes: {reason}")
-    if chosen and not settings.runs and (alone := [name for name in chosen if passes.known()[name].compares]):
+    if chosen and not settings.runs and (alone := [name for name in chosen if passes.compares(name)]):
         raise UsageError(f'--passes: "{alone[0]}" compares runs, and {settings.path} has no [[runs]]')
     drawn, compared = [], []
     for view in views:
@@ -74,7 +74,7 @@ def pictures(
 def _in_turn(asked: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Passes of the first run that are made by themselves, and those that compare it with others."""
     known = passes.known()
-    compared = tuple(name for name in asked if known[name].compares)
+    compared = tuple(name for name in asked if passes.compares(name))
     needed = {need for name in compared for need in known[name].made_from}
     return tuple(name for name in known if name in needed or name in {*asked} - {*compared}), compared
 
@@ -92,7 +92,8 @@ def seen(shot: Shot, wanted: list[Picture]) -> set[tuple[str, str]]:
     for camera, name in list(pairs):
         pairs |= set(mount.taken(shot.settings, shot.cameras, camera, passes.known()[name]).values())
     own = {each.camera for each in wanted}
-    return {(camera, name) for camera, name in pairs if camera in own and passes.known()[name].output}
+    rendered = {name for name, each in passes.known().items() if isinstance(each, passes.RenderedPass)}
+    return {(camera, name) for camera, name in pairs if camera in own and name in rendered}
 
 
 def _with_given(shot: Shot, found: list[Picture]) -> list[Picture]:

@@ -70,4 +70,6 @@ def _shows_smoke(settings: Settings, camera: Camera) -> bool:
 
 
 def _sees_smoke(each: passes.Pass) -> bool:
-    return "smoke" not in each.leaves_out or any(_sees_smoke(passes.known()[name]) for name in each.made_from)
+    if isinstance(each, passes.RenderedPass):
+        return "smoke" not in each.excludes
+    return any(_sees_smoke(passes.known()[name]) for name in each.made_from)

@@ -320,7 +320,7 @@ def test_build_takes_the_place_of_the_startup_scene(settings, scene_file):
     assert len(bpy.data.scenes) == 1
     assert {"Firetwin Ground", "Firetwin Camera drone", "Firetwin Sun"} <= names
     assert bpy.context.scene.world.name == "Firetwin Sky"
-    rendered = {name for name, each in passes.known().items() if each.output}
+    rendered = {name for name, each in passes.known().items() if isinstance(each, passes.RenderedPass)}
     assert rendered == {layer.name for layer in bpy.context.scene.view_layers}
     assert not {"Cube", "Light", "Camera"} & names
     assert settings.frames == 3

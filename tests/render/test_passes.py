@@ -9,7 +9,7 @@ from firetwin.shot import passes
 from firetwin.shot.passes import masks
 from firetwin_core import sensor
 
-NAMES = [name for name, each in passes.known().items() if not each.compares]
+NAMES = [name for name, each in passes.known().items() if not passes.compares(name)]
 
 SCENE = """\
 run = "{run}"

@@ -266,7 +266,7 @@ def test_the_blend_file_is_complete_and_needs_no_add_on(firetwin, tmp_path):
     assert [left.name for left in tmp_path.iterdir()] == ["scene.blend"]
     bpy.ops.wm.open_mainfile(filepath=str(path))
     scene = bpy.context.scene
-    rendered = {name for name, each in passes.known().items() if each.output}
+    rendered = {name for name, each in passes.known().items() if isinstance(each, passes.RenderedPass)}
     assert {layer.name for layer in scene.view_layers} == rendered
     assert (scene.render.resolution_x, scene.render.resolution_y) == (64, 36)
     assert scene.cycles.samples == 1

@@ -35,24 +35,25 @@ def test_a_pass_says_what_it_is(name):
     assert module.__doc__
     assert each.help.strip()
     assert not each.help.endswith(".")
-    assert ("exr" in each.files) >= bool(each.output)  # Blender writes it
-    assert each.output or each.finish
-    assert set(each.needs) <= set(KNOWN) - {name}
-    assert (each.finish is not None) >= bool(each.needs)
-    assert each.filmed <= ("png" in each.files)
+    rendered = isinstance(each, passes.RenderedPass)
+    assert ("exr" in each.files) >= rendered  # Blender writes it
+    assert rendered or each.finish
+    assert set(each.made_from) <= set(KNOWN) - {name}
+    assert each.film <= ("png" in each.files)
 
 
 def test_data_is_not_denoised_and_only_surfaces_leave_out_smoke():
-    assert [name for name, each in KNOWN.items() if not each.data] == ["rgb"]
-    assert [name for name, each in KNOWN.items() if "smoke" in each.leaves_out] == ["depth", "normal"]
+    rendered = {name: each for name, each in KNOWN.items() if isinstance(each, passes.RenderedPass)}
+    assert [name for name, each in rendered.items() if each.shading == "light"] == ["rgb"]
+    assert [name for name, each in rendered.items() if "smoke" in each.excludes] == ["depth", "normal"]
     assert "smoke" not in KNOWN["depth"].aspects
 
 
 def test_what_files_depend_on_holds_what_they_are_made_from():
     thermal, rgb = KNOWN["thermal"], KNOWN["rgb"]
-    assert thermal.aspects == thermal.shows
-    made = dataclasses.replace(thermal, needs=("rgb",))
-    assert made.aspects == thermal.shows | rgb.shows
+    assert thermal.all_aspects == thermal.aspects
+    made = dataclasses.replace(KNOWN["thermal_map"], needs=("rgb",))
+    assert made.all_aspects == made.aspects | rgb.aspects
 
 
 def test_passes_of_a_camera_come_in_order():
@@ -65,8 +66,9 @@ def test_passes_of_a_camera_come_in_order():
 
 def test_a_pass_is_added_by_one_file(tmp_path, monkeypatch):
     (tmp_path / "mask.py").write_text(
-        '"""Where fire is."""\nfrom firetwin.shot.passes import Pass\n'
-        'PASS = Pass("mask", 29, "Where fire is", ("exr",), "Image", frozenset({"fire"}), needs=("depth",))\n'
+        '"""Where fire is."""\nfrom firetwin.shot.passes import DerivedPass\n'
+        'PASS = DerivedPass(name="mask", order=29, help="Where fire is", files=("exr",),\n'
+        '    aspects=frozenset({"fire"}), needs=("depth",))\n'
     )
     (tmp_path / "_helper.py").write_text("raise ImportError")
     monkeypatch.setattr(passes, "__path__", [*passes.__path__, str(tmp_path)])
@@ -75,7 +77,7 @@ def test_a_pass_is_added_by_one_file(tmp_path, monkeypatch):
         names = list(KNOWN)
         names.insert(names.index("thermal"), "mask")
         assert list(passes.known()) == names
-        assert passes.known()["mask"].aspects == {"fire"} | KNOWN["depth"].shows
+        assert passes.known()["mask"].all_aspects == {"fire"} | KNOWN["depth"].aspects
     finally:
         passes.known.cache_clear()
         sys.modules.pop(f"{passes.__name__}.mask")

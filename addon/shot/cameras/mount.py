@@ -30,6 +30,8 @@ def taken(
     cameras
         All of the scene file's.
     """
+    if not isinstance(made, passes.DerivedPass):
+        return {}
     found = {need: (name, need) for need in made.needs}
     if not made.mount:
         return found

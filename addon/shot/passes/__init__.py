@@ -1,6 +1,6 @@
 """Passes, what a camera records: each module of this folder is one, unless its name begins with "_".
 
-It defines `PASS`, a `Pass` whose name is the module's.
+It defines `PASS`, whose name is the module's: a `RenderedPass`, `DerivedPass` or `ComparisonPass`.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import pkgutil
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
     from ..settings.settings import Camera, Settings
@@ -21,9 +21,9 @@ Files = Mapping[str, Path]
 Finish = Callable[[Files, Mapping[str, Files], "Shot", str, int], None]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Pass:
-    """One thing that a camera records, in a view layer of its own.
+    """One thing that a camera records: its files, and what they depend on.
 
     Attributes
     ----------
@@ -33,47 +33,17 @@ class Pass:
         One line.
     files
         Suffixes of its files.
-    output
-        Socket of Blender's Render Layers node; empty: nothing is rendered, `finish` makes all files.
-    enable
-        Property of a view layer that switches the socket on; empty: it is always there.
-    leaves_out
-        Parts of the scene that it does not see.
-    samples
-        Rays per pixel; None: those of [render].
-    data
-        Never denoised, and the shaders show infrared radiance instead of light.
-    masks
-        The shaders show what each pixel is (see `masks`).
-    channels
-        Of its EXR: "colour" or "grey".
-    bits
-        Of each number in its EXR.
-    pixel_centres
-        Its rays go through the middle of each pixel.
-    through_smoke
-        Smoke is nearly clear in it, and steps through smoke are longer.
-    shapes
-        It shows where surfaces are and nothing of what they are like.
-    filmed
+    aspects
+        Aspects of the settings that its own work depends on (see `schema.select`).
+    film
         Its PNG files make a film.
     captions
         Films write the time into its pictures.
-    shows
-        Aspects that its own rendering shows (see `schema.chosen`).
-    needs
-        Other passes whose files its own are made from.
-    compares
-        It is about all of a scene's runs, and made when what it is made from is finished.
-    across
-        Other passes whose files of every run its own are made from, in a pass that compares.
-    mount
-        It takes these also from the sensors of its camera's mount (see `shot.mount`).
-    flat
-        Cameras that see all round have it not.
-    rows
-        Of its picture at the least; a camera's of fewer pixels becomes so large, see `size`.
-    sources
+    single_view
+        Cameras that see all round do not have it.
+    min_rows
+        Rows of its picture at the least; a camera's picture of fewer is enlarged, see `size`.
+    code
         Files and folders of the package that decide its files, beside its own module, the helpers of passes
         (`_NAME.py`) and what all depend on.
     finish
@@ -86,43 +56,109 @@ class Pass:
     order: int
     help: str
     files: tuple[str, ...]
-    output: str
-    shows: frozenset[str]
-    enable: str = ""
-    leaves_out: tuple[str, ...] = ()
-    samples: int | None = None
-    data: bool = True
-    masks: bool = False
-    channels: str = "grey"
-    bits: int = 32
-    pixel_centres: bool = False
-    through_smoke: bool = False
-    shapes: bool = False
-    filmed: bool = False
+    aspects: frozenset[str] = frozenset()
+    film: bool = False
     captions: bool = True
-    needs: tuple[str, ...] = ()
-    compares: bool = False
-    across: tuple[str, ...] = ()
-    mount: bool = False
-    flat: bool = False
-    rows: int = 0
-    sources: tuple[str, ...] = ()
+    single_view: bool = False
+    min_rows: int = 0
+    code: tuple[str, ...] = ()
     finish: Finish | None = None
 
     @property
-    def aspects(self) -> frozenset[str]:
-        """Aspects that its files depend on: its own and those of the passes that they are made from."""
-        return self.shows.union(*(known()[name].aspects for name in self.made_from))
+    def made_from(self) -> tuple[str, ...]:
+        """The passes whose files it needs, of its own run or of all."""
+        return ()
 
     @property
-    def made_from(self) -> tuple[str, ...]:
-        """The passes that it needs, of its own run or of all."""
-        return tuple(dict.fromkeys((*self.needs, *self.across)))
+    def all_aspects(self) -> frozenset[str]:
+        """Aspects that its files depend on: its own and those of the passes that they are made from."""
+        return self.aspects.union(*(known()[name].all_aspects for name in self.made_from))
 
     def size(self, resolution: tuple[int, int]) -> tuple[int, int]:
         """Columns and rows, both even, of its picture for a camera of so many."""
         width, height = resolution
-        return resolution if height >= self.rows else (2 * round(width * self.rows / height / 2), self.rows)
+        rows = self.min_rows
+        return resolution if height >= rows else (2 * round(width * rows / height / 2), rows)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RenderedPass(Pass):
+    """A pass that Blender renders in a view layer of its own.
+
+    Attributes
+    ----------
+    socket
+        Of Blender's Render Layers node.
+    layer_property
+        Property of a view layer that switches the socket on; empty: it is always there.
+    shading
+        What the shaders show: "light"; infrared "radiance", which is never denoised; or "masks", what each
+        pixel is (see `masks`), which is not denoised either.
+    excludes
+        Parts of the scene that its view layer excludes.
+    samples
+        Rays per pixel; None: those of [render].
+    channels
+        Of its EXR: "colour" or "grey".
+    bits
+        Of each number in its EXR.
+    pixel_centres
+        Its rays go through the middle of each pixel.
+    through_smoke
+        Smoke is nearly clear in it, and steps through smoke are longer.
+    geometry_only
+        It shows where surfaces are; their materials do not matter.
+    """
+
+    socket: str = "Image"
+    layer_property: str = ""
+    shading: Literal["light", "radiance", "masks"] = "radiance"
+    excludes: tuple[str, ...] = ()
+    samples: int | None = None
+    channels: Literal["colour", "grey"] = "grey"
+    bits: int = 32
+    pixel_centres: bool = False
+    through_smoke: bool = False
+    geometry_only: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class DerivedPass(Pass):
+    """A pass made from files of other passes; nothing is rendered for it.
+
+    Attributes
+    ----------
+    needs
+        Passes whose files its own are made from.
+    mount
+        It takes these also from the sensors of its camera's mount (see `cameras.mount`).
+    """
+
+    needs: tuple[str, ...] = ()
+    mount: bool = False
+
+    @property
+    def made_from(self) -> tuple[str, ...]:
+        """The passes whose files it needs."""
+        return self.needs
+
+
+@dataclass(frozen=True, kw_only=True)
+class ComparisonPass(DerivedPass):
+    """A pass that compares all of a scene's runs, made when what it is made from is finished.
+
+    Attributes
+    ----------
+    needs_of_all
+        Passes whose files of every run its own are made from.
+    """
+
+    needs_of_all: tuple[str, ...] = ()
+
+    @property
+    def made_from(self) -> tuple[str, ...]:
+        """The passes whose files it needs, of its own run or of all."""
+        return tuple(dict.fromkeys((*self.needs, *self.needs_of_all)))
 
 
 @functools.cache
@@ -151,18 +187,32 @@ def view_of(camera: str, run: str) -> str:
 def in_other_runs(names: Iterable[str]) -> tuple[str, ...]:
     """What a camera with these passes records in another run than the first, in order."""
     asked = [known()[name] for name in names]
-    wanted = {name for each in asked for name in (each.across if each.compares else (each.name,))}
+    wanted = {
+        name
+        for each in asked
+        for name in (each.needs_of_all if isinstance(each, ComparisonPass) else (each.name,))
+    }
     return tuple(name for name in known() if name in wanted)
+
+
+def records_masks(each: Pass) -> bool:
+    """Whether its shaders show what each pixel is."""
+    return isinstance(each, RenderedPass) and each.shading == "masks"
+
+
+def compares(name: str) -> bool:
+    """Whether a pass compares runs."""
+    return isinstance(known()[name], ComparisonPass)
 
 
 def refused(each: Pass, camera: Camera, engine: str) -> str:
     """Why a camera cannot record a pass with an engine; empty: it can."""
-    if each.masks and engine == "eevee":
+    if records_masks(each) and engine == "eevee":
         return (
             f'camera "{camera.name}" cannot record {each.name} with EEVEE, which keeps 11 bits of a number, '
             "and numbers of trees have more; render it with Cycles"
         )
-    if each.flat and camera.rig.around:
+    if each.single_view and camera.rig.around:
         return f'camera "{camera.name}" sees all round, which has no {each.name}'
     return ""
 

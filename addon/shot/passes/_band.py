@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import Files, Pass
+from . import DerivedPass, Files
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from ..shot import Shot
 
 
-def band(name: str, order: int, help: str, long: bool) -> Pass:
+def band(name: str, order: int, help: str, long: bool) -> DerivedPass:
     """The pass of the long or of the short band."""
 
     def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, frame: int) -> None:
@@ -21,15 +21,14 @@ def band(name: str, order: int, help: str, long: bool) -> Pass:
 
         _imager.draw(files["png"], needed["depth"]["exr"], shot, camera, frame, long)
 
-    return Pass(
+    return DerivedPass(
         name=name,
         order=order,
         help=help,
         files=("png",),
-        output="",
-        filmed=True,
-        shows=frozenset({"time", "camera"}),
+        film=True,
+        aspects=frozenset({"time", "camera"}),
         needs=("depth",),
-        sources=("shot/satellites",),
+        code=("shot/satellites",),
         finish=finish,
     )

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import Files, Pass
+from . import Files, RenderedPass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -30,17 +30,17 @@ def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, 
     sensor.write_image(files["exr"], both, about, ["planar", "range"])
 
 
-PASS = Pass(
+PASS = RenderedPass(
     name="depth",
     order=20,
     help="Depth of terrain and trees, along the axis and along the line of sight, m, 32-bit EXR",
     files=("exr",),
-    output="Depth",
-    enable="use_pass_z",
-    leaves_out=("smoke", "fire"),
+    socket="Depth",
+    layer_property="use_pass_z",
+    excludes=("smoke", "fire"),
     samples=1,
     pixel_centres=True,
-    shapes=True,
-    shows=frozenset({"time", "camera", "picture", "terrain", "forest"}),
+    geometry_only=True,
+    aspects=frozenset({"time", "camera", "picture", "terrain", "forest"}),
     finish=finish,
 )

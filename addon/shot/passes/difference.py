@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import Files, Pass
+from . import ComparisonPass, Files
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -86,16 +86,14 @@ def tinted(rgb: NDArray, kinds: NDArray[np.uint8], shades: list[str]) -> NDArray
     return (grey * (1.0 - share) + colour[kinds] * share).astype(np.float32)
 
 
-PASS = Pass(
+PASS = ComparisonPass(
     name="difference",
     order=75,
     help="Visible picture, tinted where burned areas of the first run and of other [[runs]] differ",
     files=("png",),
-    output="",
-    filmed=True,
+    film=True,
     captions=False,
-    shows=frozenset({"time", "camera", "film", "picture", "terrain"}),
-    compares=True,
+    aspects=frozenset({"time", "camera", "film", "picture", "terrain"}),
     needs=("rgb", "depth"),
     finish=finish,
 )

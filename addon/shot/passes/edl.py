@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import Files, Pass
+from . import DerivedPass, Files
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -26,14 +26,12 @@ def finish(files: Files, needed: Mapping[str, Files], _shot: Shot, _camera: str,
     sensor.write_image(files["png"], rgb * sensor.eye_dome(depth, STRENGTH, RADIUS)[..., None])
 
 
-PASS = Pass(
+PASS = DerivedPass(
     name="edl",
     order=40,
     help="Visible picture with eye-dome lighting from depth",
     files=("png",),
-    output="",
-    filmed=True,
-    shows=frozenset(),
+    film=True,
     needs=("rgb", "depth"),
     finish=finish,
 )

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import Files, Pass, pose
+from . import DerivedPass, Files, pose
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -109,19 +109,18 @@ def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
     return found
 
 
-PASS = Pass(
+PASS = DerivedPass(
     name="fused",
     order=60,
     help="One picture of visible, thermal, depth and a map, with time, place and scales",
     files=("png",),
-    output="",
-    filmed=True,
+    film=True,
     captions=False,
-    shows=frozenset({"time", "camera", "film", "terrain", "thermal"}),
+    aspects=frozenset({"time", "camera", "film", "terrain", "thermal"}),
     needs=("rgb", "thermal", "depth"),
     mount=True,
-    flat=True,
-    rows=720,
-    sources=("shot/cameras/rigs/mounted.py", "shot/cameras/rigs/minimap.py"),
+    single_view=True,
+    min_rows=720,
+    code=("shot/cameras/rigs/mounted.py", "shot/cameras/rigs/minimap.py"),
     finish=finish,
 )

@@ -24,7 +24,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import Files, Pass
+from . import Files, RenderedPass
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -77,18 +77,17 @@ def finish(files: Files, _needed: Mapping[str, Files], _shot: Shot, _camera: str
     sensor.write_image(files["png"], colours[kind.astype(np.int64)])
 
 
-PASS = Pass(
+PASS = RenderedPass(
     name="masks",
     order=27,
     help="Class masks (fire, smoke, tree, burned, ground, sky) and tree instance numbers, EXR and PNG; "
     "a tree has the same number in all frames, cameras and films",
     files=("exr", "png"),
-    output="Image",
-    leaves_out=("lamps",),
+    excludes=("lamps",),
     samples=1,
-    masks=True,
+    shading="masks",
     channels="colour",
     pixel_centres=True,
-    shows=frozenset({"time", "camera", "picture", "terrain", "forest", "fire", "smoke"}),
+    aspects=frozenset({"time", "camera", "picture", "terrain", "forest", "fire", "smoke"}),
     finish=finish,
 )

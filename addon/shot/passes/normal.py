@@ -6,18 +6,18 @@ sky all are 0. It is the normal of the mesh; what materials add to it in small i
 
 from __future__ import annotations
 
-from . import Pass
+from . import RenderedPass
 
-PASS = Pass(
+PASS = RenderedPass(
     name="normal",
     order=25,
     help="Surface normals of terrain and trees (east, north, up), 32-bit EXR",
     files=("exr",),
-    output="Normal",
-    enable="use_pass_normal",
-    leaves_out=("smoke", "fire"),
+    socket="Normal",
+    layer_property="use_pass_normal",
+    excludes=("smoke", "fire"),
     samples=1,
     channels="colour",
     pixel_centres=True,
-    shows=frozenset({"time", "camera", "picture", "terrain", "forest"}),
+    aspects=frozenset({"time", "camera", "picture", "terrain", "forest"}),
 )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import Files, Pass, thermal
+from . import DerivedPass, Files, thermal
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -28,14 +28,12 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, _camera: str, 
     sensor.write_image(files["png"], sensor.overlay(rgb, hot, kelvin, START, FULL, OPACITY))
 
 
-PASS = Pass(
+PASS = DerivedPass(
     name="overlay",
     order=45,
     help="Visible picture overlaid with the hot spots of the thermal pass",
     files=("png",),
-    output="",
-    filmed=True,
-    shows=frozenset(),
+    film=True,
     needs=("rgb", "thermal"),
     finish=finish,
 )

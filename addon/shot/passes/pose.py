@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import Files, Pass, file_of, of_camera
+from . import DerivedPass, Files, file_of, of_camera
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -114,12 +114,11 @@ def intrinsics(view: Path, frame: int, width: int, height: int) -> dict[str, Any
     }
 
 
-PASS = Pass(
+PASS = DerivedPass(
     name="pose",
     order=5,
     help="Camera position, orientation, lens, time and units of each frame, JSON",
     files=("json",),
-    output="",
-    shows=frozenset({"time", "camera", "picture", "terrain", "passes"}),
+    aspects=frozenset({"time", "camera", "picture", "terrain", "passes"}),
     finish=finish,
 )

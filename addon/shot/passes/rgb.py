@@ -5,19 +5,18 @@ Written as PNG, as people look at it, and as EXR in linear light.
 
 from __future__ import annotations
 
-from . import Pass
+from . import RenderedPass
 
-PASS = Pass(
+PASS = RenderedPass(
     name="rgb",
     order=10,
     help="Visible picture",
     files=("png", "exr"),
-    output="Image",
-    data=False,
+    shading="light",
     channels="colour",
     bits=16,
-    filmed=True,
-    shows=frozenset(
+    film=True,
+    aspects=frozenset(
         {"time", "camera", "picture", "terrain", "forest", "fire", "smoke", "light", "grain", "labels"}
     ),
 )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import Files, Pass, view_of
+from . import ComparisonPass, Files, view_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -40,16 +40,14 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     sensor.write_image(files["png"], split_screen.sheet(pictures, keys, comparison.caption(shot, frame)))
 
 
-PASS = Pass(
+PASS = ComparisonPass(
     name="split",
     order=70,
     help="Split screen: the pictures of all [[runs]] side by side, with names and time",
     files=("png",),
-    output="",
-    filmed=True,
+    film=True,
     captions=False,
-    shows=frozenset({"time", "camera", "film", "picture"}),
-    compares=True,
-    across=("rgb",),
+    aspects=frozenset({"time", "camera", "film", "picture"}),
+    needs_of_all=("rgb",),
     finish=finish,
 )

@@ -23,7 +23,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from . import Pass
+from . import RenderedPass
 
 if TYPE_CHECKING:
     from ..shot import Shot
@@ -76,17 +76,16 @@ def scale(shot: Shot, frame: int) -> tuple[float, float]:
     return low, high
 
 
-PASS = Pass(
+PASS = RenderedPass(
     name="thermal",
     order=30,
     help="Infrared radiance and brightness temperature, 32-bit EXR, and a PNG in palette colours",
     files=("exr", "png"),
-    output="Image",
-    leaves_out=("lamps",),
+    excludes=("lamps",),
     samples=4,
     through_smoke=True,
-    filmed=True,
-    shows=frozenset(
+    film=True,
+    aspects=frozenset(
         {"time", "camera", "picture", "terrain", "forest", "fire", "smoke", "light", "grain", "thermal"}
     ),
     finish=finish,

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import Files, Pass
+from . import DerivedPass, Files
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -43,14 +43,13 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     sensor.write_image(files["png"], sensor.thermal_composite(rgb, warmth, *shot.warmest))
 
 
-PASS = Pass(
+PASS = DerivedPass(
     name="thermal_map",
     order=35,
     help="Visible picture with the model's mean temperature added in colour",
     files=("png",),
-    output="",
-    filmed=True,
-    shows=frozenset({"time", "camera"}),
+    film=True,
+    aspects=frozenset({"time", "camera"}),
     needs=("rgb", "depth"),
     finish=finish,
 )

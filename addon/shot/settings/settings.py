@@ -540,7 +540,7 @@ class Settings:
             (("render", "passes"), self.render.passes),
             *((("cameras", i, "passes"), camera.passes) for i, camera in enumerate(self.cameras)),
         ):
-            if not names and (found := [name for name in listed if passes.known()[name].compares]):
+            if not names and (found := [name for name in listed if passes.compares(name)]):
                 return where, f'passes has "{found[0]}", which compares runs; add [[runs]] or leave it out'
         return None
 
