@@ -192,6 +192,7 @@ def track(arguments: argparse.Namespace) -> None:
     """Write a camera's way as a GPX track."""
     from . import files
     from .errors import UsageError
+    from .shot import comparison
     from .shot.cameras import track_xml
 
     if arguments.out.suffix.lower() != ".gpx":
@@ -200,7 +201,7 @@ def track(arguments: argparse.Namespace) -> None:
     names = [camera.name for camera in shot.settings.cameras]
     if not names:
         raise UsageError(f"{arguments.scene} has no [[cameras]], so there is no way to write")
-    alone = shot.of(arguments.camera or names[0])
+    alone = comparison.for_view(shot, arguments.camera or names[0])
     (view,) = alone.paths
     moments = [alone.moment(frame) for frame in range(1, alone.frames.count + 1)]
     text = track_xml.gpx_text(view.camera.name, *alone.local_frame.reverse(view.position), moments)
@@ -323,7 +324,7 @@ def _runs(scene: Path) -> dict[str, Run]:
     from .shot.source import Choice
 
     shot = Choice(scene=str(scene)).shot()
-    return {shot.title: shot.run, **shot.others}
+    return {shot.label: shot.run, **shot.others}
 
 
 def _open(folder: Path) -> Run:

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from ..jobs import worker
 from ..progress import Progress, Tell, silent, untold
+from ..shot import sun
 from ..shot.cameras.rigs.drone import CameraKey, Drone
 from ..shot.settings import settings
 from ..shot.shot import Shot
@@ -183,7 +184,7 @@ def _build(file: settings.Settings, scene: bpy.types.Scene) -> dict[str, bpy.typ
     place.mkdir(parents=True)
     for layer in flow_frames.layers(shot, Flow(shot)):
         part = 1.0 if layer.name == "smoke" else 0.0
-        toward = shot.light(shot.frames.first)
+        toward = sun.toward_light(shot.run, shot.frames.first)
         sunlight, skylight, _ = volume.lit(part * density, VOXEL, toward, *flow_frames.LIGHT)
         grids = {"density": part * density, "fresh": fresh, "sun": sunlight, "sky": skylight}
         volume.write(str(layer.file(place, 1)), grids, VOXEL, origin, tolerance=1e-6, within="density")

@@ -6,6 +6,8 @@ from pathlib import Path
 
 from ..errors import Error
 from ..progress import READING, Progress, Tell, patience, silent, untold
+from ..shot import scene_runs
+from ..shot.comparison import for_view
 from ..shot.source import Choice
 from . import worker
 
@@ -52,7 +54,7 @@ def in_process(choice: dict[str, str], together: bool, progress: Progress, tell:
     shot = Choice(**choice).shot()
     for text in shot.warnings():
         tell(text)
-    shots = [shot] if together else [shot.of(view) for view in shot.views]
+    shots = [shot] if together else [for_view(shot, view) for view in scene_runs.views(shot.settings)]
     places = {bake.folder(each, progress): each for each in shots}
     for each in places.values():
         if text := cost_estimate.words(each):

@@ -9,6 +9,7 @@ from pathlib import Path
 from .. import files
 from ..errors import FULL, disk_is_full, input_error, no_room
 from ..progress import READING, Progress, Tell, patience, silent, untold
+from ..shot import camera_warnings
 from ..shot.source import Choice
 from . import worker
 
@@ -60,7 +61,7 @@ def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell)
     from . import worker_scene
 
     shot = Choice(**choice).shot()
-    for text in (*shot.warnings(), *shot.one_eyed()):
+    for text in (*shot.warnings(), *camera_warnings.mono_vr(shot.settings)):
         tell(text)
     if shot.settings.smoke.enabled:
         bake.bake(shot, progress)

@@ -12,6 +12,7 @@ from typing import Any
 from .. import memory
 from ..errors import Error
 from ..progress import READING, Progress, Tell, count, patience, share, silent, untold
+from ..shot.comparison import for_view
 from ..shot.shot import Shot
 from ..shot.source import Choice
 from . import solve, worker
@@ -180,7 +181,7 @@ def in_blender(
                     wanted = list(group)
                     own = share(progress, done, frames, "rendering")
                     expected = max(
-                        expected, _camera(Choice(**choice), shot.of(camera), making, wanted, own, tell)
+                        expected, _camera(Choice(**choice), for_view(shot, camera), making, wanted, own, tell)
                     )
                     done += frames_of(wanted)
         if todo and shot.settings.smoke.enabled:

@@ -10,6 +10,7 @@ from typing import Any
 
 from ..errors import Error
 from ..progress import Progress, Tell, count, share, silent, untold
+from ..shot.comparison import for_view
 from ..shot.shot import Shot
 from ..shot.source import Choice
 from . import worker
@@ -111,7 +112,7 @@ def in_blender(
         for camera, group in itertools.groupby(todo, key=lambda picture: picture.camera):
             if stage.camera(camera) is None:
                 raise Error(f'the camera "{camera}" is not in the scene {scene}; build the cameras again')
-            wanted, alone = list(group), shot.of(camera)
+            wanted, alone = list(group), for_view(shot, camera)
             engine.size(alone.settings, stage.scene)
             part = share(progress, done, frames, "rendering")
             making_pictures.render(alone, stage, making, wanted, part, ready, tell)

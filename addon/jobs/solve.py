@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 
 from ..errors import Error
 from ..progress import Progress, Tell
+from ..shot.comparison import for_view
 from ..shot.source import Choice
 from . import worker
 
@@ -41,6 +42,6 @@ def in_process(choice: dict[str, str], view: str, frames: list[int], progress: P
     """Solve it."""
     from ..smoke.flow import Flow
 
-    flow = Flow(Choice(**choice).shot().of(view))
+    flow = Flow(for_view(Choice(**choice).shot(), view))
     with flow.in_use():
         flow.solve(frames, progress)

@@ -8,6 +8,7 @@ from pathlib import Path
 from ..errors import writing
 from ..progress import Progress, Tell
 from ..shot import passes
+from ..shot.comparison import for_view
 from ..shot.shot import Shot
 from .picture import Picture
 from .pictures import publish
@@ -19,7 +20,7 @@ def make(shot: Shot, making: Making, wanted: list[Picture], progress: Progress, 
     done = 0
     while free := making.free(wanted, tell):
         for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
-            own = shot.of(camera)
+            own = for_view(shot, camera)
             with making.claims.part_folder() as part, making.line(list(group)) as line:
                 while line.step():
                     progress(done, len(wanted), "comparing runs")

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..errors import Error
 from ..run.content import fingerprint, stamp
-from ..shot import passes
+from ..shot import passes, scene_runs
 from ..shot.shot import Shot
 from .fingerprint import Fingerprints
 from .picture import Picture, film
@@ -27,7 +27,7 @@ def missing(shot: Shot, store: Store, made_with: Fingerprints) -> Iterator[Film]
     if not shot.settings.render.video:
         return
     filmed = [each.name for each in passes.known().values() if each.film]
-    for camera in shot.views:
+    for camera in scene_runs.views(shot.settings):
         for name in filmed:
             if (camera, name) not in made_with:
                 continue
@@ -55,7 +55,13 @@ def _made_from(shot: Shot, camera: str, name: str, pictures: list[list[Any]]) ->
         "camera": camera,
         "frames": pictures,
         "fps": time.fps,
-        "captions": [frames.first, frames.last, frames.count, time.zone, shot.run_of(camera).synthetic],
+        "captions": [
+            frames.first,
+            frames.last,
+            frames.count,
+            time.zone,
+            scene_runs.of_view(shot, camera).synthetic,
+        ],
     }
 
 

@@ -15,7 +15,7 @@ import firetwin_core
 from ..progress import Progress, silent
 from ..run import content
 from ..run.content import fingerprint
-from ..shot import code_fingerprint, frames, labels, passes
+from ..shot import code_fingerprint, comparison, frames, labels, passes
 from ..shot.cameras import mount
 from ..shot.fire import observed
 from ..shot.settings import schema
@@ -113,7 +113,9 @@ def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silen
         | labels.inputs(shot.settings)
     )
     more |= observed.inputs(shot.settings, progress)
-    shots = {label: shot.in_run(f"@{label}") for label in {view.partition("@")[2] for view, _ in pairs}}
+    shots = {
+        label: comparison.for_run(shot, label) for label in {view.partition("@")[2] for view, _ in pairs}
+    }
     runs = {label: own.inputs(progress=progress) | more for label, own in shots.items()}
     found = {}
     for view, name in sorted(pairs):
@@ -129,5 +131,5 @@ def _beside(shot: Shot, name: str, progress: Progress) -> dict[str, Any]:
     if not passes.compares(name) and not (shot.settings.fire.fronts and "fire" in each.all_aspects):
         return {}
     cache = shot.settings.cache
-    found = {label: content.inputs(run, cache, (), progress) for label, run in shot.neighbours().items()}
+    found = {label: content.inputs(run, cache, (), progress) for label, run in shot.other_runs().items()}
     return {"beside": found} if found else {}

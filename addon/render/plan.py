@@ -6,7 +6,7 @@ import itertools
 
 from ..errors import UsageError
 from ..run.content import fingerprint
-from ..shot import passes
+from ..shot import passes, scene_runs
 from ..shot.cameras import mount
 from ..shot.settings import frame_list
 from ..shot.settings.did_you_mean import suggestion
@@ -50,7 +50,9 @@ def pictures(
         shot.camera(camera)  # says which there are
     elif not settings.cameras:
         raise UsageError(f"{settings.path} has no [[cameras]], so there is nothing to render")
-    views = [view for view in shot.views if camera in (None, view, view.partition("@")[0])]
+    views = [
+        view for view in scene_runs.views(shot.settings) if camera in (None, view, view.partition("@")[0])
+    ]
     chosen = _passes(names) if names is not None else ()
     for name, view in itertools.product(chosen, views):
         if reason := passes.refused(passes.known()[name], shot.camera(view), settings.render.engine):
@@ -102,7 +104,7 @@ def _with_given(shot: Shot, found: list[Picture]) -> list[Picture]:
     ]
     if not given:
         return found
-    views, names = shot.views, list(passes.known())
+    views, names = scene_runs.views(shot.settings), list(passes.known())
     every = sorted(
         {*found, *given}, key=lambda each: (views.index(each.camera), each.frame, names.index(each.name))
     )

@@ -12,7 +12,7 @@ from ..blender import compat
 from ..errors import writing
 from ..progress import Progress, silent
 from ..run import times
-from ..shot import passes
+from ..shot import passes, scene_runs
 from ..shot.shot import Shot
 from . import engine, films, picture, spherical, verify
 from .picture import Picture
@@ -46,7 +46,7 @@ def _film(shot: Shot, making: Making, camera: str, name: str, made_from: dict[st
             frames = [frame for frame, _ in made_from["frames"]]
             size = passes.known()[name].size(shot.resolution(shot.camera(camera)))
             _settings(shot, size, scene, made, len(frames))
-            engine.label(shot.run_of(camera), scene)
+            engine.label(scene_runs.of_view(shot, camera), scene)
             _strips(shot, scene, out, camera, name, frames)
             with writing(path):
                 bpy.ops.render.render(animation=True, scene=scene.name)
@@ -98,7 +98,7 @@ def _strips(
         label = times.text(shot.moment(number), shot.settings.time.zone)
         for eye, up in enumerate(low):
             _text(editor, label, position, 1, 2 + eye, size, (left, up), "LEFT")
-    if shot.run_of(camera).synthetic and passes.known()[name].captions:
+    if scene_runs.of_view(shot, camera).synthetic and passes.known()[name].captions:
         for eye, up in enumerate(low):
             place = right, up - 0.03 * around
             _text(editor, "synthetic sample run", 1, len(numbers), 4 + eye, size / 1.5, place, "RIGHT")

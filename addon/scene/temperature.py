@@ -22,8 +22,7 @@ from numpy.typing import NDArray
 
 from ..blender import compat, nodes, owned
 from ..blender.owned import Stage
-from ..shot import air_temperature
-from ..shot.light import sun
+from ..shot import air_temperature, sun
 from ..shot.shot import Shot
 from ..shot.terrain.terrain import bilinear
 
@@ -190,7 +189,7 @@ def _sun(group: bpy.types.NodeTree, shot: Shot, count: int) -> None:
     frames = np.linspace(1.0, shot.frames.count, count)
     vectors = []
     for frame in frames:
-        bearing, height = shot.sun(float(shot.frames.time(frame)))
+        bearing, height = sun.at(shot.run, float(shot.frames.time(frame)))
         vectors.append(sun.direction(bearing, height) * sun.direct(height))
     _set(group, "Sun", vectors[0])
     for axis in range(3):

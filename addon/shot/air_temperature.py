@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 from firetwin_core import sensor
 from firetwin_core.run import Run
 from numpy.typing import ArrayLike, NDArray
 
+from . import sun
 from .fire import emissions
-from .light import sun
+from .settings.protocols import Frames
 
 PULSE = emissions.KINDS[emissions.LITTER].residence  # s that the front heats the ground under timber
 COOLING = 2.0 * 20_000.0 / (600.0 * np.sqrt(np.pi))
@@ -21,6 +24,8 @@ STONE = 0.94  # emissivity of stone, the least of any ground (assumed)
 
 _FIRE = 1.0  # W/m2; less is no fire (see `firetwin_core.flux.at_time`)
 LAPSE = 6.5e-3  # K/m, the standard atmosphere
+_SAMPLES = 25  # times of a shot at most at which its air is looked at
+_AVERAGED = 600.0  # s
 _DAY, _NIGHT = 304.0, 292.0  # K at sea level under a sun 20 degrees high, and without one (assumed)
 
 Array = NDArray[np.float64]
@@ -87,6 +92,33 @@ def coldest_ground(run: Run, time: float, band: tuple[float, float]) -> float:
     ground = air + (ABSORBED * sun.direct(height) * np.sin(np.radians(height)) - LOSS) / BARE
     seen = STONE * sensor.radiance(ground, band) + (1.0 - STONE) * sensor.radiance(SKY, band)
     return min(air, float(sensor.brightness_temperature(seen, band)))
+
+
+class OverShot:
+    """The run's air over the frames of a shot: what scales of pictures need to know of all of it.
+
+    Attributes
+    ----------
+    averaged
+        Seconds over which the model's temperature is averaged: ten minutes, or from frame to frame.
+    """
+
+    def __init__(self, run: Run, frames: Frames) -> None:
+        self._run = run
+        self._times = np.linspace(frames.first, frames.last, min(_SAMPLES, frames.count))
+        self.averaged = max(_AVERAGED, frames.step)
+
+    @cached_property
+    def coldest(self) -> float:
+        """K that a tenth of the run's air is colder than, in the coldest of 25 times of the shot."""
+        return min(coldest(self._run, float(time)) for time in self._times)
+
+    @cached_property
+    def warmest(self) -> tuple[float, float]:
+        """K that the air the fire warms is over unburned air, least and most, in 25 times of the shot."""
+        found = [warmth(self._run, time - self.averaged, time) for time in self._times]
+        low, high = max(noise for _, noise in found), max(float(above.max()) for above, _ in found)
+        return low, max(high, low + 1.0)
 
 
 def cooling(age: ArrayLike, pulse: ArrayLike = PULSE) -> Array:

@@ -7,9 +7,7 @@ datum of each run's elevations, so they are best given in one.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
-from datetime import datetime
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,15 +15,12 @@ from firetwin_core import geo
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ..errors import InputError
 from ..progress import Progress, silent
-from ..run import readers, times
-from . import frames, passes
+from ..run import times
+from . import passes
 from .cameras.path import Path
-from .settings import scene_file
-from .settings.settings import Camera, Settings
+from .settings.settings import Camera
 from .shot import Shot
-from .terrain import elevation
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -36,72 +31,17 @@ _AXES = 1000.0 * np.vstack([np.zeros(3), np.eye(3)])  # m
 _BURIED = 1.0  # m under another run's ground, from which on it is told
 
 
-def opened(settings: Settings) -> dict[str, Run]:
-    """The other runs by their names.
-
-    Raises
-    ------
-    InputError
-        Names the line of the scene file and what is wrong with the run.
-    """
-    found = {}
-    for i, each in enumerate(settings.runs):
-        try:
-            found[each.name] = readers.open(each.path)
-        except InputError as error:
-            if not settings.path.is_file():
-                raise
-            raise scene_file.error_at(settings.path, ("runs", i, "path"), f"runs.path: {error}") from None
-    return found
-
-
-def check(settings: Settings, run: Run, others: Mapping[str, Run]) -> None:
-    """See whether every run has every moment of the shot.
-
-    Raises
-    ------
-    InputError
-        Names the line of the run that has not, and the window that all have.
-    """
-    if not others:
-        return
-    shown = frames.of(settings.time, run)
-    first, last = times.moment(run, shown.first), times.moment(run, shown.last)
-    spans = {name: _span(other) for name, other in {"": run, **others}.items()}
-    low, high = max(span[0] for span in spans.values()), min(span[1] for span in spans.values())
-    remedy = (
-        f"set time.start and time.end within {times.iso(low)} to {times.iso(high)}, which all runs have"
-        if low < high
-        else "the runs have no moment in common"
-    )
-    for i, (name, other) in enumerate(others.items()):
-        begin, end = spans[name]
-        if not (begin <= first and last <= end):
-            reason = (
-                f'run "{name}" has {times.iso(begin)} to {times.iso(end)}, and the shot shows '
-                f"{times.iso(first)} to {times.iso(last)}; {remedy}"
-            )
-            raise scene_file.error_at(settings.path, ("runs", i, "path"), reason)
-        elevation.check(settings, other)
-
-
-def _span(run: Run) -> tuple[datetime, datetime]:
-    return times.moment(run, float(run.times[0])), times.moment(run, float(run.times[-1]))
-
-
-class Beside(Shot):
+class ComparisonShot(Shot):
     """A shot of another run: its cameras fly as those of `first` do, and are named ``camera@run``.
 
     Attributes
     ----------
     first
         The shot of the first run, of the same cameras.
-    label
-        Name of the run.
     """
 
     def __init__(self, first: Shot, label: str) -> None:
-        self.first, self.label = first, label
+        self.first, self._label = first, label
         settings, shown = first.settings, first.frames
         begin, end = (times.moment(first.run, time) for time in (shown.first, shown.last))
         own = next(each for each in settings.runs if each.name == label)
@@ -126,18 +66,18 @@ class Beside(Shot):
 
     def of(self, name: str) -> Shot:
         """The same shot with this camera alone."""
-        return Beside(self.first.of(name.partition("@")[0]), self.label)
+        return ComparisonShot(self.first.of(name.partition("@")[0]), self.label)
 
-    def neighbours(self) -> dict[str, Run]:
+    def other_runs(self) -> dict[str, Run]:
         """The runs that this one stands beside, by name."""
-        return {name: run for name, run in super().neighbours().items() if name != self.label} | {
-            self.first.title: self.first.run
+        return {name: run for name, run in super().other_runs().items() if name != self.label} | {
+            self.first.label: self.first.run
         }
 
     @property
-    def title(self) -> str:
-        """What the run is called."""
-        return self.label
+    def label(self) -> str:
+        """Name of the run."""
+        return self._label
 
     def _paths(self, ground: Ground) -> list[Path]:
         pairs = zip(self.first.paths, self.settings.cameras, strict=True)
@@ -157,6 +97,17 @@ class Beside(Shot):
             if depth > _BURIED:
                 found.append(f'camera "{view.camera.name}" is up to {depth:,.0f} m under the ground there')
         return found
+
+
+def for_view(shot: Shot, view: str) -> Shot:
+    """The shot of one camera: of the first run, or as ``camera@run`` of another."""
+    name, _, label = view.partition("@")
+    return for_run(shot.of(name), label)
+
+
+def for_run(shot: Shot, label: str) -> Shot:
+    """The shot, with all its cameras, of the run of this name; of none: itself."""
+    return ComparisonShot(shot, label) if label else shot
 
 
 def carried(path: Path, camera: Camera, here: geo.LocalFrame, there: geo.LocalFrame) -> Path:

@@ -16,15 +16,15 @@ from ..errors import UsageError
 from ..progress import Progress, silent
 from ..run import content, times, zone
 from ..run.frame import local_frame
-from . import air_temperature, frames, passes, smoke_scale
+from . import air_temperature, camera_warnings, frames, scene_runs, smoke_scale
 from .cameras import path
 from .cameras.path import SENSOR, Path
 from .fire import burning, flame_depth
 from .fire.fire import Fire
 from .fire.fuel import DETAIL
 from .frames import Frames
-from .light import sun
 from .settings import frame_list
+from .settings.protocols import CameraSettings
 from .settings.settings import Camera, Settings
 from .smoke_scale import Scale
 from .terrain import elevation
@@ -105,44 +105,22 @@ class Shot:
     @cached_property
     def others(self) -> dict[str, Run]:
         """The scene file's other runs by their names."""
-        from . import comparison
-
-        return comparison.opened(self.settings)
+        return scene_runs.open_others(self.settings)
 
     @property
-    def title(self) -> str:
-        """What the run is called beside others: as its folder."""
+    def label(self) -> str:
+        """Name of the run beside others: that of its folder."""
         return self.settings.run.absolute().name
 
-    def neighbours(self) -> dict[str, Run]:
+    def other_runs(self) -> dict[str, Run]:
         """The runs that this one stands beside, by name."""
         return dict(self.others)
-
-    @property
-    def views(self) -> list[str]:
-        """All cameras by name, in the first run and then in the others (see `passes.view_of`)."""
-        names = [camera.name for camera in self.settings.cameras]
-        labels = [each.name for each in self.settings.runs]
-        return names + [passes.view_of(name, label) for label in labels for name in names]
-
-    def run_of(self, view: str) -> Run:
-        """The run that a view is of."""
-        return self.others.get(view.partition("@")[2], self.run)
-
-    def in_run(self, view: str) -> Shot:
-        """The shot, with all cameras, of the run that a view is of."""
-        from .comparison import Beside
-
-        label = view.partition("@")[2]
-        return Beside(self, label) if label else self
 
     def of(self, name: str) -> Shot:
         """The same shot with this camera alone: what it films depends on no other but that it follows.
 
-        As ``camera@run`` it is of that run.
+        See `comparison.for_view` for views of other runs.
         """
-        if "@" in name:
-            return self.of(name.partition("@")[0]).in_run(name)
         camera = self.camera(name)
         render = replace(self.settings.render, resolution=self.resolution(camera))
         shot = self._sharing(replace(self.settings, cameras=(camera,), render=render))
@@ -176,19 +154,20 @@ class Shot:
             There is none.
         """
         known, _, _ = name.partition("@")
+        views = scene_runs.views(self.settings)
         for camera in self.settings.cameras:
             if camera.name == name:
                 return camera
-            if camera.name == known and name in self.views:
+            if camera.name == known and name in views:
                 return replace(camera, name=name)
-        names = ", ".join(self.views) or "none"
+        names = ", ".join(views) or "none"
         raise UsageError(f'--camera: there is no "{name}"; the scene has {names}')
 
-    def resolution(self, camera: Camera) -> tuple[int, int]:
+    def resolution(self, camera: CameraSettings) -> tuple[int, int]:
         """Width and height (pixels) of a camera's pictures."""
         return camera.resolution or self.settings.render.resolution
 
-    def frames_of(self, camera: Camera) -> list[int]:
+    def frames_of(self, camera: CameraSettings) -> list[int]:
         """Frames that a camera films, ascending."""
         return frame_list.parse(camera.frames, self.frames.count)
 
@@ -202,18 +181,6 @@ class Shot:
     def moment(self, frame: float) -> datetime:
         """UTC of a frame."""
         return times.moment(self.run, self.frames.time(frame))
-
-    def sun(self, time: float) -> tuple[float, float]:
-        """Bearing and height (degrees) of the sun over the run at a model time (s)."""
-        return sun.at(self.run, time)
-
-    def moon(self, time: float) -> sun.Moon:
-        """The moon over the run at a model time (s)."""
-        return sun.moon(self.run, time)
-
-    def light(self, time: float) -> NDArray[np.float64]:
-        """Unit vector to the sun, by night to the moon, at a model time (s)."""
-        return sun.light(*self.sun(time), self.moon(time))
 
     @cached_property
     def built(self) -> NDArray[np.int64]:
@@ -270,37 +237,7 @@ class Shot:
 
     def warnings(self) -> list[str]:
         """What an artist should know of the scene file and of the cameras' paths."""
-        return [*self.settings.notes, *(text for view in self.paths if (text := self._ridges(view)))]
-
-    def one_eyed(self) -> list[str]:
-        """Cameras for headsets whose second eye is missing in a scene that they share with others."""
-        cameras = self.settings.cameras
-        around = [camera.name for camera in cameras if camera.rig.around]
-        if not around or len(around) == len(cameras):
-            return []
-        return [
-            f'camera "{name}" has one eye in a scene that other cameras are in; firetwin render, or a scene '
-            "with it alone, gives both"
-            for name in around
-        ]
-
-    def _ridges(self, view: Path) -> str:
-        """What ridges between a camera and its target have done, or hide."""
-        hidden = np.zeros(1) if view.hidden is None else view.hidden
-        if hidden.max() <= 0.0:
-            return ""
-        worst, frames = int(np.argmax(hidden)), f"{int((hidden > 0.0).sum())} of {self.frames.count} frames"
-        if view.camera.rig.over_ridges:
-            return (
-                f'camera "{view.camera.name}" flies up to {hidden[worst]:,.0f} m higher than its keys say, '
-                f"to see its target over ridges in {frames} (over_ridges = true)"
-            )
-        place = view.position[worst]
-        above = place[2] + hidden[worst] - self.ground.up(place[0], place[1])[0]
-        return (
-            f'camera "{view.camera.name}" has ridges before its target in {frames}; {above:,.0f} m above the '
-            "ground would see over them all (over_ridges = true raises it)"
-        )
+        return [*self.settings.notes, *camera_warnings.ridges(self)]
 
     @property
     def near(self) -> list[Path]:
@@ -319,25 +256,9 @@ class Shot:
         return float(east), float(north)
 
     @cached_property
-    def coldest_moment(self) -> float:
-        """K that a tenth of the run's air is colder than, in the coldest of 25 moments of the shot."""
-        return min(air_temperature.coldest(self.run, float(time)) for time in self._moments)
-
-    @cached_property
-    def warmest(self) -> tuple[float, float]:
-        """K that the air the fire warms is over unburned air, least and most, in 25 moments of the shot."""
-        found = [air_temperature.warmth(self.run, time - self.averaged, time) for time in self._moments]
-        low, high = max(noise for _, noise in found), max(float(above.max()) for above, _ in found)
-        return low, max(high, low + 1.0)
-
-    @property
-    def _moments(self) -> NDArray[np.float64]:
-        return np.linspace(self.frames.first, self.frames.last, min(25, self.frames.count))
-
-    @property
-    def averaged(self) -> float:
-        """Seconds over which the model's temperature is averaged: ten minutes, or from frame to frame."""
-        return max(600.0, self.frames.step)
+    def air(self) -> air_temperature.OverShot:
+        """Temperatures of the air over the shot."""
+        return air_temperature.OverShot(self.run, self.frames)
 
     @cached_property
     def fire_distance(self) -> float:

@@ -68,15 +68,15 @@ class Choice:
         """
         from ..errors import UsageError
         from ..run import readers
-        from . import comparison, run_checks
+        from . import comparison, run_checks, scene_runs
         from .shot import Shot
 
         settings = self.settings()
         run = readers.open(settings.run)
         run_checks.check(settings, run)
         shot = Shot(settings, run)
-        comparison.check(settings, run, shot.others)
+        scene_runs.check(settings, run, shot.others)
         if self.beside and self.beside not in shot.others:
             names = ", ".join(shot.others) or "none"
             raise UsageError(f'--run: there is no "{self.beside}" in [[runs]]; the scene has {names}')
-        return comparison.Beside(shot, self.beside) if self.beside else shot
+        return comparison.for_run(shot, self.beside)

@@ -8,12 +8,13 @@ import numpy as np
 from firetwin_core import lod
 from numpy.typing import ArrayLike, NDArray
 
+from . import sun
 from .cameras.path import Path
 from .terrain import mesh_tolerance
 from .terrain.terrain import Ground
 
 if TYPE_CHECKING:
-    from .shot import Shot
+    from .settings.protocols import ShotView
 
 
 _HALF_SPACE = 1.0e9  # tangent of half of 180 degrees
@@ -29,7 +30,7 @@ class Sights:
         Nothing is skipped: all counts as seen, and from as near as can be.
     """
 
-    def __init__(self, shot: Shot) -> None:
+    def __init__(self, shot: ShotView) -> None:
         self.shot, self.whole = shot, not shot.settings.render.skip
         self._known: dict[tuple[int, ...], lod.Sight] = {}
         self._ground: lod.Occluder | None = None
@@ -145,7 +146,7 @@ class Sights:
         """Where light comes from in frames (m,) from 0: unit vectors (m, 3)."""
         each, number = np.unique(frames, return_inverse=True)
         times = self.shot.frames.times[each]
-        return np.array([self.shot.light(float(t)) for t in times]).reshape(-1, 3)[number]
+        return np.array([sun.toward_light(self.shot.run, float(t)) for t in times]).reshape(-1, 3)[number]
 
 
 def _looks(path: Path, frames: NDArray[np.int64]) -> list[tuple[NDArray, NDArray]]:
@@ -161,7 +162,7 @@ def _joined(parts: list[NDArray], shape: tuple[int, ...]) -> NDArray:
     return np.concatenate(parts) if parts else np.empty((0, *shape))
 
 
-def _occluder(shot: Shot) -> tuple[lod.Occluder, float]:
+def _occluder(shot: ShotView) -> tuple[lod.Occluder, float]:
     """The run's part of the ground, as what hides, and the lowest scene z of all of it.
 
     It is as much lower as its mesh may be where it is seen, for where a line of sight goes into the ground it
@@ -175,7 +176,7 @@ def _occluder(shot: Shot) -> tuple[lod.Occluder, float]:
     return lod.Occluder(floor), lowest
 
 
-def _distance(shot: Shot, place: NDArray[np.float64]) -> NDArray[np.float64]:
+def _distance(shot: ShotView, place: NDArray[np.float64]) -> NDArray[np.float64]:
     """Least distance of places (ny, nx, 3) from cameras in perspective, m."""
     views = [(path, shot.filmed(path)) for path in shot.near]
     position = _joined([path.position[frames] for path, frames in views], (3,))

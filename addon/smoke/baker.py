@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from .. import files
 from ..errors import Error, writing
+from ..shot import sun
 from ..shot.fire import burning, heat_release
 from ..shot.fire.fire import Cells, Fire
 from ..shot.light import exposure
@@ -71,7 +72,7 @@ class Baker:
             max_age=self.shot.settings.smoke.max_age,
             burn_time=burning.BURN_TIME,
             smoke_fraction=self.shot.fire.smoke.per_heat * burning.HEAT,
-            stability=stability.under(self.shot.sun(time)[1]),
+            stability=stability.under(sun.at(self.shot.run, time)[1]),
             interval=scale.time(_INTERVAL),
             block=scale.length(_BLOCK),
             merge_radius=scale.length(stability.MERGE),

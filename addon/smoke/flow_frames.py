@@ -17,6 +17,7 @@ import numpy as np
 from firetwin_core import flow, lod, volume
 from numpy.typing import NDArray
 
+from ..shot import sun
 from ..shot.cameras.path import SENSOR
 from ..shot.shot import WIDE_LENS, Shot
 from ..shot.smoke_scale import Scale
@@ -215,7 +216,7 @@ class Painter:
         smoke = self._detail(moment, lights).paint_sparse(
             origin, voxel, surface, end, count, wanted, self._thin
         )
-        toward = self.shot.light(float(self.shot.frames.times[frame - 1]))
+        toward = sun.toward_light(self.shot.run, float(self.shot.frames.times[frame - 1]))
         lit = volume.LitSmoke(smoke, toward, *LIGHT, beyond.depths if beyond else None)
         return _Painted(lit, share, origin, moment.mass)
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from .. import files
 from ..errors import writing
 from ..progress import Progress
+from ..shot import sun
 from ..shot.fire import burning
 from ..shot.shot import Shot
 from ..shot.smoke_scale import FINER, Scale
@@ -189,7 +190,7 @@ class Live:
 
     def _outer(self, part: Part) -> flow.Solver:
         shot, box = self.whole.shot, part.box
-        around = atmosphere.air(shot.sun(shot.frames.middle)[1], part.mean)
+        around = atmosphere.air(sun.at(shot.run, shot.frames.middle)[1], part.mean)
         return flow.Solver(
             box.levels,
             box.shape,

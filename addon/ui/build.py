@@ -9,6 +9,7 @@ import bpy
 from ..blender import owned
 from ..errors import Error
 from ..scene.build import PARTS
+from ..shot import camera_warnings
 from ..shot.shot import Shot
 from . import (
     auto_framing,
@@ -120,7 +121,7 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     changed_settings.remember(owned.scene(uid).firetwin, then, parts)
     _finish(owned.scene(uid), shot, parts, new)
     yield from solve.price(uid)
-    for text in (*shot.warnings(), *shot.one_eyed(), *told):
+    for text in (*shot.warnings(), *camera_warnings.mono_vr(shot.settings), *told):
         yield Told(text, "WARNING")
     what = f"{shot.frames.count} frames" if part == ALL else f"the {part}"
     return f"Built {what} of {shot.run.name}" + (f"; {words}" if words else "")

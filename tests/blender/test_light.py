@@ -10,7 +10,8 @@ from firetwin.blender import compat, owned
 from firetwin.render import engine
 from firetwin.run import frame
 from firetwin.scene.light import build as light
-from firetwin.shot.light import exposure, sky, sun
+from firetwin.shot import sun
+from firetwin.shot.light import exposure, sky
 from firetwin.shot.shot import Shot
 
 

@@ -40,7 +40,7 @@ def test_a_rendered_picture_from_over_the_equator_shows_the_imagers_pixels(
         there[2] = shot.bare_ground.up(*there[:2])[0]
         local = view.rotation[1].T @ (there - view.position[1])
         x, y = (80 * (0.5 + 0.5 * np.array([1, -1]) * local[:2] / view.half)).astype(int)
-        expected = sensor.colour([[seen.short[row, column]]], shot.coldest_moment, 400.0, "inferno", 20.0)
+        expected = sensor.colour([[seen.short[row, column]]], shot.air.coldest, 400.0, "inferno", 20.0)
         assert known[y, x]
         assert np.abs(shown[y, x] - expected[0, 0]).max() < 0.51 / 255
     assert 0.05 < known.mean() < 0.6

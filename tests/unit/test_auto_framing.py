@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import whole_run
 from firetwin.run import readers, zone
-from firetwin.shot import auto_framing, run_checks
+from firetwin.shot import auto_framing, run_checks, sun
 from firetwin.shot.auto_framing import candidates, front, overview, straight_plume, visible_share, window
 from firetwin.shot.fire import emissions
 from firetwin.shot.settings import scene_file
@@ -109,7 +109,7 @@ def test_the_overview_stands_to_windward_with_the_sun_behind_it(fit_of):
     assert "windward" in found.cameras["overview"]
     found, run = fit_of("calm")
     way = candidates.bearing(Shot(found.settings, run).of("overview").paths[0])
-    azimuth, height = Shot(found.settings, run).sun(0.0)
+    azimuth, height = sun.at(run, 0.0)
     assert height > 0.0
     assert np.cos(np.radians(way - azimuth)) > 0.8
 

@@ -8,7 +8,7 @@ from firetwin.errors import InputError, UsageError
 from firetwin.imaging import split_screen
 from firetwin.render import fingerprint, plan
 from firetwin.run.score import shapes
-from firetwin.shot import comparison, passes
+from firetwin.shot import comparison, passes, scene_runs
 from firetwin.shot.cameras import path
 from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.fire import fronts
@@ -72,7 +72,7 @@ def scene(tmp_path):
 def test_a_camera_is_at_the_same_place_of_the_earth_and_looks_the_same_way(scene):
     shot = Choice(scene=str(scene)).shot()
     for name in ("drone", "ir"):
-        (here,), other = shot.of(name).paths, shot.of(f"{name}@wide")
+        (here,), other = shot.of(name).paths, comparison.for_view(shot, f"{name}@wide")
         (there,) = other.paths
         assert (other.run.name, there.camera.name) == ("Wide", f"{name}@wide")
         for points in ("position", "target"):
@@ -129,8 +129,8 @@ def test_what_cannot_be_is_said(scene, old, new, words):
 
 def test_one_of_the_runs_is_built_by_its_name(scene):
     shot = Choice(scene=str(scene), beside="wide").shot()
-    assert (shot.run.name, shot.views) == ("Wide", ["drone@wide", "ir@wide"])
-    assert shot.neighbours().keys() == {"a"}
+    assert (shot.run.name, scene_runs.views(shot.settings)) == ("Wide", ["drone@wide", "ir@wide"])
+    assert shot.other_runs().keys() == {"a"}
     with pytest.raises(UsageError, match=r'--run: there is no "none" in .*; the scene has wide'):
         Choice(scene=str(scene), beside="none").shot()
 

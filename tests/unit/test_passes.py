@@ -231,13 +231,13 @@ def test_the_papers_map_of_a_run_without_fire_is_the_picture(finished):
 
 def test_ends_of_scales_are_those_of_the_shot_and_read_once(make_run, monkeypatch):
     shot = Seen(runs.open(make_run(**burning_east(15.0))))
-    low, high = shot.warmest
+    low, high = shot.air.warmest
     assert low == pytest.approx(0.0, abs=0.01)
     assert high == pytest.approx(15.0, abs=0.01)
-    assert shot.coldest_moment < 306.0
+    assert shot.air.coldest < 306.0
     monkeypatch.setattr(air_temperature, "at", None)
     monkeypatch.setattr(air_temperature, "mean", None)
-    assert (shot.warmest, shot.coldest_moment) == ((low, high), shot.coldest_moment)
+    assert (shot.air.warmest, shot.air.coldest) == ((low, high), shot.air.coldest)
 
 
 def test_the_thermal_scale_follows_the_moment_alone(make_run, monkeypatch):

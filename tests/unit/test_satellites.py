@@ -239,7 +239,7 @@ def test_a_pass_shows_the_imagers_pixels_where_they_lie_in_a_cameras_picture(
     x, y = (120 * (0.5 + 0.5 * np.array([1, -1]) * local[:2] * scale / path.half)).astype(int)
     bands = zip(made, (found.short, found.long), imager.INSTRUMENTS[name].saturation, strict=True)
     for band, kelvin, most in bands:
-        expected = sensor.colour([[kelvin[hot]]], shot.coldest_moment, most, "inferno", 20.0)[0, 0]
+        expected = sensor.colour([[kelvin[hot]]], shot.air.coldest, most, "inferno", 20.0)[0, 0]
         assert made[band][y, x] == pytest.approx(expected, abs=0.01)
         assert made[band][119, 60] == pytest.approx(3 * [0.12], abs=0.01)  # beyond the run's domain
     assert made["short"][y, x].sum() > made["short"][y, x - 25].sum() + 0.5

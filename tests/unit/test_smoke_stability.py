@@ -4,8 +4,7 @@ from datetime import UTC, datetime
 
 import numpy as np
 import pytest
-from firetwin.shot import frames
-from firetwin.shot.light import sun
+from firetwin.shot import frames, sun
 from firetwin.shot.settings.settings import Time
 from firetwin.smoke import stability
 from firetwin_core import run as runs

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import sun
 from .front import Front
 from .visible_share import Seen
 
@@ -109,7 +110,7 @@ def liking(front: Front, bearing: float) -> float:
     """How well a camera stands in a direction of the fire (degrees), -1..1: windward, the sun behind it."""
     side = np.array([np.sin(np.radians(bearing)), np.cos(np.radians(bearing))])
     windward = -float(side @ front.wind)
-    azimuth, height = front.shot.sun(front.shot.frames.middle)
+    azimuth, height = sun.at(front.shot.run, front.shot.frames.middle)
     by_day = np.clip(height / 5.0, 0.0, 1.0) * np.cos(np.radians(max(height, 0.0)))
     behind = float(np.cos(np.radians(bearing - azimuth))) * by_day
     weight = np.array([1.0 if np.any(front.wind) else 0.0, 0.6])
@@ -138,7 +139,7 @@ def where(front: Front, bearing: float) -> str:
     found = [f"from the {side(bearing)}"]
     if float(vector @ front.wind) < -0.5:
         found.append("windward")
-    azimuth, height = front.shot.sun(front.shot.frames.middle)
+    azimuth, height = sun.at(front.shot.run, front.shot.frames.middle)
     if height > 0.0 and np.cos(np.radians(bearing - azimuth)) > 0.5:
         found.append("the sun behind it")
     return ", ".join(found)

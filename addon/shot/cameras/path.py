@@ -14,7 +14,7 @@ from ..terrain.terrain import Ground
 if TYPE_CHECKING:
     from firetwin_core import geo
 
-    from ..settings.settings import Camera
+    from ..settings.protocols import CameraSettings
 
 SENSOR = 36.0  # mm, width of the film
 UP = np.array([0.0, 0.0, 1.0])
@@ -61,7 +61,7 @@ class Path:
         Of its pictures (of one eye), pixels; the shot knows it.
     """
 
-    camera: Camera
+    camera: CameraSettings
     position: Array
     rotation: Array
     target: Array

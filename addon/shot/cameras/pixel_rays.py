@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from . import panorama
 
 if TYPE_CHECKING:
-    from ..shot import Shot
+    from ..settings.protocols import ShotView
     from .path import Path
 
 SKY = 1.0e9  # m; what is deeper is no ground
 
 
-def of(shot: Shot, camera: str) -> Path:
+def of(shot: ShotView, camera: str) -> Path:
     """The path of a camera."""
     return next(view for view in shot.paths if view.camera.name == camera)
 

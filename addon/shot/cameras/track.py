@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from firetwin_core import geo
     from firetwin_core.run import Run
 
-    from ..frames import Frames
+    from ..settings.protocols import Frames
 
 MOMENTS = {"own": "UTC", "start": "from frame 1 on", "shot": "over all frames"}
 

@@ -17,7 +17,7 @@ from ...run import fuel_category
 from . import emissions
 
 if TYPE_CHECKING:
-    from ..shot import Shot
+    from ..settings.protocols import ShotView
     from ..terrain.terrain import Ground
 
 _WHOLE = 60.0  # m; of a front as deep, or deeper, patterns have their full size: a crown fire's
@@ -71,7 +71,7 @@ class Fields:
         return emissions.column("ash")[self.kind]
 
 
-def head(shot: Shot) -> float:
+def head(shot: ShotView) -> float:
     """Depth (m) of the flames at the head of the front in a shot; 0 where nothing burns."""
     ground, front = shot.bare_ground, shot.front
     passed = (ground.burned >= 0.5) & (ground.arrival <= shot.frames.last)
@@ -81,7 +81,7 @@ def head(shot: Shot) -> float:
     return float(np.percentile((front.speed * front.residence)[passed], _STRONG))
 
 
-def scale(shot: Shot) -> float:
+def scale(shot: ShotView) -> float:
     """Size of what is seen of the front and the scar beside that of a crown fire's, to 1."""
     deep = head(shot)
     return float(np.clip(deep / _WHOLE, _LEAST, 1.0)) if deep else 1.0

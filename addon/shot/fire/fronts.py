@@ -163,4 +163,4 @@ def lines(shot: Shot, run: Run) -> Lines:
 def colours(shot: Shot) -> dict[str, str]:
     """The colour of each run of the scene file, the first one's name first."""
     first = getattr(shot, "first", shot)
-    return dict(zip((first.title, *first.others), COLOURS, strict=False))
+    return dict(zip((first.label, *first.others), COLOURS, strict=False))

@@ -13,6 +13,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import sun
 from ..cameras import targets
 from ..cameras.path import Path
 from ..shot import Shot
@@ -95,7 +96,7 @@ def _stops(found: Array, glow: Array) -> float:
 
 def _sun(shot: Shot, frame: float) -> float:
     """Height of the sun in a frame, degrees."""
-    return float(shot.sun(shot.frames.time(frame))[1])
+    return float(sun.at(shot.run, shot.frames.time(frame))[1])
 
 
 def _dark(found: Array, sun: float) -> float:

@@ -8,9 +8,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import sun
 from ..shot import Shot
 from ..terrain import noise
-from . import sun
 
 _SUN = 11.1  # W/m2 over the air
 _SUN_DEPTH = np.array([0.130, 0.175, 0.2525])  # optical depth in red, green, blue of one air mass with dust
@@ -86,7 +86,7 @@ def _haze(height: float, moonlight: float) -> NDArray[np.float64]:
 
 def over(shot: Shot, time: float) -> State:
     """Light over a shot's run at a model time (s)."""
-    return State(*shot.sun(time), shot.moon(time))
+    return State(*sun.at(shot.run, time), sun.moon(shot.run, time))
 
 
 def glow(darkness: float) -> float:

@@ -11,14 +11,13 @@ import pkgutil
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
-    from ..settings.settings import Camera, Settings
-    from ..shot import Shot
+    from ..settings.protocols import CameraSettings
 
 Files = Mapping[str, Path]
-Finish = Callable[[Files, Mapping[str, Files], "Shot", str, int], None]
+Finish = Callable[[Files, Mapping[str, Files], Any, str, int], None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -205,7 +204,7 @@ def compares(name: str) -> bool:
     return isinstance(known()[name], ComparisonPass)
 
 
-def refused(each: Pass, camera: Camera, engine: str) -> str:
+def refused(each: Pass, camera: CameraSettings, engine: str) -> str:
     """Why a camera cannot record a pass with an engine; empty: it can."""
     if records_masks(each) and engine == "eevee":
         return (
@@ -217,7 +216,7 @@ def refused(each: Pass, camera: Camera, engine: str) -> str:
     return ""
 
 
-def of_camera(settings: Settings, camera: Camera) -> tuple[Pass, ...]:
-    """Passes of a camera in order: its own, or those of [render] where it names none."""
+def of_camera(settings: Any, camera: CameraSettings) -> tuple[Pass, ...]:
+    """Passes of a camera in order: its own, or those of `settings.render` where it names none."""
     names = camera.passes or settings.render.passes
     return tuple(each for each in known().values() if each.name in names)

@@ -43,7 +43,7 @@ def draw(png: Path, depth: Path, shot: Shot, camera: str, frame: int, long: bool
             shot, pixel_rays.points(view, frame, planar), seen, seen.long if long else seen.short
         )
     most = instrument.saturation[long]
-    low = min(shot.coldest_moment, most - 1.0)
+    low = min(shot.air.coldest, most - 1.0)
     shown = sensor.colour(kelvin, low, most, PALETTE, KNEE)
     shown[np.isnan(kelvin)] = _GREY
     colour_bar.draw(shown, low, most, PALETTE, KNEE)

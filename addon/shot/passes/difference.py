@@ -41,10 +41,10 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
     planar = sensor.read_image(needed["depth"]["exr"])[..., 0]
     points = pixel_rays.points(pixel_rays.of(shot, camera), frame, planar)
-    names, colours = [shot.title, *shot.others], fronts.colours(shot)
+    names, colours = [shot.label, *shot.others], fronts.colours(shot)
     pictures, keys = [], []
     for label, kinds in zip(shot.others, classes(shot, points, frame), strict=True):
-        shades = [BOTH, colours[shot.title], colours[label]]
+        shades = [BOTH, colours[shot.label], colours[label]]
         pictures.append(tinted(rgb, kinds, shades))
         keys.append(list(zip(shades, ("burned in both", f"only {names[0]}", f"only {label}"), strict=True)))
     sensor.write_image(files["png"], split_screen.sheet(pictures, keys, comparison.caption(shot, frame)))

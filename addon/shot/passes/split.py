@@ -33,7 +33,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     names = ["rgb", *(view_of("rgb", label) for label in shot.others)]
     pictures = [sensor.read_image(needed[name]["png"])[..., :3] for name in names]
     keys = []
-    for label, run in {shot.title: shot.run, **shot.others}.items():
+    for label, run in {shot.label: shot.run, **shot.others}.items():
         acres = info.burned(run, [times.seconds(run, moment)])[0] / info.ACRE
         others = [(colours[other], f"front of {other}") for other in colours if other != label]
         keys.append([(colours[label], f"{label}  {acres:,.0f} acres"), *(others if drawn else ())])

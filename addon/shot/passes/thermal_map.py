@@ -31,7 +31,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     from ..terrain.terrain import bilinear
 
     now = float(shot.frames.time(frame))
-    above, _ = air_temperature.warmth(shot.run, now - shot.averaged, now)
+    above, _ = air_temperature.warmth(shot.run, now - shot.air.averaged, now)
     planar = sensor.read_image(needed["depth"]["exr"])[..., 0]
     point = pixel_rays.points(pixel_rays.of(shot, camera), frame, planar)
     ground = np.isfinite(point).all(axis=-1)
@@ -40,7 +40,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
         latitude, longitude, _ = shot.local_frame.reverse(point[ground])
         warmth[ground] = bilinear(above, *air_temperature.indices(shot.run, latitude, longitude))
     rgb = sensor.read_image(needed["rgb"]["png"])[..., :3]
-    sensor.write_image(files["png"], sensor.thermal_composite(rgb, warmth, *shot.warmest))
+    sensor.write_image(files["png"], sensor.thermal_composite(rgb, warmth, *shot.air.warmest))
 
 
 PASS = DerivedPass(

@@ -27,7 +27,7 @@ from .orthophoto import Picture
 from .raster import extent, overlap, said
 
 if TYPE_CHECKING:
-    from ..shot import Shot
+    from ..settings.protocols import ShotView
 
 LAYERS = ("soft", "hard", "water")
 """What burns over, what does not, and lakes and rivers; each a picture, from below."""
@@ -145,8 +145,8 @@ class Map:
     high: Array
 
 
-_MAPS: WeakKeyDictionary[Shot, Map | None] = WeakKeyDictionary()
-_PICTURES: WeakKeyDictionary[Shot, dict[str, list[Picture]]] = WeakKeyDictionary()
+_MAPS: WeakKeyDictionary[ShotView, Map | None] = WeakKeyDictionary()
+_PICTURES: WeakKeyDictionary[ShotView, dict[str, list[Picture]]] = WeakKeyDictionary()
 
 
 def kind_of(properties: Mapping[str, Any]) -> str | None:
@@ -189,7 +189,7 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
     return {"land use": content.of_file(path, settings.cache, progress)} if path else {}
 
 
-def of(shot: Shot) -> Map | None:
+def of(shot: ShotView) -> Map | None:
     """The map of a shot; None: there is none."""
     if shot.settings.terrain.land_use is None:
         return None
@@ -198,7 +198,7 @@ def of(shot: Shot) -> Map | None:
     return _MAPS[shot]
 
 
-def pictures(shot: Shot) -> dict[str, list[Picture]]:
+def pictures(shot: ShotView) -> dict[str, list[Picture]]:
     """Pictures of each of `LAYERS` that the map has: all of it, and what is near cameras finer."""
     known = of(shot)
     if known is None:
@@ -210,7 +210,7 @@ def pictures(shot: Shot) -> dict[str, list[Picture]]:
     return _PICTURES[shot]
 
 
-def mapped(shot: Shot, place: Array) -> NDArray[np.bool_]:
+def mapped(shot: ShotView, place: Array) -> NDArray[np.bool_]:
     """Whether the map covers places (n, 2) in the scene, m: nothing is invented there."""
     known = of(shot)
     if known is None:
@@ -218,7 +218,7 @@ def mapped(shot: Shot, place: Array) -> NDArray[np.bool_]:
     return np.all((place[:, :2] > known.low - _BEYOND) & (place[:, :2] < known.high + _BEYOND), axis=1)
 
 
-def keeps_out(shot: Shot, place: Array) -> NDArray[np.bool_]:
+def keeps_out(shot: ShotView, place: Array) -> NDArray[np.bool_]:
     """Whether no plant stands at places (n, 2 or 3) in the scene, m: water, roads, fields and buildings."""
     out = np.zeros(len(place), bool)
     for layer, drawn in pictures(shot).items():
@@ -258,7 +258,7 @@ def _rings(found: tuple[str, Feature]) -> list[feature.Ring]:
     return [*(polygon[0] for polygon in each.polygons), *each.lines]
 
 
-def _placed(shot: Shot, found: list[tuple[str, Feature]]) -> Map:
+def _placed(shot: ShotView, found: list[tuple[str, Feature]]) -> Map:
     def scene(ring: Array) -> Array:
         return shot.bare_ground.point(ring[:, 1], ring[:, 0])[:, :2]
 
@@ -285,7 +285,7 @@ def _placed(shot: Shot, found: list[tuple[str, Feature]]) -> Map:
     return Map(tuple(things), every.min(axis=0), every.max(axis=0))
 
 
-def _frames(shot: Shot, known: Map) -> list[tuple[Array, Array]]:
+def _frames(shot: ShotView, known: Map) -> list[tuple[Array, Array]]:
     """Corners of the pictures to draw: of all of the map, and of what is near cameras."""
     ground = shot.ground
     low, high = known.low - _BEYOND, known.high + _BEYOND
@@ -299,7 +299,7 @@ def _frames(shot: Shot, known: Map) -> list[tuple[Array, Array]]:
     return frames
 
 
-def _drawn(shot: Shot, known: Map, layer: str, low: Array, high: Array) -> Picture:
+def _drawn(shot: ShotView, known: Map, layer: str, low: Array, high: Array) -> Picture:
     """One layer of the map as a picture."""
     size = np.clip(np.ceil((high - low) / _FINEST), 2, _LARGEST).astype(int)
     pixel = (high - low) / size

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from . import shadow_casters
 
 if TYPE_CHECKING:
-    from ..shot import Shot
+    from ..settings.protocols import ShotView
 
 UNSEEN = 50.0  # m; ground that is neither seen nor throws shadows on what is may be so far off
 _BLOCK = 150.0  # m; ground is asked about in squares of about this size
@@ -42,7 +42,7 @@ class Accuracy:
     fine: NDArray[np.uint8]
 
 
-def wanted(shot: Shot) -> Accuracy:
+def wanted(shot: ShotView) -> Accuracy:
     """The accuracy that `terrain.error` asks for, which is in pixels of whichever camera sees most."""
     ground = shot.ground
     place = _places(shot)
@@ -58,7 +58,7 @@ def wanted(shot: Shot) -> Accuracy:
     return Accuracy(place, _at_points(tolerance[: rows - 1, : columns - 1]), _within_limit(fine))
 
 
-def _places(shot: Shot) -> NDArray[np.float32]:
+def _places(shot: ShotView) -> NDArray[np.float32]:
     """Points (ny, nx, 3) of the grid, m; off by at most 8 mm at the apron's end."""
     fields, frame = shot.ground.fields, shot.ground.frame
     place = np.empty((*fields.elevation.shape, 3), np.float32)
@@ -100,7 +100,7 @@ def _blocks(
     )
 
 
-def most(shot: Shot, distance: NDArray[np.float64]) -> NDArray[np.float64]:
+def most(shot: ShotView, distance: NDArray[np.float64]) -> NDArray[np.float64]:
     """Bound of the vertical error (m) of ground that is seen, by its distance (m) from the nearest camera."""
     angle, pixel = _views(shot)
     near = np.zeros(distance.shape) if angle is None else _allowed(angle * np.maximum(distance, _NEAREST))
@@ -112,7 +112,7 @@ def _allowed(error: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.clip(error, _EXACT, UNSEEN)
 
 
-def _views(shot: Shot) -> tuple[float | None, float | None]:
+def _views(shot: ShotView) -> tuple[float | None, float | None]:
     """Errors that may be seen: of cameras in perspective, m for each m of distance; of others, m."""
     error = shot.settings.terrain.error
     angle, pixel = (error * size if np.isfinite(size) else None for size in shot.pixel)
@@ -120,7 +120,7 @@ def _views(shot: Shot) -> tuple[float | None, float | None]:
 
 
 def _tolerance(
-    shot: Shot, centre: NDArray, radius: NDArray, rise: NDArray, shape: tuple[int, int]
+    shot: ShotView, centre: NDArray, radius: NDArray, rise: NDArray, shape: tuple[int, int]
 ) -> tuple[NDArray, NDArray]:
     """Largest vertical error (n,) of blocks, m, and how near cameras come that see them; infinite if none."""
     tolerance, distance = np.full(len(centre), UNSEEN), np.full(len(centre), np.inf)
@@ -145,7 +145,7 @@ def _tolerance(
     return tolerance, distance
 
 
-def _halvings(shot: Shot, tolerance: NDArray, distance: NDArray) -> NDArray[np.int64]:
+def _halvings(shot: ShotView, tolerance: NDArray, distance: NDArray) -> NDArray[np.int64]:
     """How often cells of blocks are halved: where the surface has more than its grid, as errors ask for."""
     ground = shot.ground
     finest = min(_FINEST, max(ground.cell) / ground.patch.parts) if ground.patch else _FINEST

@@ -25,7 +25,7 @@ from .elevation import between, ramp
 from .raster import Array, Raster, extent, overlap, said
 
 if TYPE_CHECKING:
-    from ..shot import Shot
+    from ..settings.protocols import ShotView
 
 _LARGEST = 3072  # pixels of a picture's side
 _STRIP = 256  # rows that are made at once
@@ -85,7 +85,7 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
     return found | {"photo extent": str(settings.terrain.photo_extent)}
 
 
-def pictures(shot: Shot) -> list[Picture]:
+def pictures(shot: ShotView) -> list[Picture]:
     """All of the photo as one picture, and what is near cameras as another if the photo is finer there."""
     if shot.settings.terrain.photo is None:
         return []
@@ -112,13 +112,13 @@ def pictures(shot: Shot) -> list[Picture]:
     return made
 
 
-def _pixel(shot: Shot) -> float:
+def _pixel(shot: ShotView) -> float:
     """Half of the smallest pixel (m) that shows ground, 200 m from cameras in perspective."""
     sizes = [view.pixel * (200.0 if view.perspective else 1.0) for view in shot.paths]
     return 0.5 * min(sizes, default=1.0)
 
 
-def _picture(shot: Shot, source: _Source, low: Array, high: Array, step: float) -> Picture:
+def _picture(shot: ShotView, source: _Source, low: Array, high: Array, step: float) -> Picture:
     """A part of the ground, no finer than `step` (m) or `_LARGEST` allow, made strip by strip."""
     size = np.clip(np.ceil((high - low) / step), 2, _LARGEST).astype(int)
     pixels = np.zeros((size[1], size[0], 4), np.uint8)
@@ -138,7 +138,7 @@ def _picture(shot: Shot, source: _Source, low: Array, high: Array, step: float) 
 class _Places:
     """Latitude and longitude at scene coordinates: looked up on a lattice, and bilinear between."""
 
-    def __init__(self, shot: Shot, low: Array, high: Array) -> None:
+    def __init__(self, shot: ShotView, low: Array, high: Array) -> None:
         counts = np.ceil((high - low) / _LATTICE).astype(int) + 1
         self.low, self.step = low, (high - low) / np.maximum(counts - 1, 1)
         counts = np.maximum(counts, 2)

@@ -11,15 +11,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import sun
+
 if TYPE_CHECKING:
-    from ..shot import Shot
+    from ..settings.protocols import ShotView
 
 _LOWEST = 1.0  # degrees; suns lower than this throw no shadows, as in `lod.seen`
 _TURN = 2.0  # degrees; of suns nearer to each other than this one is asked: blocks are wider all round
 
 
 def with_shade(
-    shot: Shot, centre: NDArray[np.float64], rise: NDArray[np.float64], seen: NDArray[np.bool_]
+    shot: ShotView, centre: NDArray[np.float64], rise: NDArray[np.float64], seen: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:
     """Blocks (ny, nx) that are `seen`, and those that throw a shadow on one that is, with any of the suns.
 
@@ -65,12 +67,12 @@ def _reaches(
     return found
 
 
-def _suns(shot: Shot) -> list[tuple[float, float]]:
+def _suns(shot: ShotView) -> list[tuple[float, float]]:
     """Bearings and heights (degrees) of what throws shadows in what is filmed, `_TURN` apart."""
     frames = np.unique(np.concatenate([shot.filmed(path) for path in shot.paths]))
     suns: list[tuple[float, float]] = []
     for time in shot.frames.times[frames]:
-        east, north, up = shot.light(float(time))
+        east, north, up = sun.toward_light(shot.run, float(time))
         bearing, height = np.degrees(np.arctan2(east, north)), np.degrees(np.arcsin(up))
         last = suns[-1] if suns else (np.inf, np.inf)
         if height >= _LOWEST and np.hypot(bearing - last[0], height - last[1]) >= _TURN:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import functools
 import importlib
 import pkgutil
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,12 +18,8 @@ if TYPE_CHECKING:
 
     from firetwin_core.run import Run
 
-    from ...frames import Frames
+    from ...settings.protocols import CameraSettings, Frames, ShotView
     from ...settings.schema import Where
-    from ...settings.settings import Camera
-    from ...shot import Shot
-    from ...terrain.terrain import Ground
-    from ..path import Path as Way
     from ._view import View
 
     Place = tuple[Where, float, float]
@@ -59,7 +55,7 @@ class Rig:
         """Files that its way depends on."""
         return []
 
-    def leader(self, cameras: Sequence[Camera]) -> Camera | None:
+    def leader(self, cameras: Sequence[CameraSettings]) -> CameraSettings | None:
         """Another of these cameras on whose way its own depends."""
         return None
 
@@ -67,8 +63,8 @@ class Rig:
         """What of it does not fit the run: where in its table, and words that follow the camera's name."""
         return None
 
-    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Way:
-        """The camera's way through the shot over this ground."""
+    def path(self, camera: CameraSettings, shot: ShotView, ground: Any) -> Any:
+        """The camera's `path.Path` through the shot over this `terrain.Ground`."""
         raise NotImplementedError
 
 

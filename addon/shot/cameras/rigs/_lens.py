@@ -11,8 +11,7 @@ from ..path import SENSOR
 from . import Rig
 
 if TYPE_CHECKING:
-    from ...settings.settings import Camera
-    from ...shot import Shot
+    from ...settings.protocols import CameraSettings, ShotView
 
 FOCAL_LENGTH = {"unit": "mm", "at_least": 1, "at_most": 5000}
 
@@ -24,7 +23,7 @@ class Lens(Rig):
     focal_length: float = key(28.0, "focal length", **FOCAL_LENGTH)
     sensor_width: float = key(SENSOR, "sensor width; 36: full frame, 13.2: 1 inch, 6.4: small drone", **WIDTH)
 
-    def half(self, camera: Camera, shot: Shot) -> tuple[float, float]:
+    def half(self, camera: CameraSettings, shot: ShotView) -> tuple[float, float]:
         """Tangents of half the angles of view, across and up; pictures are as wide as the chip."""
         width, height = shot.resolution(camera)
         half = 0.5 * self.sensor_width / self.focal_length

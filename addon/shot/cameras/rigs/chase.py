@@ -14,8 +14,7 @@ from ..path import Path
 from ._lens import Lens
 
 if TYPE_CHECKING:
-    from ...settings.settings import Camera
-    from ...shot import Shot
+    from ...settings.protocols import CameraSettings, ShotView
     from ...terrain.terrain import Ground
     from ._view import View
 
@@ -38,7 +37,7 @@ class Chase(Lens):
         """As far from the head, and as high above the ground, as the eye is from the middle of the view."""
         return cls(**view.lens, distance=max(view.away, 1.0), height=view.above)
 
-    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+    def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
         """Beside the head, whose place and course are smooth over a fifth of the shot, and looking at it."""
         target = targets.follow("head", ground, shot.frames.times, self.target_height)
         away = targets.smoothed(flight.heading(target)) + np.radians(self.side)

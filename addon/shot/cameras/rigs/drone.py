@@ -20,9 +20,7 @@ from ._lens import Lens
 if TYPE_CHECKING:
     from firetwin_core.run import Run
 
-    from ...frames import Frames
-    from ...settings.settings import Camera
-    from ...shot import Shot
+    from ...settings.protocols import CameraSettings, Frames, ShotView
     from ...terrain.terrain import Ground
     from . import Place
     from ._view import View
@@ -89,7 +87,7 @@ class Drone(Lens):
         missed = read(self.track).missed(run, frames)
         return (("track",), f"follows {self.track.name}, which {missed}") if missed else None
 
-    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+    def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
         """Smooth between keys or along its track, over the hills between, looking at its targets."""
         count = shot.frames.count
         moments = np.linspace(0.0, 1.0, count)
@@ -127,7 +125,7 @@ class Drone(Lens):
         keys: list[CameraKey],
         position: Array,
         moments: Array,
-        shot: Shot,
+        shot: ShotView,
         ground: Ground,
         moving: dict[tuple[str, float], Array],
     ) -> Array:
@@ -143,14 +141,14 @@ def _waypoints(keys: list[CameraKey]) -> Waypoints:
     return Waypoints(*values, np.array([each.above == "ground" for each in keys]))
 
 
-def _moving(keys: list[CameraKey], shot: Shot, ground: Ground) -> dict[tuple[str, float], Array]:
+def _moving(keys: list[CameraKey], shot: ShotView, ground: Ground) -> dict[tuple[str, float], Array]:
     """Where what moves is in every frame (frames, 3), by its name and the height above the ground."""
     wanted = {(each.target, each.target_height) for each in keys if each.target in targets.MOVING}
     return {each: targets.follow(each[0], ground, shot.frames.times, each[1]) for each in wanted}
 
 
 def _aim(
-    at: CameraKey, position: Array, shot: Shot, ground: Ground, moving: dict[tuple[str, float], Array]
+    at: CameraKey, position: Array, shot: ShotView, ground: Ground, moving: dict[tuple[str, float], Array]
 ) -> Array:
     """Where a key points in every frame (frames, 3)."""
     if at.target == "ahead":

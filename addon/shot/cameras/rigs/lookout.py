@@ -15,8 +15,7 @@ from ._key import rising
 from ._lens import Lens
 
 if TYPE_CHECKING:
-    from ...settings.settings import Camera
-    from ...shot import Shot
+    from ...settings.protocols import CameraSettings, ShotView
     from ...terrain.terrain import Ground
     from . import Place
     from ._view import View
@@ -63,7 +62,7 @@ class Lookout(Lens):
         """Where it stands."""
         return [(("latitude",), self.latitude, self.longitude)]
 
-    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+    def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
         """It stays; bearings count from the north and tilts from the horizon of its own place."""
         count = shot.frames.count
         keys = self.keys or (LookoutKey(),)

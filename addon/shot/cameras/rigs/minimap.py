@@ -15,8 +15,7 @@ from . import Rig
 from .satellite import down
 
 if TYPE_CHECKING:
-    from ...settings.settings import Camera
-    from ...shot import Shot
+    from ...settings.protocols import CameraSettings, ShotView
     from ...terrain.terrain import Ground
     from ._view import View
 
@@ -33,12 +32,12 @@ class Minimap(Rig):
         """As wide as the view."""
         return cls(swath=view.width)
 
-    def leader(self, cameras: Sequence[Camera]) -> Camera | None:
+    def leader(self, cameras: Sequence[CameraSettings]) -> CameraSettings | None:
         """The camera that it follows; None where there is none of that name, or none at all."""
         found = (each for each in cameras if not hasattr(each.rig, "follows"))
         return next((each for each in found if self.follows in ("", each.name)), None)
 
-    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+    def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
         """Over the camera that it follows in every frame; over the middle of the run without one."""
         leader = self.leader(shot.cameras)
         east, north = np.zeros((2, shot.frames.count))

@@ -13,8 +13,7 @@ from . import Rig
 from ._lens import FOCAL_LENGTH, Lens
 
 if TYPE_CHECKING:
-    from ...settings.settings import Camera
-    from ...shot import Shot
+    from ...settings.protocols import CameraSettings, ShotView
     from ...terrain.terrain import Ground
 
 
@@ -35,12 +34,12 @@ class Mounted(Rig):
         """It is on some mount."""
         return None if self.follows else (("follows",), "has no follows; name the camera it is mounted with")
 
-    def leader(self, cameras: Sequence[Camera]) -> Camera | None:
+    def leader(self, cameras: Sequence[CameraSettings]) -> CameraSettings | None:
         """The camera whose mount it shares; None where none in perspective has the name."""
         found = (each for each in cameras if isinstance(each.rig, Lens))
         return next((each for each in found if each.name == self.follows), None)
 
-    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+    def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
         """The way of the camera that it follows, seen by its own lens."""
         leader = self.leader(shot.cameras)
         way = self.through(leader.rig.path(leader, shot, ground))

@@ -14,8 +14,7 @@ from ..path import Path
 from ._lens import FOCAL_LENGTH, Lens
 
 if TYPE_CHECKING:
-    from ...settings.settings import Camera
-    from ...shot import Shot
+    from ...settings.protocols import CameraSettings, ShotView
     from ...terrain.terrain import Ground
     from . import Place
     from ._view import View
@@ -72,7 +71,7 @@ class Orbit(Lens):
             return []
         return [(("latitude",), self.latitude, self.longitude)]
 
-    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+    def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
         """Round the point at its speed; hills under the circle lift it smoothly."""
         middle = ground.frame
         point = ground.point(

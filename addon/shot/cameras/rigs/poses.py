@@ -18,8 +18,7 @@ from ._lens import FOCAL_LENGTH, Lens
 if TYPE_CHECKING:
     from firetwin_core import geo
 
-    from ...settings.settings import Camera
-    from ...shot import Shot
+    from ...settings.protocols import CameraSettings, ShotView
     from ...terrain.terrain import Ground
     from . import Place
     from ._view import View
@@ -67,7 +66,7 @@ class Poses(Lens):
         """Its poses."""
         return [(("keys", i, "latitude"), at.latitude, at.longitude) for i, at in enumerate(self.keys)]
 
-    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+    def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
         """Cubics from pose to pose: places in the scene, quaternions, and logarithms of focal lengths."""
         keys, frame = self.keys, ground.frame
         columns = ((each.latitude, each.longitude, each.height) for each in keys)

@@ -20,9 +20,7 @@ from .drone import Drone
 if TYPE_CHECKING:
     from firetwin_core.run import Run
 
-    from ...frames import Frames
-    from ...settings.settings import Camera
-    from ...shot import Shot
+    from ...settings.protocols import CameraSettings, Frames, ShotView
     from ...terrain.terrain import Ground
     from . import Place
 
@@ -69,7 +67,7 @@ class Vr(Rig):
         """A track that keeps its own times is flown while the frames are."""
         return self._drone().misfit(run, frames)
 
-    def path(self, camera: Camera, shot: Shot, ground: Ground) -> Path:
+    def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
         """Where a drone with these keys would be, upright; what it sees next to its feet is to the north."""
         flown = self._drone().path(camera, shot, ground)
         latitude, longitude, height = ground.frame.reverse(flown.position)

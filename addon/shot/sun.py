@@ -12,7 +12,7 @@ from astral.sun import azimuth, elevation
 from firetwin_core.run import Run
 from numpy.typing import NDArray
 
-from ...run import times
+from ..run import times
 
 NIGHT = -1.0  # degrees of the sun under which the moon shines
 _STARS = (150.0, 40.0)  # degrees of bearing and height; where what light there is comes from without a moon
@@ -83,6 +83,11 @@ def moon(run: Run, time: float) -> Moon:
 def at(run: Run, time: float) -> tuple[float, float]:
     """Bearing and height (degrees) at the middle of the run's grid at a model time (s)."""
     return angles(*_middle(run), times.moment(run, time))
+
+
+def toward_light(run: Run, time: float) -> NDArray[np.float64]:
+    """Unit vector to the sun, by night to the moon, over the run at a model time (s)."""
+    return light(*at(run, time), moon(run, time))
 
 
 def _middle(run: Run) -> tuple[float, float]:

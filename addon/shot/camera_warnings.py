@@ -1,0 +1,44 @@
+"""What an artist should know of cameras: ridges before their targets, headsets with one eye."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .cameras.path import Path
+from .settings.protocols import ShotView
+from .settings.settings import Settings
+
+
+def mono_vr(settings: Settings) -> list[str]:
+    """Cameras for headsets whose second eye is missing in a scene that they share with others."""
+    around = [camera.name for camera in settings.cameras if camera.rig.around]
+    if not around or len(around) == len(settings.cameras):
+        return []
+    return [
+        f'camera "{name}" has one eye in a scene that other cameras are in; firetwin render, or a scene '
+        "with it alone, gives both"
+        for name in around
+    ]
+
+
+def ridges(shot: ShotView) -> list[str]:
+    """What ridges between cameras and their targets have done, or hide."""
+    return [text for view in shot.paths if (text := _ridges(shot, view))]
+
+
+def _ridges(shot: ShotView, view: Path) -> str:
+    hidden = np.zeros(1) if view.hidden is None else view.hidden
+    if hidden.max() <= 0.0:
+        return ""
+    worst, frames = int(np.argmax(hidden)), f"{int((hidden > 0.0).sum())} of {shot.frames.count} frames"
+    if view.camera.rig.over_ridges:
+        return (
+            f'camera "{view.camera.name}" flies up to {hidden[worst]:,.0f} m higher than its keys say, '
+            f"to see its target over ridges in {frames} (over_ridges = true)"
+        )
+    place = view.position[worst]
+    above = place[2] + hidden[worst] - shot.ground.up(place[0], place[1])[0]
+    return (
+        f'camera "{view.camera.name}" has ridges before its target in {frames}; {above:,.0f} m above the '
+        "ground would see over them all (over_ridges = true raises it)"
+    )

@@ -1,0 +1,81 @@
+"""The runs of a scene file: its first, and others that are compared with it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from datetime import datetime
+
+from firetwin_core.run import Run
+
+from ..errors import InputError
+from ..run import readers, times
+from . import frames, passes
+from .settings import scene_file
+from .settings.protocols import ShotView
+from .settings.settings import Settings
+from .terrain import elevation
+
+
+def views(settings: Settings) -> list[str]:
+    """All cameras by name, in the first run and then in the others (see `passes.view_of`)."""
+    names = [camera.name for camera in settings.cameras]
+    labels = [each.name for each in settings.runs]
+    return names + [passes.view_of(name, label) for label in labels for name in names]
+
+
+def of_view(shot: ShotView, view: str) -> Run:
+    """The run that a view of a shot is of."""
+    return shot.others.get(view.partition("@")[2], shot.run)
+
+
+def open_others(settings: Settings) -> dict[str, Run]:
+    """The other runs by their names.
+
+    Raises
+    ------
+    InputError
+        Names the line of the scene file and what is wrong with the run.
+    """
+    found = {}
+    for i, each in enumerate(settings.runs):
+        try:
+            found[each.name] = readers.open(each.path)
+        except InputError as error:
+            if not settings.path.is_file():
+                raise
+            raise scene_file.error_at(settings.path, ("runs", i, "path"), f"runs.path: {error}") from None
+    return found
+
+
+def check(settings: Settings, run: Run, others: Mapping[str, Run]) -> None:
+    """See whether every run has every moment of the shot.
+
+    Raises
+    ------
+    InputError
+        Names the line of the run that has not, and the window that all have.
+    """
+    if not others:
+        return
+    shown = frames.of(settings.time, run)
+    first, last = times.moment(run, shown.first), times.moment(run, shown.last)
+    spans = {name: _span(other) for name, other in {"": run, **others}.items()}
+    low, high = max(span[0] for span in spans.values()), min(span[1] for span in spans.values())
+    remedy = (
+        f"set time.start and time.end within {times.iso(low)} to {times.iso(high)}, which all runs have"
+        if low < high
+        else "the runs have no moment in common"
+    )
+    for i, (name, other) in enumerate(others.items()):
+        begin, end = spans[name]
+        if not (begin <= first and last <= end):
+            reason = (
+                f'run "{name}" has {times.iso(begin)} to {times.iso(end)}, and the shot shows '
+                f"{times.iso(first)} to {times.iso(last)}; {remedy}"
+            )
+            raise scene_file.error_at(settings.path, ("runs", i, "path"), reason)
+        elevation.check(settings, other)
+
+
+def _span(run: Run) -> tuple[datetime, datetime]:
+    return times.moment(run, float(run.times[0])), times.moment(run, float(run.times[-1]))
