@@ -81,7 +81,7 @@ def scene_file(folder: Path, skip: bool) -> settings.Settings:
         forest=settings.Forest(draw_distance=REACH),
         smoke=settings.Smoke(enabled=False),
         cameras=(settings.Camera("drone", Drone(keys=(VIEW,))),),
-        render=settings.Render(resolution=RESOLUTION, samples=SAMPLES, passes=("rgb",), skip=skip),
+        render=settings.Render(resolution=RESOLUTION, samples=SAMPLES, passes=("rgb",), cull=skip),
     )
 
 

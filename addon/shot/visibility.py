@@ -31,7 +31,7 @@ class Sights:
     """
 
     def __init__(self, shot: ShotView) -> None:
-        self.shot, self.whole = shot, not shot.settings.render.skip
+        self.shot, self.whole = shot, not shot.settings.render.cull
         self._known: dict[tuple[int, ...], lod.Sight] = {}
         self._ground: lod.Occluder | None = None
         self._floor = 0.0

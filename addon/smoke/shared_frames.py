@@ -21,7 +21,7 @@ def frames(shot: Shot, wanted: Iterable[int]) -> list[tuple[Shot, list[int]]]:
     None of a camera for which smoke is drawn otherwise than for all of them.
     """
     cameras = shot.settings.cameras
-    if len(cameras) < 2 or shot.settings.smoke.complete or not shot.settings.render.skip:
+    if len(cameras) < 2 or shot.settings.smoke.complete or not shot.settings.render.cull:
         return []
     filmed = {camera.name: set(shot.frames_of(camera)) for camera in cameras}
     count = Counter(frame for each in filmed.values() for frame in each)

@@ -1,11 +1,11 @@
-"""Settings of .blend files that were saved while sections had other names."""
+"""Settings of .blend files that were saved while sections or keys had other names."""
 
 from __future__ import annotations
 
 import bpy
 
 from ..blender import compat, owned
-from ..shot.settings.settings import FORMER
+from ..shot.settings.settings import FORMER, FORMER_KEYS
 
 
 @bpy.app.handlers.persistent
@@ -24,6 +24,10 @@ def adopt(*_: object) -> None:
                 for gone in {former, name} & {*stored.keys()}:
                     del stored[gone]
                 stored[name] = kept
+        for (section, former), name in FORMER_KEYS.items():
+            if former in stored.get(section, {}):
+                stored[section][name] = stored[section][former]
+                del stored[section][former]
 
 
 def register() -> None:

@@ -2,7 +2,7 @@
 
     python tests/benchmarks/skipping.py RUN --work DIR [--reach 1500] [--samples 16] [--views drone,lookout]
 
-Every scene is rendered once in a process of its own with `render.skip = false`, which builds all that there
+Every scene is rendered once in a process of its own with `render.cull = false`, which builds all that there
 is, and at three settings with skipping. Seconds are of the processor, memory the most that the process held,
 both less what starting Blender takes. The error is the mean FLIP (Andersson and others 2020, package
 flip-evaluator, its own 67 pixels per degree) against the picture of all, with the same grain; what another
@@ -67,14 +67,14 @@ CAMERAS = {
     "lookout": KEY.format(38.9741, -120.5777, 25.0),
     "satellite": ABOVE,
 }
-ALL = {"error": 0.05, "budget": 200_000, "skip": "false", "seed": 0}
+ALL = {"error": 0.05, "budget": 200_000, "cull": "false", "seed": 0}
 """Every tree, and the ground as fine as a twentieth of a pixel at 60 m wherever it is."""
 ROWS = {
     "all": ALL,
     "all, other grain": ALL | {"seed": 1},
-    "fine": {"error": 0.02, "budget": 1_000_000, "skip": "true", "seed": 0},
-    "as it comes": {"error": 0.05, "budget": 200_000, "skip": "true", "seed": 0},
-    "coarse": {"error": 0.5, "budget": 30_000, "skip": "true", "seed": 0},
+    "fine": {"error": 0.02, "budget": 1_000_000, "cull": "true", "seed": 0},
+    "as it comes": {"error": 0.05, "budget": 200_000, "cull": "true", "seed": 0},
+    "coarse": {"error": 0.5, "budget": 30_000, "cull": "true", "seed": 0},
 }
 
 

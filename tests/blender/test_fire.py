@@ -87,7 +87,7 @@ def test_no_frame_has_more_flames_than_the_budget(shot, settings, run):
 
 
 def without_skipping(settings):
-    return replace(settings, render=replace(settings.render, skip=False))
+    return replace(settings, render=replace(settings.render, cull=False))
 
 
 def test_flames_in_sight_are_those_that_stand_there_without_skipping(shot, settings, run):

@@ -21,6 +21,7 @@ def test_a_file_of_the_last_version_keeps_its_settings(panel, tmp_path):
     for former, name in (("ground", "terrain"), ("places", "labels")):
         stored[former] = stored[name].to_dict()
         del stored[name]
+    stored["render"] = {"skip": 0}
     assert panel.terrain.error != pytest.approx(0.7)
     collection = owned.mark(bpy.data.collections.new("Firetwin Ground"), "Ground")
     bpy.context.scene.collection.children.link(collection)
@@ -29,6 +30,7 @@ def test_a_file_of_the_last_version_keeps_its_settings(panel, tmp_path):
     bpy.ops.wm.open_mainfile(filepath=str(path))
     found = bpy.context.scene.firetwin
     assert (found.terrain.error, found.labels.enabled, found.forest.budget) == (pytest.approx(0.7), True, 17)
+    assert not found.render.cull
     assert owned.ours(bpy.data.collections["Firetwin Terrain"], "Terrain")
     assert "ground" not in compat.stored(bpy.context.scene)["firetwin"]
 

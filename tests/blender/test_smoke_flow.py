@@ -315,7 +315,7 @@ def test_where_no_camera_is_known_nothing_is_hidden(flowing, run, tmp_path, chan
     if change == "complete":
         flowing = replace(flowing, smoke=replace(flowing.smoke, complete=True))
     elif change == "whole":
-        flowing = replace(flowing, render=replace(flowing.render, skip=False))
+        flowing = replace(flowing, render=replace(flowing.render, cull=False))
     frame = 3 if change == "nobody" else 1
     found, _ = grids(bake.bake(Shot(flowing, run), frames=[frame]) / f"smoke_{frame:06d}.vdb")
     assert found["density"].activeVoxelCount() > 0

@@ -53,7 +53,7 @@ def test_others_stand_in_for_a_large_forest(near_shot, scene, few, plain_looks):
 
 def test_burned_grass_stands_for_itself_too(near_shot, monkeypatch):
     monkeypatch.setattr(fire_effects, "torching_intensity", lambda height: np.full(len(height), -1.0))
-    render = replace(near_shot.settings.render, skip=False)
+    render = replace(near_shot.settings.render, cull=False)
     grass = forest._grass(Shot(replace(near_shot.settings, render=render), near_shot.run))
     assert set(grass["snag_model"]) == set(grass["model"]) == {0, 1}
 

@@ -15,7 +15,7 @@ def test_the_picture_is_that_of_all_there_is(settings, run, shoot):
     def picture(skip: bool, seed: int) -> np.ndarray:
         bpy.ops.wm.read_factory_settings(use_empty=True)
         scene = bpy.context.scene
-        changed = replace(settings, render=replace(settings.render, skip=skip, seed=seed))
+        changed = replace(settings, render=replace(settings.render, cull=skip, seed=seed))
         build.build(Shot(changed, run), scene)
         owned.adopt(scene)
         scene.frame_set(2)

@@ -378,6 +378,15 @@ def test_former_names_of_sections_are_read_and_noted(tmp_path):
         "2:2: [ground] is called [terrain] now; the old name is read in this version only",
         "5:2: [places] is called [labels] now; the old name is read in this version only",
     ]
+    path.write_text("[render]\nskip = false\n")
+    found = scene_file.read(path)
+    assert not found.render.cull
+    assert found.notes == (
+        f"{path}:2:1: render.skip is called render.cull now; the old name is read in this version only",
+    )
+    path.write_text("[render]\nskip = false\ncull = true\n")
+    with pytest.raises(scene_file.InputError, match=r":3:1: render\.skip is the former name of render\.cull"):
+        scene_file.read(path)
     path.write_text("[ground]\napron = -1.0\n")
     with pytest.raises(scene_file.InputError, match=r":2:1: terrain\.apron"):
         scene_file.read(path)

@@ -105,7 +105,7 @@ def test_what_a_product_depends_on_is_chosen_by_aspect():
     for aspect in ("terrain", "forest", "fire", "smoke"):
         found = schema.chosen(SETTINGS, {aspect})
         assert set(found) == {"seed", aspect, "render"} | ({"forest"} if aspect == "terrain" else set())
-        assert found["render"] == {"skip": True} | ({} if aspect == "smoke" else {"chunk": 480})
+        assert found["render"] == {"cull": True} | ({} if aspect == "smoke" else {"chunk": 480})
     assert set(schema.chosen(SETTINGS, {"light"})) == {"light"}
     assert schema.chosen(SETTINGS, set()) == {}
 

@@ -66,7 +66,7 @@ def test_satellites_can_be_asked_alone(film):
     assert (near & ~flat).any()
     assert (flat & ~near).any()
     assert not shot.sights.seen(places, 5.0, perspective=False).any()
-    whole = film(*shot.settings.cameras, render=Render(skip=False))
+    whole = film(*shot.settings.cameras, render=Render(cull=False))
     assert whole.sights.seen(places, 5.0, pixel=np.inf, perspective=False).all()
     assert not whole.sights.seen(places, 5.0, perspective=False).any()
 
@@ -93,7 +93,7 @@ def test_what_is_under_a_place_is_found_along_its_vertical(film):
 def test_without_skipping_all_counts_as_seen_and_is_drawn_as_from_near_by(film):
     place = np.random.default_rng(5).uniform(-3000.0, 3000.0, (200, 3))
     place[-1] = np.nan
-    some, whole = (film(Camera("a", ORBIT), render=Render(skip=skip)) for skip in (True, False))
+    some, whole = (film(Camera("a", ORBIT), render=Render(cull=skip)) for skip in (True, False))
     seen = some.sights.seen(place, 5.0)
     assert 0 < seen.sum() < 150
     assert whole.sights.seen(place, 5.0).tolist() == [True] * 199 + [False]

@@ -15,7 +15,7 @@ from typing import Any
 from ...errors import InputError, input_error
 from .did_you_mean import suggestion
 from .schema import Key, Part, Where, either, items, parts, wrong
-from .settings import FORMER, Settings
+from .settings import FORMER, FORMER_KEYS, Settings
 from .toml_positions import places
 from .toml_writer import text
 
@@ -107,15 +107,27 @@ class _Reader:
         return input_error(self.path, line, column, reason)
 
     def current(self, values: dict[str, Any]) -> dict[str, Any]:
-        """Sections under the names that they have now; former ones are noted."""
-        for name in [name for name in values if name in FORMER]:
-            now = FORMER[name]
+        """Sections and their keys under the names that they have now; former ones are noted."""
+        found = self.renamed(values, {(name,): now for name, now in FORMER.items()}, (), "[{}]")
+        for section in {section for section, _ in FORMER_KEYS}:
+            if isinstance(found.get(section), dict):
+                found[section] = self.renamed(found[section], FORMER_KEYS, (section,), f"{section}.{{}}")
+        return found
+
+    def renamed(
+        self, values: dict[str, Any], former: dict[tuple[str, ...], str], where: Where, shown: str
+    ) -> dict[str, Any]:
+        """A table with the present names of keys that it has under `former` ones."""
+        names = {name: former.get((*where, name), name) for name in values}
+        for name, now in names.items():
+            if name == now:
+                continue
+            here, then = (*where, now), shown.format(name)
             if now in values:
-                raise self.error((now,), f"[{name}] is the former name of [{now}], which is there too")
-            line, column = self.places[(now,)]
-            reason = f"[{name}] is called [{now}] now; the old name is read in this version only"
-            self.former.append(str(input_error(self.path, line, column, reason)))
-        return {FORMER.get(name, name): value for name, value in values.items()}
+                raise self.error(here, f"{then} is the former name of {shown.format(now)}, which is there too")
+            reason = f"{then} is called {shown.format(now)} now; the old name is read in this version only"
+            self.former.append(str(input_error(self.path, *self.places[here], reason)))
+        return {names[name]: value for name, value in values.items()}
 
     def table(self, kind: type, values: dict[str, Any], where: Where) -> Any:
         """A table of the file as the dataclass `kind`, with what it leaves out at its default."""
@@ -212,8 +224,11 @@ class _Reader:
 
 
 def _current(where: Where) -> Where:
-    """A place under the name that its section has now."""
-    return (FORMER.get(str(where[0]), where[0]), *where[1:]) if where else where
+    """A place under the names that its section and key have now."""
+    if not where:
+        return where
+    section, *inner = FORMER.get(str(where[0]), where[0]), *where[1:]
+    return (section, FORMER_KEYS.get((section, inner[0]), inner[0]), *inner[1:]) if inner else (section,)
 
 
 _TYPES = {

@@ -27,6 +27,8 @@ BANDS = {"lwir": (8.0, 14.0), "mwir": (3.4, 4.1)}  # um, of infrared cameras
 MOST_RUNS = 3  # beside the first
 FORMER = {"ground": "terrain", "places": "labels"}
 """Former names of sections, which scene files and .blend files of the last version have."""
+FORMER_KEYS = {("render", "skip"): "cull"}
+"""Former names of keys in sections."""
 
 _LARGEST_SEED = 2**31 - 1  # Cycles takes no larger one
 
@@ -449,7 +451,7 @@ class Render:
     )
     video: bool = key(True, "write rgb and thermal films of cameras with more than one frame", shows=())
     seed: int = key(0, "random seed of the render noise", at_least=0, at_most=_LARGEST_SEED, shows=("grain",))
-    skip: bool = key(
+    cull: bool = key(
         True,
         "frustum culling, occlusion culling and level of detail; false: none, for comparison",
         shows=("terrain", "forest", "fire", "smoke"),
