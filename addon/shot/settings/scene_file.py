@@ -124,7 +124,9 @@ class _Reader:
                 continue
             here, then = (*where, now), shown.format(name)
             if now in values:
-                raise self.error(here, f"{then} is the former name of {shown.format(now)}, which is there too")
+                raise self.error(
+                    here, f"{then} is the former name of {shown.format(now)}, which is there too"
+                )
             reason = f"{then} is called {shown.format(now)} now; the old name is read in this version only"
             self.former.append(str(input_error(self.path, *self.places[here], reason)))
         return {names[name]: value for name, value in values.items()}
