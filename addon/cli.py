@@ -269,10 +269,6 @@ def _parser() -> argparse.ArgumentParser:
     command("schema", "print the JSON Schema of scene files, for TOML editors", SCHEMA)
 
     bench = command("bench", "benchmark run time and error against alternatives", BENCH)
-    bench.add_argument("--out", metavar="DIR", type=_path, help="folder for bench.json and the plots (none)")
-    bench.add_argument(
-        "--full", action="store_true", help="more repetitions, and alternatives at every size (minutes)"
-    )
     bench.add_argument(
         "--runs", metavar="N", type=_count, default=1, help="number of repeated benchmarks, for ranges (1)"
     )
@@ -447,7 +443,7 @@ Save it and name it in the first line of a scene file (`#:schema firetwin.json`)
 complete keys, show their help and underline mistakes."""
 
 BENCH = """\
-Measures every tool on this machine, alternating with its alternatives: median and range of five or more
-repetitions. Takes about seven minutes on two cores. --runs 3 shows the variation between runs.
+Measures ten steps on this machine, alternating with their alternatives: median and range of five or more
+repetitions. Takes about XXX minutes on two cores. --runs 3 shows the variation between runs.
 Alternatives that are not installed are named and left out (pip install 'firetwin[bench]' installs them).
 The exit status is 1 if a target is missed."""

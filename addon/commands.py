@@ -268,20 +268,13 @@ def bench(arguments: argparse.Namespace) -> int:
     from .bench import measure
 
     say("measuring run time against error, all tools in turn")
-    from . import files
-    from .bench import plots, table
+    from .bench import table
 
-    report = measure(arguments.full, arguments.runs, Reporter())
-    text = json.dumps(report.as_json(), indent=1)
+    report = measure(arguments.runs, Reporter())
     if arguments.json:
-        result(text)
+        result(json.dumps(report.as_json(), indent=1))
     else:
         result(table.markdown(report) if arguments.markdown else table.page(report))
-    if arguments.out:
-        for path in plots.draw(report, arguments.out):
-            say(f"wrote {path}")
-        path = arguments.out / "bench.json"
-        files.write(path, lambda part: part.write_text(text + "\n", encoding="utf-8"))
     missed = sum(not target.met for target in report.targets)
     say(f"{len(report.targets) - missed} of {len(report.targets)} targets met")
     return 1 if missed else 0

@@ -1,58 +1,53 @@
-"""``firetwin bench``: run time against error of every step, with its rivals measured in the same run.
+"""``firetwin bench``: run time against error of the steps that a user waits for.
 
 A subject is a module: the first line of its docstring says what is compared, and ``run(bench)`` adds rows
-(`Bench.race` lets the tools take turns) and targets.
+(`Bench.race` lets the tools take turns) and targets. Those of developers are in ``tests/benchmarks``.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from ..progress import Progress, silent
 
 if TYPE_CHECKING:
     from .harness import Report
 
 SUBJECTS = (
     "text",
-    "geodesy",
+    "emitters",
+    "interpolation",
     "forest",
-    "stand",
     "ground",
     "skip",
-    "emitters",
-    "volume",
     "smoke",
-    "step",
-    "march",
-    "scrub",
-    "scattering",
-    "plume",
     "flow",
-    "interpolation",
-    "frames",
-    "particles",
-    "facts",
-    "planning",
+    "march",
     "radiometry",
 )
 """In the order of the report."""
 
 
-def measure(full: bool = False, runs: int = 1, progress: Any = None) -> Report:
-    """Run every subject `runs` times; `progress(done, total, what)` is called before each and at the end.
+def measure(runs: int = 1, progress: Progress = silent) -> Report:
+    """Run every subject of ``firetwin bench``; see `measure_modules`."""
+    return measure_modules([f"{__name__}.{name}" for name in SUBJECTS], runs, progress)
+
+
+def measure_modules(modules: Sequence[str], runs: int = 1, progress: Progress = silent) -> Report:
+    """Run each module's subject `runs` times.
 
     Several runs tell what a single one cannot: how much the figures differ from minute to minute.
     """
     from .harness import Bench
 
-    bench = Bench(full, runs=runs)
-    wanted = SUBJECTS * runs
+    bench = Bench(runs=runs)
+    wanted = [*modules] * runs
     for done, name in enumerate(wanted):
-        if progress:
-            progress(done, len(wanted), "measuring")
-        subject = import_module(f".{name}", __package__)
-        bench.begin(name, subject.__doc__.partition("\n")[0])
+        progress(done, len(wanted), "measuring")
+        subject = import_module(name)
+        bench.begin(name.rpartition(".")[2], (subject.__doc__ or "").partition("\n")[0])
         subject.run(bench)
-    if progress:
-        progress(len(wanted), len(wanted), "measuring")
+    progress(len(wanted), len(wanted), "measuring")
     return bench.report()

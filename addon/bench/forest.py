@@ -1,26 +1,23 @@
-"""Fuel grid -> trees and grass (Algorithm 2), beside vectorised NumPy that grows the very same plants.
-
-NumPy's own stream of random numbers is quicker, but with it
-a changed cell changes every tree after it; it is shown without a bound.
-"""
+"""Fuel grid -> trees and grass (Algorithm 2); and stands of stems, culled by what a drone sees."""
 
 from __future__ import annotations
 
 from functools import partial
 
 import numpy as np
-from firetwin_core import forest
+from firetwin_core import forest, lod
 from firetwin_core.geo import LocalFrame
 from numpy.typing import NDArray
 
-from .geodesy import ORIGIN
-from .harness import OURS, Bench
-from .numpy_forest import Draw, Plants, grass, keyed, one_stream, trees
-from .timing import Runner, threads
+from .harness import ORIGIN, OURS, Bench
+from .timing import Runner
 
-SIDES = (36, 144, 720, 2880)
+SIDE = 720
 TREES, GRASS = 363_632 / 720**2, 419_048 / 720**2  # shares of the paper's cells
-RIVALS = {"NumPy": keyed, "NumPy, one stream": one_stream}
+STEMS = 10_000_000
+CELL = 74.0**2  # m2
+FRAMES = 48
+LIMIT = 5.0  # s for the stems on two threads
 Grid = tuple[NDArray, NDArray, NDArray, NDArray, NDArray]
 
 
@@ -34,65 +31,43 @@ def fuel_grid(side: int) -> Grid:
     return canopy, surface, latitude, longitude, rng.uniform(300, 2900, shape).astype(np.float32)
 
 
-def rival(grid: Grid, draw: Draw) -> tuple[Plants, Plants]:
-    """Trees and grass in NumPy."""
-    canopy, surface, *place = grid
-    return trees(canopy, *place, ORIGIN, 5, draw), grass(surface, *place, ORIGIN, 5, draw)
-
-
-def our_forest(grid: Grid) -> tuple[forest.Trees, forest.Grass]:
-    """The same with the core."""
+def planted(grid: Grid) -> tuple[forest.Trees, forest.Grass]:
+    """A plant of each cell."""
     canopy, surface, *place = grid
     frame = LocalFrame(*ORIGIN)
     return forest.trees(canopy, *place, frame, seed=5), forest.grass(surface, *place, frame, seed=5)
 
 
-def run(bench: Bench) -> None:
-    """Grids of growing size, on one and two threads."""
-    for side in SIDES:
-        grid = fuel_grid(side)
-        plants = sum(map(len, our_forest(grid)))
-        mine = partial(our_forest, grid)
-        tools = [Runner(OURS, mine), Runner(OURS, mine, threads=2)]
-        if side <= 720 or bench.full:
-            tools += [Runner(tool, partial(rival, grid, draw)) for tool, draw in RIVALS.items()]
-        found = bench.race(f"{side} x {side}", tools, plants, "plant")
-        if side == 720:
-            for tool, word in ((tools[0], "one thread"), (tools[1], "two threads")):
-                faster = found[tool.label].faster_than(found["NumPy"])
-                bench.target(f"speed of planting 720 x 720 cells on {word}, over NumPy's", faster, 10, "x")
-            bench.target(
-                "time for the trees of 1 % of the cells, of that for all",
-                _masked(bench, grid),
-                3,
-                "%",
-                most=True,
-            )
-            differ = _differences(grid)
-            bench.target("arrays that differ between 1, 2, 4 and 16 threads", differ, 0, "", most=True)
+def drone() -> lod.Sight:
+    """What a drone sees that flies 5 km and looks down a little, ahead."""
+    camera = np.column_stack([np.linspace(0.0, 5000.0, FRAMES), np.zeros(FRAMES), np.full(FRAMES, 3500.0)])
+    down = np.radians(17.0)
+    right, up = (0.0, -1.0, 0.0), (np.sin(down), 0.0, np.cos(down))
+    back = (-np.cos(down), 0.0, np.sin(down))
+    rotation = np.broadcast_to(np.column_stack([right, up, back]), (FRAMES, 3, 3))
+    return lod.Sight(camera, rotation, np.tile([0.64, 0.36], (FRAMES, 1)))
 
 
-def _masked(bench: Bench, grid: Grid) -> list[float]:
-    """Time for the trees of a square of 1 % of the cells over that for all, %, of each repetition."""
+def part(grid: Grid, stems: int) -> NDArray[np.float32]:
+    """What part of the stems of each cell (fy, fx) to keep for so many in all."""
+    return np.full(grid[0].shape, stems / (forest.stems(grid[0]).sum() * CELL), np.float32)
+
+
+def stand(grid: Grid, kept: NDArray, sight: lod.Sight) -> tuple[forest.Stems, NDArray]:
+    """The stems, and the distance level of each that is seen."""
     canopy, _, *place = grid
-    frame = LocalFrame(*ORIGIN)
-    mask = np.zeros(canopy.shape, bool)
-    tenth = len(canopy) // 10
-    mask[4 * tenth : 5 * tenth, 4 * tenth : 5 * tenth] = True
-    plant = partial(forest.trees, canopy, *place, frame, seed=5)
-    found = bench.time([Runner("all", plant), Runner("masked", partial(plant, mask=mask))])
-    return [100.0 / times for times in found["masked"].faster_than(found["all"])]
+    stems = forest.stand(canopy, *place, LocalFrame(*ORIGIN), seed=5, kept=kept)
+    seen = lod.seen(stems.position, 0.6 * stems.scale, sight)
+    return stems, lod.levels(lod.distance(stems.position[seen], sight))
 
 
-def _differences(grid: Grid) -> int:
-    """How many arrays are not bit for bit those of one thread."""
-    names = ("cell", "position", "scale", "rotation")
-    with threads(1):
-        alone = our_forest(grid)
-    differ = 0
-    for number in (2, 4, 16):
-        with threads(number):
-            shared = our_forest(grid)
-        for a, b in zip(alone, shared, strict=True):
-            differ += sum(not np.array_equal(getattr(a, n), getattr(b, n)) for n in names)
-    return differ
+def run(bench: Bench) -> None:
+    """The King Fire's fuel: a plant a cell on one and two threads, then a stand."""
+    grid, sight = fuel_grid(SIDE), drone()
+    plants, call = sum(map(len, planted(grid))), partial(planted, grid)
+    bench.race(f"{SIDE} x {SIDE}", [Runner(OURS, call), Runner(OURS, call, threads=2)], plants, "plant")
+    call = partial(stand, grid, part(grid, STEMS), sight)
+    stems, runner = len(call()[0]), Runner(OURS, call, threads=2)
+    found = bench.race(f"a stand of {STEMS:,} stems", [runner], stems, "stem")
+    seconds = [STEMS / speed for speed in found[runner.label].speed(stems)]
+    bench.target("time for 10 million stems on two threads", seconds, LIMIT, "s", most=True)

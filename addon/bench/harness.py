@@ -14,16 +14,19 @@ from typing import Any
 
 import firetwin_core as core
 
-from .timing import Runner, Times, label, race
+from .timing import MOST, SECONDS, Runner, Times, label, race
 
 OURS = "firetwin"
+ORIGIN = (38.93, -120.55, 0.0)
+"""Latitude, longitude (degrees) and height (m) of the local frame in all subjects."""
 
 
 @dataclass(frozen=True)
 class Row:
     """One tool on one case: the time of each repetition (s) for `items` things, its error and what it wrote.
 
-    `times` is empty, and `error` and `bytes` are None, where they are unknown or make no sense.
+    `processor` has the seconds of all processors together. `times` and `processor` are empty, and `error` and
+    `bytes` are None, where they are unknown or make no sense.
     """
 
     subject: str
@@ -36,11 +39,17 @@ class Row:
     error_unit: str = ""
     threads: int = 1
     bytes: int | None = None
+    processor: tuple[float, ...] = ()
 
     @property
     def seconds(self) -> float | None:
         """The median of all repetitions."""
         return statistics.median(self.times) if self.times else None
+
+    @property
+    def processor_seconds(self) -> float | None:
+        """The median of all repetitions."""
+        return statistics.median(self.processor) if self.processor else None
 
     @property
     def label(self) -> str:
@@ -92,7 +101,10 @@ class Report:
             "machine": self.machine,
             "runs": self.runs,
             "subjects": self.subjects,
-            "rows": [asdict(row) | {"seconds": row.seconds} for row in self.rows],
+            "rows": [
+                asdict(row) | {"seconds": row.seconds, "processor_seconds": row.processor_seconds}
+                for row in self.rows
+            ],
             "targets": [
                 asdict(target) | {"value": target.value, "met": target.met} for target in self.targets
             ],
@@ -104,7 +116,6 @@ class Report:
 class Bench:
     """Collects what the subjects measure; a subject that is run again adds repetitions to what is there."""
 
-    full: bool = False
     subject: str = ""
     runs: int = 1
     machine: dict[str, Any] = field(default_factory=lambda: _machine())
@@ -120,7 +131,7 @@ class Bench:
 
     def time(self, runners: Sequence[Runner]) -> dict[str, Times]:
         """Let tools take turns -> the times of each by its label."""
-        found = race(runners, 25 if self.full else 9, 10.0 if self.full else 0.5)
+        found = race(runners, MOST, SECONDS)
         return {runner.label: times for runner, times in zip(runners, found, strict=True)}
 
     def race(
@@ -156,11 +167,12 @@ class Bench:
     ) -> None:
         """Keep a measurement; error is what `error_unit` says."""
         key = self.subject, case, tool, threads
-        before = self.rows[key].times if key in self.rows else ()
-        seconds = before + (times.seconds if times else ())
+        before = self.rows.get(key)
+        seconds = (before.times if before else ()) + (times.seconds if times else ())
+        processor = (before.processor if before else ()) + (times.processor if times else ())
         error = None if error is None else float(error)
         self.rows[key] = Row(
-            self.subject, case, tool, seconds, items, unit, error, error_unit, threads, bytes
+            self.subject, case, tool, seconds, items, unit, error, error_unit, threads, bytes, processor
         )
 
     def target(

@@ -3,17 +3,14 @@
 Front error: of the cells that the front crosses in a gap, the percentage that is on its wrong side at the
 removed minute: its error as part of the way that it moves. The integral of F^1.5 drives size and colour of
 the flames. Its ripple is the root mean square of its departure from an even course between the kept minutes,
-which is seen as a pulse once in a model step; its error is the same against the removed minutes' own.
-
-Those do not lie on an even course themselves: the rows "removed minutes" say how far they are off. What they
-do cannot be known from the kept ones, so an even course is the best that there is to follow, and the error
-cannot fall much below the removed minutes' own departure from it.
+which is seen as a pulse once in a model step. Times are of one moment after another.
 """
 
 from __future__ import annotations
 
+import itertools
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
@@ -89,7 +86,6 @@ def run(bench: Bench) -> None:
                 OURS: Interpolator(model).at,
                 LINEAR: lambda t: linear(model, t),  # noqa: B023
             }
-            _removed(bench, case, flux, kept)
             errors = _errors(bench, case, tools, flux, seconds, kept)
         for index, name in enumerate(("front error", "F^1.5 ripple")):
             ours, theirs = (errors[tool][index] for tool in (OURS, LINEAR))
@@ -111,15 +107,6 @@ def _missing(kept: NDArray) -> list[int]:
     return [i for i in range(kept[0], kept[-1]) if i not in kept]
 
 
-def _removed(bench: Bench, case: str, flux: NDArray, kept: NDArray) -> None:
-    removed = _missing(kept)
-    own = np.array([brightness(flux[i]) for i in removed])
-    percent = departure(own, _even(flux, kept, removed))
-    bench.row(
-        case, "removed minutes, F^1.5", None, flux[0].size, "cell", error=percent, error_unit="% ripple"
-    )
-
-
 def _errors(
     bench: Bench,
     case: str,
@@ -128,10 +115,9 @@ def _errors(
     seconds: NDArray,
     kept: NDArray,
 ) -> dict[str, tuple[float, float]]:
-    """Front error and ripple (%) of each tool, with rows for them and for the error of F^1.5."""
+    """Front error and ripple (%) of each tool, and a row for each."""
     removed = _missing(kept)
-    times = bench.time([Runner(tool, partial(call, seconds[removed[0]])) for tool, call in tools.items()])
-    own = np.array([brightness(flux[i]) for i in removed])
+    bright = _even(flux, kept, removed)
     errors = {}
     for tool, call in tools.items():
         found = [call(seconds[i]) for i in removed]
@@ -139,14 +125,15 @@ def _errors(
         for f, i in zip(found, removed, strict=True):
             before, after = kept[kept < i][-1], kept[kept > i][0]
             fronts.append(front_error(f, flux[i], flux[before], flux[after]))
-        front = float(np.mean(fronts))
-        bright = np.array([brightness(f) for f in found])
-        ripple = departure(bright, _even(flux, kept, removed))
-        cells = flux[0].size
-        bench.row(case, tool, times[tool], cells, "cell", error=front, error_unit="% of the front's way")
-        for name, percent in (("ripple", ripple), ("error", departure(bright, own))):
-            bench.row(
-                case, f"{tool}, F^1.5 {name}", None, cells, "cell", error=percent, error_unit=f"% {name}"
-            )
-        errors[tool] = front, ripple
+        ripple = departure(np.array([brightness(f) for f in found]), bright)
+        errors[tool] = float(np.mean(fronts)), ripple
+    runners = [
+        Runner(tool, partial(_next, call, itertools.cycle(seconds[removed])), error=errors[tool][0])
+        for tool, call in tools.items()
+    ]
+    bench.race(case, runners, flux[0].size, "cell", "% of the front's way")
     return errors
+
+
+def _next(call: Interpolate, moments: Iterator[float]) -> NDArray:
+    return call(next(moments))

@@ -10,17 +10,19 @@ from __future__ import annotations
 
 import os
 import tempfile
+from datetime import UTC, datetime
 from pathlib import Path
 
+from .. import memory
 from ..data import sample
 from ..jobs import worker
 from ..progress import Progress, Tell, silent, untold
 from ..shot.cameras.rigs.drone import CameraKey, Drone
 from ..shot.settings import settings
 from .harness import OURS, Bench
-from .step import MOMENT
-from .timing import Times
+from .timing import Stopwatch, Times
 
+MOMENT = datetime(2014, 9, 17, 23, 12, tzinfo=UTC)
 VIEW = CameraKey(0.0, 38.977, -120.572, 150.0, "head")
 RESOLUTION, SAMPLES, CLEAN = (160, 90), 4, 128  # as it is timed, and as it is compared, with little grain
 REACH = 500.0  # m to which trees stand: all of a forest's within more would not fit into a minute
@@ -50,18 +52,19 @@ def run(bench: Bench) -> None:
             bench.row(
                 f"{size}: {step}",
                 tool,
-                Times((each[step],)),
+                Times((each[step],), (each[step],)),
                 RESOLUTION[0] * RESOLUTION[1],
                 "pixel",
                 error=error.get(tool) if step == "render" else None,
                 error_unit="FLIP",
                 threads=os.cpu_count() or 1,
-                bytes=round(each["bytes"]) if step == "render" else None,
+                bytes=round(each["bytes"]) or None if step == "render" else None,
             )
     ours, whole = found[OURS], found[ALL]
     seconds = [each["build"] + each["render"] for each in (whole, ours)]
     bench.target("building and drawing takes less than of all there is", seconds[0] / seconds[1], TIMES, "x")
-    bench.target("and less memory", whole["bytes"] / ours["bytes"], LESS, "x")
+    if ours["bytes"]:  # known
+        bench.target("and less memory", whole["bytes"] / ours["bytes"], LESS, "x")
     bench.row(f"{size}: render", GRAIN, None, 1, "pixel", error=error[GRAIN], error_unit="FLIP")
     bench.target("off the picture of all there is by", error[OURS], ERROR, "FLIP", most=True)
 
@@ -92,8 +95,6 @@ def draw(
     folder: str, skip: bool, tool: str, progress: Progress = silent, tell: Tell = untold
 ) -> dict[str, float]:
     """Build and draw a scene -> processor seconds of both, and bytes; all there is also with other grain."""
-    import time
-
     import bpy
     from firetwin_core import run as runs
 
@@ -101,25 +102,20 @@ def draw(
     from ..shot.shot import Shot
 
     file = scene_file(Path(folder), skip)
-    before, begun = _most(), time.process_time()
+    before, watch = memory.peak(), Stopwatch()
     stage = worker_scene.build_scene(Shot(file, runs.open(file.run)), progress, tell)
-    built = time.process_time()
+    built = watch.read().processor
     stage.scene.camera = stage.camera("drone")
     stage.scene.frame_set(1)
     bpy.ops.render.render(scene=stage.scene.name)
-    found = {"build": built - begun, "render": time.process_time() - built, "bytes": _most() - before}
+    found = {
+        "build": built,
+        "render": watch.read().processor - built,
+        "bytes": memory.peak() - before,
+    }
     stage.scene.cycles.samples = CLEAN
     for seed, name in ((0, tool), (1, GRAIN))[: 1 if skip else 2]:
         stage.scene.cycles.seed = seed
         stage.scene.render.filepath = picture(folder, name)
         bpy.ops.render.render(write_still=True, scene=stage.scene.name)
     return found
-
-
-def _most() -> float:
-    """Bytes that this process has held at the most; NaN where the system does not say as Linux does."""
-    status = Path("/proc/self/status")
-    if not status.is_file():
-        return float("nan")
-    (line,) = (each for each in status.read_text().splitlines() if each.startswith("VmHWM"))
-    return 1024.0 * float(line.split()[1])

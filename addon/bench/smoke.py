@@ -1,27 +1,55 @@
-"""Smoke of one moment -> OpenVDB at several voxel sizes, and half beside single precision.
+"""Smoke of one moment -> OpenVDB: fields of a box and puffs; time, size of the file and error of its mass.
 
-Mass and its error are those of the file, read back with the openvdb module that Blender brings along, where
-there is one; else those that the core reports from before rounding to half precision.
+Puffs' mass is that of the file, read back with the openvdb module that Blender brings along, where there is
+one; else that which the core reports from before rounding to half precision.
 """
 
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
 from functools import partial
+from importlib.util import find_spec
+from pathlib import Path
 from types import ModuleType
 
 import numpy as np
 from firetwin_core import volume
+from numpy.typing import NDArray
 
 from .harness import OURS, Bench
-from .timing import Runner, label
-from .volume import VOXEL, bundled_openvdb, plume, puffs
+from .timing import Runner
 
-CELLS = 100
-VOXELS = (400.0, 200.0, 100.0, 50.0)  # m
-FINEST = 25.0  # m, in the full benchmark
-DENSE = 144
+SIDE, VOXEL = 288, 20.0  # m
+CELLS = 100  # of the front that gives off puffs
+VOXELS = (200.0, 100.0, 50.0)  # m
+MEGAVOXELS = 45.0  # a second
+
+
+def bundled_openvdb(bench: Bench) -> ModuleType | None:
+    """The openvdb module of Blender's Python, which is beside `bpy`, not on the path."""
+    spec = find_spec("bpy")
+    if spec and spec.submodule_search_locations:
+        places = Path(next(iter(spec.submodule_search_locations))).glob("*/python/lib/python*/site-packages")
+        sys.path.extend(str(place) for place in places if list(place.glob("openvdb*")))
+    return bench.rival("openvdb")
+
+
+def ring(side: int) -> NDArray[np.float32]:
+    """Density kg/m3 (side, side, side / 3): a noisy ring of smoke in empty air."""
+    rng = np.random.default_rng(6)
+    x, y, z = np.mgrid[:side, :side, : side // 3] / side - 0.5
+    inside = np.abs(np.hypot(x, y) - 0.3) < 0.15
+    return np.where(inside & (z < 0), 1e-4 * (1 + rng.random(x.shape)), 0).astype(np.float32)
+
+
+def puffs(cells: int) -> volume.Puffs:
+    """Smoke of a front of `cells` fuel cells an hour long."""
+    rng = np.random.default_rng(7)
+    arrival = np.sort(rng.uniform(0, 3600, cells))
+    place = np.stack([arrival * 2, rng.uniform(-3000, 3000, cells), rng.uniform(800, 1200, cells)], axis=1)
+    return volume.puffs(3600.0, arrival, rng.uniform(1, 6, cells), place, [4.0, 3.0], 74.0**2)
 
 
 def mass_in(openvdb: ModuleType, path: str, grid: str, unit: float) -> float:
@@ -35,54 +63,61 @@ def mass_in(openvdb: ModuleType, path: str, grid: str, unit: float) -> float:
 
 
 def run(bench: Bench) -> None:
-    """Voxel sizes, then precisions."""
+    """Three fields of a box as a solved flow gives them, then puffs at voxels of several sizes."""
     openvdb = bundled_openvdb(bench)
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "smoke.vdb")
-        _voxel_sizes(bench, path, openvdb)
-        _precisions(bench, path, openvdb)
+        _box(bench, path, openvdb)
+        _puffs(bench, path, openvdb)
 
 
-def _voxel_sizes(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
+def _box(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
+    """The voxels of all fields are counted."""
+    density = ring(SIDE)
+    warm = np.where(density > 0, 300 + 1e5 * density, 0).astype(np.float32)
+    fields = {"density": density, "tint": density * np.float32(5e3), "temperature": warm}
+    write = partial(volume.write, path, fields, VOXEL)
+    frame = write()
+    wrong = abs(frame.mass / (float(density.sum(dtype=np.float64)) * VOXEL**3) - 1)
+    tools = [Runner(OURS, write, threads, wrong) for threads in (1, 2)]
+    if openvdb:
+        tools.append(Runner("openvdb (Python)", partial(with_openvdb, openvdb, path, fields)))
+    case = f"{len(fields)} fields of {SIDE} x {SIDE} x {SIDE // 3}"
+    found = bench.race(case, tools, frame.voxels, "voxel", "of the mass")
+    speed = found[tools[1].label].speed(frame.voxels / 1e6)
+    promise = "several fields of one box are built and written, on two threads, at"
+    bench.target(promise, speed, MEGAVOXELS, "Mvoxel/s")
+    bench.target("mass of a box off by", wrong, 1e-6, "", most=True)
+
+
+def with_openvdb(openvdb: ModuleType, path: str, fields: dict[str, NDArray]) -> None:
+    """The same with the openvdb module."""
+    grids = []
+    for name, values in fields.items():
+        grid = openvdb.FloatGrid()
+        grid.copyFromArray(values)
+        grid.name, grid.saveFloatAsHalf = name, True
+        grid.transform = openvdb.createLinearTransform(voxelSize=VOXEL)
+        grids.append(grid)
+    openvdb.write(path, grids=grids)
+
+
+def _puffs(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
     smoke = puffs(CELLS)
     exact = float(np.sum(smoke.mass))
-    for voxel in (*VOXELS, FINEST) if bench.full else VOXELS:
-        write = partial(volume.write_smoke, path, smoke, voxel)
-        times = bench.time([Runner(OURS, write, threads=2)])
-        frame = write()
+    for voxel in VOXELS:
+        tool = Runner(OURS, partial(volume.write_smoke, path, smoke, voxel), threads=2)
+        times = bench.time([tool])[tool.label]
+        frame = tool.call()
         mass = mass_in(openvdb, path, "dilution", volume.FRESH_SMOKE) if openvdb else frame.mass
         bench.row(
             f"puffs of {CELLS} cells at {voxel:g} m",
             OURS,
-            times[label(OURS, 2)],
+            times,
             frame.active_voxels,
             "voxel",
             error=abs(mass / exact - 1),
             error_unit="of the mass",
             threads=2,
-            bytes=frame.bytes,
-        )
-
-
-def _precisions(bench: Bench, path: str, openvdb: ModuleType | None) -> None:
-    density = plume(DENSE)
-    exact = float(density.sum(dtype=float)) * VOXEL**3
-    halves = {"half": True, "single": False}
-    writes = {
-        name: partial(volume.write, path, {"density": density}, VOXEL, half=half)
-        for name, half in halves.items()
-    }
-    times = bench.time([Runner(name, write) for name, write in writes.items()])
-    for name, write in writes.items():
-        frame = write()
-        mass = mass_in(openvdb, path, "density", 1.0) if openvdb else frame.mass
-        bench.row(
-            f"dense array in {name} precision",
-            OURS,
-            times[name],
-            frame.active_voxels,
-            "voxel",
-            error=abs(mass / exact - 1),
-            error_unit="of the mass",
             bytes=frame.bytes,
         )

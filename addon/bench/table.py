@@ -7,16 +7,6 @@ from collections.abc import Iterator, Sequence
 from .harness import OURS, Report, Row, Target
 from .timing import LEAST
 
-SHOWN = {
-    "text": ("720 x 720", "720 x 720, commas"),
-    "geodesy": ("720 x 720",),
-    "forest": ("720 x 720",),
-    "emitters": ("144 x 144",),
-}
-"""The cases of a subject that the Markdown table shows; all cases of the others."""
-ALONE = ("particles", "smoke")
-"""Subjects whose tools do not all do the same: their times are not put in proportion."""
-
 
 def number(value: float) -> str:
     """Three digits, no exponent where it can be read without: ``0.00312``, ``36.5``, ``1.2e-09``."""
@@ -86,7 +76,7 @@ def _method(report: Report) -> str:
     runs = f"in each of {report.runs} runs" if report.runs > 1 else "in one run"
     return (
         f"Medians of {LEAST} or more repetitions {runs}, in which the tools take turns; in brackets the "
-        "range of all repetitions. One thread unless said."
+        "range of all repetitions, then the seconds of all processors together. One thread unless said."
     )
 
 
@@ -100,8 +90,8 @@ def page(report: Report) -> str:
             lines += ["", f"{subject}: {report.subjects.get(subject, '')}".rstrip(": ")]
         error = f"{number(row.error)} {row.error_unit}" if row.error is not None else ""
         lines.append(
-            f"  {row.case:<33} {row.label:<37} {times(row):<28} {_each(row):<24} "
-            f"{size(row.bytes):>8}  {error}".rstrip()
+            f"  {row.case:<33} {row.label:<37} {times(row):<28} {time(row.processor_seconds):>8}  "
+            f"{_each(row):<24} {size(row.bytes):>8}  {error}".rstrip()
         )
     lines += ["", "targets"]
     for target in report.targets:
@@ -126,8 +116,8 @@ def markdown(report: Report) -> str:
         )
     lines += [
         "",
-        "| step | case | tool | time | per item | beside firetwin | size | error |",
-        "|---|---|---|--:|--:|--:|--:|--:|",
+        "| step | case | tool | time | of processors | per item | beside firetwin | size | error |",
+        "|---|---|---|--:|--:|--:|--:|--:|--:|",
         *_rows(report.rows),
         "",
         *(f"- {subject}: {what}" for subject, what in report.subjects.items()),
@@ -145,16 +135,13 @@ def _each(row: Row) -> str:
 def _rows(rows: list[Row]) -> Iterator[str]:
     ours: dict[tuple[str, str], float] = {}
     for row in rows:
-        shown = SHOWN.get(row.subject)
-        if shown and (row.case not in shown or row.threads > 1):
-            continue
         key = row.subject, row.case
         if row.tool.startswith(OURS) and row.seconds:
             ours.setdefault(key, row.seconds)
-        comparable = key in ours and row.seconds and row.subject not in ALONE
+        comparable = key in ours and row.seconds
         beside = f"{number(row.seconds / ours[key])}x" if comparable else ""
         error = f"{number(row.error)} {row.error_unit}" if row.error is not None else ""
         yield (
-            f"| {row.subject} | {row.case} | {row.label} | {times(row)} | {_each(row)} | {beside} "
-            f"| {size(row.bytes)} | {error} |"
+            f"| {row.subject} | {row.case} | {row.label} | {times(row)} | {time(row.processor_seconds)} "
+            f"| {_each(row)} | {beside} | {size(row.bytes)} | {error} |"
         )

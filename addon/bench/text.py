@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from .harness import OURS, Bench
 from .timing import Runner, Times
 
-SIDES = (36, 144, 720, 2880)
-TILE = 720
+SIDE = 720
 HARD = 4000  # numbers
 RIVALS = {
     "numpy.loadtxt": ("numpy.loadtxt, as float64 then cast", "numpy.loadtxt, as float32"),
@@ -26,15 +25,11 @@ BOUNDS = {"numpy.loadtxt": 4.0, "pandas": 2.0}
 MEGABYTES = 500.0  # a second
 
 
-def grid_text(side: int, separator: str = " ") -> str:
-    """`side` x `side` heat fluxes as "%.6e"; above TILE a side, the same tile repeated."""
-    n = min(side, TILE)
+def grid_text(side: int) -> str:
+    """`side` x `side` heat fluxes as "%.6e"."""
     stream = io.StringIO()
-    values = np.random.default_rng(1).lognormal(8, 3, (n, n))
-    np.savetxt(stream, values, fmt="%.6e", delimiter=separator)
-    repeats = side // n
-    lines = [separator.join([line] * repeats) for line in stream.getvalue().splitlines()]
-    return "\n".join(lines * repeats) + "\n"
+    np.savetxt(stream, np.random.default_rng(1).lognormal(8, 3, (side, side)), fmt="%.6e")
+    return stream.getvalue()
 
 
 def hard_text() -> str:
@@ -64,62 +59,45 @@ def _is_wrong(word: str, value: np.float32) -> bool:
 
 
 def run(bench: Bench) -> None:
-    """Files of growing size, with blanks and with commas; errors are of numbers that are hard to round."""
+    """A grid of the King Fire's fuel; errors are of numbers that are hard to round."""
     with tempfile.TemporaryDirectory() as folder:
-        hard = Path(folder) / "hard.txt"
+        hard, grid = Path(folder) / "hard.txt", Path(folder) / "grid.txt"
         hard.write_text(hard_text())
-        tools = _tools(bench, hard, " ")
-        wrong = {tool.label: wrong_share(hard.read_text(), tool.call()) for tool in tools}
-        bench.target(
-            "numbers that are hard to round, not made the nearest float32", wrong[OURS], 0, "%", most=True
-        )
-        for side in SIDES:
-            for separator, name in ((" ", ""), (",", ", commas")):
-                path = Path(folder) / f"{side}.txt"
-                path.write_text(grid_text(side, separator))
-                rivals = (side <= 720 and not name) or bench.full
-                _one_file(bench, f"{side} x {side}{name}", path, side, separator, wrong, rivals)
+        wrong = {tool.label: wrong_share(hard.read_text(), tool.call()) for tool in tools(bench, hard)}
+        promise = "numbers that are hard to round, not made the nearest float32"
+        bench.target(promise, wrong[OURS], 0, "%", most=True)
+        grid.write_text(grid_text(SIDE))
+        race(bench, grid, SIDE, wrong)
 
 
-def _tools(bench: Bench, path: Path, separator: str, rivals: bool = True) -> list[Runner]:
-    tools = [Runner(OURS, lambda: read_grid(path))]
-    if not rivals:
-        return tools
-    blank = None if separator == " " else separator
+def tools(bench: Bench, path: Path) -> list[Runner]:
+    """What reads this file, each in its two forms."""
     cast, direct = RIVALS["numpy.loadtxt"]
-    tools += [
-        Runner(cast, lambda: np.loadtxt(path, delimiter=blank).astype(np.float32)),
-        Runner(direct, lambda: np.loadtxt(path, np.float32, delimiter=blank)),
+    found = [
+        Runner(OURS, lambda: read_grid(path)),
+        Runner(cast, lambda: np.loadtxt(path).astype(np.float32)),
+        Runner(direct, lambda: np.loadtxt(path, np.float32)),
     ]
     if pandas := bench.rival("pandas"):
         read = pandas.read_csv
         cast, direct = RIVALS["pandas"]
-        tools += [
-            Runner(cast, lambda: read(path, sep=separator, header=None).to_numpy(np.float32)),
-            Runner(direct, lambda: read(path, sep=separator, header=None, dtype=np.float32).to_numpy()),
+        found += [
+            Runner(cast, lambda: read(path, sep=" ", header=None).to_numpy(np.float32)),
+            Runner(direct, lambda: read(path, sep=" ", header=None, dtype=np.float32).to_numpy()),
         ]
-    return tools
+    return found
 
 
-def _one_file(
-    bench: Bench, case: str, path: Path, side: int, separator: str, wrong: dict[str, float], rivals: bool
-) -> None:
-    tools = [
-        Runner(tool.tool, tool.call, error=wrong[tool.label])
-        for tool in _tools(bench, path, separator, rivals)
-    ]
-    found = bench.race(case, tools, side * side, "value", "% of hard numbers wrong")
-    if case == "720 x 720":
-        speed = found[OURS].speed(path.stat().st_size / 1e6)
-        bench.target("720 x 720 text is read at", speed, MEGABYTES, "MB/s")
-        for rival, forms in RIVALS.items():
-            if best := _best(found, forms):
-                bench.target(
-                    f"speed of reading 720 x 720 text, over {rival}'s in the quicker of its two forms",
-                    found[OURS].faster_than(best),
-                    BOUNDS[rival],
-                    "x",
-                )
+def race(bench: Bench, path: Path, side: int, wrong: dict[str, float]) -> None:
+    """Read `side` x `side` values of a file with every tool; `wrong` is the error (%) of each."""
+    case = f"{side} x {side}"
+    runners = [Runner(tool.tool, tool.call, error=wrong[tool.label]) for tool in tools(bench, path)]
+    found = bench.race(case, runners, side * side, "value", "% of hard numbers wrong")
+    bench.target(f"{case} text is read at", found[OURS].speed(path.stat().st_size / 1e6), MEGABYTES, "MB/s")
+    for rival, forms in RIVALS.items():
+        if best := _best(found, forms):
+            promise = f"speed of reading {case} text, over {rival}'s in the quicker of its two forms"
+            bench.target(promise, found[OURS].faster_than(best), BOUNDS[rival], "x")
 
 
 def _best(found: dict[str, Times], forms: tuple[str, ...]) -> Times | None:

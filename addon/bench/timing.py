@@ -13,6 +13,8 @@ import firetwin_core as core
 
 LEAST = 5
 """Repetitions that are measured at least, however long one takes."""
+MOST, SECONDS = 9, 0.5
+"""More than the least are measured, up to so many, until all tools have taken so many seconds."""
 SAMPLE = 2e-3
 """s that a repetition lasts at least: what is quicker is called several times and the mean kept."""
 
@@ -43,9 +45,10 @@ def label(tool: str, threads: int) -> str:
 
 @dataclass(frozen=True)
 class Times:
-    """Seconds of each repetition of one tool, in order."""
+    """Seconds by the clock, and of all processors together, of each repetition of one tool, in order."""
 
     seconds: tuple[float, ...]
+    processor: tuple[float, ...] = ()
 
     @property
     def median(self) -> float:
@@ -59,6 +62,25 @@ class Times:
     def faster_than(self, other: Times) -> tuple[float, ...]:
         """How many times as fast this was in each round as `other` was in the same round."""
         return tuple(b / a for a, b in zip(self.seconds, other.seconds, strict=True))
+
+
+@dataclass(frozen=True)
+class Spent:
+    """Seconds by the clock, and of this process on all processors together."""
+
+    seconds: float
+    processor: float
+
+
+class Stopwatch:
+    """Begins when it is made."""
+
+    def __init__(self) -> None:
+        self._seconds, self._processor = time.perf_counter(), time.process_time()
+
+    def read(self) -> Spent:
+        """What was spent since."""
+        return Spent(time.perf_counter() - self._seconds, time.process_time() - self._processor)
 
 
 class threads:  # noqa: N801 - reads as a statement
@@ -77,31 +99,32 @@ class threads:  # noqa: N801 - reads as a statement
 def race(runners: Sequence[Runner], most: int, budget: float) -> list[Times]:
     """Call every runner once unmeasured, then all in turn, LEAST to `most` times, as `budget` (s) allows."""
     often = [_often(runner) for runner in runners]
-    found: list[list[float]] = [[] for _ in runners]
+    found: list[list[Spent]] = [[] for _ in runners]
     begun = time.perf_counter()
     for done in range(most):
         if done >= LEAST and time.perf_counter() - begun > budget:
             break
-        for runner, number, seconds in zip(runners, often, found, strict=True):
-            seconds.append(_sample(runner, number))
-    return [Times(tuple(seconds)) for seconds in found]
+        for runner, number, spent in zip(runners, often, found, strict=True):
+            spent.append(_sample(runner, number))
+    return [Times(tuple(s.seconds for s in spent), tuple(s.processor for s in spent)) for spent in found]
 
 
 def _often(runner: Runner) -> int:
     """How many calls make a sample; the first call of all meets cold caches and does not count."""
-    seconds = _sample(runner, 1)
+    seconds = _sample(runner, 1).seconds
     if runner.before:
         return 1
     if seconds < 50 * SAMPLE:
-        seconds = _sample(runner, 1)
+        seconds = _sample(runner, 1).seconds
     return max(1, math.ceil(SAMPLE / max(seconds, 1e-9)))
 
 
-def _sample(runner: Runner, number: int) -> float:
+def _sample(runner: Runner, number: int) -> Spent:
     if runner.before:
         runner.before()
     with threads(runner.threads):
-        start = time.perf_counter()
+        watch = Stopwatch()
         for _ in range(number):
             runner.call()
-        return (time.perf_counter() - start) / number
+        spent = watch.read()
+    return Spent(spent.seconds / number, spent.processor / number)

@@ -13,10 +13,8 @@ from __future__ import annotations
 
 import argparse
 import json
-import resource
 import subprocess
 import sys
-import time
 from datetime import timedelta
 from pathlib import Path
 
@@ -51,19 +49,21 @@ target = "fire"
 def build(scene: Path, frame: int, picture: Path | None = None, seed: int = 0) -> dict[str, float]:
     """Build the part of the first camera that holds a frame, and render it; cpu-s and MB of the building."""
     import bpy
+    from firetwin import memory
+    from firetwin.bench.timing import Stopwatch
     from firetwin.jobs import render, worker_scene
     from firetwin.render.picture import Picture
     from firetwin.shot.source import Choice
 
-    begun = time.process_time()
+    watch = Stopwatch()
     shot = Choice(str(scene)).shot()
     ((part, _),) = render._parts(
         shot.of(shot.settings.cameras[0].name), [Picture(shot.settings.cameras[0].name, frame, "rgb")]
     )
     stage = worker_scene.build_scene(part, lambda *_: None, lambda _: None)
     found = {
-        "cpu-s": time.process_time() - begun,
-        "MB": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
+        "cpu-s": watch.read().processor,
+        "MB": memory.peak() / 2**20,
     }
     if picture:
         stage.scene.camera, stage.scene.cycles.seed = stage.camera(shot.settings.cameras[0].name), seed

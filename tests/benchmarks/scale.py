@@ -20,11 +20,12 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from firetwin import memory
+from firetwin.bench.timing import Stopwatch
 from firetwin_core import run as runs
 from numpy.typing import NDArray
 
@@ -60,7 +61,7 @@ def planning(folder: Path) -> None:
 
 def planning_again(folder: Path) -> None:
     """The same of one whose files it knows, if they are some seconds old."""
-    from firetwin.bench import planning
+    import planning
 
     with tempfile.TemporaryDirectory() as name:
         scene = Path(name) / "scene.toml"
@@ -72,20 +73,20 @@ def emission(folder: Path) -> float:
     """Sources of each moment of the shot; seconds for one, once all is gathered."""
     fire, times = _fire(folder)
     fire.sources(times[0])
-    begun = time.perf_counter()
+    watch = Stopwatch()
     for moment in times:
         fire.sources(float(moment))
-    return (time.perf_counter() - begun) / len(times)
+    return watch.read().seconds / len(times)
 
 
 def interpolation(folder: Path) -> float:
     """The flux at each moment of the shot; seconds for one, once the first is there."""
     fire, times = _fire(folder)
     fire.flux.burning(times[0])
-    begun = time.perf_counter()
+    watch = Stopwatch()
     for moment in times:
         fire.flux.at(float(moment))
-    return (time.perf_counter() - begun) / len(times)
+    return watch.read().seconds / len(times)
 
 
 STEPS: dict[str, Callable[[Path], float | None]] = {
@@ -116,19 +117,12 @@ def measure(step: str, folder: Path) -> dict[str, float]:
 def _step(name: str, folder: Path) -> None:
     importlib.import_module("firetwin.run.info")
     importlib.import_module("firetwin.shot.fire.fire")
-    importlib.import_module("firetwin.bench.planning")
-    before = _most_held()
-    begun, worked = time.perf_counter(), time.process_time()
+    importlib.import_module("planning")
+    before, watch = memory.peak(), Stopwatch()
     one = STEPS[name](folder)
-    took, worked = time.perf_counter() - begun, time.process_time() - worked
-    found = {"seconds": took, "of a processor": worked, "MB": _most_held() - before}
+    spent, held = watch.read(), memory.peak() - before
+    found = {"seconds": spent.seconds, "of a processor": spent.processor, "MB": held / 2**20}
     print(json.dumps(found | {"ms a moment": (one or 0.0) * 1000}))
-
-
-def _most_held() -> float:
-    """The most memory that this process has held, MB."""
-    lines = Path("/proc/self/status").read_text().splitlines()
-    return next(int(line.split()[1]) for line in lines if line.startswith("VmHWM")) / 1024
 
 
 def cut(

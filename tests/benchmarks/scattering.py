@@ -1,176 +1,212 @@
-"""What few bounces traced in smoke cost the picture, and what noise does: FLIP and processors' seconds.
+"""Light inside smoke: solved once for the frame, or one bounce traced, beside 32 bounces; FLIP and time.
 
-    python tests/benchmarks/scattering.py SCENE.toml [--bounces] [--noise] [--frame 1] [--width 256]
-
-Renders one frame of a scene's first camera, whose smoke is baked if it is not yet; examples/views has scenes
-(`firetwin bench` does so for a plume of its own). With --bounces, which is what it does by itself, each
-number of them at 24 samples, as the material has it or with nearly even scattering, beside 32 bounces of
-light that goes forwards; with --noise, ways to sample and denoise at 3 and 4 samples beside 64 samples.
-FLIP (Andersson et al. 2020, doi 10.1145/3406183) and the root of the mean square of the picture's colours,
-both from 0 to 1.
+The smoke is a plume in the wind, solved, painted and lit as a shot's, and drawn by Cycles in a process of its
+own. Pictures are compared by the mean FLIP (Andersson et al. 2020, "FLIP: A Difference Evaluator for
+Alternating Images"). Beside it stands what another grain makes: less than that does not show. The reference
+lets light go on forwards, as smoke does, and counts all of the smoke.
 """
 
 from __future__ import annotations
 
-import argparse
+import os
 import tempfile
-import time
-from collections.abc import Callable
 from dataclasses import replace
+from datetime import UTC, datetime
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import bpy
-import flip_evaluator
 import numpy as np
-from firetwin.jobs import worker_scene
-from firetwin.render import layers
-from firetwin.scene.smoke import flow_material
-from firetwin.shot.settings import scene_file
+from firetwin.bench.harness import OURS, Bench
+from firetwin.bench.timing import Stopwatch, Times
+from firetwin.jobs import worker
+from firetwin.progress import Progress, Tell, silent, untold
+from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
+from firetwin.shot import sun
+from firetwin.shot.settings import settings
 from firetwin.shot.shot import Shot
-from firetwin.smoke import bake
-from firetwin_core import run
+from firetwin_core import flow, volume
 from numpy.typing import NDArray
 
-Array = NDArray[np.float32]
+if TYPE_CHECKING:
+    import bpy
 
-
-class Bench:
-    """One frame that is rendered again and again."""
-
-    def __init__(self, scene: Path, frame: int, width: int, folder: Path) -> None:
-        settings = scene_file.read(scene)
-        size = width, round(width * 9 / 32) * 2
-        settings = replace(
-            settings,
-            smoke=replace(settings.smoke, lighting="traced"),
-            render=replace(settings.render, resolution=size, passes=("rgb",)),
-        )
-        self.shot = Shot(settings, run.open(settings.run)).of(settings.cameras[0].name)
-        self.scene = worker_scene.build_scene(self.shot, lambda *_: None, lambda _: None).scene
-        self.scene.camera = next(thing for thing in self.scene.objects if thing.type == "CAMERA")
-        bake.bake(self.shot, frames=[frame])
-        layers.select(self.scene, ["rgb"])
-        self.scene.frame_set(frame)
-        self.folder, self.count = folder, 0
-        nodes = bpy.data.materials["Firetwin Smoke"].node_tree.nodes
-        shown = next(node for node in nodes if node.type == "GROUP")
-        self.light, self.scatter = shown.inputs["Light Density"], [shown.inputs["Anisotropy"]]
-        self.usual = self.light.default_value, self.scatter[0].default_value
-
-    def picture(self, samples: int, denoise: bool, tweak: Callable[[Bench], None]) -> tuple[Array, float]:
-        """Colours (height, width, 3), 0 to 1, and the processors' seconds that they took."""
-        cycles = self.scene.cycles
-        cycles.samples, cycles.use_denoising = samples, denoise
-        for layer in self.scene.view_layers:
-            layer.cycles.use_denoising = denoise
-        tweak(self)
-        self.count += 1
-        path = self.folder / f"{self.count:02d}.png"
-        self.scene.render.filepath = str(path)
-        begin = time.process_time()
-        bpy.ops.render.render(write_still=True, scene=self.scene.name)
-        seconds = time.process_time() - begin
-        image = bpy.data.images.load(str(path))
-        image.colorspace_settings.name = "Non-Color"
-        pixels = np.array(image.pixels, np.float32).reshape(*reversed(image.size[:]), 4)
-        bpy.data.images.remove(image)
-        return np.ascontiguousarray(pixels[..., :3]), seconds
-
-
-def bounces(
-    count: int, extinction: float | None = None, forward: float | None = None
-) -> Callable[[Bench], None]:
-    """Scattering inside smoke so often; light's extinction over the whole, and anisotropy."""
-
-    def tweak(bench: Bench) -> None:
-        bench.scene.cycles.volume_bounces = count
-        bench.scene.cycles.max_bounces = max(4, count)
-        bench.light.default_value = bench.usual[0] if extinction is None else extinction
-        for socket in bench.scatter:
-            socket.default_value = bench.usual[1] if forward is None else forward
-
-    return tweak
-
-
-def sampled(**settings: object) -> Callable[[Bench], None]:
-    """Cycles with these settings, `step` times the step through smoke, `way` through it."""
-
-    def tweak(bench: Bench) -> None:
-        usual = {
-            "sampling_pattern": "TABULATED_SOBOL",
-            "denoising_input_passes": "RGB_ALBEDO_NORMAL",
-            "denoising_prefilter": "ACCURATE",
-            "sample_clamp_direct": 0.0,
-            "volume_bounces": 1,
-            "volume_step_rate": 1.0,
-            "way": "DISTANCE",
-        }
-        for name, value in (usual | settings).items():
-            if name == "way":
-                bpy.data.materials["Firetwin Smoke"].cycles.volume_sampling = value
-            else:
-                setattr(bench.scene.cycles, name, value)
-
-    return tweak
-
-
-BOUNCES = {f"{count} bounces": bounces(count) for count in (0, 1, 2)} | {
-    f"{count} bounces, as if even": bounces(count, 1.0, 0.15) for count in (0, 1, 2, 4)
+MOMENT = datetime(2014, 9, 17, 23, 12, tzinfo=UTC)
+PLACE = 38.97, -120.56
+VIEW = CameraKey(0.0, PLACE[0] - 0.036, PLACE[1] - 0.01, 900.0, "point", *PLACE, 700.0)
+LENS = 60.0  # mm; the plume fills half of the picture
+RESOLUTION, SAMPLES = (160, 90), 16
+SPACING, SHAPE, LEVELS, DEPTH, VOXEL = 80.0, (40, 64), 36, 60.0, 40.0  # m, rows and columns, levels; m
+MODEL_TIMES = 25  # of the sample; arrival times are all there
+WIND, POWER, SMOKE = 6.0, 6e9, 1.2e-9  # m/s, W, kg/J
+FORWARD = 0.6  # anisotropy of smoke, which the material's one bounce stands in for
+REFERENCE, OTHER_GRAIN = "32 bounces", "ours, other grain"
+WAYS = {  # lighting; bounces, part of the smoke that dims light, anisotropy (None: as the material has it)
+    OURS: ("solved", 1, None, None),
+    "1 bounce, thinner for light": ("traced", 1, None, None),
+    "1 bounce, all of the smoke": ("traced", 1, 1.0, FORWARD),
+    REFERENCE: ("traced", 32, 1.0, FORWARD),
+    OTHER_GRAIN: ("solved", 1, None, None),
 }
-NOISE = {
-    "as it is": sampled(),
-    "blue noise": sampled(sampling_pattern="BLUE_NOISE"),
-    "guide: colour alone": sampled(denoising_input_passes="RGB"),
-    "guide: albedo": sampled(denoising_input_passes="RGB_ALBEDO"),
-    "prefilter fast": sampled(denoising_prefilter="FAST"),
-    "no prefilter": sampled(denoising_prefilter="NONE"),
-    "equiangular": sampled(way="EQUIANGULAR"),
-    "both ways": sampled(way="MULTIPLE_IMPORTANCE"),
-    "steps of half": sampled(volume_step_rate=0.5),
-    "steps of twice": sampled(volume_step_rate=2.0),
-    "no bounces": sampled(volume_bounces=0),
-    "direct light clamped at 2": sampled(sample_clamp_direct=2.0),
-}
+LIMIT = 0.15  # FLIP, of a picture half of which is smoke
 
 
-def main() -> None:
-    """Measure and print."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("scene", type=Path)
-    parser.add_argument("--frame", type=int, default=1)
-    parser.add_argument("--width", type=int, default=256)
-    parser.add_argument("--bounces", action="store_true", help="compare bounces, not noise")
-    parser.add_argument("--noise", action="store_true", help="compare noise and denoisers, not bounces")
-    options = parser.parse_args()
+def run(bench: Bench) -> None:
+    """Render every way, then compare."""
+    flip = bench.flip()
+    if flip is None:
+        return
     with tempfile.TemporaryDirectory() as folder:
-        bench = Bench(options.scene, options.frame, options.width, Path(folder))
-        if options.bounces or not options.noise:
-            truth, seconds = bench.picture(24, True, bounces(32, 1.0, flow_material.FORWARD))
-            compare(bench, "32 bounces", truth, seconds, BOUNCES, 24)
-        if options.noise:
-            truth, seconds = bench.picture(64, False, sampled())
-            for samples in (3, 4):
-                compare(bench, "64 samples", truth, seconds, NOISE, samples)
+        seconds = worker.run(f"{__name__}:render_in_blender", {"folder": folder})
+        errors = {
+            name: flip.evaluate(
+                picture(folder, OURS if name == OTHER_GRAIN else REFERENCE), picture(folder, name), "LDR"
+            )[1]
+            for name in seconds
+        }
+    for name, each in seconds.items():
+        bench.row(
+            f"smoke in {RESOLUTION[0]} by {RESOLUTION[1]} pixels",
+            name,
+            Times((each,)),
+            RESOLUTION[0] * RESOLUTION[1],
+            "pixel",
+            error=None if name == REFERENCE else errors[name],
+            error_unit="FLIP",
+            threads=os.cpu_count() or 1,
+        )
+    bench.target("light in smoke, off that of 32 bounces by", errors[OURS], LIMIT, "FLIP", most=True)
 
 
-def compare(
-    bench: Bench,
-    name: str,
-    truth: Array,
-    seconds: float,
-    ways: dict[str, Callable[[Bench], None]],
-    samples: int,
-) -> None:
-    """Print what each way costs and misses of the truth."""
-    print(f"{'samples, way':28} {'FLIP':>8} {'rms':>8} {'cpu-s':>8}\n{name:28} {'':8} {'':8} {seconds:8.1f}")
-    for way, tweak in ways.items():
-        found, seconds = bench.picture(samples, True, tweak)
-        flip = flip_evaluator.evaluate(truth, found, "LDR")[1]
-        error = np.sqrt(((found - truth) ** 2).mean())
-        print(f"{samples:2} {way:25} {flip:8.4f} {error:8.4f} {seconds:8.1f}", flush=True)
+def picture(folder: str, name: str) -> str:
+    """Where the picture called `name` is written."""
+    return str(Path(folder) / f"{name.replace(' ', '_').replace(',', '')}.png")
 
 
-if __name__ == "__main__":
-    main()
+def plume() -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Extinction (nx, ny, nz), 1/m, and freshness of a steady fire's smoke after five minutes."""
+    levels = np.arange(LEVELS + 1) * DEPTH
+    theta = [300.0, 300.0 + 0.004 * levels[-1]]
+    solver = flow.Solver(levels, SHAPE, SPACING, [0.0, levels[-1]], theta, [[WIND, 0.0], [2 * WIND, 0.0]])
+    place = np.array([0.25 * SHAPE[1], 0.5 * SHAPE[0]]) * SPACING
+    place = place + np.random.default_rng(1).uniform(-200.0, 200.0, (40, 2))
+    solver.set_sources(place, np.full(40, POWER / 40), np.full(40, SMOKE * POWER / 40))
+    solver.step(5.0, 60)
+    middle = 0.5 * (levels[1:] + levels[:-1])
+    detail = flow.Detail(
+        smoke=solver.smoke(),
+        age=solver.age(),
+        rise=solver.velocity()[..., 2],
+        warmth=solver.warmth(),
+        drift=np.zeros((*solver.shape, 2, 3), np.float32),
+        weights=(1.0, 0.0),
+        turns=(0, 0),
+        spacing=SPACING,
+        corner=(0.0, 0.0),
+        levels=middle,
+        heights=np.broadcast_to(middle[:, None, None], solver.shape),
+        ground=np.zeros(SHAPE),
+    )
+    columns, rows, layers = (
+        int(side / VOXEL) for side in (SHAPE[1] * SPACING, SHAPE[0] * SPACING, levels[-1])
+    )
+    flat = np.zeros((columns, rows))
+    density, fresh, _ = detail.paint((0.0, 0.0, 0.0), VOXEL, flat, flat + 1.0, layers)
+    return density, fresh
+
+
+def scene_file(folder: Path) -> settings.Settings:
+    """One frame of the sample from a drone."""
+    return settings.Settings(
+        path=folder / "scene.toml",
+        run=folder / "sample",
+        cache=folder / "cache",
+        time=settings.Time(start=MOMENT, frames=1),
+        smoke=settings.Smoke(method="flow", voxel_size=VOXEL),
+        light=settings.Light(exposure=0.5),
+        cameras=(settings.Camera(rig=Drone(keys=(VIEW,), focal_length=LENS)),),
+        render=settings.Render(resolution=RESOLUTION, samples=SAMPLES, passes=("rgb",)),
+    )
+
+
+# What follows runs in the worker process, where Blender is.
+
+
+def render_in_blender(folder: str, progress: Progress = silent, tell: Tell = untold) -> dict[str, float]:
+    """Draw the picture in every way; the time (s) of each."""
+    import bpy
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    looks = _build(scene_file(Path(folder)), scene)
+    scene.cycles.samples, draft = 1, scene.cycles.samples
+    bpy.ops.render.render()  # loads what later ones find loaded
+    scene.cycles.samples = draft
+    seconds = {}
+    for done, (name, (lighting, bounces, part, even)) in enumerate(WAYS.items()):
+        progress(done, len(WAYS))
+        inputs = _show(looks[lighting])
+        scene.cycles.volume_bounces = bounces
+        scene.cycles.max_bounces = max(scene.cycles.max_bounces, bounces)
+        for socket, value in (("Light Density", part), ("Anisotropy", even)):
+            if value is not None:
+                inputs[socket].default_value = value
+        scene.cycles.seed = int(name == OTHER_GRAIN)
+        scene.render.filepath = picture(folder, name)
+        watch = Stopwatch()
+        bpy.ops.render.render(write_still=True)
+        seconds[name] = watch.read().seconds
+    return seconds
+
+
+def _show(look: bpy.types.Material) -> bpy.types.NodeInputs:
+    """Give all smoke a copy of this material; its inputs."""
+    import bpy
+
+    look = look.copy()
+    for smoke in bpy.data.volumes:
+        smoke.materials[0] = look
+    return next(node for node in look.node_tree.nodes if node.type == "GROUP").inputs
+
+
+def _build(file: settings.Settings, scene: bpy.types.Scene) -> dict[str, bpy.types.Material]:
+    """Build sun, camera and the plume where the camera looks; the smoke's material for each lighting."""
+    from firetwin.blender import owned
+    from firetwin.data import sample
+    from firetwin.render import engine
+    from firetwin.scene import clock
+    from firetwin.scene.camera import build as camera
+    from firetwin.scene.light import build as light
+    from firetwin.scene.smoke import build as smoke
+    from firetwin.scene.smoke import flow_material
+    from firetwin.smoke import bake, flow_frames
+    from firetwin.smoke.flow import Flow
+    from firetwin_core import run as runs
+
+    sample.write(file.run, MODEL_TIMES, "npy")
+    shot = Shot(file, runs.open(file.run))
+    density, fresh = plume()
+    middle = shot.paths[0].target[0]
+    origin = (
+        middle[0] - 0.4 * SHAPE[1] * SPACING,
+        middle[1] - 0.5 * SHAPE[0] * SPACING,
+        middle[2] - VIEW.target_height,
+    )
+    place = bake.folder(shot)
+    place.mkdir(parents=True)
+    for layer in flow_frames.layers(shot, Flow(shot)):
+        part = 1.0 if layer.name == "smoke" else 0.0
+        toward = sun.toward_light(shot.run, shot.frames.first)
+        sunlight, skylight, _ = volume.lit(part * density, VOXEL, toward, *flow_frames.LIGHT)
+        grids = {"density": part * density, "fresh": fresh, "sun": sunlight, "sky": skylight}
+        volume.write(str(layer.file(place, 1)), grids, VOXEL, origin, tolerance=1e-6, within="density")
+    stage = owned.adopt(scene)
+    clock.build(shot, stage)
+    smoke.build(shot, stage)
+    light.build(shot, stage)
+    camera.build(shot, stage)
+    engine.apply(file, scene)
+    looks = {}
+    for lighting in ("solved", "traced"):
+        lit = replace(file, smoke=replace(file.smoke, lighting=lighting))
+        looks[lighting] = flow_material.build(Shot(lit, shot.run), stage)
+    return looks

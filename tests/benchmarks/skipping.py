@@ -16,10 +16,8 @@ from __future__ import annotations
 
 import argparse
 import json
-import resource
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -81,13 +79,14 @@ ROWS = {
 def one(scene: Path, picture: Path) -> None:
     """Build and render a scene in this process; print seconds, MB, and how much there is in the scene."""
     import bpy
+    from firetwin import memory
+    from firetwin.bench.timing import Stopwatch
     from firetwin.jobs import worker_scene
     from firetwin.shot.source import Choice
 
-    held = _held()
-    begun = time.process_time()
+    held, watch = memory.peak(), Stopwatch()
     stage = worker_scene.build_scene(Choice(str(scene)).shot(), lambda *_: None, lambda _: None)
-    built = time.process_time()
+    built = watch.read().processor
     stage.scene.camera = stage.camera("view")
     stage.scene.frame_set(1)
     stage.scene.render.filepath = str(picture)
@@ -97,18 +96,14 @@ def one(scene: Path, picture: Path) -> None:
         "FOUND "
         + json.dumps(
             {
-                "build": built - begun,
-                "render": time.process_time() - built,
-                "MB": _held() - held,
+                "build": built,
+                "render": watch.read().processor - built,
+                "MB": (memory.peak() - held) / 2**20,
                 "trees": meshes.get("Firetwin Trees", 0),
                 "ground": meshes.get("Firetwin Ground", 0),
             }
         )
     )
-
-
-def _held() -> float:
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
 def measure(folder: Path, row: dict, camera: str, given: argparse.Namespace) -> tuple[dict, NDArray]:

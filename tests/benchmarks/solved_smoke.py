@@ -11,15 +11,15 @@ from __future__ import annotations
 
 import argparse
 import json
-import resource
 import tempfile
-import time
 from dataclasses import replace
 from pathlib import Path
 
 import bpy  # noqa: F401 (Blender's own libraries come first)
 import firetwin_core
 import numpy as np
+from firetwin import memory
+from firetwin.bench.timing import Stopwatch
 from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
 from firetwin.smoke.baker import Baker
@@ -29,9 +29,10 @@ from firetwin_core import run
 
 def timed(work, *arguments) -> tuple[float, float]:
     """Wall and processors' seconds of a call."""
-    wall, processors = time.perf_counter(), time.process_time()
+    watch = Stopwatch()
     work(*arguments)
-    return time.perf_counter() - wall, time.process_time() - processors
+    spent = watch.read()
+    return spent.seconds, spent.processor
 
 
 def measured(scene: Path, frames: int, cache: Path) -> dict[str, float]:
@@ -56,13 +57,13 @@ def measured(scene: Path, frames: int, cache: Path) -> dict[str, float]:
             f"{name}_99_percent_below_m": tops[1],
             f"{name}_mass_amiss": abs((mass["airborne"] + mass["left"]) / given - 1.0),
         }
-    result["solve_mb"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    result["solve_mb"] = memory.peak() / 2**20
     place = cache / f"smoke_{last:06d}.vdb"
     result["frame_s"], result["frame_processor_s"] = timed(baker.write, place, last)
     result["frame_mb"] = sum(path.stat().st_size for path in cache.glob("*.vdb")) / 1e6
     kept = [path.stat().st_size for path in cache.glob("*/moment_*.npz")]
     result["moments_mb_per_frame"] = sum(kept) / 1e6 / last
-    result["memory_mb"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    result["memory_mb"] = memory.peak() / 2**20
     return result
 
 

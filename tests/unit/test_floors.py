@@ -189,8 +189,10 @@ ABOUT_ALL = {"floors", "touched", "documentation_artists", "documentation_glossa
 
 
 def test_a_test_file_bears_the_name_of_the_module_that_it_tests():
-    sources = [path for folder in ("addon", "cpp", "data") for path in (ROOT / folder).rglob("*")]
-    names = {path.stem.strip("_") for path in sources if "__pycache__" not in path.parts}
+    sources = [
+        path for folder in ("addon", "cpp", "data", "tests/benchmarks") for path in (ROOT / folder).rglob("*")
+    ]
+    names = {"benchmarks"} | {path.stem.strip("_") for path in sources if "__pycache__" not in path.parts}
     for path in (ROOT / "tests").glob("*/test_*.py"):
         words = path.stem.split("_")[1:]
         starts = {"_".join(words[:count]) for count in range(1, len(words) + 1)}

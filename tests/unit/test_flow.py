@@ -3,8 +3,8 @@
 import firetwin_core as core
 import numpy as np
 import pytest
-from firetwin.bench.flow import advected
 from firetwin_core import flow
+from flow_conservation import advected
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

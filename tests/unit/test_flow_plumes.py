@@ -1,7 +1,7 @@
-"""The buoyant flow against plume theory; more winds, calm air and other cells are in `firetwin bench`."""
+"""The buoyant flow against plume theory; calm air is in `tests/benchmarks/flow_conservation.py`."""
 
 import pytest
-from firetwin.bench.flow_plumes import bent, unbalanced
+from firetwin.bench.flow import bent, unbalanced
 
 
 def test_a_bent_plume_rises_as_briggs_says():

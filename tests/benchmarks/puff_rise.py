@@ -1,4 +1,4 @@
-"""Rise of a single steady plume in a uniform wind, beside the theory's equation integrated step by step.
+"""Rise of the puffs of a steady fire in a uniform wind, beside the theory's equation integrated step by step.
 
 Briggs's bent-over plume (Briggs 1975, "Plume rise predictions", in Lectures on Air Pollution and
 Environmental Impact Analyses) in a wind U with the buoyancy frequency N: its radius is b z, its momentum
@@ -12,11 +12,10 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
+from firetwin.bench.harness import OURS, Bench
+from firetwin.bench.timing import Runner
 from firetwin_core import particles, volume
 from numpy.typing import NDArray
-
-from .harness import OURS, Bench
-from .timing import Runner
 
 POWERS = (1e8, 1e9, 1e10)  # W
 WIND = np.array([6.0, 8.0])  # m/s east and north, 10 m up

@@ -8,11 +8,10 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
+from firetwin.bench.harness import OURS, Bench
+from firetwin.bench.timing import Runner
 from firetwin_core import particles
 from numpy.typing import NDArray
-
-from .harness import OURS, Bench
-from .timing import Runner
 
 SECONDS = 10.0
 PARTICLES = 1000

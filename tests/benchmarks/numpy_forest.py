@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .geodesy import numpy_enu
-
 PLACE, TREE, GRASS = 0, 1, 2
+A, F = 6378137.0, 1 / 298.257223563  # WGS84
 Draw = Callable[[int, NDArray, int], NDArray]
 
 
@@ -59,6 +59,25 @@ class Plants:
 Origin = tuple[float, float, float]
 
 
+def local(latitude: NDArray, longitude: NDArray, height: NDArray, origin: Origin) -> NDArray:
+    """The closed form, vectorised: degrees, degrees, metres (n,) -> (n, 3) metres about `origin`."""
+    e2 = F * (2 - F)
+
+    def polar(latitude: Any, height: Any) -> tuple[Any, Any]:
+        """Distance from the axis and height over the equator, m."""
+        sine, cosine = np.sin(latitude), np.cos(latitude)
+        normal = A / np.sqrt(1 - e2 * sine * sine)
+        return (normal + height) * cosine, (normal * (1 - e2) + height) * sine
+
+    latitude0 = np.radians(origin[0])
+    r0, z0 = polar(latitude0, origin[2])
+    r, z = polar(np.radians(latitude), height)
+    turn = np.radians(longitude - origin[1])
+    dr, dz = r * np.cos(turn) - r0, z - z0
+    sine, cosine = np.sin(latitude0), np.cos(latitude0)
+    return np.stack([r * np.sin(turn), cosine * dz - sine * dr, sine * dz + cosine * dr], axis=-1)
+
+
 def place(
     cell: NDArray,
     latitude: NDArray,
@@ -80,7 +99,7 @@ def place(
     high = h[corner + columns] * (1 - u) + h[corner + columns + 1] * u
     north = latitude[0] + y * (latitude[1] - latitude[0])
     east = longitude[0] + x * (longitude[1] - longitude[0])
-    return numpy_enu(north, east, low * (1 - v) + high * v, origin)
+    return local(north, east, low * (1 - v) + high * v, origin)
 
 
 def trees(

@@ -6,13 +6,13 @@ import tempfile
 from functools import partial
 from pathlib import Path
 
-from ..data import sample
-from ..render import films, fingerprint, plan
-from ..render.picture import Picture
-from ..render.store import Store
-from ..shot.source import Choice
-from .harness import OURS, Bench
-from .timing import Runner
+from firetwin.bench.harness import OURS, Bench
+from firetwin.bench.timing import Runner
+from firetwin.data import sample
+from firetwin.render import films, fingerprint, plan
+from firetwin.render.picture import Picture
+from firetwin.render.store import Store
+from firetwin.shot.source import Choice
 
 CAMERAS, FRAMES = 20, 10_000
 FINISHED = 2000  # frames of every camera and pass that lie there

@@ -1,8 +1,8 @@
 """The NumPy forest that the benchmark compares with grows the same trees, so it is a fair comparison."""
 
 import numpy as np
+import numpy_forest as rival
 import pytest
-from firetwin.bench import numpy_forest as rival
 from firetwin_core import forest
 from firetwin_core.geo import LocalFrame
 

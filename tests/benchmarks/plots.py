@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-from .. import files
-from .harness import OURS, Report, Row
+from firetwin import files
+from firetwin.bench.harness import OURS, Report, Row
 
 COLOURS = {OURS: "#d1410c", "rival": ("#31688e", "#35b779", "#440154", "#8c6d31", "#666666")}
 
