@@ -1,7 +1,7 @@
 """Fuel grid -> trees and grass (Algorithm 2), beside vectorised NumPy that grows the very same plants.
 
 NumPy's own stream of random numbers is quicker, but with it a changed cell changes every tree after it; it is
-shown without a bound.
+shown without a bound. Then a stand of ten million stems.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from firetwin.bench.forest import Grid, fuel_grid, planted
+from firetwin.bench.forest import Grid, drone, fuel_grid, part, planted, stand
 from firetwin.bench.harness import ORIGIN, OURS, Bench
 from firetwin.bench.timing import Runner, threads
 from firetwin_core import forest
@@ -17,6 +17,7 @@ from firetwin_core.geo import LocalFrame
 from numpy_forest import Draw, Plants, grass, keyed, one_stream, trees
 
 SIDES = (144, 720)
+STEMS, LIMIT = 10_000_000, 5.0  # s for so many on two threads
 RIVALS = {"NumPy": keyed, "NumPy, one stream": one_stream}
 
 
@@ -37,10 +38,19 @@ def run(bench: Bench) -> None:
     for tool, word in ((tools[0], "one thread"), (tools[1], "two threads")):
         faster = found[tool.label].faster_than(found["NumPy"])
         bench.target(f"speed of planting {side} x {side} cells on {word}, over NumPy's", faster, 10, "x")
-    part = _masked(bench, grid)
-    bench.target("time for the trees of 1 % of the cells, of that for all", part, 3, "%", most=True)
+    masked = _masked(bench, grid)
+    bench.target("time for the trees of 1 % of the cells, of that for all", masked, 3, "%", most=True)
     promise = "arrays that differ between 1, 2, 4 and 16 threads"
     bench.target(promise, _differences(grid), 0, "", most=True)
+    _stand(bench, grid)
+
+
+def _stand(bench: Bench, grid: Grid) -> None:
+    call = partial(stand, grid, part(grid, STEMS), drone())
+    stems, runner = len(call()[0]), Runner(OURS, call, threads=2)
+    found = bench.race(f"a stand of {STEMS:,} stems", [runner], stems, "stem")
+    seconds = [STEMS / speed for speed in found[runner.label].speed(stems)]
+    bench.target("time for 10 million stems on two threads", seconds, LIMIT, "s", most=True)
 
 
 def _masked(bench: Bench, grid: Grid) -> list[float]:
