@@ -46,7 +46,7 @@ def run(bench: Bench) -> None:
         error = {
             tool: flip.evaluate(picture(name, ALL), picture(name, tool), "LDR")[1] for tool in (OURS, GRAIN)
         }
-    size = f"a drone's frame of {RESOLUTION[0]} by {RESOLUTION[1]} pixels"
+    size = f"{RESOLUTION[0]} x {RESOLUTION[1]} pixels"
     for step in ("build", "render"):
         for tool, each in found.items():
             bench.row(
