@@ -37,7 +37,7 @@ FRAME, SAMPLES, MANY = (160, 90), 3, 24  # pixels; rays, and of the reference
 MOMENT = datetime(2014, 9, 17, 23, 12, tzinfo=UTC)
 VIEW = CameraKey(0.0, 38.990, -120.5505, 600.0, "head")  # 2 km off the head of the fire
 MODEL_TIMES = 25  # of the sample; arrival times are all there
-DRAWN = 3  # times that each frame is drawn
+DRAWN = 2  # times that each frame is drawn
 PASSES = ("rgb", "thermal", "depth")
 _CAMERA = settings.Camera().name
 
