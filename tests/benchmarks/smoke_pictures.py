@@ -6,7 +6,7 @@ WITHOUT is the same picture of the same scene with `smoke.enabled = false` and t
 Smoke is where a colour differs by more than a threshold, or with --brighter where one is that much brighter:
 from above its shadow on the ground is no smoke, and before the sky only what lies above the horizon, with
 --upper, can be told from it. Everything is done for two thresholds. Needs SciPy.
-`smoke_views.py` makes such pictures and measures them.
+`gallery.py` makes such pictures and measures them.
 
 Outline: the perimeter of blobs goes as their area to the power D / 2. D is 1 for balls, 1.35 for clouds on
 all scales from 1 to 1000 km (Lovejoy 1982, "Area-perimeter relation for rain and cloud areas", Science 216).
