@@ -20,8 +20,8 @@ from firetwin.bench.harness import OURS, Bench
 from firetwin.bench.timing import Stopwatch, Times
 from firetwin.jobs import worker
 from firetwin.progress import Progress, Tell, silent, untold
-from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot import sun
+from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.settings import settings
 from firetwin.shot.shot import Shot
 from firetwin_core import flow, volume
