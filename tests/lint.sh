@@ -3,6 +3,20 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+# Who may import whom, by the contracts in pyproject.toml: of the package as it is installed, with data/ in it.
+check_floors() {
+  local staged status=0
+  staged=$(mktemp -d)
+  cp -r addon "$staged/firetwin"
+  cp -r data "$staged/firetwin/data"
+  PYTHONPATH=$staged .venv/bin/lint-imports --no-logo --no-cache >"$staged/log" || status=$?
+  if ((status)); then
+    cat "$staged/log"
+  fi
+  rm -r "$staged"
+  return "$status"
+}
+
 files=("$@")
 if ((${#files[@]} == 0)); then
   mapfile -t files < <(find .ci addon cpp data docs examples tests -type f ! -path '*/out/*')
@@ -18,6 +32,7 @@ done
 if ((${#python[@]})); then
   .venv/bin/ruff format --check "${python[@]}"
   .venv/bin/ruff check "${python[@]}"
+  check_floors
 fi
 if ((${#cpp[@]})); then
   printf '%s\0' "${cpp[@]}" | xargs -0 -n 40 -P "$(nproc)" .venv/bin/clang-format --dry-run --Werror

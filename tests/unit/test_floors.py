@@ -1,4 +1,4 @@
-"""The house: who may import whom. `python tests/unit/test_floors.py` prints who does, folder by folder."""
+"""The house: what the contracts of imports in pyproject.toml cannot say."""
 
 from __future__ import annotations
 
@@ -8,35 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 ROOT = Path(__file__).parents[2]
 PLACES = {"firetwin": ROOT / "addon", "firetwin.data": ROOT / "data"}
-
-BASE = {"errors", "escaped", "files", "memory", "progress"}
-FLOORS: dict[str, set[str]] = {
-    "errors": set(),
-    "escaped": set(),
-    "files": {"errors"},
-    "memory": set(),
-    "progress": {"escaped"},
-    "data": {"errors"},
-    "blender": {"errors"},
-    "run": BASE | {"data"},
-    "imaging": set(),
-    "shot": BASE | {"run", "imaging"},
-    "smoke": BASE | {"run", "shot"},
-    "scene": BASE | {"run", "shot", "smoke", "blender"},
-    "render": BASE | {"run", "shot", "smoke", "blender", "scene"},
-    "jobs": BASE | {"data", "run", "shot", "smoke", "blender", "scene", "render"},
-    "bench": BASE | {"data", "run", "shot", "smoke", "blender", "scene", "render", "jobs"},
-    "commands": BASE | {"data", "run", "shot", "render", "jobs", "bench"},
-    "cli": BASE | {"commands", "shot"},
-    "ui": BASE | {"run", "shot", "smoke", "blender", "scene", "render", "jobs", "cli"},
-    "__main__": {"cli"},
-    "__init__": {"ui"},
-}
-"""From the ground up: each folder (or file beside them), and those that it may import."""
 
 NEVER_BPY = (
     *("firetwin.errors", "firetwin.escaped", "firetwin.memory", "firetwin.progress"),
@@ -73,86 +46,31 @@ def modules() -> dict[str, Path]:
 MODULES = modules()
 
 
-def imports(name: str, inside_functions: bool = True) -> set[str]:
-    """Modules of the package, and others, that a module imports, by their full names.
-
-    Without those inside of functions also without those that only types need.
-    """
+def imports(name: str) -> set[str]:
+    """Modules of the package that a module imports as it loads: not within functions, not for types alone."""
     path = MODULES[name]
     package = name if path.stem == "__init__" else name.rpartition(".")[0]
     found: set[str] = set()
     pending: list[ast.AST] = [ast.parse(path.read_text(encoding="utf-8"))]
     while pending:
         node = pending.pop()
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and not inside_functions:
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             continue
-        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING" and not inside_functions:
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
             continue
-        if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            base = (
-                ".".join(package.split(".")[: len(package.split(".")) + 1 - node.level]) if node.level else ""
-            )
-            origin = ".".join(filter(None, (base, node.module)))
+        if isinstance(node, ast.ImportFrom) and node.level:
+            above = package.split(".")[: len(package.split(".")) + 1 - node.level]
+            origin = ".".join(filter(None, (*above, node.module)))
             inner = {f"{origin}.{alias.name}" for alias in node.names}
             found |= {each if each in MODULES else origin for each in inner}
         pending += ast.iter_child_nodes(node)
     return found
 
 
-def floor(name: str) -> str:
-    """The folder, or file beside the folders, that a module is in."""
-    return name.split(".")[1] if "." in name else "__init__"
-
-
-def picture() -> dict[str, dict[str, int]]:
-    """Folder -> folders that it imports, and by how many of its modules."""
-    found: dict[str, dict[str, int]] = {name: {} for name in FLOORS}
-    for name in MODULES:
-        here = floor(name)
-        used = {floor(each) for each in imports(name) if each in MODULES}
-        for each in used - {here}:
-            found[here][each] = found[here].get(each, 0) + 1
-    return found
-
-
-def test_the_floors_stand_on_each_other():
-    known: set[str] = set()
-    for name, allowed in FLOORS.items():
-        assert allowed <= known, name
-        known.add(name)
-
-
-def test_every_module_is_on_a_floor():
-    assert {floor(name) for name in MODULES} == set(FLOORS)
-
-
-@pytest.mark.parametrize("name", sorted(MODULES))
-def test_nothing_is_imported_from_above(name):
-    wrong = {
-        each
-        for each in imports(name)
-        if each in MODULES and floor(each) not in FLOORS[floor(name)] | {floor(name)}
-    }
-    assert not wrong
-
-
 def test_no_import_goes_in_a_circle():
-    graph = {name: imports(name, inside_functions=False) & set(MODULES) - {name} for name in MODULES}
+    graph = {name: imports(name) & set(MODULES) - {name} for name in MODULES}
     for name in graph:  # whoever imports a module has its packages imported, but they do not import back
         graph[name] -= {name.rpartition(".")[0]}
-    graphlib.TopologicalSorter(graph).prepare()
-
-
-def test_rooms_of_a_scene_do_not_go_in_a_circle():
-    rooms = {path.parent.name for path in (ROOT / "addon" / "scene").glob("*/__init__.py")}
-    graph: dict[str, set[str]] = {room: set() for room in rooms}
-    for name in MODULES:
-        parts = name.split(".")
-        if parts[1:2] == ["scene"] and len(parts) == 4:
-            used = {each.split(".")[2] for each in imports(name) if each.startswith("firetwin.scene.")}
-            graph[parts[2]] |= used & rooms - {parts[2]}
     graphlib.TopologicalSorter(graph).prepare()
 
 
@@ -177,13 +95,6 @@ for name in sys.argv[1:]:
     assert result.returncode == 0, result.stderr
 
 
-@pytest.mark.parametrize(
-    "name", [name for name in MODULES if floor(name) in ("run", "imaging", "shot", "smoke", "data")]
-)
-def test_what_lies_below_scene_never_asks_for_blender(name):
-    assert not imports(name) & {"bpy", "mathutils", "bpy_extras"}
-
-
 ABOUT_ALL = {"floors", "touched", "documentation_artists", "documentation_glossary"}
 """Test files about the project rather than one module of it."""
 
@@ -197,8 +108,3 @@ def test_a_test_file_bears_the_name_of_the_module_that_it_tests():
         words = path.stem.split("_")[1:]
         starts = {"_".join(words[:count]) for count in range(1, len(words) + 1)}
         assert starts & names or "_".join(words) in ABOUT_ALL, f"{path}: which module does it test?"
-
-
-if __name__ == "__main__":
-    for here, used in reversed(picture().items()):
-        print(f"{here:<9} -> {', '.join(f'{name} ({count})' for name, count in sorted(used.items())) or '-'}")
