@@ -13,7 +13,7 @@ import bpy
 
 from .. import files
 from ..errors import Error
-from ..shot.settings import scene_file
+from ..shot.settings import scene_file, toml_update
 from ..shot.settings.schema import wrong
 from ..shot.settings.settings import Settings
 from . import camera_edits, camera_list, keys, other_runs, sections
@@ -66,6 +66,8 @@ def own_folder() -> Path:
 def export(scene: bpy.types.Scene, path: Path) -> None:
     """Write what the panel says, with what was done to cameras by hand, as a scene file.
 
+    In a file that is there only what changed is written; its comments and layout stay.
+
     Raises
     ------
     Error
@@ -74,8 +76,7 @@ def export(scene: bpy.types.Scene, path: Path) -> None:
         It cannot be written.
     """
     camera_edits.pull(scene)
-    text = scene_file.text(settings(scene, path))
-    files.write(path, lambda part: part.write_text(text, encoding="utf-8"))
+    toml_update.save(settings(scene, path))
 
 
 def folder() -> Path:

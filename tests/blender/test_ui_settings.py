@@ -54,6 +54,17 @@ def test_every_scene_file_comes_back_from_a_saved_blend_file(panel, tmp_path):
         assert replace(file.read(tmp_path / "out.toml"), path=whole.path) == whole
 
 
+def test_an_export_over_a_scene_file_changes_the_keys_that_changed(panel, tmp_path):
+    """Single precision in Blender changes no number of the file."""
+    path = tmp_path / "king_fire.toml"
+    text = (EXAMPLES / path.name).read_text(encoding="utf-8") + "# ours\n"
+    path.write_text(text, encoding="utf-8")
+    scene_file.fill(panel.id_data, file.read(path))
+    panel.time.fps = 25
+    scene_file.export(panel.id_data, path)
+    assert path.read_text(encoding="utf-8") == text.replace("fps = 12 ", "fps = 25 ", 1) != text
+
+
 def test_what_an_artist_changes_is_what_comes_out(panel):
     whole = replace(file.read(EXAMPLES / "king_fire.toml"), render=Render(thermal_low=285.123456789))
     scene_file.fill(panel.id_data, whole)

@@ -35,7 +35,7 @@ try() { # python
     echo "extension: FAILED: $1; the whole output is in $log" >&2
     exit 1
   fi
-  grep -E '^(Blender|STATUS|firetwin_core|astral|tqdm|uninstalled)' "$log"
+  grep -E '^(Blender|STATUS|firetwin_core|astral|tomlkit|tqdm|uninstalled)' "$log"
 }
 
 case ${1:-} in

@@ -23,18 +23,21 @@ class _Scan:
         self.text = text
         self.at = 0
         self.offsets: dict[Path, int] = {}
+        self.spans: list[tuple[Path, int, int]] = [((), 0, 0)]
         self._tables: dict[Path, int] = {}  # tables in each array of tables so far
 
     def document(self) -> None:
         table: Path = ()
         self._skip()
         while self.at < len(self.text):
-            if self.text.startswith("[[", self.at):
-                table = self._header(2, array=True)
-            elif self.text[self.at] == "[":
-                table = self._header(1, array=False)
+            start = self.at
+            if self.text[start] == "[":
+                array = self.text.startswith("[[", start)
+                table = self._header(1 + array, array)
+                self.spans.append((table, start, self.at))
             else:
                 self._pair(table)
+                self.spans[-1] = (*self.spans[-1][:2], self.at)
             self._skip()
 
     def _skip(self) -> None:
@@ -149,6 +152,16 @@ def places(text: str) -> dict[Path, tuple[int, int]]:
     scan = _Scan(text)
     scan.document()
     return {path: _line_and_column(text, offset) for path, offset in scan.offsets.items()}
+
+
+def tables(text: str) -> list[tuple[Path, int, int]]:
+    """The tables of a valid TOML text in order: path, offsets of its header and of the end of its last value.
+
+    The first is that of the keys above all headers.
+    """
+    scan = _Scan(text)
+    scan.document()
+    return scan.spans
 
 
 def _line_and_column(text: str, offset: int) -> tuple[int, int]:

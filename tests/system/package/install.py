@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "helpers"))
 import small_run
 
 NAME = "bl_ext.user_default.firetwin"
-BUNDLED = ("firetwin_core", "astral", "tqdm", "tzdata")
+BUNDLED = ("firetwin_core", "astral", "tomlkit", "tqdm", "tzdata")
 SCENE = """\
 run = "run"
 [terrain]

@@ -1,0 +1,219 @@
+"""Saving over a scene file: changed keys are written into its text; comments, order and blank lines stay.
+
+The text is taken apart into blocks, one for each table with the comments right above it, so that a camera
+takes its comments along when it moves or goes. In a block tomlkit changes keys.
+"""
+
+from __future__ import annotations
+
+import itertools
+import re
+import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import tomlkit
+from tomlkit.exceptions import TOMLKitError
+from tomlkit.items import AoT
+
+from ... import files
+from ...errors import Error
+from .scene_file import parse, text
+from .settings import FORMER, Settings
+from .toml_positions import Path, tables
+
+Values = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Block:
+    """A table of a text: where it is, the comments right above it, header and keys, and what follows."""
+
+    path: Path
+    lead: str
+    body: str
+    gap: str
+
+
+def save(whole: Settings) -> None:
+    """Write settings to their own file; over one that is there as `updated` does.
+
+    Raises
+    ------
+    InputError
+        It cannot be written.
+    """
+    path = whole.path
+    try:
+        raw = path.read_bytes()
+        new = updated(raw.decode("utf-8-sig").replace("\r\n", "\n"), whole)
+    except (OSError, UnicodeDecodeError):
+        raw, new = b"", text(whole)
+    newline = "\r\n" if b"\r\n" in raw else "\n"
+    files.write(path, lambda part: part.write_text(new, encoding="utf-8", newline=newline))
+
+
+def updated(there: str, whole: Settings) -> str:
+    """The scene file `there` with the settings `whole`; only lines of keys that changed are other ones.
+
+    A text that is no scene file, or whose layout cannot be kept, is replaced by `scene_file.text`.
+    """
+    fresh = text(whole)
+    try:
+        kept = _written(_with_current_names(there), fresh, whole)
+        if _values(kept, whole) == tomllib.loads(fresh):
+            return kept
+    except (Error, TOMLKitError, ValueError, RecursionError):
+        pass
+    return fresh
+
+
+def _values(there: str, whole: Settings) -> Values:
+    """Every key's value as `text` writes it, whether the text has the key or leaves it at its default."""
+    return tomllib.loads(text(parse(there, whole.path)))
+
+
+def _with_current_names(there: str) -> str:
+    for former, now in FORMER.items():
+        there = re.sub(rf"(?m)^(\s*\[\s*){former}(?=\s*[\].])", rf"\g<1>{now}", there)
+    return there
+
+
+def _written(there: str, fresh: str, whole: Settings) -> str:
+    was, now = _values(there, whole), tomllib.loads(fresh)
+    blocks, made = list(_blocks(there)), list(_blocks(fresh))
+    for name in now:
+        if isinstance(now[name], dict):
+            blocks = _with_section(blocks, name, was, now)
+    for name in {**was, **now}:
+        if any(block.path[:1] == (name,) and len(block.path) > 1 for block in blocks + made):
+            blocks = _with_list(blocks, made, (name,), was, now)
+            for i, (old, new) in enumerate(zip(was.get(name, []), now.get(name, []), strict=False)):
+                own = any(block.path == (name, i) for block in blocks)
+                for inner in {**old, **new} if own else ():
+                    if any(block.path[:3] == (name, i, inner) for block in blocks + made):
+                        blocks = _with_list(blocks, made, (name, i, inner), old, new)
+    return "".join(b.lead + _edited(b, blocks, was, now) + b.gap for b in blocks)
+
+
+def _blocks(there: str) -> Iterator[Block]:
+    there += "" if there.endswith("\n") or not there else "\n"
+    found = tables(there)
+    starts = [there.rfind("\n", 0, start) + 1 for _, start, _ in found] + [len(there)]
+    lead = ""
+    for (path, _, end), start, following in zip(found, starts, starts[1:], strict=False):
+        over = there.find("\n", end) + 1 if end else 0
+        lines = there[over:following].splitlines(keepends=True)
+        above = list(itertools.takewhile(lambda line: line.lstrip().startswith("#"), reversed(lines)))
+        count = len(lines) - (len(above) if following < len(there) else 0)
+        yield Block(path, lead, there[start:over], "".join(lines[:count]))
+        lead = "".join(lines[count:])
+
+
+def _with_section(blocks: list[Block], name: str, was: Values, now: Values) -> list[Block]:
+    """With the header of a section that the text lacks and that changed, at its place in the schema."""
+    if was.get(name) == now[name] or any(block.path[:1] == (name,) for block in blocks):
+        return blocks
+    if name in tomllib.loads(blocks[0].body):  # inline, or by dotted keys
+        return blocks
+    order = list(now)
+    before = set(order[: order.index(name)])
+    at = max(i for i, block in enumerate(blocks) if not block.path or block.path[0] in before) + 1
+    return [
+        *_spaced(blocks[:at]),
+        Block((name,), "", f"[{name}]\n", "\n" if blocks[at:] else ""),
+        *blocks[at:],
+    ]
+
+
+def _with_list(blocks: list[Block], made: list[Block], path: Path, was: Values, now: Values) -> list[Block]:
+    """With the tables of a list in their new order and number; `was` follows."""
+    name, size = path[-1], len(path)
+    old, new = was.get(name, []), now.get(name, [])
+    mine = [i for i, block in enumerate(blocks) if block.path[:size] == path]
+    sources = _sources(old, new)
+    if (old and not mine) or sources == list(range(len(old))):  # inline tables, or the same ones
+        return blocks
+    units: list[Block] = []
+    for i, source in enumerate(sources):
+        of = (made, i) if source is None else (blocks, source)
+        unit = [block for block in of[0] if block.path[: size + 1] == (*path, of[1])]
+        units += _spaced([replace(block, path=(*path, i, *block.path[size + 1 :])) for block in unit])
+    was[name] = [new[i] if source is None else old[source] for i, source in enumerate(sources)]
+    owner = (
+        [i for i, block in enumerate(blocks) if block.path == path[:-1]] if size > 1 else [len(blocks) - 1]
+    )
+    at = mine[0] if mine else owner[-1] + 1
+    rest = [block for block in blocks[at:] if block.path[:size] != path]
+    return [*(_spaced(blocks[:at]) if units else blocks[:at]), *units, *rest]
+
+
+def _sources(old: list[Values], new: list[Values]) -> list[int | None]:
+    """Index of the old table that each new one was: by its name, or by its place if it was renamed."""
+    names, wanted = [each.get("name") for each in old], {each.get("name") for each in new}
+    found: list[int | None] = []
+    for i, each in enumerate(new):
+        named = names.index(each["name"]) if each.get("name") in names and "name" in each else None
+        same = i < len(old) and (names[i] is None or names[i] not in wanted)
+        found.append(named if named is not None else i if same else None)
+    return found
+
+
+def _spaced(blocks: list[Block]) -> list[Block]:
+    """With a blank line after the last."""
+    *most, last = blocks
+    loose = last.gap or not (last.lead + last.body)
+    return [*most, last if loose else replace(last, gap="\n")]
+
+
+def _edited(block: Block, blocks: list[Block], was: Values, now: Values) -> str:
+    """Header and keys of a block with the keys that changed."""
+    document: Any = tomlkit.parse(block.body)
+    table = document
+    for step in block.path:
+        if isinstance(step, str):
+            table = table[step]
+            table = table[0] if isinstance(table, AoT) else table
+        was, now = was[step], now[step]
+    size = len(block.path)
+    apart = {
+        other.path[size] for other in blocks if len(other.path) > size and other.path[:size] == block.path
+    }
+    return tomlkit.dumps(document) if _put(table, was, now, apart) else block.body
+
+
+def _put(table: Any, was: Values, now: Values, apart: set[str | int] = frozenset()) -> bool:
+    """Change keys of a table of tomlkit, but those `apart`; whether there was anything to change."""
+    changed = [name for name in {**was, **now} if name not in apart and was.get(name) != now.get(name)]
+    for name in changed:
+        value, before = now.get(name), was.get(name)
+        if name not in now:
+            table.pop(name, None)
+        elif name in table and isinstance(value, dict):
+            _put(table[name], before, value)
+        elif name in table and _tables(value) and _tables(before) and len(value) == len(before):
+            for inner, old, new in zip(table[name], before, value, strict=True):
+                _put(inner, old, new)
+        else:
+            table[name] = _item(value)
+    return bool(changed)
+
+
+def _tables(value: Any) -> bool:
+    return isinstance(value, list) and bool(value) and all(isinstance(each, dict) for each in value)
+
+
+def _item(value: Any) -> Any:
+    """A value for tomlkit; tables are written in one line."""
+    if isinstance(value, list):
+        array = tomlkit.array()
+        for each in value:
+            array.append(_item(each))
+        return array
+    if isinstance(value, dict):
+        table = tomlkit.inline_table()
+        for name, each in value.items():
+            table[name] = _item(each)
+        return table
+    return tomlkit.item(value)
