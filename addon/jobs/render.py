@@ -107,7 +107,7 @@ def make(
     -------
     What the job returns.
     """
-    from ..render import leases
+    from .. import leases
 
     owner = leases.new_owner()
     pictures = [[picture.camera, picture.frame, picture.name] for picture in undone]
@@ -118,10 +118,10 @@ def make(
         found = worker.run(job, task, follow, eevee=eevee, stop=stop, tell=tell)
     except BaseException:
         with contextlib.suppress(Error):  # what stopped the work is what to tell
-            leases.leave(store, owner)
+            leases.leave(store.data, owner)
             store.export()
         raise
-    leases.leave(store, owner)
+    leases.leave(store.data, owner)
     store.export()
     return found
 

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from .. import files
+from ..database import BROKEN
 from ..errors import input_error
-from .database import BROKEN
 
 NAME = "manifest.json"
 _FORMAT = 1

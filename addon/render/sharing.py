@@ -9,10 +9,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..leases import Claims, new_owner
 from ..progress import Tell, count
 from . import plan
 from .fingerprint import Fingerprints
-from .leases import Claims, new_owner
 from .picture import Picture
 from .store import Store
 
@@ -73,7 +73,7 @@ class Making:
 @contextmanager
 def making(out: Path, made_with: Fingerprints, owner: str | None = None, after: int = 0) -> Iterator[Making]:
     """Begin to make files in a folder; the store is made where it is missing."""
-    with Store(out, create=True) as store, Claims(store, owner or new_owner()) as claims:
+    with Store(out, create=True) as store, Claims(store.data, owner or new_owner()) as claims:
         yield Making(store, claims, made_with, after)
 
 

@@ -12,20 +12,19 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from .. import leases
+from ..database import Database
 from ..run.content import fingerprint, sha256, stamp
 from . import manifest
-from .database import Database
 
 NAME = "store.sqlite"
-_TABLES = """
+_TABLES = f"""
 CREATE TABLE files (number INTEGER PRIMARY KEY AUTOINCREMENT, path TEXT UNIQUE, settings TEXT, camera TEXT,
                     pass TEXT, frame INTEGER, stamp TEXT, entry TEXT);
 CREATE INDEX pictures ON files (camera, pass, frame);
 CREATE TABLE settings (key TEXT PRIMARY KEY, made TEXT);
 CREATE TABLE notes (name TEXT PRIMARY KEY, note TEXT);
-CREATE TABLE owners (owner TEXT PRIMARY KEY, beat INTEGER);
-CREATE TABLE claims (name TEXT PRIMARY KEY, owner TEXT);
-"""
+{leases.TABLES}"""
 
 
 class Store:

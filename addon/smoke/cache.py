@@ -5,12 +5,12 @@ from __future__ import annotations
 import contextlib
 import os
 import re
-import threading
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from .. import leases
 from ..errors import input_error, writing
 
 IN_USE = 600.0  # s after the last sign of use; also how long a file in the making may stand still
@@ -68,24 +68,17 @@ def remove(volumes: Kept) -> bool:
 @contextlib.contextmanager
 def in_use(*folders: Path) -> Iterator[None]:
     """Give signs of use: the time of change of a folder is that of its last use."""
-    over = threading.Event()
 
-    def signs() -> None:
-        while not over.wait(_SIGN):
-            for folder in folders:
-                with contextlib.suppress(OSError):
-                    os.utime(folder)
+    def sign() -> None:
+        for folder in folders:
+            with contextlib.suppress(OSError):
+                os.utime(folder)
 
     for folder in folders:
         with writing(folder):
             os.utime(folder)
-    thread = threading.Thread(target=signs, daemon=True)
-    thread.start()
-    try:
+    with leases.signs(_SIGN, sign):
         yield
-    finally:
-        over.set()
-        thread.join()
 
 
 def sweep(folder: Path) -> None:

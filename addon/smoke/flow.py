@@ -21,6 +21,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import leases
 from ..errors import writing
 from ..progress import Progress, silent
 from ..run import content
@@ -28,7 +29,7 @@ from ..shot import code_fingerprint
 from ..shot.settings import schema
 from ..shot.shot import Shot
 from ..shot.smoke_scale import Scale
-from . import cache, domains, lease, snapshots
+from . import cache, domains, snapshots
 from .domains import Box
 from .integrator import Live, StoppedError
 
@@ -139,7 +140,7 @@ class Flow:
                 if self.stop.is_set():
                     raise StoppedError
 
-            with lease.held(folder / "state.lock", lambda: self.has(frame), wait) as mine:
+            with leases.alone(folder / "state.lock", lambda: self.has(frame), wait) as mine:
                 if mine and not self.has(frame):
                     if self._live is None or self._live.frame >= frame:
                         self._live = Live(self, frame)

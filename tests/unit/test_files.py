@@ -328,6 +328,6 @@ def test_nothing_of_rendering_needs_locks_of_one_system():
     code = """
 import sys
 sys.modules["fcntl"] = None
-import firetwin.render.store, firetwin.render.leases, firetwin.jobs.render, firetwin.smoke.bake
+import firetwin.render.store, firetwin.leases, firetwin.jobs.render, firetwin.smoke.bake
 """
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0

@@ -12,14 +12,21 @@ ROOT = Path(__file__).parents[2]
 PLACES = {"firetwin": ROOT / "addon", "firetwin.data": ROOT / "data"}
 
 NEVER_BPY = (
-    *("firetwin.errors", "firetwin.escaped", "firetwin.memory", "firetwin.progress"),
+    *(
+        "firetwin.database",
+        "firetwin.errors",
+        "firetwin.leases",
+        "firetwin.escaped",
+        "firetwin.memory",
+        "firetwin.progress",
+    ),
     *("firetwin.cli", "firetwin.commands", "firetwin.data"),
     *("firetwin.run", "firetwin.imaging", "firetwin.shot", "firetwin.smoke"),
     *("firetwin.jobs", "firetwin.bench"),
     *(
         f"firetwin.render.{name}"
         for name in (
-            *("database", "fingerprint", "films", "leases", "manifest", "picture", "plan", "png"),
+            *("fingerprint", "films", "manifest", "picture", "plan", "png"),
             *("sharing", "store", "verify"),
         )
     ),

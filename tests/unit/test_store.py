@@ -12,8 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from firetwin.errors import InputError, UsageError
-from firetwin.render import fingerprint, leases, manifest, plan, store
-from firetwin.render.leases import Claims
+from firetwin.render import fingerprint, manifest, plan, store
 from firetwin.render.picture import Picture
 from firetwin.render.store import Store
 from firetwin.run import content
@@ -221,39 +220,6 @@ def test_the_manifest_is_written_when_there_is_something_new(finished):
         assert len(json.loads((out / manifest.NAME).read_text())["settings"]) == 2
 
 
-def test_what_one_claims_another_cannot(tmp_path, monkeypatch):
-    with Store(tmp_path, create=True) as made, Claims(made, "a") as a:
-        with Claims(made, "b") as b:
-            assert a.take("frame 1")
-            assert not b.take("frame 1")
-            assert b.take("frame 2")
-            assert a.of_others() == {"frame 2"}
-            a.give("frame 1")
-            assert b.take("frame 1")
-            assert not a.held("frame 1")
-        assert a.of_others() == set()
-        assert a.take("frame 2")
-
-
-def test_the_claims_of_who_gives_no_sign_of_life_are_taken_over(tmp_path, monkeypatch):
-    monkeypatch.setattr(leases, "BEAT", 0.05)
-    monkeypatch.setattr(leases, "PATIENCE", 0.5)
-    with Store(tmp_path, create=True) as made, Claims(made, "living") as living, Claims(made, "me") as me:
-        assert living.take("frame 1")
-        dead = Claims(made, "dead")
-        with dead.part_folder():
-            assert dead.take("frame 2")
-            dead._over.set()  # as a kill, a crash or a pulled plug would
-            dead._thread.join()
-            assert me.of_others() == {"frame 1", "frame 2"}
-            end = time.monotonic() + 10.0
-            while me.of_others() != {"frame 1"} and time.monotonic() < end:
-                time.sleep(0.05)
-            assert me.take("frame 2")
-            assert not dead.held("frame 2")
-            assert not list(tmp_path.glob(".part-dead"))
-
-
 def test_a_picture_depends_on_the_settings_that_it_shows():
     def key(changed, name, run="0"):
         made = fingerprint.of_picture(changed, {"heat_flux.npy": run}, "drone", name)
@@ -433,16 +399,3 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
     path.write_bytes(path.read_bytes().replace(b"\n", b"\r\n"))
     assert keys() == before
     code_fingerprint._hash.cache_clear()
-
-
-def test_files_in_the_making_are_cleared_away(tmp_path):
-    with Store(tmp_path, create=True) as made, Claims(made, "alive"):
-        left = tmp_path / ".part-gone"
-        left.mkdir()
-        alive = tmp_path / ".part-alive"
-        alive.mkdir()
-        with Claims(made, "me") as me, me.part_folder() as folder:
-            assert folder.is_dir()
-            (folder / "x").write_text("x")
-            assert [path for path in (left, folder, alive) if path.exists()] == [folder, alive]
-        assert [path for path in (left, folder, alive) if path.exists()] == [alive]

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from ..errors import disk_is_full, input_error, writing
+from .errors import disk_is_full, input_error, writing
 
 _WAIT = 60.0  # s for another process that writes
 _FORMAT = 1
@@ -46,6 +46,10 @@ class Database:
         except BaseException:
             self._data.close()
             raise
+
+    def again(self) -> Database:
+        """The same file for another thread."""
+        return Database(self.path, "", create=False)
 
     def close(self) -> None:
         """Let go of the file."""
