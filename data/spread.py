@@ -1,7 +1,6 @@
 """Fire spread over the sample's terrain and fuels with pyretechnics."""
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +12,7 @@ from .fractal import fractal, smooth
 from .fuels import Fuels
 from .grid import FUEL_CELL_SIZE, FUEL_CELLS, MODEL_CELLS, cell_of
 from .history import Event
+from .stored import FireSpread
 from .terrain import Terrain
 from .weather import Channel
 
@@ -33,21 +33,6 @@ SPOTTING = {
     "crosswind_distance_stdev": 90.0,
     "decay_distance": 1200.0,
 }
-
-
-class Result(NamedTuple):
-    """The fire on the fuel grid.
-
-    Attributes
-    ----------
-    arrival : (fy, fx) float64, seconds after the start, negative in the initial perimeter, NaN never burned.
-    intensity : (fy, fx) float32, kW/m, Byram's fireline intensity where the front passed.
-    crown : (fy, fx) uint8, 0 surface fire or none, 1 passive, 2 active crown fire.
-    """
-
-    arrival: NDArray[np.float64]
-    intensity: NDArray[np.float32]
-    crown: NDArray[np.uint8]
 
 
 class Fire:
@@ -86,7 +71,7 @@ class Fire:
             **(first if fresh else {}),
         )
 
-    def grow_initial(self, acres: float) -> Result:
+    def grow_initial(self, acres: float) -> FireSpread:
         """A fire of `acres` grown from the ignition point, all its arrival times negative.
 
         The shape is simulated in the first night's light wind; times are then stretched so that the area
@@ -119,13 +104,13 @@ class Fire:
         arrival[rank] = np.minimum(np.interp(np.arange(1, cells + 1), areas, seconds), -1.0)
         return _result(state, arrival.reshape(order.shape))
 
-    def _begin(self, before: Result) -> SpreadState:
+    def _begin(self, before: FireSpread) -> SpreadState:
         state = SpreadState((BANDS, FUEL_CELLS, FUEL_CELLS))
         state.ignite_cells((0, 0), np.where(np.isfinite(before.arrival), -1.0, 1.0).astype(np.float32))
         return state
 
     def tune(
-        self, before: Result, periods: Sequence[float], cells: Sequence[float], say: Callable[[str], None]
+        self, before: FireSpread, periods: Sequence[float], cells: Sequence[float], say: Callable[[str], None]
     ) -> list[tuple[float, float]]:
         """Factor per period so that `cells` cells have burned at its end, by bisection on its logarithm."""
         state, start, spots, factors = self._begin(before), 0.0, {}, []
@@ -150,7 +135,7 @@ class Fire:
             state, spots, start = done["spread_state"], done["spot_ignitions"], end
         return factors
 
-    def run(self, before: Result, factors: Sequence[tuple[float, float]]) -> Result:
+    def run(self, before: FireSpread, factors: Sequence[tuple[float, float]]) -> FireSpread:
         """The fire `before` and its spread to the end of the last period."""
         state, start, spots = self._begin(before), 0.0, {}
         for number, (end, factor) in enumerate(factors):
@@ -159,16 +144,16 @@ class Fire:
         minutes = np.array(state.get_full_matrices(["time_of_arrival"])["time_of_arrival"], dtype=float)
         after = _result(state, minutes * 60)
         inside = np.isfinite(before.arrival)
-        return Result(*(np.where(inside, old, new) for old, new in zip(before, after, strict=True)))
+        return FireSpread(*(np.where(inside, old, new) for old, new in zip(before, after, strict=True)))
 
 
-def _result(state: SpreadState, arrival: NDArray) -> Result:
+def _result(state: SpreadState, arrival: NDArray) -> FireSpread:
     """What the state says of the cells that have a time of arrival."""
     matrices = state.get_full_matrices(["fireline_intensity", "fire_type"])
     burned = np.isfinite(arrival)
     intensity = np.where(burned, matrices["fireline_intensity"], 0).astype(np.float32)
     crown = np.where(burned, np.clip(matrices["fire_type"].astype(int) - 1, 0, 2), 0).astype(np.uint8)
-    return Result(arrival, intensity, crown)
+    return FireSpread(arrival, intensity, crown)
 
 
 def lead_at(end: float) -> float:

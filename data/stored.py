@@ -20,7 +20,6 @@ from .weather import Channel
 
 if TYPE_CHECKING:
     from .fuels import Fuels
-    from .spread import Result
     from .terrain import Terrain
 
 PATH = Path(__file__).parent / "sample.npz"
@@ -33,6 +32,21 @@ NOTE = (
     "fuels and weather, fire spread by pyretechnics 2026.10.20 tuned to the reported acreages. Made by "
     "`python -m firetwin.data.simulate`; not CAWFE output and not a record of the fire."
 )
+
+
+class FireSpread(NamedTuple):
+    """A fire that spread over the fuel grid.
+
+    Attributes
+    ----------
+    arrival : (fy, fx) float64, seconds after the start, negative in the initial perimeter, NaN never burned.
+    intensity : (fy, fx) float32, kW/m, Byram's fireline intensity where the front passed.
+    crown : (fy, fx) uint8, 0 surface fire or none, 1 passive, 2 active crown fire.
+    """
+
+    arrival: NDArray[np.float64]
+    intensity: NDArray[np.float32]
+    crown: NDArray[np.uint8]
 
 
 class Sample(NamedTuple):
@@ -54,7 +68,7 @@ class Sample(NamedTuple):
     rivers: dict[str, tuple[NDArray, NDArray]]
 
 
-def save(path: Path, land: Terrain, fuel: Fuels, channel: Channel, fire: Result) -> None:
+def save(path: Path, land: Terrain, fuel: Fuels, channel: Channel, fire: FireSpread) -> None:
     """Write the store; the same input gives the same bytes."""
     names = list(land.misfit)
     rivers = {f"river/{name}": np.array(cells, dtype=np.int16) for name, cells in land.rivers.items()}

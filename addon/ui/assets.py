@@ -9,7 +9,7 @@ import bpy
 
 from ..errors import Error
 from ..progress import count
-from . import render, run, scene_file
+from . import choice, render, run, scene_file
 from .job import Away, Steps
 from .working import Working
 
@@ -37,7 +37,9 @@ class FIRETWIN_OT_assets(Working, bpy.types.Operator):
         out = bpy.path.abspath(self.directory) or scene_file.output(settings, "assets")
         if not out:
             raise Error(render.NO_OUTPUT)
-        made = yield Away("starting Blender", functools.partial(assets.run, run.choice(settings), Path(out)))
+        made = yield Away(
+            "starting Blender", functools.partial(assets.run, choice.from_panel(settings), Path(out))
+        )
         return f"Wrote {count(made, 'asset')} to {out}"
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import bpy
 
 from ..blender import owned
-from . import queue, render, run, scene_file, working
+from . import choice, queue, render, run, scene_file, working
 from .text import paragraph
 
 _ICONS = {
@@ -56,7 +56,7 @@ class FIRETWIN_OT_render_background(bpy.types.Operator):
         }
         title = f"{camera or 'All cameras'}, {which[settings.which]}"
         try:
-            queue.add(title, scene, run.choice(settings), asked, render_blend.run)
+            queue.add(title, scene, choice.from_panel(settings), asked, render_blend.run)
         except (RuntimeError, OSError) as error:
             self.report({"ERROR"}, f"The file cannot be copied: {' '.join(str(error).split())}")
             return {"CANCELLED"}

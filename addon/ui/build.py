@@ -15,6 +15,7 @@ from . import (
     auto_framing,
     camera_edits,
     changed_settings,
+    choice,
     job,
     keys,
     panel_order,
@@ -106,7 +107,7 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     yield from auto_framing.again(uid)
     settings = owned.scene(uid).firetwin
     then = changed_settings.seen(settings)
-    chosen, smoke = run.choice(settings), settings.bake_smoke and "smoke" in parts
+    chosen, smoke = choice.from_panel(settings), settings.bake_smoke and "smoke" in parts
     shot = yield Away("reading the run", lambda **_: chosen.shot())
     if smoke and shot.settings.smoke.enabled:
         yield Away("smoke", functools.partial(bake.run, chosen, together=True))

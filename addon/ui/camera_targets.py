@@ -12,7 +12,7 @@ from ..blender import compat, owned
 from ..errors import Error
 from ..scene.camera import ground_raycast, read_edits
 from ..shot.cameras import sparse_keys, targets
-from . import go_to, navigation, run
+from . import choice, go_to, navigation
 from .job import Away, Steps
 from .working import Working, reported
 
@@ -61,7 +61,7 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
                 raise Error(f'no place here is called "{at}"; choose one of the list, or type coordinates')
             way = np.array([met])
         elif target in targets.MOVING:
-            chosen = run.choice(scene.firetwin)
+            chosen = choice.from_panel(scene.firetwin)
             shot = yield Away("reading the run", lambda **_: chosen.shot())
             yield "finding the fire"
             way = targets.follow(target, shot.bare_ground, shot.frames.times, _ABOVE)

@@ -12,7 +12,7 @@ from ..shot.cameras import rigs, rotation
 from ..shot.cameras.lenses import LENSES
 from ..shot.cameras.rigs._view import View
 from ..shot.settings.settings import Camera
-from . import camera_edits, camera_list, job, keys, run, working
+from . import camera_edits, camera_list, choice, job, keys, run, working
 from .job import Away, Steps, Told
 from .working import Working
 
@@ -127,7 +127,7 @@ class FIRETWIN_OT_camera_add(Working, bpy.types.Operator):
         name = next(name for n in range(1, 1000) if (name := kind if n == 1 else f"{kind}{n}") not in taken)
         item = camera_list.add(scene.firetwin, Camera(name, rig))
         try:
-            chosen = run.choice(scene.firetwin)
+            chosen = choice.from_panel(scene.firetwin)
             shot = yield Away("reading the run", lambda **_: chosen.shot())
         except Exception:
             panel = owned.scene(uid).firetwin

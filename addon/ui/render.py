@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 
 from ..progress import count
-from . import job, panel_order, run, scene_file, working
+from . import choice, job, panel_order, run, scene_file, working
 from .job import Away, Steps
 from .text import paragraph
 from .working import Working
@@ -54,7 +54,7 @@ class FIRETWIN_OT_render(Working, bpy.types.Operator):
         out = Path(scene_file.output(settings))
         camera = None if settings.camera == "*" else settings.camera
         asked = render.Asked(out, frames[settings.which], camera, resume=settings.resume)
-        chosen = run.choice(settings)
+        chosen = choice.from_panel(settings)
         made = yield Away("starting Blender", functools.partial(render.run, chosen, asked))
         if not made.pictures:
             return f"All pictures in {out} are finished"

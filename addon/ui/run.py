@@ -14,8 +14,7 @@ from ..blender import owned
 from ..jobs.worker import StoppedError
 from ..run import readers
 from ..shot.settings import scene_file as file
-from ..shot.source import Choice
-from . import auto_framing, camera_edits, changed_settings, job, maps, preferences, scene_file, solve, working
+from . import auto_framing, changed_settings, choice, job, maps, scene_file, solve, working
 from .job import Away, Steps
 from .text import labelled, paragraph
 from .working import Working
@@ -56,12 +55,6 @@ def _inspect(settings: bpy.types.PropertyGroup) -> None:
         settings.problem = settings.problem or str(error)
 
 
-def choice(settings: bpy.types.PropertyGroup) -> Choice:
-    """What the panel and the preferences choose, with what was done to cameras by hand."""
-    camera_edits.pull(settings.id_data)
-    return Choice(str(scene_file.written(settings.id_data)), device=preferences.device())
-
-
 def ready(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     """Whether there is a run and nothing else goes on; says what is missing."""
     settings = context.scene.firetwin
@@ -98,7 +91,7 @@ def look(uid: int) -> Steps:
         auto_framing.put(owned.scene(uid).firetwin, found["fits"])
         maps.show(owned.scene(uid).firetwin.run, images)
         yield from auto_framing.again(uid)
-        chosen = choice(owned.scene(uid).firetwin)
+        chosen = choice.from_panel(owned.scene(uid).firetwin)
         yield Away("reading the run", lambda **_: chosen.shot())
         yield from solve.price(uid)
     except StoppedError:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..blender import owned
+from . import choice
 from .job import Away, Steps
 
 if TYPE_CHECKING:
@@ -19,23 +20,21 @@ OPERATOR = "firetwin.solve"
 
 def price(uid: int) -> Steps:
     """Find out what solving the smoke would take, where the scene with this `session_uid` shows puffs."""
-    from . import run
-
     panel = owned.scene(uid).firetwin
     panel.smoke_cost = ""
     if not panel.smoke.enabled or panel.smoke.method != "puffs":
         return ""
-    chosen = replace(run.choice(panel), smoke="flow")
+    chosen = replace(choice.from_panel(panel), smoke="flow")
     found = yield Away("estimating the cost of the smoke", lambda **_: _cost(chosen))
     owned.scene(uid).firetwin.smoke_cost = found
     return found
 
 
-def _cost(choice: Choice) -> str:
+def _cost(chosen: Choice) -> str:
     """Time and room in a few words; empty where the run brings its smoke, or nothing burns."""
     from ..smoke import cost_estimate
 
-    found = cost_estimate.cost(choice.shot())
+    found = cost_estimate.cost(chosen.shot())
     return found.brief() if found else ""
 
 

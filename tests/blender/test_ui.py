@@ -20,6 +20,7 @@ from firetwin.smoke import cost_estimate
 from firetwin.ui import (
     build,
     camera_list,
+    choice,
     job,
     keys,
     maps,
@@ -120,7 +121,7 @@ def test_a_scene_file_fills_the_panel(settings, scene_file, run_folder):
     assert settings.cameras.keys() == ["drone"]
     assert settings.render.resolution[:] == (64, 36)
     assert not settings.problem
-    assert run.choice(settings).settings().cameras == file.read(scene_file).cameras
+    assert choice.from_panel(settings).settings().cameras == file.read(scene_file).cameras
     settings.run = "elsewhere"
     assert settings.problem
     assert settings.cameras.keys() == ["drone"]
@@ -186,7 +187,7 @@ def test_solved_smoke_is_a_button_that_names_its_cost(settings, run_folder, monk
     settings.run = str(run_folder)
     assert settings.smoke.method == "puffs"
     assert "about " in settings.smoke_cost
-    asked = cost_estimate.cost(replace(run.choice(settings), smoke="flow").shot())
+    asked = cost_estimate.cost(replace(choice.from_panel(settings), smoke="flow").shot())
     assert settings.smoke_cost == asked.brief()
     layout = MagicMock()
     solve.draw(layout, settings)
@@ -228,9 +229,9 @@ def test_the_panel_says_what_smoke_is_made_of(settings, scene_file, run_folder):
     settings.run = str(run_folder)
     assert settings.smoke.method == "puffs"
     settings.smoke.method = "flow"
-    assert run.choice(settings).shot().settings.smoke.method == "flow"
+    assert choice.from_panel(settings).shot().settings.smoke.method == "flow"
     settings.scene_file = str(scene_file)
-    assert run.choice(settings).shot().settings.smoke.method == "flow"
+    assert choice.from_panel(settings).shot().settings.smoke.method == "flow"
 
 
 def test_the_preferences_say_what_renders_on(settings, monkeypatch):
@@ -239,9 +240,9 @@ def test_the_preferences_say_what_renders_on(settings, monkeypatch):
     known = SimpleNamespace(preferences=SimpleNamespace(addons={"firetwin": chosen}))
     settings.run = "somewhere"
     monkeypatch.setattr(preferences, "bpy", SimpleNamespace(context=known))
-    assert run.choice(settings).device == "gpu"
+    assert choice.from_panel(settings).device == "gpu"
     chosen.preferences.device = "scene"
-    assert run.choice(settings).device == ""
+    assert choice.from_panel(settings).device == ""
 
 
 def faked_cycles(monkeypatch, *gpus):

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from ...blender import nodes
 from ...blender.owned import Stage
 from ...shot.shot import Shot
 from .. import infrared, temperature
-
-if TYPE_CHECKING:
-    from .material import Place
+from .shading_inputs import Place
 
 
 def radiance(

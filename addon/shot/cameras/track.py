@@ -10,14 +10,16 @@ import functools
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...errors import input_error
 from ...run import times
+from . import track_csv, track_xml
 from .flight import Waypoints
 from .path import Array
+from .track_point import Point
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -27,21 +29,8 @@ if TYPE_CHECKING:
 
     from ..settings.protocols import Frames
 
+_READERS = {".gpx": track_xml.gpx, ".kml": track_xml.kml, ".csv": track_csv.points}
 MOMENTS = {"own": "UTC", "start": "from frame 1 on", "shot": "over all frames"}
-
-
-class Point(NamedTuple):
-    """A point of a file and its line.
-
-    The height, if any, is m above the sea or the ground; the moment, if any, is UTC or 0..1 of the shot.
-    """
-
-    line: int
-    latitude: float
-    longitude: float
-    height: float | None
-    over_ground: bool = False
-    moment: datetime | float | None = None
 
 
 @dataclass(frozen=True)
@@ -117,7 +106,7 @@ def read(path: Path) -> Track:
     InputError
         Names the file, the line and what to do.
     """
-    reader = _readers().get(path.suffix.lower())
+    reader = _READERS.get(path.suffix.lower())
     if reader is None:
         raise input_error(path, 0, 0, "is no .gpx, .kml or .csv file; save the track as one of them")
     try:
@@ -129,15 +118,9 @@ def read(path: Path) -> Track:
         raise input_error(path, 0, 0, f"cannot be read: {error.strerror}") from None
 
 
-def _readers() -> dict[str, object]:
-    from . import track_csv, track_xml
-
-    return {".gpx": track_xml.gpx, ".kml": track_xml.kml, ".csv": track_csv.points}
-
-
 @functools.lru_cache(maxsize=16)
 def _read(path: Path, _changed: int, _size: int) -> Track:
-    return _made(path, list(_readers()[path.suffix.lower()](path)))
+    return _made(path, list(_READERS[path.suffix.lower()](path)))
 
 
 def _made(path: Path, points: Sequence[Point]) -> Track:
@@ -200,39 +183,3 @@ def _said(moment: datetime | float) -> str:
         if isinstance(moment, float)
         else moment.astimezone(UTC).isoformat().replace("+00:00", "Z")
     )
-
-
-def moment(path: Path, line: int, text: str, zone: bool = False) -> datetime:
-    """A time in UTC; one without a zone is in UTC already, unless it must have a `zone`.
-
-    Raises
-    ------
-    InputError
-        It is none.
-    """
-    try:
-        found = datetime.fromisoformat(text.strip())
-        if found.tzinfo is None and not zone:
-            found = found.replace(tzinfo=UTC)
-        if found.tzinfo is not None:
-            return found.astimezone(UTC)
-    except (ValueError, OverflowError):
-        pass
-    raise input_error(path, line, 0, f'"{text.strip()[:40]}" is no time such as 2014-09-17T21:30:00Z')
-
-
-def number(path: Path, line: int, text: str | None, what: str) -> float:
-    """A finite number.
-
-    Raises
-    ------
-    InputError
-        It is none.
-    """
-    try:
-        found = float(text or "")
-    except ValueError:
-        found = np.nan
-    if not np.isfinite(found):
-        raise input_error(path, line, 0, f'the {what} is "{(text or "").strip()[:40]}", which is no number')
-    return found

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ...errors import input_error
 from ...run import tables
-from .track import Point, moment, number
+from .track_point import Point, moment, number
 
 _NAMES = {
     "latitude": {"latitude", "lat"},

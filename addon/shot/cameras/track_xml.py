@@ -16,7 +16,7 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from ...errors import input_error
-from .track import Point, moment, number
+from .track_point import Point, moment, number
 
 _GROUND = {"clampToGround", "relativeToGround", "clampToSeaFloor", "relativeToSeaFloor"}
 

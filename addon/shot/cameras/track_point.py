@@ -1,0 +1,61 @@
+"""A point of a recorded flight, and how the readers of tracks read its times and numbers."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ...errors import input_error
+
+
+class Point(NamedTuple):
+    """A point of a file and its line.
+
+    The height, if any, is m above the sea or the ground; the moment, if any, is UTC or 0..1 of the shot.
+    """
+
+    line: int
+    latitude: float
+    longitude: float
+    height: float | None
+    over_ground: bool = False
+    moment: datetime | float | None = None
+
+
+def moment(path: Path, line: int, text: str, zone: bool = False) -> datetime:
+    """A time in UTC; one without a zone is in UTC already, unless it must have a `zone`.
+
+    Raises
+    ------
+    InputError
+        It is none.
+    """
+    try:
+        found = datetime.fromisoformat(text.strip())
+        if found.tzinfo is None and not zone:
+            found = found.replace(tzinfo=UTC)
+        if found.tzinfo is not None:
+            return found.astimezone(UTC)
+    except (ValueError, OverflowError):
+        pass
+    raise input_error(path, line, 0, f'"{text.strip()[:40]}" is no time such as 2014-09-17T21:30:00Z')
+
+
+def number(path: Path, line: int, text: str | None, what: str) -> float:
+    """A finite number.
+
+    Raises
+    ------
+    InputError
+        It is none.
+    """
+    try:
+        found = float(text or "")
+    except ValueError:
+        found = np.nan
+    if not np.isfinite(found):
+        raise input_error(path, line, 0, f'the {what} is "{(text or "").strip()[:40]}", which is no number')
+    return found

@@ -1,0 +1,14 @@
+"""The scene that the panel and the preferences choose."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..shot.source import Choice
+from . import camera_edits, preferences, scene_file
+
+
+def from_panel(settings: bpy.types.PropertyGroup) -> Choice:
+    """What the panel and the preferences choose, with what was done to cameras by hand."""
+    camera_edits.pull(settings.id_data)
+    return Choice(str(scene_file.written(settings.id_data)), device=preferences.device())
