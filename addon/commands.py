@@ -16,7 +16,7 @@ from .progress import Reporter, count, duration, result, say, size
 if TYPE_CHECKING:
     from firetwin_core.run import Run
 
-    from .jobs.cache import Kept
+    from .jobs.cache import CachedVolumes
     from .jobs.render import Made
     from .shot.source import Choice
 
@@ -228,7 +228,7 @@ def cache(arguments: argparse.Namespace) -> None:
     say(f"{word} {size(freed)}; {size(left)} of smoke volumes stay in {where}")
 
 
-def _volumes(volumes: Iterable[Kept]) -> None:
+def _volumes(volumes: Iterable[CachedVolumes]) -> None:
     for each in volumes:
         ago = "in use" if each.in_use else f"used {duration(time.time() - each.used)} ago"
         result(f"{each.folder}  {size(each.bytes)}  {ago}")

@@ -165,7 +165,7 @@ class _Frame:
         from ..data import sample
         from ..render import engine, layers
         from ..scene import build
-        from ..smoke import bake, baker
+        from ..smoke import bake, sources
 
         file = _file(folder, "volume" if way == VOLUME else "integrated")
         if not file.run.exists():
@@ -175,7 +175,7 @@ class _Frame:
         if way == VOLUME:
             bake.bake(self.shot)
         else:
-            self.smoke = baker.Baker(self.shot).bricks(1)
+            self.smoke = sources.select(self.shot).bricks(1)
         self.stage = owned.stage(owned.new_scene())
         build.build(self.shot, self.stage.scene)
         layers.build(file, self.stage)

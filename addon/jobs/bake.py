@@ -49,7 +49,7 @@ def run(
 
 def in_process(choice: dict[str, str], together: bool, progress: Progress, tell: Tell) -> list[str]:
     """Bake and return the folders of the volumes."""
-    from ..smoke import bake, cost_estimate, plume_mass
+    from ..smoke import bake, plume_mass, sources
 
     shot = Choice(**choice).shot()
     for text in shot.warnings():
@@ -57,8 +57,8 @@ def in_process(choice: dict[str, str], together: bool, progress: Progress, tell:
     shots = [shot] if together else [for_view(shot, view) for view in scene_runs.views(shot.settings)]
     places = {bake.folder(each, progress): each for each in shots}
     for each in places.values():
-        if text := cost_estimate.words(each):
-            tell(text)
+        if cost := sources.select(each).cost():
+            tell(cost.describe())
     made = [str(bake.bake(each, progress)) for each in places.values()]
-    tell(plume_mass.words(shot))
+    tell(plume_mass.describe(shot))
     return made

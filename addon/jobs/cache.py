@@ -8,7 +8,7 @@ from pathlib import Path
 from ..errors import UsageError, writing
 from ..shot.settings import scene_file
 from ..smoke import cache
-from ..smoke.cache import Kept
+from ..smoke.cache import CachedVolumes
 
 
 def folders(places: Iterable[Path]) -> list[Path]:
@@ -26,12 +26,14 @@ def folders(places: Iterable[Path]) -> list[Path]:
     return list(dict.fromkeys(place.absolute() for place in found))
 
 
-def kept(places: Iterable[Path]) -> list[Kept]:
+def kept(places: Iterable[Path]) -> list[CachedVolumes]:
     """Volumes in these folders, those used last first."""
-    return sorted((each for place in places for each in cache.kept(place)), key=lambda each: -each.used)
+    return sorted(
+        (each for place in places for each in cache.list_volumes(place)), key=lambda each: -each.used
+    )
 
 
-def prune(volumes: list[Kept], limit: int, dry_run: bool = False) -> list[Kept]:
+def prune(volumes: list[CachedVolumes], limit: int, dry_run: bool = False) -> list[CachedVolumes]:
     """Remove the volumes used longest ago until the rest has at most `limit` bytes; those removed.
 
     What is in use now is never removed. With `dry_run` nothing is; those are returned that would be.

@@ -185,7 +185,7 @@ def in_blender(
                     )
                     done += frames_of(wanted)
         if todo and shot.settings.smoke.enabled:
-            tell(plume_mass.words(shot))
+            tell(plume_mass.describe(shot))
         comparison.make(shot, making, [each for each in asked if each not in drawn], progress, tell)
         video.make(shot, making, progress)
     return {"expected": expected, "peak": memory.peak()}
@@ -254,20 +254,20 @@ def _camera(
 def _solving(
     choice: Choice, shot: Shot, frames: list[int], progress: Progress
 ) -> Iterator[solve.Working | None]:
-    """Have the flow of a shot's one camera solved meanwhile, where any of its moments are missing."""
-    from ..smoke import baker
-    from ..smoke.flow import Flow
+    """Have the smoke of a shot's one camera prepared meanwhile, unless it is."""
+    from ..smoke import sources
 
     (camera,) = shot.settings.cameras
-    flow = Flow(shot)
-    missing = [frame for frame in frames if not flow.has(frame)] if baker.integrated(shot) else []
+    source = sources.select(shot)
+    marched = sources.is_integrated(shot)
+    missing = [frame for frame in frames if not source.is_prepared(frame)] if marched else []
     if not missing:
         yield None
         return
 
     def told(*done: Any) -> None:
         """Tell of it until the first picture can be drawn."""
-        if not flow.has(missing[0]):
+        if not source.is_prepared(missing[0]):
             progress(*done)
 
     with solve.beside(choice, camera.name, missing, told) as working:

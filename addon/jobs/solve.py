@@ -1,4 +1,4 @@
-"""Solve the flow of a shot's smoke in a process of its own, while another paints its moments and renders."""
+"""Solve the flow of a shot's smoke in a process of its own, while another paints snapshots and renders."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ Working = Callable[[], bool]
 def beside(choice: Choice, view: str, frames: list[int], progress: Progress) -> Iterator[Working]:
     """Solve the flow of a view up to these frames meanwhile; gives whether that goes on.
 
-    The solver's half a gigabyte is another process's. What goes wrong there, who needs a moment meets again
-    as it solves it.
+    The solver's half a gigabyte is another process's. What goes wrong there, who needs a snapshot meets
+    again as it solves it.
     """
     stop = worker.Stop()
     task = {"choice": choice.plain(), "view": view, "frames": frames}
@@ -40,8 +40,8 @@ def beside(choice: Choice, view: str, frames: list[int], progress: Progress) -> 
 
 def in_process(choice: dict[str, str], view: str, frames: list[int], progress: Progress, tell: Tell) -> None:
     """Solve it."""
-    from ..smoke.flow import Flow
+    from ..smoke import sources
 
-    flow = Flow(for_view(Choice(**choice).shot(), view))
-    with flow.in_use():
-        flow.solve(frames, progress)
+    source = sources.select(for_view(Choice(**choice).shot(), view))
+    with source.in_use():
+        source.prepare(frames, progress)

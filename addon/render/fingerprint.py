@@ -22,6 +22,7 @@ from ..shot.settings import schema
 from ..shot.settings.settings import Camera, Settings
 from ..shot.shot import Shot
 from ..shot.terrain import land_use, orthophoto
+from ..smoke import sources
 from .picture import Picture
 
 Fingerprints = dict[tuple[str, str], dict[str, Any]]
@@ -50,7 +51,9 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
     cameras = [mine] if leader is None else [mine, leader]
     made_with = {
         "versions": versions(),
-        "sources": code_fingerprint.of(aspects, cameras, *_RENDERING, *_modules(name)),
+        "sources": code_fingerprint.of(
+            aspects, cameras, *_RENDERING, *_modules(name), *_smoke(settings, run, aspects)
+        ),
         "run": run,
         "camera": camera,
         "pass": name,
@@ -60,6 +63,11 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
     others = {need: pair for need, pair in taken.items() if pair[0] != camera}
     given = {need: [*pair, fingerprint(of_picture(settings, run, *pair))] for need, pair in others.items()}
     return made_with | ({"given": given} if given else {})
+
+
+def _smoke(settings: Settings, run: dict[str, str], aspects: frozenset[str]) -> list[str]:
+    """Files of the source of smoke."""
+    return sources.choose(settings.smoke.method, run).code_files() if "smoke" in aspects else []
 
 
 def _built(settings: Settings, camera: Camera) -> Settings:

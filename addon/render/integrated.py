@@ -20,8 +20,7 @@ from ..blender.owned import Stage
 from ..scene.smoke import shadow
 from ..shot import passes
 from ..shot.shot import Shot
-from ..smoke import baker
-from ..smoke.flow import Flow
+from ..smoke import sources
 from . import layers, surfaces
 from .eye import Eye
 from .picture import Picture
@@ -143,7 +142,7 @@ class Drawing:
 
 def wanted(shot: Shot, scene: bpy.types.Scene) -> bool:
     """Whether a scene's frames are drawn so: settings say so, and it has all that it takes."""
-    return baker.integrated(shot) and scene.render.engine == "CYCLES"
+    return sources.is_integrated(shot) and scene.render.engine == "CYCLES"
 
 
 def _prepare(scene: bpy.types.Scene) -> None:
@@ -173,8 +172,8 @@ def _shadow(shot: Shot, stage: Stage) -> shadow.Shadow | None:
             bpy.data.objects.remove(thing)
         bpy.data.collections.remove(old)
     owned.purge()
-    parts = Flow(shot).parts
-    return shadow.build(shot, stage, [part.box for part in parts]) if parts else None
+    boxes = [each.box for each in sources.select(shot).domains]
+    return shadow.build(shot, stage, boxes) if boxes else None
 
 
 def _show(scene: bpy.types.Scene) -> bpy.types.Image:

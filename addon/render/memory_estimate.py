@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from ..blender.owned import Stage
 from ..progress import size
 from ..shot.shot import Shot
-from ..smoke import baker, flow_frames
-from ..smoke.flow import Flow, Part
+from ..smoke import sources
 
 BASE, SOLVER = 0.72e9, 0.3e9
 PIXEL, PLANT, FACE, CELL, VOXEL = 790.0, 2550.0, 255.0, 175.0, 7.0
@@ -52,7 +51,7 @@ def load(shot: Shot, stage: Stage, frames: Iterable[int] = ()) -> Load | None:
     """
     (camera,) = shot.settings.cameras
     smoky = list(frames)
-    if smoky and not baker.integrated(shot):
+    if smoky and not sources.is_integrated(shot):
         return None
     drawn = [thing for thing in stage.scene.objects if thing.type == "MESH" and not thing.hide_render]
     forest = {thing.data for thing in stage.things("Forest") if thing in drawn}
@@ -67,24 +66,12 @@ def load(shot: Shot, stage: Stage, frames: Iterable[int] = ()) -> Load | None:
 def _smoke(shot: Shot, frames: list[int]) -> dict[str, int]:
     if not frames:
         return {}
-    solved = Flow(shot)
-    layers = flow_frames.layers(shot, solved)
-    kept = all(map(solved.has, frames))
+    source = sources.select(shot)
+    prepared = all(map(source.is_prepared, frames))
     return {
-        "cells": 0 if kept else sum(_cells(part) for part in solved.parts),
-        "voxels": max((_voxels(each) for each in layers), default=0),
+        "cells": 0 if prepared else sum(each.cells for each in source.domains),
+        "voxels": source.painted_voxels(),
     }
-
-
-def _cells(part: Part) -> int:
-    return math.prod(part.box.shape) * (len(part.box.levels) - 1)
-
-
-def _voxels(layer: flow_frames.Layer) -> int:
-    """Of the whole box, smoke or not."""
-    box = layer.part.box
-    sides = (*(count * box.spacing for count in box.shape), box.levels[-1])
-    return math.prod(math.ceil(side / layer.voxel) for side in sides)
 
 
 def words(load: Load) -> str:

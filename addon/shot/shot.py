@@ -25,7 +25,7 @@ from .fire.fuel import DETAIL
 from .frames import Frames
 from .settings import frame_list
 from .settings.protocols import CameraSettings
-from .settings.settings import Camera, Settings
+from .settings.settings import SMOKE_METHODS, Camera, Settings
 from .smoke_scale import Scale
 from .terrain import elevation
 from .terrain.elevation import Relief
@@ -90,14 +90,17 @@ class Shot:
     @property
     def spin_up(self) -> float:
         """How long before the first frame the flow of smoke begins, s."""
-        told = self.settings.smoke.spin_up
+        return self._history("spin_up")
+
+    def _history(self, key: str) -> float:
+        """How long before the first frame smoke begins, s: by a key of [smoke], or else by the fire's size."""
+        told = getattr(self.settings.smoke, key)
         return self.scale.time(_SPIN_UP) if told is None else told
 
     @cached_property
     def fire(self) -> Fire:
         """What burns from the first frame to the last; it is there for all cameras."""
-        smoke = self.settings.smoke
-        since = self.spin_up if smoke.method == "flow" else smoke.max_age
+        since = self._history(SMOKE_METHODS[self.settings.smoke.method].history)
         before = max(since + burning.BURN_TIME, _BEFORE)
         span = self.frames.first, self.frames.last, before
         return Fire(self.run, *span, self.relief, self.arrival, self.scale.length(DETAIL))

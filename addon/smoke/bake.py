@@ -11,7 +11,7 @@ import functools
 import os
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
-from contextlib import ExitStack, contextmanager, nullcontext
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -21,12 +21,12 @@ from ..run import content
 from ..shot import code_fingerprint
 from ..shot.settings import schema
 from ..shot.shot import Shot
-from . import baker, cache, cost_estimate, flow_frames, shared_frames
-from .baker import Baker
-from .flow import Flow
+from . import cache, shared_frames, sources
+from .sources import Source
+from .sources._single import SHOWN
 from .view import resolution, shot_frames
 
-__all__ = ["Baker", "ahead", "bake", "estimate", "file", "folder", "resolution", "shot_frames"]
+__all__ = ["ahead", "bake", "estimate", "file", "folder", "resolution", "shot_frames"]
 
 _FRAME_MEMORY = 2 << 30  # bytes that a frame may need while it is made: 0.5 GB, of a flow 1.9, were measured
 _FRAME_PROCESSORS = 4  # a frame keeps two busy: two at once on those took as long, and twice the memory
@@ -77,12 +77,11 @@ def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None =
     progress(done, len(wanted), "smoke")
     if not missing:
         return place
-    maker = Baker(shot)
-    with cache.in_use(place), maker.flow.in_use() if maker.flow else nullcontext():
-        if maker.flow:
-            maker.flow.solve(missing, progress)
+    source = sources.select(shot)
+    with cache.in_use(place), source.in_use():
+        source.prepare(missing, progress)
         with ThreadPoolExecutor(_at_once(len(missing))) as pool:
-            tasks = [pool.submit(maker.write, _in(place, frame), frame) for frame in missing]
+            tasks = [pool.submit(source.write, _in(place, frame), frame) for frame in missing]
             try:
                 for task in as_completed(tasks):
                     task.result()
@@ -143,7 +142,7 @@ class Line:
     Attributes
     ----------
     elsewhere
-        Whether another process of ours solves the flow; None: none does.
+        Whether another process of ours prepares the shot; None: none does.
     """
 
     elsewhere: Callable[[], bool] | None = None
@@ -155,21 +154,21 @@ class Line:
         self.held = ExitStack()
 
     @functools.cached_property
-    def maker(self) -> Baker:
-        maker = Baker(self.shot)
-        if text := cost_estimate.words(self.shot):
-            self.tell(text)
-        if maker.flow:
-            self.held.enter_context(maker.flow.in_use())
-            maker.flow.progress = lambda *done: self.progress(*done)
-            if self.elsewhere:
-                maker.flow.elsewhere = self.elsewhere
-        return maker
+    def source(self) -> Source:
+        """What makes it."""
+        source = sources.select(self.shot)
+        if cost := source.cost():
+            self.tell(cost.describe())
+        self.held.enter_context(source.in_use())
+        source.progress = lambda *done: self.progress(*done)
+        if self.elsewhere:
+            source.elsewhere = self.elsewhere
+        return source
 
     def close(self) -> None:
         """Let go of frames that nobody waits for any more."""
-        if "maker" in self.__dict__ and self.maker.flow:
-            self.maker.flow.stop.set()
+        if "source" in self.__dict__:
+            self.source.stop.set()
         self.pool.shutdown(cancel_futures=True)
         self.held.close()
 
@@ -208,7 +207,7 @@ class _Volumes(Line):
     def _begin(self, frame: int) -> None:
         path = _in(self.place, frame)
         if frame not in self.tasks and not path.exists():
-            self.tasks[frame] = self.pool.submit(self.maker.write, path, frame)
+            self.tasks[frame] = self.pool.submit(self.source.write, path, frame)
 
 
 def _in(place: Path, frame: int) -> Path:
@@ -241,19 +240,12 @@ def _at_once(frames: int) -> int:
 def _key(shot: Shot, progress: Progress) -> str:
     """Hash of everything that the volumes depend on."""
     settings, complete = shot.settings, shot.settings.smoke.complete
+    source = sources.select(shot)
     found = schema.chosen(settings, {"time", "smoke"} if complete else {"time", "smoke", "camera", "terrain"})
     leaders = [each for camera in settings.cameras if (each := camera.rig.leader(shot.cameras))]
-    solved = baker.solved(shot)
-    for name in _NOT_IN_FILES:
+    for name in (*_NOT_IN_FILES, *source.unused_settings):
         del found["smoke"][name]
-    if solved:
-        flow = Flow(shot)
-        drawn = [[each.name, each.voxel, shot.scale.cell] for each in flow_frames.layers(shot, flow)]
-        found["flow"] = [flow.key(), settings.smoke.extinction]
-    else:
-        drawn = [round(resolution(shot).voxel, 3)]
-        for name in ("method", "spin_up", "cell_budget", "cloud_base"):
-            del found["smoke"][name]
+    found |= source.inputs()
     if not complete:  # what is left out depends on what the cameras see, and when
         width, height = settings.render.resolution
         for camera in found.get("cameras", ()):
@@ -262,10 +254,10 @@ def _key(shot: Shot, progress: Progress) -> str:
         found["leaders"] = [repr(each) for each in leaders]
     return content.fingerprint(
         {
-            "sources": code_fingerprint.of({"smoke"}, [*settings.cameras, *leaders]),
+            "sources": code_fingerprint.of({"smoke"}, [*settings.cameras, *leaders], *source.code_files()),
             "run": shot.inputs(("temperature",), progress),
             "settings": found,
-            "voxel": drawn,
-            "grids": None if complete else baker.SHOWN,
+            "voxel": source.voxels(),
+            "grids": None if complete else SHOWN,
         }
     )

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from .. import leases
-from ..errors import input_error, writing
+from .. import files, leases
+from ..errors import Error, input_error, writing
 
 IN_USE = 600.0  # s after the last sign of use; also how long a file in the making may stand still
 _SIGN = 60.0  # s between two signs
@@ -20,7 +20,7 @@ _OURS = re.compile(r"\.?((smoke|far|moment)_\d{6,}|state)(\.[0-9a-f]{12}\.part)?
 
 
 @dataclass(frozen=True)
-class Kept:
+class CachedVolumes:
     """The volumes of one shot: their folder, how large they are, and when they were used last (s, epoch)."""
 
     folder: Path
@@ -33,17 +33,17 @@ class Kept:
         return time.time() - self.used < IN_USE
 
 
-def kept(cache: Path) -> list[Kept]:
+def list_volumes(cache: Path) -> list[CachedVolumes]:
     """The volumes in a cache, those used last first; what is not ours is left out."""
     found = []
     for folder in cache.iterdir() if cache.is_dir() else ():
         if re.fullmatch("[0-9a-f]{16}", folder.name) and folder.is_dir() and not folder.is_symlink():
             with contextlib.suppress(OSError):
-                found.append(_kept(folder))
+                found.append(_measure(folder))
     return sorted(found, key=lambda each: -each.used)
 
 
-def beyond(volumes: list[Kept], limit: int) -> list[Kept]:
+def beyond(volumes: list[CachedVolumes], limit: int) -> list[CachedVolumes]:
     """Those that have to go so that the rest, used later, has at most `limit` bytes; never any in use."""
     left, going = limit - sum(each.bytes for each in volumes if each.in_use), []
     for each in sorted((each for each in volumes if not each.in_use), key=lambda each: -each.used):
@@ -53,9 +53,9 @@ def beyond(volumes: list[Kept], limit: int) -> list[Kept]:
     return going
 
 
-def remove(volumes: Kept) -> bool:
+def remove(volumes: CachedVolumes) -> bool:
     """Remove a shot's volumes unless they are in use by now; files that are not ours stay."""
-    if _kept(volumes.folder).in_use:
+    if _measure(volumes.folder).in_use:
         return False
     for path in volumes.folder.iterdir():
         if _OURS.fullmatch(path.name):
@@ -104,8 +104,19 @@ def check(path: Path, size: int) -> None:
         raise input_error(path, 0, 0, "is cut off; free some room on the disk and bake it again")
 
 
-def _kept(folder: Path) -> Kept:
+def publish(part: Path, path: Path, size: int) -> None:
+    """Give a complete volume of so many bytes its name; who comes second replaces the same by the same."""
+    try:
+        check(part, size)
+        files.publish(part, path)
+    except Error:  # Windows replaces no file that is being read
+        part.unlink(missing_ok=True)
+        if not path.exists():
+            raise
+
+
+def _measure(folder: Path) -> CachedVolumes:
     """A folder's volumes; of those that lie in several folders (see `shared_frames`) each has its part."""
     states = [path.stat() for path in folder.iterdir() if _OURS.fullmatch(path.name)]
     size = sum(state.st_size // max(state.st_nlink, 1) for state in states)
-    return Kept(folder, size, folder.stat().st_mtime)
+    return CachedVolumes(folder, size, folder.stat().st_mtime)

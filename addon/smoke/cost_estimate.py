@@ -1,4 +1,4 @@
-"""What solving a flow will take, in words, before it begins. Needs no Blender."""
+"""What solving the flow of smoke will cost in time and room, before it begins. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..progress import duration, size
-from ..shot.shot import Shot
 from ..shot.smoke_scale import FINER
-from . import baker, domains
-from .flow import Flow, Part
+from . import domains
+from .domains import Domain
+from .flow import Flow
 
 _SPEED = 1.5e7  # cells a second on 2 cores (tests/benchmarks/solved_smoke.py); half or twice that elsewhere
-_KEPT = 2.2  # bytes of a moment for each cell of its box, measured with smoke in most of it
+_KEPT = 2.2  # bytes of a snapshot for each cell of its box, measured with smoke in most of it
 
 
 @dataclass(frozen=True)
@@ -30,44 +30,33 @@ class Cost:
         """``about 2 min, 1.1 GB``."""
         return f"about {duration(self.seconds)}, {size(self.bytes)}"
 
-
-def words(shot: Shot) -> str:
-    """Time and room for what is still to be solved of a shot; empty where that is nothing."""
-    found = cost(shot)
-    if found is None:
-        return ""
-    return (
-        f"the air over {duration(found.time)} of the fire is solved once in cells of {found.cells}, which "
-        f"takes about {duration(found.seconds)} on 2 cores and {size(found.bytes)} in {found.folder}; "
-        'smoke.method = "puffs" needs none of it'
-    )
+    def describe(self) -> str:
+        """Time and room in a sentence, and what to do without."""
+        return (
+            f"the air over {duration(self.time)} of the fire is solved once in cells of {self.cells}, which "
+            f"takes about {duration(self.seconds)} on 2 cores and {size(self.bytes)} in {self.folder}; "
+            'smoke.method = "puffs" needs none of it'
+        )
 
 
-def cost(shot: Shot) -> Cost | None:
-    """What is still to be solved of a shot; None where that is nothing."""
-    if not baker.solved(shot):
-        return None
-    solved, frames = Flow(shot), shot.frames
-    parts = [part for part in solved.parts if not part.moment(frames.count).exists()]
-    if not parts:
+def estimate(flow: Flow) -> Cost | None:
+    """What is still to be solved of a flow; None where that is nothing."""
+    shot, frames = flow.shot, flow.shot.frames
+    missing = [each for each in flow.domains if not each.snapshot_path(frames.count).exists()]
+    if not missing:
         return None
     work = 0.0
-    for part in solved.parts:
-        begin, step = solved.begin, shot.scale.step
-        if part is not solved.parts[0]:
+    for domain in flow.domains:
+        begin, step = flow.begin, shot.scale.step
+        if domain is not flow.domains[0]:
             begin, step = max(begin, frames.first - shot.scale.time(domains.LEAD)), step / FINER
-        work += _cells(part) * math.ceil((frames.last - begin) / step)
-    room = _KEPT * frames.count * sum(map(_cells, parts))
-    return Cost(
-        frames.last - solved.begin, work / _SPEED, room, _widths(solved.parts), solved.parts[-1].folder.parent
-    )
+        work += domain.cells * math.ceil((frames.last - begin) / step)
+    room = _KEPT * frames.count * sum(each.cells for each in missing)
+    folder = flow.domains[-1].folder.parent
+    return Cost(frames.last - flow.begin, work / _SPEED, room, _widths(flow.domains), folder)
 
 
-def _widths(parts: list[Part]) -> str:
-    """Cells of the box, and of the nest if there is one."""
-    outer, *inner = (f"{part.box.spacing:.3g} m" for part in parts)
+def _widths(solved: list[Domain]) -> str:
+    """Cells of the whole fire's domain, and of the nested one if there is one."""
+    outer, *inner = (f"{each.box.spacing:.3g} m" for each in solved)
     return outer + "".join(f", {each} where cameras look" for each in inner)
-
-
-def _cells(part: Part) -> int:
-    return math.prod(part.box.shape) * (len(part.box.levels) - 1)

@@ -5,7 +5,9 @@ Lengths and times here are those at cells of `scale.REFERENCE`; they go with the
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from pathlib import Path as FilePath
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +16,7 @@ from ..shot.cameras.path import Path
 from ..shot.fire.fire import Fire
 from ..shot.shot import Shot
 from ..shot.smoke_scale import FINER, LEVELS, NEST, Scale
-from . import atmosphere
+from . import atmosphere, snapshots
 
 LEAD = 600.0  # s that the nest is solved before the first frame: its own eddies need them
 _LEVELS, _NEST_LEVELS = (
@@ -64,6 +66,41 @@ class Box:
         return tuple(low + n * self.spacing for low, n in zip(self.corner, self.shape[::-1], strict=True))
 
 
+@dataclass(frozen=True)
+class Domain:
+    """A box in which a flow is solved: the ground in it (rows, columns), m, and the folder of its snapshots.
+
+    Levels follow the ground about its mean in the outermost box. They follow it less and less up to that
+    box's top, m.
+    """
+
+    box: Box
+    ground: Array
+    mean: float
+    top: float
+    folder: FilePath
+    scale: Scale
+
+    @property
+    def cells(self) -> int:
+        """Number of cells."""
+        return math.prod(self.box.shape) * (len(self.box.levels) - 1)
+
+    def heights(self) -> Array:
+        """Heights of cells' middles (nz, rows, columns), m."""
+        levels = np.array(self.box.levels)
+        middles = 0.5 * (levels[1:] + levels[:-1])[:, None, None]
+        return self.mean + middles + (self.ground - self.mean) * np.maximum(1.0 - middles / self.top, 0.0)
+
+    def snapshot_path(self, frame: int) -> FilePath:
+        """The file of a frame's snapshot."""
+        return self.folder / f"moment_{frame:06d}.npz"
+
+    def has(self, frame: int) -> bool:
+        """Whether a frame's snapshot is kept."""
+        return snapshots.is_whole(self.snapshot_path(frame), (len(self.box.levels) - 1, *self.box.shape))
+
+
 def whole(shot: Shot) -> Box | None:
     """The box round what burns from the flow's beginning to the last frame; None where nothing does.
 
@@ -87,7 +124,7 @@ def whole(shot: Shot) -> Box | None:
     low, high = middle - half, middle + half
     corner = np.floor(low / cell) * cell
     columns, rows = (_even(int(np.ceil(side / cell))) for side in high - corner)
-    levels = _levels(_LEVELS, shot.scale.ratio, _part(shot))
+    levels = _levels(_LEVELS, shot.scale.ratio, _height_fraction(shot))
     return Box(levels, (rows, columns), cell, (float(corner[0]), float(corner[1])))
 
 
@@ -113,8 +150,21 @@ def nest(shot: Shot, around: Box) -> Box | None:
     corner = np.round(corner / around.spacing) * around.spacing
     if np.any(corner < np.array(around.corner) + room):  # the box is hardly wider than the nest
         return None
-    levels = _levels(_NEST_LEVELS, shot.scale.ratio, _part(shot))
+    levels = _levels(_NEST_LEVELS, shot.scale.ratio, _height_fraction(shot))
     return Box(levels, (_NEST, _NEST), fine, (float(corner[0]), float(corner[1])))
+
+
+def smooth_ground(shot: Shot, box: Box, smoothings: int) -> Array:
+    """Smoothed height of the ground in a box's cells (rows, columns), m."""
+    x, y = box.middles()
+    height = shot.bare_ground.up(np.tile(x, len(y)), np.repeat(y, len(x))).reshape(len(y), len(x))
+    for _ in range(smoothings):
+        for axis in (0, 1):
+            edged = np.pad(height, [(1, 1) if a == axis else (0, 0) for a in (0, 1)], "edge")
+            count = height.shape[axis]
+            low, here, high = (edged.take(range(k, k + count), axis) for k in range(3))
+            height = 0.25 * (low + high) + 0.5 * here
+    return height
 
 
 def _burning(shot: Shot) -> tuple[Array, Array]:
@@ -144,8 +194,8 @@ def _sees_nest(view: Path, scale: Scale) -> bool:
     return np.hypot(*(view.position - view.target).mean(axis=0)[:2]) < scale.length(_NEST_SEEN)
 
 
-def _part(shot: Shot) -> float:
-    """Part of the full height that the plume needs: a small fire's would have few levels in it.
+def _height_fraction(shot: Shot) -> float:
+    """Fraction of the full height that the plume needs. A small fire's plume would have few levels in all.
 
     It rises by 2.6 (F / (U s))^(1/3) (G. A. Briggs 1975, "Plume rise predictions", AMS Lectures on Air
     Pollution), with F = g Q / (pi cp rho T), at the stratification of air by day.
@@ -158,10 +208,10 @@ def _part(shot: Shot) -> float:
     return min((_TOP[0] + _TOP[1] * rise) / ((lowest + 0.5 * growth) * count), 1.0)
 
 
-def _levels(depths: tuple[float, float, int], ratio: float, part: float) -> tuple[float, ...]:
+def _levels(depths: tuple[float, float, int], ratio: float, fraction: float) -> tuple[float, ...]:
     """Levels whose depth grows evenly, m above ground: the lowest as cells are, the highest as it must."""
     lowest, growth, count = depths
-    top = (lowest + 0.5 * growth) * count * part
+    top = (lowest + 0.5 * growth) * count * fraction
     lowest *= ratio
     growth = max(2.0 * (top / count - lowest), 0.0)
     k = np.arange(count + 1)

@@ -1,15 +1,26 @@
-"""Light of flames in the cells of a solved flow's smoke. Needs no Blender."""
+"""Light of flames on smoke: where they are, and how bright cells are. Needs no Blender."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..shot.fire import heat_release
+from ..shot.fire.fire import Fire
 from ..shot.smoke_scale import Scale
 
+_BLOCK = 300.0  # m; flames this near each other light the smoke as one
+_COUNT = 400  # of lights, at most
+_FLAME_HEIGHT = 20.0  # m over the ground, where their light comes from
 _POWER, _REACH, _CORE, _EVERY = 1e9, 600.0, 250.0, 3  # W, m, m, cells; at a fire of 15 km
 
 Array = NDArray[np.float64]
+
+
+def luminous(fire: Fire, time: float, scale: Scale) -> tuple[Array, Array]:
+    """What lights the smoke from within: positions (n, 3) m and powers (n,) W of luminous heat."""
+    found = heat_release.lights(fire.sources(time).luminous(), scale.length(_BLOCK), _COUNT)
+    return found.position + np.array([0.0, 0.0, scale.length(_FLAME_HEIGHT)]), found.power
 
 
 def glow(

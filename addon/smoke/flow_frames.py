@@ -1,10 +1,10 @@
 """Writes the frames of a solved flow as OpenVDB files, with detail below its cells. Needs no Blender.
 
-A frame is one file, or two: the nest's part, and the rest with larger voxels; where they meet, one fades into
-the other. Grids: `density`, the extinction in 1/m; `fresh`, 1 where smoke is young and 0 where it is old;
-`sun` and `sky`, how much of their light comes there, see `LIGHT`; `hidden`, 1 where smoke is so far behind
-other smoke that no camera sees it, see `DEEP`; and `glow`, the light of flames, 1 amid 1 GW of them, in the
-dark.
+A frame is one file, or two: the nested domain's, and the rest with larger voxels. Where they meet, one fades
+into the other. These are the grids: `density` is the extinction in 1/m. `fresh` is 1 where smoke is young and
+0 where it is old. `sun` and `sky` are how much of their light comes there, see `LIGHT`. `hidden` is 1 where
+smoke is so far behind other smoke that no camera sees it, see `DEEP`. `glow` is the light of flames in the
+dark, 1 amid 1 GW of them.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from ..shot.smoke_scale import Scale
 from ..shot.terrain import noise
 from . import flame_light, snapshots
 from .close_up import Window
-from .domains import Box
-from .flow import Flow, Part
+from .domains import Box, Domain
+from .flow import Flow
 
 GRIDS = ("density", "fresh", "sun", "sky", "hidden", "glow")
 """All of one voxel size: `sky` on voxels of twice the size takes 10 of 40 MB less, but Cycles 4.5 draws each
@@ -81,14 +81,14 @@ class _Painted:
 
 @dataclass(frozen=True)
 class Layer:
-    """A part of the smoke as it is drawn: voxels of one size (m) in files of one name."""
+    """A domain's smoke as it is drawn: voxels of one size (m) in files of one name."""
 
     name: str
-    part: Part
+    domain: Domain
     voxel: float
     fine: bool
     close: bool = False
-    """Of the part only what lies in a frame's window."""
+    """Of the domain only what lies in a frame's window."""
 
     def file(self, folder: Path, frame: int) -> Path:
         """Its volume of a frame."""
@@ -97,16 +97,16 @@ class Layer:
 
 def layers(shot: Shot, solved: Flow) -> list[Layer]:
     """The layers of a shot's smoke; the last, which is written last, is named "smoke" as all smoke is."""
-    parts = solved.parts
-    if not parts:
+    found = solved.domains
+    if not found:
         return []
     wanted, length = shot.settings.smoke.voxel_size, shot.scale.length
     far = length(_FAR)
-    if len(parts) == 1:
+    if len(found) == 1:
         near = min(max(_PIXELS * _pixel(shot), length(_ALONE)), far)
-        return [Layer("smoke", parts[0], wanted or near, False)]
+        return [Layer("smoke", found[0], wanted or near, False)]
     near = float(np.clip(_PIXELS * _pixel(shot), *map(length, _NEAR)))
-    return [Layer("far", parts[0], max(wanted, far), False), Layer("smoke", parts[1], wanted or near, True)]
+    return [Layer("far", found[0], max(wanted, far), False), Layer("smoke", found[1], wanted or near, True)]
 
 
 def _pixel(shot: Shot) -> float:
@@ -136,7 +136,7 @@ class Painter:
 
     def __init__(self, shot: Shot, layer: Layer, inner: Box | None) -> None:
         self.shot, self.layer, self.inner = shot, layer, inner
-        self.scale = layer.part.scale
+        self.scale = layer.domain.scale
         self._thin = thinnest(self.scale)
 
     def write(
@@ -209,29 +209,29 @@ class Painter:
         beyond: Beyond | None,
         window: Window | None = None,
     ) -> _Painted:
-        moment = snapshots.load(self.layer.part.moment(frame))
+        snapshot = snapshots.load(self.layer.domain.snapshot_path(frame))
         voxel = self.layer.voxel
-        origin, surface, end, share, count = self._brick(moment, window)
+        origin, surface, end, share, count = self._brick(snapshot, window)
         wanted = _wanted(sight, origin, (*surface.shape, count), voxel, self.scale.length(_ROUND))
-        smoke = self._detail(moment, lights).paint_sparse(
+        smoke = self._detail(snapshot, lights).paint_sparse(
             origin, voxel, surface, end, count, wanted, self._thin
         )
         toward = sun.toward_light(self.shot.run, float(self.shot.frames.times[frame - 1]))
         lit = volume.LitSmoke(smoke, toward, *LIGHT, beyond.depths if beyond else None)
-        return _Painted(lit, share, origin, moment.mass)
+        return _Painted(lit, share, origin, snapshot.mass)
 
     @functools.cached_property
     def _heights(self) -> Array:
         """Of the ground and of cells' middles (1 + nz, rows, columns), m, as the solver has them."""
-        return np.concatenate([self.layer.part.ground[None], self.layer.part.heights()])
+        return np.concatenate([self.layer.domain.ground[None], self.layer.domain.heights()])
 
     def _brick(
-        self, moment: snapshots.Moment, window: Window | None
+        self, snapshot: snapshots.Snapshot, window: Window | None
     ) -> tuple[tuple[float, float, float], Array, Array, Array, int]:
         """Centre of the first voxel; of columns the ground, what is there, what of that is drawn; height."""
-        box, voxel = self.layer.part.box, self.layer.voxel
-        _nz, rows, columns = moment.fields["smoke"].shape
-        low = np.array(box.corner) + np.array(moment.low) * box.spacing
+        box, voxel = self.layer.domain.box, self.layer.voxel
+        _nz, rows, columns = snapshot.fields["smoke"].shape
+        low = np.array(box.corner) + np.array(snapshot.low) * box.spacing
         last = low + np.array([columns, rows]) * box.spacing
         if self.layer.close and window is not None:
             low, last = np.clip([window.low, window.high], low, last)
@@ -239,8 +239,10 @@ class Painter:
         nx, ny = (max(2, int(np.ceil(side / voxel))) for side in last - first)
         x, y = first[0] + np.arange(nx) * voxel, first[1] + np.arange(ny) * voxel
         surface = _sampled(self._surface, self._surface_step, box.corner, x, y)
-        heights = self._heights[1:, moment.low[1] : moment.low[1] + rows, moment.low[0] :][:, :, :columns]
-        seen = moment.fields["smoke"] > _SEEN
+        heights = self._heights[1:, snapshot.low[1] : snapshot.low[1] + rows, snapshot.low[0] :][
+            :, :, :columns
+        ]
+        seen = snapshot.fields["smoke"] > _SEEN
         lowest = float(surface.min())
         base = np.floor(lowest / voxel) * voxel
         top = float(heights[: len(seen)][seen].max(initial=lowest)) + 2.0 * box.spacing
@@ -256,7 +258,7 @@ class Painter:
     @functools.cached_property
     def _surface(self) -> Array:
         """The true ground over the box (nx, ny) every `_surface_step` m."""
-        box = self.layer.part.box
+        box = self.layer.domain.box
         x, y = (
             np.arange(low, high + self._surface_step, self._surface_step)
             for low, high in zip(box.corner, box.high, strict=True)
@@ -266,7 +268,7 @@ class Painter:
 
     def _shares(self, x: Array, y: Array, window: Window | None = None) -> tuple[Array, Array]:
         """How much smoke there is at places, for light, and how much of that this layer draws, 0 to 1."""
-        box = self.layer.part.box
+        box = self.layer.domain.box
         if self.layer.fine:
             close = 0.0 if window is None else window.share(x, y)
             drawn = self._inside(box, x, y, _FADE[0])
@@ -284,17 +286,17 @@ class Painter:
         way = (depth - self.scale.length(_INSIDE)) / self.scale.length(fade)
         return np.clip(np.minimum(way + torn, _EDGE * way), 0.0, 1.0)
 
-    def _detail(self, moment: snapshots.Moment, lights: tuple[Array, Array] | None) -> flow.Detail:
-        box, shot = self.layer.part.box, self.shot
-        nz, rows, columns = moment.fields["smoke"].shape
-        west, south = moment.low
+    def _detail(self, snapshot: snapshots.Snapshot, lights: tuple[Array, Array] | None) -> flow.Detail:
+        box, shot = self.layer.domain.box, self.shot
+        nz, rows, columns = snapshot.fields["smoke"].shape
+        west, south = snapshot.low
         heights = self._heights[: nz + 1, south : south + rows, west : west + columns]
-        corner = tuple(low + at * box.spacing for low, at in zip(box.corner, moment.low, strict=True))
+        corner = tuple(low + at * box.spacing for low, at in zip(box.corner, snapshot.low, strict=True))
         size, blur = _LUMPS[self.layer.fine]
         mix = shot.fire.smoke
         # Thresholds are those of a crown fire's smoke: of thinner smoke, as warm, they are as much lower.
-        fields = moment.fields | {"smoke": moment.fields["smoke"] / np.float32(mix.dilution)}
-        scale = self.layer.part.scale
+        fields = snapshot.fields | {"smoke": snapshot.fields["smoke"] / np.float32(mix.dilution)}
+        scale = self.layer.domain.scale
         levels = np.array(box.levels)
         return flow.Detail(
             **fields,
@@ -303,8 +305,8 @@ class Painter:
             levels=0.5 * (levels[1:] + levels[:-1])[:nz],
             heights=heights[1:],
             ground=heights[0],
-            weights=moment.weights,
-            turns=moment.turns,
+            weights=snapshot.weights,
+            turns=snapshot.turns,
             glow=None
             if lights is None
             else flame_light.glow(lights, heights[1:], box.spacing, corner, scale),

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import time
-from typing import TYPE_CHECKING, Any
+from threading import Event
+from typing import Any
 
 import numpy as np
 from firetwin_core import flow
@@ -18,9 +19,7 @@ from ..shot.fire import burning
 from ..shot.shot import Shot
 from ..shot.smoke_scale import FINER, Scale
 from . import atmosphere, cache, domains, snapshots
-
-if TYPE_CHECKING:
-    from .flow import Flow, Part
+from .domains import Domain
 
 STATE = "state.npz"
 WORK = "the smoke's flow"
@@ -45,21 +44,31 @@ class StoppedError(Exception):
     """Somebody asked for the end of solving."""
 
 
-class Live:
-    """A flow being solved: solvers, their drift, and how far they are, which is not beyond `frame`."""
+class Integrator:
+    """Solves the flow of a shot step by step.
 
-    def __init__(self, whole: Flow, frame: int) -> None:
-        self.whole = whole
-        shot = whole.shot
+    Parameters
+    ----------
+    nested
+        The domain of the whole fire, and the nested one if there is one.
+    stop
+        Ends solving when it is set.
+    frame
+        It resumes from no step beyond this frame.
+    """
+
+    def __init__(self, shot: Shot, nested: list[Domain], stop: Event, frame: int) -> None:
+        self.shot, self.domains, self.stop = shot, nested, stop
+        self.begin = shot.frames.first - shot.spin_up
         self.scale = shot.scale
-        self.lead, self.slots = shot.scale.time(domains.LEAD), shot.scale.time(_BURN)
+        self.lead, self.slots = _nested_lead(shot), shot.scale.time(_BURN)
         self.step, self.frame = 0, 0
-        self.steps, self.frame_of = _schedule(whole)
+        self.steps, self.frame_of = _schedule(shot)
         self.work = self._work()
         self.saved, self.saved_step = time.monotonic(), 0
         self.slot: int | None = None
-        self.winds = _winds(shot, whole.begin)
-        self.solvers = [self._outer(whole.parts[0])]
+        self.winds = _winds(shot, self.begin)
+        self.solvers = [self._outer(nested[0])]
         self.drifts: list[flow.Drift] = []
         self._resume(self._step_of(frame))
         self._widen()
@@ -67,16 +76,16 @@ class Live:
     @property
     def now(self) -> float:
         """Model time, s."""
-        return self.whole.begin + self.solvers[0].time
+        return self.begin + self.solvers[0].time
 
     def solve(self, frame: int, progress: Progress, last: int) -> None:
         """Go on to a frame and keep what is passed; `progress` counts the work up to the frame `last`."""
         end, total = self._step_of(frame), int(self.work[self._step_of(last)])
-        with cache.in_use(self.whole.parts[-1].folder):
+        with cache.in_use(self.domains[-1].folder):
             self._keep()
             while self.step < end:
                 progress(int(self.work[self.step]), total, WORK)
-                if self.whole.stop.is_set():
+                if self.stop.is_set():
                     raise StoppedError
                 self._advance(self.steps[self.step])
                 self.step += 1
@@ -86,17 +95,17 @@ class Live:
                     self._save()
             progress(int(self.work[end]), total, WORK)
             if self.step == len(self.steps):
-                (self.whole.parts[-1].folder / STATE).unlink(missing_ok=True)
+                (self.domains[-1].folder / STATE).unlink(missing_ok=True)
 
     def _step_of(self, frame: int) -> int:
         return next(step for step, each in self.frame_of.items() if each == frame)
 
     def _work(self) -> NDArray[np.int64]:
         """What the steps up to each cost, in steps of the box alone."""
-        left = self.whole.shot.spin_up - np.concatenate([[0.0], np.cumsum(self.steps)[:-1]])
+        left = self.shot.spin_up - np.concatenate([[0.0], np.cumsum(self.steps)[:-1]])
         cost = np.ones(len(self.steps))
-        if len(self.whole.parts) > 1:
-            cells = [np.prod(part.box.shape) * len(part.box.levels) for part in self.whole.parts]
+        if len(self.domains) > 1:
+            cells = [np.prod(domain.box.shape) * len(domain.box.levels) for domain in self.domains]
             each = [_count(dt, self.scale) * cells[1] / cells[0] for dt in self.steps]
             cost += np.where(left <= self.lead + 1e-6, each, 0.0)
         return np.round(np.concatenate([[0.0], np.cumsum(cost)])).astype(np.int64)
@@ -111,9 +120,9 @@ class Live:
 
     def _widen(self) -> None:
         """Begin the nest, and the detail's drift, once it is time."""
-        left = self.whole.shot.frames.first - self.now
-        if len(self.whole.parts) > len(self.solvers) and left <= self.lead + 1e-6:
-            self.solvers.append(self._inner(self.whole.parts[1]))
+        left = self.shot.frames.first - self.now
+        if len(self.domains) > len(self.solvers) and left <= self.lead + 1e-6:
+            self.solvers.append(self._inner(self.domains[1]))
             self.slot = None
         if left <= self.scale.time(_DRIFT) + 1e-6:
             self.drifts += [self._drift(solver) for solver in self.solvers[len(self.drifts) :]]
@@ -123,9 +132,9 @@ class Live:
         slot = math.floor(self.solvers[0].time / self.slots + 1e-6)
         if slot == self.slot:
             return
-        time = self.whole.begin + slot * self.slots
+        time = self.begin + slot * self.slots
         self.solvers[0].set_wind(atmosphere.wind(self.winds[min(slot, len(self.winds) - 1)]))
-        found = self.whole.shot.fire.sources(time)
+        found = self.shot.fire.sources(time)
         ramp = min(1.0, (slot + 1) * _BURN / _RAMP)
         for solver in self.solvers:
             solver.set_sources(found.position[:, :2], CONVECTED * ramp * found.power, ramp * found.smoke)
@@ -136,9 +145,9 @@ class Live:
         if frame is None:
             return
         self.frame = frame
-        for part, solver, drift in zip(self.whole.parts, self.solvers, self.drifts, strict=True):
-            if not part.has(frame):
-                snapshots.keep(part.moment(frame), solver, drift)
+        for domain, solver, drift in zip(self.domains, self.solvers, self.drifts, strict=True):
+            if not domain.has(frame):
+                snapshots.keep(domain.snapshot_path(frame), solver, drift)
 
     def _save(self) -> None:
         self.saved = time.monotonic()
@@ -149,13 +158,13 @@ class Live:
             kept |= {f"{number}_{name}": values for name, values in solver.state().items()}
         for number, drift in enumerate(self.drifts):
             kept |= {f"{number}_drift": drift.values(), f"{number}_drift_time": np.array([drift.time])}
-        path = self.whole.parts[-1].folder / STATE
+        path = self.domains[-1].folder / STATE
         files.write(path, lambda part: snapshots.write(part, kept))
         self.saved, self.saved_step = time.monotonic(), self.step
 
     def _resume(self, end: int) -> None:
-        """Go on from what was saved, if that is a moment before what is asked for and whole."""
-        path = self.whole.parts[-1].folder / STATE
+        """Go on from the saved state, if it is whole and not beyond what is asked for."""
+        path = self.domains[-1].folder / STATE
         try:
             kept = snapshots.read(path)
             step = int(kept["step"][0])
@@ -170,14 +179,14 @@ class Live:
         except (snapshots.BrokenError, LookupError, TypeError, ValueError):
             with writing(path):
                 path.unlink(missing_ok=True)
-            self.solvers, self.drifts = [self._outer(self.whole.parts[0])], []
+            self.solvers, self.drifts = [self._outer(self.domains[0])], []
             return
         self.step = self.saved_step = step
         self.frame = max((f for step, f in self.frame_of.items() if step <= self.step), default=0)
 
     def _restore(self, kept: dict[str, NDArray[Any]]) -> None:
         if "1_u" in kept:
-            self.solvers.append(self._inner(self.whole.parts[1]))
+            self.solvers.append(self._inner(self.domains[1]))
         for number, solver in enumerate(self.solvers):
             mine = {name[2:]: values for name, values in kept.items() if name[:2] == f"{number}_"}
             solver.restore(mine)
@@ -188,8 +197,8 @@ class Live:
     def _drift(self, solver: flow.Solver) -> flow.Drift:
         return flow.Drift(solver, self.scale.time(0.5 * _DRIFT))
 
-    def _outer(self, part: Part) -> flow.Solver:
-        shot, box = self.whole.shot, part.box
+    def _outer(self, part: Domain) -> flow.Solver:
+        shot, box = self.shot, part.box
         around = atmosphere.air(sun.at(shot.run, shot.frames.middle)[1], part.mean)
         return flow.Solver(
             box.levels,
@@ -209,7 +218,7 @@ class Live:
             **self._around(_SIDES[0]),
         )
 
-    def _inner(self, part: Part) -> flow.Solver:
+    def _inner(self, part: Domain) -> flow.Solver:
         box = part.box
         return self.solvers[0].nest(
             box.levels,
@@ -220,7 +229,7 @@ class Live:
             gust_strength=_FINE_GUSTS[0],
             gust_size=self.scale.length(_FINE_GUSTS[1]),
             gust_time=self.scale.time(_FINE_GUSTS[2]),
-            seed=self.whole.shot.settings.seed,
+            seed=self.shot.settings.seed,
             **self._around(_SIDES[1]),
         )
 
@@ -234,16 +243,21 @@ class Live:
         }
 
 
+def _nested_lead(shot: Shot) -> float:
+    """How long before the first frame the nested domain begins, s."""
+    return shot.scale.time(domains.LEAD)
+
+
 def _count(dt: float, scale: Scale) -> int:
     """Steps of the nest in one of the box's."""
     return max(1, round(dt * FINER / scale.step))
 
 
-def _schedule(whole: Flow) -> tuple[list[float], dict[int, int]]:
+def _schedule(shot: Shot) -> tuple[list[float], dict[int, int]]:
     """Every step's length, s, and which frame is reached after so many steps."""
-    frames, step = whole.shot.frames, whole.shot.scale.step
-    lead = math.ceil(whole.shot.spin_up / step)
-    steps = [whole.shot.spin_up / lead] * lead if lead else []
+    frames, step = shot.frames, shot.scale.step
+    lead = math.ceil(shot.spin_up / step)
+    steps = [shot.spin_up / lead] * lead if lead else []
     frame_of = {lead: 1}
     between = max(1, math.ceil(frames.step / (_LONGEST_STEP * step) - 1e-9))
     for frame in range(2, frames.count + 1):

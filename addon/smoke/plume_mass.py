@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from ..shot.fire import emissions
 from ..shot.shot import Shot
-from . import baker, snapshots
-from .flow import Flow, Part
+from . import snapshots, sources
+from .domains import Domain
 
 _WIDE = 1000.0  # m; satellites and photometers see means over about as much
 _SMOKY = 0.1  # optical depth from which a column counts as the plume's
-_LOOKS = 3  # at most so many of the shot's moments
+_LOOKS = 3  # at most so many of the shot's snapshots
 
 # Over burning savanna in Zambia, at 440 nm (Eck et al. 2003, doi 10.1029/2002JD002321); of wildfires in the
 # western United States, at 550 nm, where photometers saw 0.5 to 3 (Ye et al. 2022, doi 10.3390/rs14236113).
@@ -39,7 +39,7 @@ class Plume:
         kg of PM2.5 given off from the first frame to the last.
     deepest, wide, mean
         Optical depths from above: the largest of a column of cells, and of the mean of columns over a
-        kilometre, and the mean over all of the plume; None where no moments are kept.
+        kilometre, and the mean over all of the plume; None where no snapshots are kept.
     """
 
     made: float
@@ -49,14 +49,13 @@ class Plume:
 
 
 def measure(shot: Shot) -> Plume:
-    """What is known of the smoke of a shot, from the moments that are kept of its flow."""
+    """What is known of the smoke of a shot, from the snapshots that are kept of its flow."""
     frames = shot.frames
     made = shot.fire.smoke_made(frames.first, frames.last)
-    if not baker.solved(shot):
-        return Plume(made)
     looks = np.unique(np.linspace(1, frames.count, min(_LOOKS, frames.count)).round().astype(int)).tolist()
     found = [
-        [_depths(part, frame) for frame in looks if part.has(frame)] for part in Flow(shot).parts
+        [_depths(domain, frame) for frame in looks if domain.has(frame)]
+        for domain in sources.select(shot).domains
     ]  # of the box, and of a nest, which does not hold all of the plume
     if not found or not found[0]:
         return Plume(made)
@@ -64,8 +63,8 @@ def measure(shot: Shot) -> Plume:
     return Plume(made, deepest, wide, max(depths[2] for depths in found[0]))
 
 
-def words(shot: Shot) -> str:
-    """The same in words."""
+def describe(shot: Shot) -> str:
+    """The smoke of a shot in words: mass, fuels and optical depth."""
     found, mix = measure(shot), shot.fire.smoke
     shares = [
         f"{round(100.0 * share)} % {kind.name}"
@@ -82,22 +81,22 @@ def words(shot: Shot) -> str:
     )
 
 
-def _depths(part: Part, frame: int) -> tuple[float, float, float]:
-    """Optical depths of a moment: the largest of a column and over `_WIDE`, and the plume's mean."""
-    depth = columns(part, *snapshots.smoke(part.moment(frame)))
-    side = max(1, round(_WIDE / part.box.spacing))
+def _depths(domain: Domain, frame: int) -> tuple[float, float, float]:
+    """Optical depths of a snapshot: the largest of a column and over `_WIDE`, and the plume's mean."""
+    depth = columns(domain, *snapshots.load_smoke(domain.snapshot_path(frame)))
+    side = max(1, round(_WIDE / domain.box.spacing))
     padded = np.pad(depth, [(0, -count % side) for count in depth.shape])
     blocks = padded.reshape(padded.shape[0] // side, side, padded.shape[1] // side, side)
     plume = depth[depth > _SMOKY]
     return float(depth.max()), float(blocks.mean(axis=(1, 3)).max()), float(plume.mean() if len(plume) else 0)
 
 
-def columns(part: Part, low: tuple[int, int], smoke: NDArray[np.float32]) -> NDArray[np.float64]:
+def columns(domain: Domain, low: tuple[int, int], smoke: NDArray[np.float32]) -> NDArray[np.float64]:
     """Optical depth (ny, nx), straight down, of smoke (nz, ny, nx), kg/m3, from column and row `low` on."""
     (west, south), (_, rows, across) = low, smoke.shape
-    thick = np.diff(part.box.levels)[: len(smoke)]
-    ground = part.ground[south : south + rows, west : west + across]
-    squeezed = 1.0 - (ground - part.mean) / part.top  # levels lie closer over what is high
+    thick = np.diff(domain.box.levels)[: len(smoke)]
+    ground = domain.ground[south : south + rows, west : west + across]
+    squeezed = 1.0 - (ground - domain.mean) / domain.top  # levels lie closer over what is high
     return emissions.EXTINCTION * squeezed * np.tensordot(thick, smoke.astype(np.float64), 1)
 
 

@@ -9,7 +9,7 @@ from firetwin_core import volume
 
 from ..progress import Progress, Tell, silent, untold
 from ..shot.shot import Shot
-from . import bake, baker
+from . import bake, sources
 
 Smoke = list[volume.Bricks]
 Ready = Callable[[int, Iterable[int]], Smoke]
@@ -23,7 +23,7 @@ def smoke(
     elsewhere: Callable[[], bool] | None = None,
 ) -> AbstractContextManager[Callable[..., Smoke | None]]:
     """What gives pictures their smoke: `bricks` where it is marched, else `bake.ahead`."""
-    if baker.integrated(shot):
+    if sources.is_integrated(shot):
         return bricks(shot, frames, progress, tell, elsewhere)
     return bake.ahead(shot, frames, progress, tell)
 
@@ -45,7 +45,7 @@ def bricks(
     Parameters
     ----------
     elsewhere
-        Whether another process of ours solves the flow; what it leaves unsolved is solved here.
+        Whether another process of ours prepares the shot. What it leaves undone is done here.
     """
     line = _Bricks(shot, set(frames), progress, tell, elsewhere)
     try:
@@ -76,7 +76,7 @@ class _Bricks(bake.Line):
         following = next((each for each in after if each in self.frames), None)
         for number in (frame, following):
             if number is not None and number not in self.tasks:
-                self.tasks[number] = self.pool.submit(self.maker.bricks, number)
+                self.tasks[number] = self.pool.submit(self.source.bricks, number)
         for old in set(self.tasks) - {frame, following}:
             self.tasks.pop(old).cancel()
         self.progress(0, 1, "smoke of the first picture")

@@ -10,9 +10,7 @@ from pathlib import Path
 
 from .. import files
 from ..shot.shot import Shot
-from . import baker, flow_frames
-from .flow import Flow
-from .view import resolution
+from . import sources
 
 
 def frames(shot: Shot, wanted: Iterable[int]) -> list[tuple[Shot, list[int]]]:
@@ -49,7 +47,5 @@ def _same(path: Path, part: Path) -> None:
 
 def _drawn(shot: Shot) -> list[object]:
     """What of the cameras decides how fine smoke is."""
-    if not baker.solved(shot):
-        return [resolution(shot).voxel]
-    flow = Flow(shot)
-    return [flow.key(), [(each.name, each.voxel) for each in flow_frames.layers(shot, flow)]]
+    source = sources.select(shot)
+    return [source.inputs(), source.voxels()]

@@ -1,4 +1,4 @@
-"""What is kept of a solved flow at a moment: the smoke's block of cells, in one file. Needs no Blender."""
+"""Snapshots of a solved flow: the smoke's block of cells at one time, in one file. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ Fields = dict[str, NDArray[Any]]
 
 
 class BrokenError(Exception):
-    """A file is cut off, or is no moment of this flow."""
+    """A file is cut off, or is no snapshot of this flow."""
 
 
 @dataclass(frozen=True)
-class Moment:
+class Snapshot:
     """A block of a flow's cells that reaches down to the ground.
 
     Attributes
@@ -53,7 +53,7 @@ class Moment:
 
 
 def keep(path: Path, solver: flow.Solver, drift: flow.Drift) -> None:
-    """Write what a flow is now."""
+    """Write a snapshot of a flow as it is now."""
     smoke = solver.smoke()
     there = smoke > _NONE
     block = tuple(_range(there.any(axis=axes)) for axes in ((1, 2), (0, 2), (0, 1)))
@@ -78,8 +78,8 @@ def keep(path: Path, solver: flow.Solver, drift: flow.Drift) -> None:
     files.write(path, lambda part: write(part, kept, _PACKING))
 
 
-def load(path: Path) -> Moment:
-    """Read what `keep` wrote.
+def load(path: Path) -> Snapshot:
+    """Read a snapshot.
 
     Raises
     ------
@@ -95,7 +95,7 @@ def load(path: Path) -> Moment:
         names = sorted(("initial", "emitted", "entered", "left", "airborne", "rounding"))
         if drift.shape != (*smoke.shape, 2, 3) or any(each.shape != smoke.shape for each in fields.values()):
             raise BrokenError(path)
-        return Moment(
+        return Snapshot(
             (int(kept["low"][0]), int(kept["low"][1])),
             fields | {"drift": drift},
             (float(kept["weights"][0]), float(kept["weights"][1])),
@@ -106,8 +106,8 @@ def load(path: Path) -> Moment:
         raise BrokenError(path) from error
 
 
-def smoke(path: Path) -> tuple[tuple[int, int], NDArray[np.float32]]:
-    """Of what `keep` wrote the block's first column and row, and the smoke alone (nz, ny, nx), kg/m3.
+def load_smoke(path: Path) -> tuple[tuple[int, int], NDArray[np.float32]]:
+    """Read of a snapshot the block's first column and row, and the smoke alone (nz, ny, nx), kg/m3.
 
     Raises
     ------
@@ -122,8 +122,8 @@ def smoke(path: Path) -> tuple[tuple[int, int], NDArray[np.float32]]:
         raise BrokenError(path) from error
 
 
-def whole(path: Path, shape: tuple[int, int, int]) -> bool:
-    """Whether a file is there that looks like a moment of a flow of so many cells; quick."""
+def is_whole(path: Path, shape: tuple[int, int, int]) -> bool:
+    """Whether a file is there that looks like a snapshot of a flow of so many cells; quick."""
     try:
         with zipfile.ZipFile(path) as file:
             if set(file.namelist()) != {f"{name}.npy" for name in _NAMES}:

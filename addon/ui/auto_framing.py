@@ -58,7 +58,9 @@ def put(panel: bpy.types.PropertyGroup, fits: dict[str, Any]) -> None:
         _put_time(panel.time, before.get("time", {}), fits["time"])
     if here in ("", before.get("cameras", "")):
         if not here and not panel.scene_file:
-            panel.smoke.method = "puffs"  # a preview: what more takes is told first
+            from ..smoke import sources
+
+            panel.smoke.method = sources.preview()  # what more takes is told first
         camera_list.fill(panel, camera_list.listed(fits["cameras"]))
     panel.usual = json.dumps(fits | {"placed_for": [fits["time"][name] for name in _WINDOW]})
 

@@ -83,7 +83,7 @@ class FIRETWIN_OT_solve(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if context.scene.firetwin.smoke.method != "puffs":
+        if not solve.replacement(context.scene.firetwin):
             cls.poll_message_set("The smoke is solved already, or Build scene solves it")
             return False
         return FIRETWIN_OT_build.poll.__func__(cls, context)
@@ -91,7 +91,7 @@ class FIRETWIN_OT_solve(Working, bpy.types.Operator):
     def steps(self, context: bpy.types.Context) -> Steps:
         """Choose it, and build the smoke, or all where nothing is built."""
         panel = context.scene.firetwin
-        panel.smoke.method, panel.bake_smoke = "flow", True
+        panel.smoke.method, panel.bake_smoke = solve.replacement(panel), True
         return (yield from steps(context, "smoke" if owned.built(context.scene) else ALL))
 
 

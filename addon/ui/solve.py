@@ -1,30 +1,34 @@
-"""Solved smoke in place of puffs: what it costs is told, and a button accepts it."""
+"""Solved smoke in place of a preview: the panel tells what it costs, and a button accepts it."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import bpy
 
 from ..blender import owned
+from ..shot.source import Choice
 from . import choice
 from .job import Away, Steps
-
-if TYPE_CHECKING:
-    from ..shot.source import Choice
-
 
 OPERATOR = "firetwin.solve"
 
 
+def replacement(panel: bpy.types.PropertyGroup) -> str:
+    """The method that the panel's smoke is a preview of; empty where it is none."""
+    from ..smoke import sources
+
+    return sources.known()[panel.smoke.method].preview_of
+
+
 def price(uid: int) -> Steps:
-    """Find out what solving the smoke would take, where the scene with this `session_uid` shows puffs."""
+    """Find out what solving the smoke would take, where the scene with this `session_uid` shows a preview."""
     panel = owned.scene(uid).firetwin
     panel.smoke_cost = ""
-    if not panel.smoke.enabled or panel.smoke.method != "puffs":
+    better = replacement(panel)
+    if not panel.smoke.enabled or not better:
         return ""
-    chosen = replace(choice.from_panel(panel), smoke="flow")
+    chosen = replace(choice.from_panel(panel), smoke=better)
     found = yield Away("estimating the cost of the smoke", lambda **_: _cost(chosen))
     owned.scene(uid).firetwin.smoke_cost = found
     return found
@@ -32,13 +36,13 @@ def price(uid: int) -> Steps:
 
 def _cost(chosen: Choice) -> str:
     """Time and room in a few words; empty where the run brings its smoke, or nothing burns."""
-    from ..smoke import cost_estimate
+    from ..smoke import sources
 
-    found = cost_estimate.cost(chosen.shot())
+    found = sources.select(chosen.shot()).cost()
     return found.brief() if found else ""
 
 
 def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup) -> None:
-    """The button, which names the cost, where puffs are shown."""
-    if panel.run and panel.smoke.enabled and panel.smoke.method == "puffs" and panel.smoke_cost:
+    """The button, which names the cost, where a preview is shown."""
+    if panel.run and panel.smoke.enabled and panel.smoke_cost and replacement(panel):
         layout.operator(OPERATOR, text=f"Solve smoke ({panel.smoke_cost})", icon="MOD_FLUIDSIM")

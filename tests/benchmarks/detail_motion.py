@@ -18,8 +18,7 @@ import json
 from pathlib import Path
 
 import numpy as np
-from firetwin.smoke.domains import Box
-from firetwin.smoke.flow import Part
+from firetwin.smoke.domains import Box, Domain
 from firetwin_core import flow
 from lines_of_sight import STEP, Grid, SolvedWind, expected, rays
 from numpy.typing import NDArray
@@ -110,7 +109,7 @@ def measured(seconds: int) -> dict[str, float]:
     """All numbers."""
     solver, drift = begin()
     levels = tuple(float(level) for level in solver.levels)
-    part = Part(Box(levels, SHAPE, SPACING, (0.0, 0.0)), np.zeros(SHAPE), 0.0, levels[-1], Path())
+    part = Domain(Box(levels, SHAPE, SPACING, (0.0, 0.0)), np.zeros(SHAPE), 0.0, levels[-1], Path())
     half = PATCH // 2
     centre = np.stack(np.meshgrid(*[np.arange(half, side - half, 8) for side in RESOLUTION]), -1).reshape(
         -1, 2

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from firetwin.smoke.flow import Part
+from firetwin.smoke.domains import Domain
 from numpy.typing import NDArray
 
 STEP, FARTHEST = 20.0, 12_000.0  # m along a line of sight
@@ -48,9 +48,9 @@ class Grid:
 
 @dataclass(frozen=True)
 class SolvedWind:
-    """The wind (nz, rows, columns, 3) in the cells of a `firetwin.smoke.flow.Part`, m/s."""
+    """The wind (nz, rows, columns, 3) in the cells of a `firetwin.smoke.domains.Domain`, m/s."""
 
-    part: Part
+    part: Domain
     wind: NDArray[np.float32]
 
     def at(self, place: Array) -> NDArray[np.float32]:
@@ -60,7 +60,7 @@ class SolvedWind:
         inside = (i >= 0) & (j >= 0) & (i < columns) & (j < rows)
         i, j = np.clip(i, 0, columns - 1), np.clip(j, 0, rows - 1)
         ground = self.part.ground[j, i] - self.part.mean
-        # Part.heights turned round: height = mean + above + ground (1 - above / top)
+        # Domain.heights turned round: height = mean + above + ground (1 - above / top)
         above = (place[:, 2] - self.part.mean - ground) / (1.0 - ground / self.part.top)
         k = np.clip(np.searchsorted(box.levels, above) - 1, 0, levels - 1)
         return np.where(inside[:, None], self.wind[k, j, i], np.nan)

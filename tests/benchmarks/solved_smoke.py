@@ -22,7 +22,7 @@ from firetwin import memory
 from firetwin.bench.timing import Stopwatch
 from firetwin.shot.settings import scene_file
 from firetwin.shot.shot import Shot
-from firetwin.smoke.baker import Baker
+from firetwin.smoke import sources
 from firetwin.smoke.flow import Flow
 from firetwin_core import run
 
@@ -40,12 +40,12 @@ def measured(scene: Path, frames: int, cache: Path) -> dict[str, float]:
     settings = scene_file.read(scene)
     settings = replace(settings, cache=cache, smoke=replace(settings.smoke, method="flow"))
     shot = Shot(settings, run.open(settings.run))
-    baker = Baker(shot)
-    solved: Flow = baker.flow
+    source = sources.select(shot)
+    solved: Flow = source.flow
     last = min(frames or shot.frames.count, shot.frames.count)
-    result = {"boxes": float(len(solved.parts))}
+    result = {"boxes": float(len(solved.domains))}
     result["solve_s"], result["solve_processor_s"] = timed(solved.ready, last)
-    live = solved._live
+    live = solved._integrator
     for name, solver in zip(("box", "nest"), live.solvers, strict=False):
         mass = solver.mass()
         given = mass["initial"] + mass["emitted"] + mass["entered"]
@@ -59,7 +59,7 @@ def measured(scene: Path, frames: int, cache: Path) -> dict[str, float]:
         }
     result["solve_mb"] = memory.peak() / 2**20
     place = cache / f"smoke_{last:06d}.vdb"
-    result["frame_s"], result["frame_processor_s"] = timed(baker.write, place, last)
+    result["frame_s"], result["frame_processor_s"] = timed(source.write, place, last)
     result["frame_mb"] = sum(path.stat().st_size for path in cache.glob("*.vdb")) / 1e6
     kept = [path.stat().st_size for path in cache.glob("*/moment_*.npz")]
     result["moments_mb_per_frame"] = sum(kept) / 1e6 / last

@@ -32,7 +32,7 @@ def test_what_is_hidden_is_not_counted(shot, built):
 
 def test_cells_count_until_all_moments_are_kept(settings, run, few_cells, built, monkeypatch):
     shot = Shot(_smoky(settings), run)
-    parts = Flow(shot).parts
+    parts = Flow(shot).domains
     found = memory_estimate.load(shot, built, [1, 2])
     assert len(parts) == 2
     assert found.cells == sum(
@@ -40,7 +40,7 @@ def test_cells_count_until_all_moments_are_kept(settings, run, few_cells, built,
     )
     assert found.voxels > 0
     kept = {1}
-    monkeypatch.setattr("firetwin.smoke.flow.Part.has", lambda part, frame: frame in kept)
+    monkeypatch.setattr("firetwin.smoke.domains.Domain.has", lambda part, frame: frame in kept)
     assert memory_estimate.load(shot, built, [1, 2]).cells == found.cells
     kept.add(2)
     assert memory_estimate.load(shot, built, [1, 2]) == replace(found, cells=0)

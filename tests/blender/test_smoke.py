@@ -18,7 +18,8 @@ from firetwin.shot.cameras.rigs.satellite import Satellite
 from firetwin.shot.settings import scene_file as file
 from firetwin.shot.settings.settings import Camera, Light, Smoke
 from firetwin.shot.shot import Shot
-from firetwin.smoke import bake, baker, cache
+from firetwin.smoke import bake, cache, sources
+from firetwin.smoke.sources.puffs import PuffSource
 from firetwin_core import InputError, lod
 from firetwin_core import run as runs
 
@@ -198,7 +199,7 @@ def test_a_frame_that_one_camera_films_alone_is_that_cameras(smoky, run, tmp_pat
         assert (place / path.name).read_bytes() == path.read_bytes()
     files = {path.stat().st_ino: path.stat().st_size for path in tmp_path.glob("*/*.vdb")}
     assert len(files) == (3 if linked else 5)
-    kept = sum(each.bytes for each in cache.kept(tmp_path))
+    kept = sum(each.bytes for each in cache.list_volumes(tmp_path))
     assert kept == pytest.approx(sum(files.values()), abs=len(files))
 
 
@@ -308,7 +309,7 @@ def test_paths_that_are_not_ours_or_on_another_drive_stay(shot, stage, tmp_path,
 def test_several_may_write_one_volume_at_once(shot, tmp_path):
     """All of them finish, and nothing but the complete file is left."""
     path = tmp_path / "smoke_000003.vdb"
-    maker = bake.Baker(shot)
+    maker = sources.select(shot)
     maker.write(path, 3)
     alone = plumes.read(path)
     path.unlink()
@@ -324,14 +325,14 @@ def test_several_may_write_one_volume_at_once(shot, tmp_path):
 
 def test_the_first_picture_waits_for_its_own_volume_alone(shot, monkeypatch):
     written, go_on, told, said = [], threading.Semaphore(1), [], []
-    write = baker.Baker.write
+    write = PuffSource.write
 
     def slow(self, path, frame):
         go_on.acquire()
         written.append(frame)
         return write(self, path, frame)
 
-    monkeypatch.setattr(baker.Baker, "write", slow)
+    monkeypatch.setattr(PuffSource, "write", slow)
     with bake.ahead(shot, [1, 3, 2], lambda *done: told.append(done[:2]), said.append) as ready:
         ready(1)
         assert written == [1]
@@ -357,7 +358,7 @@ def test_leaving_cancels_what_has_not_begun(shot, monkeypatch):
         begun.set()
         go_on.wait(10.0)
 
-    monkeypatch.setattr(baker.Baker, "write", write)
+    monkeypatch.setattr(PuffSource, "write", write)
     with bake.ahead(shot, [1, 2, 3]) as ready:
         waiting = threading.Thread(target=ready, args=(1,))
         waiting.start()
@@ -369,14 +370,14 @@ def test_leaving_cancels_what_has_not_begun(shot, monkeypatch):
 
 
 def test_what_goes_wrong_meanwhile_is_raised_when_it_is_wanted(shot, monkeypatch):
-    write = baker.Baker.write
+    write = PuffSource.write
 
     def wrong(self, path, frame):
         if frame == 2:
             raise OSError("the disk is full")
         return write(self, path, frame)
 
-    monkeypatch.setattr(baker.Baker, "write", wrong)
+    monkeypatch.setattr(PuffSource, "write", wrong)
     with bake.ahead(shot, [1, 2]) as ready:
         ready(1)
         with pytest.raises(OSError, match="full"):

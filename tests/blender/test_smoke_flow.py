@@ -47,46 +47,46 @@ def grids(path):
 
 def test_what_frames_say_is_what_was_solved(shot):
     solved = flow.Flow(shot)
-    assert len(solved.parts) == 2
+    assert len(solved.domains) == 2
     solved.ready(2)
-    assert solved._live is not None
-    for part, solver in zip(solved.parts, solved._live.solvers, strict=True):
-        moment = snapshots.load(part.moment(2))
+    assert solved._integrator is not None
+    for domain, solver in zip(solved.domains, solved._integrator.solvers, strict=True):
+        moment = snapshots.load(domain.snapshot_path(2))
         volume = solver.spacing**2 * np.diff(solver.levels)[: len(moment.fields["smoke"]), None, None]
         _nz, rows, columns = moment.fields["smoke"].shape
         west, south = moment.low
-        inside = part.ground[south : south + rows, west : west + columns]
-        thickness = 1.0 - (inside - part.mean) / part.top
+        inside = domain.ground[south : south + rows, west : west + columns]
+        thickness = 1.0 - (inside - domain.mean) / domain.top
         held = float((moment.fields["smoke"].astype(float) * volume * thickness).sum())
         mass = moment.mass
         assert mass["airborne"] > 0.0
         assert held == pytest.approx(mass["airborne"], rel=1e-6)
         balance = mass["initial"] + mass["emitted"] + mass["entered"] + mass["rounding"]
         assert mass["airborne"] + mass["left"] == pytest.approx(balance, rel=1e-6)
-        assert np.allclose(part.heights(), solver.heights(), atol=0.01)
+        assert np.allclose(domain.heights(), solver.heights(), atol=0.01)
 
 
 def test_the_smoke_is_that_of_the_heat(shot):
     solved = flow.Flow(shot)
     solved.ready(1)
     slots = np.arange(0.0, shot.spin_up, 30.0)
-    box = solved.parts[0].box
+    box = solved.domains[0].box
     given = 0.0
     for number, slot in enumerate(slots):
         sources = shot.fire.sources(solved.begin + slot)
         inside = np.all((sources.position[:, :2] > box.corner) & (sources.position[:, :2] < box.high), axis=1)
         given += 30.0 * min(1.0, (number + 1) * 30.0 / 300.0) * sources.smoke[inside].sum()
-    emitted = snapshots.load(solved.parts[0].moment(1)).mass["emitted"]
+    emitted = snapshots.load(solved.domains[0].snapshot_path(1)).mass["emitted"]
     assert emitted == pytest.approx(given, rel=1e-3)
 
 
 def test_how_deep_smoke_is_comes_from_its_mass(shot):
     solved = flow.Flow(shot)
     solved.ready(1)
-    (part, *_) = solved.parts
-    moment = snapshots.load(part.moment(1))
-    depth = plume_mass.columns(part, *snapshots.smoke(part.moment(1)))
-    mass = depth.sum() * part.box.spacing**2 / 4000.0  # at 4 m2/g
+    (domain, *_) = solved.domains
+    moment = snapshots.load(domain.snapshot_path(1))
+    depth = plume_mass.columns(domain, *snapshots.load_smoke(domain.snapshot_path(1)))
+    mass = depth.sum() * domain.box.spacing**2 / 4000.0  # at 4 m2/g
     assert mass == pytest.approx(moment.mass["airborne"], rel=1e-3)
     found = plume_mass.measure(shot)
     assert found.deepest >= depth.max() >= found.mean > 0.0
@@ -94,8 +94,8 @@ def test_how_deep_smoke_is_comes_from_its_mass(shot):
     first, last = shot.frames.first, shot.frames.last
     power = [shot.fire.sources(time).smoke.sum() for time in np.arange(first + 0.5, last)]
     assert found.made == pytest.approx(np.sum(power), rel=0.02)
-    assert "of smoke in" in plume_mass.words(shot)
-    assert "optical depth" in plume_mass.words(shot)
+    assert "of smoke in" in plume_mass.describe(shot)
+    assert "optical depth" in plume_mass.describe(shot)
 
 
 def test_going_on_after_an_interruption_gives_the_same_bytes(flowing, run, tmp_path, monkeypatch):
@@ -117,9 +117,9 @@ def test_going_on_after_an_interruption_gives_the_same_bytes(flowing, run, tmp_p
     seen = []
     last.ready(2, lambda done, total, what: seen.append(done))
     assert seen[0] == before[-1]
-    for one, other in zip(whole.parts, last.parts, strict=True):
+    for one, other in zip(whole.domains, last.domains, strict=True):
         assert one.folder.name == other.folder.name
-        assert one.moment(2).read_bytes() == other.moment(2).read_bytes()
+        assert one.snapshot_path(2).read_bytes() == other.snapshot_path(2).read_bytes()
 
 
 def test_a_broken_checkpoint_is_left_and_made_anew(flowing, run, tmp_path, monkeypatch):
@@ -129,7 +129,7 @@ def test_a_broken_checkpoint_is_left_and_made_anew(flowing, run, tmp_path, monke
     monkeypatch.setattr(integrator, "_SAVE", 0.0)
     other = flow.Flow(Shot(replace(flowing, cache=tmp_path / "other"), run))
     other.ready(1)
-    state = other.parts[-1].folder / integrator.STATE
+    state = other.domains[-1].folder / integrator.STATE
     kept = snapshots.read(state)
     breaks = [
         lambda: state.write_bytes(state.read_bytes()[:50_000]),
@@ -142,14 +142,14 @@ def test_a_broken_checkpoint_is_left_and_made_anew(flowing, run, tmp_path, monke
     ]
     for spoil in breaks:
         spoil()
-        for part in other.parts:
-            part.moment(2).unlink(missing_ok=True)
+        for domain in other.domains:
+            domain.snapshot_path(2).unlink(missing_ok=True)
         again = flow.Flow(other.shot)
         seen = []
         again.ready(2, lambda done, total, what, seen=seen: seen.append(done))
         assert seen[0] == 0
-        for one, two in zip(whole.parts, again.parts, strict=True):
-            assert one.moment(2).read_bytes() == two.moment(2).read_bytes()
+        for one, two in zip(whole.domains, again.domains, strict=True):
+            assert one.snapshot_path(2).read_bytes() == two.snapshot_path(2).read_bytes()
 
 
 @pytest.mark.parametrize("spoil", ["cut", "nothing", "shapes", "place", "middle", "missing"])
@@ -157,7 +157,7 @@ def test_a_broken_moment_is_solved_again(flowing, run, tmp_path, spoil):
     shot = Shot(replace(flowing, cache=tmp_path / "broken"), run)
     solved = flow.Flow(shot)
     solved.ready(1)
-    path = solved.parts[0].moment(1)
+    path = solved.domains[0].snapshot_path(1)
     whole = path.read_bytes()
     kept = snapshots.read(path)
     if spoil == "cut":
@@ -182,19 +182,19 @@ def test_an_earlier_frame_than_the_checkpoint_is_solved(flowing, run, tmp_path, 
     monkeypatch.setattr(integrator, "_SAVE", 0.0)
     first = flow.Flow(Shot(replace(flowing, cache=tmp_path / "a"), run))
     first.ready(3)
-    path = first.parts[0].moment(1)
-    whole, state = path.read_bytes(), (first.parts[-1].folder / integrator.STATE).read_bytes()
+    path = first.domains[0].snapshot_path(1)
+    whole, state = path.read_bytes(), (first.domains[-1].folder / integrator.STATE).read_bytes()
     path.unlink()
     flow.Flow(first.shot).ready(1)
     assert path.read_bytes() == whole
-    assert (first.parts[-1].folder / integrator.STATE).read_bytes() == state
+    assert (first.domains[-1].folder / integrator.STATE).read_bytes() == state
 
 
 def test_only_what_is_asked_for_is_solved(shot):
     solved = flow.Flow(shot)
     seen = []
     solved.solve([1, 2], lambda done, total, what: seen.append((done, total)))
-    assert {path.name for path in solved.parts[0].folder.glob("moment*")} == {
+    assert {path.name for path in solved.domains[0].folder.glob("moment*")} == {
         "moment_000001.npz",
         "moment_000002.npz",
     }
@@ -218,7 +218,7 @@ def test_who_comes_second_waits_for_the_first(shot):
     assert begun.wait(20)
     second.ready(1, lambda done, total, what: waited.append(what))
     thread.join()
-    assert second._live is None
+    assert second._integrator is None
     assert waited == ["waiting for another process to solve the smoke's flow"]
 
 
@@ -228,9 +228,9 @@ def test_frames_in_any_order_are_the_same(flowing, run, tmp_path):
     backwards = flow.Flow(Shot(replace(flowing, cache=tmp_path / "b"), run))
     backwards.ready(2)
     backwards.ready(1)
-    for one, other in zip(forwards.parts, backwards.parts, strict=True):
+    for one, other in zip(forwards.domains, backwards.domains, strict=True):
         for frame in (1, 2):
-            assert one.moment(frame).read_bytes() == other.moment(frame).read_bytes()
+            assert one.snapshot_path(frame).read_bytes() == other.snapshot_path(frame).read_bytes()
 
 
 def test_baked_once_nothing_is_solved_again(shot, monkeypatch):
@@ -239,7 +239,7 @@ def test_baked_once_nothing_is_solved_again(shot, monkeypatch):
         f"{name}_{frame:06d}.vdb" for name in ("smoke", "far") for frame in (1, 2)
     }
     written = {path: path.stat().st_mtime_ns for path in place.iterdir()}
-    monkeypatch.setattr(flow, "Live", lambda whole, frame: pytest.fail("solved again"))
+    monkeypatch.setattr(flow, "Integrator", lambda *_: pytest.fail("solved again"))
     assert bake.bake(Shot(shot.settings, shot.run)) == place
     assert {path: path.stat().st_mtime_ns for path in place.iterdir()} == written
 
@@ -248,7 +248,7 @@ def test_a_moved_camera_keeps_the_flow(flowing, run, monkeypatch):
     """A little: both boxes. To where no nest helps: the box, whose moments are there already."""
     first = flow.Flow(Shot(flowing, run))
     first.ready(1)
-    monkeypatch.setattr(flow, "Live", lambda whole, frame: pytest.fail("solved again"))
+    monkeypatch.setattr(flow, "Integrator", lambda *_: pytest.fail("solved again"))
 
     def seen_from(latitude):
         camera = flowing.cameras[0]
@@ -325,7 +325,7 @@ def test_where_no_camera_is_known_nothing_is_hidden(flowing, run, tmp_path, chan
 def test_a_close_picture_from_above_has_a_nest(flowing, run):
     def boxes_of(swath):
         camera = replace(flowing.cameras[0], rig=rigs.kinds()["satellite"](swath=swath))
-        return len(flow.Flow(Shot(replace(flowing, cameras=(camera,)), run)).parts)
+        return len(flow.Flow(Shot(replace(flowing, cameras=(camera,)), run)).domains)
 
     assert boxes_of(10_000.0) == 2
     assert boxes_of(56_000.0) == 1
@@ -334,7 +334,7 @@ def test_a_close_picture_from_above_has_a_nest(flowing, run):
 def test_no_box_is_wider_than_can_be_solved(shot, monkeypatch):
     monkeypatch.setattr(domains, "_WIDEST", 11_000.0)
     monkeypatch.setattr(domains, "_MARGIN", 30_000.0)
-    box = flow.Flow(shot).parts[0].box
+    box = flow.Flow(shot).domains[0].box
     assert max(box.shape) * box.spacing <= 12_000.0
 
 
@@ -391,7 +391,7 @@ def test_the_scene_shows_both_layers(shot, stage, scene):
 
 def test_smoke_has_all_but_gone_where_its_box_ends(shot):
     layer = flow_frames.layers(shot, flow.Flow(shot))[0]
-    box = layer.part.box
+    box = layer.domain.box
     painter = flow_frames.Painter(shot, layer, None)
     along = box.corner[0] + np.array([0.0, 600.0, 1000.0, 0.5 * (box.high[0] - box.corner[0])])
     share, drawn = painter._shares(along, np.full(4, 0.5 * (box.corner[1] + box.high[1])))
@@ -430,7 +430,7 @@ def test_moments_that_another_process_solves_are_waited_for(shot):
     waits.elsewhere = working
     waits.ready(1)
     assert len(asked) == 3
-    assert waits._live is None
+    assert waits._integrator is None
     waits.ready(2)
     assert len(asked) == 5
     assert waits.has(2)

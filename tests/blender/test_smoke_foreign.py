@@ -14,7 +14,7 @@ from firetwin.run import readers  # noqa: E402
 from firetwin.shot import run_checks  # noqa: E402
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone  # noqa: E402
 from firetwin.shot.shot import Shot  # noqa: E402
-from firetwin.smoke import bake, cost_estimate, domains, flow_frames, snapshots  # noqa: E402
+from firetwin.smoke import bake, domains, flow_frames, snapshots, sources  # noqa: E402
 from firetwin.smoke.flow import Flow  # noqa: E402
 
 START = datetime(2014, 9, 17, 21, 0, tzinfo=UTC)
@@ -117,9 +117,9 @@ def baked(shot):
             if grid.name == "density":
                 assert values.max(initial=0.0) <= flow_frames.thickest(shot.scale) * 1.01
                 found.append(values)
-    for part in Flow(shot).parts:
-        assert np.isfinite(part.heights()).all()
-        mass = snapshots.load(part.moment(2)).mass
+    for domain in Flow(shot).domains:
+        assert np.isfinite(domain.heights()).all()
+        mass = snapshots.load(domain.snapshot_path(2)).mass
         assert all(np.isfinite(value) for value in mass.values())
         assert mass["airborne"] + mass["left"] == pytest.approx(
             mass["initial"] + mass["emitted"] + mass["entered"] + mass["rounding"], rel=1e-6
@@ -191,10 +191,10 @@ def test_where_nothing_burns_there_is_no_smoke(make, shoot_flow, run):
 
 def test_what_solving_takes_is_said_before_it_and_not_after(make, shoot_flow):
     shot = shoot_flow(make())
-    said = cost_estimate.words(shot)
+    said = sources.select(shot).cost().describe()
     assert said.startswith("the air over 2 min 30 s of the fire is solved once")
     assert str(shot.settings.cache) in said
     bake.bake(shot)
-    assert cost_estimate.words(shot) == ""
+    assert sources.select(shot).cost() is None
     puffs = replace(shot.settings, smoke=replace(shot.settings.smoke, method="puffs"))
-    assert cost_estimate.words(Shot(puffs, shot.run)) == ""
+    assert sources.select(Shot(puffs, shot.run)).cost() is None

@@ -16,7 +16,7 @@ from firetwin.jobs import assets
 from firetwin.shot import auto_framing, passes
 from firetwin.shot.settings import scene_file as file
 from firetwin.shot.settings.schema import parts
-from firetwin.smoke import cost_estimate
+from firetwin.smoke import sources
 from firetwin.ui import (
     build,
     camera_list,
@@ -187,7 +187,7 @@ def test_solved_smoke_is_a_button_that_names_its_cost(settings, run_folder, monk
     settings.run = str(run_folder)
     assert settings.smoke.method == "puffs"
     assert "about " in settings.smoke_cost
-    asked = cost_estimate.cost(replace(choice.from_panel(settings), smoke="flow").shot())
+    asked = sources.select(replace(choice.from_panel(settings), smoke="flow").shot()).cost()
     assert settings.smoke_cost == asked.brief()
     layout = MagicMock()
     solve.draw(layout, settings)

@@ -258,7 +258,7 @@ def few_cells(monkeypatch):
     monkeypatch.setattr(domains, "_NEST", 72)
     monkeypatch.setattr(domains, "_MARGIN", 2000.0)
     monkeypatch.setattr(domains, "LEAD", 40.0)
-    monkeypatch.setattr(domains, "_part", lambda shot: 1.0)
+    monkeypatch.setattr(domains, "_height_fraction", lambda shot: 1.0)
     monkeypatch.setattr(Shot, "scale", Scale())
 
 

@@ -15,7 +15,7 @@ from firetwin.shot import passes
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.settings.settings import Camera, Time
 from firetwin.shot.shot import Shot
-from firetwin.smoke import bake, baker, close_up
+from firetwin.smoke import bake, close_up, sources
 from firetwin_core import sensor
 
 KEY = CameraKey(0.0, 38.815, -120.56, 500.0, "point", 38.842, -120.552, 300.0)
@@ -47,7 +47,7 @@ def film(near_settings, run, few_cells, cache, tmp_path):
         if draw == "volume":
             bake.bake(shot)
         else:
-            smoke = baker.Baker(shot)
+            smoke = sources.select(shot)
             ready = lambda frame, ahead: smoke.bricks(frame)  # noqa: E731
         build.build(shot, stage.scene)
         layers.build(settings, stage)
@@ -125,7 +125,7 @@ def test_settings_decide_how_smoke_is_drawn(near_settings, run):
             smoke=replace(near_settings.smoke, **({"enabled": True} | smoke)),
             render=replace(near_settings.render, engine=engine),
         )
-        return baker.integrated(Shot(settings, run))
+        return sources.is_integrated(Shot(settings, run))
 
     assert drawn()
     assert drawn(enabled=False)

@@ -72,7 +72,7 @@ def test_what_is_in_use_never_goes(kept, capsys):
 
 
 def test_what_came_into_use_meanwhile_stays(kept):
-    (volumes,) = [each for each in cache.kept(kept) if each.folder.name.endswith("2")]
+    (volumes,) = [each for each in cache.list_volumes(kept) if each.folder.name.endswith("2")]
     _used(volumes.folder, 0.0)
     assert not cache.remove(volumes)
     assert _names(kept) == ["1", "2", "3"]

@@ -7,8 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from firetwin.shot.smoke_scale import Scale
-from firetwin.smoke.domains import Box
-from firetwin.smoke.flow import Part
+from firetwin.smoke.domains import Box, Domain
 
 pytest.importorskip("scipy")
 pytest.importorskip("matplotlib")
@@ -173,7 +172,7 @@ def test_thin_smoke_lets_what_is_behind_it_count():
 def test_the_wind_of_a_place_is_that_of_its_cell():
     rng = np.random.default_rng(2)
     box = Box(tuple(np.linspace(0, 2000, 11)), (6, 8), 100.0, (300.0, -200.0))
-    part = Part(box, rng.uniform(100, 400, (6, 8)), 250.0, 2000.0, Path(), Scale())
+    part = Domain(box, rng.uniform(100, 400, (6, 8)), 250.0, 2000.0, Path(), Scale())
     wind = rng.normal(size=(10, 6, 8, 3)).astype(np.float32)
     x, y = box.middles()
     up = part.heights()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
@@ -11,8 +10,7 @@ import bpy
 from ...blender import compat, owned
 from ...blender.owned import Stage
 from ...shot.shot import Shot
-from ...smoke import bake, baker, flow_frames, view
-from ...smoke.flow import Flow
+from ...smoke import bake, flow_frames, sources, view
 from . import flow_material, layers, material
 
 _MAX_STEPS = 8192  # Cycles lengthens steps of rays that would need more; 1024 of them are 12 km
@@ -27,64 +25,41 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
     collection = stage.part("Smoke")
     if not shot.settings.smoke.enabled:
         return None
-    parts = _parts(shot)
+    source, place = sources.select(shot), bake.folder(shot)
+    drawn = source.layers()
     if stage.own:
         _march(stage.scene.cycles)
         _slices(stage.scene.eevee, *view.span(shot))
-    layers.build(collection, len(parts))
-    look = (flow_material if baker.solved(shot) else material).build(shot, stage)
-    return [_hang(shot, stage, collection, part, look) for part in parts][-1]
-
-
-@dataclass(frozen=True)
-class _Part:
-    """Files of one name: what their object is called, the first, voxel and step in m, extinction in 1/m."""
-
-    name: str
-    first: Path
-    voxel: float
-    step: float
-    extinction: float
-
-
-def _parts(shot: Shot) -> list[_Part]:
-    first, drawn = bake.file(shot, 1), view.resolution(shot)
-    if not baker.solved(shot):
-        return [_Part("Smoke", first, drawn.voxel, drawn.step, drawn.extinction)]
-    thickest = shot.settings.smoke.extinction or flow_frames.thickest(shot.scale)
-    solved = shot.settings.smoke.lighting == "solved"
-    depth = view.SOLVED_STEP_DEPTH if solved else view.STEP_DEPTH
-    found = [
-        _Part(
-            "Smoke" if layer.name == "smoke" else "Far Smoke",
-            layer.file(first.parent, 1),
-            layer.voxel,
-            depth / thickest * (1.0 if layer.fine else 2.0),
-            thickest,
-        )
-        for layer in flow_frames.layers(shot, Flow(shot))
-    ]
-    return found or [_Part("Smoke", first, 100.0, 100.0, thickest)]
+    layers.build(collection, len(drawn))
+    look = (flow_material if source.illuminated else material).build(shot, stage)
+    return [_hang(shot, stage, collection, each, place, look) for each in drawn][-1]
 
 
 def _hang(
-    shot: Shot, stage: Stage, collection: bpy.types.Collection, part: _Part, look: bpy.types.Material
+    shot: Shot,
+    stage: Stage,
+    collection: bpy.types.Collection,
+    layer: sources.VolumeLayer,
+    place: Path,
+    look: bpy.types.Material,
 ) -> bpy.types.Object:
-    volume = bpy.data.volumes.new(f"Firetwin {part.name}")
-    volume.filepath = str(part.first)
+    """The object of a layer, whose files lie in the folder `place`."""
+    name = "Smoke" if layer.name == "smoke" else f"{layer.name.title()} Smoke"
+    volume = bpy.data.volumes.new(f"Firetwin {name}")
+    volume.filepath = str(layer.file(place, 1))
     volume.is_sequence = True
     volume.frame_start, volume.frame_duration, volume.frame_offset = 1, shot.frames.count, 0
     volume.sequence_mode = "CLIP"
     volume.render.space = "WORLD"
-    volume.render.step_size = part.step
+    volume.render.step_size = layer.step
     volume.render.clipping = flow_frames.thinnest(
         shot.scale
     )  # Cycles leaves out what is thinner, in blocks that show
-    volume.display.density = part.extinction  # in the solid view, like the render's
+    volume.display.density = layer.extinction  # in the solid view, like the render's
     volume.display.wireframe_type = "NONE"
     volume.materials.append(look)
-    thing = owned.add(collection, part.name, volume)
-    shift = compat.volume_shift(stage.scene.cycles, part.voxel)
+    thing = owned.add(collection, name, volume)
+    shift = compat.volume_shift(stage.scene.cycles, layer.voxel)
     thing.location = (shift, shift, shift)
     return thing
 

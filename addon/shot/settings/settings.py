@@ -14,7 +14,7 @@ import zoneinfo
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from .. import biome_names, passes
 from ..cameras import rigs
@@ -227,6 +227,20 @@ class Fire:
     fronts: bool = key(False, "draw the fronts of the other [[runs]] as lines on the terrain")
 
 
+class SmokeMethod(NamedTuple):
+    """A choice of `smoke.method`: a line of help, and the key that says how long before it smoke begins."""
+
+    help: str
+    history: str
+
+
+SMOKE_METHODS = {
+    "flow": SmokeMethod("flow solved once per shot", "spin_up"),
+    "puffs": SmokeMethod("quick preview", "max_age"),
+}
+"""The sources of smoke that a scene file can choose; the sources themselves are in ``smoke/sources``."""
+
+
 @dataclass(frozen=True)
 class Smoke:
     """The smoke volume."""
@@ -235,7 +249,7 @@ class Smoke:
     method: str = key(
         "flow",
         "smoke model for a run without smoke fields",
-        choices={"flow": "flow solved once per shot", "puffs": "quick preview"},
+        choices={name: each.help for name, each in SMOKE_METHODS.items()},
     )
     spin_up: float | None = key(
         None,

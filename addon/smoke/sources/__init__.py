@@ -1,0 +1,52 @@
+"""Sources of smoke: each module of this folder is one, unless its name begins with "_".
+
+It defines `SOURCE`, a class of `Source` whose name is the module's.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import pkgutil
+from collections.abc import Collection
+
+from ...shot.shot import Shot
+from ._source import Source, VolumeLayer
+
+__all__ = ["Source", "VolumeLayer", "choices", "choose", "is_integrated", "known", "preview", "select"]
+
+
+@functools.cache
+def known() -> dict[str, type[Source]]:
+    """Every source by its name."""
+    names = [module.name for module in pkgutil.iter_modules(__path__) if module.name[0] != "_"]
+    return {name: importlib.import_module(f"{__name__}.{name}").SOURCE for name in sorted(names)}
+
+
+def choices() -> dict[str, str]:
+    """Help of each source that `smoke.method` chooses, by its name."""
+    return {name: each.help for name, each in known().items() if not each.fields}
+
+
+def preview() -> str:
+    """The source that is a quick preview of another."""
+    return next(name for name, each in known().items() if each.preview_of)
+
+
+def choose(method: str, fields: Collection[str]) -> type[Source]:
+    """The source of a run with these fields: one that draws fields of it, else that of the name `method`."""
+    own = (each for each in known().values() if each.fields and set(each.fields) <= set(fields))
+    return next(own, None) or known()[method]
+
+
+def select(shot: Shot) -> Source:
+    """The source of a shot's smoke."""
+    return choose(shot.settings.smoke.method, shot.run.fields)(shot)
+
+
+def is_integrated(shot: Shot) -> bool:
+    """Whether frames are drawn without smoke in Cycles: rays are marched through it, or there is none."""
+    smoke = shot.settings.smoke
+    if shot.settings.render.engine != "cycles" or smoke.draw != "integrated":
+        return False
+    return not smoke.enabled or select(shot).marched

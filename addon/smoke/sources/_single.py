@@ -1,0 +1,66 @@
+"""Smoke in one volume per frame, which Cycles lights."""
+
+from __future__ import annotations
+
+import functools
+from abc import abstractmethod
+from pathlib import Path
+from typing import Any, ClassVar
+
+from firetwin_core import volume
+
+from ... import files
+from ...errors import writing
+from .. import cache
+from ..view import Resolution, resolution
+from ._source import Source, VolumeLayer
+
+SHOWN = ("density", "dilution", "shade", "size", "glow")
+"""Grids that the material asks for."""
+
+
+class SingleVolume(Source):
+    """Smoke in one volume per frame, as fine as the nearest camera needs.
+
+    Attributes
+    ----------
+    made_from
+        A few words for the file.
+    """
+
+    made_from: ClassVar[str]
+    unused_settings = ("method", "spin_up", "cell_budget", "cloud_base")
+
+    @functools.cached_property
+    def resolution(self) -> Resolution:
+        """How fine it is drawn."""
+        return resolution(self.shot)
+
+    def voxels(self) -> list[Any]:
+        """The edge of a voxel, m."""
+        return [round(self.resolution.voxel, 3)]
+
+    def layers(self) -> list[VolumeLayer]:
+        """One."""
+        return [VolumeLayer("smoke", self.resolution.voxel, self.resolution.step, self.resolution.extinction)]
+
+    def write(self, path: Path, frame: int) -> volume.Frame:
+        """Write the volume of a frame."""
+        time = float(self.times[frame - 1])
+        more: dict[str, Any] = {
+            "grids": None if self.shot.settings.smoke.complete else SHOWN,
+            "sight": self.sight(frame),
+            "metadata": self.metadata(time, self.made_from),
+        }
+        position, power = self.lights(time)
+        if len(power):
+            more |= {"flame_position": position, "flame_power": power}
+        mine = files.part_of(path)
+        with writing(path):
+            written = self._write_volume(mine, time, more)
+        cache.publish(mine, path, written.bytes)
+        return written
+
+    @abstractmethod
+    def _write_volume(self, path: Path, time: float, more: dict[str, Any]) -> volume.Frame:
+        """Write the smoke at a model time (s); `more` is for the core's writer."""

@@ -1,0 +1,170 @@
+"""A flow of the air, solved once per shot from the model's heat."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable, Iterable
+from contextlib import AbstractContextManager
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+from firetwin_core import volume
+
+from ... import files
+from ...errors import writing
+from ...progress import Progress, silent
+from ...shot.light import exposure
+from ...shot.shot import Shot
+from .. import cache, close_up, cost_estimate, flow_frames, snapshots, view
+from ..domains import Domain
+from ..flow import Flow
+from ._source import Lights, Source, VolumeLayer
+
+Made = TypeVar("Made")
+_EMPTY = 100.0  # m, voxel of the volume where nothing burns
+
+
+class FlowSource(Source):
+    """Smoke of a solved flow, painted with detail below its cells and with the light that reaches it."""
+
+    name = "flow"
+    help = "flow solved once per shot"
+    history = "spin_up"
+    illuminated = True
+
+    def __init__(self, shot: Shot) -> None:
+        super().__init__(shot)
+        self.flow = Flow(shot, lambda *done: self.progress(*done))
+        self.flow.elsewhere, self.flow.stop = lambda: self.elsewhere(), self.stop
+        self._close_painter: flow_frames.Painter | None = None
+
+    def inputs(self) -> dict[str, Any]:
+        """Its snapshots, and the extinction that its voxels have."""
+        return {"flow": [self.flow.key(), self.shot.settings.smoke.extinction]}
+
+    def voxels(self) -> list[Any]:
+        """Layers with their voxels, and the flow's cells, m."""
+        return [[each.name, each.voxel, self.shot.scale.cell] for each in self._painted]
+
+    @property
+    def domains(self) -> list[Domain]:
+        """Where the flow is solved."""
+        return self.flow.domains
+
+    def cost(self) -> cost_estimate.Cost | None:
+        """What is still to be solved."""
+        return cost_estimate.estimate(self.flow)
+
+    def is_prepared(self, frame: int) -> bool:
+        """Whether the frame's snapshots are kept."""
+        return self.flow.has(frame)
+
+    def prepare(self, frames: Iterable[int], progress: Progress = silent) -> None:
+        """Solve the flow up to the last of these frames."""
+        super().prepare(frames, progress)
+        self.flow.solve(frames, progress)
+
+    def in_use(self) -> AbstractContextManager[None]:
+        """Keep others from clearing the snapshots away meanwhile."""
+        return self.flow.in_use()
+
+    @property
+    def marched(self) -> bool:
+        """Whether the light in it is known once per frame."""
+        return self.shot.settings.smoke.lighting == "solved"
+
+    def layers(self) -> list[VolumeLayer]:
+        """The nested domain's, and the rest; one empty volume where nothing burns."""
+        thickest = self.shot.settings.smoke.extinction or flow_frames.thickest(self.shot.scale)
+        depth = view.SOLVED_STEP_DEPTH if self.marched else view.STEP_DEPTH
+        found = [
+            VolumeLayer(each.name, each.voxel, depth / thickest * (1.0 if each.fine else 2.0), thickest)
+            for each in self._painted
+        ]
+        return found or [VolumeLayer("smoke", _EMPTY, _EMPTY, thickest)]
+
+    def painted_voxels(self) -> int:
+        """Voxels of the largest layer's whole domain, smoke or not."""
+        return max((_voxels(each) for each in self._painted), default=0)
+
+    def write(self, path: Path, frame: int) -> volume.Frame:
+        """Write the volumes of a frame of the flow, which is solved up to there; that of this path last."""
+        self.flow.ready(frame)
+        time = float(self.times[frame - 1])
+        metadata = self.metadata(time, "a flow of the air, solved from the model's heat")
+        eyes = self.sights.eyes(frame) if self.sights else None
+        beyond: flow_frames.Beyond | None = None
+        for painter in self.painters:
+            place = painter.layer.file(path.parent, frame)
+            mine = files.part_of(place)
+            what = mine, frame, self._glow(time), self.sight(frame), metadata, eyes, beyond
+            with writing(place):
+                written, beyond = self._unbroken(frame, functools.partial(painter.write, *what))
+            cache.publish(mine, place, written.bytes)
+        if not self.painters:
+            mine = files.part_of(path)
+            with writing(path):
+                nothing = {name: np.zeros((1, 1, 1)) for name in flow_frames.GRIDS}
+                written = volume.write(mine, nothing, _EMPTY, metadata=metadata)
+            cache.publish(mine, path, written.bytes)
+        return written
+
+    def bricks(self, frame: int) -> list[volume.Bricks]:
+        """The smoke of a frame for rays to be marched through, and no file."""
+        self.flow.ready(frame)
+        what = (frame, self._glow(float(self.times[frame - 1])), self.sight(frame))
+        found: list[volume.Bricks] = []
+        beyond: flow_frames.Beyond | None = None
+        painters = list(self.painters)
+        window = close_up.window(self.shot, frame, painters[-1].layer.voxel) if painters else None
+        if window is not None and painters[-1].layer.fine:
+            painters.append(self._close(painters[-1].layer, window))
+        for painter in painters:
+            fine = window if painter.layer.fine else None
+            paint = functools.partial(painter.bricks, *what, beyond, fine)
+            made, beyond = self._unbroken(frame, paint)
+            found.append(made)
+        return found
+
+    @functools.cached_property
+    def _painted(self) -> list[flow_frames.Layer]:
+        return flow_frames.layers(self.shot, self.flow)
+
+    @functools.cached_property
+    def painters(self) -> list[flow_frames.Painter]:
+        """One for each layer."""
+        found = self._painted
+        inner = found[-1].domain.box if len(found) > 1 else None
+        return [flow_frames.Painter(self.shot, layer, None if layer.fine else inner) for layer in found]
+
+    def _close(self, layer: flow_frames.Layer, window: close_up.Window) -> flow_frames.Painter:
+        """What paints a layer's part in a window."""
+        if self._close_painter is None:
+            close = replace(layer, voxel=window.voxel, close=True)
+            self._close_painter = flow_frames.Painter(self.shot, close, None)
+        return self._close_painter
+
+    def _glow(self, time: float) -> Lights | None:
+        """Flames that light the smoke, if it is so dark at a model time (s) that it shows."""
+        return self.lights(time) if exposure.darkness(self.shot, time) > 0.0 else None
+
+    def _unbroken(self, frame: int, paint: Callable[[], Made]) -> Made:
+        """What `paint` makes of a frame's snapshots, which are solved anew where they turn out broken."""
+        try:
+            return paint()
+        except snapshots.BrokenError:
+            self.flow.renew(frame)
+            return paint()
+
+
+def _voxels(layer: flow_frames.Layer) -> int:
+    """Voxels of a layer's whole domain, smoke or not."""
+    box = layer.domain.box
+    sides = (*(count * box.spacing for count in box.shape), box.levels[-1])
+    return math.prod(math.ceil(side / layer.voxel) for side in sides)
+
+
+SOURCE = FlowSource

@@ -1,0 +1,60 @@
+"""Puffs that rise from the fuel that burns: a quick preview."""
+
+from __future__ import annotations
+
+import functools
+from pathlib import Path
+from typing import Any
+
+from firetwin_core import volume
+
+from ...shot import sun
+from ...shot.fire import burning
+from ...shot.fire.fire import Cells
+from .. import stability
+from ._single import SingleVolume
+
+_BLOCK, _INTERVAL = 400.0, 60.0  # m and s in which fuel that burns becomes one puff, at a fire of 15 km
+
+
+class PuffSource(SingleVolume):
+    """Puffs from burned fuel, heat and wind."""
+
+    name = "puffs"
+    help = "quick preview"
+    history = "max_age"
+    preview_of = "flow"
+    made_from = "puffs from burned fuel, heat and wind"
+
+    @functools.cached_property
+    def cells(self) -> Cells:
+        """What burns and makes puffs; cells of the interval that goes on at the last frame belong to its."""
+        first = self.times[0] - self.shot.settings.smoke.max_age - burning.BURN_TIME
+        return self.shot.fire.cells(first, self.times[-1] + 600.0)
+
+    def puffs(self, time: float) -> volume.Puffs:
+        """Smoke at a model time, s."""
+        cells, scale = self.cells, self.shot.scale
+        return volume.puffs(
+            time,
+            cells.arrival,
+            cells.fuel,
+            cells.position,
+            cells.wind,
+            cells.area,
+            max_age=self.shot.settings.smoke.max_age,
+            burn_time=burning.BURN_TIME,
+            smoke_fraction=self.shot.fire.smoke.per_heat * burning.HEAT,
+            stability=stability.under(sun.at(self.shot.run, time)[1]),
+            interval=scale.time(_INTERVAL),
+            block=scale.length(_BLOCK),
+            merge_radius=scale.length(stability.MERGE),
+            seed=self.shot.settings.seed,
+            smallest=1.2 * self.resolution.voxel,
+        )
+
+    def _write_volume(self, path: Path, time: float, more: dict[str, Any]) -> volume.Frame:
+        return volume.write_smoke(path, self.puffs(time), self.resolution.voxel, **more)
+
+
+SOURCE = PuffSource
