@@ -93,7 +93,7 @@ class Shot:
         return self._history("spin_up")
 
     def _history(self, key: str) -> float:
-        """How long before the first frame smoke begins, s: by a key of [smoke], or else by the fire's size."""
+        """Length of what burned before the first frame (s): a key of [smoke], or else by the fire's size."""
         told = getattr(self.settings.smoke, key)
         return self.scale.time(_SPIN_UP) if told is None else told
 
