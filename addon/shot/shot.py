@@ -93,7 +93,7 @@ class Shot:
         return self._history("spin_up")
 
     def _history(self, key: str) -> float:
-        """Length of what burned before the first frame (s): a key of [smoke], or else by the fire's size."""
+        """How far back from the first frame (s) a key of [smoke] reaches; left out, by the fire's size."""
         told = getattr(self.settings.smoke, key)
         return self.scale.time(_SPIN_UP) if told is None else told
 

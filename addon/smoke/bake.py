@@ -31,11 +31,11 @@ __all__ = ["ahead", "bake", "estimate", "file", "folder", "resolution", "shot_fr
 _FRAME_MEMORY = 2 << 30  # bytes that a frame may need while it is made: 0.5 GB, of a flow 1.9, were measured
 _FRAME_PROCESSORS = 4  # a frame keeps two busy: two at once on those took as long, and twice the memory
 _NOT_IN_FILES = ("enabled", "extinction", "voxel_size", "draw")
-"""Of [smoke]: how it is drawn; voxels have their own."""
+"""Keys of [smoke] that only say how it is drawn; voxel sizes count by themselves."""
 
 
 def folder(shot: Shot, progress: Progress = silent) -> Path:
-    """Where the smoke of this shot is kept; what of the run was never read is read now.
+    """Where the smoke of this shot is kept. What of the run was never read is read now.
 
     It is absolute: Blender takes other paths for places beside the .blend file.
     """

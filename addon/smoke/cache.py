@@ -34,7 +34,7 @@ class CachedVolumes:
 
 
 def list_volumes(cache: Path) -> list[CachedVolumes]:
-    """The volumes in a cache, those used last first; what is not ours is left out."""
+    """The volumes in a cache, those used last first. What is not ours is left out."""
     found = []
     for folder in cache.iterdir() if cache.is_dir() else ():
         if re.fullmatch("[0-9a-f]{16}", folder.name) and folder.is_dir() and not folder.is_symlink():
@@ -44,7 +44,7 @@ def list_volumes(cache: Path) -> list[CachedVolumes]:
 
 
 def beyond(volumes: list[CachedVolumes], limit: int) -> list[CachedVolumes]:
-    """Those that have to go so that the rest, used later, has at most `limit` bytes; never any in use."""
+    """Those that have to go so that the rest, used later, has at most `limit` bytes. Never any in use."""
     left, going = limit - sum(each.bytes for each in volumes if each.in_use), []
     for each in sorted((each for each in volumes if not each.in_use), key=lambda each: -each.used):
         left -= each.bytes
@@ -54,7 +54,7 @@ def beyond(volumes: list[CachedVolumes], limit: int) -> list[CachedVolumes]:
 
 
 def remove(volumes: CachedVolumes) -> bool:
-    """Remove a shot's volumes unless they are in use by now; files that are not ours stay."""
+    """Remove a shot's volumes unless they are in use by now. Files that are not ours stay."""
     if _measure(volumes.folder).in_use:
         return False
     for path in volumes.folder.iterdir():
@@ -105,7 +105,7 @@ def check(path: Path, size: int) -> None:
 
 
 def publish(part: Path, path: Path, size: int) -> None:
-    """Give a complete volume of so many bytes its name; who comes second replaces the same by the same."""
+    """Give a complete volume of so many bytes its name. Who comes second replaces it by the same."""
     try:
         check(part, size)
         files.publish(part, path)
@@ -116,7 +116,7 @@ def publish(part: Path, path: Path, size: int) -> None:
 
 
 def _measure(folder: Path) -> CachedVolumes:
-    """A folder's volumes; of those that lie in several folders (see `shared_frames`) each has its part."""
+    """A folder's volumes. Of those that lie in several folders (see `shared_frames`) each has its part."""
     states = [path.stat() for path in folder.iterdir() if _OURS.fullmatch(path.name)]
     size = sum(state.st_size // max(state.st_nlink, 1) for state in states)
     return CachedVolumes(folder, size, folder.stat().st_mtime)

@@ -168,7 +168,7 @@ def smooth_ground(shot: Shot, box: Box, smoothings: int) -> Array:
 
 
 def _burning(shot: Shot) -> tuple[Array, Array]:
-    """Lowest and highest x and y of all heat but a little in the shot, m; there is some."""
+    """Lowest and highest x and y of all heat but a little in the shot, m. There is some."""
     bounds = [_bounds(shot.fire, time) for time in np.linspace(shot.frames.first, shot.frames.last, 5)]
     found = np.array([each for each in bounds if each is not None])
     if len(found) == 0:

@@ -26,7 +26,7 @@ def luminous(fire: Fire, time: float, scale: Scale) -> tuple[Array, Array]:
 def glow(
     lights: tuple[Array, Array], heights: Array, spacing: float, corner: tuple[float, float], scale: Scale
 ) -> NDArray[np.float32]:
-    """Sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2) in cells; every third one, linear between."""
+    """Sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2) in cells. Every third one, linear between."""
     places, power = lights
     reach, core = np.float32(scale.length(_REACH)), np.float32(scale.length(_CORE) ** 2)
     every = [np.unique(np.append(np.arange(0, count, _EVERY), count - 1)) for count in heights.shape]
@@ -50,7 +50,7 @@ def glow(
 
 
 def _stretched(values: NDArray, at: NDArray[np.int64], count: int, axis: int) -> NDArray[np.float32]:
-    """Values at whole places `at` of an axis, at all of its `count` places; linear between."""
+    """Values at whole places `at` of an axis, at all of its `count` places. Linear between."""
     place = np.interp(np.arange(count), at, np.arange(len(at)))
     low = np.minimum(place.astype(np.int64), max(len(at) - 2, 0))
     part = (place - low).reshape([-1 if a == axis else 1 for a in range(values.ndim)])

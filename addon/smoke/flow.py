@@ -54,7 +54,7 @@ class Flow:
 
     @functools.cached_property
     def domains(self) -> list[Domain]:
-        """The domain of the whole fire, and the nested one if there is one; none where nothing burns."""
+        """The domain of the whole fire, and the nested one if there is one. None where nothing burns."""
         box = domains.whole(self.shot)
         if box is None:
             return []

@@ -96,7 +96,7 @@ class Layer:
 
 
 def layers(shot: Shot, solved: Flow) -> list[Layer]:
-    """The layers of a shot's smoke; the last, which is written last, is named "smoke" as all smoke is."""
+    """The layers of a shot's smoke. The last, which is written last, is named "smoke" as all smoke is."""
     found = solved.domains
     if not found:
         return []
@@ -228,7 +228,7 @@ class Painter:
     def _brick(
         self, snapshot: snapshots.Snapshot, window: Window | None
     ) -> tuple[tuple[float, float, float], Array, Array, Array, int]:
-        """Centre of the first voxel; of columns the ground, what is there, what of that is drawn; height."""
+        """Centre of the first voxel; for each column the ground, how much is there and drawn; count of levels."""
         box, voxel = self.layer.domain.box, self.layer.voxel
         _nz, rows, columns = snapshot.fields["smoke"].shape
         low = np.array(box.corner) + np.array(snapshot.low) * box.spacing
@@ -280,7 +280,7 @@ class Painter:
         )
 
     def _inside(self, box: Box, x: Array, y: Array, fade: float, torn: Array | float = 0.0) -> Array:
-        """0 outside of a box and near its sides, 1 farther in than `fade`; `torn` is added, of that way."""
+        """0 outside of a box and near its sides, 1 farther in than `fade`. `torn` is added to that fraction."""
         low, high = box.corner, box.high
         depth = np.minimum(np.minimum(x - low[0], high[0] - x), np.minimum(y - low[1], high[1] - y))
         way = (depth - self.scale.length(_INSIDE)) / self.scale.length(fade)
@@ -328,7 +328,7 @@ def _wanted(
     voxel: float,
     around: float,
 ) -> NDArray[np.bool_] | None:
-    """Which blocks of a brick anything that is seen lies in; `volume.write` leaves out the others' voxels."""
+    """Which blocks of a brick anything that is seen lies in. `volume.write` leaves out the others' voxels."""
     if sight is None:
         return None
     side = _BLOCK * voxel
@@ -339,7 +339,7 @@ def _wanted(
 
 
 def _sampled(values: Array, step: float, corner: tuple[float, float], x: Array, y: Array) -> Array:
-    """Values (nx, ny) every `step` m from a corner, at places x and y; linear between."""
+    """Values (nx, ny) every `step` m from a corner, at places x and y. Linear between."""
     i, j = ((at - low) / step for at, low in zip((x, y), corner, strict=True))
     i, j = (np.clip(at, 0.0, count - 1.001) for at, count in zip((i, j), values.shape, strict=True))
     a, b = i.astype(np.int64), j.astype(np.int64)

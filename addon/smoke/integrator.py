@@ -79,7 +79,7 @@ class Integrator:
         return self.begin + self.solvers[0].time
 
     def solve(self, frame: int, progress: Progress, last: int) -> None:
-        """Go on to a frame and keep what is passed; `progress` counts the work up to the frame `last`."""
+        """Go on to a frame and keep what is passed. `progress` counts the work up to the frame `last`."""
         end, total = self._step_of(frame), int(self.work[self._step_of(last)])
         with cache.in_use(self.domains[-1].folder):
             self._keep()

@@ -70,7 +70,7 @@ class _Bricks(bake.Line):
         self.elsewhere = elsewhere
 
     def ready(self, frame: int, after: Iterable[int] = ()) -> Smoke:
-        """The smoke of a frame; that of the next is begun, and what nobody waits for any more is let go."""
+        """The smoke of a frame. That of the next is begun, and what nobody waits for any more is let go."""
         if frame not in self.frames:
             return []
         following = next((each for each in after if each in self.frames), None)

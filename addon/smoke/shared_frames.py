@@ -33,7 +33,7 @@ def frames(shot: Shot, wanted: Iterable[int]) -> list[tuple[Shot, list[int]]]:
 
 
 def link(source: Path, place: Path, listed: Iterable[int]) -> None:
-    """Give volumes of one folder of the cache a place in another too; copies where a disk has no links."""
+    """Give volumes of one folder of the cache a place in another too. Copies where a disk has no links."""
     for path in (path for frame in listed for path in sorted(source.glob(f"*_{frame:06d}.vdb"))):
         files.write(place / path.name, lambda part, path=path: _same(path, part))
 

@@ -123,7 +123,7 @@ def load_smoke(path: Path) -> tuple[tuple[int, int], NDArray[np.float32]]:
 
 
 def is_whole(path: Path, shape: tuple[int, int, int]) -> bool:
-    """Whether a file is there that looks like a snapshot of a flow of so many cells; quick."""
+    """Whether a file is there that looks like a snapshot of a flow of so many cells. Quick."""
     try:
         with zipfile.ZipFile(path) as file:
             if set(file.namelist()) != {f"{name}.npy" for name in _NAMES}:
@@ -175,7 +175,7 @@ def write(path: Path, arrays: Fields, packing: int = 0) -> None:
 
 
 def _doubled(values: NDArray[np.float32], axis: int, count: int) -> NDArray[np.float32]:
-    """Values of every other one of `count` places, at all of them; linear between."""
+    """Values of every other one of `count` places, at all of them. Linear between."""
     values = np.moveaxis(values, axis, 0)
     found = np.repeat(values, 2, 0)
     found[1:-1:2] = 0.5 * (values[:-1] + values[1:])
@@ -183,6 +183,6 @@ def _doubled(values: NDArray[np.float32], axis: int, count: int) -> NDArray[np.f
 
 
 def _range(there: NDArray[np.bool_]) -> slice:
-    """From the first to the last that is there; one cell where none is."""
+    """From the first to the last that is there. One cell where none is."""
     found = np.flatnonzero(there)
     return slice(int(found[0]), int(found[-1]) + 1) if len(found) else slice(0, 1)

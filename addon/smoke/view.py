@@ -51,12 +51,12 @@ def _voxel(shot: Shot) -> float:
 
 
 def span(shot: Shot) -> tuple[float, float]:
-    """Distances from the cameras (m) between which smoke shows; the far side of old smoke may lie beyond."""
+    """Distances from the cameras (m) between which smoke shows. The far side of old smoke may lie beyond."""
     return max(_NEAR * shot.fire_distance, 1.0), shot.fire_distance + _BEHIND
 
 
 def shot_frames(shot: Shot) -> list[int]:
-    """Frames whose smoke some picture shows; all of them where there is no camera."""
+    """Frames whose smoke some picture shows. All of them where there is no camera."""
     cameras = shot.settings.cameras
     if not cameras:
         return list(range(1, shot.frames.count + 1))

@@ -63,4 +63,4 @@ class SingleVolume(Source):
 
     @abstractmethod
     def _write_volume(self, path: Path, time: float, more: dict[str, Any]) -> volume.Frame:
-        """Write the smoke at a model time (s); `more` is for the core's writer."""
+        """Write the smoke at a model time (s). `more` is for the core's writer."""

@@ -153,7 +153,7 @@ class Source(ABC):
         """
 
     def bricks(self, frame: int) -> list[volume.Bricks]:
-        """The smoke of a frame for rays to be marched through; none where it is not `marched`."""
+        """The smoke of a frame for rays to be marched through. None where it is not `marched`."""
         return []
 
     def painted_voxels(self) -> int:
@@ -164,7 +164,7 @@ class Source(ABC):
 
     @property
     def sights(self) -> Any:
-        """What the cameras see (see `visibility.Sights`), if only that is wanted; else None."""
+        """What the cameras see (see `visibility.Sights`), if only that is wanted. Else None."""
         return None if self.shot.settings.smoke.complete else self.shot.sights
 
     def sight(self, frame: int) -> lod.Sight | None:
@@ -176,7 +176,7 @@ class Source(ABC):
         return flame_light.luminous(self.shot.fire, time, self.shot.scale)
 
     def metadata(self, time: float, smoke: str) -> dict[str, str]:
-        """What a volume says of itself; `smoke` are a few words about what it is made from."""
+        """What a volume says of itself. `smoke` are a few words about what it is made from."""
         return {
             "run": self.shot.run.name,
             "smoke": smoke,
@@ -187,5 +187,5 @@ class Source(ABC):
 
 
 def _relative(path: Path) -> str:
-    """A file of the package, relative to it; another as it is."""
+    """A file of the package, relative to it. Another as it is."""
     return path.relative_to(PACKAGE).as_posix() if path.is_relative_to(PACKAGE) else str(path)

@@ -77,7 +77,7 @@ class FlowSource(Source):
         return self.shot.settings.smoke.lighting == "solved"
 
     def layers(self) -> list[VolumeLayer]:
-        """The nested domain's, and the rest; one empty volume where nothing burns."""
+        """The layers of both domains. One empty volume where nothing burns."""
         thickest = self.shot.settings.smoke.extinction or flow_frames.thickest(self.shot.scale)
         depth = view.SOLVED_STEP_DEPTH if self.marched else view.STEP_DEPTH
         found = [
@@ -91,7 +91,7 @@ class FlowSource(Source):
         return max((_voxels(each) for each in self._painted), default=0)
 
     def write(self, path: Path, frame: int) -> volume.Frame:
-        """Write the volumes of a frame of the flow, which is solved up to there; that of this path last."""
+        """Write the volumes of a frame of the flow, which is solved up to there. `path` is written last."""
         self.flow.ready(frame)
         time = float(self.times[frame - 1])
         metadata = self.metadata(time, "a flow of the air, solved from the model's heat")

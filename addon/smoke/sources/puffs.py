@@ -28,7 +28,7 @@ class PuffSource(SingleVolume):
 
     @functools.cached_property
     def cells(self) -> Cells:
-        """What burns and makes puffs; cells of the interval that goes on at the last frame belong to its."""
+        """What burns and makes puffs. Cells of the interval that goes on at the last frame belong to its."""
         first = self.times[0] - self.shot.settings.smoke.max_age - burning.BURN_TIME
         return self.shot.fire.cells(first, self.times[-1] + 600.0)
 
