@@ -228,7 +228,7 @@ class Painter:
     def _brick(
         self, snapshot: snapshots.Snapshot, window: Window | None
     ) -> tuple[tuple[float, float, float], Array, Array, Array, int]:
-        """Centre of the first voxel; for each column the ground, how much is there and drawn; count of levels."""
+        """Centre of the first voxel; of columns the ground and the shares of `_shares`; count of levels."""
         box, voxel = self.layer.domain.box, self.layer.voxel
         _nz, rows, columns = snapshot.fields["smoke"].shape
         low = np.array(box.corner) + np.array(snapshot.low) * box.spacing
@@ -280,7 +280,7 @@ class Painter:
         )
 
     def _inside(self, box: Box, x: Array, y: Array, fade: float, torn: Array | float = 0.0) -> Array:
-        """0 outside of a box and near its sides, 1 farther in than `fade`. `torn` is added to that fraction."""
+        """0 outside of a box and near its sides, 1 farther in than `fade`; `torn` is added to that."""
         low, high = box.corner, box.high
         depth = np.minimum(np.minimum(x - low[0], high[0] - x), np.minimum(y - low[1], high[1] - y))
         way = (depth - self.scale.length(_INSIDE)) / self.scale.length(fade)

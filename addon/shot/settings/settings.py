@@ -228,7 +228,7 @@ class Fire:
 
 
 class SmokeMethod(NamedTuple):
-    """A choice of `smoke.method`: a line of help, and the key that says how long before it smoke begins."""
+    """A choice of `smoke.method`: help, and the key that says how long before the first frame it begins."""
 
     help: str
     history: str
