@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from firetwin_core.run import Run
 
     from .jobs.cache import CachedVolumes
-    from .jobs.render import Made
-    from .shot.source import Choice
+    from .jobs.render import RenderResult
+    from .shot.source import ShotSource
 
 
 def sample(arguments: argparse.Namespace) -> None:
@@ -37,11 +37,11 @@ def info(arguments: argparse.Namespace) -> None:
 
     if arguments.run.suffix == ".toml" and arguments.run.is_file():
         runs = _runs(arguments.run)
-        facts = {name: info.gather(run, zone.of(run)) for name, run in runs.items()}
+        facts = {name: info.gather(run, zone.time_zone(run)) for name, run in runs.items()}
         page = "\n\n".join(f"{name}: {runs[name].path}\n{info.page(each)}" for name, each in facts.items())
     else:
         run = _open(arguments.run)
-        facts = info.gather(run, zone.of(run))
+        facts = info.gather(run, zone.time_zone(run))
         page = info.page(facts)
     if arguments.json:
         json.dump(facts, sys.stdout, indent=1)
@@ -72,7 +72,7 @@ def maps(arguments: argparse.Namespace) -> None:
     from .run import maps, observations, zone
 
     seen = observations.read(arguments.against or observations.beside(arguments.run))
-    for path in maps.draw(run, arguments.out, zone.of(run), seen):
+    for path in maps.draw(run, arguments.out, zone.time_zone(run), seen):
         result(path)
 
 
@@ -98,7 +98,7 @@ def score(arguments: argparse.Namespace) -> None:
     seen = observations.read(each for each in named if observations.is_one(each))
     if seen.heat and not (seen.perimeters or seen.detections or runs):
         raise input_error(named[0], 0, 0, "holds heat but no perimeter, so there is nothing to compare with")
-    found = scores.score(run, seen, *runs, zone=zone.of(run))
+    found = scores.score(run, seen, *runs, zone=zone.time_zone(run))
     result(json.dumps(found, indent=1) if arguments.json else page.page(found))
     if arguments.report:
         from .run.score import report
@@ -124,7 +124,7 @@ def imager(arguments: argparse.Namespace) -> None:
     try:
         for done, (time, picture) in enumerate(seen.film(instrument, run, arguments.longitude, moments)):
             report(done, len(moments))
-            moment = times.moment(run, time)
+            moment = times.utc(run, time)
             path = arguments.out / f"{instrument.name}_{moment:%Y%m%dT%H%M}Z.tif"
             geotiff.write(path, picture, instrument, run.name, moment)
             result(path)
@@ -178,7 +178,7 @@ def render(arguments: argparse.Namespace) -> None:
     """Render what is asked for and not finished, then the films."""
     from .jobs import render
 
-    asked = render.Asked(
+    asked = render.RenderRequest(
         arguments.out, arguments.frames, arguments.camera, arguments.passes, arguments.resume
     )
     made = render.run(_choice(arguments), asked, Reporter(), say)
@@ -239,7 +239,7 @@ def assets(arguments: argparse.Namespace) -> None:
     import tempfile
 
     from .jobs import assets
-    from .shot.source import Choice
+    from .shot.source import ShotSource
 
     with tempfile.TemporaryDirectory() as folder:
         scene = arguments.scene
@@ -250,7 +250,7 @@ def assets(arguments: argparse.Namespace) -> None:
             sample.write(Path(folder) / "sample", 13)
             scene = Path(folder) / "scene.toml"
             scene.write_text(assets.SCENE, encoding="utf-8")
-        number = assets.run(Choice(scene=str(scene)), arguments.out, Reporter(), say)
+        number = assets.run(ShotSource(scene=str(scene)), arguments.out, Reporter(), say)
     say(f"{count(number, 'asset')} in {arguments.out}")
     result(arguments.out / assets.BLEND)
 
@@ -280,7 +280,7 @@ def bench(arguments: argparse.Namespace) -> int:
     return 1 if missed else 0
 
 
-def _made(out: Path, made: Made) -> dict[str, Any]:
+def _made(out: Path, made: RenderResult) -> dict[str, Any]:
     """What a render made, for programs; memory in bytes, None where it is not known."""
     memory = {"expected": made.expected or None, "peak": made.peak or None}
     return {"folder": str(out), "pictures": made.pictures, "files": _files(out), "memory": memory}
@@ -314,9 +314,9 @@ def _list(out: Path) -> None:
 
 def _runs(scene: Path) -> dict[str, Run]:
     """All runs of a scene file by their names, the first one first."""
-    from .shot.source import Choice
+    from .shot.source import ShotSource
 
-    shot = Choice(scene=str(scene)).shot()
+    shot = ShotSource(scene=str(scene)).shot()
     return {shot.label: shot.run, **shot.others}
 
 
@@ -326,13 +326,13 @@ def _open(folder: Path) -> Run:
     return readers.open(folder)
 
 
-def _choice(arguments: argparse.Namespace) -> Choice:
+def _choice(arguments: argparse.Namespace) -> ShotSource:
     """The scene file; of a run folder one that is fitted to it and kept in the cache, for all processes."""
     import hashlib
 
     from . import files
     from .run.readers import folder
-    from .shot.source import Choice
+    from .shot.source import ShotSource
 
     scene, cache = arguments.scene, Path("cache")
     if folder.sniff(scene):
@@ -340,7 +340,7 @@ def _choice(arguments: argparse.Namespace) -> Choice:
         scene = cache / f"{scene.absolute().name}-{hashlib.sha256(text.encode()).hexdigest()[:12]}.toml"
         files.write(scene, lambda part: part.write_text(text, encoding="utf-8"))
         say(f"these settings are in {scene}; to change them: firetwin new {arguments.scene} -o SCENE.toml")
-    return Choice(scene=str(scene), beside=getattr(arguments, "run", None) or "")
+    return ShotSource(scene=str(scene), beside=getattr(arguments, "run", None) or "")
 
 
 def _fitted(
@@ -348,13 +348,13 @@ def _fitted(
 ) -> str:
     """The text of a scene file `path` that fits a run from when to when is asked; what was chosen is told."""
     from .errors import UsageError
-    from .progress import READING, patience
+    from .progress import READING, notify_if_slow
     from .run import times
     from .shot import auto_framing
     from .shot.settings.settings import Time
 
     opened, window = _open(run), Time(*asked)
-    first, last = (times.moment(opened, float(opened.times[i])) for i in (0, -1))
+    first, last = (times.utc(opened, float(opened.times[i])) for i in (0, -1))
     for name, moment in zip(("start", "end"), asked, strict=True):
         if moment is not None and not first <= moment <= last:
             raise UsageError(
@@ -362,8 +362,8 @@ def _fitted(
             )
     if wrong := window.wrong():
         raise UsageError(f"--end: {wrong[1]}")
-    with patience(READING):
-        found = auto_framing.at(run, path, cache, window)
+    with notify_if_slow(READING):
+        found = auto_framing.fit_folder(run, path, cache, window)
     for line in found.lines:
         say(line)
     return found.text

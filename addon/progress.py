@@ -15,7 +15,7 @@ Progress = Callable[..., None]
 
 READING = "reading the scene file and its run"
 
-Tell = Callable[[str], None]
+MessageCallback = Callable[[str], None]
 """Called with a sentence that a person should read."""
 
 
@@ -31,7 +31,7 @@ def result(text: object) -> None:
 
 
 @contextlib.contextmanager
-def patience(text: str, seconds: float = 1.0) -> Iterator[None]:
+def notify_if_slow(text: str, seconds: float = 1.0) -> Iterator[None]:
     """Say what goes on within once it has taken so long: what is quick or wrong says nothing else."""
     timer = threading.Timer(seconds, say, [text])
     timer.daemon = True
@@ -122,7 +122,7 @@ class _Lines:
         say(f"{line}, {note}" if note else line)
 
 
-def untold(text: str) -> None:
+def no_message(text: str) -> None:
     """Tell nobody."""
 
 

@@ -19,7 +19,7 @@ from firetwin_core import volume
 from numpy.typing import NDArray
 
 from ..jobs import worker
-from ..progress import Progress, Tell, silent, untold
+from ..progress import MessageCallback, Progress, no_message, silent
 from ..shot.cameras.rigs.drone import CameraKey, Drone
 from ..shot.passes import file_of
 from ..shot.settings import settings
@@ -139,7 +139,7 @@ def _picture(folder: Path, name: str) -> str:
 
 
 def frames_in_blender(
-    folder: str, progress: Progress = silent, tell: Tell = untold
+    folder: str, progress: Progress = silent, tell: MessageCallback = no_message
 ) -> dict[str, list[tuple[float, float]]]:
     """Draw a frame either way in turn, `DRAWN` times over, and its reference; the times of each."""
     import bpy
@@ -185,7 +185,7 @@ class _Frame:
         """Seconds that the frame took, and those of processors; with `rays`, of so many and short steps."""
         from ..render import pictures
         from ..render.picture import Picture
-        from ..render.sharing import making
+        from ..render.sharing import open_session
 
         cycles = self.stage.scene.cycles
         if rays:
@@ -194,7 +194,7 @@ class _Frame:
         out = self.folder / name
         out.mkdir(exist_ok=True)
         wanted = [Picture(_CAMERA, 1, each) for each in (PASSES[:1] if rays else PASSES)]
-        with making(out, {(_CAMERA, each): {"pass": each} for each in PASSES}) as here:
+        with open_session(out, {(_CAMERA, each): {"pass": each} for each in PASSES}) as here:
             watch = Stopwatch()
             pictures.render(self.shot, self.stage, here, wanted, ready=lambda _frame, _after: self.smoke)
             spent = watch.read()

@@ -16,7 +16,7 @@ from pathlib import Path
 from .. import memory
 from ..data import sample
 from ..jobs import worker
-from ..progress import Progress, Tell, silent, untold
+from ..progress import MessageCallback, Progress, no_message, silent
 from ..shot.cameras.rigs.drone import CameraKey, Drone
 from ..shot.settings import settings
 from .harness import OURS, Bench
@@ -92,7 +92,7 @@ def scene_file(folder: Path, skip: bool) -> settings.Settings:
 
 
 def draw(
-    folder: str, skip: bool, tool: str, progress: Progress = silent, tell: Tell = untold
+    folder: str, skip: bool, tool: str, progress: Progress = silent, tell: MessageCallback = no_message
 ) -> dict[str, float]:
     """Build and draw a scene -> processor seconds of both, and bytes; all there is also with other grain."""
     import bpy

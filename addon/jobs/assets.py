@@ -7,8 +7,8 @@ from pathlib import Path
 
 from .. import files
 from ..errors import input_error
-from ..progress import READING, Progress, Tell, patience, silent, untold
-from ..shot.source import Choice
+from ..progress import READING, MessageCallback, Progress, no_message, notify_if_slow, silent
+from ..shot.source import ShotSource
 from . import worker
 from .build import save
 
@@ -53,10 +53,10 @@ def catalogue() -> str:
 
 
 def run(
-    choice: Choice,
+    choice: ShotSource,
     out: Path,
     progress: Progress = silent,
-    tell: Tell = untold,
+    tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
 ) -> int:
     """Write the library into the folder `out`: trees, materials and node groups as a shot has them.
@@ -76,7 +76,7 @@ def run(
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise input_error(out, 0, 0, f"cannot be made ({error.strerror}); choose another place") from None
-    with patience(READING):
+    with notify_if_slow(READING):
         choice.shot()
     task = {"choice": choice.plain(), "out": str(out / BLEND)}
     count = worker.run(f"{__name__}:in_blender", task, progress, stop=stop, tell=tell)
@@ -91,7 +91,7 @@ def _refuse_strangers(out: Path) -> None:
         raise input_error(there, 0, 0, "belongs to another asset library; choose another folder")
 
 
-def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell) -> int:
+def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: MessageCallback) -> int:
     """Make the assets in an empty Blender, and save them."""
     import bpy
 
@@ -100,7 +100,7 @@ def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell)
     from ..scene import assets
 
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    shot = Choice(**choice).shot()
+    shot = ShotSource(**choice).shot()
     groups.build(shot.settings, owned.adopt(bpy.context.scene))
     count = assets.build(shot, identifier, progress)
     save(Path(out))

@@ -5,17 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..errors import Error
-from ..progress import READING, Progress, Tell, patience, silent, untold
+from ..progress import READING, MessageCallback, Progress, no_message, notify_if_slow, silent
 from ..shot import scene_runs
 from ..shot.comparison import for_view
-from ..shot.source import Choice
+from ..shot.source import ShotSource
 from . import worker
 
 
 def run(
-    choice: Choice,
+    choice: ShotSource,
     progress: Progress = silent,
-    tell: Tell = untold,
+    tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
     together: bool = False,
 ) -> list[Path]:
@@ -35,7 +35,7 @@ def run(
     Error
         The process that wrote them ended.
     """
-    with patience(READING):
+    with notify_if_slow(READING):
         shot = choice.shot()
     if not shot.settings.smoke.enabled:
         return []
@@ -47,11 +47,13 @@ def run(
     return [Path(place) for place in places]
 
 
-def in_process(choice: dict[str, str], together: bool, progress: Progress, tell: Tell) -> list[str]:
+def in_process(
+    choice: dict[str, str], together: bool, progress: Progress, tell: MessageCallback
+) -> list[str]:
     """Bake and return the folders of the volumes."""
     from ..smoke import bake, plume_mass, sources
 
-    shot = Choice(**choice).shot()
+    shot = ShotSource(**choice).shot()
     for text in shot.warnings():
         tell(text)
     shots = [shot] if together else [for_view(shot, view) for view in scene_runs.views(shot.settings)]

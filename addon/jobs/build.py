@@ -8,17 +8,17 @@ from pathlib import Path
 
 from .. import files
 from ..errors import FULL, disk_is_full, input_error, no_room
-from ..progress import READING, Progress, Tell, patience, silent, untold
+from ..progress import READING, MessageCallback, Progress, no_message, notify_if_slow, silent
 from ..shot import camera_warnings
-from ..shot.source import Choice
+from ..shot.source import ShotSource
 from . import worker
 
 
 def run(
-    choice: Choice,
+    choice: ShotSource,
     out: Path,
     progress: Progress = silent,
-    tell: Tell = untold,
+    tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
 ) -> None:
     """Build the scene and save it as `out`, a .blend file.
@@ -30,7 +30,7 @@ def run(
     """
     out = out.absolute()
     _writable(out)
-    with patience(READING):
+    with notify_if_slow(READING):
         choice.shot()
     worker.run(
         f"{__name__}:in_blender", {"choice": choice.plain(), "out": str(out)}, progress, stop=stop, tell=tell
@@ -53,14 +53,14 @@ def _writable(out: Path) -> None:
         raise input_error(out, 0, 0, "is write-protected; choose another name")
 
 
-def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Tell) -> None:
+def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: MessageCallback) -> None:
     """Build the scene and save it."""
     from ..blender import viewport
     from ..scene.smoke import build as smoke
     from ..smoke import bake
     from . import worker_scene
 
-    shot = Choice(**choice).shot()
+    shot = ShotSource(**choice).shot()
     for text in (*shot.warnings(), *camera_warnings.mono_vr(shot.settings)):
         tell(text)
     if shot.settings.smoke.enabled:

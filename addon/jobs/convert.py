@@ -9,7 +9,7 @@ import tomllib
 from pathlib import Path
 
 from ..errors import Error, UsageError
-from ..progress import Progress, Tell, silent, untold
+from ..progress import MessageCallback, Progress, no_message, silent
 from . import worker
 
 PATIENCE = 600.0
@@ -28,7 +28,7 @@ def run(
     projection: str = "",
     interval: float = 0.0,
     progress: Progress = silent,
-    tell: Tell = untold,
+    tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
     name: str = "",
     zone: str = "",
@@ -109,7 +109,7 @@ def _made_of(out: Path) -> str:
 
 
 def in_process(
-    paths: list[str], out: str, options: list, progress: Progress = silent, tell: Tell = untold
+    paths: list[str], out: str, options: list, progress: Progress = silent, tell: MessageCallback = no_message
 ) -> None:
     """The child's side: find the reader, read and write."""
     from ..run.models import heartbeat
@@ -119,7 +119,7 @@ def in_process(
         _convert(files, Path(out), options, progress, tell)
 
 
-def _convert(files: list[Path], out: Path, options: list, progress: Progress, tell: Tell) -> None:
+def _convert(files: list[Path], out: Path, options: list, progress: Progress, tell: MessageCallback) -> None:
     from ..run import readers
     from ..run.models import write
     from ..run.models.model import Options

@@ -11,15 +11,15 @@ from typing import Any
 
 from .. import memory
 from ..errors import Error
-from ..progress import READING, Progress, Tell, count, patience, share, silent, untold
+from ..progress import READING, MessageCallback, Progress, count, no_message, notify_if_slow, share, silent
 from ..shot.comparison import for_view
 from ..shot.shot import Shot
-from ..shot.source import Choice
+from ..shot.source import ShotSource
 from . import solve, worker
 
 
 @dataclass(frozen=True)
-class Asked:
+class RenderRequest:
     """What a render shall make (see `render.plan.pictures`); `resume` keeps what is finished and matches."""
 
     out: Path
@@ -30,7 +30,7 @@ class Asked:
 
 
 @dataclass(frozen=True)
-class Made:
+class RenderResult:
     """How many pictures a render made, and bytes of memory: the most that was expected, and the peak.
 
     0 where nothing was rendered, or nobody knows.
@@ -42,12 +42,12 @@ class Made:
 
 
 def run(
-    choice: Choice,
-    asked: Asked,
+    choice: ShotSource,
+    asked: RenderRequest,
     progress: Progress = silent,
-    tell: Tell = untold,
+    tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
-) -> Made:
+) -> RenderResult:
     """Render what is asked for and not finished, then the films."""
     from ..errors import UsageError
     from ..render import dataset, films, fingerprint, plan
@@ -59,7 +59,7 @@ def run(
         raise UsageError(
             f"--out: {out} is a run folder, and pictures do not belong among its fields; choose another"
         )
-    with patience(READING):
+    with notify_if_slow(READING):
         shot = choice.shot()
         wanted = plan.pictures(shot, asked.frames, asked.camera, asked.passes)
     made_with = fingerprint.of_pictures(shot, wanted, progress)
@@ -70,7 +70,7 @@ def run(
         if not undone and asked.resume and not any(films.missing(shot, store, made_with)):
             tell(f"{finished} of {count(len(wanted), 'picture')} are finished and match; nothing to render")
             store.export()
-            return Made(0)
+            return RenderResult(0)
     if asked.resume and finished:
         tell(f"{finished} of {count(len(wanted), 'picture')} are finished and match")
     elif finished:
@@ -83,7 +83,7 @@ def run(
     with Store(out, create=True) as store:
         took = make(f"{__name__}:in_blender", task, undone, store, shot, progress, tell, stop)
         dataset.write(store)
-    return Made(len(undone), **took)
+    return RenderResult(len(undone), **took)
 
 
 def make(
@@ -93,7 +93,7 @@ def make(
     store: Any,
     shot: Shot,
     progress: Progress,
-    tell: Tell,
+    tell: MessageCallback,
     stop: worker.Stop | None,
 ) -> Any:
     """Have a process make pictures; whatever ends it, no others wait for its own and the manifest is written.
@@ -126,7 +126,7 @@ def make(
     return found
 
 
-def following(out: Path, progress: Progress, tell: Tell) -> Progress:
+def following(out: Path, progress: Progress, tell: MessageCallback) -> Progress:
     """Progress whose note names a picture in the folder `out`: it shows the path, and tells of the first."""
     told = False
 
@@ -148,7 +148,7 @@ def in_blender(
     owner: str,
     after: int,
     progress: Progress,
-    tell: Tell,
+    tell: MessageCallback,
 ) -> dict[str, int]:
     """Render these pictures, each camera in a scene of its own, then films of these cameras and passes.
 
@@ -163,7 +163,7 @@ def in_blender(
     from ..shot import passes
     from ..smoke import plume_mass
 
-    shot = Choice(**choice).shot()
+    shot = ShotSource(**choice).shot()
     asked = [Picture(*picture) for picture in pictures]
     todo = [picture for picture in asked if not passes.compares(picture.name)]
     drawn = set(todo)
@@ -171,7 +171,7 @@ def in_blender(
         _check_device(shot)
     frames, expected = frames_of(todo), 0
     made_with = fingerprint.of_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
-    with sharing.making(Path(out), made_with, owner, after) as making:
+    with sharing.open_session(Path(out), made_with, owner, after) as making:
         over = 0
         for part in plan.rounds(shot, todo):
             over += frames_of(part)
@@ -181,7 +181,8 @@ def in_blender(
                     wanted = list(group)
                     own = share(progress, done, frames, "rendering")
                     expected = max(
-                        expected, _camera(Choice(**choice), for_view(shot, camera), making, wanted, own, tell)
+                        expected,
+                        _camera(ShotSource(**choice), for_view(shot, camera), making, wanted, own, tell),
                     )
                     done += frames_of(wanted)
         if todo and shot.settings.smoke.enabled:
@@ -216,7 +217,7 @@ def frames_of(pictures: list[Any]) -> int:
 
 
 def _camera(
-    choice: Choice, shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell: Tell
+    choice: ShotSource, shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell: MessageCallback
 ) -> int:
     """Render the pictures of a shot's one camera; its smoke is made a frame ahead of them.
 
@@ -231,7 +232,7 @@ def _camera(
     for text in shot.warnings():
         tell(text)
     frames, done, most = frames_of(wanted), 0, 0
-    drawn, hazy = plan.seen(shot, wanted), smoky(shot, wanted)
+    drawn, hazy = plan.rendered(shot, wanted), smoky(shot, wanted)
     with (
         _solving(choice, shot, hazy, progress) as elsewhere,
         prefetch.smoke(shot, hazy, progress, tell, elsewhere) as ready,
@@ -243,7 +244,7 @@ def _camera(
             load = expected.load(shot, stage, hazy) if drawn else None
             if load and load.bytes > most:
                 most = load.bytes
-                tell(expected.words(load))
+                tell(expected.describe(load))
             own = share(progress, done, frames, "rendering")
             pictures.render(shot, stage, making, group, own, ready, tell)
             done += frames_of(group)
@@ -252,7 +253,7 @@ def _camera(
 
 @contextlib.contextmanager
 def _solving(
-    choice: Choice, shot: Shot, frames: list[int], progress: Progress
+    choice: ShotSource, shot: Shot, frames: list[int], progress: Progress
 ) -> Iterator[solve.Working | None]:
     """Have the smoke of a shot's one camera prepared meanwhile, unless it is."""
     from ..smoke import sources
@@ -301,7 +302,7 @@ def smoky(shot: Shot, wanted: list[Any]) -> list[int]:
         for name in {picture.name for picture in wanted}
         if any(
             "smoke" in known[each].aspects
-            for _, each in plan.seen(shot, [p for p in wanted if p.name == name])
+            for _, each in plan.rendered(shot, [p for p in wanted if p.name == name])
         )
     }
     return sorted({picture.frame for picture in wanted if picture.name in smoky})

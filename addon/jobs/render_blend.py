@@ -9,21 +9,21 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import Error
-from ..progress import Progress, Tell, count, share, silent, untold
+from ..progress import MessageCallback, Progress, count, no_message, share, silent
 from ..shot.comparison import for_view
 from ..shot.shot import Shot
-from ..shot.source import Choice
+from ..shot.source import ShotSource
 from . import worker
-from .render import Asked, frames_of, make, smoky
+from .render import RenderRequest, frames_of, make, smoky
 
 
 def run(
-    choice: Choice,
+    choice: ShotSource,
     blend: Path,
     scene: str,
-    asked: Asked,
+    asked: RenderRequest,
     progress: Progress = silent,
-    tell: Tell = untold,
+    tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
 ) -> int:
     """Render what is asked for of a scene in a .blend file, then the films: of the one run that it shows.
@@ -85,7 +85,7 @@ def in_blender(
     owner: str,
     after: int,
     progress: Progress,
-    tell: Tell,
+    tell: MessageCallback,
 ) -> None:
     """Open the file and render these pictures of it, then films of these cameras and passes."""
     import bpy
@@ -99,14 +99,14 @@ def in_blender(
     bpy.ops.wm.open_mainfile(filepath=blend, load_ui=False)
     stage = owned.stage(bpy.data.scenes[scene])
     layers.mend(stage.scene)
-    shot = _as_it_stands(Choice(**choice).shot(), stage.scene)
+    shot = _as_it_stands(ShotSource(**choice).shot(), stage.scene)
     todo = [Picture(*picture) for picture in pictures]
     if stage.scene.render.engine == "CYCLES":
         tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
     known = {(camera, name): values for camera, name, values in made_with}
     frames, done = frames_of(todo), 0
     with (
-        sharing.making(Path(out), known, owner, after) as making,
+        sharing.open_session(Path(out), known, owner, after) as making,
         prefetch.smoke(shot, smoky(shot, todo), progress, tell) as ready,
     ):
         for camera, group in itertools.groupby(todo, key=lambda picture: picture.camera):

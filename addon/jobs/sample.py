@@ -5,14 +5,14 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from ..progress import Progress, Tell, silent, untold
+from ..progress import MessageCallback, Progress, no_message, silent
 from . import worker
 
 
 def run(
     out: Path,
     progress: Progress = silent,
-    tell: Tell = untold,
+    tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
 ) -> None:
     """Write the sample run as the folder `out`, unless it is there: it gets its name when it is whole."""
@@ -27,7 +27,7 @@ def run(
         shutil.rmtree(part, ignore_errors=True)
 
 
-def in_blender(out: str, progress: Progress, tell: Tell) -> None:
+def in_blender(out: str, progress: Progress, tell: MessageCallback) -> None:
     """Write it."""
     from ..data import sample
 

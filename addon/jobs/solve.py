@@ -7,16 +7,16 @@ import threading
 from collections.abc import Callable, Iterator
 
 from ..errors import Error
-from ..progress import Progress, Tell
+from ..progress import MessageCallback, Progress
 from ..shot.comparison import for_view
-from ..shot.source import Choice
+from ..shot.source import ShotSource
 from . import worker
 
 Working = Callable[[], bool]
 
 
 @contextlib.contextmanager
-def beside(choice: Choice, view: str, frames: list[int], progress: Progress) -> Iterator[Working]:
+def beside(choice: ShotSource, view: str, frames: list[int], progress: Progress) -> Iterator[Working]:
     """Solve the flow of a view up to these frames meanwhile; gives whether that goes on.
 
     The solver's half a gigabyte is another process's. What goes wrong there, who needs a snapshot meets
@@ -38,10 +38,12 @@ def beside(choice: Choice, view: str, frames: list[int], progress: Progress) -> 
         thread.join()
 
 
-def in_process(choice: dict[str, str], view: str, frames: list[int], progress: Progress, tell: Tell) -> None:
+def in_process(
+    choice: dict[str, str], view: str, frames: list[int], progress: Progress, tell: MessageCallback
+) -> None:
     """Solve it."""
     from ..smoke import sources
 
-    source = sources.select(for_view(Choice(**choice).shot(), view))
+    source = sources.select(for_view(ShotSource(**choice).shot(), view))
     with source.in_use():
         source.prepare(frames, progress)

@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import memory
-from ..progress import Progress, Tell, duration, silent, untold
+from ..progress import MessageCallback, Progress, duration, no_message, silent
 
 _signs: list[Callable[[], None]] = []
 
@@ -67,7 +67,7 @@ def run(
     progress: Progress = silent,
     eevee: bool = False,
     stop: Stop | None = None,
-    tell: Tell = untold,
+    tell: MessageCallback = no_message,
     blender: bool = True,
     patience: float = 0.0,
 ) -> Any:
@@ -187,7 +187,11 @@ class _Patience:
 
 
 def _converse(
-    child: subprocess.Popen[str], request: dict[str, Any], progress: Progress, tell: Tell, watch: _Patience
+    child: subprocess.Popen[str],
+    request: dict[str, Any],
+    progress: Progress,
+    tell: MessageCallback,
+    watch: _Patience,
 ) -> dict[str, Any]:
     """Send the request, pass on progress and what is told, and return the last answer (empty: none came)."""
     try:

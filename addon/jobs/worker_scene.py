@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..blender import devices, owned
 from ..blender.owned import Stage
-from ..progress import Progress, Tell
+from ..progress import MessageCallback, Progress
 from ..render import engine, layers
 from ..scene import build
 from ..shot.shot import Shot
@@ -23,7 +23,7 @@ def empty() -> Stage:
     return owned.adopt(bpy.context.scene)
 
 
-def build_scene(shot: Shot, progress: Progress, tell: Tell) -> Stage:
+def build_scene(shot: Shot, progress: Progress, tell: MessageCallback) -> Stage:
     """Build the scene of a shot, with view layers and engine, in a Blender that holds nothing else."""
     stage = empty()
     total = len(build.PARTS) + 2

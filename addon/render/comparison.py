@@ -6,16 +6,18 @@ import itertools
 from pathlib import Path
 
 from ..errors import writing
-from ..progress import Progress, Tell
+from ..progress import MessageCallback, Progress
 from ..shot import passes
 from ..shot.comparison import for_view
 from ..shot.shot import Shot
 from .picture import Picture
 from .pictures import publish
-from .sharing import Making
+from .sharing import RenderSession
 
 
-def make(shot: Shot, making: Making, wanted: list[Picture], progress: Progress, tell: Tell) -> None:
+def make(
+    shot: Shot, making: RenderSession, wanted: list[Picture], progress: Progress, tell: MessageCallback
+) -> None:
     """Make those of these pictures that nobody else does, when all that they are made of is finished."""
     done = 0
     while free := making.free(wanted, tell):
@@ -32,7 +34,7 @@ def make(shot: Shot, making: Making, wanted: list[Picture], progress: Progress, 
                         done += len(pictures)
 
 
-def _finish(shot: Shot, making: Making, part: Path, picture: Picture) -> None:
+def _finish(shot: Shot, making: RenderSession, part: Path, picture: Picture) -> None:
     """Make the files of a picture in the temporary folder."""
     each, out = passes.known()[picture.name], making.store.out
     labels = [run.name for run in shot.settings.runs]

@@ -51,7 +51,7 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
     cameras = [mine] if leader is None else [mine, leader]
     made_with = {
         "versions": versions(),
-        "sources": code_fingerprint.of(
+        "sources": code_fingerprint.hashes(
             aspects, cameras, *_RENDERING, *_modules(name), *_smoke(settings, run, aspects)
         ),
         "run": run,

@@ -74,7 +74,7 @@ def _smoke(shot: Shot, frames: list[int]) -> dict[str, int]:
     }
 
 
-def words(load: Load) -> str:
+def describe(load: Load) -> str:
     """What to tell before a render."""
     beside = f", and {size(load.solver)} while the smoke's flow is solved" if load.solver else ""
     return f"rendering takes about {size(load.bytes)} of memory at most{beside}"

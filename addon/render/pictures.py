@@ -12,7 +12,7 @@ import numpy as np
 from .. import files, memory
 from ..blender.owned import Stage
 from ..errors import writing
-from ..progress import Progress, Tell, silent, untold
+from ..progress import MessageCallback, Progress, no_message, silent
 from ..shot import passes
 from ..shot.cameras import mount, pixel_rays
 from ..shot.cameras.path import compass
@@ -20,7 +20,7 @@ from ..shot.shot import Shot
 from ..smoke.prefetch import Smoke
 from . import engine, integrated, layers, plan, png, spherical, verify
 from .picture import Picture
-from .sharing import Line, Making
+from .sharing import FrameQueue, RenderSession
 from .store import describe
 
 Ready = Callable[[int, list[int]], Smoke | None]
@@ -29,11 +29,11 @@ Ready = Callable[[int, list[int]], Smoke | None]
 def render(
     shot: Shot,
     stage: Stage,
-    making: Making,
+    making: RenderSession,
     wanted: list[Picture],
     progress: Progress = silent,
     ready: Ready = lambda frame, ahead: None,
-    tell: Tell = untold,
+    tell: MessageCallback = no_message,
 ) -> int:
     """Render those of these pictures of a built scene that no other render makes, and enter them.
 
@@ -53,7 +53,7 @@ def render(
     """
     engine.label(shot.run, stage.scene)
     total, made, note = len({(each.camera, each.frame) for each in wanted}), 0, ""
-    marched = integrated.wanted(shot, stage.scene) and bool(plan.seen(shot, wanted))
+    marched = integrated.wanted(shot, stage.scene) and bool(plan.rendered(shot, wanted))
     drawing = integrated.Drawing(shot, stage) if marched else None
     with making.claims.part_folder() as part, making.line(wanted) as line:
         while line.step():
@@ -70,9 +70,9 @@ def render(
 def _frame(
     shot: Shot,
     stage: Stage,
-    making: Making,
+    making: RenderSession,
     part: Path,
-    line: Line,
+    line: FrameQueue,
     ready: Ready,
     drawing: integrated.Drawing | None,
 ) -> list[Picture]:
@@ -109,7 +109,7 @@ class _Frame:
         self,
         shot: Shot,
         stage: Stage,
-        making: Making,
+        making: RenderSession,
         part: Path,
         camera: str,
         frame: int,
@@ -169,7 +169,7 @@ class _Frame:
         return {path.suffix[1:]: self.part / path.name if picture in made else out / path for path in paths}
 
 
-def publish(shot: Shot, making: Making, part: Path, pictures: list[Picture]) -> None:
+def publish(shot: Shot, making: RenderSession, part: Path, pictures: list[Picture]) -> None:
     """Look at the files of a complete frame, give them their names, and only then enter them in the store."""
     made = {name: part / Path(name).name for each in pictures for name in each.files()}
     for picture, name in ((each, name) for each in pictures for name in each.files()):
@@ -195,7 +195,7 @@ def publish(shot: Shot, making: Making, part: Path, pictures: list[Picture]) -> 
 
 def _heading(shot: Shot, picture: Picture) -> float:
     """Where the middle of a picture looks, degrees clockwise from north."""
-    view = pixel_rays.of(shot, picture.camera)
+    view = pixel_rays.path_of(shot, picture.camera)
     east, north, _ = compass(shot.local_frame, view.position[picture.frame - 1])
     ahead = -view.rotation[picture.frame - 1][:, 2]
     return float(np.degrees(np.arctan2(ahead @ east, ahead @ north)))

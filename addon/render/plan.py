@@ -88,7 +88,7 @@ def rounds(shot: Shot, wanted: list[Picture]) -> list[list[Picture]]:
     return [part for part in parts if part]
 
 
-def seen(shot: Shot, wanted: list[Picture]) -> set[tuple[str, str]]:
+def rendered(shot: Shot, wanted: list[Picture]) -> set[tuple[str, str]]:
     """Cameras and passes that Blender renders for these pictures: some are made from others' files alone."""
     pairs = {(each.camera, each.name) for each in wanted}
     for camera, name in list(pairs):

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..leases import Claims, new_owner
-from ..progress import Tell, count
+from ..progress import MessageCallback, count
 from . import plan
 from .fingerprint import Fingerprints
 from .picture import Picture
@@ -22,7 +22,7 @@ Frame = tuple[str, int]
 
 
 @dataclass(frozen=True)
-class Making:
+class RenderSession:
     """What a render makes, and where.
 
     Attributes
@@ -40,7 +40,7 @@ class Making:
         """Those of the pictures that are not finished."""
         return plan.missing(self.store, wanted, self.made_with, self.after)
 
-    def free(self, wanted: list[Picture], tell: Tell) -> list[Picture]:
+    def free(self, wanted: list[Picture], tell: MessageCallback) -> list[Picture]:
         """Pictures that nobody makes, as soon as there are any; none when all are finished."""
         waiting = False
         while wanted := self.missing(wanted):
@@ -54,9 +54,9 @@ class Making:
         return []
 
     @contextmanager
-    def line(self, wanted: list[Picture]) -> Iterator[Line]:
+    def line(self, wanted: list[Picture]) -> Iterator[FrameQueue]:
         """These pictures' frames in their order."""
-        line = Line(self, wanted)
+        line = FrameQueue(self, wanted)
         try:
             yield line
         finally:
@@ -71,13 +71,15 @@ class Making:
 
 
 @contextmanager
-def making(out: Path, made_with: Fingerprints, owner: str | None = None, after: int = 0) -> Iterator[Making]:
+def open_session(
+    out: Path, made_with: Fingerprints, owner: str | None = None, after: int = 0
+) -> Iterator[RenderSession]:
     """Begin to make files in a folder; the store is made where it is missing."""
     with Store(out, create=True) as store, Claims(store.data, owner or new_owner()) as claims:
-        yield Making(store, claims, made_with, after)
+        yield RenderSession(store, claims, made_with, after)
 
 
-class Line:
+class FrameQueue:
     """Frames that stand in line: at each step one is ours, and the one after it, so that it can be prepared.
 
     Attributes
@@ -86,7 +88,7 @@ class Line:
         What is to be made now: the passes `names` of a camera's frame.
     """
 
-    def __init__(self, making: Making, wanted: list[Picture]) -> None:
+    def __init__(self, making: RenderSession, wanted: list[Picture]) -> None:
         self.making, self.claims = making, making.claims
         groups = itertools.groupby(wanted, key=lambda each: (each.camera, each.frame))
         self.waiting = {frame: list(group) for frame, group in groups}

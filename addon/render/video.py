@@ -16,11 +16,11 @@ from ..shot import passes, scene_runs
 from ..shot.shot import Shot
 from . import engine, films, picture, spherical, verify
 from .picture import Picture
-from .sharing import Making
+from .sharing import RenderSession
 from .store import describe
 
 
-def make(shot: Shot, making: Making, progress: Progress = silent) -> None:
+def make(shot: Shot, making: RenderSession, progress: Progress = silent) -> None:
     """Make the films of these cameras and passes that are missing or older than their pictures."""
     wanted = list(films.missing(shot, making.store, making.made_with))
     for done, (camera, name, _) in enumerate(wanted, start=1):
@@ -36,7 +36,7 @@ def make(shot: Shot, making: Making, progress: Progress = silent) -> None:
         progress(done, len(wanted), "filming")
 
 
-def _film(shot: Shot, making: Making, camera: str, name: str, made_from: dict[str, Any]) -> None:
+def _film(shot: Shot, making: RenderSession, camera: str, name: str, made_from: dict[str, Any]) -> None:
     out = making.store.out
     path = out / picture.film(camera, name)
     scene = bpy.data.scenes.new("Firetwin Film")

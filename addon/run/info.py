@@ -55,8 +55,8 @@ def _find(run: Run, zone: str) -> dict[str, Any]:
         "fuel_category": fuel_category.shares(run),
         "times": {
             "count": len(seconds),
-            "first": times.iso(times.moment(run, float(seconds[0]))),
-            "last": times.iso(times.moment(run, float(seconds[-1]))),
+            "first": times.iso(times.utc(run, float(seconds[0]))),
+            "last": times.iso(times.utc(run, float(seconds[-1]))),
             "interval": _range(np.diff(seconds)) if len(seconds) > 1 else None,
         },
         "fields": list(run.fields),

@@ -67,7 +67,7 @@ def fuel_map(run: Run) -> Figure:
 def intensity_map(run: Run, zone: str, seen: Observations = NOTHING) -> Figure:
     """Largest heat flux (kW/m2) of each model cell of the whole run, over the relief; what was seen."""
     flux = np.ma.masked_less(thumbnails.strongest(run), thumbnails.FIRE) / 1e3
-    first, last = (times.text(times.moment(run, float(run.times[i])), zone) for i in (0, -1))
+    first, last = (times.text(times.utc(run, float(run.times[i])), zone) for i in (0, -1))
     figure, axes = _page(run, "Fire intensity", f"strongest heat flux, {first} to {last}")
     _relief(axes, run, 1.0)
     high = float(flux.max()) if flux.count() else 1.0

@@ -14,7 +14,7 @@ def seconds(run: Run, moment: datetime) -> float:
     return (moment - _start(run)).total_seconds()
 
 
-def moment(run: Run, time: float) -> datetime:
+def utc(run: Run, time: float) -> datetime:
     """UTC of a model time (s)."""
     return _start(run) + timedelta(seconds=time)
 

@@ -12,7 +12,7 @@ from ..data import history
 from ..errors import input_error
 
 
-def of(run: Run) -> str:
+def time_zone(run: Run) -> str:
     """That which run.toml says; else of the fire that it depicts, of the start's offset, or by longitude.
 
     Raises

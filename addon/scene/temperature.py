@@ -189,7 +189,7 @@ def _sun(group: bpy.types.NodeTree, shot: Shot, count: int) -> None:
     frames = np.linspace(1.0, shot.frames.count, count)
     vectors = []
     for frame in frames:
-        bearing, height = sun.at(shot.run, float(shot.frames.time(frame)))
+        bearing, height = sun.position(shot.run, float(shot.frames.time(frame)))
         vectors.append(sun.direction(bearing, height) * sun.direct(height))
     _set(group, "Sun", vectors[0])
     for axis in range(3):

@@ -34,7 +34,7 @@ Array = NDArray[np.float64]
 def at(run: Run, time: float) -> Array:
     """(ny, nx) K at a model time (s), linear between the run's times and held beyond them."""
     if not run.has("temperature"):
-        day = float(np.clip(sun.at(run, time)[1] / 20.0, 0.0, 1.0))
+        day = float(np.clip(sun.position(run, time)[1] / 20.0, 0.0, 1.0))
         return _NIGHT + day * (_DAY - _NIGHT) - LAPSE * np.nan_to_num(run.elevation.astype(np.float64))
     times = run.times
     after = int(np.clip(np.searchsorted(times, time), 1, max(len(times) - 1, 1)))
@@ -88,7 +88,7 @@ def coldest_ground(run: Run, time: float, band: tuple[float, float]) -> float:
     the thermal view: by night 2.3 K colder. Stone, which mirrors 6 % of the cold sky, looks colder still, by
     2 K between 8 and 14 um. Under a sun higher than some ten degrees the air is the coldest.
     """
-    air, (_, height) = coldest(run, time), sun.at(run, time)
+    air, (_, height) = coldest(run, time), sun.position(run, time)
     ground = air + (ABSORBED * sun.direct(height) * np.sin(np.radians(height)) - LOSS) / BARE
     seen = STONE * sensor.radiance(ground, band) + (1.0 - STONE) * sensor.radiance(SKY, band)
     return min(air, float(sensor.brightness_temperature(seen, band)))

@@ -37,7 +37,7 @@ EVERYWHERE = (
 PACKAGE = Path(__file__).parents[1]
 
 
-def of(aspects: Iterable[str], cameras: Iterable[Camera], *more: str | Path) -> dict[str, str]:
+def hashes(aspects: Iterable[str], cameras: Iterable[Camera], *more: str | Path) -> dict[str, str]:
     """Hashes of the code that makes these aspects as these cameras see them, by folder or file.
 
     Parameters

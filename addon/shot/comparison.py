@@ -43,7 +43,7 @@ class ComparisonShot(Shot):
     def __init__(self, first: Shot, label: str) -> None:
         self.first, self._label = first, label
         settings, shown = first.settings, first.frames
-        begin, end = (times.moment(first.run, time) for time in (shown.first, shown.last))
+        begin, end = (times.utc(first.run, time) for time in (shown.first, shown.last))
         own = next(each for each in settings.runs if each.name == label)
         super().__init__(
             replace(

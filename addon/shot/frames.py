@@ -46,7 +46,7 @@ class Frames:
         return self.first + (frame - 1.0) * self.step
 
 
-def of(time: Time, run: Run) -> Frames:
+def resolve(time: Time, run: Run) -> Frames:
     """Frames of the scene file's [time] in a run; a still has one moment, its start."""
     first = float(run.times[0]) if time.start is None else times.seconds(run, time.start)
     if time.frames == 1:

@@ -31,7 +31,7 @@ def check(settings: Settings, run: Run) -> None:
     for index, camera in enumerate(settings.cameras):
         for where, latitude, longitude in camera.rig.places():
             _near(settings, run, ("cameras", index, *where), camera.name, latitude, longitude)
-        if found := camera.rig.misfit(run, frames.of(settings.time, run)):
+        if found := camera.rig.misfit(run, frames.resolve(settings.time, run)):
             reason = f'camera "{camera.name}" {found[1]}'
             raise scene_file.error_at(settings.path, ("cameras", index, *found[0]), reason)
 
@@ -41,7 +41,7 @@ def _window(settings: Settings, run: Run) -> None:
     for name in ("start", "end"):
         moment = getattr(settings.time, name)
         if moment is not None and not first <= times.seconds(run, moment) <= last:
-            span = " to ".join(f"{times.moment(run, t):%Y-%m-%dT%H:%M:%SZ}" for t in (first, last))
+            span = " to ".join(f"{times.utc(run, t):%Y-%m-%dT%H:%M:%SZ}" for t in (first, last))
             reason = f"time.{name} lies outside of the run, which has {span}"
             raise scene_file.error_at(settings.path, ("time", name), reason)
 

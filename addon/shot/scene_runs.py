@@ -57,8 +57,8 @@ def check(settings: Settings, run: Run, others: Mapping[str, Run]) -> None:
     """
     if not others:
         return
-    shown = frames.of(settings.time, run)
-    first, last = times.moment(run, shown.first), times.moment(run, shown.last)
+    shown = frames.resolve(settings.time, run)
+    first, last = times.utc(run, shown.first), times.utc(run, shown.last)
     spans = {name: _span(other) for name, other in {"": run, **others}.items()}
     low, high = max(span[0] for span in spans.values()), min(span[1] for span in spans.values())
     remedy = (
@@ -78,4 +78,4 @@ def check(settings: Settings, run: Run, others: Mapping[str, Run]) -> None:
 
 
 def _span(run: Run) -> tuple[datetime, datetime]:
-    return times.moment(run, float(run.times[0])), times.moment(run, float(run.times[-1]))
+    return times.utc(run, float(run.times[0])), times.utc(run, float(run.times[-1]))

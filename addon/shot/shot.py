@@ -28,7 +28,7 @@ from .settings.protocols import CameraSettings
 from .settings.settings import SMOKE_METHODS, Camera, Settings
 from .smoke_scale import Scale
 from .terrain import elevation
-from .terrain.elevation import Relief
+from .terrain.elevation import Elevation
 from .terrain.terrain import Ground
 from .visibility import Sights
 
@@ -61,11 +61,11 @@ class Shot:
 
     def __init__(self, settings: Settings, run: Run) -> None:
         if not settings.time.zone:
-            settings = replace(settings, time=replace(settings.time, zone=zone.of(run)))
+            settings = replace(settings, time=replace(settings.time, zone=zone.time_zone(run)))
         self.settings, self.run, self.cameras, self.whole = settings, run, settings.cameras, self
-        self.frames: Frames = frames.of(settings.time, run)
+        self.frames: Frames = frames.resolve(settings.time, run)
         self._filmed: dict[str, NDArray[np.int64]] = {}
-        self.relief: Relief = elevation.of(settings, run)
+        self.relief: Elevation = elevation.resolve(settings, run)
 
     def inputs(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
         """SHA-256 of each field of the run but some, and of the elevation model."""
@@ -183,7 +183,7 @@ class Shot:
 
     def moment(self, frame: float) -> datetime:
         """UTC of a frame."""
-        return times.moment(self.run, self.frames.time(frame))
+        return times.utc(self.run, self.frames.time(frame))
 
     @cached_property
     def built(self) -> NDArray[np.int64]:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Choice:
+class ShotSource:
     """Plain text, so that it can be handed to another process; an empty one leaves the scene file's word.
 
     Attributes
@@ -40,7 +40,7 @@ class Choice:
     beside: str = ""
 
     def plain(self) -> dict[str, str]:
-        """The choice as `Choice(**plain)` takes it."""
+        """The choice as `ShotSource(**plain)` takes it."""
         return asdict(self)
 
     def settings(self) -> Settings:
@@ -50,7 +50,7 @@ class Choice:
         if self.scene:
             found = scene_file.read(self.scene)
         else:
-            found = auto_framing.at(Path(self.run), Path(self.run), Path("cache")).settings
+            found = auto_framing.fit_folder(Path(self.run), Path(self.run), Path("cache")).settings
         folders = {name: Path(text) for name in ("run", "cache") if (text := getattr(self, name))}
         render = {name: text for name in ("engine", "device") if (text := getattr(self, name))}
         smoke = replace(found.smoke, method=self.smoke or found.smoke.method)

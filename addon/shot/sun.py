@@ -57,7 +57,7 @@ def direction(bearing: float, height: float) -> NDArray[np.float64]:
     return np.array([np.sin(bearing) * np.cos(height), np.cos(bearing) * np.cos(height), np.sin(height)])
 
 
-def light(bearing: float, height: float, night: Moon = NO_MOON) -> NDArray[np.float64]:
+def shadow_direction(bearing: float, height: float, night: Moon = NO_MOON) -> NDArray[np.float64]:
     """Unit vector towards what throws shadows: the sun at this bearing and height (degrees), or the moon."""
     if height > NIGHT:
         return direction(bearing, max(height, 0.5))
@@ -70,7 +70,7 @@ def moon(run: Run, time: float) -> Moon:
     Its light goes with the angle a (degrees) between sun and earth seen from it as 10^(-0.4 (0.026 a +
     4e-9 a^4)) (K. Krisciunas and B. E. Schaefer 1991, "A model of the brightness of moonlight", PASP 103).
     """
-    moment, observer = times.moment(run, time), Observer(*_middle(run), 0.0)
+    moment, observer = times.utc(run, time), Observer(*_middle(run), 0.0)
     height = lunar.elevation(observer, moment)
     if height <= 0.0:
         return NO_MOON
@@ -80,14 +80,14 @@ def moon(run: Run, time: float) -> Moon:
     return Moon(lunar.azimuth(observer, moment), height, float(bright * through))
 
 
-def at(run: Run, time: float) -> tuple[float, float]:
+def position(run: Run, time: float) -> tuple[float, float]:
     """Bearing and height (degrees) at the middle of the run's grid at a model time (s)."""
-    return angles(*_middle(run), times.moment(run, time))
+    return angles(*_middle(run), times.utc(run, time))
 
 
 def toward_light(run: Run, time: float) -> NDArray[np.float64]:
     """Unit vector to the sun, by night to the moon, over the run at a model time (s)."""
-    return light(*at(run, time), moon(run, time))
+    return shadow_direction(*position(run, time), moon(run, time))
 
 
 def _middle(run: Run) -> tuple[float, float]:

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import writing
-from ..progress import Progress, Tell, count, share, silent, size, untold
+from ..progress import MessageCallback, Progress, count, no_message, share, silent, size
 from ..run import content
 from ..shot import code_fingerprint
 from ..shot.settings import schema
@@ -95,7 +95,7 @@ def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None =
 
 @contextmanager
 def ahead(
-    shot: Shot, frames: Iterable[int], progress: Progress = silent, tell: Tell = untold
+    shot: Shot, frames: Iterable[int], progress: Progress = silent, tell: MessageCallback = no_message
 ) -> Iterator[Callable[..., None]]:
     """Write volumes while pictures are made, one frame before it is shown.
 
@@ -147,7 +147,7 @@ class Line:
 
     elsewhere: Callable[[], bool] | None = None
 
-    def __init__(self, shot: Shot, progress: Progress, tell: Tell) -> None:
+    def __init__(self, shot: Shot, progress: Progress, tell: MessageCallback) -> None:
         self.shot, self.progress, self.tell = shot, progress, tell
         self.pool = ThreadPoolExecutor(1)
         self.tasks: dict[int, Future[Any]] = {}
@@ -176,7 +176,7 @@ class Line:
 class _Volumes(Line):
     """Frames whose volumes are written."""
 
-    def __init__(self, shot: Shot, frames: list[int], progress: Progress, tell: Tell) -> None:
+    def __init__(self, shot: Shot, frames: list[int], progress: Progress, tell: MessageCallback) -> None:
         super().__init__(shot, progress, tell)
         self.frames, self.place = frames, _prepared(shot, progress)
 
@@ -197,7 +197,7 @@ class _Volumes(Line):
             task.result()
             self.progress(1, 1, "smoke of the first picture")
             self.tell(self._room())
-        self.progress, self.tell = silent, untold
+        self.progress, self.tell = silent, no_message
 
     def _room(self) -> str:
         """How much the volumes need, in words."""
@@ -254,7 +254,9 @@ def _key(shot: Shot, progress: Progress) -> str:
         found["leaders"] = [repr(each) for each in leaders]
     return content.fingerprint(
         {
-            "sources": code_fingerprint.of({"smoke"}, [*settings.cameras, *leaders], *source.code_files()),
+            "sources": code_fingerprint.hashes(
+                {"smoke"}, [*settings.cameras, *leaders], *source.code_files()
+            ),
             "run": shot.inputs(("temperature",), progress),
             "settings": found,
             "voxel": source.voxels(),

@@ -153,7 +153,7 @@ class Flow:
         """Where the snapshots of the last of these boxes are kept."""
         shot = self.shot
         found = {
-            "sources": code_fingerprint.of((), (), *_MADE_BY),
+            "sources": code_fingerprint.hashes((), (), *_MADE_BY),
             "run": shot.inputs(("temperature", "smoke_3d")),
             "time": schema.chosen(shot.settings, {"time"}),
             "spin_up": shot.spin_up,

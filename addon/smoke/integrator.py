@@ -147,7 +147,7 @@ class Integrator:
         self.frame = frame
         for domain, solver, drift in zip(self.domains, self.solvers, self.drifts, strict=True):
             if not domain.has(frame):
-                snapshots.keep(domain.snapshot_path(frame), solver, drift)
+                snapshots.save(domain.snapshot_path(frame), solver, drift)
 
     def _save(self) -> None:
         self.saved = time.monotonic()
@@ -199,7 +199,7 @@ class Integrator:
 
     def _outer(self, part: Domain) -> flow.Solver:
         shot, box = self.shot, part.box
-        around = atmosphere.air(sun.at(shot.run, shot.frames.middle)[1], part.mean)
+        around = atmosphere.air(sun.position(shot.run, shot.frames.middle)[1], part.mean)
         return flow.Solver(
             box.levels,
             box.shape,

@@ -7,7 +7,7 @@ from contextlib import AbstractContextManager, contextmanager
 
 from firetwin_core import volume
 
-from ..progress import Progress, Tell, silent, untold
+from ..progress import MessageCallback, Progress, no_message, silent
 from ..shot.shot import Shot
 from . import bake, sources
 
@@ -19,7 +19,7 @@ def smoke(
     shot: Shot,
     frames: Iterable[int],
     progress: Progress = silent,
-    tell: Tell = untold,
+    tell: MessageCallback = no_message,
     elsewhere: Callable[[], bool] | None = None,
 ) -> AbstractContextManager[Callable[..., Smoke | None]]:
     """What gives pictures their smoke: `bricks` where it is marched, else `bake.ahead`."""
@@ -33,7 +33,7 @@ def bricks(
     shot: Shot,
     frames: Iterable[int],
     progress: Progress = silent,
-    tell: Tell = untold,
+    tell: MessageCallback = no_message,
     elsewhere: Callable[[], bool] | None = None,
 ) -> Iterator[Ready]:
     """Paint smoke while pictures are made.
@@ -62,7 +62,7 @@ class _Bricks(bake.Line):
         shot: Shot,
         frames: set[int],
         progress: Progress,
-        tell: Tell,
+        tell: MessageCallback,
         elsewhere: Callable[[], bool] | None,
     ) -> None:
         super().__init__(shot, progress, tell)
@@ -82,5 +82,5 @@ class _Bricks(bake.Line):
         self.progress(0, 1, "smoke of the first picture")
         found = self.tasks.pop(frame).result()
         self.progress(1, 1, "smoke of the first picture")
-        self.progress, self.tell = silent, untold
+        self.progress, self.tell = silent, no_message
         return found

@@ -52,7 +52,7 @@ class Snapshot:
     mass: dict[str, float]
 
 
-def keep(path: Path, solver: flow.Solver, drift: flow.Drift) -> None:
+def save(path: Path, solver: flow.Solver, drift: flow.Drift) -> None:
     """Write a snapshot of a flow as it is now."""
     smoke = solver.smoke()
     there = smoke > _NONE

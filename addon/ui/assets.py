@@ -10,7 +10,7 @@ import bpy
 from ..errors import Error
 from ..progress import count
 from . import choice, render, run, scene_file
-from .job import Away, Steps
+from .job import InThread, Steps
 from .working import Working
 
 
@@ -37,7 +37,7 @@ class FIRETWIN_OT_assets(Working, bpy.types.Operator):
         out = bpy.path.abspath(self.directory) or scene_file.output(settings, "assets")
         if not out:
             raise Error(render.NO_OUTPUT)
-        made = yield Away(
+        made = yield InThread(
             "starting Blender", functools.partial(assets.run, choice.from_panel(settings), Path(out))
         )
         return f"Wrote {count(made, 'asset')} to {out}"

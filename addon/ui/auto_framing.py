@@ -15,7 +15,7 @@ from ..blender import owned
 from ..shot.settings.schema import parts, plain
 from ..shot.settings.settings import Settings, Time
 from . import camera_list, keys
-from .job import Away, Steps
+from .job import InThread, Steps
 
 if TYPE_CHECKING:
     from firetwin_core.run import Run
@@ -45,7 +45,7 @@ def _found(folder: str, stamps: str, start: datetime | None, end: datetime | Non
     from ..shot import auto_framing
 
     run = readers.open(folder)
-    fits = auto_framing.of(run, Settings(run=Path(folder), time=Time(start, end)))
+    fits = auto_framing.fit(run, Settings(run=Path(folder), time=Time(start, end)))
     values = {part.name: plain(part.type, getattr(fits.settings.time, part.name)) for part in parts(Time)}
     return {"cameras": camera_list.text(fits.settings.cameras), "time": values, "lines": fits.lines}
 
@@ -76,10 +76,10 @@ def again(uid: int) -> Steps:
     if panel.scene_file or here != usual.get("cameras") or window == usual["placed_for"]:
         return ""
     run = readers.open(bpy.path.abspath(panel.run))
-    first, last = (times.moment(run, float(run.times[i])) for i in (0, -1))
+    first, last = (times.utc(run, float(run.times[i])) for i in (0, -1))
     if time.wrong() or any(moment and not first <= moment <= last for moment in (time.start, time.end)):
         return ""  # which is told by what reads the settings
-    fits = yield Away("placing the cameras", lambda **_: found(run, time.start, time.end))
+    fits = yield InThread("placing the cameras", lambda **_: found(run, time.start, time.end))
     panel = owned.scene(uid).firetwin
     camera_list.fill(panel, camera_list.listed(fits["cameras"]))
     kept = {"cameras": fits["cameras"], "lines": fits["lines"], "placed_for": window}

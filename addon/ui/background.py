@@ -43,12 +43,12 @@ class FIRETWIN_OT_render_background(bpy.types.Operator):
     @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         from ..jobs import render_blend
-        from ..jobs.render import Asked
+        from ..jobs.render import RenderRequest
 
         scene, settings = context.scene, context.scene.firetwin
         frames = {"frame": str(scene.frame_current), "list": settings.frame_list, "all": None}
         camera = None if settings.camera == "*" else settings.camera
-        asked = Asked(Path(scene_file.output(settings)), frames[settings.which], camera)
+        asked = RenderRequest(Path(scene_file.output(settings)), frames[settings.which], camera)
         which = {
             "frame": f"frame {scene.frame_current}",
             "list": f"frames {settings.frame_list}",

@@ -27,7 +27,7 @@ from . import (
     view,
     working,
 )
-from .job import Away, Steps, Told
+from .job import InThread, Message, Steps
 from .text import labelled, paragraph
 from .working import Working
 
@@ -103,14 +103,14 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     uid, settings = context.scene.session_uid, context.scene.firetwin
     parts = tuple(PARTS) if part == ALL else (part,)
     for text in camera_edits.pull(context.scene):
-        yield Told(text, "WARNING")
+        yield Message(text, "WARNING")
     yield from auto_framing.again(uid)
     settings = owned.scene(uid).firetwin
-    then = changed_settings.seen(settings)
+    then = changed_settings.digests(settings)
     chosen, smoke = choice.from_panel(settings), settings.bake_smoke and "smoke" in parts
-    shot = yield Away("reading the run", lambda **_: chosen.shot())
+    shot = yield InThread("reading the run", lambda **_: chosen.shot())
     if smoke and shot.settings.smoke.enabled:
-        yield Away("smoke", functools.partial(bake.run, chosen, together=True))
+        yield InThread("smoke", functools.partial(bake.run, chosen, together=True))
     yield "removing the previous build"
     if bpy.context.mode != "OBJECT":
         raise Error("leave the edit mode, then build again")
@@ -123,7 +123,7 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
     _finish(owned.scene(uid), shot, parts, new)
     yield from solve.price(uid)
     for text in (*shot.warnings(), *camera_warnings.mono_vr(shot.settings), *told):
-        yield Told(text, "WARNING")
+        yield Message(text, "WARNING")
     what = f"{shot.frames.count} frames" if part == ALL else f"the {part}"
     return f"Built {what} of {shot.run.name}" + (f"; {words}" if words else "")
 
@@ -239,7 +239,7 @@ class FIRETWIN_PT_build(bpy.types.Panel):
         row = layout.row(align=True)
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Through camera", icon="CAMERA_DATA").whole = False
         row.operator(view.FIRETWIN_OT_view.bl_idname, text="Whole run", icon="WORLD_DATA").whole = True
-        working.message(context, layout, FIRETWIN_OT_build)
+        working.messages(context, layout, FIRETWIN_OT_build)
 
 
 classes = (

@@ -13,7 +13,7 @@ from ..errors import Error
 from ..scene.camera import ground_raycast, read_edits
 from ..shot.cameras import sparse_keys, targets
 from . import choice, go_to, navigation
-from .job import Away, Steps
+from .job import InThread, Steps
 from .working import Working, reported
 
 AIM, PATH = "Firetwin Aim", "Firetwin Path"  # names of the constraints
@@ -62,7 +62,7 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
             way = np.array([met])
         elif target in targets.MOVING:
             chosen = choice.from_panel(scene.firetwin)
-            shot = yield Away("reading the run", lambda **_: chosen.shot())
+            shot = yield InThread("reading the run", lambda **_: chosen.shot())
             yield "finding the fire"
             way = targets.follow(target, shot.bare_ground, shot.frames.times, _ABOVE)
         yield "turning the camera"

@@ -22,7 +22,7 @@ and on the cameras, so those are the scene's only when all of it is built."""
 _ELSEWHERE = ("path", "cache")
 
 
-def seen(panel: bpy.types.PropertyGroup) -> dict[str, str]:
+def digests(panel: bpy.types.PropertyGroup) -> dict[str, str]:
     """A digest of what the panel shows of every section, of the run and of the cameras."""
     found = {part.name: _seen(panel, part) for part in parts(Settings) if part.name not in _ELSEWHERE}
     return {name: hashlib.sha256(repr(value).encode()).hexdigest()[:16] for name, value in found.items()}
@@ -36,7 +36,7 @@ def _seen(panel: bpy.types.PropertyGroup, part: Part) -> object:
     if part.table:
         group = getattr(panel, part.name)
         return [_seen(group, inner) for inner in parts(part.table)]
-    use, value = keys.shown(panel, part)
+    use, value = keys.stored_value(panel, part)
     return use, sorted(value) if isinstance(value, set) else value
 
 
@@ -59,7 +59,7 @@ def compare(panel: bpy.types.PropertyGroup) -> None:
     """Write down which sections differ from what was built."""
     if not panel.built:
         return
-    built, now = json.loads(panel.built), seen(panel)
+    built, now = json.loads(panel.built), digests(panel)
     panel.changed = " ".join(name for name, digest in now.items() if built.get(name, digest) != digest)
 
 

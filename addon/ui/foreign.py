@@ -10,7 +10,7 @@ import bpy
 
 from ..blender import owned
 from . import job, run, scene_file, working
-from .job import Away, Steps
+from .job import InThread, Steps
 from .working import Working
 
 
@@ -63,7 +63,9 @@ class FIRETWIN_OT_convert(Said, Working, bpy.types.Operator):
             said = {name: getattr(self, name).strip() for name in ("start", "at", "projection")}
             out, there = convert.beside(paths, folders, **said)
             if not there:
-                yield Away("reading the model's files", functools.partial(convert.run, paths, out, **said))
+                yield InThread(
+                    "reading the model's files", functools.partial(convert.run, paths, out, **said)
+                )
         except Exception as error:
             owned.scene(uid).firetwin.problem = _words(error)
             raise
@@ -75,7 +77,9 @@ def _words(error: Exception) -> str:
     """Options of the command line are fields beside the list of files here."""
     option = r"--(start|at|projection)\b"
     return re.sub(
-        option, lambda found: f"{found[1].capitalize()} (beside the files in Open run)", job.words(error)
+        option,
+        lambda found: f"{found[1].capitalize()} (beside the files in Open run)",
+        job.describe_error(error),
     )
 
 

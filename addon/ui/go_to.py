@@ -32,7 +32,7 @@ def coordinates(text: str) -> tuple[float, float] | None:
     return (latitude, longitude) if abs(latitude) <= 90.0 and abs(longitude) <= 360.0 else None
 
 
-def moment(panel: bpy.types.PropertyGroup, text: str) -> datetime | None:
+def parse_time(panel: bpy.types.PropertyGroup, text: str) -> datetime | None:
     """The moment that a text says: a date and time, or words of something reported."""
     if found := _DATE.fullmatch(text):
         zone = UTC if found[3] else zoneinfo.ZoneInfo(panel.zone)
@@ -87,7 +87,7 @@ class FIRETWIN_OT_go(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         scene, text = context.scene, self.text or context.scene.firetwin.go_to
         where = place(scene, text)
-        if where is None and (when := moment(scene.firetwin, text)) is not None:
+        if where is None and (when := parse_time(scene.firetwin, text)) is not None:
             scene.frame_set(frame_of(scene.firetwin, when))
             self.report({"INFO"}, f"Frame {scene.frame_current}, the nearest to {when:%d %b %Y %H:%M} UTC")
             return {"FINISHED"}

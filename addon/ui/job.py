@@ -1,7 +1,7 @@
 """Long work in steps.
 
 The work is a generator. It yields a text before each step that has to be taken in Blender itself;
-`Told(...)`, a sentence for people; or `Away(...)`, a function for a thread (which most often waits for a
+`Message(...)`, a sentence for people; or `InThread(...)`, a function for a thread (which most often waits for a
 worker process), and gets back what that returned.
 
 At every yield people may rename, delete or undo anything, so no data-block is held across one: `owned.scene`
@@ -28,7 +28,7 @@ _UNDONE = "undo was used during the build, so the scene is incomplete; build it 
 
 
 @dataclass(frozen=True)
-class Away:
+class InThread:
     """Work that needs no Blender data: ``function(progress=..., tell=..., stop=...)``, called in a thread."""
 
     what: str
@@ -36,7 +36,7 @@ class Away:
 
 
 @dataclass(frozen=True)
-class Told:
+class Message:
     """A sentence for people: "INFO", "WARNING" or "ERROR"."""
 
     text: str
@@ -46,16 +46,16 @@ class Told:
         object.__setattr__(self, "text", message(self.text))
 
 
-Steps = Generator["str | Away | Told", Any, str]
+Steps = Generator["str | InThread | Message", Any, str]
 """The steps of a work; it returns what to tell when it is done."""
 
 
 @dataclass(frozen=True)
-class Ended:
+class JobResult:
     """What the last work that ended had to tell, and the file that was open then (None: whichever)."""
 
     name: str
-    told: tuple[Told, ...]
+    told: tuple[Message, ...]
     file: str | None
 
 
@@ -75,13 +75,13 @@ class Job:
     """
 
     current: ClassVar[Job | None] = None
-    last: ClassVar[Ended | None] = None
+    last: ClassVar[JobResult | None] = None
 
     def __init__(self, name: str, steps: Steps) -> None:
         self.name, self.steps = name, steps
         self.what, self.done, self.total = name, 0, 1
         self.stop, self.touched, self.undone = Stop(), False, False
-        self.said: list[Told] = []
+        self.said: list[Message] = []
         self.told = ""
         self._since = time.monotonic()
         self._thread: threading.Thread | None = None
@@ -112,7 +112,7 @@ class Job:
 
     def tell(self, text: str) -> None:
         """A sentence for people, from the thread."""
-        self.said.append(Told(text))
+        self.said.append(Message(text))
 
     @property
     def factor(self) -> float:
@@ -146,7 +146,7 @@ class Job:
             self.told = end.value or ""
             return True
         self.what, self.done, self.total, self._since = _label(step), 0, 1, time.monotonic()
-        if isinstance(step, Away):
+        if isinstance(step, InThread):
             self._send_away(step.function)
             if wait:
                 self._thread.join()
@@ -154,12 +154,12 @@ class Job:
             self.touched = True
         return False
 
-    def _next(self, outcome: dict[str, Any]) -> str | Away:
+    def _next(self, outcome: dict[str, Any]) -> str | InThread:
         if "error" in outcome:
             step = self.steps.throw(outcome["error"])
         else:
             step = self.steps.send(outcome.get("result"))
-        while isinstance(step, Told):
+        while isinstance(step, Message):
             self.said.append(step)
             step = next(self.steps)
         return step
@@ -178,15 +178,15 @@ class Job:
         self._thread.start()
 
 
-def _label(step: str | Away) -> str:
-    return step.what if isinstance(step, Away) else step
+def _label(step: str | InThread) -> str:
+    return step.what if isinstance(step, InThread) else step
 
 
 unexpected: list[str] = []
 """The traceback of the last error that nobody foresaw."""
 
 
-def words(error: BaseException) -> str:
+def describe_error(error: BaseException) -> str:
     """What to tell about an error in one line: where it is and what to do, never a traceback."""
     return message(_words(error))
 

@@ -101,13 +101,13 @@ def take(group: bpy.types.PropertyGroup, part: Part, exact: dict[str, Any] | Non
     """
     exact = json.loads(group.exact or "{}") if exact is None else exact
     kept = _restored(part, exact[part.name]) if part.name in exact else _ABSENT
-    same = kept is not _ABSENT and shown(group, part) == _as_shown(part, kept)
+    same = kept is not _ABSENT and stored_value(group, part) == _as_shown(part, kept)
     return kept if same else _value(group, part)
 
 
 def shows(group: bpy.types.PropertyGroup, part: Part, value: Any) -> bool:
     """Whether a property shows this value."""
-    return shown(group, part) == _as_shown(part, value)
+    return stored_value(group, part) == _as_shown(part, value)
 
 
 def differs(group: bpy.types.PropertyGroup, part: Part) -> bool:
@@ -145,7 +145,7 @@ def _show(group: bpy.types.PropertyGroup, part: Part, value: Any) -> None:
         setattr(group, part.name, shown)
 
 
-def shown(group: bpy.types.PropertyGroup, part: Part) -> tuple[bool, Any]:
+def stored_value(group: bpy.types.PropertyGroup, part: Part) -> tuple[bool, Any]:
     """What the panel shows: whether the value stands, and the value as Blender keeps it."""
     if switched(part) and not getattr(group, USE + part.name):
         return False, None
@@ -185,7 +185,7 @@ def _number(part: Part, value: float) -> float:
 
 def _value(group: bpy.types.PropertyGroup, part: Part) -> Any:
     """The value of the key as a property alone tells it: of numbers the shortest that looks the same."""
-    use, value = shown(group, part)
+    use, value = stored_value(group, part)
     if not use:
         return None
     inner = typing.get_args(part.type)

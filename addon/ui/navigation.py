@@ -13,7 +13,7 @@ from ..shot.cameras.lenses import LENSES
 from ..shot.cameras.rigs._view import View
 from ..shot.settings.settings import Camera
 from . import camera_edits, camera_list, choice, job, keys, run, working
-from .job import Away, Steps, Told
+from .job import InThread, Message, Steps
 from .working import Working
 
 _AHEAD = 2000.0  # m, where a view looks that meets no ground
@@ -121,14 +121,14 @@ class FIRETWIN_OT_camera_add(Working, bpy.types.Operator):
         scene, kind = context.scene, self.kind
         uid, stage = scene.session_uid, owned.stage(scene)
         for text in camera_edits.pull(scene):
-            yield Told(text, "WARNING")
+            yield Message(text, "WARNING")
         rig = rigs.kinds()[kind].seeing(view(stage, *eye(context)))
         taken = {item.name for item in scene.firetwin.cameras}
         name = next(name for n in range(1, 1000) if (name := kind if n == 1 else f"{kind}{n}") not in taken)
         item = camera_list.add(scene.firetwin, Camera(name, rig))
         try:
             chosen = choice.from_panel(scene.firetwin)
-            shot = yield Away("reading the run", lambda **_: chosen.shot())
+            shot = yield InThread("reading the run", lambda **_: chosen.shot())
         except Exception:
             panel = owned.scene(uid).firetwin
             panel.cameras.remove(panel.cameras.find(item.name))

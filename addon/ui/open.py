@@ -11,7 +11,7 @@ from bpy_extras.io_utils import ExportHelper, ImportHelper
 from ..blender import owned
 from ..run import readers
 from . import build, foreign, run, scene_file, working
-from .job import Away, Steps
+from .job import InThread, Steps
 from .working import Working
 
 _RUN = "run.toml"
@@ -131,7 +131,7 @@ class FIRETWIN_OT_sample(Working, bpy.types.Operator):
 
         uid = context.scene.session_uid
         folder = Path(bpy.path.abspath(self.folder)) if self.folder else scene_file.own_folder() / "king_fire"
-        yield Away("writing the sample run", functools.partial(sample.run, folder))
+        yield InThread("writing the sample run", functools.partial(sample.run, folder))
         foreign.begin(owned.scene(uid).firetwin, str(folder))
         return (yield from run.look(uid))
 

@@ -26,7 +26,7 @@ class FIRETWIN_AP_preferences(bpy.types.AddonPreferences):
 
 
 def device() -> str:
-    """What Cycles renders on, as `choice.Choice` takes it: empty as the scene file says."""
+    """What Cycles renders on, as `source.ShotSource` takes it: empty as the scene file says."""
     addon = bpy.context.preferences.addons.get(_PACKAGE)
     chosen = addon.preferences.device if addon is not None and addon.preferences is not None else AS_FILE[0]
     return "" if chosen == AS_FILE[0] else chosen

@@ -13,9 +13,9 @@ from pathlib import Path
 import bpy
 
 from ..jobs import worker
-from ..jobs.render import Asked
+from ..jobs.render import RenderRequest
 from ..progress import duration
-from ..shot.source import Choice
+from ..shot.source import ShotSource
 from . import job
 
 WAITING, RENDERING, PAUSED, DONE, FAILED = "waiting", "rendering", "paused", "done", "failed"
@@ -43,8 +43,8 @@ class Item:
     title: str
     folder: Path
     scene: str
-    choice: Choice
-    asked: Asked
+    choice: ShotSource
+    asked: RenderRequest
     render: Run
     state: str = WAITING
     what: str = ""
@@ -85,12 +85,12 @@ class Item:
         """Render in a thread of its own, which waits for the worker process."""
         self.state, self.told, self.stop = RENDERING, "", worker.Stop()
         self.began = self.began or time.time()
-        asked = Asked(**{**vars(self.asked), "resume": self.resume})
+        asked = RenderRequest(**{**vars(self.asked), "resume": self.resume})
         self.resume = True
         self._thread = threading.Thread(target=self._work, args=(asked, self.stop), daemon=True)
         self._thread.start()
 
-    def _work(self, asked: Asked, stop: worker.Stop) -> None:
+    def _work(self, asked: RenderRequest, stop: worker.Stop) -> None:
         try:
             made = self.render(
                 self.choice,
@@ -104,7 +104,7 @@ class Item:
         except worker.StoppedError:
             self.state, self.told = PAUSED, "finished pictures are kept"
         except BaseException as error:
-            self.state, self.told = FAILED, job.words(error)
+            self.state, self.told = FAILED, job.describe_error(error)
         else:
             self.state, self.told = DONE, f"{made} pictures in {asked.out}"
 
@@ -138,7 +138,7 @@ items: list[Item] = []
 _pictures: dict[str, bpy.utils.previews.ImagePreviewCollection] = {}
 
 
-def add(title: str, scene: bpy.types.Scene, choice: Choice, asked: Asked, render: Run) -> Item:
+def add(title: str, scene: bpy.types.Scene, choice: ShotSource, asked: RenderRequest, render: Run) -> Item:
     """Save a copy of the open file as it is, and let it stand in line.
 
     Raises
@@ -152,7 +152,7 @@ def add(title: str, scene: bpy.types.Scene, choice: Choice, asked: Asked, render
         if choice.scene:  # written for this session alone
             kept = folder / "scene.toml"
             shutil.copyfile(choice.scene, kept)
-            item.choice = Choice(**{**choice.plain(), "scene": str(kept)})
+            item.choice = ShotSource(**{**choice.plain(), "scene": str(kept)})
         bpy.ops.wm.save_as_mainfile(filepath=str(item.blend), copy=True, compress=False)
     except BaseException:
         shutil.rmtree(folder, ignore_errors=True)

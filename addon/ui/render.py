@@ -9,7 +9,7 @@ import bpy
 
 from ..progress import count
 from . import choice, job, panel_order, run, scene_file, working
-from .job import Away, Steps
+from .job import InThread, Steps
 from .text import paragraph
 from .working import Working
 
@@ -53,9 +53,9 @@ class FIRETWIN_OT_render(Working, bpy.types.Operator):
         frames = {"frame": str(context.scene.frame_current), "list": settings.frame_list, "all": None}
         out = Path(scene_file.output(settings))
         camera = None if settings.camera == "*" else settings.camera
-        asked = render.Asked(out, frames[settings.which], camera, resume=settings.resume)
+        asked = render.RenderRequest(out, frames[settings.which], camera, resume=settings.resume)
         chosen = choice.from_panel(settings)
-        made = yield Away("starting Blender", functools.partial(render.run, chosen, asked))
+        made = yield InThread("starting Blender", functools.partial(render.run, chosen, asked))
         if not made.pictures:
             return f"All pictures in {out} are finished"
         return f"Rendered {count(made.pictures, 'picture')} to {out}"
@@ -96,7 +96,7 @@ class FIRETWIN_PT_render(bpy.types.Panel):
         folder.operator("wm.path_open", text="", icon="FILE_FOLDER").filepath = out
         if not out:
             paragraph(context, layout.column(align=True), NO_OUTPUT, "INFO")
-        working.message(context, layout, FIRETWIN_OT_render)
+        working.messages(context, layout, FIRETWIN_OT_render)
 
 
 classes = (FIRETWIN_OT_render, FIRETWIN_PT_render)

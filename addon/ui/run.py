@@ -15,7 +15,7 @@ from ..jobs.worker import StoppedError
 from ..run import readers
 from ..shot.settings import scene_file as file
 from . import auto_framing, changed_settings, choice, job, maps, scene_file, solve, working
-from .job import Away, Steps
+from .job import InThread, Steps
 from .text import labelled, paragraph
 from .working import Working
 
@@ -38,7 +38,7 @@ def imported(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> N
     try:
         scene_file.fill(settings.id_data, file.read(bpy.path.abspath(settings.scene_file)))
     except Exception as error:
-        settings.problem = job.words(error)
+        settings.problem = job.describe_error(error)
     working.redraw()
 
 
@@ -86,19 +86,19 @@ def look(uid: int) -> Steps:
     settings.problem = ""
     folder = Path(bpy.path.abspath(settings.run))
     try:
-        found, images = yield Away("reading the run", lambda **_: facts(folder))
+        found, images = yield InThread("reading the run", lambda **_: facts(folder))
         owned.scene(uid).firetwin.facts = json.dumps(found)
         auto_framing.put(owned.scene(uid).firetwin, found["fits"])
         maps.show(owned.scene(uid).firetwin.run, images)
         yield from auto_framing.again(uid)
         chosen = choice.from_panel(owned.scene(uid).firetwin)
-        yield Away("reading the run", lambda **_: chosen.shot())
+        yield InThread("reading the run", lambda **_: chosen.shot())
         yield from solve.price(uid)
     except StoppedError:
         owned.scene(uid).firetwin.problem = "The run was read only in part; use Read run"
         raise
     except Exception as error:
-        owned.scene(uid).firetwin.problem = job.words(error)
+        owned.scene(uid).firetwin.problem = job.describe_error(error)
         raise
     return f"Read {found['name']}"
 
@@ -108,7 +108,7 @@ def facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
     from ..run import info, labels, thumbnails, zone
 
     run = readers.open(folder)
-    found = info.gather(run, zone.of(run))
+    found = info.gather(run, zone.time_zone(run))
     told = {
         "name": found["name"],
         "synthetic": found["synthetic"],

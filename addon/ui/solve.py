@@ -7,9 +7,9 @@ from dataclasses import replace
 import bpy
 
 from ..blender import owned
-from ..shot.source import Choice
+from ..shot.source import ShotSource
 from . import choice
-from .job import Away, Steps
+from .job import InThread, Steps
 
 OPERATOR = "firetwin.solve"
 
@@ -29,12 +29,12 @@ def price(uid: int) -> Steps:
     if not panel.smoke.enabled or not better:
         return ""
     chosen = replace(choice.from_panel(panel), smoke=better)
-    found = yield Away("estimating the cost of the smoke", lambda **_: _cost(chosen))
+    found = yield InThread("estimating the cost of the smoke", lambda **_: _cost(chosen))
     owned.scene(uid).firetwin.smoke_cost = found
     return found
 
 
-def _cost(chosen: Choice) -> str:
+def _cost(chosen: ShotSource) -> str:
     """Time and room in a few words; empty where the run brings its smoke, or nothing burns."""
     from ..smoke import sources
 

@@ -40,7 +40,7 @@ def forget(settings: bpy.types.PropertyGroup) -> None:
         settings.property_unset(name)
 
 
-def moment(settings: bpy.types.PropertyGroup) -> datetime:
+def shown_time(settings: bpy.types.PropertyGroup) -> datetime:
     """Moment of the frame that is shown, UTC."""
     frame = settings.id_data.frame_current
     return datetime.fromisoformat(settings.first_time) + timedelta(
@@ -207,7 +207,7 @@ class FIRETWIN_PT_time(bpy.types.Panel):
 
 def _clock(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
     """The moment that is shown, in local time and UTC, and where to go from it."""
-    now = moment(settings)
+    now = shown_time(settings)
     local = times.text(now, settings.zone)
     layout.prop(settings, "model_time", text=local.split(maxsplit=3)[-1], slider=True)
     column = layout.column(align=True)

@@ -15,7 +15,7 @@ import bpy
 
 from ..jobs.worker import StoppedError
 from . import job, keys, text
-from .job import Ended, Job, Steps, Told, words
+from .job import Job, JobResult, Message, Steps, describe_error
 
 _TICK = 0.1  # s
 _MOUSE = ("MOUSEMOVE", "INBETWEEN_MOUSEMOVE", "LEFTMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN")
@@ -45,7 +45,7 @@ def reported(execute: Callable[..., set[str]]) -> Callable[..., set[str]]:
         try:
             return execute(self, context)
         except Exception as error:
-            self.report({"ERROR"}, job.words(error))
+            self.report({"ERROR"}, job.describe_error(error))
             return {"CANCELLED"}
 
     return told
@@ -110,7 +110,7 @@ class Working:
             return self._failed(work, error)
         finally:
             Job.current = None
-        self._tell(work, Told(work.told))
+        self._tell(work, Message(work.told))
         return {"FINISHED"}
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -150,20 +150,20 @@ class Working:
             _show(context, self.job)
             return {"PASS_THROUGH"}  # others wait for timers too
         self._end(context)
-        self._tell(self.job, Told(self.job.told))
+        self._tell(self.job, Message(self.job.told))
         return {"FINISHED"}
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Another file is opened, or Blender ends."""
         self.job.stop.now()
         self._end(context)
-        gone = Told(f"{self.job.name} stopped because another file was opened", "WARNING")
-        Job.last = Ended(self.job.name, (gone,), None)
+        gone = Message(f"{self.job.name} stopped because another file was opened", "WARNING")
+        Job.last = JobResult(self.job.name, (gone,), None)
 
-    def _tell(self, work: Job, last: Told) -> None:
+    def _tell(self, work: Job, last: Message) -> None:
         """Report what was told, and keep it for the panel."""
         told = tuple({each.text: each for each in (*work.said, last) if each.text}.values())  # each once
-        Job.last = Ended(work.name, told, bpy.data.filepath)
+        Job.last = JobResult(work.name, told, bpy.data.filepath)
         for each in told:
             self.report({each.level}, each.text)
 
@@ -171,9 +171,9 @@ class Working:
         if isinstance(error, StoppedError):
             undo = "the scene is restored" if back else "undo restores the scene"
             kept = undo if work.touched else "finished work is kept"
-            self._tell(work, Told(f"{work.name} stopped; {kept}", "WARNING"))
+            self._tell(work, Message(f"{work.name} stopped; {kept}", "WARNING"))
         else:
-            self._tell(work, Told(words(error), "ERROR"))
+            self._tell(work, Message(describe_error(error), "ERROR"))
         if back:
             bpy.app.timers.register(take_back, first_interval=0.0)  # after Blender has kept this step
         return {"FINISHED"} if work.touched else {"CANCELLED"}  # what is half made can then be undone
@@ -220,7 +220,7 @@ def button(layout: bpy.types.UILayout, operator: type[bpy.types.Operator], icon:
         layout.operator(operator.bl_idname, icon=icon)
 
 
-def message(
+def messages(
     context: bpy.types.Context, layout: bpy.types.UILayout, operator: type[bpy.types.Operator]
 ) -> None:
     """What the operator's last work had to tell; while it goes on, how it is stopped."""
@@ -228,9 +228,9 @@ def message(
     if Job.current is not None and Job.current.name == operator.bl_label:
         text.paragraph(context, column, "Stop, or Esc with the pointer here, ends the task")
     elif Job.current is None:
-        for each in told(operator):
+        for each in last_messages(operator):
             text.paragraph(context, column, keys.sentence(each.text), _ICONS[each.level])
-        if wrong := [each.text for each in told(operator) if each.level == "ERROR"]:
+        if wrong := [each.text for each in last_messages(operator) if each.level == "ERROR"]:
             copy_button(column, "\n".join(wrong))
 
 
@@ -239,7 +239,7 @@ def copy_button(layout: bpy.types.UILayout, message: str) -> None:
     layout.operator(FIRETWIN_OT_copy.bl_idname, icon="COPYDOWN").message = message
 
 
-def told(operator: type[bpy.types.Operator]) -> tuple[Told, ...]:
+def last_messages(operator: type[bpy.types.Operator]) -> tuple[Message, ...]:
     """What the last work had to tell, if it was this operator's and in this file."""
     last = Job.last
     here = last is not None and last.name == operator.bl_label and last.file in (None, bpy.data.filepath)

@@ -53,10 +53,10 @@ def build(scene: Path, frame: int, picture: Path | None = None, seed: int = 0) -
     from firetwin.bench.timing import Stopwatch
     from firetwin.jobs import render, worker_scene
     from firetwin.render.picture import Picture
-    from firetwin.shot.source import Choice
+    from firetwin.shot.source import ShotSource
 
     watch = Stopwatch()
-    shot = Choice(str(scene)).shot()
+    shot = ShotSource(str(scene)).shot()
     ((part, _),) = render._parts(
         shot.of(shot.settings.cameras[0].name), [Picture(shot.settings.cameras[0].name, frame, "rgb")]
     )
@@ -80,7 +80,7 @@ def scenes(run: Path, work: Path) -> None:
 
     opened = runs.open(run)
     step = (float(opened.times[-1]) - float(opened.times[0])) / (FRAMES - 1)
-    begin = times.moment(opened, float(opened.times[0]))
+    begin = times.utc(opened, float(opened.times[0]))
     ends = {
         "part": (0, FRAMES - 1, FRAMES, CAMERAS),
         "alone": (FIRST, FIRST + COUNT - 1, COUNT, 1),

@@ -120,7 +120,7 @@ def written() -> float:
     drift.advance()
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "moment.npz"
-        snapshots.keep(path, solver, drift)
+        snapshots.save(path, solver, drift)
         moment = snapshots.load(path)
     smoke = moment.fields["smoke"].sum((1, 2), dtype=float)
     airborne = np.sum(smoke * np.diff(solver.levels)[: len(smoke)]) * solver.spacing**2

@@ -13,7 +13,7 @@ from pathlib import Path
 from firetwin.bench.harness import OURS, Bench
 from firetwin.bench.timing import LEAST, Stopwatch, Times
 from firetwin.jobs import worker
-from firetwin.progress import Progress, Tell, silent, untold
+from firetwin.progress import MessageCallback, Progress, no_message, silent
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.settings import settings
 from firetwin.shot.shot import Shot
@@ -53,7 +53,7 @@ def scene_file(folder: Path) -> settings.Settings:
 
 
 def change_in_blender(
-    folder: str, times: int, progress: Progress = silent, tell: Tell = untold
+    folder: str, times: int, progress: Progress = silent, tell: MessageCallback = no_message
 ) -> dict[str, list[float]]:
     """Processor seconds of each frame change: of all, and without each object whose nodes follow time."""
     import bpy

@@ -37,7 +37,7 @@ def moved(run: Path, folder: Path, moment: datetime, hour: float) -> timedelta:
     for file in run.resolve().iterdir():
         if file.suffix == ".npy":
             _linked(file, folder / file.name)
-    start = times.moment(opened, 0.0).astimezone(UTC) + by
+    start = times.utc(opened, 0.0).astimezone(UTC) + by
     said = (run / "run.toml").read_text(encoding="utf-8")
     said = re.sub(r"^event = .*$", "", said, flags=re.MULTILINE)  # its dated reports are of the true clock
     stamp = f"start = {start:%Y-%m-%dT%H:%M:%S.%f}Z"

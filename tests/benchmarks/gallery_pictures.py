@@ -219,10 +219,10 @@ def smoke_said(line: str) -> dict[str, object]:
 
 def _solve(scene: str) -> int:
     """Solve the flow of a scene's smoke up to its last frame, as each camera has it."""
-    from firetwin.shot.source import Choice
+    from firetwin.shot.source import ShotSource
     from firetwin.smoke.flow import Flow
 
-    shot = Choice(scene=scene).shot()
+    shot = ShotSource(scene=scene).shot()
     for camera in shot.settings.cameras:
         Flow(shot.of(camera.name)).solve([shot.frames.count])
     return 0

@@ -12,7 +12,7 @@ from firetwin.data import sample
 from firetwin.render import films, fingerprint, plan
 from firetwin.render.picture import Picture
 from firetwin.render.store import Store
-from firetwin.shot.source import Choice
+from firetwin.shot.source import ShotSource
 
 CAMERAS, FRAMES = 20, 10_000
 FINISHED = 2000  # frames of every camera and pass that lie there
@@ -35,7 +35,7 @@ def write_scene(folder: Path) -> Path:
 
 def missing(scene: Path, out: Path) -> int:
     """What `firetwin render --frames 1` does before it starts Blender -> how many pictures are to make."""
-    shot = Choice(scene=str(scene)).shot()
+    shot = ShotSource(scene=str(scene)).shot()
     wanted = plan.pictures(shot, "1")
     made_with = fingerprint.of_pictures(shot, wanted)
     with Store(out) as store:
@@ -46,7 +46,7 @@ def missing(scene: Path, out: Path) -> int:
 
 def finish(scene: Path, out: Path, frames: int) -> int:
     """Enter pictures of the first frames -> how many; files of one byte stand for those of the first."""
-    shot = Choice(scene=str(scene)).shot()
+    shot = ShotSource(scene=str(scene)).shot()
     wanted = plan.pictures(shot, f"1-{frames}")
     made_with = fingerprint.of_pictures(shot, wanted)
     for picture in wanted:

@@ -19,7 +19,7 @@ import numpy as np
 from firetwin.bench.harness import OURS, Bench
 from firetwin.bench.timing import Stopwatch, Times
 from firetwin.jobs import worker
-from firetwin.progress import Progress, Tell, silent, untold
+from firetwin.progress import MessageCallback, Progress, no_message, silent
 from firetwin.shot import sun
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
 from firetwin.shot.settings import settings
@@ -131,7 +131,9 @@ def scene_file(folder: Path) -> settings.Settings:
 # What follows runs in the worker process, where Blender is.
 
 
-def render_in_blender(folder: str, progress: Progress = silent, tell: Tell = untold) -> dict[str, float]:
+def render_in_blender(
+    folder: str, progress: Progress = silent, tell: MessageCallback = no_message
+) -> dict[str, float]:
     """Draw the picture in every way; the time (s) of each."""
     import bpy
 

@@ -82,10 +82,10 @@ def one(scene: Path, picture: Path) -> None:
     from firetwin import memory
     from firetwin.bench.timing import Stopwatch
     from firetwin.jobs import worker_scene
-    from firetwin.shot.source import Choice
+    from firetwin.shot.source import ShotSource
 
     held, watch = memory.peak(), Stopwatch()
-    stage = worker_scene.build_scene(Choice(str(scene)).shot(), lambda *_: None, lambda _: None)
+    stage = worker_scene.build_scene(ShotSource(str(scene)).shot(), lambda *_: None, lambda _: None)
     built = watch.read().processor
     stage.scene.camera = stage.camera("view")
     stage.scene.frame_set(1)

@@ -34,7 +34,7 @@ def test_every_biome_has_its_own_trees_and_ground(name, near_settings, run, stag
     shot = of(near_settings, run, name)
     grown = stand.grow(shot)
     assert len(grown.model) > 50
-    assert set(grown.model.tolist()) <= {k for sort in biomes.of(shot).biome.species for k in sort.models}
+    assert set(grown.model.tolist()) <= {k for sort in biomes.choose(shot).biome.species for k in sort.models}
     assert grown.height.mean() < stand.grow(of(near_settings, run, "sierra_conifer")).height.mean()
     made = fields.images(shot, grown)
     assert "Firetwin Ground Cover" in made

@@ -125,7 +125,7 @@ def test_none_are_made_where_no_camera_is_near_the_fire(settings, run, stage, su
 
 def test_a_run_without_a_scene_file_is_built_by_night(settings, run, stage, sun_at, plain_looks):
     sun_at(-20.0)
-    cameras = auto_framing.of(run, settings).settings.cameras
+    cameras = auto_framing.fit(run, settings).settings.cameras
     built(replace(settings, cameras=cameras), run, stage, tuple(build.PARTS))
     assert bpy.data.objects["Firetwin Flames"].users_scene == (stage.scene,)
 

@@ -73,7 +73,7 @@ def test_the_solver_has_a_process_of_its_own():
 
 def test_it_is_told_in_words():
     load = memory_estimate.Load(pixels=230_400, plants=100_000, faces=0, cells=2_000_000)
-    assert memory_estimate.words(load) == (
+    assert memory_estimate.describe(load) == (
         "rendering takes about 1.2 GB of memory at most, and 650 MB while the smoke's flow is solved"
     )
-    assert memory_estimate.words(replace(load, cells=0)).endswith("1.2 GB of memory at most")
+    assert memory_estimate.describe(replace(load, cells=0)).endswith("1.2 GB of memory at most")

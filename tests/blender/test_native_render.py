@@ -7,9 +7,9 @@ from firetwin.ui import queue
 
 def test_a_queue_pauses_goes_on_and_tells_what_failed(scene, tmp_path, monkeypatch):
     """One at a time, in their order; no process is needed to see that."""
-    from firetwin.jobs.render import Asked
+    from firetwin.jobs.render import RenderRequest
     from firetwin.jobs.worker import StoppedError
-    from firetwin.shot.source import Choice
+    from firetwin.shot.source import ShotSource
 
     calls = []
 
@@ -25,7 +25,9 @@ def test_a_queue_pauses_goes_on_and_tells_what_failed(scene, tmp_path, monkeypat
             time.sleep(0.02)
         raise OSError("no space left")
 
-    first, second = (queue.add(title, scene, Choice(), Asked(tmp_path), render) for title in ("one", "two"))
+    first, second = (
+        queue.add(title, scene, ShotSource(), RenderRequest(tmp_path), render) for title in ("one", "two")
+    )
     try:
         queue.advance()
         queue.advance()

@@ -6,7 +6,7 @@ import pytest
 from firetwin import memory
 from firetwin.render import integrated, pictures
 from firetwin.render.picture import Picture
-from firetwin.render.sharing import making
+from firetwin.render.sharing import open_session
 from firetwin.shot import passes
 
 PASSES = ("depth", "rgb")
@@ -46,7 +46,7 @@ def film(shot, stage, tmp_path, monkeypatch):
 
     def make(count):
         wanted = [Picture("drone", frame, name) for frame in range(1, count + 1) for name in PASSES]
-        with making(tmp_path, {("drone", name): {"pass": name} for name in passes.known()}) as here:
+        with open_session(tmp_path, {("drone", name): {"pass": name} for name in passes.known()}) as here:
             made = pictures.render(shot, stage, here, wanted, lambda *how: told.append(how), ready)
         assert made == count
         return events, told

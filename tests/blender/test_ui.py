@@ -178,7 +178,7 @@ def test_cameras_that_nobody_chose_are_placed_for_the_window_that_somebody_chose
 
 def _new(folder, path):
     """The scene file that the command line would write."""
-    path.write_text(auto_framing.at(folder, path, path.parent / "cache").text)
+    path.write_text(auto_framing.fit_folder(folder, path, path.parent / "cache").text)
     return path
 
 
@@ -351,7 +351,7 @@ def test_build_leaves_a_scene_that_somebody_uses(settings, scene_file, somebody)
     assert scene_settings.settings(after) == scene_settings.settings(before)
     assert after.firetwin.frames == 3
     assert before.firetwin.frames == 0
-    assert "Scene is unchanged" in working.told(build.FIRETWIN_OT_build)[-1].text
+    assert "Scene is unchanged" in working.last_messages(build.FIRETWIN_OT_build)[-1].text
 
 
 def test_building_again_builds_into_the_same_scene(settings, scene_file):
@@ -380,7 +380,7 @@ def test_a_part_built_again_leaves_the_rest(settings, scene_file):
     assert bpy.data.objects["Firetwin Trees"].session_uid != trees
     assert (scene.frame_end, scene.render.resolution_x) == (2, 100)
     assert scene.view_layers["thermal"].samples == 7
-    assert working.told(build.FIRETWIN_OT_build)[-1].text == "Built the forest of Test"
+    assert working.last_messages(build.FIRETWIN_OT_build)[-1].text == "Built the forest of Test"
     bpy.ops.firetwin.build(part="cameras")
     assert (scene.camera.name, scene.camera.location.z) == ("Mine", pytest.approx(5000.0, abs=0.01))
 
@@ -512,7 +512,7 @@ def test_model_time_and_frame_are_one(settings, scene_file):
     scene = bpy.context.scene
     settings.model_time = 0.5
     assert scene.frame_current == 2
-    assert model_time.moment(settings).strftime("%H:%M %Z") == "21:30 UTC"
+    assert model_time.shown_time(settings).strftime("%H:%M %Z") == "21:30 UTC"
     scene.frame_set(3)
     assert settings.model_time == 1.0
     scene.frame_set(50)
@@ -523,11 +523,11 @@ def test_work_in_the_window_goes_step_by_step():
     taken = []
 
     def steps():
-        got = yield job.Away(
+        got = yield job.InThread(
             "counting", lambda progress, tell, stop: progress(2, 4, "apples") or tell("it counts") or 7
         )
         taken.append(got)
-        yield job.Told("it draws", "WARNING")
+        yield job.Message("it draws", "WARNING")
         yield "drawing"
         taken.append("drawn")
         return "all done"
@@ -539,7 +539,7 @@ def test_work_in_the_window_goes_step_by_step():
         time.sleep(0.01)
     assert taken == [7, "drawn"]
     assert work.told == "all done"
-    assert work.said == [job.Told("it counts"), job.Told("it draws", "WARNING")]
+    assert work.said == [job.Message("it counts"), job.Message("it draws", "WARNING")]
 
 
 def test_the_progress_of_work_says_how_far_it_is():
@@ -557,11 +557,11 @@ def test_errors_of_a_thread_arrive_where_the_work_is():
         raise input_error("a.txt", 3, 4, "is wrong; write it otherwise")
 
     def steps():
-        yield job.Away("failing", fail)
+        yield job.InThread("failing", fail)
 
     with pytest.raises(InputError) as failed:
         job.Job("Test", steps()).run()
-    assert job.words(failed.value) == "a.txt:3:4: is wrong; write it otherwise"
+    assert job.describe_error(failed.value) == "a.txt:3:4: is wrong; write it otherwise"
 
 
 class Window:
@@ -619,7 +619,7 @@ def wait(progress, tell, stop):
 @pytest.fixture
 def waiting():
     def steps():
-        yield job.Away("waiting", wait)
+        yield job.InThread("waiting", wait)
         return "done"
 
     work = Operator(steps())
@@ -667,15 +667,15 @@ def test_while_steps_are_taken_only_the_sidebar_can_be_used():
 
 def test_what_is_told_is_reported_and_stays_in_the_panel():
     def steps():
-        yield job.Away("counting", lambda progress, tell, stop: tell("it counts"))
-        yield job.Away("looking", lambda progress, tell, stop: tell("it is dark"))
-        yield job.Told("it is dark", "WARNING")  # told once, as loudly as it was at last
+        yield job.InThread("counting", lambda progress, tell, stop: tell("it counts"))
+        yield job.InThread("looking", lambda progress, tell, stop: tell("it is dark"))
+        yield job.Message("it is dark", "WARNING")  # told once, as loudly as it was at last
         return "done"
 
     work = Operator(steps())
     assert work.goes_on() == {"FINISHED"}
     assert work.reports == [("INFO", "it counts"), ("WARNING", "it is dark"), ("INFO", "done")]
-    assert [each.text for each in working.told(Operator)] == ["it counts", "it is dark", "done"]
+    assert [each.text for each in working.last_messages(Operator)] == ["it counts", "it is dark", "done"]
 
 
 def test_undo_in_the_middle_of_building_ends_it_with_one_report():
@@ -711,7 +711,9 @@ def test_another_file_ends_work_with_one_message(waiting):
     bpy.ops.wm.read_homefile(use_empty=True)
     assert job.Job.current is None
     assert waiting.job.stop.asked
-    assert [each.text for each in working.told(Operator)] == ["Test stopped because another file was opened"]
+    assert [each.text for each in working.last_messages(Operator)] == [
+        "Test stopped because another file was opened"
+    ]
 
 
 def real(settings, **options):

@@ -11,7 +11,7 @@ import pytest
 from firetwin.blender import owned
 from firetwin.jobs import sample, worker_scene
 from firetwin.shot.settings import scene_file as file
-from firetwin.shot.source import Choice
+from firetwin.shot.source import ShotSource
 from firetwin.ui import job, quality, scene_file, working
 from firetwin.ui import time as model_time
 
@@ -105,7 +105,7 @@ def test_panels_build_what_the_exported_scene_file_builds(opened, tmp_path):
     bpy.ops.firetwin.build()
     objects, trees = everything(bpy.context.scene)
     scene_file.export(bpy.context.scene, tmp_path / "out.toml")
-    shot = Choice(str(tmp_path / "out.toml")).shot()
+    shot = ShotSource(str(tmp_path / "out.toml")).shot()
     assert (shot.settings.light.haze, shot.settings.terrain.error) == (0.7, 0.9)
     stage = worker_scene.build_scene(shot, lambda *_: None, lambda _: None)
     again, trees_again = everything(stage.scene)
@@ -217,5 +217,5 @@ def test_what_went_wrong_can_be_copied(opened, monkeypatch):
     text = working.details(told)
     assert text.startswith(told)
     assert bpy.app.version_string in text
-    job.words(ValueError("nobody foresaw it"))
+    job.describe_error(ValueError("nobody foresaw it"))
     assert "ValueError: nobody foresaw it" in working.details("x")

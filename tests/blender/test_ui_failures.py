@@ -179,4 +179,4 @@ def test_what_is_linked_is_left_alone_and_what_is_appended_is_ours(panel, plain_
 
 def test_reports_are_one_line_without_what_turns_or_colours_text():
     text = "a\x1b[31m\nb\u202e"
-    assert job.words(Error(text)) == job.Told(text).text == "a\\x1b[31m\\nb\\u202e"
+    assert job.describe_error(Error(text)) == job.Message(text).text == "a\\x1b[31m\\nb\\u202e"

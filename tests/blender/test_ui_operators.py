@@ -130,7 +130,7 @@ def test_undo_and_redo_go_round_every_operator(panel, blend, tmp_path, monkeypat
     assert {*CHANGES, *KEEPS, *LISTENS} == set(OPERATORS)
     monkeypatch.setattr(convert, "beside", lambda paths, *_, **__: (paths[0], True))
     monkeypatch.setattr(sample, "run", lambda folder, **_: shutil.copytree(blend.parent / "other", folder))
-    monkeypatch.setattr(render, "run", lambda *_, **__: render.Made(1))
+    monkeypatch.setattr(render, "run", lambda *_, **__: render.RenderResult(1))
     monkeypatch.setattr(assets, "run", lambda *_, **__: 1)
     monkeypatch.setattr(render_blend, "run", lambda *_, **__: 1)
     monkeypatch.setattr(bpy.utils, "user_resource", lambda *_, path="", **__: str(tmp_path / path))

@@ -132,15 +132,15 @@ def test_what_changed_since_it_was_built_is_known(panel):
     scene_file.fill(panel.id_data, file.read(EXAMPLES / "king_fire.toml"))
     panel.forest.budget = 1000
     assert panel.changed == ""  # nothing is built
-    changed_settings.remember(panel, changed_settings.seen(panel), tuple(PARTS))
+    changed_settings.remember(panel, changed_settings.digests(panel), tuple(PARTS))
     panel.forest.budget, panel.light.use_exposure, panel.time.frames = 900, True, 2
     panel.cameras[0].name = "mine"
     assert panel.changed == "time forest light cameras"
     panel.light.use_exposure = False
-    changed_settings.remember(panel, changed_settings.seen(panel), ("forest",))
-    changed_settings.remember(panel, changed_settings.seen(panel), ("cameras",))
+    changed_settings.remember(panel, changed_settings.digests(panel), ("forest",))
+    changed_settings.remember(panel, changed_settings.digests(panel), ("cameras",))
     assert panel.changed == "time cameras"  # what is built elsewhere hangs on them too
-    changed_settings.remember(panel, changed_settings.seen(panel), tuple(PARTS))
+    changed_settings.remember(panel, changed_settings.digests(panel), tuple(PARTS))
     assert panel.changed == ""
     panel.run = "/elsewhere"
     assert panel.changed == "run"

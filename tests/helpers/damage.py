@@ -183,7 +183,7 @@ def _convert(paths, options, folder):
             else:
                 convert.in_process([str(path) for path in paths], str(out), options)
                 run = readers.open(out)
-            info.page(info.gather(run, zone.of(run)))
+            info.page(info.gather(run, zone.time_zone(run)))
         except Exception as error:
             cli._report(error)
             if options is not None and (out / "run.toml").exists():

@@ -33,7 +33,7 @@ def sun_at(monkeypatch):
     """Put the sun at a height (degrees) for lamps and light alike."""
 
     def place(height):
-        monkeypatch.setattr(sun, "at", lambda run, time: (200.0, height))
+        monkeypatch.setattr(sun, "position", lambda run, time: (200.0, height))
 
     return place
 

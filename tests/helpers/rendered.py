@@ -1,22 +1,22 @@
 """What a scene file says, rendered in this process as the worker does."""
 
 from firetwin.jobs import render
-from firetwin.progress import silent, untold
+from firetwin.progress import no_message, silent
 from firetwin.render import plan
 from firetwin.render.store import Store
-from firetwin.shot.source import Choice
+from firetwin.shot.source import ShotSource
 
 
 def everything(folder, text):
     """All files of a scene file of this text, written to folder/out: (its shot, that folder)."""
     (folder / "scene.toml").write_text(text)
-    choice, out = Choice(scene=str(folder / "scene.toml")), folder / "out"
+    choice, out = ShotSource(scene=str(folder / "scene.toml")), folder / "out"
     pictures = plan.pictures(choice.shot())
     with Store(out, create=True):
         pass
     listed = [[each.camera, each.frame, each.name] for each in pictures]
     pairs = sorted({(each.camera, each.name) for each in pictures})
     render.in_blender(
-        choice.plain(), str(out), listed, [list(pair) for pair in pairs], "me", 0, silent, untold
+        choice.plain(), str(out), listed, [list(pair) for pair in pairs], "me", 0, silent, no_message
     )
     return choice.shot(), out

@@ -15,7 +15,7 @@ from firetwin.render import plan
 from firetwin.shot.cameras.rigs import kinds
 from firetwin.shot.settings import schema
 from firetwin.shot.settings.settings import Settings
-from firetwin.shot.source import Choice
+from firetwin.shot.source import ShotSource
 from hypothesis import strategies as st
 
 PLACE = {"latitude": 38.843, "longitude": -120.546}
@@ -233,7 +233,7 @@ def outcome(path, build=None):
     """
     stage = "check"
     try:
-        choice = Choice(scene=str(path))
+        choice = ShotSource(scene=str(path))
         choice.settings()
         stage = "plan"
         shot = choice.shot()

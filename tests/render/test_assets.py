@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 from firetwin.jobs import assets as job
-from firetwin.progress import silent, untold
+from firetwin.progress import no_message, silent
 from firetwin.scene import assets
 from firetwin.scene.forest import models
 from firetwin.shot.settings import scene_file
@@ -29,7 +29,7 @@ def few(monkeypatch):
 
 def test_trees_materials_and_groups_are_assets_in_catalogues(settings, few, library):
     settings.path.write_text(scene_file.text(settings))
-    count = job.in_blender({"scene": str(settings.path)}, str(library), silent, untold)
+    count = job.in_blender({"scene": str(settings.path)}, str(library), silent, no_message)
     assert "Studio" not in bpy.data.scenes
     bpy.ops.wm.read_factory_settings(use_empty=True)
     with bpy.data.libraries.load(str(library), assets_only=True) as (there, wanted):

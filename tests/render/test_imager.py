@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from firetwin.render import engine, layers, pictures
 from firetwin.render.picture import Picture
-from firetwin.render.sharing import making
+from firetwin.render.sharing import open_session
 from firetwin.scene.camera import build as cameras
 from firetwin.scene.terrain import build as ground
 from firetwin.shot import passes
@@ -28,7 +28,7 @@ def test_a_rendered_picture_from_over_the_equator_shows_the_imagers_pixels(
     engine.apply(shot.settings, scene)
     wanted = [Picture("goes", 2, name) for name in ("depth", "imager_short")]
     made_with = {("goes", name): {"pass": name} for name in passes.known()}
-    with making(tmp_path / "out", made_with) as here:
+    with open_session(tmp_path / "out", made_with) as here:
         pictures.render(shot, stage, here, wanted)
     shown = sensor.read_image(tmp_path / "out" / wanted[1].file("png"))[..., :3]
     seen = imager.picture(imager.ABI, imager.grid_of(imager.ABI, run, -137.0), shot.fire, 1800.0)

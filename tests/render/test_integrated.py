@@ -9,7 +9,7 @@ import pytest
 from firetwin.blender import owned
 from firetwin.render import engine, integrated, layers, pictures
 from firetwin.render.picture import Picture
-from firetwin.render.sharing import making
+from firetwin.render.sharing import open_session
 from firetwin.scene import build
 from firetwin.shot import passes
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
@@ -55,7 +55,7 @@ def film(near_settings, run, few_cells, cache, tmp_path):
         wanted = [Picture("drone", 1, name) for name in names]
         out = tmp_path / f"{draw}_{grain}_{'_'.join(names)}"
         out.mkdir()
-        with making(out, {("drone", name): {"pass": name} for name in passes.known()}) as here:
+        with open_session(out, {("drone", name): {"pass": name} for name in passes.known()}) as here:
             pictures.render(shot, stage, here, wanted, ready=ready)
         return {each.name: sensor.read_image(out / each.file("exr")) for each in wanted}
 

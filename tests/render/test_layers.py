@@ -8,7 +8,7 @@ import pytest
 from firetwin.blender import compat, nodes, owned
 from firetwin.render import engine, layers, pictures
 from firetwin.render.picture import Picture
-from firetwin.render.sharing import making
+from firetwin.render.sharing import open_session
 from firetwin.scene import infrared
 from firetwin.scene.build import PARTS
 from firetwin.shot import air_temperature, passes
@@ -74,7 +74,7 @@ def render(plain, shot, stage, tmp_path):
     def shoot(*names):
         wanted = [Picture("drone", 2, name) for name in names]
         made_with = {("drone", name): {"pass": name} for name in passes.known()}
-        with making(tmp_path / "out", made_with) as here:
+        with open_session(tmp_path / "out", made_with) as here:
             pictures.render(shot, stage, here, wanted)
         return {
             path: np.asarray(sensor.read_image(tmp_path / "out" / path))

@@ -8,7 +8,7 @@ import pytest
 from firetwin.blender import nodes, owned
 from firetwin.render import engine, layers, pictures
 from firetwin.render.picture import Picture
-from firetwin.render.sharing import making
+from firetwin.render.sharing import open_session
 from firetwin.scene import build, infrared
 from firetwin.shot import passes
 from firetwin.shot.cameras.rigs.drone import CameraKey, Drone
@@ -43,7 +43,7 @@ def shoot(near_settings, run, tmp_path):
         engine.apply(shot.settings, stage.scene)
         _smoke(shot, stage)
         wanted = [Picture(camera, 2, name) for name in names]
-        with making(tmp_path, {(camera, name): {"pass": name} for name in passes.known()}) as here:
+        with open_session(tmp_path, {(camera, name): {"pass": name} for name in passes.known()}) as here:
             pictures.render(shot, stage, here, wanted)
         return stage.scene, {each.name: sensor.read_image(tmp_path / each.file("exr")) for each in wanted}
 

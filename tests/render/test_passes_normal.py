@@ -6,7 +6,7 @@ import pytest
 from firetwin.blender import nodes, owned
 from firetwin.render import engine, layers, pictures
 from firetwin.render.picture import Picture
-from firetwin.render.sharing import making
+from firetwin.render.sharing import open_session
 from firetwin_core import sensor
 
 
@@ -34,7 +34,7 @@ def render(settings, shot, stage, tmp_path):
         layers.build(settings, stage)
         engine.apply(settings, stage.scene)
         picture = Picture("drone", 1, "normal")
-        with making(tmp_path, {("drone", "normal"): {}}) as here:
+        with open_session(tmp_path, {("drone", "normal"): {}}) as here:
             pictures.render(shot, stage, here, [picture])
         return np.asarray(sensor.read_image(tmp_path / picture.file("exr")))
 

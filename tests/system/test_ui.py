@@ -29,7 +29,7 @@ def test_render_makes_what_the_command_line_makes(settings, scene_file, tmp_path
         "drone_rgb_000002.png",
     ]
     assert "manifest.json" in files
-    told = [each.text for each in working.told(render.FIRETWIN_OT_render)]
+    told = [each.text for each in working.last_messages(render.FIRETWIN_OT_render)]
     assert "rendering 1 picture of drone" in told
     assert any(text.startswith("Cycles renders on the processor") for text in told)
     assert told[-1] == f"Rendered 1 picture to {tmp_path / 'out'}"

@@ -18,7 +18,7 @@ from firetwin.jobs import worker
 from firetwin.shot.settings import scene_file
 from firetwin.shot.settings.settings import Smoke
 from firetwin.shot.shot import Shot
-from firetwin.shot.source import Choice
+from firetwin.shot.source import ShotSource
 from firetwin.smoke import bake
 from firetwin.ui import queue
 from panel_scene import state
@@ -84,8 +84,8 @@ def test_a_full_disk_is_a_message_and_what_was_there_stays(panel, blend, run, ti
         bake.bake(smoky, frames=[1])
     firetwin.unregister()
     monkeypatch.setattr(worker, "run", here)
-    asked = render_job.Asked(place / "film", "1", passes="rgb", resume=True)
-    choice = Choice(str(blend.with_suffix(".toml")))
+    asked = render_job.RenderRequest(place / "film", "1", passes="rgb", resume=True)
+    choice = ShotSource(str(blend.with_suffix(".toml")))
     with pytest.raises(InputError, match="the disk is full"):
         render_job.run(choice, asked)
     assert not [path for path in place.rglob("*") if path.suffix in (".vdb", ".png", ".blend", ".toml")]

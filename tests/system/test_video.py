@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from firetwin.render import films, picture, video
 from firetwin.render.picture import Picture
-from firetwin.render.sharing import making
+from firetwin.render.sharing import open_session
 from firetwin.render.store import Store, describe
 from firetwin.shot.shot import Shot
 from firetwin_core import sensor
@@ -50,7 +50,7 @@ def _missing(shot, out, made_with):
 
 
 def _make(shot, out, made_with):
-    with making(out, made_with) as here:
+    with open_session(out, made_with) as here:
         video.make(shot, here)
 
 

@@ -15,7 +15,7 @@ from firetwin.shot.fire import emissions
 from firetwin.shot.settings import scene_file
 from firetwin.shot.settings.settings import Time
 from firetwin.shot.shot import Shot
-from firetwin.shot.source import Choice
+from firetwin.shot.source import ShotSource
 from small_run import small_fields
 
 HOURS = tuple(3600.0 * np.arange(0.0, 25.0, 6.0))
@@ -61,7 +61,9 @@ def fit_of(tmp_path_factory):
     def found(name):
         if name not in known:
             folder = whole_run.write(tmp_path_factory.mktemp("fitted") / "run", **FIRES[name])
-            known[name] = auto_framing.at(folder, folder.parent / "scene.toml", folder.parent / "cache")
+            known[name] = auto_framing.fit_folder(
+                folder, folder.parent / "scene.toml", folder.parent / "cache"
+            )
         return known[name], readers.open(known[name].settings.run)
 
     return found
@@ -81,7 +83,7 @@ def test_what_is_said_to_show_is_what_the_shot_sees(fit_of, name):
     found, run = fit_of(name)
     for camera in ("overview", "satellite"):
         shot = Shot(found.settings, run).of(camera)
-        points = front.of(shot).point
+        points = front.find_front(shot).point
         seen = shot.sights.seen(points, 1.0, pixel=np.inf)
         assert seen.mean() >= max(found.shares[camera] - 0.02, candidates.LEAST)
 
@@ -90,7 +92,7 @@ def test_what_is_said_to_show_is_what_the_shot_sees(fit_of, name):
 def test_the_overview_has_the_whole_front_in_its_picture_and_the_horizon_over_it(fit_of, name):
     found, run = fit_of(name)
     shot = Shot(found.settings, run)
-    moving, view = front.of(shot), shot.of("overview").paths[0]
+    moving, view = front.find_front(shot), shot.of("overview").paths[0]
     local = (moving.point - view.position[0]) @ view.rotation[0]
     x, y = (local[:, axis] / -local[:, 2] / view.half[axis] for axis in (0, 1))
     assert (local[:, 2] < 0.0).all()
@@ -109,7 +111,7 @@ def test_the_overview_stands_to_windward_with_the_sun_behind_it(fit_of):
     assert "windward" in found.cameras["overview"]
     found, run = fit_of("calm")
     way = candidates.bearing(Shot(found.settings, run).of("overview").paths[0])
-    azimuth, height = sun.at(run, 0.0)
+    azimuth, height = sun.position(run, 0.0)
     assert height > 0.0
     assert np.cos(np.radians(way - azimuth)) > 0.8
 
@@ -117,7 +119,7 @@ def test_the_overview_stands_to_windward_with_the_sun_behind_it(fit_of):
 def test_a_wall_before_the_fire_moves_the_camera(fit_of):
     """From the west, from where the wind comes and the camera would be low, a wall hides the fire."""
     walled, run = fit_of("basin")
-    moving = front.of(Shot(walled.settings, run))
+    moving = front.find_front(Shot(walled.settings, run))
     low = overview._camera(moving, moving.point, 270.0, 13.0)
     assert visible_share.Visible(moving).seen(candidates.path(moving, low)).share < candidates.LEAST
     assert walled.shares["overview"] >= candidates.LEAST
@@ -125,7 +127,7 @@ def test_a_wall_before_the_fire_moves_the_camera(fit_of):
 
 def test_smoke_drifts_with_the_wind_and_rises_from_a_strong_fire(fit_of):
     found, run = fit_of("grass")  # wind from the west
-    moving = front.of(Shot(found.settings, run))
+    moving = front.find_front(Shot(found.settings, run))
     smoke = moving.plumes[1]
     assert smoke.rate.sum() > 0.0
     head = np.array([[moving.high[0], 0.5 * (moving.low[1] + moving.high[1]), 2.0]])
@@ -134,7 +136,7 @@ def test_smoke_drifts_with_the_wind_and_rises_from_a_strong_fire(fit_of):
     back = head[0] - np.array([2.0 * moving.size, 0.0, 0.0])
     tail = np.array([[moving.low[0], head[0, 1], 2.0]])
     assert smoke.depth(back, tail)[0] < 0.1, "from windward"
-    weak = straight_plume.at(moving.ground, *_burning(moving), moving.shot.frames.first, 4.0 * smoke.wind)
+    weak = straight_plume.trace(moving.ground, *_burning(moving), moving.shot.frames.first, 4.0 * smoke.wind)
     assert weak.rise < smoke.rise, "a strong wind bends it"
 
 
@@ -168,8 +170,8 @@ def test_a_grass_fires_smoke_hides_less_than_a_forests(tmp_path):
     )
     depths = []
     for folder in (grass, forest):
-        found = auto_framing.at(folder, tmp_path / "s.toml", tmp_path)
-        moving = front.of(Shot(found.settings, readers.open(folder)))
+        found = auto_framing.fit_folder(folder, tmp_path / "s.toml", tmp_path)
+        moving = front.find_front(Shot(found.settings, readers.open(folder)))
         eye = np.array([*(moving.high + moving.size * moving.wind), moving.size])
         depths.append(np.median(moving.plumes[1].depth(eye, moving.point[moving.moment == 1])))
     assert depths[1] > 1.5 * depths[0]
@@ -180,7 +182,8 @@ def test_cameras_are_as_large_as_the_fire(fit_of):
     distance = {
         each: [
             np.linalg.norm(
-                (view := candidates.path(front.of(Shot(found.settings, run)), camera)).position - view.target,
+                (view := candidates.path(front.find_front(Shot(found.settings, run)), camera)).position
+                - view.target,
                 axis=1,
             ).mean()
             for camera in found.settings.cameras[:3]
@@ -213,14 +216,14 @@ def test_no_window_of_the_run_is_more_active(fit_of, name):
 def _start(run):
     from firetwin.run import times
 
-    return times.moment(run, 0.0)
+    return times.utc(run, 0.0)
 
 
 def test_cameras_are_placed_for_a_window_that_is_asked_for(fit_of):
     found, run = fit_of("grass")
     start, end = _start(run) + timedelta(minutes=10), _start(run) + timedelta(minutes=15)
     path, folder = found.settings.path, Path(run.path)
-    early = auto_framing.at(folder, path, found.settings.cache, Time(start, end))
+    early = auto_framing.fit_folder(folder, path, found.settings.cache, Time(start, end))
     assert (early.settings.time.start, early.settings.time.end) == (start, end)
     assert early.settings.time.frames == found.settings.time.frames
     assert "as asked" in early.window
@@ -231,7 +234,7 @@ def test_cameras_are_placed_for_a_window_that_is_asked_for(fit_of):
 def test_a_run_of_one_moment_is_a_still(make_run):
     whole = small_fields()
     folder = make_run(**{name: values[2:] for name, values in whole.items() if values.ndim == 3})
-    found = auto_framing.at(folder, folder.parent / "scene.toml", folder.parent / "cache")
+    found = auto_framing.fit_folder(folder, folder.parent / "scene.toml", folder.parent / "cache")
     assert found.settings.time.frames == 1
     run_checks.check(found.settings, readers.open(folder))
     assert "one moment" in found.window
@@ -255,7 +258,7 @@ def test_the_file_reads_back_as_the_settings_and_is_what_a_run_alone_gets(fit_of
     path.write_text(found.text, encoding="utf-8")
     assert scene_file.read(path) == found.settings
     monkeypatch.chdir(path.parent)
-    alone = Choice(run=run.path).settings()
+    alone = ShotSource(run=run.path).settings()
     same = {"path": found.settings.path, "run": found.settings.run, "cache": found.settings.cache}
     assert dataclasses.replace(alone, **same) == found.settings
     assert (alone.run, alone.cache.absolute()) == (Path(run.path), found.settings.cache)
@@ -277,7 +280,7 @@ def test_the_file_is_short_and_every_key_in_it_is_explained(fit_of):
 
 def test_a_run_that_burns_nothing_is_seen_whole(make_run):
     folder = make_run(fuel_arrival_time=np.full((8, 10), np.nan, np.float32))
-    found = auto_framing.at(folder, folder.parent / "scene.toml", folder.parent / "cache")
+    found = auto_framing.fit_folder(folder, folder.parent / "scene.toml", folder.parent / "cache")
     run = readers.open(folder)
     run_checks.check(found.settings, run)
     assert list(found.cameras) == ["overview", "satellite"]
@@ -291,7 +294,7 @@ def test_a_fire_that_is_over_is_seen_from_afar_alone(tmp_path):
     folder = whole_run.write(tmp_path / "run", **FIRES["grass"])
     for name, change in (("fuel_arrival_time", lambda values: values - 1e5), ("heat_flux", np.zeros_like)):
         np.save(folder / f"{name}.npy", change(np.load(folder / f"{name}.npy")))
-    found = auto_framing.at(folder, tmp_path / "scene.toml", tmp_path / "cache")
+    found = auto_framing.fit_folder(folder, tmp_path / "scene.toml", tmp_path / "cache")
     assert list(found.cameras) == ["overview", "satellite"]
     assert "nothing burns" in found.window
 
@@ -302,9 +305,9 @@ def test_a_fire_that_is_over_is_seen_from_afar_alone(tmp_path):
 )
 def test_a_fire_is_told_in_the_time_of_its_place(tmp_path, longitude, name, hours):
     run = readers.open(whole_run.write(tmp_path / "run", cells=8, at=(42.0, longitude)))
-    assert zone.of(run) == name
+    assert zone.time_zone(run) == name
     assert zoneinfo.ZoneInfo(name).utcoffset(None).total_seconds() == 3600.0 * hours
 
 
 def test_a_known_fire_is_told_in_its_own_zone(make_run):
-    assert zone.of(readers.open(make_run())) == "America/Los_Angeles"
+    assert zone.time_zone(readers.open(make_run())) == "America/Los_Angeles"

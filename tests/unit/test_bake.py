@@ -5,7 +5,7 @@ import os
 import pytest
 from firetwin.errors import Error
 from firetwin.jobs import bake, worker
-from firetwin.shot.source import Choice
+from firetwin.shot.source import ShotSource
 from scene_text import DRONE, NO_PLANTS, TINY
 
 SMOKY = """\
@@ -22,7 +22,7 @@ voxel_size = 400.0
 def choice(tmp_path, make_run):
     scene = tmp_path / "scene.toml"
     scene.write_text(SMOKY.format(run=make_run()) + NO_PLANTS + TINY + DRONE.format())
-    return Choice(scene=str(scene))
+    return ShotSource(scene=str(scene))
 
 
 def test_baking_needs_no_blender(tmp_path, choice, monkeypatch):

@@ -62,7 +62,7 @@ def test_every_file_is_a_biome_and_a_choice():
 
 
 def test_without_categories_loads_tell_what_land_it_is(shot):
-    assert biomes.of(shot({"canopy_fuel": filled(0.0), "surface_fuel": filled(1.5)})).name == "chaparral"
+    assert biomes.choose(shot({"canopy_fuel": filled(0.0), "surface_fuel": filled(1.5)})).name == "chaparral"
 
 
 def test_a_category_outweighs_the_load(make_run):
@@ -92,7 +92,7 @@ def test_seasons_turn_with_the_hemisphere():
 
 
 def test_settings_outweigh_place_date_and_fuel(shot):
-    here = biomes.of(shot(biome="maquis", greenness=0.7, shrub_cover=0.9, tree_cover=0.2))
+    here = biomes.choose(shot(biome="maquis", greenness=0.7, shrub_cover=0.9, tree_cover=0.2))
     assert (here.name, here.green) == ("maquis", 0.7)
     assert (here.biome.shrub_cover, here.biome.tree_cover) == (0.9, 0.2)
 
@@ -123,7 +123,7 @@ def test_bushes_grow_with_the_load_and_by_category(make_run):
     made = Shot(settings, runs.open(folder))
     found = cover.shrubs(made)
     assert found.shape == (FY, FX)
-    assert found[0, 0] == pytest.approx(biomes.of(made).biome.shrub_cover)
+    assert found[0, 0] == pytest.approx(biomes.choose(made).biome.shrub_cover)
     assert (np.diff(found[5:].ravel()) >= 0).all()
     assert found[7, 9] > 0.8
     grass, brush, mixed = found[2, 0], found[3, 0], found[4, 0]
@@ -195,7 +195,7 @@ def test_there_are_more_bushes_where_more_of_the_land_is_under_them(shot, make_r
 
 def test_bushes_of_pastures_are_hedges(shot):
     made = shot({"canopy_fuel": filled(0.0), "surface_fuel": filled(0.3)}, biome="pasture")
-    land = biomes.of(made).biome.open_land
+    land = biomes.choose(made).biome.open_land
     place = brush(made)
     assert len(place) > 20
     off = field_lines.fields(field_lines.NUMPY, *place[:, :2].T, land.field)[0]

@@ -14,7 +14,7 @@ from firetwin.shot.cameras.rigs.drone import Drone
 from firetwin.shot.fire import fronts
 from firetwin.shot.passes import difference
 from firetwin.shot.settings.settings import Camera
-from firetwin.shot.source import Choice
+from firetwin.shot.source import ShotSource
 from small_run import RUN_TOML, small_fields, write_field
 
 FIRST = (slice(2, 6), slice(2, 8))  # fuel cells that burn
@@ -70,7 +70,7 @@ def scene(tmp_path):
 
 
 def test_a_camera_is_at_the_same_place_of_the_earth_and_looks_the_same_way(scene):
-    shot = Choice(scene=str(scene)).shot()
+    shot = ShotSource(scene=str(scene)).shot()
     for name in ("drone", "ir"):
         (here,), other = shot.of(name).paths, comparison.for_view(shot, f"{name}@wide")
         (there,) = other.paths
@@ -94,13 +94,13 @@ def test_a_camera_is_at_the_same_place_of_the_earth_and_looks_the_same_way(scene
 def test_a_run_without_the_shots_moments_is_named_with_its_line(scene):
     text = scene.read_text()
     scene.write_text(text.replace("[time]", "[time]\nstart = 2014-09-16T21:46:00-07:00"))
-    Choice(scene=str(scene)).shot()
+    ShotSource(scene=str(scene)).shot()
     toml = scene.parent / "b" / "run.toml"
     toml.write_text(toml.read_text().replace("T21:43", "T21:42"))  # it ends at 21:47; the first does so too
-    Choice(scene=str(scene)).shot()
+    ShotSource(scene=str(scene)).shot()
     toml.write_text(toml.read_text().replace("T21:42", "T21:41"))
     with pytest.raises(InputError) as caught:
-        Choice(scene=str(scene)).shot()
+        ShotSource(scene=str(scene)).shot()
     assert (caught.value.line, caught.value.column) == (14, 1)
     assert caught.value.reason.startswith('run "wide" has 2014-09-17T04:41:00Z to 2014-09-17T04:46:00Z')
     assert (
@@ -108,7 +108,7 @@ def test_a_run_without_the_shots_moments_is_named_with_its_line(scene):
     )
     scene.write_text(text.replace('path = "b"', 'path = "gone"'))
     with pytest.raises(InputError, match=r"scene.toml:13:1: runs.path: .*gone"):
-        Choice(scene=str(scene)).shot()
+        ShotSource(scene=str(scene)).shot()
 
 
 @pytest.mark.parametrize(
@@ -124,15 +124,15 @@ def test_what_cannot_be_is_said(scene, old, new, words):
         new = new.replace("{}", str(number), 1)
     scene.write_text(scene.read_text().replace(old, new))
     with pytest.raises(InputError, match=words):
-        Choice(scene=str(scene)).shot()
+        ShotSource(scene=str(scene)).shot()
 
 
 def test_one_of_the_runs_is_built_by_its_name(scene):
-    shot = Choice(scene=str(scene), beside="wide").shot()
+    shot = ShotSource(scene=str(scene), beside="wide").shot()
     assert (shot.run.name, scene_runs.views(shot.settings)) == ("Wide", ["drone@wide", "ir@wide"])
     assert shot.other_runs().keys() == {"a"}
     with pytest.raises(UsageError, match=r'--run: there is no "none" in .*; the scene has wide'):
-        Choice(scene=str(scene), beside="none").shot()
+        ShotSource(scene=str(scene), beside="none").shot()
 
 
 def names(pictures):
@@ -140,7 +140,7 @@ def names(pictures):
 
 
 def test_what_compares_is_planned_last_with_all_that_it_is_made_from(scene):
-    shot = Choice(scene=str(scene)).shot()
+    shot = ShotSource(scene=str(scene)).shot()
     assert names(plan.pictures(shot, "2", "drone")) == ["drone 2 rgb", "drone@wide 2 rgb"]
     assert names(plan.pictures(shot, "2", "ir@wide")) == ["ir@wide 2 rgb"]
     assert names(plan.pictures(shot, "2", "drone", "difference,split")) == [
@@ -152,16 +152,16 @@ def test_what_compares_is_planned_last_with_all_that_it_is_made_from(scene):
         plan.pictures(shot, camera="drone@no")
     scene.write_text(scene.read_text().replace('[[runs]]\nname = "wide"\npath = "b"\n', ""))
     with pytest.raises(UsageError, match='"split" compares runs'):
-        plan.pictures(Choice(scene=str(scene)).shot(), names="split")
+        plan.pictures(ShotSource(scene=str(scene)).shot(), names="split")
 
 
 def test_another_run_makes_other_pictures_of_its_own_and_of_what_shows_it(scene):
     pairs = {("drone", "rgb"), ("drone@wide", "rgb"), ("drone", "split"), ("drone", "difference")}
 
     def changed(edit):
-        before = fingerprint.of_pairs(Choice(scene=str(scene)).shot(), pairs)
+        before = fingerprint.of_pairs(ShotSource(scene=str(scene)).shot(), pairs)
         edit()
-        after = fingerprint.of_pairs(Choice(scene=str(scene)).shot(), pairs)
+        after = fingerprint.of_pairs(ShotSource(scene=str(scene)).shot(), pairs)
         return pairs - {pair for pair in pairs if before[pair] == after[pair]}
 
     def burn(name):
@@ -202,7 +202,7 @@ def test_a_front_is_the_outline_that_scores_know(seed):
 
 
 def test_what_has_burned_is_within_the_front(scene):
-    run = Choice(scene=str(scene)).shot().others["wide"]
+    run = ShotSource(scene=str(scene)).shot().others["wide"]
     reach = fronts.Reach(run)
     rng = np.random.default_rng(5)
     latitude, longitude = rng.uniform(38.89, 38.92, 4000), rng.uniform(-120.62, -120.57, 4000)
@@ -220,7 +220,7 @@ def test_what_has_burned_is_within_the_front(scene):
 
 
 def test_the_difference_is_told_by_the_places_that_pixels_show(scene):
-    shot = Choice(scene=str(scene)).shot()
+    shot = ShotSource(scene=str(scene)).shot()
     latitude = shot.run.fuel_latitude[[3, 3, 3, 0]]
     longitude = shot.run.fuel_longitude[[3, 6, 9, 0]]
     points = shot.local_frame.forward(latitude, longitude, np.full(4, 1000.0)).reshape(1, 4, 3)
@@ -232,7 +232,7 @@ def test_the_difference_is_told_by_the_places_that_pixels_show(scene):
 
 
 def test_lines_of_a_front_lie_over_the_ground_each_for_its_frame(scene):
-    shot = Choice(scene=str(scene)).shot()
+    shot = ShotSource(scene=str(scene)).shot()
     found = fronts.lines(shot, shot.others["wide"])
     assert set(found.start) == {30.0, 90.0} or set(found.start) == {-np.inf, 30.0, 90.0}
     up = shot.ground.up(*found.points[:, :2].T)

@@ -8,7 +8,7 @@ import pytest
 from firetwin.errors import InputError
 from firetwin.run import content
 from firetwin.shot.settings import scene_file
-from firetwin.shot.source import Choice
+from firetwin.shot.source import ShotSource
 from firetwin.shot.terrain.elevation import ramp
 from hypothesis import given
 from hypothesis import strategies as st
@@ -33,7 +33,7 @@ def make(make_run, tmp_path):
 
     def scene(key='elevation = "dem.tif"', near=0.0, apron=0.0):
         (tmp_path / "scene.toml").write_text(GROUND_ALONE.format(key=key, near=near, apron=apron))
-        return Choice(scene=str(tmp_path / "scene.toml"))
+        return ShotSource(scene=str(tmp_path / "scene.toml"))
 
     return scene
 

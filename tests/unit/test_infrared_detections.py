@@ -139,7 +139,7 @@ def test_classes_by_name(tmp_path, stem, properties, kind):
 def test_heat_is_drawn_by_class_until_the_next_flight(make_run, tmp_path):
     from firetwin.run import maps, readers
     from firetwin.shot.fire import observed
-    from firetwin.shot.source import Choice
+    from firetwin.shot.source import ShotSource
 
     run = make_run()
     corners = [[-120.595, 38.903], [-120.590, 38.903], [-120.590, 38.907], [-120.595, 38.903]]
@@ -158,7 +158,7 @@ def test_heat_is_drawn_by_class_until_the_next_flight(make_run, tmp_path):
     path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
     scene = tmp_path / "scene.toml"
     scene.write_text(f'run = "{run}"\n[terrain]\napron = 0.0\n[fire]\nobserved = "ir.geojson"\n')
-    lines = observed.lines(Choice(scene=str(scene)).shot())
+    lines = observed.lines(ShotSource(scene=str(scene)).shot())
     assert [(line.kind, line.start, line.end) for line in lines] == [
         ("intense", 30.0, 90.0),
         ("intense", 30.0, 90.0),  # its hole

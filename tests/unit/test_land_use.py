@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from firetwin.errors import InputError
 from firetwin.run.observations import features
-from firetwin.shot.source import Choice
+from firetwin.shot.source import ShotSource
 from firetwin.shot.terrain import land_use
 from firetwin_core import run as runs
 from scene_text import GROUND_ALONE
@@ -24,7 +24,7 @@ def make(make_run, tmp_path):
         (tmp_path / name).write_text(json.dumps({"type": "FeatureCollection", "features": list(found)}))
         key = f'land_use = "{name}"'
         (tmp_path / "scene.toml").write_text(GROUND_ALONE.format(key=key, near=0.0, apron=3000.0))
-        return Choice(scene=str(tmp_path / "scene.toml"))
+        return ShotSource(scene=str(tmp_path / "scene.toml"))
 
     return scene
 

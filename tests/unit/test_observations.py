@@ -134,11 +134,11 @@ def test_moments_in_the_ways_that_files_write_them(tmp_path, properties, stem, u
     path, assumptions = tmp_path / f"{stem}.geojson", {}
     feature = Feature((), properties, "feature 1")
     if utc:
-        assert dates.of(path, feature, assumptions) == WHEN
+        assert dates.parse(path, feature, assumptions) == WHEN
         assert bool(assumptions) == assumed
     else:
         with pytest.raises(InputError, match=r"feature 1: nothing says when.*@2014-09-18T04:00-07:00"):
-            dates.of(path, feature, assumptions)
+            dates.parse(path, feature, assumptions)
 
 
 def test_a_moment_with_the_name_counts_for_the_whole_file(tmp_path):

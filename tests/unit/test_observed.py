@@ -5,7 +5,7 @@ import pytest
 from firetwin.errors import InputError
 from firetwin.run import maps, observations, readers
 from firetwin.shot.fire import observed
-from firetwin.shot.source import Choice
+from firetwin.shot.source import ShotSource
 from matplotlib.colors import to_hex
 
 RING = [[-120.595, 38.903], [-120.590, 38.903], [-120.590, 38.907], [-120.595, 38.907], [-120.595, 38.903]]
@@ -32,7 +32,7 @@ def scene(make_run, tmp_path):
 
 
 def test_lines_lie_over_the_ground_by_their_dates(scene):
-    shot = Choice(scene=str(scene)).shot()
+    shot = ShotSource(scene=str(scene)).shot()
     first, pixel, second = observed.lines(shot)
     assert (first.start, first.fades, first.end) == (30.0, 90.0, observed.FOREVER)
     assert (pixel.start, pixel.end) == (60.0, 60.0 + 12 * 3600.0)
@@ -49,11 +49,11 @@ def test_lines_lie_over_the_ground_by_their_dates(scene):
 def test_a_file_that_is_none_is_named_with_its_line(scene):
     scene.write_text(scene.read_text().replace('"seen"', '"gone.kml"'))
     with pytest.raises(InputError, match=r"scene.toml:5:1: fire.observed: .*gone.kml: no such file"):
-        Choice(scene=str(scene)).shot()
+        ShotSource(scene=str(scene)).shot()
 
 
 def test_another_file_makes_other_pictures(scene):
-    settings = Choice(scene=str(scene)).settings()
+    settings = ShotSource(scene=str(scene)).settings()
     before = observed.inputs(settings)
     assert set(before) == {"observed king.geojson", "observed viirs.csv"}
     path = scene.parent / "seen" / "viirs.csv"
@@ -63,7 +63,7 @@ def test_another_file_makes_other_pictures(scene):
 
 
 def test_perimeters_are_on_the_map_and_in_its_legend(scene):
-    settings = Choice(scene=str(scene)).settings()
+    settings = ShotSource(scene=str(scene)).settings()
     run, found = readers.open(settings.run), observations.read(observed.files(settings))
     (axes, *_) = maps.intensity_map(run, "UTC", found).axes
     outlines = [each for each in axes.patches if to_hex(each.get_edgecolor()) == to_hex(maps.SEEN(1.0))]

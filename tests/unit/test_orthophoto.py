@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from firetwin.errors import InputError
-from firetwin.shot.source import Choice
+from firetwin.shot.source import ShotSource
 from firetwin.shot.terrain import orthophoto
 from firetwin_core import sensor
 from scene_text import GROUND_ALONE
@@ -26,7 +26,7 @@ def make(make_run, tmp_path):
 
     def scene(key, near=0.0, apron=3000.0):
         (tmp_path / "scene.toml").write_text(GROUND_ALONE.format(key=key, near=near, apron=apron))
-        return Choice(scene=str(tmp_path / "scene.toml"))
+        return ShotSource(scene=str(tmp_path / "scene.toml"))
 
     return scene
 

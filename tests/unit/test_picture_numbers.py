@@ -217,12 +217,12 @@ def test_a_clock_that_is_moved_keeps_the_moments_of_the_fire(tmp_path):
         write_field(run, name, values, "npy")
     (run / "run.toml").write_text(RUN_TOML)
     opened = open_run(run)
-    start = times.moment(opened, float(opened.times[1]))
+    start = times.utc(opened, float(opened.times[1]))
     scene = tmp_path / "fitted.toml"
     scene.write_text(f'run = "{run}"\n[time]\nstart = {start.isoformat()}  # said\nframes = 2\n')
     moved = tomllib.loads(pictures._moved(scene, run, tmp_path / "night.toml", 22.5).read_text())
     other = open_run(Path(moved["run"]))
-    since = moved["time"]["start"] - times.moment(other, 0.0)
+    since = moved["time"]["start"] - times.utc(other, 0.0)
     assert since == timedelta(seconds=float(opened.times[1]))
     hour = moved["time"]["start"].timestamp() / 3600.0 + float(np.mean(opened.longitude)) / 15.0
     assert hour % 24.0 == pytest.approx(22.5, abs=0.02)

@@ -16,7 +16,7 @@ def run(make_run):
 
 
 def at(run, time):
-    return stability.under(sun.at(run, time)[1])
+    return stability.under(sun.position(run, time)[1])
 
 
 def test_nights_are_stable_and_afternoons_mixed(run):
@@ -35,7 +35,7 @@ def test_stability_changes_smoothly(run):
 
 def test_a_still_has_one_moment(run):
     start = datetime(2014, 9, 17, 4, 46, tzinfo=UTC)
-    still = frames.of(Time(start=start, frames=1), run)
+    still = frames.resolve(Time(start=start, frames=1), run)
     assert (still.first, still.last) == (60.0, 60.0)
-    film = frames.of(Time(start=start, frames=2), run)
+    film = frames.resolve(Time(start=start, frames=2), run)
     assert (film.first, film.last) == (60.0, 120.0)

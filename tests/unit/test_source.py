@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from firetwin.shot import run_checks
-from firetwin.shot.source import Choice
+from firetwin.shot.source import ShotSource
 from firetwin_core import InputError
 from small_run import FX, FY, small_fields
 
@@ -11,22 +11,24 @@ from small_run import FX, FY, small_fields
 def test_a_choice_is_a_scene_file_with_other_things_in_its_place(make_run, tmp_path):
     folder = make_run()
     (tmp_path / "scene.toml").write_text('run = "elsewhere"\n')
-    shot = Choice(str(tmp_path / "scene.toml"), str(folder), str(tmp_path / "c"), "eevee", "cpu").shot()
+    shot = ShotSource(str(tmp_path / "scene.toml"), str(folder), str(tmp_path / "c"), "eevee", "cpu").shot()
     assert shot.run.name == "Small"
     assert (shot.settings.render.engine, shot.settings.render.device) == ("eevee", "cpu")
     assert shot.settings.cache == tmp_path / "c"
     assert not shot.settings.cameras
     with pytest.raises(InputError, match="elsewhere"):
-        Choice(str(tmp_path / "scene.toml")).shot()
+        ShotSource(str(tmp_path / "scene.toml")).shot()
 
 
 def test_a_run_alone_has_cameras_that_fit_it(make_run):
-    shot = Choice(run=str(make_run())).shot()
+    shot = ShotSource(run=str(make_run())).shot()
     run_checks.check(shot.settings, shot.run)
     assert [camera.name for camera in shot.settings.cameras] == ["overview", "chase", "flank", "satellite"]
     assert shot.settings.smoke.method == "flow"
-    assert Choice(run=str(shot.settings.run), smoke="puffs").shot().settings.smoke.method == "puffs"
-    assert Choice(**Choice(run="here", engine="eevee").plain()) == Choice(run="here", engine="eevee")
+    assert ShotSource(run=str(shot.settings.run), smoke="puffs").shot().settings.smoke.method == "puffs"
+    assert ShotSource(**ShotSource(run="here", engine="eevee").plain()) == ShotSource(
+        run="here", engine="eevee"
+    )
 
 
 def test_a_camera_that_ridges_hide_is_told_and_stays(make_run, tmp_path):
@@ -45,7 +47,7 @@ def test_a_camera_that_ridges_hide_is_told_and_stays(make_run, tmp_path):
             f'[[cameras]]\nname = "lookout"\nover_ridges = {raised}\n'
             'keys = [{latitude = 38.9045, longitude = -120.6, height = 60.0, target = "fire"}]\n'
         )
-        return Choice(str(scene)).shot()
+        return ShotSource(str(scene)).shot()
 
     low, high = shot("false"), shot("true")
     above = [s.paths[0].position[0][2] - s.ground.up(*s.paths[0].position[0][:2])[0] for s in (low, high)]

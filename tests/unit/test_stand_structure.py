@@ -79,7 +79,7 @@ def test_single_trees_stand_beyond_the_edge(shot):
 @pytest.mark.parametrize(("forest", "level"), [(1.0, True), (0.0, False)], ids=["lake", "desert"])
 def test_lakes_and_deserts_have_no_lone_trees(shot, forest, level):
     canopy = np.where(np.arange(FX) < HALF, forest, 0.0) * np.ones((FY, 1))
-    (own,) = plot.of(shot(canopy, level=level), stand.TALLEST, 5000.0)
+    (own,) = plot.plots(shot(canopy, level=level), stand.TALLEST, 5000.0)
     assert np.all(own.canopy_fuel[:, HALF + 1 :] == 0.0)
 
 
@@ -106,11 +106,12 @@ def test_lone_trees_are_known_where_they_are_asked_for_and_beside(shot):
 def test_trees_are_alike_in_patches_and_evenly_spread():
     random = np.random.default_rng(1)
     place, chance = random.uniform(0.0, 4000.0, (40_000, 3)), random.uniform(0.0, 1.0, 40_000)
-    found = stand_structure.alike(place, 110.0, chance, 5)
+    found = stand_structure.clustered_uniform(place, 110.0, chance, 5)
     assert np.histogram(found, 10, (0.0, 1.0))[0] / 4000.0 == pytest.approx(1.0, abs=0.25)
     other = noise.uniform(np.arange(40_000), 0, 7)
     beside, apart = (
-        stand_structure.alike(place + np.array([m, 0.0, 0.0]), 110.0, other, 5) for m in (5.0, 900.0)
+        stand_structure.clustered_uniform(place + np.array([m, 0.0, 0.0]), 110.0, other, 5)
+        for m in (5.0, 900.0)
     )
     assert np.corrcoef(found, beside)[0, 1] > 0.4
     assert abs(np.corrcoef(found, apart)[0, 1]) < 0.1

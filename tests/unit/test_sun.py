@@ -28,9 +28,9 @@ def test_a_full_moon_is_bright_and_a_new_one_is_not(run):
 
 def test_light_comes_from_the_moon_when_the_sun_is_down(run):
     full = moon(run, FULL)
-    towards = sun.light(300.0, -30.0, full)
+    towards = sun.shadow_direction(300.0, -30.0, full)
     assert np.allclose(towards, sun.direction(full.bearing, full.height))
-    assert not np.allclose(sun.light(300.0, 5.0, full), towards)
+    assert not np.allclose(sun.shadow_direction(300.0, 5.0, full), towards)
 
 
 def test_a_moon_below_the_horizon_gives_no_light(run):

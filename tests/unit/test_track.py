@@ -253,7 +253,7 @@ def test_what_is_exported_and_flown_again_is_the_same_track(make_run, write, tmp
 def test_another_track_makes_other_pictures(write):
     path = write("a.gpx", GPX)
     cameras = [Camera("scout", Drone(track=path))]
-    before = code_fingerprint.of((), cameras)
-    assert before == code_fingerprint.of((), cameras)
+    before = code_fingerprint.hashes((), cameras)
+    assert before == code_fingerprint.hashes((), cameras)
     path.write_text(GPX.replace("1550.0", "1551.0"))
-    assert before != code_fingerprint.of((), cameras)
+    assert before != code_fingerprint.hashes((), cameras)

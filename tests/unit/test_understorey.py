@@ -164,7 +164,7 @@ def test_fate_follows_the_cells_intensity(film):
 
     def of(fuel):
         shot.ground.fields.surface_fuel[:] = fuel
-        return fire_effects.of(shot, row, column, height, key)
+        return fire_effects.of_trees(shot, row, column, height, key)
 
     shot.ground.burn_time[:] = 2000.0 * np.arange(shot.ground.shape[1])
     mild, fierce = of(0.1), of(4.0)
@@ -172,5 +172,5 @@ def test_fate_follows_the_cells_intensity(film):
     assert np.all(mild.torched <= fierce.torched)
     assert mild.torched.mean() < 0.1 < 0.9 < fierce.torched.mean()
     assert 0.1 < mild.scorch.mean() < 0.9
-    again = fire_effects.of(shot, row[::7], column[::7], height[::7], key[::7])
+    again = fire_effects.of_trees(shot, row[::7], column[::7], height[::7], key[::7])
     assert np.array_equal(again.torched, fierce.torched[::7])

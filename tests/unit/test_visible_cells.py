@@ -42,22 +42,22 @@ def test_no_cell_of_a_tree_that_counts_is_left_out(film, seed, rise):
         bilinear(elevation.astype(np.float64), row, column),
     )
     counts = visibility.visible(film, place, 1.0, REACH)
-    found = visible_cells.counting(film, 1.0, REACH, latitude, longitude, elevation)
+    found = visible_cells.visible_cells(film, 1.0, REACH, latitude, longitude, elevation)
     assert 0.1 * found.size < found.sum() < 0.9 * found.size
     assert np.all(found[np.round(row).astype(int), np.round(column).astype(int)][counts])
 
 
 def test_blocks_leave_out_no_cell(film, monkeypatch):
-    found = visible_cells.counting(film, TALL, REACH, *grid(film))
+    found = visible_cells.visible_cells(film, TALL, REACH, *grid(film))
     monkeypatch.setattr(visible_cells, "_blocks", lambda *given: np.ones(given[-1].shape, bool))
     assert 0 < found.sum() < found.size
-    assert np.array_equal(found, visible_cells.counting(film, TALL, REACH, *grid(film)))
+    assert np.array_equal(found, visible_cells.visible_cells(film, TALL, REACH, *grid(film)))
 
 
 def test_only_cells_among_the_given_are_found(film):
     among = np.random.default_rng(2).uniform(size=(ROWS, COLUMNS)) < 0.3
-    whole = visible_cells.counting(film, TALL, REACH, *grid(film))
-    assert np.array_equal(visible_cells.counting(film, TALL, REACH, *grid(film), among), whole & among)
+    whole = visible_cells.visible_cells(film, TALL, REACH, *grid(film))
+    assert np.array_equal(visible_cells.visible_cells(film, TALL, REACH, *grid(film), among), whole & among)
 
 
 def test_cells_without_ground_hold_nothing_and_hide_no_others(film):
@@ -65,7 +65,8 @@ def test_cells_without_ground_hold_nothing_and_hide_no_others(film):
     holes = elevation.copy()
     holes[:, ::3] = np.nan
     whole, found = (
-        visible_cells.counting(film, TALL, REACH, latitude, longitude, each) for each in (elevation, holes)
+        visible_cells.visible_cells(film, TALL, REACH, latitude, longitude, each)
+        for each in (elevation, holes)
     )
     assert not found[:, ::3].any()
     assert found.sum() > 0.5 * whole[:, 1::3].sum()

@@ -24,13 +24,13 @@ UNKNOWN = RUN_TOML.replace('event = "king_fire"\n', "")
 )
 def test_of_what_a_run_says_the_plainest_word_counts(make_run, text, name):
     """A zone, a known fire, the start's offset; else the longitude."""
-    assert zone.of(readers.open(make_run(toml=text))) == name
+    assert zone.time_zone(readers.open(make_run(toml=text))) == name
 
 
 def test_a_zone_that_is_not_known_names_the_file(make_run):
     run = readers.open(make_run(toml=f'zone = "Europe/Corsica"\n{RUN_TOML}'))
     with pytest.raises(InputError, match=r'run\.toml.*"Europe/Corsica" is not a time zone'):
-        zone.of(run)
+        zone.time_zone(run)
 
 
 @pytest.mark.parametrize(("asked", "name"), [("", "Asia/Kathmandu"), ("UTC", "UTC")])

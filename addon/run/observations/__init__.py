@@ -210,9 +210,9 @@ def _sorted(
     for feature in features:
         kind = infrared_detections.kind(path, feature)
         if kind in infrared_detections.KINDS and (feature.polygons or len(feature.points)):
-            hot.setdefault((moment or dates.of(path, feature, assumptions), kind), []).append(feature)
+            hot.setdefault((moment or dates.parse(path, feature, assumptions), kind), []).append(feature)
         elif kind in ("", infrared_detections.PERIMETER) and feature.polygons:
-            when = moment or dates.of(path, feature, assumptions)
+            when = moment or dates.parse(path, feature, assumptions)
             burned.setdefault(when, []).extend(feature.polygons)
         else:
             left += 1

@@ -52,7 +52,7 @@ def without(name: str | Path) -> tuple[Path, datetime | None]:
     return Path(head), moment[0]
 
 
-def of(path: Path, feature: Feature, assumptions: dict[str, None]) -> datetime:
+def parse(path: Path, feature: Feature, assumptions: dict[str, None]) -> datetime:
     """UTC of a feature; what had to be assumed for it is added to `assumptions`.
 
     Raises

@@ -155,7 +155,7 @@ def _both(polygons: Overlap, cells: Overlap) -> dict[str, Any]:
 def _arrival(run: Run, grid: Grid, seen: Sequence[Seen], other: Run | None) -> dict[str, Any] | None:
     if other is not None:
         theirs = Grid.of(other)
-        shift = times.seconds(run, times.moment(other, 0.0))
+        shift = times.seconds(run, times.utc(other, 0.0))
         return arrival.between(grid.arrival, arrival.sampled(theirs, grid) + shift, run.times[[0, -1]])
     if len(seen) < 2:
         return None
@@ -174,8 +174,8 @@ def _reported(run: Run, grid: Grid) -> list[dict[str, Any]]:
 
 def _of_run(other: Run, run: Run, moments: Sequence[datetime]) -> list[Seen]:
     """Perimeters of another run as if they had been seen."""
-    low = max(times.moment(run, float(run.times[0])), times.moment(other, float(other.times[0])))
-    high = min(times.moment(run, float(run.times[-1])), times.moment(other, float(other.times[-1])))
+    low = max(times.utc(run, float(run.times[0])), times.utc(other, float(other.times[0])))
+    high = min(times.utc(run, float(run.times[-1])), times.utc(other, float(other.times[-1])))
     if low >= high:
         raise UsageError(f"--against: {other.path} and the run have no moment in common")
     common = [moment for moment in moments if low <= moment <= high]

@@ -41,7 +41,7 @@ def rows(run: Run, grid: Grid, detections: Detections) -> list[dict[str, Any]]:
         lag = moment - arrival[~np.isnan(arrival)]
         found.append(
             {
-                "time": times.iso(times.moment(run, float(moment))),
+                "time": times.iso(times.utc(run, float(moment))),
                 "source": detections.source,
                 "count": int(these.size),
                 "inside": int((arrival <= moment).sum()),

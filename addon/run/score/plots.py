@@ -108,7 +108,7 @@ def own_times(run: Run) -> NDArray[np.float64]:
 def _curve(axes: Axes, run: Run, zone: ZoneInfo, **style: Any) -> None:
     """Acres at times of the run, straight between them: what it does not say has no steps. Few are marked."""
     moments = own_times(run)
-    when = [times.moment(run, float(each)).astimezone(zone) for each in moments]
+    when = [times.utc(run, float(each)).astimezone(zone) for each in moments]
     area = np.array(info.burned(run, moments)) / history.SQUARE_METRES_PER_ACRE
     axes.plot(when, area, linewidth=2, marker="o" if len(moments) <= _MARKED else "", markersize=4, **style)
 

@@ -73,7 +73,7 @@ def html(run: Run, found: dict[str, Any], seen: Any, other: Run | None = None) -
 
 def _head(run: Run, found: dict[str, Any], other: Run | None) -> Iterator[str]:
     zone = found["zone"]
-    first, last = (times.text(times.moment(run, float(run.times[i])), zone) for i in (0, -1))
+    first, last = (times.text(times.utc(run, float(run.times[i])), zone) for i in (0, -1))
     names = ", ".join(found["against"])
     yield f"<h1>{escape(run.name)}</h1>"
     yield f'<p class="soft">{first} to {last} &middot; against {escape(names or "reported areas")}</p>'

@@ -213,7 +213,7 @@ def torches(shot: Shot, grown: Stand) -> Points:
     key = grown.key[near].T
     luck, size, late, seed = (noise.uniform(*key, shot.settings.seed + 400 + k) for k in range(4))
     lit = (luck < _TORCHES * canopy / (canopy + 1.0)) & (arrival <= last)
-    lit &= fire_effects.of(shot, row, column, grown.height[near], grown.key[near]).torched
+    lit &= fire_effects.of_trees(shot, row, column, grown.height[near], grown.key[near]).torched
     residence = 30.0 + 30.0 * size
     arrival = arrival + 20.0 * late
     chosen = np.flatnonzero(lit & (arrival + residence > first))

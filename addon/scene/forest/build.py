@@ -64,7 +64,7 @@ def algorithm2(shot: Shot) -> dict[str, NDArray]:
         shot.relief.fuel,
         shot.local_frame,
         seed=seed,
-        mask=visible_cells.counting(shot, _TALLEST, reach, *axes, shot.relief.fuel),
+        mask=visible_cells.visible_cells(shot, _TALLEST, reach, *axes, shot.relief.fuel),
     )
     position = visibility.settled(shot.ground, found.position)
     kept = np.flatnonzero(visibility.visible(shot, position, found.scale, reach))
@@ -95,7 +95,7 @@ def _below(shot: Shot, things: understorey.Things) -> dict[str, NDArray]:
 def _grass(shot: Shot) -> dict[str, NDArray]:
     run, ground, seed = shot.run, shot.ground, shot.settings.seed
     axes = run.fuel_latitude, run.fuel_longitude
-    mask = visible_cells.counting(shot, _GRASS, GRASS_DISTANCE, *axes, shot.relief.fuel)
+    mask = visible_cells.visible_cells(shot, _GRASS, GRASS_DISTANCE, *axes, shot.relief.fuel)
     found = core.grass(run.surface_fuel, *axes, shot.relief.fuel, ground.frame, seed=seed, mask=mask)
     position = visibility.settled(ground, found.position)
     moved = np.abs(position[:, 2] - found.position[:, 2]) > 0.0
@@ -122,10 +122,12 @@ def _points(
     ground, seed = shot.ground, shot.settings.seed
     row, column = ground.under(position)
     tint, dead = (
-        stand_structure.alike(position, size, noise.uniform(key, second, seed + 300 + k), seed + 330 + 10 * k)
+        stand_structure.clustered_uniform(
+            position, size, noise.uniform(key, second, seed + 300 + k), seed + 330 + 10 * k
+        )
         for k, size in enumerate(_ALIKE)
     )
-    burned = fire_effects.of(shot, row, column, scale, np.stack([key, second], axis=-1))
+    burned = fire_effects.of_trees(shot, row, column, scale, np.stack([key, second], axis=-1))
     size = np.select([scale > 20.0, scale > 12.0], [0, 1], 2)
     return {
         "position": position,

@@ -39,7 +39,7 @@ def shrubs(shot: Shot) -> Array:
 
 
 def _shrubs(shot: Shot) -> Array:
-    here = biomes.of(shot)
+    here = biomes.choose(shot)
     found = _by_load(shot.ground, here)
     if shot.run.has(fuel_category.FIELD):
         found = np.where(np.isnan(said := _by_category(shot, here)), found, said)
@@ -69,7 +69,7 @@ def _by_category(shot: Shot, here: biomes.Here) -> Array:
 
 def mapped(shot: Shot) -> Array:
     """1 where a map of land use says what there is."""
-    if land_use.of(shot) is None:
+    if land_use.read_map(shot) is None:
         return np.zeros(shot.ground.shape)
     fields = shot.ground.fields
     place = shot.ground.frame.forward_grid(fields.latitude, fields.longitude, fields.elevation)

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Fate:
+class FireEffects:
     """What becomes of n trees when the fire comes.
 
     Attributes
@@ -35,12 +35,12 @@ class Fate:
     torched: NDArray[np.bool_]
 
 
-def of(shot: Shot, row: Array, column: Array, height: Array, key: NDArray[np.int64]) -> Fate:
+def of_trees(shot: Shot, row: Array, column: Array, height: Array, key: NDArray[np.int64]) -> FireEffects:
     """Fate of trees (n,), `height` m tall, at fractional rows and columns; chance hangs on keys (n, 2)."""
     seed = shot.settings.seed
     lot = (noise.uniform(*key.T, seed + 310 + use) for use in range(2))
     intensity = surface_intensity(shot, row, column) * np.exp(_UNEVEN * noise.normal(*lot))
-    return Fate(
+    return FireEffects(
         np.clip(scorch_height(intensity) / np.maximum(height, 0.1), 0.0, 1.0),
         intensity > torching_intensity(_BASE * height),
     )

@@ -39,7 +39,7 @@ def foliage(shot: Shot, stage: Stage) -> bpy.types.Material:
     warm = tree.input("Warm Tint", (1.36, 1.22, 1.05), "Factor on the yellowest trees' colour", "Variety")
     lost = tree.input("Dead Share", _DEAD, "Part of the trees that was brown before", "Variety", most=1.0)
     varied = tree.mix_colour(tint, cool, warm)
-    here = biomes.of(shot)
+    here = biomes.choose(shot)
     if here.biome.deciduous * (1.0 - here.green) > 0.0:
         fallen = tree.mix_colour(
             here.biome.deciduous * (1.0 - here.green), (1.0, 1.0, 1.0), here.biome.withered
@@ -121,7 +121,7 @@ def grass(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Grass": dry in September, burned to the ground by the fire."""
     material, tree = nodes.material("Firetwin Grass", (0.42, 0.38, 0.16))
     tint = tree.attribute("tint", "INSTANCER")
-    here = biomes.of(shot)
+    here = biomes.choose(shot)
     straw = tree.input("Dry Colour", here.biome.grass[0], "Of grass that has dried", "Variety")
     green = tree.input("Green Colour", here.biome.grass[1], "Of grass that is still green", "Variety")
     if here.biome.open_land is not None:

@@ -52,7 +52,7 @@ class Plot:
         return frame.forward(self.latitude[row], self.longitude[column], self.elevation[row, column])
 
 
-def of(shot: Shot, height: float, reach: float) -> list[Plot]:
+def plots(shot: Shot, height: float, reach: float) -> list[Plot]:
     """The run's plot, and the one beyond it where cameras come near enough to see trees there.
 
     Parameters
@@ -64,7 +64,7 @@ def of(shot: Shot, height: float, reach: float) -> list[Plot]:
     """
     run, seed = shot.run, shot.settings.seed
     axes, elevation = (run.fuel_latitude, run.fuel_longitude), shot.relief.fuel
-    mask = visible_cells.counting(shot, height, reach, *axes, elevation)
+    mask = visible_cells.visible_cells(shot, height, reach, *axes, elevation)
     fuel = stand_structure.with_lone(shot, fuel_category.canopy(run), *_lines(shot, *axes), mask)
     own = Plot(*axes, fuel, elevation, mask & (fuel > 0.0), float(np.prod(shot.ground.cell)), seed)
     beyond = _beyond(shot, height, reach)
@@ -92,7 +92,7 @@ def _beyond(shot: Shot, height: float, reach: float) -> Plot | None:
         between(field, row, column).astype(np.float32) for field in (fields.canopy_fuel, fields.elevation)
     )
     out = ~(inside[0][:, None] & inside[1][None, :])
-    mask = visible_cells.counting(shot, height, reach, *axes, elevation, out)
+    mask = visible_cells.visible_cells(shot, height, reach, *axes, elevation, out)
     fuel = stand_structure.with_lone(shot, fuel, row, column, mask)
     area = max(ground.cell[0], _CELL) * max(ground.cell[1], _CELL)
     return Plot(*axes, fuel, elevation, mask & (fuel > 0.0), area, shot.settings.seed + _OTHER)

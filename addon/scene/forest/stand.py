@@ -64,7 +64,7 @@ def grow(shot: Shot) -> Stand:
     """Plant what the cameras see of the stand within `draw_distance`; nothing where density is "paper"."""
     settings = shot.settings
     reach = settings.forest.draw_distance
-    plots = plot.of(shot, TALLEST, reach) if settings.forest.density == "stand" else []
+    plots = plot.plots(shot, TALLEST, reach) if settings.forest.density == "stand" else []
     found = _planted(shot, plots)
     position = visibility.settled(shot.ground, found.position)
     key = np.stack([found.key >> 32, found.key & 0xFFFFFFFF], axis=-1)
@@ -79,7 +79,7 @@ def grow(shot: Shot) -> Stand:
     chosen = np.flatnonzero(chosen)
     model = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[found.size_class[chosen]]
     height, width = found.scale[chosen].astype(float), found.width[chosen]
-    if sorts := biomes.of(shot).biome.species:
+    if sorts := biomes.choose(shot).biome.species:
         model, height, width = _of_species(shot, sorts, position[chosen], height, width, key[chosen])
     else:
         model, height = _with_oaks(shot, position[chosen], model + found.model[chosen], height, key[chosen])
@@ -184,7 +184,7 @@ def _of_species(
     elevation = bilinear(ground.fields.elevation, *ground.under(position))
     share = np.array([_share(each, elevation) for each in sorts])
     part = np.cumsum(share, axis=0) / np.maximum(share.sum(axis=0), 1.0e-9)
-    lot = stand_structure.alike(position, _PATCH, noise.uniform(*key.T, seed + 222), seed + 340)
+    lot = stand_structure.clustered_uniform(position, _PATCH, noise.uniform(*key.T, seed + 222), seed + 340)
     number = np.minimum((lot > part).sum(axis=0), len(sorts) - 1)
     which = noise.uniform(*key.T, seed + 223)
     model = np.array(

@@ -45,7 +45,7 @@ def with_lone(
     part = fuel[inside]
     lines = [np.round(at[along]).astype(int) for at, along in zip((row, column), inside, strict=True)]
     dry = shot.ground.water[np.ix_(*lines)] < 0.5
-    if biomes.of(shot).biome.species:
+    if biomes.choose(shot).biome.species:
         near = shot.ground.bare[np.ix_(*lines)] < _BARE
     else:
         near = widened(part > LONE_FUEL, _SEED)
@@ -65,7 +65,7 @@ def kept(shot: Shot, position: Array) -> Array:
     stand = noise.smoothstep(0.70, 0.30, empty + _RAGGED * bays)
     stand = stand * (1.0 - _OPEN * noise.smoothstep(0.38, 0.60, gaps))
     lone = _LONE * noise.smoothstep(-0.1, 0.5, bays) * (empty > 0.0)
-    if (biome := biomes.of(shot).biome).species:
+    if (biome := biomes.choose(shot).biome).species:
         lone = _scattered(shot, biome.tree_cover, position) * (empty > 0.0)
     if shot.settings.terrain.land_use is not None:
         wet = np.where(land_use.keeps_out(shot, position), 1.0, wet)
@@ -78,7 +78,7 @@ def _scattered(shot: Shot, part: float, position: Array) -> Array:
     groups = noise.fractal(x, y, 4.0 * _GAP, 3, shot.settings.seed + 430)
     hollow = bilinear(cover.hollows(shot.ground), *shot.ground.under(position))
     found = part / _FULL * np.exp(_GROUPED * groups + _HOLLOW * hollow - _MEAN)
-    land = biomes.of(shot).biome.open_land
+    land = biomes.choose(shot).biome.open_land
     if land is not None and land.draws:
         found = found * (_BESIDE + (_ALONG - _BESIDE) * cover.draws(land, position))
     if land is not None and land.hedge > 0.0:
@@ -88,7 +88,7 @@ def _scattered(shot: Shot, part: float, position: Array) -> Array:
     return found
 
 
-def alike(position: Array, size: float, chance: Array, seed: int) -> Array:
+def clustered_uniform(position: Array, size: float, chance: Array, seed: int) -> Array:
     """Numbers (n,) spread over 0..1 about as evenly as `chance` (n,), but alike in patches of `size` m."""
     patch = noise.fractal(position[:, 0], position[:, 1], size, 2, seed) / 0.4
     own = np.log(np.maximum(chance, 1.0e-6) / np.maximum(1.0 - chance, 1.0e-6))

@@ -127,7 +127,7 @@ KINDS = {
 
 def kinds(shot: Shot) -> dict[str, Kind]:
     """Those of the shot's biome, by name."""
-    biome = biomes.of(shot).biome
+    biome = biomes.choose(shot).biome
     if biome.open_land is None:
         return KINDS
     return {name: _of_biome(shot, biome, name, kind) for name, kind in KINDS.items()}

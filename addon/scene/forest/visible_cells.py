@@ -16,7 +16,7 @@ _BLOCK = 8  # cells to a side
 Array = NDArray[np.float64]
 
 
-def counting(
+def visible_cells(
     shot: Shot,
     height: float,
     reach: float,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ...blender import compat, nodes, owned
 from ...blender.owned import Stage
 from ...shot.light import exposure
-from ...shot.light.sky import NIGHT_SKY, State, over
+from ...shot.light.sky import NIGHT_SKY, State, state
 from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import haze, infrared
@@ -56,7 +56,7 @@ def moments(shot: Shot) -> tuple[NDArray[np.float64], list[State]]:
     """Frames at which light is worked out, and the light there."""
     moving = shot.frames.count > 1 and shot.frames.last > shot.frames.first
     frames = np.linspace(1.0, shot.frames.count, _KEYS if moving else 1)
-    return frames, [over(shot, shot.frames.time(frame)) for frame in frames]
+    return frames, [state(shot, shot.frames.time(frame)) for frame in frames]
 
 
 def _lamp(collection: bpy.types.Collection, frames: NDArray[np.float64], states: list[State]) -> None:

@@ -92,7 +92,7 @@ def build(shot: Shot, stage: Stage, boxes: Sequence[Box]) -> Shadow:
 
 def _extent(shot: Shot, boxes: Sequence[Box]) -> tuple[Array, Array]:
     """Corners (x, y), m, of what the smoke's shadow can lie on."""
-    heights = [sun.at(shot.run, float(shot.frames.times[k]))[1] for k in (0, -1)]
+    heights = [sun.position(shot.run, float(shot.frames.times[k]))[1] for k in (0, -1)]
     steep = np.tan(np.radians(max(min(heights), 1.0)))
     top = _TOP * max(box.levels[-1] for box in boxes)
     margin = float(np.clip(top / steep, shot.scale.length(_MARGIN[0]), _MARGIN[1]))

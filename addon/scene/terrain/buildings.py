@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
     """Build "Firetwin Roofs"; None where the map has no buildings."""
-    known = land_use.of(shot)
+    known = land_use.read_map(shot)
     houses = [each for each in known.things if each.kind == "building"] if known else []
     points, faces, colours = [], [], []
     for house in houses:

@@ -64,7 +64,7 @@ def images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]:
     thin = {name: _thinned(field, size) for name, field in known.items()}
     thin["stand"] = _stand_cover(shot, grown, size)
     made = {}
-    if biomes.of(shot).biome.open_land is not None:
+    if biomes.choose(shot).biome.open_land is not None:
         thin |= {"shrub": _thinned(cover.shrubs(shot), size), "hollow": _thinned(cover.hollows(ground), size)}
         thin["mapped"] = _thinned(cover.mapped(shot), size)
     for image in dict.fromkeys(NAMES[name][0] for name in thin):

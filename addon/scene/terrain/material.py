@@ -39,7 +39,7 @@ def build(
     `maps` are the user's land use by `land_use.LAYERS`.
     """
     material, tree = nodes.material("Firetwin Ground", (0.30, 0.26, 0.17))
-    biome = biomes.of(shot)
+    biome = biomes.choose(shot)
     with tree.frame("Fields"):
         known = fields.Fields(tree, images)
         lake = known["water"] > 0.5
@@ -63,7 +63,7 @@ def _seen(
     """Shader of the picture. Shaders are mixed, not colours: Cycles leaves out one that has no part."""
     outcrops = biome.biome.outcrops
     with tree.frame("Place and time"):
-        here = shading_inputs.of(tree, known, shot, whole=False)
+        here = shading_inputs.gather(tree, known, shot, whole=False)
         bare = shading_inputs.rock(tree, here, outcrops)
     with tree.frame("Rock"):
         rock = _rock(tree, here, biome)
@@ -91,9 +91,9 @@ def _data(
     tree: nodes.Tree, shot: Shot, stage: Stage, known: fields.Fields, lake: nodes.Value
 ) -> tuple[nodes.Value, nodes.Value]:
     """Infrared radiance, and the class of the masks: of all octaves of noise, however large pixels are."""
-    outcrops = biomes.of(shot).biome.outcrops
+    outcrops = biomes.choose(shot).biome.outcrops
     with tree.frame("Place and time of data"):
-        here = shading_inputs.of(tree, known, shot, whole=True)
+        here = shading_inputs.gather(tree, known, shot, whole=True)
         bare = shading_inputs.rock(tree, here, outcrops)
         fuel = here.burned * (1.0 - bare)
         flaming, embers = (fuel * part for part in burn_scar.glow(tree, here))

@@ -60,7 +60,7 @@ class Place:
         return replace(self, grain=self.grain.coarser(least))
 
 
-def of(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -> Place:
+def gather(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -> Place:
     """A point, with noise in all of its octaves (`whole`) or in those that a picture can show.
 
     Both in one material cost no more than one of them, as long as they are in different branches of it.

@@ -36,7 +36,7 @@ def colours(shot: Shot, row: NDArray[np.float64], column: NDArray[np.float64]) -
         return bilinear(np.asarray(field, np.float64), row, column)[:, None]
 
     dense = np.clip(at(ground.fields.canopy_fuel) / _DENSE, 0, 1)
-    grass = GRASS if (land := biomes.of(shot).biome.open_land) is None else land.straw
+    grass = GRASS if (land := biomes.choose(shot).biome.open_land) is None else land.straw
     shade = np.array(grass) + (np.array(FOREST) - grass) * dense
     shade = shade + (np.array(BARE) - shade) * np.clip(at(ground.bare), 0, 1)
     arrival = ground.arrival_at(row, column)[:, None]

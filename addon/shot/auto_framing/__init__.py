@@ -19,7 +19,7 @@ from .visible_share import Visible
 
 
 @dataclass(frozen=True)
-class Fitted:
+class FittedScene:
     """Settings that fit a run, and what is said of them.
 
     Attributes
@@ -51,12 +51,12 @@ class Fitted:
         return text.text(self.settings, self.name, self.window, self.cameras)
 
 
-def of(run: Run, settings: Settings) -> Fitted:
+def fit(run: Run, settings: Settings) -> FittedScene:
     """Settings for a run that begin with these, which name the run, the file and the cache.
 
     Where they say when the shot starts or ends, cameras fit that, and no other moments are looked for.
     """
-    time, words = window.of(run, settings.time)
+    time, words = window.choose(run, settings.time)
     settings = replace(
         settings,
         time=time,
@@ -64,14 +64,14 @@ def of(run: Run, settings: Settings) -> Fitted:
         render=replace(settings.render, samples=3, passes=("rgb", "thermal")),
     )
     shot = Shot(settings, run)
-    moving = front.of(shot)
+    moving = front.find_front(shot)
     placed = _placed(moving)
     whole = replace(settings, cameras=tuple(each.camera for each in placed))
     said, shares = ({each.camera.name: getattr(each, name) for each in placed} for name in ("words", "share"))
-    return Fitted(whole, run.name, words, said, shares)
+    return FittedScene(whole, run.name, words, said, shares)
 
 
-def at(folder: Path, path: Path, cache: Path, time: Time | None = None) -> Fitted:
+def fit_folder(folder: Path, path: Path, cache: Path, time: Time | None = None) -> FittedScene:
     """Settings for the run in a folder, as of the scene file `path`; `time` may say what is filmed.
 
     Raises
@@ -81,7 +81,7 @@ def at(folder: Path, path: Path, cache: Path, time: Time | None = None) -> Fitte
     """
     from ...run import readers
 
-    return of(readers.open(folder), Settings(path=path, run=folder, cache=cache, time=time or Time()))
+    return fit(readers.open(folder), Settings(path=path, run=folder, cache=cache, time=time or Time()))
 
 
 def _placed(moving: front.Front) -> list[Placed]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from .. import sun
 from .front import Front
-from .visible_share import Seen
+from .visible_share import VisibleShare
 
 if TYPE_CHECKING:
     from ..cameras.path import Path
@@ -44,7 +44,7 @@ class Placed:
 class Tried(NamedTuple):
     """A camera, what it shows of the front, and how well it stands otherwise."""
 
-    seen: Seen
+    seen: VisibleShare
     liking: float
     camera: Camera
 
@@ -86,12 +86,12 @@ def away(view: Path) -> float:
     return float(np.hypot(*(view.position - view.target)[0, :2]))
 
 
-def enough(seen: Seen) -> bool:
+def enough(seen: VisibleShare) -> bool:
     """Whether a close camera need not move off: it shows enough, and does not stand in smoke."""
     return seen.share >= ENOUGH and seen.clear >= _SOME
 
 
-def shows(seen: Seen, what: str) -> str:
+def shows(seen: VisibleShare, what: str) -> str:
     """``87 % of the front shows, about 60 % clear of smoke``."""
     return f"{percent(seen.share)} of {what} shows, about {percent(seen.clear)} clear of smoke"
 
@@ -110,7 +110,7 @@ def liking(front: Front, bearing: float) -> float:
     """How well a camera stands in a direction of the fire (degrees), -1..1: windward, the sun behind it."""
     side = np.array([np.sin(np.radians(bearing)), np.cos(np.radians(bearing))])
     windward = -float(side @ front.wind)
-    azimuth, height = sun.at(front.shot.run, front.shot.frames.middle)
+    azimuth, height = sun.position(front.shot.run, front.shot.frames.middle)
     by_day = np.clip(height / 5.0, 0.0, 1.0) * np.cos(np.radians(max(height, 0.0)))
     behind = float(np.cos(np.radians(bearing - azimuth))) * by_day
     weight = np.array([1.0 if np.any(front.wind) else 0.0, 0.6])
@@ -122,7 +122,7 @@ def bearing(view: Path) -> float:
     return float(np.degrees(np.arctan2(*(view.position - view.target)[:, :2].mean(axis=0))))
 
 
-def framed(seen: Seen) -> float:
+def framed(seen: VisibleShare) -> float:
     """Liking lost, 0 or less, where the front is far from its place in the picture, or no horizon in it."""
     off = max(abs(seen.height - _FRONT) - _ROUND, 0.0)
     return -_OFF * off - _OFF * float(np.clip(seen.horizon - _HORIZON, 0.0, 1.0))
@@ -139,7 +139,7 @@ def where(front: Front, bearing: float) -> str:
     found = [f"from the {side(bearing)}"]
     if float(vector @ front.wind) < -0.5:
         found.append("windward")
-    azimuth, height = sun.at(front.shot.run, front.shot.frames.middle)
+    azimuth, height = sun.position(front.shot.run, front.shot.frames.middle)
     if height > 0.0 and np.cos(np.radians(bearing - azimuth)) > 0.5:
         found.append("the sun behind it")
     return ", ".join(found)

@@ -90,7 +90,7 @@ class Front:
         known = np.where(ground.arrival[near] < NEVER, ground.arrival[near], np.nan)
         crossing[row, column] = burning.crossing(known, row, column)
         return [
-            straight_plume.at(ground, near, crossing, frames.times[frame], self.drift)
+            straight_plume.trace(ground, near, crossing, frames.times[frame], self.drift)
             for frame in self.frames
         ]
 
@@ -122,7 +122,7 @@ def some(chosen: NDArray[np.int64], most: int) -> NDArray[np.int64]:
     return chosen[np.unique(np.linspace(0, len(chosen) - 1, min(len(chosen), most)).round().astype(np.int64))]
 
 
-def of(shot: Shot) -> Front:
+def find_front(shot: Shot) -> Front:
     """The front of a shot."""
     ground, frames = shot.bare_ground, shot.frames
     near = box(ground.arrival < NEVER, more=2)

@@ -11,7 +11,7 @@ from ..settings.settings import Camera
 from . import candidates
 from .candidates import Array, Placed, Tried
 from .front import Front, some
-from .visible_share import Seen, Visible
+from .visible_share import Visible, VisibleShare
 
 _LENSES = (
     candidates.LENS,
@@ -138,7 +138,7 @@ def _whole(front: Front) -> Array:
     return np.stack([x.ravel(), y.ravel(), front.ground.up(x.ravel(), y.ravel())], axis=-1)
 
 
-def _words(front: Front, camera: Camera, seen: Seen) -> str:
+def _words(front: Front, camera: Camera, seen: VisibleShare) -> str:
     """A line about the camera."""
     (key,) = camera.rig.keys
     view = candidates.path(front, camera)

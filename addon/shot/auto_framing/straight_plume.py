@@ -68,7 +68,7 @@ class Plume:
         return emissions.EXTINCTION / max(speed, _WEAK) * (dense * pieces).sum(axis=0)
 
 
-def at(ground: Ground, near: tuple[slice, slice], crossing: Array, time: float, wind: Array) -> Plume:
+def trace(ground: Ground, near: tuple[slice, slice], crossing: Array, time: float, wind: Array) -> Plume:
     """The smoke of a moment (s).
 
     Parameters

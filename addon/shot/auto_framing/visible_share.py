@@ -19,7 +19,7 @@ _PLACES = 160  # of the front at most that are looked at in each moment
 Array = NDArray[np.float64]
 
 
-class Seen(NamedTuple):
+class VisibleShare(NamedTuple):
     """What a camera shows of a front.
 
     Attributes
@@ -52,7 +52,7 @@ class Visible:
         inner = slice(ground.fields.margin, -ground.fields.margin or None)
         return lod.Occluder(ground.floor()[inner, inner])
 
-    def seen(self, view: Path, near: float = np.inf) -> Seen:
+    def seen(self, view: Path, near: float = np.inf) -> VisibleShare:
         """What a camera shows of the front in the moments looked at.
 
         Parameters
@@ -73,7 +73,7 @@ class Visible:
                 clear.append(float(np.exp(-depth).sum()) / len(place))
                 heights.append(_height(view, int(frame), place[shown]))
         height = np.concatenate(heights)
-        return Seen(
+        return VisibleShare(
             float(np.mean(shares)) if shares else 0.0,
             float(np.mean(clear)) if clear else 0.0,
             float(np.median(height)) if len(height) else 0.0,

@@ -21,14 +21,14 @@ _STEP = 60.0  # s; windows begin and end at whole minutes of the run
 Array = NDArray[np.float64]
 
 
-def of(run: Run, asked: Time) -> tuple[Time, str]:
+def choose(run: Run, asked: Time) -> tuple[Time, str]:
     """The [time] of a film of a run, and a line about it: what is `asked`, or else the most active part."""
     first, last = float(run.times[0]), float(run.times[-1])
-    there = zone.of(run)
+    there = zone.time_zone(run)
     whole = Time(frames=FRAMES, fps=FPS, zone=there)
     if asked.start or asked.end:
         chosen = replace(whole, start=asked.start, end=asked.end)
-        start, end = asked.start or times.moment(run, first), asked.end or times.moment(run, last)
+        start, end = asked.start or times.utc(run, first), asked.end or times.utc(run, last)
         return chosen, f"{_words(start, end, there)}, as asked"
     if last <= first:
         return replace(whole, frames=1), "the one moment of the run"
@@ -38,7 +38,7 @@ def of(run: Run, asked: Time) -> tuple[Time, str]:
         return whole, "all of the run, in which nothing burns"
     came, seconds = arrival[row, column], length(_size(run, arrival <= last), last - first)
     begin = most_active(came, fuel, first, last, seconds)
-    start, end = (times.moment(run, time) for time in (begin, begin + seconds))
+    start, end = (times.utc(run, time) for time in (begin, begin + seconds))
     part = float(fuel[(came >= begin) & (came <= begin + seconds)].sum() / fuel.sum())
     words = (
         f"{_words(start, end, there)}, the most active {seconds / 60.0:.0f} minutes: "

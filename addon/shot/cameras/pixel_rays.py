@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 SKY = 1.0e9  # m; what is deeper is no ground
 
 
-def of(shot: ShotView, camera: str) -> Path:
+def path_of(shot: ShotView, camera: str) -> Path:
     """The path of a camera."""
     return next(view for view in shot.paths if view.camera.name == camera)
 

@@ -64,7 +64,7 @@ class Track:
         """
         own = self.utc is not None and moments != "shot"
         if own:
-            first = times.moment(run, 0.0).timestamp() if moments == "own" else self.utc[0] - frames.first
+            first = times.utc(run, 0.0).timestamp() if moments == "own" else self.utc[0] - frames.first
             at, shown = self.utc - first, frames.times
         else:
             at, shown = self._parts(frame), np.linspace(0.0, 1.0, frames.count)
@@ -91,7 +91,7 @@ class Track:
         if self.utc is None:
             return ""
         flown = [datetime.fromtimestamp(self.utc[i], UTC) for i in (0, -1)]
-        shown = [times.moment(run, t) for t in (frames.first, frames.last)]
+        shown = [times.utc(run, t) for t in (frames.first, frames.last)]
         if flown[0] <= shown[1] and flown[1] >= shown[0]:
             return ""
         words = (" to ".join(f"{t:%Y-%m-%dT%H:%M:%SZ}" for t in pair) for pair in (flown, shown))

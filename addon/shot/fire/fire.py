@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ...run import areas
 from ...run.frame import local_frame
-from ..terrain.elevation import Relief
+from ..terrain.elevation import Elevation
 from . import burning, emissions, heat_release
 from .fuel import BURN_OUT_CANOPY, DETAIL, Fuel, gather
 from .heat_release import Array, Sources
@@ -86,11 +86,11 @@ class Fire:
         first: float,
         last: float,
         before: float = 0.0,
-        relief: Relief | None = None,
+        relief: Elevation | None = None,
         arrival: Array | None = None,
         detail: float = DETAIL,
     ) -> None:
-        self.relief = relief or Relief(run)
+        self.relief = relief or Elevation(run)
         self.run, self.first, self.last, self.before, self.detail = run, first, last, before, detail
         self.frame = local_frame(run)
         if arrival is not None:

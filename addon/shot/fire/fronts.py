@@ -146,7 +146,7 @@ def lines(shot: Shot, run: Run) -> Lines:
     if len(moments) > _MOST:
         moments = np.linspace(moments[0], moments[-1], _MOST)
     ends = np.concatenate([[-np.inf], 0.5 * (moments[1:] + moments[:-1]), [np.inf]])
-    fire, shift = reach(run), times.seconds(run, times.moment(shot.run, 0.0))
+    fire, shift = reach(run), times.seconds(run, times.utc(shot.run, 0.0))
     found, count = [], 0
     for time, start, end in zip(moments, ends[:-1], ends[1:], strict=True):
         latitude, longitude, after = fire.line(time + shift)

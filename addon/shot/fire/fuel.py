@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ...run import blocks, burned_fraction, fuel_category
 from ...run.frame import local_frame
-from ..terrain.elevation import Relief
+from ..terrain.elevation import Elevation
 from . import burning, emissions
 
 BURN_OUT_CANOPY = emissions.KINDS[emissions.CROWN].burn_out[0]  # s, foliage and twigs (assumed)
@@ -71,7 +71,7 @@ def gather(
     first: float,
     last: float,
     before: float,
-    relief: Relief | None = None,
+    relief: Elevation | None = None,
     detail: float = DETAIL,
 ) -> Fuel:
     """Fuel that burns between the model times `first` and `last`, or that `before` s earlier caught fire.
@@ -87,7 +87,7 @@ def gather(
     detail
         Fuel cells nearer than this burn as one, m.
     """
-    heights = relief or Relief(run)
+    heights = relief or Elevation(run)
     arrival, share = blocks.arrival(run, known), None
     if run.has(burned_fraction.FIELD):
         share = burned_fraction.at(run, float(run.times[-1]))
@@ -101,7 +101,7 @@ def gather(
 
 def _of_rows(
     run: Run,
-    heights: Relief,
+    heights: Elevation,
     arrival: Callable[[int, int], NDArray],
     share: NDArray | None,
     rows: tuple[int, int],

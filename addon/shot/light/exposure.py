@@ -22,7 +22,7 @@ from . import exposure_meter, sky
 
 _KEYS = 13  # at most so many moments of a shot are metered
 _DAY, _CLEAR = 0.5, 0.19  # stops at a clear afternoon's geometric mean, radiance
-_GIVE = 0.6, 0.3  # part of the stops followed below and above that: white smoke is to be white; by eye
+_ADAPTATION = 0.6, 0.3  # part of the stops followed below and above that: white smoke is to be white; by eye
 _WHITE = 0.55  # luminance on the picture of the brightest tenth of the glow, at most: above, AgX pales it
 _AMID = 0.1  # of all of it in the mean, at most: amid smoke that glows, flames and trees must show; by eye
 _LEAST, _MOST = -3.0, 4.0  # stops
@@ -74,7 +74,7 @@ def _metered(shot: Shot) -> _Metered:
 def _smooth(shot: Shot, frames: Array) -> _Metered:
     """Meter frames (k,), smooth over time."""
     if not shot.paths:
-        found = [exposure_meter.clear(sky.over(shot, shot.frames.time(frame))) for frame in frames]
+        found = [exposure_meter.clear(sky.state(shot, shot.frames.time(frame))) for frame in frames]
         stops = np.array([_stops(each, np.zeros(2)) for each in found])
         return _Metered(frames, stops, noise.smoothstep(*_DARK, stops))
     found = [[exposure_meter.measure(shot, view, int(frame)) for frame in frames] for view in shot.paths]
@@ -88,7 +88,7 @@ def _stops(found: Array, glow: Array) -> float:
     """Stops for a picture of these radiances (n,), and of them that of smoke in the light of flames."""
     mean = np.log2(np.maximum(found, 1.0e-4)).mean()
     below = np.log2(_CLEAR) - mean
-    wanted = _DAY + _GIVE[0] * max(below, 0.0) + _GIVE[1] * min(below, 0.0)
+    wanted = _DAY + _ADAPTATION[0] * max(below, 0.0) + _ADAPTATION[1] * min(below, 0.0)
     bright = np.sort(glow)[-max(len(glow) // 10, 1) :].mean()
     most = min(_WHITE / max(bright, 1.0e-6), _AMID / max(glow.mean(), 1.0e-6))
     return float(np.clip(min(wanted, np.log2(most)), _LEAST, _MOST))
@@ -96,7 +96,7 @@ def _stops(found: Array, glow: Array) -> float:
 
 def _sun(shot: Shot, frame: float) -> float:
     """Height of the sun in a frame, degrees."""
-    return float(sun.at(shot.run, shot.frames.time(frame))[1])
+    return float(sun.position(shot.run, shot.frames.time(frame))[1])
 
 
 def _dark(found: Array, sun: float) -> float:

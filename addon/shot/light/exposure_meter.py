@@ -88,7 +88,7 @@ def measure(shot: Shot, view: Path, frame: int) -> tuple[Array, Array, Array]:
         (n,) what flames add to rays in smoke, GW.
     """
     time = shot.frames.time(frame)
-    light, smoke = sky.over(shot, time), _smoke(shot, time)
+    light, smoke = sky.state(shot, time), _smoke(shot, time)
     start, along = _rays(view, frame - 1)
     ends = _ends(shot, start, along)
     ground = np.isfinite(ends)

@@ -64,7 +64,7 @@ class State:
         self.sky = (float(np.radians(height)), float(np.radians(bearing)))
         day = float(noise.smoothstep(-1.0, 4.0, height))
         by_sun = height > sun.NIGHT
-        self.direction = sun.light(bearing, height, moon)
+        self.direction = sun.shadow_direction(bearing, height, moon)
         sunlight = _SUN * np.exp(-_SUN_DEPTH * sun.air_mass(max(height, 0.0))) * day
         moonlight = (_STARS + (_MOON - _STARS) * moon.light) * np.array(_MOON_COLOUR)
         shining = sunlight if by_sun and day > 0.0 else moonlight
@@ -84,9 +84,9 @@ def _haze(height: float, moonlight: float) -> NDArray[np.float64]:
     return by_night + (by_day - by_night) * blue**2
 
 
-def over(shot: Shot, time: float) -> State:
+def state(shot: Shot, time: float) -> State:
     """Light over a shot's run at a model time (s)."""
-    return State(*sun.at(shot.run, time), sun.moon(shot.run, time))
+    return State(*sun.position(shot.run, time), sun.moon(shot.run, time))
 
 
 def glow(darkness: float) -> float:

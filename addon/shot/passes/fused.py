@@ -39,7 +39,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
     from ..cameras import mount, pixel_rays
     from . import thermal
 
-    view = pixel_rays.of(shot, camera)
+    view = pixel_rays.path_of(shot, camera)
     taken = mount.taken(shot.settings, shot.cameras, camera, PASS)
     low, high = thermal.scale(shot, frame)
     sheet = _sheet.Sheet(*PASS.size(shot.resolution(view.camera)))
@@ -86,7 +86,7 @@ def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
     from ...run import info, times
     from ..cameras import pixel_rays
 
-    view, moment = pixel_rays.of(shot, camera), shot.moment(frame)
+    view, moment = pixel_rays.path_of(shot, camera), shot.moment(frame)
     here = pose.pose(shot, view, frame)
     places = (("latitude", "NS"), ("longitude", "EW"))
     degrees = [f"{abs(here[name]):.5f}° {signs[here[name] < 0.0]}" for name, signs in places]

@@ -42,7 +42,7 @@ def finish(files: Files, _needed: Mapping[str, Files], shot: Shot, camera: str, 
 
     from ..cameras import pixel_rays
 
-    text = json.dumps(described(shot, pixel_rays.of(shot, camera), frame), indent=1) + "\n"
+    text = json.dumps(described(shot, pixel_rays.path_of(shot, camera), frame), indent=1) + "\n"
     files["json"].write_text(text, encoding="utf-8")
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .apron import Fields
-from .elevation import Relief, between, ramp
+from .elevation import Elevation, between, ramp
 
 _FINEST = 2.0  # m between points
 _MOST = 6_000_000  # points
@@ -44,7 +44,7 @@ class Patch(NamedTuple):
 def patch(
     fields: Fields,
     share: NDArray,
-    relief: Relief,
+    relief: Elevation,
     cell: tuple[float, float],
     near: tuple[slice, slice],
 ) -> Patch | None:

@@ -29,7 +29,7 @@ _FAR = 500.0  # m that most heights may differ from the run's
 _APRON = 2048  # points a side that the apron's heights are made from
 
 
-class Relief:
+class Elevation:
     """Heights of a run's grids, m; NaN where neither the run nor the model has any.
 
     Parameters
@@ -107,7 +107,7 @@ class Relief:
         return between(found, row, column)
 
 
-def of(settings: Settings, run: Run) -> Relief:
+def resolve(settings: Settings, run: Run) -> Elevation:
     """Heights for a scene.
 
     Raises
@@ -115,7 +115,7 @@ def of(settings: Settings, run: Run) -> Relief:
     InputError
         The elevation model cannot be used.
     """
-    return Relief(run, Raster(settings, "elevation") if settings.terrain.elevation else None)
+    return Elevation(run, Raster(settings, "elevation") if settings.terrain.elevation else None)
 
 
 def check(settings: Settings, run: Run) -> None:
@@ -126,7 +126,7 @@ def check(settings: Settings, run: Run) -> None:
     InputError
         Names the file and what to do.
     """
-    model = of(settings, run).model
+    model = resolve(settings, run).model
     if model is None:
         return
     if model.unit not in _UNITS:
@@ -138,7 +138,7 @@ def check(settings: Settings, run: Run) -> None:
     own = _own(run, latitude, longitude)
     here = np.isfinite(own) & np.isfinite(height)
     if not here.any():
-        if not Relief(run, model).share.any():
+        if not Elevation(run, model).share.any():
             raise model.error("has no data at any place of the run")
         return
     height, own = height[here], own[here]

@@ -189,7 +189,7 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
     return {"land use": content.of_file(path, settings.cache, progress)} if path else {}
 
 
-def of(shot: ShotView) -> Map | None:
+def read_map(shot: ShotView) -> Map | None:
     """The map of a shot; None: there is none."""
     if shot.settings.terrain.land_use is None:
         return None
@@ -200,7 +200,7 @@ def of(shot: ShotView) -> Map | None:
 
 def pictures(shot: ShotView) -> dict[str, list[Picture]]:
     """Pictures of each of `LAYERS` that the map has: all of it, and what is near cameras finer."""
-    known = of(shot)
+    known = read_map(shot)
     if known is None:
         return {}
     if shot not in _PICTURES:
@@ -212,7 +212,7 @@ def pictures(shot: ShotView) -> dict[str, list[Picture]]:
 
 def mapped(shot: ShotView, place: Array) -> NDArray[np.bool_]:
     """Whether the map covers places (n, 2) in the scene, m: nothing is invented there."""
-    known = of(shot)
+    known = read_map(shot)
     if known is None:
         return np.zeros(len(place), bool)
     return np.all((place[:, :2] > known.low - _BEYOND) & (place[:, :2] < known.high + _BEYOND), axis=1)

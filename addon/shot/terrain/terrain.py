@@ -15,7 +15,7 @@ from ...run.frame import local_frame
 from ..fire import burning
 from ..settings.settings import Settings
 from . import apron, dem_patch, noise
-from .elevation import Relief
+from .elevation import Elevation
 
 NEVER = 1.0e9  # arrival time of places that never burned, s
 UNKNOWN = 1.0e8  # the same in `burn_time`: less, so that little is lost beside a place that burned
@@ -56,8 +56,8 @@ class Ground:
         How far (m) the surface may be from the bilinear ground, about.
     """
 
-    def __init__(self, settings: Settings, run: Run, arrival: Array, relief: Relief | None = None) -> None:
-        self._relief = relief or Relief(run)
+    def __init__(self, settings: Settings, run: Run, arrival: Array, relief: Elevation | None = None) -> None:
+        self._relief = relief or Elevation(run)
         self.frame = local_frame(run)
         latitude, longitude = run.fuel_latitude, run.fuel_longitude
         width, height = areas.cell_size(

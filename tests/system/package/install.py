@@ -84,7 +84,7 @@ def use(bpy, folder):
     for name, values in small_run.small_fields().items():
         small_run.write_field(folder / "run", name, values, "npy")
     (folder / "scene.toml").write_text(SCENE)
-    shot = importlib.import_module(NAME + ".shot.choice").Choice(str(folder / "scene.toml")).shot()
+    shot = importlib.import_module(NAME + ".shot.source").ShotSource(str(folder / "scene.toml")).shot()
     importlib.import_module(NAME + ".scene.build").build(shot)
     assert [object for object in bpy.data.objects if object.type == "CAMERA"]
     assert sum(len(mesh.vertices) for mesh in bpy.data.meshes) > 20

@@ -63,7 +63,7 @@ def known() -> dict[str, Biome]:
     return {name: importlib.import_module(f".{name}", __name__).BIOME for name in biome_names.names()}
 
 
-def of(shot: Shot) -> Here:
+def choose(shot: Shot) -> Here:
     """The biome of a shot: the one that is set, or the one that goes best with the run's land."""
     run, forest = shot.run, shot.settings.forest
     name = forest.biome if forest.biome != "auto" else _auto(run)
@@ -73,7 +73,7 @@ def of(shot: Shot) -> Here:
     if forest.shrub_cover is not None:
         biome = replace(biome, shrub_cover=forest.shrub_cover)
     latitude = 0.5 * float(run.latitude[0] + run.latitude[-1])
-    day = times.moment(run, float(shot.frames.first)).timetuple().tm_yday
+    day = times.utc(run, float(shot.frames.first)).timetuple().tm_yday
     green = biome.season.greenness(day, latitude) if forest.greenness is None else forest.greenness
     return Here(name, biome, green)
 
