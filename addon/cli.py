@@ -444,6 +444,6 @@ complete keys, show their help and underline mistakes."""
 
 BENCH = """\
 Measures ten steps on this machine, alternating with their alternatives: median and range of five or more
-repetitions. Takes about XXX minutes on two cores. --runs 3 shows the variation between runs.
+repetitions. Takes about three minutes of processor time. --runs 3 shows the variation between runs.
 Alternatives that are not installed are named and left out (pip install 'firetwin[bench]' installs them).
 The exit status is 1 if a target is missed."""

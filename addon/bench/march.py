@@ -2,7 +2,7 @@
 
 The frame is a moment of the sample run with solved smoke: picture, infrared and depth, with all that makes
 their files. Its error is the mean FLIP of the picture (Andersson et al. 2020) beside one whose smoke Cycles
-walked through in a quarter of the step, with many rays and no denoiser. Frames of a kind take turns.
+walked through in a quarter of the step, with many rays and no denoiser. Each is drawn once.
 """
 
 from __future__ import annotations
@@ -37,7 +37,6 @@ FRAME, SAMPLES, MANY = (160, 90), 3, 24  # pixels; rays, and of the reference
 MOMENT = datetime(2014, 9, 17, 23, 12, tzinfo=UTC)
 VIEW = CameraKey(0.0, 38.990, -120.5505, 600.0, "head")  # 2 km off the head of the fire
 MODEL_TIMES = 25  # of the sample; arrival times are all there
-DRAWN = 2  # times that each frame is drawn
 PASSES = ("rgb", "thermal", "depth")
 _CAMERA = settings.Camera().name
 
@@ -141,16 +140,14 @@ def _picture(folder: Path, name: str) -> str:
 def frames_in_blender(
     folder: str, progress: Progress = silent, tell: MessageCallback = no_message
 ) -> dict[str, list[tuple[float, float]]]:
-    """Draw a frame either way in turn, `DRAWN` times over, and its reference; the times of each."""
+    """Draw a frame either way once, and its reference; the times of each."""
     import bpy
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
     frames = {name: _Frame(Path(folder), name) for name in (OURS, VOLUME)}
     spent: dict[str, list[tuple[float, float]]] = {name: [] for name in frames}
-    for done in range(DRAWN):
-        progress(done, DRAWN)
-        for name, frame in frames.items():
-            spent[name].append(frame.draw(name))
+    for name, frame in frames.items():
+        spent[name].append(frame.draw(name))
     frames[VOLUME].draw(REFERENCE, MANY)
     return spent
 

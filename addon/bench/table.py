@@ -90,7 +90,7 @@ def page(report: Report) -> str:
             lines += ["", f"{subject}: {report.subjects.get(subject, '')}".rstrip(": ")]
         error = f"{number(row.error)} {row.error_unit}" if row.error is not None else ""
         lines.append(
-            f"  {row.case:<37} {row.label:<37} {times(row):<28} {time(row.processor_seconds):>8}  "
+            f"  {row.case:<39} {row.label:<37} {times(row):<28} {time(row.processor_seconds):>8}  "
             f"{_each(row):<24} {size(row.bytes):>8}  {error}".rstrip()
         )
     lines += ["", "targets"]
