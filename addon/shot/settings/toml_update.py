@@ -86,14 +86,7 @@ def _written(there: str, fresh: str, whole: Settings) -> str:
     for name in now:
         if isinstance(now[name], dict):
             blocks = _with_section(blocks, name, was, now)
-    for name in {**was, **now}:
-        if any(block.path[:1] == (name,) and len(block.path) > 1 for block in blocks + made):
-            blocks = _with_list(blocks, made, (name,), was, now)
-            for i, (old, new) in enumerate(zip(was.get(name, []), now.get(name, []), strict=False)):
-                own = any(block.path == (name, i) for block in blocks)
-                for inner in {**old, **new} if own else ():
-                    if any(block.path[:3] == (name, i, inner) for block in blocks + made):
-                        blocks = _with_list(blocks, made, (name, i, inner), old, new)
+    blocks = _with_lists(blocks, made, (), was, now)
     return "".join(b.lead + _edited(b, blocks, was, now) + b.gap for b in blocks)
 
 
@@ -125,6 +118,19 @@ def _with_section(blocks: list[Block], name: str, was: Values, now: Values) -> l
         Block((name,), "", f"[{name}]\n", "\n" if blocks[at:] else ""),
         *blocks[at:],
     ]
+
+
+def _with_lists(blocks: list[Block], made: list[Block], path: Path, was: Values, now: Values) -> list[Block]:
+    """With the lists of tables in the table at `path`, and those in their tables, as they are now."""
+    for name in {**was, **now}:
+        here = (*path, name)
+        size = len(here)
+        if any(block.path[:size] == here and len(block.path) > size for block in blocks + made):
+            blocks = _with_list(blocks, made, here, was, now)
+            for i, (old, new) in enumerate(zip(was.get(name, []), now.get(name, []), strict=False)):
+                if any(block.path == (*here, i) for block in blocks):  # else it is inline
+                    blocks = _with_lists(blocks, made, (*here, i), old, new)
+    return blocks
 
 
 def _with_list(blocks: list[Block], made: list[Block], path: Path, was: Values, now: Values) -> list[Block]:
