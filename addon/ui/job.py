@@ -1,8 +1,8 @@
 """Long work in steps.
 
 The work is a generator. It yields a text before each step that has to be taken in Blender itself;
-`Message(...)`, a sentence for people; or `InThread(...)`, a function for a thread (which most often waits for a
-worker process), and gets back what that returned.
+`Message(...)`, a sentence for people; or `InThread(...)`, a function for a thread, which most often waits for
+a worker process, and gets back what that returned.
 
 At every yield people may rename, delete or undo anything, so no data-block is held across one: `owned.scene`
 finds the scene again.
