@@ -31,7 +31,7 @@ def burning(side: int) -> tuple[NDArray, NDArray]:
 def ours(field: NDArray, position: NDArray) -> tuple[NDArray, NDArray]:
     """Indices of the chosen emitters and their levels."""
     made = flux.emitters(field, position, 0.0, HIGHEST)
-    chosen = lod.select(made.position, CAMERA, BUDGET)
+    chosen = lod.select_nearest(made.position, CAMERA, BUDGET)
     return made.cell[chosen], lod.levels(np.linalg.norm(made.position[chosen] - CAMERA[0], axis=1))
 
 

@@ -82,7 +82,8 @@ def burning(shape: tuple[int, int, int]) -> flow.Solver:
     k = np.arange(shape[0] + 1)
     levels = 60.0 * k + 0.5 * 210.0 / shape[0] * k * k  # m: 60 deep at the ground, 270 at the top
     theta = [300.0, 300.0 + LAPSE * levels[-1]]
-    solver = flow.Solver(levels, shape[1:], CELLS, [0.0, levels[-1]], theta, [WIND] * 2)
+    profile = flow.Profile([0.0, levels[-1]], theta, [WIND] * 2)
+    solver = flow.Solver(flow.Domain(levels, shape[1:], CELLS), profile)
     size = np.array(shape[:0:-1]) * CELLS
     place = np.random.default_rng(0).uniform([0.35, 0.4], [0.5, 0.45], (400, 2)) * size
     share = np.full(400, POWER / 400)
@@ -92,12 +93,13 @@ def burning(shape: tuple[int, int, int]) -> flow.Solver:
 
 
 def still_air(
-    shape: tuple[int, int], spacing: float, lid: float, depth: float, wind: float, **options: Any
+    shape: tuple[int, int], spacing: float, lid: float, depth: float, wind: float, **settings: Any
 ) -> flow.Solver:
     """Air of one stability, `GRADIENT`, and one wind east, m/s, in even levels of about `depth` m."""
     levels = np.linspace(0, lid, round(lid / depth) + 1)
     theta = [THETA, THETA + GRADIENT * lid]
-    return flow.Solver(levels, shape, spacing, [0.0, lid], theta, [[wind, 0.0]] * 2, **options)
+    profile = flow.Profile([0.0, lid], theta, [[wind, 0.0]] * 2)
+    return flow.Solver(flow.Domain(levels, shape, spacing), profile, flow.SolverSettings(**settings))
 
 
 def power_of(flux: float, solver: flow.Solver) -> float:

@@ -37,14 +37,14 @@ def planted(grid: Grid) -> tuple[forest.Trees, forest.Grass]:
     return forest.trees(canopy, *place, frame, seed=5), forest.grass(surface, *place, frame, seed=5)
 
 
-def drone() -> lod.Sight:
+def drone() -> lod.ViewSet:
     """What a drone sees that flies 5 km and looks down a little, ahead."""
     camera = np.column_stack([np.linspace(0.0, 5000.0, FRAMES), np.zeros(FRAMES), np.full(FRAMES, 3500.0)])
     down = np.radians(17.0)
     right, up = (0.0, -1.0, 0.0), (np.sin(down), 0.0, np.cos(down))
     back = (-np.cos(down), 0.0, np.sin(down))
     rotation = np.broadcast_to(np.column_stack([right, up, back]), (FRAMES, 3, 3))
-    return lod.Sight(camera, rotation, np.tile([0.64, 0.36], (FRAMES, 1)))
+    return lod.ViewSet(camera, rotation, np.tile([0.64, 0.36], (FRAMES, 1)))
 
 
 def part(grid: Grid, stems: int) -> NDArray[np.float32]:
@@ -52,19 +52,19 @@ def part(grid: Grid, stems: int) -> NDArray[np.float32]:
     return np.full(grid[0].shape, stems / (forest.stems(grid[0]).sum() * CELL), np.float32)
 
 
-def stand(grid: Grid, kept: NDArray, sight: lod.Sight) -> tuple[forest.Stems, NDArray]:
+def stand(grid: Grid, kept: NDArray, views: lod.ViewSet) -> tuple[forest.Stems, NDArray]:
     """The stems, and the distance level of each that is seen."""
     canopy, _, *place = grid
-    stems = forest.stand(canopy, *place, LocalFrame(*ORIGIN), seed=5, kept=kept)
-    seen = lod.seen(stems.position, 0.6 * stems.scale, sight)
-    return stems, lod.levels(lod.distance(stems.position[seen], sight))
+    stems = forest.stand(canopy, *place, LocalFrame(*ORIGIN), seed=5, retained=kept)
+    seen = lod.visible_mask(stems.position, 0.6 * stems.scale, views)
+    return stems, lod.levels(lod.distance(stems.position[seen], views))
 
 
 def run(bench: Bench) -> None:
     """The King Fire's fuel: a plant a cell, then a stand, on one and two threads."""
-    grid, sight = fuel_grid(SIDE), drone()
+    grid, views = fuel_grid(SIDE), drone()
     plants, call = sum(map(len, planted(grid))), partial(planted, grid)
     bench.race(f"{SIDE} x {SIDE}", [Runner(OURS, call), Runner(OURS, call, threads=2)], plants, "plant")
-    call = partial(stand, grid, part(grid, STEMS), sight)
+    call = partial(stand, grid, part(grid, STEMS), views)
     tools = [Runner(OURS, call), Runner(OURS, call, threads=2)]
     bench.race(f"a stand of {STEMS:,} stems", tools, len(call()[0]), "stem")

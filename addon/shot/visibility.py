@@ -1,4 +1,4 @@
-"""What the cameras of a shot see in the frames that they film, and how near they come, by `lod.seen`."""
+"""What the cameras of a shot see in the frames that they film, and how near they come, by `lod.visible_mask`."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Sights:
 
     def __init__(self, shot: ShotView) -> None:
         self.shot, self.whole = shot, not shot.settings.render.cull
-        self._known: dict[tuple[int, ...], lod.Sight] = {}
+        self._known: dict[tuple[int, ...], lod.ViewSet] = {}
         self._ground: lod.Occluder | None = None
         self._floor = 0.0
 
@@ -69,8 +69,8 @@ class Sights:
             flat = any(not self.shot.paths[number].perspective for number in showing)
             near = perspective and self.distance(position) - radius <= reach
             return np.broadcast_to(near | flat, len(np.asarray(position)))
-        sight = self._of(showing)
-        return lod.seen(position, radius, sight, reach=reach, margin=margin, shadows=shadows)
+        views = self._of(showing)
+        return lod.visible_mask(position, radius, views, max_distance=reach, margin=margin, shadows=shadows)
 
     def distance(self, position: ArrayLike) -> NDArray[np.float64]:
         """Least distance (n,) of places (n, 3) from cameras in perspective, m; infinite without any."""
@@ -84,7 +84,7 @@ class Sights:
         """Least distance (n,) of places (n, 3) from one camera in perspective, m."""
         return lod.distance(position, self._made([path]))
 
-    def at(self, frame: int) -> lod.Sight | None:
+    def at(self, frame: int) -> lod.ViewSet | None:
         """What all cameras that film this frame see in it; None where none does, or nothing is skipped."""
         if self.whole:
             return None
@@ -112,12 +112,12 @@ class Sights:
             if (perspective if path.perspective else path.pixel < pixel)
         )
 
-    def _of(self, numbers: tuple[int, ...]) -> lod.Sight:
+    def _of(self, numbers: tuple[int, ...]) -> lod.ViewSet:
         if numbers not in self._known:
             self._known[numbers] = self._made([self.shot.paths[number] for number in numbers])
         return self._known[numbers]
 
-    def _made(self, paths: list[Path], frame: int | None = None) -> lod.Sight:
+    def _made(self, paths: list[Path], frame: int | None = None) -> lod.ViewSet:
         """What these cameras see in all that they film, or in a frame (from 0)."""
         shot = self.shot
         filmed = [shot.filmed(path) if frame is None else np.array([frame]) for path in paths]
@@ -131,15 +131,15 @@ class Sights:
         one = np.repeat([path.apart <= _ONE_PLACE for path, *_ in looks], counts).astype(bool)
         if self._ground is None:
             self._ground, self._floor = _occluder(shot)
-        return lod.Sight(
+        return lod.ViewSet(
             position,
             _joined([rotation for _, _, rotation, _ in looks], (3, 3)),
             _joined([halves for _, _, _, halves in looks], (2,)),
             sun=self._sun(_joined([frames for _, frames, _, _ in looks], ()).astype(np.int64)),
-            parallel=np.repeat([not path.perspective for path, *_ in looks], counts).astype(bool),
-            clear=_clear(shot.ground, position) & one,
-            ground=self._ground,
-            floor=self._floor,
+            orthographic=np.repeat([not path.perspective for path, *_ in looks], counts).astype(bool),
+            above_terrain=_clear(shot.ground, position) & one,
+            occluder=self._ground,
+            lowest_terrain=self._floor,
         )
 
     def _sun(self, frames: NDArray[np.int64]) -> NDArray[np.float64]:
@@ -181,7 +181,7 @@ def _distance(shot: ShotView, place: NDArray[np.float64]) -> NDArray[np.float64]
     views = [(path, shot.filmed(path)) for path in shot.near]
     position = _joined([path.position[frames] for path, frames in views], (3,))
     rotation = _joined([path.rotation[frames] for path, frames in views], (3, 3))
-    alone = lod.Sight(position, rotation, np.ones(2))
+    alone = lod.ViewSet(position, rotation, np.ones(2))
     return lod.distance(place.reshape(-1, 3), alone).reshape(place.shape[:2])
 
 

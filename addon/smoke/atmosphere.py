@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Air:
-    """Values at heights (n,) m above the ground, as `firetwin_core.flow.Solver` takes them."""
+    """Values at heights (n,) m above the ground, as `firetwin_core.flow.Profile` takes them."""
 
     height: Array
     potential_temperature: Array
@@ -57,7 +57,7 @@ def _pressure(height: Array | float) -> Array | float:
 
 
 def _held(potential_temperature: Array, pressure: Array) -> Array:
-    """Water vapour that air holds, kg/kg, by the formula of Magnus (cpp/flow/water.hpp)."""
+    """Water vapour that air holds, kg/kg, by the formula of Magnus (cpp/flow/thermodynamics.hpp)."""
     celsius = potential_temperature * (pressure / 1e5) ** 0.2857 - 273.15
     vapour = 610.94 * np.exp(17.625 * celsius / (celsius + 243.04))
     return 0.622 * vapour / (pressure - 0.378 * vapour)

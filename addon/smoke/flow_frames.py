@@ -56,7 +56,7 @@ _BLOCK, _ROUND = 16, 300.0  # voxels; m round a block that count as it: of light
 
 Array = NDArray[np.float64]
 Brick = tuple[NDArray[np.float32], float, list[float]]
-"""Values (nx, ny, nz), voxel size and the first voxel's middle (m), as `volume.lit` gives and takes them."""
+"""Values (nx, ny, nz), voxel size and the first voxel's middle (m), as `volume.smoke_light` gives and takes them."""
 Eyes = tuple[Array, Array]
 """Where smoke is seen from, as `Sights.eyes` gives it."""
 
@@ -144,11 +144,11 @@ class Painter:
         path: Path,
         frame: int,
         lights: tuple[Array, Array] | None,
-        sight: lod.Sight | None,
+        views: lod.ViewSet | None,
         metadata: dict[str, str],
         eyes: Eyes | None = None,
         beyond: Beyond | None = None,
-    ) -> tuple[volume.Frame, Beyond]:
+    ) -> tuple[volume.VdbSummary, Beyond]:
         """Write a frame's volume, or of it what is seen.
 
         Parameters
@@ -164,13 +164,13 @@ class Painter:
         -------
         The frame, and what this layer is to the next; smoke dims the sun whether this layer draws it or not.
         """
-        painted = self._paint(frame, lights, sight, beyond)
+        painted = self._paint(frame, lights, views, beyond)
         voxel, origin = self.layer.voxel, painted.origin
         grids = painted.lit.grids(painted.share, self._thin)
         smoke = None
         if eyes is not None:
             outer = beyond.smoke if beyond else None
-            grids["hidden"], smoke = volume.hidden(grids["density"], voxel, *eyes, DEEP, origin, outer)
+            grids["hidden"], smoke = volume.occluded_smoke(grids["density"], voxel, *eyes, DEEP, origin, outer)
         written = volume.write(
             path,
             grids,
@@ -178,7 +178,7 @@ class Painter:
             origin,
             tolerance=1e-6,
             metadata=metadata | {f"smoke_{name}_kg": f"{value:.9g}" for name, value in painted.mass.items()},
-            sight=sight,
+            views=views,
             within="density",
         )
         return written, Beyond(painted.lit.depths, smoke)
@@ -187,7 +187,7 @@ class Painter:
         self,
         frame: int,
         lights: tuple[Array, Array] | None,
-        sight: lod.Sight | None,
+        views: lod.ViewSet | None,
         beyond: Beyond | None = None,
         window: Window | None = None,
     ) -> tuple[volume.Bricks, Beyond]:
@@ -198,21 +198,21 @@ class Painter:
         window
             What of it is painted again, more finely.
         """
-        painted = self._paint(frame, lights, sight, beyond, window)
+        painted = self._paint(frame, lights, views, beyond, window)
         return painted.lit.bricks(painted.share, self._thin), Beyond(painted.lit.depths)
 
     def _paint(
         self,
         frame: int,
         lights: tuple[Array, Array] | None,
-        sight: lod.Sight | None,
+        views: lod.ViewSet | None,
         beyond: Beyond | None,
         window: Window | None = None,
     ) -> _Painted:
         snapshot = snapshots.load(self.layer.domain.snapshot_path(frame))
         voxel = self.layer.voxel
         origin, surface, end, share, count = self._brick(snapshot, window)
-        wanted = _wanted(sight, origin, (*surface.shape, count), voxel, self.scale.length(_ROUND))
+        wanted = _wanted(views, origin, (*surface.shape, count), voxel, self.scale.length(_ROUND))
         smoke = self._detail(snapshot, lights).paint_sparse(
             origin, voxel, surface, end, count, wanted, self._thin
         )
@@ -314,28 +314,28 @@ class Painter:
             scale=scale.ratio,
             blur=blur,
             opacity=mix.opacity,
-            condensation=shot.settings.smoke.cloud_base,
-            thickest=shot.settings.smoke.extinction or thickest(scale),
+            condensation_height=shot.settings.smoke.cloud_base,
+            max_extinction=shot.settings.smoke.extinction or thickest(scale),
             ages=(scale.time(_AGES[0]), scale.time(_AGES[1])),
             seed=shot.settings.seed,
         )
 
 
 def _wanted(
-    sight: lod.Sight | None,
+    views: lod.ViewSet | None,
     origin: tuple[float, float, float],
     shape: tuple[int, int, int],
     voxel: float,
     around: float,
 ) -> NDArray[np.bool_] | None:
     """Which blocks of a brick anything that is seen lies in. `volume.write` leaves out the others' voxels."""
-    if sight is None:
+    if views is None:
         return None
     side = _BLOCK * voxel
     blocks = tuple(-(-count // _BLOCK) for count in shape)
     place = np.stack(np.indices(blocks), axis=-1).reshape(-1, 3) * side + origin + 0.5 * (side - voxel)
     radius = 0.5 * np.sqrt(3.0) * side + around
-    return lod.seen(place, np.full(len(place), radius), sight, shadows=True).reshape(blocks)
+    return lod.visible_mask(place, np.full(len(place), radius), views, shadows=True).reshape(blocks)
 
 
 def _sampled(values: Array, step: float, corner: tuple[float, float], x: Array, y: Array) -> Array:

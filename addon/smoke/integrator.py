@@ -29,11 +29,9 @@ _RAMP = 300.0  # s in which the fire grows to its strength: a sudden one would b
 # Standard deviation of the logarithm of what single flames give off, alike within m and s.
 _GUSTS = 0.6, 400.0, 90.0
 _FINE_GUSTS = 0.9, 180.0, 45.0  # the same in the nest: single runs of flames
-_SIDES, _TOP = (
-    (40.0, 8.0),
-    60.0,
-)  # s, in which air at the sides of box and nest, and at the top, comes to rest
-_DRAG = 300.0  # s, in which the lowest level does; as long as that is deep
+_SIDES = (8.0, 40.0), (10.0, 8.0)  # of box and nest: cells and relaxation time (s) of the sponge layer
+_TOP = 60.0  # s, relaxation time of the Rayleigh damping at the top
+_DRAG = 300.0  # s, relaxation time of the lowest level's wind; as long as that level is deep
 _DEPTH = 90.0  # m, over which heat and smoke go in
 _DRIFT = 240.0  # s before the first frame from which detail is carried along; twice what it lasts
 _SAVE = 30.0  # s of work that an interruption may cost
@@ -200,47 +198,34 @@ class Integrator:
     def _outer(self, part: Domain) -> flow.Solver:
         shot, box = self.shot, part.box
         around = atmosphere.air(sun.position(shot.run, shot.frames.middle)[1], part.mean)
-        return flow.Solver(
-            box.levels,
-            box.shape,
-            box.spacing,
-            around.height,
-            around.potential_temperature,
-            atmosphere.wind(self.winds[0]),
-            water=around.water,
-            pressure=around.pressure,
-            corner=box.corner,
-            ground=part.ground,
-            gust_strength=_GUSTS[0],
-            gust_size=self.scale.length(_GUSTS[1]),
-            gust_time=self.scale.time(_GUSTS[2]),
-            seed=shot.settings.seed,
-            **self._around(_SIDES[0]),
+        wind = atmosphere.wind(self.winds[0])
+        profile = flow.Profile(
+            around.height, around.potential_temperature, wind, around.water, around.pressure
         )
+        domain = flow.Domain(box.levels, box.shape, box.spacing, box.corner, part.ground)
+        return flow.Solver(domain, profile, self._settings(*_SIDES[0], _GUSTS))
 
     def _inner(self, part: Domain) -> flow.Solver:
         box = part.box
-        return self.solvers[0].nest(
-            box.levels,
-            box.shape,
-            box.spacing,
-            box.corner,
-            ground=part.ground,
-            gust_strength=_FINE_GUSTS[0],
-            gust_size=self.scale.length(_FINE_GUSTS[1]),
-            gust_time=self.scale.time(_FINE_GUSTS[2]),
-            seed=self.shot.settings.seed,
-            **self._around(_SIDES[1]),
-        )
+        domain = flow.Domain(box.levels, box.shape, box.spacing, box.corner, part.ground)
+        return self.solvers[0].nest(domain, self._settings(*_SIDES[1], _FINE_GUSTS))
 
-    def _around(self, sides: float) -> dict[str, float]:
-        """How the box's surroundings reach into it, and how high sources are."""
-        return {
-            "side_time": self.scale.time(sides),
-            "top_time": self.scale.time(_TOP),
-            "ground_time": self.scale.length(_DRAG),
-            "source_depth": self.scale.length(_DEPTH),
-        }
+    def _settings(
+        self, sponge_width: float, sponge_time: float, gusts: tuple[float, float, float]
+    ) -> flow.SolverSettings:
+        """Settings of a solver at the shot's scale; `gusts` are strength, size (m) and time (s)."""
+        strength, size, time = gusts
+        return flow.SolverSettings(
+            sponge_width=sponge_width,
+            sponge_time=self.scale.time(sponge_time),
+            damping_time=self.scale.time(_TOP),
+            drag_time=self.scale.length(_DRAG),
+            source_depth=self.scale.length(_DEPTH),
+            gust_strength=strength,
+            gust_size=self.scale.length(size),
+            gust_time=self.scale.time(time),
+            seed=self.shot.settings.seed,
+        )
 
 
 def _nested_lead(shot: Shot) -> float:

@@ -20,7 +20,7 @@ _UNSEEN = 3e-10  # kg/m3; what else is known of thinner smoke is not kept
 _DRIFT_STEP = 4.0  # m, to which drift is rounded
 _PACKING = 1  # of zlib: three times as fast as the usual, files a tenth larger
 
-_NAMES = ("smoke", "age", "rise", "warmth", "drift", "low", "weights", "turns", "mass")
+_NAMES = ("smoke", "age", "rise", "temperature_excess", "drift", "low", "weights", "turns", "mass")
 
 Fields = dict[str, NDArray[Any]]
 
@@ -38,7 +38,8 @@ class Snapshot:
     low
         Column and row of the block's first cell.
     fields
-        smoke, age, rise, warmth (nz, ny, nx) and drift (nz, ny, nx, 2, 3) as `firetwin_core.flow` has them.
+        smoke, age, rise, temperature_excess (nz, ny, nx) and drift (nz, ny, nx, 2, 3), as of
+        `firetwin_core.flow`.
     weights, turns
         Of the drift's two phases.
     mass
@@ -63,7 +64,7 @@ def save(path: Path, solver: flow.Solver, drift: flow.Drift) -> None:
     for name, found in (
         ("age", solver.age()),
         ("rise", solver.velocity()[..., 2]),
-        ("warmth", solver.warmth()),
+        ("temperature_excess", solver.temperature_excess()),
     ):
         kept[name] = np.where(unseen, 0.0, np.clip(found[block], -6e4, 6e4)).astype(np.float16)
     moved = drift.values()[tuple(slice(part.start // 2, part.stop // 2 + 1) for part in block)]
@@ -91,7 +92,9 @@ def load(path: Path) -> Snapshot:
         smoke, drift = kept["smoke"], kept["drift"].astype(np.float32)
         for axis, count in enumerate(smoke.shape):
             drift = _doubled(drift, axis, count)
-        fields = {name: kept[name].astype(np.float32) for name in ("smoke", "age", "rise", "warmth")}
+        fields = {
+            name: kept[name].astype(np.float32) for name in ("smoke", "age", "rise", "temperature_excess")
+        }
         names = sorted(("initial", "emitted", "entered", "left", "airborne", "rounding"))
         if drift.shape != (*smoke.shape, 2, 3) or any(each.shape != smoke.shape for each in fields.values()):
             raise BrokenError(path)

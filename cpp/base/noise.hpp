@@ -6,7 +6,7 @@
 namespace firetwin {
 
 /// MurmurHash3's finaliser: every input bit changes every output bit.
-constexpr std::uint32_t finished(std::uint32_t h) {
+constexpr std::uint32_t murmur_finalizer(std::uint32_t h) {
   h = (h ^ (h >> 16U)) * 0x85EBCA6BU;
   h = (h ^ (h >> 13U)) * 0xC2B2AE35U;
   return h ^ (h >> 16U);

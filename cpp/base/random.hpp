@@ -8,11 +8,11 @@
 namespace firetwin {
 
 /// A number of 128 bits.
-struct Wide {
+struct Uint128 {
   std::uint64_t high, low;
 };
 
-constexpr Wide product(std::uint64_t a, std::uint64_t b) {
+constexpr Uint128 product(std::uint64_t a, std::uint64_t b) {
 #ifdef __SIZEOF_INT128__
   __extension__ using Number = unsigned __int128;
   const Number whole = Number{a} * b;
@@ -31,8 +31,8 @@ constexpr Wide product(std::uint64_t a, std::uint64_t b) {
 constexpr std::array<std::uint64_t, 4> philox(std::array<std::uint64_t, 4> counter,
                                               std::array<std::uint64_t, 2> key) {
   for (int round = 0; round < 10; ++round) {
-    const Wide a = product(0xD2E7470EE14C6C93, counter[0]);
-    const Wide b = product(0xCA5A826395121157, counter[2]);
+    const Uint128 a = product(0xD2E7470EE14C6C93, counter[0]);
+    const Uint128 b = product(0xCA5A826395121157, counter[2]);
     counter = {b.high ^ counter[1] ^ key[0], b.low, a.high ^ counter[3] ^ key[1], a.low};
     key[0] += 0x9E3779B97F4A7C15;
     key[1] += 0xBB67AE8584CAA73B;

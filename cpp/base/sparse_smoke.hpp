@@ -12,8 +12,8 @@
 
 namespace firetwin {
 
-/// Smoke on voxels of one size, kept only where there is any: a sparse grid of blocks of 8^3
-/// voxels. x is slowest and z fastest, among blocks as well as in them.
+/// Sparse voxel grid of smoke: blocks of 8^3 voxels, clear blocks are not stored. x is slowest and
+/// z fastest, among blocks as well as in them.
 class SparseSmoke {
 public:
   using Index = std::int64_t;

@@ -1,13 +1,14 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "flow/diagnostics.hpp"
 #include "flow/solver.hpp"
-#include "flow/views.hpp"
 
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace firetwin::bindings {
@@ -29,9 +30,13 @@ std::vector<std::array<double, 2>> pairs(const py::object& object, const std::st
   return result;
 }
 
-flow::Box box(const py::object& levels, const std::array<Index, 2>& shape, double spacing,
-              const std::array<double, 2>& corner, const py::object& ground) {
-  flow::Box result{shape[1], shape[0], spacing, numbers(levels, "levels"), corner, {}};
+std::vector<double> optional_numbers(const py::object& object, const std::string& name) {
+  return object.is_none() ? std::vector<double>() : numbers(object, name);
+}
+
+flow::Domain domain(const py::object& levels, const std::array<Index, 2>& shape, double spacing,
+                    const std::array<double, 2>& corner, const py::object& ground) {
+  flow::Domain result{shape[1], shape[0], spacing, numbers(levels, "levels"), corner, {}};
   if (!ground.is_none()) {
     const auto heights = to_array<double>(ground, "ground", {shape[0], shape[1]});
     result.ground.assign(heights.data(), heights.data() + heights.size());
@@ -39,52 +44,40 @@ flow::Box box(const py::object& levels, const std::array<Index, 2>& shape, doubl
   return result;
 }
 
-flow::Settings settings(double side_width, double side_time, double top, double top_time,
-                        double ground_time, double mixing, double source_depth,
-                        double gust_strength, double gust_size, double gust_time,
-                        std::uint64_t seed) {
-  return {{side_width, side_time, top, top_time, ground_time},
+flow::Profile profile(const py::object& height, const py::object& potential_temperature,
+                      const py::object& wind, const py::object& water, double pressure) {
+  return {numbers(height, "height"), numbers(potential_temperature, "potential_temperature"),
+          pairs(wind, "wind"), optional_numbers(water, "water"), pressure};
+}
+
+flow::SolverSettings settings(double sponge_width, double sponge_time, double damping_share,
+                              double damping_time, double drag_time, double smagorinsky,
+                              double source_depth, double gust_strength, double gust_size,
+                              double gust_time, std::uint64_t seed) {
+  return {{sponge_width, sponge_time, damping_share, damping_time, drag_time},
           {gust_strength, gust_size, gust_time, seed},
-          mixing,
+          smagorinsky,
           source_depth};
 }
 
-std::shared_ptr<Solver>
-make(const py::object& levels, const std::array<Index, 2>& shape, double spacing,
-     const py::object& height, const py::object& potential_temperature, const py::object& wind,
-     const py::object& water, double pressure, const std::array<double, 2>& corner,
-     const py::object& ground, double side_width, double side_time, double top, double top_time,
-     double ground_time, double mixing, double source_depth, double gust_strength, double gust_size,
-     double gust_time, std::uint64_t seed) {
-  auto where = box(levels, shape, spacing, corner, ground);
-  flow::Profile profile{
-      numbers(height, "height"), numbers(potential_temperature, "potential_temperature"),
-      pairs(wind, "wind"), water.is_none() ? std::vector<double>() : numbers(water, "water"),
-      pressure};
-  const auto how = settings(side_width, side_time, top, top_time, ground_time, mixing, source_depth,
-                            gust_strength, gust_size, gust_time, seed);
+using OptionalSettings = std::optional<flow::SolverSettings>;
+
+std::shared_ptr<Solver> make(const flow::Domain& domain, const flow::Profile& profile,
+                             const OptionalSettings& settings) {
   const py::gil_scoped_release release;
-  return std::make_shared<Solver>(std::move(where), std::move(profile), how);
+  return std::make_shared<Solver>(domain, profile, settings.value_or(flow::SolverSettings{}));
 }
 
-std::shared_ptr<Solver> nest(const std::shared_ptr<Solver>& outer, const py::object& levels,
-                             const std::array<Index, 2>& shape, double spacing,
-                             const std::array<double, 2>& corner, const py::object& ground,
-                             double side_width, double side_time, double top, double top_time,
-                             double ground_time, double mixing, double source_depth,
-                             double gust_strength, double gust_size, double gust_time,
-                             std::uint64_t seed) {
-  auto where = box(levels, shape, spacing, corner, ground);
-  const auto how = settings(side_width, side_time, top, top_time, ground_time, mixing, source_depth,
-                            gust_strength, gust_size, gust_time, seed);
+std::shared_ptr<Solver> nest(const std::shared_ptr<Solver>& outer, const flow::Domain& domain,
+                             const OptionalSettings& settings) {
   const py::gil_scoped_release release;
-  return std::make_shared<Solver>(std::move(where), outer, how);
+  return std::make_shared<Solver>(domain, outer, settings.value_or(flow::nest_settings()));
 }
 
 void set_sources(Solver& solver, const py::object& position, const py::object& heat,
                  const py::object& smoke, const py::object& water) {
   flow::Sources sources{pairs(position, "position"), numbers(heat, "heat"), numbers(smoke, "smoke"),
-                        water.is_none() ? std::vector<double>() : numbers(water, "water")};
+                        optional_numbers(water, "water")};
   solver.set_sources(std::move(sources));
 }
 
@@ -122,7 +115,7 @@ py::dict named(std::initializer_list<std::pair<const char*, double>> numbers) {
 }
 
 py::dict mass(const Solver& solver) {
-  const flow::Mass m = solver.mass();
+  const flow::MassBudget m = solver.mass();
   return named({{"initial", m.initial},
                 {"emitted", m.emitted},
                 {"entered", m.entered},
@@ -132,7 +125,7 @@ py::dict mass(const Solver& solver) {
 }
 
 py::dict heat(const Solver& solver) {
-  const flow::Heat h = solver.heat();
+  const flow::HeatBudget h = solver.heat();
   return named({{"given", h.given}, {"warmed", h.warmed}, {"held", h.held}});
 }
 
@@ -152,7 +145,7 @@ template <class Function> void parts(const Solver& solver, flow::State& s, const
 
 py::dict state(Solver& solver) {
   py::dict result;
-  parts(solver, solver.open(),
+  parts(solver, solver.mutable_state(),
         [&](const char* name, flow::Field& field, Index levels, Index rows, Index columns) {
           auto array = new_array<float>({levels, rows, columns});
           float* to = array.mutable_data();
@@ -163,13 +156,13 @@ py::dict state(Solver& solver) {
           }
           result[name] = array;
         });
-  const Solver::Account a = solver.account();
-  const std::vector<double> account{a.time,          static_cast<double>(a.steps),
-                                    a.mass.initial,  a.mass.emitted,
-                                    a.mass.entered,  a.mass.left,
-                                    a.mass.rounding, a.heat.given,
-                                    a.heat.warmed};
-  result["account"] = give(std::vector<double>(account), {length(account.size())});
+  const Solver::Checkpoint a = solver.checkpoint();
+  const std::vector<double> checkpoint{a.time,          static_cast<double>(a.steps),
+                                       a.mass.initial,  a.mass.emitted,
+                                       a.mass.entered,  a.mass.left,
+                                       a.mass.rounding, a.heat.given,
+                                       a.heat.warmed};
+  result["account"] = give(std::vector<double>(checkpoint), {length(checkpoint.size())});
   const auto& wind = solver.profile().wind;
   auto winds = new_array<double>({length(wind.size()), 2});
   std::copy_n(wind.front().data(), winds.size(), winds.mutable_data());
@@ -184,19 +177,19 @@ void restore(Solver& solver, const py::dict& state) {
     }
     return state[name];
   };
-  const auto account = to_array<double>(get("account"), "account", {9});
+  const auto checkpoint = to_array<double>(get("account"), "account", {9});
   const auto wind = pairs(get("wind"), "wind");
   std::vector<std::pair<flow::Field*, Array<float>>> all;
-  parts(solver, solver.open(),
+  parts(solver, solver.mutable_state(),
         [&](const char* name, flow::Field& field, Index levels, Index rows, Index columns) {
           all.emplace_back(&field, to_array<float>(get(name), name, {levels, rows, columns}));
         });
-  const double* a = account.data();
-  solver.resume({a[0],
-                 static_cast<std::int64_t>(a[1]),
-                 {a[2], a[3], a[4], a[5], 0.0, a[6]},
-                 {a[7], a[8], 0.0}},
-                wind);
+  const double* a = checkpoint.data();
+  solver.restore({a[0],
+                  static_cast<std::int64_t>(a[1]),
+                  {a[2], a[3], a[4], a[5], 0.0, a[6]},
+                  {a[7], a[8], 0.0}},
+                 wind);
   for (auto& [field, array] : all) {
     const float* from = array.data();
     for (Index k = 0; k < array.shape(0); ++k) {
@@ -205,7 +198,7 @@ void restore(Solver& solver, const py::dict& state) {
       }
     }
   }
-  solver.close();
+  solver.fill_ghost_cells();
 }
 
 Array<double> densities(const Solver& solver) {
@@ -220,21 +213,58 @@ Array<double> levels(const Solver& solver) {
   return give(std::vector<double>(solver.lattice().face), {solver.lattice().nz + 1});
 }
 
+void bind_settings(const Module& module) {
+  using namespace py::literals;
+  using flow::SolverSettings;
+  const SolverSettings defaults;
+  Class<SolverSettings>(module, "SolverSettings")
+      .def(py::init(&settings), py::kw_only(), "sponge_width"_a = defaults.relaxation.width,
+           "sponge_time"_a = defaults.relaxation.time,
+           "damping_share"_a = defaults.relaxation.damping_share,
+           "damping_time"_a = defaults.relaxation.damping_time,
+           "drag_time"_a = defaults.relaxation.drag_time, "smagorinsky"_a = defaults.smagorinsky,
+           "source_depth"_a = defaults.source_depth, "gust_strength"_a = defaults.gusts.strength,
+           "gust_size"_a = defaults.gusts.size, "gust_time"_a = defaults.gusts.time,
+           "seed"_a = defaults.gusts.seed)
+      .def_property_readonly("sponge_width",
+                             [](const SolverSettings& s) { return s.relaxation.width; })
+      .def_property_readonly("sponge_time",
+                             [](const SolverSettings& s) { return s.relaxation.time; })
+      .def_property_readonly("damping_share",
+                             [](const SolverSettings& s) { return s.relaxation.damping_share; })
+      .def_property_readonly("damping_time",
+                             [](const SolverSettings& s) { return s.relaxation.damping_time; })
+      .def_property_readonly("drag_time",
+                             [](const SolverSettings& s) { return s.relaxation.drag_time; })
+      .def_property_readonly("smagorinsky", [](const SolverSettings& s) { return s.smagorinsky; })
+      .def_property_readonly("source_depth", [](const SolverSettings& s) { return s.source_depth; })
+      .def_property_readonly("gust_strength",
+                             [](const SolverSettings& s) { return s.gusts.strength; })
+      .def_property_readonly("gust_size", [](const SolverSettings& s) { return s.gusts.size; })
+      .def_property_readonly("gust_time", [](const SolverSettings& s) { return s.gusts.time; })
+      .def_property_readonly("seed", [](const SolverSettings& s) { return s.gusts.seed; });
+}
+
+/// Where the air is solved, and the air before the fire.
+void bind_domain(const Module& module) {
+  using namespace py::literals;
+  Class<flow::Domain>(module, "Domain")
+      .def(py::init(&domain), "levels"_a, "shape"_a, "spacing"_a,
+           "corner"_a = std::array<double, 2>{}, "ground"_a = py::none());
+  Class<flow::Profile>(module, "Profile")
+      .def(py::init(&profile), "height"_a, "potential_temperature"_a, "wind"_a,
+           "water"_a = py::none(), "pressure"_a = flow::Profile{}.pressure);
+}
+
 } // namespace
 
 void init_flow(Module module) {
   using namespace py::literals;
+  bind_settings(module);
+  bind_domain(module);
   Class<Solver, std::shared_ptr<Solver>>(module, "Solver")
-      .def(py::init(&make), "levels"_a, "shape"_a, "spacing"_a, "height"_a,
-           "potential_temperature"_a, "wind"_a, py::kw_only(), "water"_a = py::none(),
-           "pressure"_a = 101325.0, "corner"_a = std::array<double, 2>{}, "ground"_a = py::none(),
-           "side_width"_a = 8.0, "side_time"_a = 40.0, "top"_a = 0.22, "top_time"_a = 60.0,
-           "ground_time"_a = 300.0, "mixing"_a = 0.18, "source_depth"_a = 90.0,
-           "gust_strength"_a = 0.0, "gust_size"_a = 400.0, "gust_time"_a = 90.0, "seed"_a = 0)
-      .def("nest", &nest, "levels"_a, "shape"_a, "spacing"_a, "corner"_a, py::kw_only(),
-           "ground"_a = py::none(), "side_width"_a = 10.0, "side_time"_a = 8.0, "top"_a = 0.22,
-           "top_time"_a = 60.0, "ground_time"_a = 300.0, "mixing"_a = 0.18, "source_depth"_a = 90.0,
-           "gust_strength"_a = 0.0, "gust_size"_a = 400.0, "gust_time"_a = 90.0, "seed"_a = 0)
+      .def(py::init(&make), "domain"_a, "profile"_a, "settings"_a = py::none())
+      .def("nest", &nest, "domain"_a, "settings"_a = py::none())
       .def("set_sources", &set_sources, "position"_a, "heat"_a, "smoke"_a, "water"_a = py::none())
       .def(
           "set_wind",
@@ -259,7 +289,7 @@ void init_flow(Module module) {
       .def("smoke", &field<flow::smoke_density>)
       .def("age", &field<flow::smoke_age>)
       .def("velocity", &velocity)
-      .def("warmth", &field<flow::warmth>)
+      .def("temperature_excess", &field<flow::temperature_excess>)
       .def("cloud", &field<flow::cloud>)
       .def("heights", &field<flow::heights>)
       .def("mass", &mass)

@@ -32,11 +32,11 @@ void drift_restore(Drift& drift, double time, const py::object& values) {
 std::shared_ptr<Detail>
 make_detail(double spacing, const std::array<double, 2>& corner, const py::object& levels,
             const py::object& heights, const py::object& ground, const py::object& smoke,
-            const py::object& age, const py::object& rise, const py::object& warmth,
+            const py::object& age, const py::object& rise, const py::object& temperature_excess,
             const py::object& drift, const std::array<float, Drift::phases>& weights,
             const std::array<std::int64_t, Drift::phases>& turns, const py::object& glow,
             double size, float scale, const std::array<double, 3>& blur, double opacity,
-            float thickest, const std::array<float, 2>& ages, float condensation,
+            float max_extinction, const std::array<float, 2>& ages, float condensation_height,
             std::uint32_t seed) {
   const auto amount = to_array<float>(smoke, "smoke", {-1, -1, -1});
   const std::vector<py::ssize_t> shape{amount.shape(0), amount.shape(1), amount.shape(2)};
@@ -45,45 +45,46 @@ make_detail(double spacing, const std::array<double, 2>& corner, const py::objec
   };
   const auto middles = to_array<double>(levels, "levels", {shape[0]});
   const auto high = field(heights, "heights"), old = field(age, "age"), up = field(rise, "rise"),
-             warm = field(warmth, "warmth");
+             warm = field(temperature_excess, "temperature_excess");
   const auto light = glow.is_none() ? Array<float>(py::ssize_t{0}) : field(glow, "glow");
   const auto low = to_array<float>(ground, "ground", {shape[1], shape[2]});
   const auto moved =
       to_array<float>(drift, "drift", {shape[0], shape[1], shape[2], Drift::phases, 3});
-  const flow::Moment moment{{shape[0], shape[1], shape[2]},
-                            spacing,
-                            corner,
-                            view(middles),
-                            view(high),
-                            view(low),
-                            view(amount),
-                            view(old),
-                            view(up),
-                            view(warm),
-                            view(light),
-                            view(moved),
-                            weights,
-                            turns};
-  const flow::Look look{size, scale, blur, opacity, thickest, ages, condensation, seed};
+  const flow::SmokeSnapshot snapshot{{shape[0], shape[1], shape[2]},
+                                     spacing,
+                                     corner,
+                                     view(middles),
+                                     view(high),
+                                     view(low),
+                                     view(amount),
+                                     view(old),
+                                     view(up),
+                                     view(warm),
+                                     view(light),
+                                     view(moved),
+                                     weights,
+                                     turns};
+  const flow::DetailSettings settings{
+      size, scale, blur, opacity, max_extinction, ages, condensation_height, seed};
   const py::gil_scoped_release release;
-  return std::make_shared<Detail>(moment, look);
+  return std::make_shared<Detail>(snapshot, settings);
 }
 
 std::shared_ptr<SparseSmoke> paint_sparse(const Detail& detail, const std::array<double, 3>& origin,
                                           double voxel, const py::object& surface,
                                           const py::object& share, Index layers,
-                                          const py::object& wanted, float thinnest) {
+                                          const py::object& wanted, float min_extinction) {
   const auto ground = to_array<float>(surface, "surface", {-1, -1});
   const auto part = to_array<float>(share, "share", {ground.shape(0), ground.shape(1)});
-  flow::Brick brick{origin,       voxel,      {ground.shape(0), ground.shape(1), layers},
-                    view(ground), view(part), {}};
+  flow::VoxelRegion brick{origin,       voxel,      {ground.shape(0), ground.shape(1), layers},
+                          view(ground), view(part), {}};
   const auto blocks = brick.blocks();
   const auto asked = wanted.is_none() ? Array<std::uint8_t>(py::ssize_t{0})
                                       : to_array<std::uint8_t>(wanted, "wanted",
                                                                {blocks[0], blocks[1], blocks[2]});
   brick.wanted = view(asked);
   const py::gil_scoped_release release;
-  return std::make_shared<SparseSmoke>(detail.paint(brick, thinnest));
+  return std::make_shared<SparseSmoke>(detail.paint(brick, min_extinction));
 }
 
 /// The same, dense.
@@ -119,14 +120,15 @@ void init_flow_detail(Module module) {
       .def_property_readonly("turns", &Drift::turns);
   Class<Detail, std::shared_ptr<Detail>>(module, "Detail")
       .def(py::init(&make_detail), py::kw_only(), "spacing"_a, "corner"_a, "levels"_a, "heights"_a,
-           "ground"_a, "smoke"_a, "age"_a, "rise"_a, "warmth"_a, "drift"_a, "weights"_a, "turns"_a,
-           "glow"_a = py::none(), "size"_a = 340.0, "scale"_a = 1.0F,
-           "blur"_a = std::array<double, 3>{}, "opacity"_a = 1.0, "thickest"_a = 0.03F,
-           "ages"_a = std::array<float, 2>{20.0F, 600.0F}, "condensation"_a = 1.0e6F, "seed"_a = 0)
+           "ground"_a, "smoke"_a, "age"_a, "rise"_a, "temperature_excess"_a, "drift"_a, "weights"_a,
+           "turns"_a, "glow"_a = py::none(), "size"_a = 340.0, "scale"_a = 1.0F,
+           "blur"_a = std::array<double, 3>{}, "opacity"_a = 1.0, "max_extinction"_a = 0.03F,
+           "ages"_a = std::array<float, 2>{20.0F, 600.0F}, "condensation_height"_a = 1.0e6F,
+           "seed"_a = 0)
       .def("paint", &paint, "origin"_a, "voxel"_a, "surface"_a, "share"_a, "layers"_a,
            "wanted"_a = py::none())
       .def("paint_sparse", &paint_sparse, "origin"_a, "voxel"_a, "surface"_a, "share"_a, "layers"_a,
-           "wanted"_a = py::none(), "thinnest"_a = 0.0F);
+           "wanted"_a = py::none(), "min_extinction"_a = 0.0F);
 }
 
 } // namespace firetwin::bindings

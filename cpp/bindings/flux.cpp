@@ -26,14 +26,14 @@ std::unique_ptr<Interpolator> interpolator(std::shared_ptr<const run::Run> run) 
   return std::make_unique<Interpolator>(std::move(run));
 }
 
-flux::Frame frame(const Interpolator& model, double time) {
+flux::SparseFlux frame(const Interpolator& model, double time) {
   const py::gil_scoped_release release;
   return model.at(time);
 }
 
 /// The flux of every cell. NumPy's zeros are memory that nothing has touched yet.
 Array<float> at(const Interpolator& model, double time) {
-  const flux::Frame found = frame(model, time);
+  const flux::SparseFlux found = frame(model, time);
   const py::tuple shape =
       py::make_tuple(model.run().latitude().size(), model.run().longitude().size());
   Array<float> whole = py::module_::import("numpy").attr("zeros")(shape, "f4");
@@ -45,7 +45,7 @@ Array<float> at(const Interpolator& model, double time) {
 }
 
 py::tuple burning(const Interpolator& model, double time) {
-  flux::Frame found = frame(model, time);
+  flux::SparseFlux found = frame(model, time);
   const py::ssize_t count = length(found.cell.size());
   return py::make_tuple(give(std::move(found.cell), {count}), give(std::move(found.flux), {count}));
 }

@@ -21,7 +21,7 @@ struct Trees : Plants {};
 struct Grass : Plants {};
 using forest::Stems;
 
-/// The arrays of a Site, kept alive and checked against the shape of the fuel.
+/// The arrays of a PlantingSite, kept alive and checked against the shape of the fuel.
 struct SiteArrays {
   Array<double> latitude;
   Array<double> longitude;
@@ -38,7 +38,7 @@ struct SiteArrays {
     }
   }
 
-  forest::Site site(const LocalFrame& frame, std::uint64_t seed, double jitter) const {
+  forest::PlantingSite site(const LocalFrame& frame, std::uint64_t seed, double jitter) const {
     return {view(latitude), view(longitude), view(elevation), &frame, seed, jitter, view(mask)};
   }
 };
@@ -73,13 +73,13 @@ std::shared_ptr<Grass> grass(const py::object& surface_fuel, const py::object& l
 
 std::shared_ptr<Stems> stand(const py::object& canopy_fuel, const py::object& latitude,
                              const py::object& longitude, const py::object& elevation,
-                             const LocalFrame& frame, std::uint64_t seed, const py::object& kept,
-                             const py::object& mask) {
+                             const LocalFrame& frame, std::uint64_t seed,
+                             const py::object& retained, const py::object& mask) {
   const auto fuel = to_array<float>(canopy_fuel, "canopy_fuel", {-1, -1});
   const SiteArrays arrays(fuel, latitude, longitude, elevation, mask);
   Array<float> part;
-  if (!kept.is_none()) {
-    part = to_array<float>(kept, "kept", {fuel.shape(0), fuel.shape(1)});
+  if (!retained.is_none()) {
+    part = to_array<float>(retained, "retained", {fuel.shape(0), fuel.shape(1)});
   }
   const auto site = arrays.site(frame, seed, 1.0);
   const py::gil_scoped_release release;
@@ -134,7 +134,7 @@ void init_forest(Module module) {
   module.def("stems", &stems, py::arg("canopy_fuel"));
   module.def("stand", &stand, py::arg("canopy_fuel"), py::arg("latitude"), py::arg("longitude"),
              py::arg("elevation"), py::arg("frame"), py::arg("seed") = 0,
-             py::arg("kept") = py::none(), py::arg("mask") = py::none());
+             py::arg("retained") = py::none(), py::arg("mask") = py::none());
   module.def("trees", &trees, py::arg("canopy_fuel"), py::arg("latitude"), py::arg("longitude"),
              py::arg("elevation"), py::arg("frame"), py::arg("seed") = 0,
              py::arg("max_fuel") = py::none(), py::arg("jitter") = 1.0,

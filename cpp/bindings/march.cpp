@@ -12,10 +12,10 @@ namespace firetwin::bindings {
 namespace py = pybind11;
 namespace {
 
+using volume::AirTemperature;
 using volume::Bricks;
 using volume::Colour;
 using volume::Illumination;
-using volume::Warmth;
 
 std::shared_ptr<Bricks> make_bricks(const py::object& density, const py::object& fresh,
                                     const py::object& sun, const py::object& sky,
@@ -97,10 +97,10 @@ Array<float> march_infrared(const LayerList& layers, const py::object& origins,
   const auto warm = to_array<float>(kelvin, "kelvin", {-1, -1});
   const auto high = to_array<float>(elevation, "elevation", {warm.shape(0), warm.shape(1)});
   const auto table = to_array<float>(radiance, "radiance", {-1});
-  const Warmth air{view(warm),  view(high), {warm.shape(0), warm.shape(1)},
-                   corner,      spacing,    lapse,
-                   view(table), coldest,    kelvin_step,
-                   absorption};
+  const AirTemperature air{view(warm),  view(high), {warm.shape(0), warm.shape(1)},
+                           corner,      spacing,    lapse,
+                           view(table), coldest,    kelvin_step,
+                           absorption};
   auto found = new_array<float>({given.size(), 2});
   const std::span<float> out = writable(found);
   const py::gil_scoped_release release;
@@ -120,17 +120,18 @@ void init_march(Module module) {
       .def_property_readonly("bytes", &Bricks::bytes);
   Class<Illumination>(module, "Illumination")
       .def(py::init([](float density, const Colour& fresh, const Colour& old, const Colour& sun,
-                       const Colour& sky, const Vector& toward, double anisotropy,
-                       const std::array<float, 2>& oftener, const Colour& glow, float thin,
-                       const std::array<float, 2>& thick, const Colour& air, double haze,
-                       double haze_height) {
-             return Illumination{density, fresh, old,  sun,   sky, toward, anisotropy,
-                                 oftener, glow,  thin, thick, air, haze,   haze_height};
+                       const Colour& sky, const Vector& sun_direction, double anisotropy,
+                       const std::array<float, 2>& multiple_scattering, const Colour& glow,
+                       float thin, const std::array<float, 2>& thick, const Colour& air,
+                       double haze, double haze_height) {
+             return Illumination{
+                 density, fresh, old,   sun, sky,  sun_direction, anisotropy, multiple_scattering,
+                 glow,    thin,  thick, air, haze, haze_height};
            }),
-           py::kw_only(), "density"_a, "fresh"_a, "old"_a, "sun"_a, "sky"_a, "toward"_a,
-           "anisotropy"_a, "oftener"_a, "glow"_a, "thin"_a, "thick"_a, "air"_a, "haze"_a,
-           "haze_height"_a);
-  const volume::March defaults;
+           py::kw_only(), "density"_a, "fresh"_a, "old"_a, "sun"_a, "sky"_a, "sun_direction"_a,
+           "anisotropy"_a, "multiple_scattering"_a, "glow"_a, "thin"_a, "thick"_a, "air"_a,
+           "haze"_a, "haze_height"_a);
+  const volume::MarchSettings defaults;
   module.def("march", &march, "layers"_a, "origins"_a, "directions"_a, "distances"_a, "light"_a,
              "step"_a = defaults.step, "stop"_a = defaults.stop);
   module.def("march_infrared", &march_infrared, "layers"_a, "origins"_a, "directions"_a,

@@ -3,7 +3,7 @@
 #include "bindings.hpp"
 #include "broadcast.hpp"
 #include "particles/advance.hpp"
-#include "particles/cloud.hpp"
+#include "particles/particle_cloud.hpp"
 
 #include <pybind11/stl.h>
 
@@ -15,8 +15,8 @@ namespace py = pybind11;
 namespace {
 
 using geo::HeightField;
-using particles::Cloud;
-using particles::Kind;
+using particles::ParticleCloud;
+using particles::ParticleKind;
 
 py::tuple advance(const py::object& position, const py::object& velocity, const py::object& wind,
                   double step, const py::object& relaxation, const py::object& lift,
@@ -42,11 +42,12 @@ py::tuple advance(const py::object& position, const py::object& velocity, const 
   return py::make_tuple(p, v, down.attr("view")("bool"));
 }
 
-std::shared_ptr<Cloud> state(double time, const py::object& position, const py::object& start,
-                             const py::object& end, const py::object& rate, const Kind& kind,
-                             const py::object& wind, const py::object& wind_time,
-                             const py::object& id, double size, const HeightField* ground,
-                             std::uint64_t seed) {
+std::shared_ptr<ParticleCloud> state(double time, const py::object& position,
+                                     const py::object& start, const py::object& end,
+                                     const py::object& rate, const ParticleKind& kind,
+                                     const py::object& wind, const py::object& wind_time,
+                                     const py::object& id, double size, const HeightField* ground,
+                                     std::uint64_t seed) {
   const auto places = to_array<double>(position, "position", {-1, 3});
   const py::ssize_t m = places.shape(0);
   const auto begins = spread<double>(start, "start", {m});
@@ -62,16 +63,17 @@ std::shared_ptr<Cloud> state(double time, const py::object& position, const py::
   const particles::Sources sources{view(places), view(begins), view(ends),
                                    view(rates),  view(ids),    size};
   const py::gil_scoped_release release;
-  return std::make_shared<Cloud>(
+  return std::make_shared<ParticleCloud>(
       particles::state(time, sources, kind, {view(times), view(winds)}, ground, seed));
 }
 
 template <auto member> auto column(const py::object& self) {
-  return lend_column(self.cast<const Cloud&>().*member, self);
+  return lend_column(self.cast<const ParticleCloud&>().*member, self);
 }
 
-template <std::vector<double> Cloud::* member> Array<double> vectors(const py::object& self) {
-  const auto& cloud = self.cast<const Cloud&>();
+template <std::vector<double> ParticleCloud::* member>
+Array<double> vectors(const py::object& self) {
+  const auto& cloud = self.cast<const ParticleCloud&>();
   return lend<double>(cloud.*member, {length(cloud.source.size()), 3}, self);
 }
 
@@ -79,27 +81,28 @@ template <std::vector<double> Cloud::* member> Array<double> vectors(const py::o
 
 void init_particles(Module module) {
   module.attr("GRAVITY") = gravity;
-  Class<Kind>(module, "Kind")
+  Class<ParticleKind>(module, "ParticleKind")
       .def(py::init<double, particles::Range, particles::Range, particles::Range,
                     particles::Range>(),
            py::arg("lift"), py::arg("relaxation"), py::arg("rise"), py::arg("spread"),
            py::arg("life"))
-      .def_readonly("lift", &Kind::lift)
-      .def_readonly("relaxation", &Kind::relaxation)
-      .def_readonly("rise", &Kind::rise)
-      .def_readonly("spread", &Kind::spread)
-      .def_readonly("life", &Kind::life);
-  Class<Cloud, std::shared_ptr<Cloud>>(module, "Cloud")
-      .def_property_readonly("source", &column<&Cloud::source>)
-      .def_property_readonly("number", &column<&Cloud::number>)
-      .def_property_readonly("position", &vectors<&Cloud::position>)
-      .def_property_readonly("velocity", &vectors<&Cloud::velocity>)
-      .def_property_readonly("age", &column<&Cloud::age>)
-      .def_property_readonly("life", &column<&Cloud::life>)
-      .def_property_readonly(
-          "landed",
-          [](const py::object& self) { return column<&Cloud::landed>(self).attr("view")("bool"); })
-      .def("__len__", [](const Cloud& cloud) { return cloud.source.size(); });
+      .def_readonly("lift", &ParticleKind::lift)
+      .def_readonly("relaxation", &ParticleKind::relaxation)
+      .def_readonly("rise", &ParticleKind::rise)
+      .def_readonly("spread", &ParticleKind::spread)
+      .def_readonly("life", &ParticleKind::life);
+  Class<ParticleCloud, std::shared_ptr<ParticleCloud>>(module, "ParticleCloud")
+      .def_property_readonly("source", &column<&ParticleCloud::source>)
+      .def_property_readonly("number", &column<&ParticleCloud::number>)
+      .def_property_readonly("position", &vectors<&ParticleCloud::position>)
+      .def_property_readonly("velocity", &vectors<&ParticleCloud::velocity>)
+      .def_property_readonly("age", &column<&ParticleCloud::age>)
+      .def_property_readonly("life", &column<&ParticleCloud::life>)
+      .def_property_readonly("landed",
+                             [](const py::object& self) {
+                               return column<&ParticleCloud::landed>(self).attr("view")("bool");
+                             })
+      .def("__len__", [](const ParticleCloud& cloud) { return cloud.source.size(); });
   module.def("lift", &particles::lift, py::arg("density"), py::arg("air_density") = 1.2);
   module.def("advance", &advance, py::arg("position"), py::arg("velocity"), py::arg("wind"),
              py::arg("step"), py::arg("relaxation"), py::arg("lift") = -gravity,

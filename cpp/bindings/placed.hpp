@@ -2,7 +2,7 @@
 
 #include "arrays.hpp"
 #include "base/vector.hpp"
-#include "volume/brick.hpp"
+#include "volume/voxel_grid.hpp"
 
 #include <pybind11/pybind11.h>
 
@@ -13,13 +13,14 @@
 /// Bricks across the border.
 namespace firetwin::bindings {
 
-inline volume::Brick brick(const Array<float>& values, double voxel_size, const Vector& origin) {
+inline volume::VoxelGrid brick(const Array<float>& values, double voxel_size,
+                               const Vector& origin) {
   return {view(values), {values.shape(0), values.shape(1), values.shape(2)}, voxel_size, origin};
 }
 
 using Placed = std::tuple<pybind11::object, double, Vector>; // values, voxel size, origin
 
-inline pybind11::tuple placed(volume::OwnBrick&& brick) {
+inline pybind11::tuple placed(volume::OwnedVoxelGrid&& brick) {
   const auto [nx, ny, nz] = brick.shape;
   return pybind11::make_tuple(give(std::move(brick.values), {nx, ny, nz}), brick.voxel,
                               brick.origin);
@@ -36,11 +37,11 @@ public:
     }
   }
 
-  const volume::Brick* get() const { return brick_ ? &*brick_ : nullptr; }
+  const volume::VoxelGrid* get() const { return brick_ ? &*brick_ : nullptr; }
 
 private:
   Array<float> values_;
-  std::optional<volume::Brick> brick_;
+  std::optional<volume::VoxelGrid> brick_;
 };
 
 } // namespace firetwin::bindings

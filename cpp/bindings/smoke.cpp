@@ -41,14 +41,15 @@ Array<double> share_of(const LitSmoke& lit, const py::object& share) {
   return to_array<double>(share, "share", {shape[0], shape[1]});
 }
 
-std::shared_ptr<Bricks> make_bricks(const LitSmoke& lit, const py::object& share, float thinnest) {
+std::shared_ptr<Bricks> make_bricks(const LitSmoke& lit, const py::object& share,
+                                    float min_extinction) {
   const auto part = share_of(lit, share);
   const py::gil_scoped_release release;
-  return std::make_shared<Bricks>(lit, Drawn{view(part), thinnest});
+  return std::make_shared<Bricks>(lit, Drawn{view(part), min_extinction});
 }
 
 /// All fields of smoke and its light by name, dense.
-py::dict grids(const LitSmoke& lit, const py::object& share, float thinnest) {
+py::dict grids(const LitSmoke& lit, const py::object& share, float min_extinction) {
   const auto part = share_of(lit, share);
   const SparseSmoke& smoke = lit.smoke();
   const auto& shape = smoke.shape();
@@ -61,7 +62,7 @@ py::dict grids(const LitSmoke& lit, const py::object& share, float thinnest) {
   const auto density = add("density"), fresh = add("fresh"), sun = add("sun"), sky = add("sky");
   const auto glow = smoke.glows() ? add("glow") : std::span<float>{};
   const py::gil_scoped_release release;
-  const Drawn drawn{view(part), thinnest};
+  const Drawn drawn{view(part), min_extinction};
   smoke.spread(SparseSmoke::density, density,
                [&](float all, std::size_t column) { return drawn.density(all, column); });
   smoke.spread(SparseSmoke::fresh, fresh);
@@ -72,9 +73,9 @@ py::dict grids(const LitSmoke& lit, const py::object& share, float thinnest) {
   return found;
 }
 
-py::tuple lit(const py::object& extinction, double voxel_size, const Vector& direction,
-              double sun_part, double sky_part, const Vector& origin,
-              const std::optional<Placed>& beyond) {
+py::tuple smoke_light(const py::object& extinction, double voxel_size, const Vector& direction,
+                      double sun_part, double sky_part, const Vector& origin,
+                      const std::optional<Placed>& beyond) {
   const auto dense = to_array<float>(extinction, "extinction", {-1, -1, -1});
   const std::vector<py::ssize_t> shape{dense.shape(0), dense.shape(1), dense.shape(2)};
   auto smoke = std::make_shared<SparseSmoke>(SparseSmoke::Place{shape[0], shape[1], shape[2]},
@@ -99,10 +100,10 @@ void init_smoke(Module module) {
       .def(py::init(&make_lit), "smoke"_a, "direction"_a, "sun_part"_a, "sky_part"_a,
            "beyond"_a = py::none())
       .def_property_readonly("depths", &depths)
-      .def("bricks", &make_bricks, "share"_a, "thinnest"_a)
-      .def("grids", &grids, "share"_a, "thinnest"_a);
-  module.def("lit", &lit, "extinction"_a, "voxel_size"_a, "direction"_a, "sun_part"_a, "sky_part"_a,
-             "origin"_a = Vector{}, "beyond"_a = py::none());
+      .def("bricks", &make_bricks, "share"_a, "min_extinction"_a)
+      .def("grids", &grids, "share"_a, "min_extinction"_a);
+  module.def("smoke_light", &smoke_light, "extinction"_a, "voxel_size"_a, "direction"_a,
+             "sun_part"_a, "sky_part"_a, "origin"_a = Vector{}, "beyond"_a = py::none());
 }
 
 } // namespace firetwin::bindings

@@ -4,10 +4,10 @@
 #include "broadcast.hpp"
 #include "placed.hpp"
 #include "volume/dense.hpp"
-#include "volume/hidden.hpp"
 #include "volume/levels.hpp"
 #include "volume/puffs.hpp"
 #include "volume/smoke.hpp"
+#include "volume/smoke_occlusion.hpp"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -21,10 +21,10 @@ namespace firetwin::bindings {
 namespace py = pybind11;
 namespace {
 
-using lod::Sight;
-using volume::Frame;
+using lod::ViewSet;
 using volume::Puffs;
 using volume::PuffSettings;
+using volume::VdbSummary;
 using Path = std::filesystem::path;
 
 constexpr py::ssize_t longest_side = 1 << 30; // voxels, far from the largest 32-bit integer
@@ -43,11 +43,11 @@ Puffs puffs(double time, const py::object& arrival_object, const py::object& fue
 }
 
 /// What both kinds of smoke take besides the smoke; keeps the arrays of the flames.
-class WantedArrays {
+class GridRequestArrays {
 public:
-  WantedArrays(const py::object& flame_position, const py::object& flame_power,
-               const std::optional<std::vector<std::string>>& grids, const Sight* sight,
-               const std::optional<io::Metadata>& metadata) {
+  GridRequestArrays(const py::object& flame_position, const py::object& flame_power,
+                    const std::optional<std::vector<std::string>>& grids, const ViewSet* view_set,
+                    const std::optional<io::Metadata>& metadata) {
     if (flame_position.is_none() != flame_power.is_none()) {
       wrong("flame_position", "and flame_power must be given together");
     }
@@ -61,22 +61,23 @@ public:
     for (const std::string& name : grids.value_or(std::vector<std::string>{})) {
       wanted.grids.push_back(volume::smoke_grid(name));
     }
-    wanted.sight = sight;
+    wanted.view_set = view_set;
     wanted.metadata = metadata.value_or(io::Metadata{});
   }
 
-  volume::Wanted wanted;
+  volume::GridRequest wanted;
 
 private:
   Array<double> position_;
   Array<double> power_;
 };
 
-Frame write_smoke(const Path& path, const Puffs& smoke, double voxel_size,
-                  const py::object& flame_position, const py::object& flame_power,
-                  const std::optional<io::Metadata>& metadata,
-                  const std::optional<std::vector<std::string>>& grids, const Sight* sight) {
-  const WantedArrays arrays(flame_position, flame_power, grids, sight, metadata);
+VdbSummary write_smoke(const Path& path, const Puffs& smoke, double voxel_size,
+                       const py::object& flame_position, const py::object& flame_power,
+                       const std::optional<io::Metadata>& metadata,
+                       const std::optional<std::vector<std::string>>& grids,
+                       const ViewSet* view_set) {
+  const GridRequestArrays arrays(flame_position, flame_power, grids, view_set, metadata);
   const py::gil_scoped_release release;
   return volume::write_smoke(path, smoke, voxel_size, arrays.wanted);
 }
@@ -120,23 +121,24 @@ struct LevelArrays {
   }
 };
 
-Frame write_levels(const Path& path, const geo::LocalFrame& frame, const py::object& latitude,
-                   const py::object& longitude, const py::object& ground, const py::object& height,
-                   const py::object& smoke, double voxel_size, const py::object& temperature,
-                   const py::object& flame_position, const py::object& flame_power,
-                   const std::optional<io::Metadata>& metadata,
-                   const std::optional<std::vector<std::string>>& grids, const Sight* sight) {
+VdbSummary write_levels(const Path& path, const geo::LocalFrame& frame, const py::object& latitude,
+                        const py::object& longitude, const py::object& ground,
+                        const py::object& height, const py::object& smoke, double voxel_size,
+                        const py::object& temperature, const py::object& flame_position,
+                        const py::object& flame_power, const std::optional<io::Metadata>& metadata,
+                        const std::optional<std::vector<std::string>>& grids,
+                        const ViewSet* view_set) {
   const LevelArrays model(latitude, longitude, ground, height, smoke, temperature);
-  const WantedArrays arrays(flame_position, flame_power, grids, sight, metadata);
+  const GridRequestArrays arrays(flame_position, flame_power, grids, view_set, metadata);
   const volume::Levels levels = model.levels();
   const py::gil_scoped_release release;
   return volume::write_levels(path, frame, levels, voxel_size, arrays.wanted);
 }
 
-Frame write(const Path& path, const std::map<std::string, py::object>& grids, double voxel_size,
-            const Vector& origin, bool half, float tolerance,
-            const std::optional<io::Metadata>& metadata, const Sight* sight,
-            const std::string& within) {
+VdbSummary write(const Path& path, const std::map<std::string, py::object>& grids,
+                 double voxel_size, const Vector& origin, bool half, float tolerance,
+                 const std::optional<io::Metadata>& metadata, const ViewSet* view_set,
+                 const std::string& within) {
   std::map<std::string, Array<float>> arrays;
   std::map<std::string, volume::DenseField> fields;
   for (const auto& [name, object] : grids) {
@@ -154,24 +156,25 @@ Frame write(const Path& path, const std::map<std::string, py::object>& grids, do
     arrays[name] = array;
   }
   const py::gil_scoped_release release;
-  return volume::write_dense(path, fields, {voxel_size, origin, half, tolerance, sight, within},
+  return volume::write_dense(path, fields, {voxel_size, origin, half, tolerance, view_set, within},
                              metadata.value_or(io::Metadata{}));
 }
 
-py::tuple hidden(const py::object& extinction, double voxel_size, const py::object& places_object,
-                 const py::object& directions_object, double depth, const Vector& origin,
-                 const std::optional<Placed>& beyond) {
+py::tuple occluded_smoke(const py::object& extinction, double voxel_size,
+                         const py::object& places_object, const py::object& directions_object,
+                         double depth, const Vector& origin, const std::optional<Placed>& beyond) {
   const auto smoke = to_array<float>(extinction, "extinction", {-1, -1, -1});
   const auto places = to_array<double>(places_object, "places", {-1, 3});
   const auto directions = to_array<double>(directions_object, "directions", {-1, 3});
-  const volume::Brick inside = brick(smoke, voxel_size, origin);
+  const volume::VoxelGrid inside = brick(smoke, voxel_size, origin);
   const Beyond outside(beyond);
   auto found = zeros({smoke.shape(0), smoke.shape(1), smoke.shape(2)});
   const std::span<float> out = writable(found);
-  volume::OwnBrick hides;
+  volume::OwnedVoxelGrid hides;
   {
     const py::gil_scoped_release release;
-    hides = volume::hidden(inside, {view(places), view(directions)}, depth, outside.get(), out);
+    hides =
+        volume::occluded_smoke(inside, {view(places), view(directions)}, depth, outside.get(), out);
   }
   return py::make_tuple(found, placed(std::move(hides)));
 }
@@ -195,13 +198,13 @@ void bind_types(Module& module) {
       .def_readonly("emitted", &Puffs::emitted)
       .def_readonly("left", &Puffs::left)
       .def("__len__", &Puffs::size);
-  Class<Frame>(module, "Frame")
-      .def_readonly("active_voxels", &Frame::active_voxels)
-      .def_readonly("voxels", &Frame::voxels)
-      .def_readonly("bytes", &Frame::bytes)
-      .def_readonly("mass", &Frame::mass)
-      .def_readonly("hidden", &Frame::hidden)
-      .def_property_readonly("bounds", [](const Frame& frame) {
+  Class<VdbSummary>(module, "VdbSummary")
+      .def_readonly("active_voxels", &VdbSummary::active_voxels)
+      .def_readonly("voxels", &VdbSummary::voxels)
+      .def_readonly("bytes", &VdbSummary::bytes)
+      .def_readonly("mass", &VdbSummary::mass)
+      .def_readonly("culled_mass", &VdbSummary::culled_mass)
+      .def_property_readonly("bounds", [](const VdbSummary& frame) {
         return py::array_t<double>({2, 3}, frame.bounds.data());
       });
 }
@@ -234,20 +237,20 @@ void init_volume(Module module) {
   module.def("write_smoke", &write_smoke, py::arg("path"), py::arg("puffs"), py::arg("voxel_size"),
              py::arg("flame_position") = py::none(), py::arg("flame_power") = py::none(),
              py::arg("metadata") = py::none(), py::arg("grids") = py::none(),
-             py::arg("sight") = py::none());
+             py::arg("views") = py::none());
   module.def("write_levels", &write_levels, py::arg("path"), py::arg("frame"), py::arg("latitude"),
              py::arg("longitude"), py::arg("ground"), py::arg("height"), py::arg("smoke"),
              py::arg("voxel_size"), py::arg("temperature") = py::none(),
              py::arg("flame_position") = py::none(), py::arg("flame_power") = py::none(),
              py::arg("metadata") = py::none(), py::arg("grids") = py::none(),
-             py::arg("sight") = py::none());
+             py::arg("views") = py::none());
   module.def("write", &write, py::arg("path"), py::arg("grids"), py::arg("voxel_size"),
              py::arg("origin") = Vector{}, py::arg("half") = true, py::arg("tolerance") = 0.0F,
-             py::arg("metadata") = py::none(), py::arg("sight") = py::none(),
+             py::arg("metadata") = py::none(), py::arg("views") = py::none(),
              py::arg("within") = "");
-  module.def("hidden", &hidden, py::arg("extinction"), py::arg("voxel_size"), py::arg("places"),
-             py::arg("directions"), py::arg("depth"), py::arg("origin") = Vector{},
-             py::arg("beyond") = py::none());
+  module.def("occluded_smoke", &occluded_smoke, py::arg("extinction"), py::arg("voxel_size"),
+             py::arg("places"), py::arg("directions"), py::arg("depth"),
+             py::arg("origin") = Vector{}, py::arg("beyond") = py::none());
 }
 
 } // namespace firetwin::bindings

@@ -57,7 +57,7 @@ double interpolated(const std::vector<double>& x, const std::vector<double>& y, 
   return y[i - 1] + share * (y[i] - y[i - 1]);
 }
 
-Ground::Ground(const Lattice& lattice, std::vector<double> height)
+Terrain::Terrain(const Lattice& lattice, std::vector<double> height)
     : nx_(lattice.nx), top_(lattice.top()) {
   mean_ = height.empty() ? 0.0
                          : std::accumulate(height.begin(), height.end(), 0.0) /
@@ -65,12 +65,12 @@ Ground::Ground(const Lattice& lattice, std::vector<double> height)
   take(lattice, height);
 }
 
-Ground::Ground(const Lattice& lattice, std::vector<double> height, const Ground& around)
+Terrain::Terrain(const Lattice& lattice, std::vector<double> height, const Terrain& around)
     : nx_(lattice.nx), mean_(around.mean_), top_(around.top_) {
   take(lattice, height);
 }
 
-void Ground::take(const Lattice& lattice, const std::vector<double>& height) {
+void Terrain::take(const Lattice& lattice, const std::vector<double>& height) {
   above_.resize(static_cast<std::size_t>(lattice.nx * lattice.ny));
   if (height.empty()) {
     return;
@@ -80,13 +80,13 @@ void Ground::take(const Lattice& lattice, const std::vector<double>& height) {
   flat_ = std::all_of(above_.begin(), above_.end(), [](double h) { return h == 0.0; });
   if (std::any_of(above_.begin(), above_.end(),
                   [&](double h) { return std::abs(h) > 0.5 * top_; })) {
-    throw std::invalid_argument("ground must stay within half the box's height from its mean");
+    throw std::invalid_argument("ground must stay within half the domain's height from its mean");
   }
 }
 
-Ambient::Ambient(const Lattice& lattice, const Ground& ground, const Profile& profile)
+Ambient::Ambient(const Lattice& lattice, const Terrain& ground, const Profile& profile)
     : moist_(!profile.water.empty()), reference_(0.0), theta_(lattice, lattice.nz),
-      water_(lattice, moist_ ? lattice.nz : 0), virtual_(lattice, moist_ ? lattice.nz : 0) {
+      water_(lattice, moist_ ? lattice.nz : 0), virtual_theta_(lattice, moist_ ? lattice.nz : 0) {
   check_profile(profile);
   reference_ = std::round(interpolated(profile.height, profile.potential_temperature, 0.0));
   weigh(lattice, profile);
@@ -136,7 +136,7 @@ std::vector<std::array<float, 2>> Ambient::set_wind(const Lattice& lattice, cons
   return change;
 }
 
-void Ambient::rest(const Lattice& lattice, const Ground& ground, const Profile& p) {
+void Ambient::rest(const Lattice& lattice, const Terrain& ground, const Profile& p) {
   each(lattice.nz, [&](Index k) {
     const double height = lattice.middle[static_cast<std::size_t>(k)];
     std::vector<float> cloud(static_cast<std::size_t>(lattice.nx));
@@ -153,8 +153,8 @@ void Ambient::rest(const Lattice& lattice, const Ground& ground, const Profile& 
         }
       }
       if (moist_) {
-        virtual_row(lattice.nx, theta_.row(k, j), water_.row(k, j), weather(k), virtual_.row(k, j),
-                    cloud.data());
+        virtual_row(lattice.nx, theta_.row(k, j), water_.row(k, j), level_reference(k),
+                    virtual_theta_.row(k, j), cloud.data());
       }
     }
   });

@@ -39,7 +39,7 @@ void push_row(Index n, const float* __restrict a, const float* __restrict b, flo
 
 } // namespace
 
-Buoyancy::Buoyancy(const Lattice& lattice, const Ground& ground, const Ambient& ambient)
+Buoyancy::Buoyancy(const Lattice& lattice, const Terrain& ground, const Ambient& ambient)
     : lattice_(lattice), ground_(ground), ambient_(ambient), force_(lattice, lattice.nz) {}
 
 void Buoyancy::weigh(const State& state, Index k) {
@@ -52,9 +52,9 @@ void Buoyancy::weigh(const State& state, Index k) {
                 static_cast<float>(ambient_.reference()), force);
       continue;
     }
-    virtual_row(lattice_.nx, theta, state.water.row(k, j), ambient_.weather(k), here.data(),
+    virtual_row(lattice_.nx, theta, state.water.row(k, j), ambient_.level_reference(k), here.data(),
                 cloud.data());
-    outweigh_row(lattice_.nx, here.data(), ambient_.heaviness().row(k, j), force);
+    outweigh_row(lattice_.nx, here.data(), ambient_.virtual_theta().row(k, j), force);
   }
 }
 

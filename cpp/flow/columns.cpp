@@ -2,7 +2,7 @@
 
 #include "base/catmull_rom.hpp"
 #include "base/clones.hpp"
-#include "flow/between.hpp"
+#include "flow/linear_interpolator.hpp"
 #include "flow/parallel.hpp"
 
 #include <algorithm>
@@ -71,7 +71,7 @@ void stand(float at, Index count, std::array<Index, 2>& near, float& part,
 
 } // namespace
 
-Standing::Standing(float at_column, float at_row, const Shape& shape) {
+ColumnStencil::ColumnStencil(float at_column, float at_row, const Shape& shape) {
   stand(at_row, shape.ny, row, part[0], wide_row, row_weight);
   stand(at_column, shape.nx, column, part[1], wide_column, column_weight);
 }
@@ -91,7 +91,7 @@ Columns::Columns(const float* values, const Shape& shape, Index step)
   });
 }
 
-void Columns::linear(const Standing& at, Index first, Index last, float* out) const {
+void Columns::linear(const ColumnStencil& at, Index first, Index last, float* out) const {
   std::array<const float*, 4> from{};
   for (std::size_t n = 0; n < 4; ++n) {
     from[n] = column(at.row[n / 2], at.column[n % 2]) + first;
@@ -99,7 +99,7 @@ void Columns::linear(const Standing& at, Index first, Index last, float* out) co
   mix_columns(from, at.part, last + 1 - first, out + first);
 }
 
-void Columns::cubic(const Standing& at, Index first, Index last, float* out) const {
+void Columns::cubic(const ColumnStencil& at, Index first, Index last, float* out) const {
   std::fill(out + first, out + first + whole_lanes(last + 1 - first), 0.0F);
   for (std::size_t j = 0; j < 4; ++j) {
     std::array<const float*, 4> from{};
@@ -110,11 +110,11 @@ void Columns::cubic(const Standing& at, Index first, Index last, float* out) con
   }
 }
 
-void linear_between(const Places& p, const float* levels, float* out) {
+void linear_between(const LevelSamples& p, const float* levels, float* out) {
   mix_levels(p.low.data(), p.part.data(), p.count, levels, out);
 }
 
-void cubic_between(const Places& p, const float* levels, float* out) {
+void cubic_between(const LevelSamples& p, const float* levels, float* out) {
   curve_levels(p.low.data(), p.part.data(), p.count, levels, out);
 }
 

@@ -1,7 +1,7 @@
 #include "flow/detail.hpp"
 
 #include "base/smoothstep.hpp"
-#include "flow/between.hpp"
+#include "flow/linear_interpolator.hpp"
 #include "flow/parallel.hpp"
 
 #include <algorithm>
@@ -18,39 +18,40 @@ constexpr float crisp_reach[] = {0.8F, 7.0F};    // of noise in the amount
 constexpr float whole[] = {5.5F,
                            8.5F}; // amount near by that noise of least and of full reach tears
 constexpr float lump_slope = 1.4F;
-constexpr float cloud_depth = 500.0F; // m above condensation over which smoke turns to cloud
+constexpr float cloud_depth =
+    500.0F; // m above the condensation height over which smoke turns to cloud
 constexpr float cloud_ages[] = {600.0F, 1600.0F}; // s, between which droplets evaporate
 
 float ramp(float low, float high, float x) {
   return std::clamp((x - low) / (high - low), 0.0F, 1.0F);
 }
 
-void check(const Moment& m) {
+void check(const SmokeSnapshot& m) {
   const std::size_t n = m.shape.size();
   const auto plane = static_cast<std::size_t>(m.shape.ny * m.shape.nx);
   const bool fits = m.levels.size() == static_cast<std::size_t>(m.shape.nz) &&
                     m.heights.size() == n && m.ground.size() == plane && m.smoke.size() == n &&
-                    m.age.size() == n && m.rise.size() == n && m.warmth.size() == n &&
+                    m.age.size() == n && m.rise.size() == n && m.temperature_excess.size() == n &&
                     (m.glow.empty() || m.glow.size() == n) && m.drift.size() == Drift::parts * n;
   if (!fits || n == 0 || m.shape.nz < 2) {
     throw std::invalid_argument(
-        "the moment's arrays must be of one shape, with two levels at least");
+        "the snapshot's arrays must be of one shape, with two levels at least");
   }
 }
 
 } // namespace
 
-Detail::Detail(const Moment& m, const Look& look)
+Detail::Detail(const SmokeSnapshot& m, const DetailSettings& settings)
     : shape_(m.shape), spacing_(m.spacing), corner_(m.corner),
-      levels_(m.levels.begin(), m.levels.end()), weights_(m.weights), look_(look),
-      unit_(unit / look.scale) {
+      levels_(m.levels.begin(), m.levels.end()), weights_(m.weights), settings_(settings),
+      unit_(unit / settings.scale) {
   check(m);
   for (std::size_t p = 0; p < Drift::phases; ++p) {
-    seeds_[p] = (look.seed * 2U + static_cast<std::uint32_t>(p)) * 977U +
+    seeds_[p] = (settings.seed * 2U + static_cast<std::uint32_t>(p)) * 977U +
                 static_cast<std::uint32_t>(m.turns[p]);
   }
   for (const float level : levels_) {
-    sinking_.push_back(std::exp(-level / (look.scale * terrain_fade)));
+    sinking_.push_back(std::exp(-level / (settings.scale * terrain_fade)));
   }
   Values amount(shape_.size());
   each(shape_.nz, [&](Index k) {
@@ -69,7 +70,7 @@ Detail::Detail(const Moment& m, const Look& look)
   find_drift(m);
 }
 
-void Detail::find_drift(const Moment& m) {
+void Detail::find_drift(const SmokeSnapshot& m) {
   Values part(shape_.size());
   for (std::size_t p = 0; p < Drift::parts; ++p) {
     if (!shows(p / 3)) {
@@ -78,27 +79,28 @@ void Detail::find_drift(const Moment& m) {
     for (std::size_t n = 0; n < part.size(); ++n) {
       part[n] = m.drift[n * Drift::parts + p];
     }
-    blur(part, shape_, look_.blur);
+    blur(part, shape_, settings_.blur);
     drift_[p] = Columns(part.data(), shape_);
   }
 }
 
 /// How much of vapour that rose to a height has condensed, 0 to 1.
 float Detail::capped(float height) const {
-  return smoothstep(look_.condensation, look_.condensation + cloud_depth, height);
+  return smoothstep(settings_.condensation_height, settings_.condensation_height + cloud_depth,
+                    height);
 }
 
-void Detail::find_vigour(const Moment& m, const Values& amount) {
+void Detail::find_vigour(const SmokeSnapshot& m, const Values& amount) {
   Values near = amount, dense = amount;
   spread(near, shape_, 2);
   blur(dense, shape_, {0.7, 0.7, 0.7});
   spread(dense, shape_, 2);
   Values vigour(shape_.size());
-  const float speed = std::cbrt(look_.scale), time = speed * speed;
+  const float speed = std::cbrt(settings_.scale), time = speed * speed;
   for (std::size_t n = 0; n < vigour.size(); ++n) {
     const float cap = capped(m.heights[n]);
     const float lively = ramp(lively_rise[0], lively_rise[1], m.rise[n] / speed) +
-                         ramp(lively_warmth[0], lively_warmth[1], m.warmth[n]) +
+                         ramp(lively_warmth[0], lively_warmth[1], m.temperature_excess[n]) +
                          0.8F * ramp(lively_age, 0.0F, m.age[n] / time) +
                          cap * ramp(cloud_ages[1], cloud_ages[0], m.age[n]);
     const float droplets = cloud_amount * cap;
@@ -112,7 +114,7 @@ void Detail::find_vigour(const Moment& m, const Values& amount) {
   vigour_ = Columns(vigour.data(), shape_);
 }
 
-void Detail::find_reach(const Moment& m, const Values& amount) {
+void Detail::find_reach(const SmokeSnapshot& m, const Values& amount) {
   const Shape& s = shape_;
   Values reach(s.size()), square(s.size());
   each(s.nz, [&](Index k) {
@@ -151,7 +153,7 @@ void Detail::find_reach(const Moment& m, const Values& amount) {
     const float most = mix(crisp_reach[0], crisp_reach[1], ramp(whole[0], whole[1], thick));
     solid[n] = ramp(core[0], core[1], thick);
     reach[n] =
-        std::clamp(lump_slope * static_cast<float>(look_.size) * steep, crisp_reach[0], most);
+        std::clamp(lump_slope * static_cast<float>(settings_.size) * steep, crisp_reach[0], most);
   }
   reach_ = Columns(reach.data(), shape_);
   solid_ = Columns(solid.data(), shape_);

@@ -1,7 +1,7 @@
 #include "flow/detail_brush.hpp"
 
 #include "base/smoothstep.hpp"
-#include "flow/between.hpp"
+#include "flow/linear_interpolator.hpp"
 #include "flow/parallel.hpp"
 
 #include <algorithm>
@@ -22,9 +22,9 @@ constexpr double finest = 1.7; // lumps, voxels
 
 } // namespace
 
-Detail::Brush::Brush(const Detail& d, const Brick& b, Painted& out)
+Detail::Brush::Brush(const Detail& d, const VoxelRegion& b, DetailOutput& out)
     : detail_(d), brick_(b), out_(out), at_(0.0F, 0.0F, d.shape_),
-      lumps_(d.look_.size, finest * b.voxel, d.seeds_) {
+      noise_(d.settings_.size, finest * b.voxel, d.seeds_) {
   const auto levels = static_cast<std::size_t>(d.shape_.nz + lanes);
   height_.resize(levels);
   level_.resize(levels + 2);
@@ -64,12 +64,12 @@ bool Detail::Brush::stand(Index i, Index j) {
   j_ = j;
   const double column = (x_ - d.corner_[0]) / d.spacing_ - 0.5;
   const double row = (y_ - d.corner_[1]) / d.spacing_ - 0.5;
-  at_ = Standing(static_cast<float>(column), static_cast<float>(row), d.shape_);
+  at_ = ColumnStencil(static_cast<float>(column), static_cast<float>(row), d.shape_);
   return column >= 0.0 && row >= 0.0 && column <= static_cast<double>(d.shape_.nx - 1) &&
          row <= static_cast<double>(d.shape_.ny - 1);
 }
 
-/// Between which levels there is smoke to see; false if there is none.
+/// LinearInterpolator which levels there is smoke to see; false if there is none.
 bool Detail::Brush::find_levels() {
   const Index top = detail_.shape_.nz - 1;
   float* amount = level_.data() + 1;
@@ -94,12 +94,13 @@ void Detail::Brush::find_heights() {
 
 /// Those that are wanted, over the ground and in smoke.
 void Detail::Brush::find_voxels(Index i, Index j) {
-  const Brick& b = brick_;
+  const VoxelRegion& b = brick_;
   const auto blocks = b.blocks();
   const std::uint8_t* wanted =
       b.wanted.empty()
           ? nullptr
-          : b.wanted.data() + (i / Brick::block * blocks[1] + j / Brick::block) * blocks[2];
+          : b.wanted.data() +
+                (i / VoxelRegion::block * blocks[1] + j / VoxelRegion::block) * blocks[2];
   const auto top = static_cast<std::size_t>(std::min(last_ + 1, high_));
   auto k = static_cast<std::size_t>(std::max(first_ - 1, Index{0}));
   const float ground = b.surface[column_] - static_cast<float>(b.voxel);
@@ -108,8 +109,8 @@ void Detail::Brush::find_voxels(Index i, Index j) {
   const double first = std::min(std::max(0.0, below), static_cast<double>(b.shape[2]));
   places_.count = 0;
   for (auto m = static_cast<Index>(first); m < b.shape[2]; ++m) {
-    if (wanted != nullptr && wanted[m / Brick::block] == 0) {
-      m += Brick::block - 1 - m % Brick::block;
+    if (wanted != nullptr && wanted[m / VoxelRegion::block] == 0) {
+      m += VoxelRegion::block - 1 - m % VoxelRegion::block;
       continue;
     }
     const auto height = static_cast<float>(b.origin[2] + static_cast<double>(m) * b.voxel);
@@ -160,7 +161,7 @@ void Detail::Brush::paint_surface() {
   for (std::size_t n = 0; n < count; ++n) {
     cloud_[n] = vigour_[n] * d.capped(high_up_[n]);
     const float fresh =
-        (1.0F - cloud_[n]) * smoothstep(d.look_.ages[1], d.look_.ages[0], value_[n]);
+        (1.0F - cloud_[n]) * smoothstep(d.settings_.ages[1], d.settings_.ages[0], value_[n]);
     if (fresh > 0.0F) {
       out_.set(SparseSmoke::fresh, place(n), fresh);
     }
@@ -238,7 +239,7 @@ void Detail::Brush::finish() {
   Row raise{}, noise;
   for (std::size_t p = 0; p < Drift::phases && w.count > 0; ++p) {
     if (detail_.shows(p)) {
-      lumps_.at(w.origin[p], p, w.vigour, noise);
+      noise_.at(w.origin[p], p, w.vigour, noise);
       for (std::size_t lane = 0; lane < noise.size(); ++lane) {
         raise[lane] += detail_.weights_[p] * noise[lane];
       }
@@ -263,16 +264,17 @@ float Detail::Brush::extinction(std::size_t n, float raise) const {
   const float lumps = dense(low, high, raised, held, mix(soft_gain, crisp_gain, v));
   const float veil =
       dense(soft_cut[0], soft_cut[1], veiled, veiled, veil_gain * v * (1.0F - solid));
-  const float rooted =
-      mix(root, 1.0F,
-          smoothstep(root_heights[0], root_heights[1], waiting_.above[n] / detail_.look_.scale));
-  const Look& look = detail_.look_;
+  const float rooted = mix(
+      root, 1.0F,
+      smoothstep(root_heights[0], root_heights[1], waiting_.above[n] / detail_.settings_.scale));
+  const DetailSettings& settings = detail_.settings_;
   const float full =
-      (lumps + veil) * detail_.unit_ * per_kg * static_cast<float>(look.opacity) * rooted;
-  return full > 0.0F ? look.thickest * (1.0F - std::exp(-full / look.thickest)) : 0.0F;
+      (lumps + veil) * detail_.unit_ * per_kg * static_cast<float>(settings.opacity) * rooted;
+  return full > 0.0F ? settings.max_extinction * (1.0F - std::exp(-full / settings.max_extinction))
+                     : 0.0F;
 }
 
-SparseSmoke Detail::paint(const Brick& b, float thinnest) const {
+SparseSmoke Detail::paint(const VoxelRegion& b, float min_extinction) const {
   const auto columns = static_cast<std::size_t>(b.shape[0] * b.shape[1]);
   const auto [nx, ny, nz] = b.blocks();
   const auto blocks = static_cast<std::size_t>(nx * ny * nz);
@@ -283,7 +285,7 @@ SparseSmoke Detail::paint(const Brick& b, float thinnest) const {
   SparseSmoke smoke({b.shape[0], b.shape[1], b.shape[2]}, b.voxel, b.origin, glows());
   constexpr Index side = SparseSmoke::side;
   each(smoke.blocks()[0], [&](Index block_i) {
-    Painted out(smoke);
+    DetailOutput out(smoke);
     Brush brush(*this, b, out);
     for (Index block_j = 0; block_j < smoke.blocks()[1]; ++block_j) {
       for (Index i = block_i * side; i < std::min((block_i + 1) * side, b.shape[0]); ++i) {
@@ -294,7 +296,7 @@ SparseSmoke Detail::paint(const Brick& b, float thinnest) const {
         }
       }
       brush.finish();
-      out.move_to(smoke, block_i, block_j, thinnest);
+      out.move_to(smoke, block_i, block_j, min_extinction);
     }
   });
   return smoke;

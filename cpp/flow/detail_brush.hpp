@@ -1,8 +1,8 @@
 #pragma once
 
 #include "flow/detail.hpp"
-#include "flow/lumps.hpp"
-#include "flow/painted.hpp"
+#include "flow/detail_noise.hpp"
+#include "flow/detail_output.hpp"
 
 #include <array>
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace firetwin::flow {
 /// columns.
 class Detail::Brush {
 public:
-  Brush(const Detail& detail, const Brick& brick, Painted& out);
+  Brush(const Detail& detail, const VoxelRegion& brick, DetailOutput& out);
 
   void column(Index i, Index j);
   /// Paints what still waits for others.
@@ -44,14 +44,14 @@ private:
   float extinction(std::size_t n, float raise) const;
 
   const Detail& detail_;
-  const Brick& brick_;
-  Painted& out_;
+  const VoxelRegion& brick_;
+  DetailOutput& out_;
 
   // Of a column.
   double x_ = 0.0, y_ = 0.0;   ///< m
   std::size_t column_ = 0;     ///< in the brick
   Index i_ = 0, j_ = 0;        ///< the same along x and y
-  Standing at_;                ///< in the flow
+  ColumnStencil at_;           ///< in the flow
   Index first_ = 0, last_ = 0; ///< levels with smoke
   Index low_ = 0, high_ = 0;   ///< levels that values between them are found from
   std::vector<float> height_;  ///< [nz] of cells' middles here, m
@@ -59,12 +59,12 @@ private:
   std::array<std::vector<float>, Drift::parts> drift_; ///< [nz] m
 
   // Of the column's voxels with smoke.
-  Places places_;
+  LevelSamples places_;
   std::vector<Index> voxel_;           ///< from the brick's bottom up
   std::vector<float> high_up_, above_; ///< m in the ground's datum, and over the ground
   std::vector<float> amount_, vigour_, cloud_, reach_, solid_, value_;
 
-  Lumps lumps_;
+  DetailNoise noise_;
   Waiting waiting_;
 };
 

@@ -1,7 +1,7 @@
 #include "flow/drift.hpp"
 
 #include "base/check.hpp"
-#include "flow/between.hpp"
+#include "flow/linear_interpolator.hpp"
 #include "flow/parallel.hpp"
 
 #include <algorithm>
@@ -91,8 +91,8 @@ float Drift::height(float level) const {
 }
 
 void Drift::carry(double dt, Index k) {
-  const Between<3> speed(shape_.nx, shape_.ny, shape_.nz, speed_.data());
-  const Between<parts> drift(shape_.nx, shape_.ny, shape_.nz, values_.data());
+  const LinearInterpolator<3> speed(shape_.nx, shape_.ny, shape_.nz, speed_.data());
+  const LinearInterpolator<parts> drift(shape_.nx, shape_.ny, shape_.nz, values_.data());
   const auto step = static_cast<float>(dt);
   const auto gap = static_cast<float>(solver_->lattice().spacing * static_cast<double>(every));
   const auto top = static_cast<float>(shape_.nz - 1), z = static_cast<float>(k);

@@ -10,12 +10,13 @@
 
 namespace firetwin::flow {
 
-/// How far the air in each cell has come since its phase began: noise at (place - drift) travels
-/// with the flow. Flow shears noise into streaks in the end, so a phase begins anew every `period`,
-/// and two of them, half a period apart, take turns (Neyret 2003, "Advected textures").
+/// Advected texture coordinates (Neyret 2003, "Advected textures"): displacement of the air since a
+/// phase's start, so noise at (place - drift) travels with the flow. Shear stretches noise into
+/// streaks, so each phase restarts every `period`. Two phases, half a period apart, are blended.
 ///
-/// Carried semi-Lagrangian (midpoint) at the middles of every other cell, linear between: what that
-/// blurs is below the size at which drift is used. East, north and up along the levels, m.
+/// Advection is semi-Lagrangian (midpoint rule) at the centres of every other cell, linear between.
+/// Its blur is below the size at which drift is used. Components are east, north and up along the
+/// levels, m.
 class Drift {
 public:
   static constexpr int phases = 2;
@@ -23,15 +24,15 @@ public:
 
   Drift(std::shared_ptr<const Solver> solver, double period);
 
-  /// Goes on to the solver's time, with the wind that it has now.
+  /// Advects up to the solver's time with its present wind.
   void advance();
 
-  /// How much a phase shows: none where it begins and ends; squares add up to 1.
+  /// Blend weight of each phase, 0 at its start and end; the squares sum to 1.
   std::array<float, phases> weights() const;
-  /// How often each phase has begun: its noise is another one each time.
+  /// Number of restarts of each phase; each restart changes the noise's seed.
   std::array<std::int64_t, phases> turns() const { return turns_; }
   double time() const { return time_; }
-  /// Every other cell's levels, rows and columns.
+  /// Number of levels, rows and columns (every other cell's).
   Shape shape() const { return shape_; }
   /// [levels][rows][columns][phase][3], m
   std::span<const float> values() const { return values_; }

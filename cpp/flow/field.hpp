@@ -7,8 +7,8 @@
 
 namespace firetwin::flow {
 
-/// Numbers on a lattice's levels, with ghost rows and columns all around. Whole lanes that begin in
-/// a row may be read: behind the last one lies some room.
+/// Field of floats on a lattice, with ghost cells in x and y. Whole SIMD lanes may be read from any
+/// place in a row: the memory is padded at its end.
 class Field {
 public:
   Field(const Lattice& lattice, Index levels)

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-/// Filters on dense arrays [nz][ny][nx]; what lies outside is as the nearest inside.
+/// Filters on dense arrays [nz][ny][nx]; edge values are replicated.
 namespace firetwin::flow {
 
 struct Shape {
@@ -13,11 +13,11 @@ struct Shape {
   std::size_t size() const { return static_cast<std::size_t>(nz * ny * nx); }
 };
 
-/// Gaussian blur by `cells`, the standard deviation along levels, rows and columns, cut at three of
-/// them.
+/// Gaussian blur with standard deviations `cells` along levels, rows and columns, cut off at three
+/// of them.
 void blur(std::vector<float>& values, const Shape& shape, const std::array<double, 3>& cells);
 
-/// The largest value within `reach` cells along each axis.
+/// Dilation: the largest value within `reach` cells along each axis.
 void spread(std::vector<float>& values, const Shape& shape, Index reach);
 
 } // namespace firetwin::flow

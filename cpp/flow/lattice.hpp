@@ -10,7 +10,7 @@ using Index = std::ptrdiff_t;
 /// Ghost cells on each side, in x and in y: as many as a stencil reaches.
 inline constexpr Index halo = 2;
 
-/// Floats that processors take at once; rows are read and made in wholes of them.
+/// SIMD width, floats; rows are processed in multiples of it.
 inline constexpr Index lanes = 16;
 constexpr Index whole_lanes(Index n) {
   return (n + lanes - 1) / lanes * lanes;

@@ -2,7 +2,7 @@
 
 #include "base/clones.hpp"
 #include "base/noise.hpp"
-#include "flow/between.hpp"
+#include "flow/linear_interpolator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,10 +36,10 @@ inline float perlin_at(float x, float y, float z, std::uint32_t seed) {
   const std::uint32_t i1 = i + along_x, j1 = j + along_y;
   const float u = fade(a), v = fade(b);
   const auto level = [&](std::uint32_t kk, float cc) {
-    const float front = mix(slope(finished(i ^ j ^ kk), a, b, cc),
-                            slope(finished(i1 ^ j ^ kk), a - 1.0F, b, cc), u);
-    const float back = mix(slope(finished(i ^ j1 ^ kk), a, b - 1.0F, cc),
-                           slope(finished(i1 ^ j1 ^ kk), a - 1.0F, b - 1.0F, cc), u);
+    const float front = mix(slope(murmur_finalizer(i ^ j ^ kk), a, b, cc),
+                            slope(murmur_finalizer(i1 ^ j ^ kk), a - 1.0F, b, cc), u);
+    const float back = mix(slope(murmur_finalizer(i ^ j1 ^ kk), a, b - 1.0F, cc),
+                           slope(murmur_finalizer(i1 ^ j1 ^ kk), a - 1.0F, b - 1.0F, cc), u);
     return mix(front, back, v);
   };
   const std::uint32_t own = seed * of_seed;
@@ -67,10 +67,10 @@ void strew(const std::array<std::int32_t, 3>& cell, std::uint32_t seed, Worley::
            std::array<float, Worley::points>& farther) {
   static constexpr Around around;
   for (std::size_t n = 0; n < Worley::points; ++n) {
-    const std::uint32_t h =
-        finished(static_cast<std::uint32_t>(cell[0] + around.x[n]) * along_x ^
-                 static_cast<std::uint32_t>(cell[1] + around.y[n]) * along_y ^
-                 static_cast<std::uint32_t>(cell[2] + around.z[n]) * along_z ^ seed * of_seed);
+    const std::uint32_t h = murmur_finalizer(
+        static_cast<std::uint32_t>(cell[0] + around.x[n]) * along_x ^
+        static_cast<std::uint32_t>(cell[1] + around.y[n]) * along_y ^
+        static_cast<std::uint32_t>(cell[2] + around.z[n]) * along_z ^ seed * of_seed);
     points.x[n] = static_cast<float>(around.x[n]) + share(h, 0);
     points.y[n] = static_cast<float>(around.y[n]) + share(h, 10);
     points.z[n] = static_cast<float>(around.z[n]) + share(h, 20);

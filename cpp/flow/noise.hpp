@@ -7,19 +7,19 @@
 #include <cstdint>
 #include <vector>
 
-/// Noise for detail that the flow's cells are too large for. Alike on any machine to rounding.
+/// Procedural noise, the same on any machine up to rounding.
 namespace firetwin::flow {
 
-/// Numbers of places that are worked on at once.
+/// Values of a row of places (SIMD lanes).
 using Row = std::array<float, static_cast<std::size_t>(lanes)>;
 
 /// Perlin's gradient noise (Perlin 2002, "Improving noise"), about -1 to 1, mean 0; one feature per
 /// unit.
 void perlin(const Row& x, const Row& y, const Row& z, std::uint32_t seed, Row& noise);
 
-/// Distance to the nearest of points strewn one to a unit cube (Worley 1996, "A cellular texture
-/// basis function"), about 0 to 1.2, mean 0.49: lumps with sharp valleys between them. Keeps the
-/// points round the last cubes, so that places which are near each other take little time.
+/// Worley (cellular) noise: distance to the nearest feature point, one point per unit cube (Worley
+/// 1996, "A cellular texture basis function"). It is about 0 to 1.2, mean 0.49. It looks like
+/// billows with sharp valleys. The points round recent cubes are cached.
 class Worley {
 public:
   Worley() : strewn_(kept) {}

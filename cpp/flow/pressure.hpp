@@ -1,6 +1,6 @@
 #pragma once
 
-#include "flow/cosine.hpp"
+#include "flow/cosine_transform.hpp"
 #include "flow/transport.hpp"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
@@ -9,11 +9,11 @@
 
 namespace firetwin::flow {
 
-/// Makes wind carry as much air into every cell as out of it, div(rho u) = 0, by the gradient of a
-/// pressure; the wind through the box's own faces stays as it is. Cosine transforms along x and y
-/// (the pressure is level across the sides) and, for each of their modes, one tridiagonal system
-/// along z solve it at once (Schumann and Sweet 1988, "Fast Fourier transforms for direct solution
-/// of Poisson's equation with staggered boundary conditions", J. Comput. Phys. 75).
+/// Pressure projection: removes the divergence of rho u by a pressure gradient. The wind through
+/// the domain's own faces is unchanged. The Poisson equation is solved directly, by cosine
+/// transforms along x and y (Neumann conditions) and a tridiagonal system along z for each mode
+/// (Schumann and Sweet 1988, "Fast Fourier transforms for direct solution of Poisson's equation
+/// with staggered boundary conditions", J. Comput. Phys. 75).
 class Pressure {
 public:
   Pressure(const Lattice& lattice, const Air& air);
@@ -39,8 +39,8 @@ private:
   std::vector<float> modes_;
   std::vector<float> pivot_;         ///< [nz][modes] 1 / pivot of the elimination
   std::vector<float> below_, above_; ///< [nz] coefficients of the levels below and above
-  Cosines along_x_, along_y_;
-  tbb::enumerable_thread_specific<Cosines::Rows> x_room_, y_room_;
+  CosineTransform along_x_, along_y_;
+  tbb::enumerable_thread_specific<CosineTransform::Rows> x_room_, y_room_;
 };
 
 } // namespace firetwin::flow

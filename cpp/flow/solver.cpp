@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "flow/parallel.hpp"
 #include "flow/rows.hpp"
-#include "flow/water.hpp"
+#include "flow/thermodynamics.hpp"
 
 #include <array>
 #include <cmath>
@@ -14,8 +14,8 @@
 namespace firetwin::flow {
 namespace {
 
-Ground ground_of(const Lattice& lattice, const std::vector<double>& height, const Solver* outer) {
-  return outer ? Ground(lattice, height, outer->ground()) : Ground(lattice, height);
+Terrain terrain_of(const Lattice& lattice, const std::vector<double>& height, const Solver* outer) {
+  return outer ? Terrain(lattice, height, outer->ground()) : Terrain(lattice, height);
 }
 
 void check_sources(const Sources& s) {
@@ -56,20 +56,28 @@ void shift(const Lattice& l, const std::vector<std::array<float, 2>>& change, Wi
 
 } // namespace
 
-Solver::Solver(Box box, Profile profile, const Settings& settings)
+SolverSettings nest_settings() {
+  SolverSettings settings;
+  settings.relaxation.width = 10.0;
+  settings.relaxation.time = 8.0;
+  return settings;
+}
+
+Solver::Solver(Domain box, Profile profile, const SolverSettings& settings)
     : Solver(std::move(box), std::move(profile), settings, nullptr) {}
 
-Solver::Solver(Box box, std::shared_ptr<const Solver> outer, const Settings& settings)
+Solver::Solver(Domain box, std::shared_ptr<const Solver> outer, const SolverSettings& settings)
     : Solver(std::move(box), outer->profile(), settings, outer) {}
 
-Solver::Solver(Box box, Profile profile, const Settings& settings,
+Solver::Solver(Domain box, Profile profile, const SolverSettings& settings,
                std::shared_ptr<const Solver> outer)
     : lattice_(box.nx, box.ny, box.spacing, std::move(box.levels)), corner_(box.corner),
       profile_(std::move(profile)), settings_(settings), outer_(std::move(outer)),
-      ground_(ground_of(lattice_, box.ground, outer_.get())), ambient_(lattice_, ground_, profile_),
-      state_(lattice_, ambient_.moist()), transport_(lattice_, ambient_.air()),
-      pressure_(lattice_, ambient_.air()), mixing_(lattice_, ambient_, settings.mixing),
-      buoyancy_(lattice_, ground_, ambient_), sides_(lattice_, ambient_, settings.edges),
+      ground_(terrain_of(lattice_, box.ground, outer_.get())),
+      ambient_(lattice_, ground_, profile_), state_(lattice_, ambient_.moist()),
+      transport_(lattice_, ambient_.air()), pressure_(lattice_, ambient_.air()),
+      mixing_(lattice_, ambient_, settings.smagorinsky), buoyancy_(lattice_, ground_, ambient_),
+      boundaries_(lattice_, ambient_, settings.relaxation),
       shares_(shares(lattice_, settings.source_depth)) {
   check_finite(corner_, "corner");
   check_above_zero(settings.source_depth, "source_depth");
@@ -82,14 +90,14 @@ Solver::Solver(Box box, Profile profile, const Settings& settings,
 /// Rest and the ambient wind; or the flow around.
 void Solver::start() {
   if (outer_) {
-    window_.emplace(outer_->lattice_, outer_->corner_, outer_->ambient_, lattice_, corner_,
-                    ambient_);
-    window_->look(outer_->state_, state_, lattice_.nx);
+    nest_interpolator_.emplace(outer_->lattice_, outer_->corner_, outer_->ambient_, lattice_,
+                               corner_, ambient_);
+    nest_interpolator_->interpolate(outer_->state_, state_, lattice_.nx);
     outside_ = std::make_unique<State>(lattice_, ambient_.moist());
     coming_ = std::make_unique<State>(lattice_, ambient_.moist());
-    window_->look(outer_->state_, *outside_, sides_.reach());
+    nest_interpolator_->interpolate(outer_->state_, *outside_, boundaries_.reach());
     time_ = outer_->time_;
-    seen_ = outer_->steps_;
+    outer_step_ = outer_->steps_;
   } else {
     state_.theta = ambient_.theta();
     state_.water = ambient_.water();
@@ -133,9 +141,9 @@ void Solver::follow(double dt) {
   if (outer_->profile_.wind != profile_.wind) {
     set_wind(outer_->profile_.wind);
   }
-  if (seen_ != outer_->steps_) {
-    window_->look(outer_->state_, *coming_, sides_.reach());
-    seen_ = outer_->steps_;
+  if (outer_step_ != outer_->steps_) {
+    nest_interpolator_->interpolate(outer_->state_, *coming_, boundaries_.reach());
+    outer_step_ = outer_->steps_;
   }
   const double ahead = outer_->time_ - time_;
   if (dt > ahead * (1.0 + 1e-6) + 1e-6) {
@@ -159,7 +167,7 @@ void Solver::follow(double dt) {
 void Solver::carry(double dt) {
   const std::array<Field*, 4> dry{&state_.smoke, &state_.age, &state_.theta, &state_.water};
   const std::array<Field*, 4> moist{&state_.smoke, &state_.age, &state_.water, &state_.theta};
-  std::array<Crossed, 4> crossed{};
+  std::array<BoundaryFlux, 4> crossed{};
   const std::size_t count = ambient_.moist() ? 4 : 3;
   Field* mixing = nullptr;
   if (mixing_.on()) {
@@ -227,9 +235,9 @@ void Solver::burn(double dt) {
   heat_.warmed += heat * dt * warmed;
 }
 
-/// Sides, ghost cells, and wind that keeps the air's mass.
+/// Boundaries, ghost cells, and wind that keeps the air's mass.
 void Solver::settle() {
-  sides_.close(state_, outside_.get());
+  boundaries_.fill_ghost_cells(state_, outside_.get());
   pressure_.project(state_.wind);
 }
 
@@ -239,7 +247,7 @@ void Solver::step(double dt) {
   carry(dt);
   burn(dt);
   buoyancy_.push(state_, dt);
-  sides_.relax(state_, outside_.get(), dt);
+  boundaries_.relax(state_, outside_.get(), dt);
   settle();
   time_ += dt;
   ++steps_;
@@ -262,14 +270,14 @@ double Solver::airborne() const {
   });
 }
 
-Mass Solver::mass() const {
-  Mass result = mass_;
+MassBudget Solver::mass() const {
+  MassBudget result = mass_;
   result.airborne = airborne();
   return result;
 }
 
-Heat Solver::heat() const {
-  Heat result = heat_;
+HeatBudget Solver::heat() const {
+  HeatBudget result = heat_;
   const double area = lattice_.spacing * lattice_.spacing;
   result.held = sum_each(lattice_.nz, [&](Index k) {
     double sum = 0.0;
@@ -283,27 +291,27 @@ Heat Solver::heat() const {
   return result;
 }
 
-Solver::Account Solver::account() const {
+Solver::Checkpoint Solver::checkpoint() const {
   return {time_, steps_, mass_, heat_};
 }
 
-void Solver::resume(const Account& account, const std::vector<std::array<double, 2>>& wind) {
+void Solver::restore(const Checkpoint& checkpoint, const std::vector<std::array<double, 2>>& wind) {
   if (wind.size() != profile_.height.size()) {
     throw std::invalid_argument("wind must be one for each height of the profile");
   }
-  if (outer_ && std::abs(account.time - outer_->time_) > 1e-6) {
+  if (outer_ && std::abs(checkpoint.time - outer_->time_) > 1e-6) {
     throw std::invalid_argument("restore the flow around first, to the same time");
   }
   profile_.wind = wind;
   ambient_.set_wind(lattice_, profile_);
   if (outer_) {
-    window_->look(outer_->state_, *outside_, sides_.reach());
-    seen_ = outer_->steps_;
+    nest_interpolator_->interpolate(outer_->state_, *outside_, boundaries_.reach());
+    outer_step_ = outer_->steps_;
   }
-  time_ = account.time;
-  steps_ = account.steps;
-  mass_ = account.mass;
-  heat_ = account.heat;
+  time_ = checkpoint.time;
+  steps_ = checkpoint.steps;
+  mass_ = checkpoint.mass;
+  heat_ = checkpoint.heat;
 }
 
 } // namespace firetwin::flow

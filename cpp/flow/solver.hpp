@@ -1,12 +1,12 @@
 #pragma once
 
 #include "flow/ambient.hpp"
+#include "flow/boundaries.hpp"
 #include "flow/buoyancy.hpp"
-#include "flow/mixing.hpp"
-#include "flow/nest.hpp"
+#include "flow/nest_interpolator.hpp"
 #include "flow/pressure.hpp"
-#include "flow/sides.hpp"
 #include "flow/sources.hpp"
+#include "flow/subgrid_mixing.hpp"
 #include "flow/transport.hpp"
 
 #include <cstdint>
@@ -16,94 +16,106 @@
 
 namespace firetwin::flow {
 
-/// Where a flow is solved.
-struct Box {
+/// Computational domain: a terrain-following grid of square columns.
+struct Domain {
   Index nx;
   Index ny;
-  double spacing;             ///< m
-  std::vector<double> levels; ///< [nz + 1] heights above ground, m, from 0 up
-  Corner corner{};            ///< of the lowest x and y, m
-  std::vector<double> ground; ///< [ny][nx] height of cells' middles, m, or empty: flat
+  double spacing;             ///< side of a square cell, m
+  std::vector<double> levels; ///< [nz + 1] heights of level faces above ground, m, from 0 up
+  Corner corner{};            ///< south-west corner, m
+  std::vector<double> ground; ///< [ny][nx] elevation of cell centres, m; empty: flat at 0
 };
 
-struct Settings {
-  Edges edges;
+/// Settings of a Solver.
+struct SolverSettings {
+  RelaxationZone relaxation;
   Gusts gusts;
-  double mixing = 0.18;       ///< Smagorinsky's constant; 0: the advection's diffusion alone
-  double source_depth = 90.0; ///< heat and smoke go in as exp(-height / depth), m
+  double smagorinsky = 0.18;  ///< Smagorinsky constant; 0 leaves the advection's diffusion alone
+  double source_depth = 90.0; ///< e-folding height of heat and smoke sources, m
 };
 
-/// The smoke's account, kg: initial + emitted + entered + rounding = airborne + left.
-struct Mass {
+/// Default settings of a nest: a sponge layer of 10 cells with a relaxation time of 8 s.
+SolverSettings nest_settings();
+
+/// Smoke mass budget, kg: initial + emitted + entered + rounding = airborne + left.
+struct MassBudget {
   double initial = 0.0;
   double emitted = 0.0;
-  double entered = 0.0; ///< through the sides
-  double left = 0.0;
-  double airborne = 0.0;
-  double rounding = 0.0; ///< what rounding added to the air
+  double entered = 0.0;  ///< through the lateral boundaries
+  double left = 0.0;     ///< through the lateral boundaries
+  double airborne = 0.0; ///< in the domain now
+  double rounding = 0.0; ///< sum of rounding errors
 };
 
-/// The heat's account, J. `held` is cp times the air's mass times its potential temperature above
-/// the ambient's; in neutral air it equals `warmed` until the plume reaches the sides or the top.
-struct Heat {
-  double given = 0.0;  ///< by sources
-  double warmed = 0.0; ///< the same over the Exner function where it was given
-  double held = 0.0;
+/// Heat budget, J. In neutral air `held` equals `warmed` until the plume reaches a boundary.
+struct HeatBudget {
+  double given = 0.0;  ///< released by sources
+  double warmed = 0.0; ///< `given` divided by the Exner function at the place of release
+  double held = 0.0;   ///< cp x air mass x potential temperature excess over the ambient air
 };
 
-/// Smoke of a fire as a buoyant flow: the anelastic equations (Lipps and Hemler 1982, "A scale
-/// analysis of deep moist convection", J. Atmos. Sci. 39) on a staggered grid that follows the
-/// ground. Each step carries scalars and momentum (transport.hpp), adds heat and smoke, weighs
-/// (buoyancy.hpp), draws the sides to what is around (sides.hpp), and balances (pressure.hpp).
+/// Anelastic flow solver for a buoyant smoke plume (Lipps and Hemler 1982, "A scale analysis of
+/// deep moist convection", J. Atmos. Sci. 39). The grid is a terrain-following Arakawa C grid. A
+/// step advects scalars and momentum (transport.hpp), adds heat and smoke (sources.hpp), adds
+/// buoyancy (buoyancy.hpp), relaxes the boundary zone (boundaries.hpp) and projects the wind
+/// (pressure.hpp).
 ///
-/// Limits: sound is left out, and with it winds near its speed; eddies below the cells are the
-/// advection's own diffusion; no rain, no ice, no radiation; levels follow the ground, but the
-/// pressure takes them for even ones and every column for one of mean depth, which holds for slopes
-/// well below 1 and relief well below the box's height.
+/// Limits:
+/// - The anelastic equations hold no sound waves, so winds must be well below the speed of sound.
+/// - There is no rain, no ice and no radiation.
+/// - The pressure solver treats levels as even and columns as of mean depth. Slopes must be well
+///   below 1, and relief well below the domain's height.
 class Solver {
 public:
-  Solver(Box box, Profile profile, const Settings& settings);
+  Solver(Domain domain, Profile profile, const SolverSettings& settings);
 
-  /// A finer box inside this one. Its sides and beginning are this flow's; `outer` must live on.
-  Solver(Box box, std::shared_ptr<const Solver> outer, const Settings& settings);
+  /// A nest: a finer domain inside of `outer`, one-way nested. It starts from the outer flow and
+  /// has boundary conditions from it. The nest keeps `outer` alive.
+  Solver(Domain domain, std::shared_ptr<const Solver> outer, const SolverSettings& settings);
 
-  /// What burns from now on.
+  /// Sets the fire's sources from now on.
   void set_sources(Sources sources);
 
-  /// Changes the wind around; the flow within moves along with it.
+  /// Changes the ambient wind, one vector (m/s) for each height of the profile. The change is added
+  /// to the whole flow.
   void set_wind(const std::vector<std::array<double, 2>>& wind);
 
-  /// @throws Error when the flow has become infinite
+  /// Advances by dt seconds.
+  /// @throws Error when the flow diverges to infinity
   void step(double dt);
 
-  double time() const { return time_; }
+  double time() const { return time_; } ///< model time since the start, s
   std::int64_t steps() const { return steps_; }
-  int substeps() const { return substeps_; }
+  int substeps() const { return substeps_; } ///< advection substeps of the last step
+  /// Largest Courant number of the last step.
   double courant() const { return transport_.courant(); }
+  /// Largest |div(rho u)| / rho, 1/s.
   double divergence() const { return pressure_.divergence(state_.wind); }
-  Mass mass() const;
-  Heat heat() const;
+  MassBudget mass() const;
+  HeatBudget heat() const;
   const Lattice& lattice() const { return lattice_; }
-  const Ground& ground() const { return ground_; }
+  const Terrain& ground() const { return ground_; }
   const Ambient& ambient() const { return ambient_; }
   const Corner& corner() const { return corner_; }
   const State& state() const { return state_; }
   const Profile& profile() const { return profile_; }
 
-  /// For going on from a state that was kept.
-  struct Account {
+  /// Scalars of a checkpoint; with `state()` and the wind profile it restarts the flow.
+  struct Checkpoint {
     double time = 0.0;
     std::int64_t steps = 0;
-    Mass mass;
-    Heat heat;
+    MassBudget mass;
+    HeatBudget heat;
   };
-  Account account() const;
-  State& open() { return state_; }
-  void resume(const Account& account, const std::vector<std::array<double, 2>>& wind);
-  void close() { sides_.close(state_, outside_.get()); } ///< ghost cells of a state that was put in
+  Checkpoint checkpoint() const;
+  /// State to write a checkpoint's fields into; call `fill_ghost_cells()` afterwards.
+  State& mutable_state() { return state_; }
+  void restore(const Checkpoint& checkpoint, const std::vector<std::array<double, 2>>& wind);
+  void fill_ghost_cells() { boundaries_.fill_ghost_cells(state_, outside_.get()); }
 
 private:
-  Solver(Box box, Profile profile, const Settings& settings, std::shared_ptr<const Solver> outer);
+  Solver(Domain box, Profile profile, const SolverSettings& settings,
+         std::shared_ptr<const Solver> outer);
   void start();
   void follow(double dt);
   void carry(double dt);
@@ -115,27 +127,27 @@ private:
   Lattice lattice_;
   Corner corner_;
   Profile profile_;
-  Settings settings_;
+  SolverSettings settings_;
   std::shared_ptr<const Solver> outer_;
-  Ground ground_;
+  Terrain ground_;
   Ambient ambient_;
   State state_;
   Transport transport_;
   Pressure pressure_;
-  Mixing mixing_;
+  SubgridMixing mixing_;
   Buoyancy buoyancy_;
-  Sides sides_;
+  Boundaries boundaries_;
   std::vector<double> shares_;
   Sources sources_;
-  std::optional<Window> window_;
+  std::optional<NestInterpolator> nest_interpolator_;
   std::unique_ptr<State> outside_,
-      coming_;             ///< of a nest: the flow around, now and when `outer_` is
-  std::int64_t seen_ = -1; ///< step of `outer_` that `coming_` is
+      coming_;                   ///< of a nest: outer flow at time_ and at the outer time
+  std::int64_t outer_step_ = -1; ///< step of `outer_` that `coming_` holds
   double time_ = 0.0;
   std::int64_t steps_ = 0;
   int substeps_ = 0;
-  Mass mass_;
-  Heat heat_;
+  MassBudget mass_;
+  HeatBudget heat_;
 };
 
 } // namespace firetwin::flow

@@ -8,16 +8,16 @@
 
 namespace firetwin::flow {
 
-/// What burns: n places on the ground.
+/// Heat and smoke sources of a fire: n places on the ground.
 struct Sources {
   std::vector<std::array<double, 2>> position; ///< m
-  std::vector<double> heat;                    ///< that goes into the air, W
+  std::vector<double> heat;                    ///< convective heat, W
   std::vector<double> smoke;                   ///< kg/s
   std::vector<double> water;                   ///< vapour, kg/s, or empty
 };
 
-/// A fire flickers: its heat and smoke are shared out unevenly, and their sums stay. A lognormal
-/// factor that is alike within `size` m and `time` s; it depends on seed, place and time alone.
+/// Gusts: a lognormal factor on the sources with a correlation length `size` (m) and time `time`
+/// (s). Sums of heat and smoke are conserved. The factor depends on seed, place and time alone.
 struct Gusts {
   double strength = 0.0; ///< standard deviation of the factor's logarithm
   double size = 400.0;
@@ -25,22 +25,22 @@ struct Gusts {
   std::uint64_t seed = 0;
 };
 
-/// exp(strength g - strength^2 / 2), g normal.
+/// Lognormal factor exp(strength g - strength^2 / 2), g standard normal.
 double gust(const Gusts& gusts, double x, double y, double time);
 
-/// What columns of air get, per second.
+/// Source rates of columns.
 struct Deposit {
   std::vector<double> heat;  ///< [ny][nx] W
   std::vector<double> smoke; ///< kg/s
   std::vector<double> water; ///< kg/s
 };
 
-/// Each source to the four nearest columns, bilinearly. Sources that are not all inside the box are
-/// left out.
+/// Distributes each source to the four nearest columns, bilinearly. Sources outside of the
+/// outermost cell centres are left out.
 Deposit deposit(const Sources& sources, const Lattice& lattice, const std::array<double, 2>& origin,
                 const Gusts& gusts, double time);
 
-/// Share of a column's heat and smoke that each level gets: exp(-z' / depth), summing to 1.
+/// Vertical distribution of sources: exp(-z' / depth), normalised to the sum 1.
 std::vector<double> shares(const Lattice& lattice, double depth);
 
 } // namespace firetwin::flow

@@ -16,7 +16,7 @@ public:
   explicit Desk(Index length)
       : length_(whole_lanes(length + 2)),
         memory_(std::make_unique_for_overwrite<float[]>(
-            static_cast<std::size_t>(length_ * (11 + 8 * static_cast<Index>(most_fields)) + 2))) {}
+            static_cast<std::size_t>(length_ * (11 + 8 * static_cast<Index>(max_fields)) + 2))) {}
   float* flux(Index f) { return slot(f & 3); }
   float* mass(Index p) { return slot(4 + (p & 3)); }
   float* value(std::size_t field, Index f) {
@@ -37,7 +37,7 @@ private:
   std::unique_ptr<float[]> memory_;
 };
 
-void add(Crossed& crossed, double inwards) {
+void add(BoundaryFlux& crossed, double inwards) {
   (inwards > 0.0 ? crossed.in : crossed.out) += inwards > 0.0 ? inwards : -inwards;
 }
 
@@ -56,7 +56,7 @@ const float* placed(const Sweep& s, const Field& field, Index k, Index j, Index 
   return room;
 }
 
-void along_x(const Sweep& s, Index k, Index j, Desk& desk, std::span<Crossed> crossed) {
+void along_x(const Sweep& s, Index k, Index j, Desk& desk, std::span<BoundaryFlux> crossed) {
   const Index first = s.place == Place::x ? 1 : 0;
   const Index n = s.lattice.nx - first, faces = whole_lanes(n + 1);
   const float* flux = placed(s, s.flux, k, j, first, n + 1, desk.flux(0));
@@ -103,7 +103,7 @@ public:
                    ? 1
                    : 0) {}
 
-  void run(std::span<Crossed> crossed) {
+  void run(std::span<BoundaryFlux> crossed) {
     take_mass(begin_ - 1);
     for (Index p = begin_ - 2; p <= begin_; ++p) {
       look(p);
@@ -194,7 +194,7 @@ private:
     }
   }
 
-  void count(Index f, std::span<Crossed> crossed) {
+  void count(Index f, std::span<BoundaryFlux> crossed) {
     for (std::size_t m = 0; m < s_.fields.size(); ++m) {
       const float *flux = flux_[at(f)], *value = desk_.value(m, f);
       for (Index i = 0; i < n_; ++i) {
@@ -217,14 +217,14 @@ private:
   Index lanes_; ///< and those that fill the last lanes, where nothing is kept
   Index end_;   ///< after the last row that changes
   Index begin_; ///< the first row that changes
-  std::array<const float*, 4> flux_{}, mass_{};              ///< of the last four faces and rows
-  std::array<std::array<bool, 4>, most_fields> something_{}; ///< in the last four rows
-  std::array<std::array<bool, 4>, most_fields> carries_{};   ///< the last four faces, anything
+  std::array<const float*, 4> flux_{}, mass_{};             ///< of the last four faces and rows
+  std::array<std::array<bool, 4>, max_fields> something_{}; ///< in the last four rows
+  std::array<std::array<bool, 4>, max_fields> carries_{};   ///< the last four faces, anything
 };
 
 } // namespace
 
-void sweep_level(const Sweep& sweep, Index k, std::span<Crossed> crossed) {
+void sweep_level(const Sweep& sweep, Index k, std::span<BoundaryFlux> crossed) {
   Desk desk(sweep.lattice.stride);
   if (sweep.axis == Axis::y) {
     Rolling(sweep, k, desk).run(crossed);

@@ -10,18 +10,18 @@ namespace firetwin::flow {
 
 enum class Axis { x, y, z };
 
-/// Where values sit: in cells' middles, or half a cell below along an axis.
+/// Position of values on the staggered grid: cell centres, or half a cell below along an axis.
 enum class Place { middle, x, y, z };
 
-/// What has crossed the box's sides, in units of the scalar x kg/m2, per level.
-struct Crossed {
+/// Scalar mass through the lateral boundaries, scalar x kg/m2, per level.
+struct BoundaryFlux {
   double in = 0.0;
   double out = 0.0;
 };
 
-/// One direction's transport of values that share their places, in flux form: air mass and what it
-/// carries go through the same faces, so that a constant stays constant and sums are kept. The air
-/// runs empty and full in between; it is back after all three directions.
+/// Advection along one direction, in flux form (dimensional splitting). Air mass and scalars go
+/// through the same faces, so constants stay constant and sums are conserved. Cell air masses
+/// change in between and are restored after all three directions.
 struct Sweep {
   const Lattice& lattice;
   Axis axis;
@@ -30,7 +30,7 @@ struct Sweep {
   const Field& mass; ///< of cells before this direction, kg/m2
   /// For the last direction: the air of a cell, kg/m2 per level, to which sums refer. Or empty.
   std::span<const float> rest;
-  /// Fields that are carried, at most `most_fields`, and how many of them are rescaled to `rest`.
+  /// Fields that are carried, at most `max_fields`, and how many of them are rescaled to `rest`.
   std::span<Field* const> fields;
   std::size_t rescaled = 0;
   /// The first so many fields are nothing in most of the box: rows of nothing are left alone.
@@ -40,11 +40,11 @@ struct Sweep {
   float mixing = 1.0F;
 };
 
-inline constexpr std::size_t most_fields = 4;
+inline constexpr std::size_t max_fields = 4;
 
 /// Along x or y within level k.
 /// @param crossed [fields] is added to for values in cells' middles; or empty
-void sweep_level(const Sweep& sweep, Index k, std::span<Crossed> crossed);
+void sweep_level(const Sweep& sweep, Index k, std::span<BoundaryFlux> crossed);
 
 /// Along z in row j.
 void sweep_columns(const Sweep& sweep, Index j);

@@ -153,7 +153,7 @@ int Transport::prepare(const Wind& wind, double dt, bool backwards) {
 }
 
 void Transport::levels(Wind& wind, std::span<Field* const> scalars, std::size_t kept,
-                       bool backwards, std::span<Crossed> crossed) {
+                       bool backwards, std::span<BoundaryFlux> crossed) {
   const std::array<Axis, 2> order =
       backwards ? std::array{Axis::y, Axis::x} : std::array{Axis::x, Axis::y};
   const std::array<const Field*, 2> mass = backwards
@@ -170,7 +170,7 @@ void Transport::levels(Wind& wind, std::span<Field* const> scalars, std::size_t 
                      sparse(place), exchange(order[n]), counts ? scalar_mixing : 1.0F},
                     k,
                     counts ? crossed.subspan(static_cast<std::size_t>(k) * count, count)
-                           : std::span<Crossed>());
+                           : std::span<BoundaryFlux>());
       };
       const std::array<Field*, 3> parts{&wind.u, &wind.v, &wind.w};
       go(Place::middle, scalars, kept);
@@ -204,7 +204,7 @@ void Transport::columns(Wind& wind, std::span<Field* const> scalars, std::size_t
 }
 
 int Transport::advance(Wind& wind, std::span<Field* const> scalars, std::size_t loose, double dt,
-                       bool backwards, std::span<Crossed> crossed, const Field* mixing) {
+                       bool backwards, std::span<BoundaryFlux> crossed, const Field* mixing) {
   const int substeps = prepare(wind, dt, backwards);
   mixes_ = mixing != nullptr;
   if (mixing) {

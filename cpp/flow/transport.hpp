@@ -18,29 +18,28 @@ struct Wind {
   Field w;
 };
 
-/// What air weighs.
+/// Air mass of the ambient state.
 struct Air {
   std::vector<float> cell; ///< [nz] kg per m2 of ground, in a cell
   std::vector<float> face; ///< [nz + 1] kg/m3 at the faces
 };
 
-/// How much better eddies mix scalars than momentum: 1 / the turbulent Prandtl number.
+/// Inverse turbulent Prandtl number: ratio of the eddy diffusivity of scalars to eddy viscosity.
 inline constexpr float scalar_mixing = 3.0F;
 
-/// Carries scalars and momentum with the wind: direction by direction, forwards one step and
-/// backwards the next (after Strang 1968), in as many substeps as keep each direction's Courant
-/// number below 0.8.
+/// Advection of scalars and momentum with dimensional splitting: directions alternate their order
+/// from step to step (after Strang 1968). Substeps keep each direction's Courant number below 0.8.
 class Transport {
 public:
   Transport(const Lattice& lattice, const Air& air);
 
-  /// @param scalars 2 to `most_fields`, the first two of them nothing in most of the box; of all
+  /// @param scalars 2 to `max_fields`, the first two of them nothing in most of the box; of all
   /// but the last `loose` ones sums are kept to rounding, of the loose ones constants
   /// @param crossed [scalars] what came and went through the sides, value x kg
   /// @param mixing K of eddies in cells, m2/s, or null
   /// @return number of substeps
   int advance(Wind& wind, std::span<Field* const> scalars, std::size_t loose, double dt,
-              bool backwards, std::span<Crossed> crossed, const Field* mixing);
+              bool backwards, std::span<BoundaryFlux> crossed, const Field* mixing);
 
   double courant() const { return courant_; } ///< of the last step as a whole
 
@@ -52,7 +51,7 @@ private:
   double drain_last(const Field& before) const;
   void exchanges(const Field& mixing, double dt);
   void levels(Wind& wind, std::span<Field* const> scalars, std::size_t kept, bool backwards,
-              std::span<Crossed> crossed);
+              std::span<BoundaryFlux> crossed);
   void columns(Wind& wind, std::span<Field* const> scalars, std::size_t kept, bool backwards);
   const Field& flux(Axis axis) const;
   const Field* exchange(Axis axis) const;
@@ -63,7 +62,7 @@ private:
   Field rest_, first_, second_; ///< air of cells at rest, after one direction, after two
   Field mix_x_, mix_y_, mix_z_; ///< air that eddies exchange through faces in a substep, kg/m2
   bool mixes_ = false;
-  std::vector<Crossed> crossed_;
+  std::vector<BoundaryFlux> crossed_;
   double courant_ = 0.0;
 };
 

@@ -1,9 +1,9 @@
 #include "flux/arrival.hpp"
 
-#include "flux/begin.hpp"
-#include "flux/crossing.hpp"
+#include "flux/crossing_time.hpp"
+#include "flux/front_passage.hpp"
 #include "flux/fuel.hpp"
-#include "flux/middle.hpp"
+#include "flux/ignition_time.hpp"
 #include "geo/axis.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -34,8 +34,8 @@ std::vector<double> own(const run::Run& run) {
 }
 
 /// Times of the fluxes at `rows` x `columns`, where half of the ground around burns within the run.
-std::vector<double> at(const Middle& middle, const run::Run& run, std::span<const double> rows,
-                       std::span<const double> columns) {
+std::vector<double> at(const FrontPassage& middle, const run::Run& run,
+                       std::span<const double> rows, std::span<const double> columns) {
   const std::size_t nx = run.longitude().size();
   std::vector<double> result(rows.size() * columns.size(), nan);
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
@@ -44,7 +44,7 @@ std::vector<double> at(const Middle& middle, const run::Run& run, std::span<cons
       const geo::Bracket column = geo::bracket(run.longitude(), columns[x]);
       const double time = geo::bilinear(std::span<const double>(middle.time), nx, row, column);
       if (time <= run.times().back() &&
-          geo::bilinear(std::span<const float>(middle.share), nx, row, column) >= 0.5) {
+          geo::bilinear(std::span<const float>(middle.burned_fraction), nx, row, column) >= 0.5) {
         result[y * columns.size() + x] = time;
       }
     }
@@ -107,7 +107,7 @@ private:
 
 std::vector<double> arrival_time(const run::Run& run) {
   if (!has_own(run)) {
-    return at(middle_from_flux(run), run, run.latitude(), run.longitude());
+    return at(front_passage_from_flux(run), run, run.latitude(), run.longitude());
   }
   const std::vector<float> time =
       geo::resample(run.own_arrival_time().values(), run.fuel_latitude(), run.fuel_longitude(),
@@ -120,7 +120,7 @@ std::vector<double> fuel_arrival_time(const run::Run& run) {
     return own(run);
   }
   std::vector<double> result =
-      at(middle_from_flux(run), run, run.fuel_latitude(), run.fuel_longitude());
+      at(front_passage_from_flux(run), run, run.fuel_latitude(), run.fuel_longitude());
   if (!fuel_of_cells(run).empty()) {
     const std::vector<float> load = fuel_load(run);
     std::transform(result.begin(), result.end(), load.begin(), result.begin(),
@@ -129,8 +129,8 @@ std::vector<double> fuel_arrival_time(const run::Run& run) {
   return result;
 }
 
-std::vector<double> begin_time(const run::Run& run) {
-  return has_own(run) ? Earliest(run).find() : begin_from_flux(run);
+std::vector<double> ignition_time(const run::Run& run) {
+  return has_own(run) ? Earliest(run).find() : ignition_time_from_flux(run);
 }
 
 } // namespace firetwin::flux

@@ -6,11 +6,11 @@
 
 namespace firetwin::flux {
 
-/// The one arrival time: when the front passes the centre of a cell, s, NaN where it does not
-/// within the run. Flames, ground, smoke and the interpolation of fluxes all follow it.
+/// Fire arrival time: the front passes the centre of a cell, s; NaN where it does not within the
+/// run. Flames, terrain, smoke and the interpolation of fluxes all use it.
 ///
 /// The run's own fuel_arrival_time where it has one. Else from the fluxes: when a cell begins
-/// (begin.hpp) and how its heat is released tell when the front is in its middle.
+/// (ignition_time.hpp) and how its heat is released tell when the front is in its middle.
 ///
 /// Slope: neighbours that begin later tell how long the front takes across a cell, c; the middle
 /// is reached c / 2 after the beginning. Where the front is ragged that is off by 0.8 c (measured).
@@ -35,8 +35,8 @@ std::vector<double> arrival_time(const run::Run& run);
 /// Where the run knows the fuel of all that burns, a fuel cell without any does not.
 std::vector<double> fuel_arrival_time(const run::Run& run);
 
-/// [ny nx] when the front reaches each cell of the model grid, and its flux begins: with the run's
-/// own arrival times the earliest of its fuel cells, else as in begin.hpp; NaN where never.
-std::vector<double> begin_time(const run::Run& run);
+/// Ignition time of each cell of the model grid [ny nx], s: the earliest of its fuel cells with the
+/// run's own arrival times, else as in ignition_time.hpp; NaN where never.
+std::vector<double> ignition_time(const run::Run& run);
 
 } // namespace firetwin::flux

@@ -7,7 +7,7 @@
 
 namespace firetwin::flux {
 
-/// Fire emitters of one moment, one per burning cell, in order of their cells.
+/// Fire emitters at one time, one per burning cell, in order of their cells.
 struct Emitters {
   std::vector<std::int64_t> cell; ///< y nx + x
   std::vector<double> position;   ///< [3 n] m

@@ -11,9 +11,9 @@
 namespace firetwin::flux {
 
 Interpolator::Interpolator(std::shared_ptr<const run::Run> run)
-    : run_(std::move(run)), begin_(begin_time(*run_)) {}
+    : run_(std::move(run)), begin_(ignition_time(*run_)) {}
 
-Frame Interpolator::at(double time) const {
+SparseFlux Interpolator::at(double time) const {
   if (std::isnan(time)) {
     throw std::invalid_argument("time must be a number of seconds, not NaN");
   }
@@ -28,25 +28,26 @@ Frame Interpolator::at(double time) const {
   return step(between.lower)->at(between.fraction);
 }
 
-std::shared_ptr<const Frame> Interpolator::frame(std::size_t index) const {
+std::shared_ptr<const SparseFlux> Interpolator::frame(std::size_t index) const {
   const std::lock_guard lock(mutex_);
   return frames_.get(index, [&] { return read(index); });
 }
 
-std::shared_ptr<const Step> Interpolator::step(std::size_t index) const {
+std::shared_ptr<const IntervalInterpolator> Interpolator::step(std::size_t index) const {
   const std::lock_guard lock(mutex_);
   return steps_.get(index, [&] {
     const auto before = frames_.get(index, [&] { return read(index); });
     const auto after = frames_.get(index + 1, [&] { return read(index + 1); });
-    return Step(*before, *after, begin_, run_->times()[index], run_->times()[index + 1]);
+    return IntervalInterpolator(*before, *after, begin_, run_->times()[index],
+                                run_->times()[index + 1]);
   });
 }
 
-Frame Interpolator::read(std::size_t index) const {
+SparseFlux Interpolator::read(std::size_t index) const {
   values_.resize(run_->cells());
   run_->heat_flux().read(index, values_);
   const double time = run_->times()[index];
-  Frame result;
+  SparseFlux result;
   run::each_not_zero(values_, [&](std::size_t i) {
     const float flux = values_[i];
     const bool trace = flux > 0.0F && flux < run::least_fire && !(begin_[i] <= time);

@@ -17,21 +17,21 @@ constexpr double inch = 0.0254, foot = 0.3048; // m
 
 constexpr int fuels = 16, parts = 48, steps = 400;
 constexpr double fuel_step = 0.25; // kg/m2
-constexpr double part_step = -0.2; // of the logarithm of the part that is kept
+constexpr double part_step = -0.2; // of the logarithm of the part that is retained
 
 using Table = std::array<std::array<double, parts>, fuels>;
 
 /// Sum of the crowns' areas of what is left of a stand, in heights squared and per stem of all.
 ///
-/// Of trees that are born at the times t, in units of one over the stand's density, exp(-t / kept)
-/// are left (see `Births`); 1 - exp(-t) of all are older.
-double crowns(double fuel, double kept) {
-  const double step = 12.0 * kept / steps;
+/// Of trees that are born at the times t, in units of one over the stand's density, exp(-t /
+/// retained) are left (see `MaternProcess`); 1 - exp(-t) of all are older.
+double crowns(double fuel, double retained) {
+  const double step = 12.0 * retained / steps;
   double sum = 0.0;
   for (int i = 0; i < steps; ++i) {
     const double t = (i + 0.5) * step;
     const double tall = height(fuel, -std::expm1(-t));
-    sum += tall * tall * std::exp(-t / kept) * step;
+    sum += tall * tall * std::exp(-t / retained) * step;
   }
   return sum;
 }
@@ -75,10 +75,10 @@ double height(double canopy_fuel, double rank) {
   return foot * (4.5 + std::exp(4.86039 - 9.32795 / (diameter / inch + 1.0)));
 }
 
-double widening(double canopy_fuel, double kept) {
+double crown_widening(double canopy_fuel, double retained) {
   static const Table table = widenings();
   const double y = std::clamp(canopy_fuel / fuel_step, 0.0, fuels - 1.0);
-  const double x = std::clamp(std::log(kept) / part_step, 0.0, parts - 1.0);
+  const double x = std::clamp(std::log(retained) / part_step, 0.0, parts - 1.0);
   const int i = std::min(static_cast<int>(y), fuels - 2),
             k = std::min(static_cast<int>(x), parts - 2);
   const double v = y - i, u = x - k;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a stand of trees is like where there is so much canopy fuel.
+/// Allometry: stem density, diameters, heights and crowns of a stand from its canopy fuel load.
 namespace firetwin::forest {
 
 constexpr double least_canopy_fuel = 0.01; ///< kg/m2; below it nothing stands (Algorithm 2)
@@ -18,7 +18,7 @@ double stems(double canopy_fuel);
 /// Cruz's equation wants it; stands with more fuel are both denser and larger.
 double mean_diameter(double canopy_fuel);
 
-/// Height (m) of the tree that the part `rank` (0, 1] of its stand is larger than or as large as.
+/// Height (m) of a tree by its rank in the stand: the share (0, 1] of trees at least as large.
 ///
 /// Diameters fall off exponentially from 5 cm up, many small and few large (de Liocourt 1898, Meyer
 /// 1952: stands of all ages), to the mean square above; heights follow from them as in the Forest
@@ -27,10 +27,9 @@ double mean_diameter(double canopy_fuel);
 /// Between 3.1 and 41 m.
 double height(double canopy_fuel, double rank);
 
-/// How much wider crowns are drawn so that a thinned stand covers as much ground as all of it.
-///
-/// The part `kept` (0, 1] of the stems is left, chiefly the large ones; the sum of the crowns'
-/// areas, each as the square of its tree's height, stays the same.
-double widening(double canopy_fuel, double kept);
+/// Crown widening of a thinned stand: factor on crown widths that conserves the summed crown area.
+/// A crown's area goes with the square of its tree's height. The share `retained` (0, 1] of the
+/// stems is mostly of large trees.
+double crown_widening(double canopy_fuel, double retained);
 
 } // namespace firetwin::forest

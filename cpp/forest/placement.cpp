@@ -96,7 +96,7 @@ Placement::Row::Row(std::size_t columns)
   }
 }
 
-Placement::Placement(const Site& site)
+Placement::Placement(const PlantingSite& site)
     : site_(site), origin_(site.frame->latitude(), site.frame->height()), latitude_(site.latitude),
       longitude_(site.longitude) {
   for (const auto& m : geo::meridians(site.longitude, site.frame->longitude())) {

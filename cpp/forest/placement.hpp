@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/buffer.hpp"
-#include "forest/site.hpp"
+#include "forest/planting_site.hpp"
 #include "geo/ellipsoid.hpp"
 
 #include <cmath>
@@ -26,10 +26,10 @@ struct Axis {
 class Placement {
 public:
   /// @param site must outlive this
-  explicit Placement(const Site& site);
+  explicit Placement(const PlantingSite& site);
 
-  /// Whether a plant can stand in a cell.
-  bool holds(std::size_t cell) const { return std::isfinite(site_.elevation[cell]); }
+  /// Whether a cell has an elevation, so that plants can stand in it.
+  bool has_elevation(std::size_t cell) const { return std::isfinite(site_.elevation[cell]); }
 
   /// Random numbers in, places in local metres out, one each per column.
   struct Row {
@@ -45,7 +45,7 @@ public:
 private:
   void copy_row(std::size_t y, std::size_t first, std::size_t last, Buffer<double>& out) const;
 
-  const Site& site_;
+  const PlantingSite& site_;
   geo::Origin origin_;
   Axis latitude_, longitude_;
   std::vector<double> sine_, cosine_; ///< of the longitudes from the origin's

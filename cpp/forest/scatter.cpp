@@ -47,8 +47,9 @@ SizeClass size_class(double fuel) {
                                                    : small_tree;
 }
 
-void write_tree(Plants& plants, std::size_t i, const Site& site, double fuel, double max_fuel) {
-  const auto random = draw(site, static_cast<std::size_t>(plants.cell[i]), Use::tree);
+void write_tree(Plants& plants, std::size_t i, const PlantingSite& site, double fuel,
+                double max_fuel) {
+  const auto random = draw(site, static_cast<std::size_t>(plants.cell[i]), RandomStream::tree);
   const SizeClass kind = size_class(fuel);
   const Class& c = classes[kind];
   const double height = lerp(6.0, 18.0, std::clamp(fuel / max_fuel, 0.0, 1.0)) *
@@ -60,8 +61,8 @@ void write_tree(Plants& plants, std::size_t i, const Site& site, double fuel, do
   plants.rotation[i] = static_cast<float>(2.0 * std::numbers::pi * random[3]);
 }
 
-void write_clump(Plants& plants, std::size_t i, const Site& site) {
-  const auto random = draw(site, static_cast<std::size_t>(plants.cell[i]), Use::grass);
+void write_clump(Plants& plants, std::size_t i, const PlantingSite& site) {
+  const auto random = draw(site, static_cast<std::size_t>(plants.cell[i]), RandomStream::grass);
   plants.position[3 * i + 2] -= grass_depth;
   plants.scale[i] = 1.0F;
   plants.rotation[i] = static_cast<float>(2.0 * std::numbers::pi * random[0]);
@@ -126,14 +127,14 @@ void place(const Placement& placement, std::size_t y, std::span<const std::uint3
 
 /// Places a plant in each cell that has `fuel`, and has `write(plants, i)` fill in the rest.
 template <class Fuel, class Write>
-Plants scatter(const Site& site, bool trees, Fuel fuel, Write write) {
+Plants scatter(const PlantingSite& site, bool trees, Fuel fuel, Write write) {
   if (!(site.jitter >= 0.0 && site.jitter <= 1.0)) {
     throw std::invalid_argument("jitter must be between 0 and 1");
   }
   const Placement placement(site);
   const std::size_t rows = site.latitude.size(), columns = site.longitude.size();
   const auto grows = [&](std::size_t cell) {
-    return static_cast<bool>(fuel(cell) & placement.holds(cell));
+    return static_cast<bool>(fuel(cell) & placement.has_elevation(cell));
   };
   const auto list = [&](std::size_t y, Buffer<std::uint32_t>& out) {
     return site.mask.empty() ? list_all(y, columns, grows, out)
@@ -157,7 +158,7 @@ Plants scatter(const Site& site, bool trees, Fuel fuel, Write write) {
       }
       const std::size_t n = list(y, column);
       for (std::size_t k = 0; k < n; ++k) {
-        const auto random = draw(site, y * columns + column[k], Use::place);
+        const auto random = draw(site, y * columns + column[k], RandomStream::place);
         row.north[column[k]] = random[0];
         row.east[column[k]] = random[1];
       }
@@ -200,7 +201,7 @@ float largest_fuel(std::span<const float> fuel) {
   return *std::max_element(largest.begin(), largest.end());
 }
 
-Plants trees(std::span<const float> canopy_fuel, const Site& site, double max_fuel) {
+Plants trees(std::span<const float> canopy_fuel, const PlantingSite& site, double max_fuel) {
   check_above_zero(max_fuel, "max_fuel");
   const auto fuel = [canopy_fuel](std::size_t cell) {
     return static_cast<bool>((double{canopy_fuel[cell]} > least_canopy_fuel) &
@@ -212,7 +213,7 @@ Plants trees(std::span<const float> canopy_fuel, const Site& site, double max_fu
   });
 }
 
-Plants grass(std::span<const float> surface_fuel, const Site& site) {
+Plants grass(std::span<const float> surface_fuel, const PlantingSite& site) {
   const auto fuel = [surface_fuel](std::size_t cell) {
     return static_cast<bool>((surface_fuel[cell] > 0.0F) & std::isfinite(surface_fuel[cell]));
   };

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/buffer.hpp"
-#include "forest/site.hpp"
+#include "forest/planting_site.hpp"
 
 #include <cstdint>
 #include <span>
@@ -34,10 +34,10 @@ float largest_fuel(std::span<const float> fuel);
 /// leaves out; the others' are the same with any mask. The result does not depend on the number of
 /// threads, and a changed fuel changes the tree of its own cell only (while max_fuel is the same).
 /// @throws std::invalid_argument unless max_fuel > 0 and 0 <= jitter <= 1.
-Plants trees(std::span<const float> canopy_fuel, const Site& site, double max_fuel);
+Plants trees(std::span<const float> canopy_fuel, const PlantingSite& site, double max_fuel);
 
 /// Algorithm 2's grass: a clump of scale 1 in each cell with surface fuel above 0, at the place
 /// where its tree stands or would stand, 0.70 m lower (the paper's 70 are Unreal centimetres).
-Plants grass(std::span<const float> surface_fuel, const Site& site);
+Plants grass(std::span<const float> surface_fuel, const PlantingSite& site);
 
 } // namespace firetwin::forest

@@ -2,7 +2,7 @@
 
 #include "base/clones.hpp"
 #include "forest/allometry.hpp"
-#include "forest/births.hpp"
+#include "forest/matern_process.hpp"
 #include "forest/placement.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
@@ -101,12 +101,12 @@ private:
 
 /// A cell that trees can stand in.
 struct Cell {
-  Patch fuel, ground, kept;
+  Patch fuel, ground, retained;
   geo::SineCosine parallel; ///< of its middle
   double stretch;           ///< of the plane
   /// When the last tree can be born in each quarter: low left, low right, high left, high right.
   std::array<double, 4> latest;
-  /// The square of that time where all stems are kept is at most `steady` + `rising` fuel.
+  /// The square of that mark where all stems are retained is at most `steady` + `rising` fuel.
   std::array<double, 4> steady, rising;
 };
 
@@ -126,36 +126,36 @@ struct Across {
   double towards(double d) const { return d * after > d * before ? d * after : -d * before; }
 };
 
-/// What decides about births in a cell.
+/// What decides about points in a cell.
 struct Rule {
   const Cell& cell;
   Across x, y;
 };
 
-/// Births of a cell with what is known where they are.
-struct Judged : Births::Many {
-  std::vector<double> fuel, kept;
+/// MaternProcess of a cell with what is known where they are.
+struct Judged : MaternProcess::PointArrays {
+  std::vector<double> fuel, retained;
   std::vector<double> latest; ///< when trees can be born there at the latest; 0 where too late
 
   void judge(const Rule& rule) {
     if (fuel.size() < size) {
       fuel.resize(2 * size);
-      kept.resize(2 * size);
+      retained.resize(2 * size);
       latest.resize(2 * size);
     }
-    judge(rule, size, x.data(), y.data(), time.data(), fuel.data(), kept.data(), latest.data());
+    judge(rule, size, x.data(), y.data(), mark.data(), fuel.data(), retained.data(), latest.data());
   }
 
 private:
   static void judge(const Rule& rule, std::size_t n, const double* x, const double* y,
-                    const double* time, double* fuel, double* kept, double* latest);
+                    const double* mark, double* fuel, double* retained, double* latest);
 };
 
 /// Without branches, for many at once.
 FIRETWIN_CLONES("avx512f", "avx2")
 void Judged::judge(const Rule& rule, std::size_t n, const double* x, const double* y,
-                   const double* time, double* fuel, double* kept, double* latest) {
-  const Patch fuels = rule.cell.fuel, parts = rule.cell.kept;
+                   const double* mark, double* fuel, double* retained, double* latest) {
+  const Patch fuels = rule.cell.fuel, parts = rule.cell.retained;
   const std::array<double, 4> end = rule.cell.latest, steady = rule.cell.steady,
                               rising = rule.cell.rising;
   const Across east = rule.x, north = rule.y;
@@ -169,9 +169,9 @@ void Judged::judge(const Rule& rule, std::size_t n, const double* x, const doubl
     const double here = fuels.known(v, u);
     const double left = std::min(std::max(parts.known(v, u), 0.0), 1.0);
     const double square = (quarter(steady) + quarter(rising) * here) * (left * left);
-    const bool can = (time[i] < quarter(end)) & (time[i] * time[i] < square);
+    const bool can = (mark[i] < quarter(end)) & (mark[i] * mark[i] < square);
     fuel[i] = here;
-    kept[i] = left;
+    retained[i] = left;
     latest[i] = can ? std::sqrt(square) * rounding : 0.0;
   }
 }
@@ -179,8 +179,8 @@ void Judged::judge(const Rule& rule, std::size_t n, const double* x, const doubl
 /// Grows the trees of cells. Immutable; what is remembered comes with each call.
 class Grower {
 public:
-  Grower(std::span<const float> fuel, const Site& site, std::span<const float> kept)
-      : fuel_(fuel), kept_(kept), site_(site),
+  Grower(std::span<const float> fuel, const PlantingSite& site, std::span<const float> retained)
+      : fuel_(fuel), retained_(retained), site_(site),
         origin_(site.frame->latitude(), site.frame->height()), latitude_(site.latitude),
         longitude_(site.longitude),
         meridian_(geo::meridians(site.longitude, site.frame->longitude())) {
@@ -203,18 +203,18 @@ public:
     const geo::SineCosine parallel = geo::parallel(latitude_.value[y]);
     Cell cell{Patch(fuel_, rows, columns, y, x),
               Patch(site_.elevation, rows, columns, y, x),
-              kept_.empty() ? Patch(1.0) : Patch(kept_, rows, columns, y, x),
+              retained_.empty() ? Patch(1.0) : Patch(retained_, rows, columns, y, x),
               parallel,
               parallel.cosine / cosine_,
               {},
               {},
               {}};
     cell.fuel.unknown_is_zero();
-    cell.kept.unknown_is_zero();
+    cell.retained.unknown_is_zero();
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-      const double left = std::clamp(cell.kept.largest(quarter), 0.0, 1.0);
+      const double left = std::clamp(cell.retained.largest(quarter), 0.0, 1.0);
       const double most = cell.fuel.largest(quarter), all = stems_of(most, cell.stretch);
-      const double latest = rounding * Births::last_chance * all;
+      const double latest = rounding * MaternProcess::max_mark_ratio * all;
       cell.latest[quarter] = latest * left;
       // Stems grow with more than the square root of the fuel, up to where they grow no more.
       const bool grow = all * std::max(1.0 / cell.stretch, 1.0) < 0.999 * most_stems;
@@ -224,35 +224,36 @@ public:
     return cell;
   }
 
-  /// Appends the trees of a cell whose births are gathered.
-  void grow(const Cell& cell, std::size_t y, std::size_t x, const Births& births, Judged& work,
-            std::vector<Stem>& out) const {
+  /// Appends the trees of a cell whose points are gathered.
+  void grow(const Cell& cell, std::size_t y, std::size_t x, const MaternProcess& points,
+            Judged& work, std::vector<Stem>& out) const {
     const double latest = *std::max_element(cell.latest.begin(), cell.latest.end());
-    births.find(area(y, x), latest, work);
+    points.find(area(y, x), latest, work);
     const Rule rule{cell, across(longitude_, x, east_), across(latitude_, y, north_)};
     work.judge(rule);
     for (std::size_t i = 0; i < work.size; ++i) {
-      if (!(work.time[i] < work.latest[i])) {
+      if (!(work.mark[i] < work.latest[i])) {
         continue;
       }
-      const Births::Birth birth{work.x[i], work.y[i], work.time[i], work.bits[i]};
+      const MaternProcess::MarkedPoint point{work.x[i], work.y[i], work.mark[i], work.bits[i]};
       // Stems are at most so dense here, which is quicker to say than how dense.
-      if (!births.stands(
-              birth, Births::reach(std::min(work.latest[i] / Births::last_chance, most_stems)))) {
+      if (!points.is_retained(
+              point, MaternProcess::exclusion_area(
+                         std::min(work.latest[i] / MaternProcess::max_mark_ratio, most_stems)))) {
         continue;
       }
-      const double here = work.fuel[i], left = work.kept[i];
+      const double here = work.fuel[i], left = work.retained[i];
       const double all = stems_of(here, cell.stretch), density = all * left;
-      if (!(birth.time < Births::last_chance * density) ||
-          !births.stands(birth, Births::reach(density))) {
+      if (!(point.mark < MaternProcess::max_mark_ratio * density) ||
+          !points.is_retained(point, MaternProcess::exclusion_area(density))) {
         continue;
       }
-      const double dx = rule.x.degrees(birth.x), dy = rule.y.degrees(birth.y);
-      const double rank = Births::older(birth.time, all);
+      const double dx = rule.x.degrees(point.x), dy = rule.y.degrees(point.y);
+      const double rank = MaternProcess::older_fraction(point.mark, all);
       const auto at = geo::turned(cell.parallel, dy);
       out.push_back({origin_.to_local(at, geo::radii(at.sine), geo::turned(meridian_[x], dx),
                                       cell.ground.at(rule.y.towards(dy), rule.x.towards(dx))),
-                     height(here, std::max(rank, 1.0e-9)), widening(here, left), birth.bits});
+                     height(here, std::max(rank, 1.0e-9)), crown_widening(here, left), point.bits});
     }
   }
 
@@ -276,8 +277,8 @@ private:
     return std::min(stems(fuel) * stretch, most_stems);
   }
 
-  std::span<const float> fuel_, kept_;
-  const Site& site_;
+  std::span<const float> fuel_, retained_;
+  const PlantingSite& site_;
   geo::Origin origin_;
   Axis latitude_, longitude_;
   std::vector<geo::SineCosine> meridian_;
@@ -292,12 +293,12 @@ struct RowOf {
 
 /// What a thread works with.
 struct Worker {
-  explicit Worker(std::uint64_t seed) : births(seed) {}
-  Births births;
+  explicit Worker(std::uint64_t seed) : points(seed) {}
+  MaternProcess points;
   Judged judged;
 };
 
-/// A block of cells: births are gathered for as many of them at once as fit near the processor.
+/// A block of cells: points are gathered for as many of them at once as fit near the processor.
 class Block {
 public:
   Block(const Grower& grower, Worker& worker, std::span<RowOf> rows, std::size_t y, std::size_t x,
@@ -314,7 +315,7 @@ public:
   void grow() { grow(0, height_, 0, width_); }
 
 private:
-  static constexpr double at_once = 16384.0; ///< births
+  static constexpr double at_once = 16384.0; ///< points
 
   /// Rows from low to high - 1, columns from left to right - 1; those to the left first.
   void grow(std::size_t low, std::size_t high, std::size_t left, std::size_t right) {
@@ -342,13 +343,13 @@ private:
       }
     }
     if (latest > 0.0) {
-      worker_.births.gather(all, latest);
+      worker_.points.gather(all, latest);
     }
     for (std::size_t j = low; j < high; ++j) {
       RowOf& row = rows_[y_ + j];
       for (std::size_t i = left; i < right; ++i) {
         if (const auto& cell = at(j, i)) {
-          grower_.grow(*cell, y_ + j, x_ + i, worker_.births, worker_.judged, row.stems);
+          grower_.grow(*cell, y_ + j, x_ + i, worker_.points, worker_.judged, row.stems);
         }
         row.last[x_ + i] = row.stems.size();
       }
@@ -393,12 +394,13 @@ void write(Stems& out, std::size_t i, std::size_t cell, const Stem& stem) {
 
 } // namespace
 
-Stems stand(std::span<const float> canopy_fuel, const Site& site, std::span<const float> kept) {
+Stems stand(std::span<const float> canopy_fuel, const PlantingSite& site,
+            std::span<const float> retained) {
   const std::size_t rows = site.latitude.size(), columns = site.longitude.size();
   if (rows == 0 || columns == 0) {
     return make_stems(0);
   }
-  const Grower grower(canopy_fuel, site, kept);
+  const Grower grower(canopy_fuel, site, retained);
   std::vector<RowOf> grown(rows);
   tbb::enumerable_thread_specific<Worker> workers(site.seed);
   tbb::parallel_for(Range(0, (rows + block - 1) / block), [&](const Range& range) {

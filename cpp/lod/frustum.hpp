@@ -6,25 +6,26 @@
 
 namespace firetwin::lod {
 
-/// What one camera films in one frame.
+/// The view volume of one camera in one frame, and the sun of that frame.
 struct View {
-  Vector position;                ///< m
+  Vector position;                ///< camera, m
   std::array<double, 9> to_world; ///< rotation, row-major; the camera looks along its -z, y is up
-  double across;                  ///< tangent of half the angle of view from left to right
-  double along;                   ///< and from bottom to top
-  bool parallel; ///< lines of sight do not meet in the camera: `across`, `along` are m instead
-  bool clear;    ///< the camera is above the ground, which therefore can hide things from it
-  Vector sun;    ///< unit vector towards it; anything else without shadows
+  double half_width;              ///< perspective: tangent of half the horizontal angle of view
+  double half_height;             ///< perspective: tangent of half the vertical angle of view
+  bool orthographic;  ///< parallel projection; half_width and half_height are then lengths, m
+  bool above_terrain; ///< the camera is above the terrain; only then does terrain occlude
+  Vector sun;         ///< unit vector to the sun; a zero vector casts no shadows
 };
 
-/// The pyramid, or with parallel lines of sight the box, that a camera sees. It has no far end.
+/// View frustum for frustum culling: four side planes and a near plane through the camera. It has
+/// no far plane. An orthographic frustum is a box.
 class Frustum {
 public:
   explicit Frustum(const View& view);
 
-  /// Whether any of the ball may be inside: true for every ball that touches it (and for some that
-  /// lie just beside its edges).
-  bool touches(const Vector& centre, double radius) const {
+  /// Sphere-plane test. The test is conservative: every bounding sphere that touches the frustum
+  /// passes, and some spheres beside an edge of the frustum pass too.
+  bool intersects(const Vector& centre, double radius) const {
     const Vector to = minus(centre, position_);
     for (std::size_t i = 0; i < 5; ++i) {
       if (!(dot(to, normal_[i]) >= -(radius + offset_[i]))) {
@@ -36,9 +37,8 @@ public:
 
 private:
   Vector position_;
-  std::array<Vector, 5>
-      normal_; ///< of its sides and of what is before the camera: inwards, length 1
-  std::array<double, 5> offset_; ///< how far the sides are outside of the camera, m
+  std::array<Vector, 5> normal_; ///< inward unit normals of the four sides and the near plane
+  std::array<double, 5> offset_; ///< distance of each plane from the camera, outwards, m
 };
 
 } // namespace firetwin::lod

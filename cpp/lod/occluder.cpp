@@ -140,8 +140,8 @@ template <class Visit> void Occluder::visit(Cells c, const Visit& visit) const {
   }
 }
 
-double Occluder::lowest(const Ball& ball) const {
-  const auto& [at, r] = ball;
+double Occluder::lowest(const BoundingSphere& sphere) const {
+  const auto& [at, r] = sphere;
   const Cells c = cells(at[0] - r, at[0] + r, at[1] - r, at[1] + r);
   if (c.left < 0 || c.low < 0 || c.right >= blocks_[0].columns || c.high >= blocks_[0].rows) {
     return double{none};
@@ -162,16 +162,16 @@ double Occluder::highest(Cells c) const {
   return double{most};
 }
 
-/// All straight lines between two balls.
+/// All straight lines between two spheres.
 class Occluder::Lines {
 public:
-  Lines(const Occluder& ground, const Ball& from, const Ball& to)
-      : ground_(ground), from_(from), way_(minus(to.centre, from.centre)),
+  Lines(const Occluder& occluder, const BoundingSphere& from, const BoundingSphere& to)
+      : ground_(occluder), from_(from), way_(minus(to.centre, from.centre)),
         grows_(to.radius - from.radius), length_(std::sqrt(way_[0] * way_[0] + way_[1] * way_[1])) {
   }
 
   /// Whether the ground is over all of them at the fraction t, and t is one that is tried below.
-  bool blocked(double t) const { return ground_.buries(at(t).ball) && tried(t); }
+  bool blocked(double t) const { return ground_.is_below(at(t).sphere) && tried(t); }
 
   /// Whether it is at a fraction that is tried, and at which.
   bool blocked_anywhere(double& where) const { return blocked(0.0, 1.0, at(0.0), at(1.0), where); }
@@ -179,9 +179,9 @@ public:
 private:
   /// All of them at a fraction of their way, and the cell under the middle one.
   struct Point {
-    Ball ball;
+    BoundingSphere sphere;
     long column, row;
-    double top() const { return ball.centre[2] + ball.radius; }
+    double top() const { return sphere.centre[2] + sphere.radius; }
   };
 
   /// Between the fractions `a` and `b`, where lines are at `from` and `to`.
@@ -191,7 +191,7 @@ private:
     }
     const double half = 0.5 * (a + b);
     const Point middle = at(half);
-    if (ground_.highest(under(middle, middle)) > middle.top() && ground_.buries(middle.ball)) {
+    if (ground_.highest(under(middle, middle)) > middle.top() && ground_.is_below(middle.sphere)) {
       where = half;
       return true;
     }
@@ -220,11 +220,11 @@ private:
   }
 
   Point at(double t) const {
-    const Ball ball{{from_.centre[0] + t * way_[0], from_.centre[1] + t * way_[1],
-                     from_.centre[2] + t * way_[2]},
-                    from_.radius + t * grows_};
-    return {ball, ground_.index(ball.centre[0] - ground_.x_),
-            ground_.index(ball.centre[1] - ground_.y_)};
+    const BoundingSphere sphere{{from_.centre[0] + t * way_[0], from_.centre[1] + t * way_[1],
+                                 from_.centre[2] + t * way_[2]},
+                                from_.radius + t * grows_};
+    return {sphere, ground_.index(sphere.centre[0] - ground_.x_),
+            ground_.index(sphere.centre[1] - ground_.y_)};
   }
   /// Cells under the middle line between two places. Where the ground in the one cell is no higher
   /// than all lines' top there, the lowest of all cells that they are over is not either.
@@ -234,18 +234,19 @@ private:
   }
 
   const Occluder& ground_;
-  Ball from_;
+  BoundingSphere from_;
   Vector way_;
   double grows_, length_;
 };
 
-bool Occluder::hides(const Ball& camera, const Ball& thing, double& where) const {
-  const Lines lines(*this, camera, thing);
+bool Occluder::occludes(const BoundingSphere& camera, const BoundingSphere& target,
+                        double& where) const {
+  const Lines lines(*this, camera, target);
   return lines.blocked(where) || lines.blocked_anywhere(where);
 }
 
-bool Occluder::buries(const Ball& ball) const {
-  return lowest(ball) > ball.centre[2] + ball.radius;
+bool Occluder::is_below(const BoundingSphere& sphere) const {
+  return lowest(sphere) > sphere.centre[2] + sphere.radius;
 }
 
 } // namespace firetwin::lod

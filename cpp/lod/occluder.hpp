@@ -8,44 +8,43 @@
 
 namespace firetwin::lod {
 
-/// Everything within `radius` of `centre`.
-struct Ball {
-  Vector centre;
-  double radius;
+/// Bounding sphere of an object.
+struct BoundingSphere {
+  Vector centre; ///< m
+  double radius; ///< m
 };
 
-/// The ground as what hides things: a continuous surface of which only a lower bound is kept.
+/// Terrain as an occluder for occlusion culling. It keeps a lower bound of the surface.
 ///
-/// Over each cell of a regular grid it is the lowest node of all quads that reach into the cell, so
-/// the surface may be drawn by any triangles between its nodes, and finer ones above them. Cells
-/// that it does not cover hide nothing.
+/// The bound of a grid cell is the lowest node of all quads that reach into the cell. So it holds
+/// for any triangulation of the nodes, and for finer surfaces above these triangles. Cells outside
+/// of the surface occlude nothing.
 class Occluder {
 public:
-  /// @param node [rows columns 3] m: neighbours in rows and columns are joined by the surface
-  /// @throws std::invalid_argument for fewer than 2 x 2 nodes and for what is not finite.
+  /// @param node [rows columns 3] m; the surface joins neighbours in rows and columns
+  /// @throws std::invalid_argument for fewer than 2 x 2 nodes and for nodes that are not finite.
   Occluder(std::span<const double> node, std::size_t rows, std::size_t columns);
 
-  /// Whether the ground hides all of `thing` from every place of `camera`, whose places are all
-  /// above the ground.
+  /// Whether the terrain occludes all of `target` from all of `camera`. Every place of `camera`
+  /// must be above the terrain. The test is conservative: it has no false positives, and it may
+  /// miss an occlusion.
   ///
-  /// Straight lines between the two run, at the fraction t of their way, inside a ball round the
-  /// line between the centres whose radius goes from one's to the other's. If for some t the ground
-  /// over all of that ball is higher than its top, each of the lines is under the ground there, so
-  /// each has gone through it. What is called hidden is hidden; what only just hides may not be
-  /// called so.
-  /// @param where the t that is tried first; becomes the one at which the ground hides it. What
-  ///        hides one thing from one place most often hides the next one too. It decides nothing.
-  bool hides(const Ball& camera, const Ball& thing, double& where) const;
+  /// All lines between the two spheres lie in a cone. At the fraction t of the way the cone is
+  /// inside a sphere, whose centre and radius are linear in t. The lines are occluded if, for some
+  /// t, the terrain over all of this sphere is higher than its top.
+  /// @param where fraction t to test first; receives the t of the occlusion. Neighbouring targets
+  ///        are mostly occluded at a similar t. The result does not depend on it.
+  bool occludes(const BoundingSphere& camera, const BoundingSphere& target, double& where) const;
 
-  /// Whether all of a ball is under the ground.
-  bool buries(const Ball& ball) const;
+  /// Whether all of a sphere is below the terrain. Conservative: no false positives.
+  bool is_below(const BoundingSphere& sphere) const;
 
 private:
-  /// Columns and rows, both inclusive.
+  /// Range of columns and rows, both ends included.
   struct Cells {
     long left, right, low, high;
   };
-  /// Bounds of the lowest surface over blocks of 2^k x 2^k cells.
+  /// Level k of the height pyramid: least and greatest bound over blocks of 2^k x 2^k cells.
   struct Blocks {
     long rows, columns;
     std::vector<float> lowest, highest;
@@ -55,11 +54,11 @@ private:
   void add_quad(std::span<const double> node, std::size_t corner, std::size_t columns, bool rim);
   void build_blocks();
   Cells cells(double left, double right, double low, double high) const;
-  /// Column or row of what is so far (m) from the grid's corner.
+  /// Column or row at a distance (m) from the grid's corner.
   long index(double from_corner) const;
   /// Calls visit(blocks, i) for the few blocks i that cover these cells.
   template <class Visit> void visit(Cells cells, const Visit& visit) const;
-  double lowest(const Ball& ball) const;
+  double lowest(const BoundingSphere& sphere) const;
   double highest(Cells cells) const;
 
   double x_ = 0.0, y_ = 0.0, cell_ = 1.0; ///< corner of the grid and side of its cells, m

@@ -1,7 +1,7 @@
 #include "particles/advance.hpp"
 
 #include "base/check.hpp"
-#include "particles/landing.hpp"
+#include "particles/ground_contact.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -37,8 +37,8 @@ void move(const Particles& p, Motion motion, std::size_t i, double step,
           const geo::HeightField* ground) {
   std::optional<double> end;
   if (ground) {
-    motion.position = lifted(motion.position, *ground);
-    end = landing(motion, step, step, *ground);
+    motion.position = raised_to_ground(motion.position, *ground);
+    end = ground_contact(motion, step, step, *ground);
   }
   Motion::State state = motion.at(end.value_or(step));
   if (end) {

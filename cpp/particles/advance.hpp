@@ -15,7 +15,7 @@ struct Particles {
   std::span<std::uint8_t> landed; ///< [n] those that landed stay where they are
 };
 
-/// What acts on each of them during a step.
+/// Forces on each particle during a step.
 struct Forces {
   std::span<const double> wind;        ///< [3 n] at the beginning of the step, m/s
   std::span<const double> wind_middle; ///< [3 n] in its middle

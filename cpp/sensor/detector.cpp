@@ -80,7 +80,8 @@ void detect(const Detector& detector, const PlanckTable& table, std::uint64_t ke
     std::ranges::copy(blurred_turned(turned, width, height, weight), radiance.begin());
   }
   const double at = sensor::radiance(noise_reference, table.band());
-  const double noise = detector.noise * power(noise_reference, table.band()) * at / noise_reference;
+  const double noise =
+      detector.noise * temperature_exponent(noise_reference, table.band()) * at / noise_reference;
   const double most = sensor::radiance(detector.saturation, table.band());
   const double steps = std::ldexp(1.0, detector.bits) - 1.0;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, radiance.size(), 4096), [&](auto& range) {

@@ -8,11 +8,11 @@
 
 namespace firetwin::sensor {
 
-/// What an infrared camera does to the radiance that reaches it.
+/// Detector model of an infrared camera.
 struct Detector {
   double blur = 0.0;       ///< standard deviation of its Gaussian point spread function, pixels
   double noise = 0.0;      ///< noise-equivalent temperature difference of black bodies at 300 K, K
-  double saturation = 0.0; ///< temperature that fills its range, K; 0: none
+  double saturation = 0.0; ///< brightness temperature at full scale, K; 0: none
   int bits = 0; ///< of its counts, which are proportional to radiance; 0: it is not quantised
 };
 

@@ -125,7 +125,7 @@ double radiance(double kelvin, const Band& band) {
          planck_integral(second / (band.high * kelvin), second / (band.low * kelvin));
 }
 
-double power(double kelvin, const Band& band) {
+double temperature_exponent(double kelvin, const Band& band) {
   const double value = radiance(kelvin, band);
   return slope(kelvin, value, band) * kelvin / value;
 }

@@ -25,10 +25,11 @@ double spectral_temperature(double radiance, double wavelength);
 /// NaN.
 double radiance(double kelvin, const Band& band);
 
-/// d log(radiance) / d log(temperature) of a black body over a band, for kelvin > 0.
-double power(double kelvin, const Band& band);
+/// Temperature exponent: d log(radiance) / d log(temperature) of a black body over a band, for
+/// kelvin > 0.
+double temperature_exponent(double kelvin, const Band& band);
 
-/// The temperature of a black body with this radiance, K: the inverse of radiance. 0 gives 0,
+/// Brightness temperature of a band radiance, K: the inverse of radiance. 0 gives 0,
 /// infinity infinity; negative values and NaN give NaN.
 double brightness_temperature(double radiance, const Band& band);
 

@@ -33,11 +33,11 @@ PlanckTable::PlanckTable(const Band& band, std::size_t knots) : band_(band) {
     const auto place = static_cast<double>(i);
     const double kelvin = std::exp(radiance_.start + place * radiance_.step);
     radiance_.value.push_back(std::log(sensor::radiance(kelvin, band)));
-    radiance_.slope.push_back(power(kelvin, band) * radiance_.step);
+    radiance_.slope.push_back(temperature_exponent(kelvin, band) * radiance_.step);
     const double found =
         brightness_temperature(std::exp(temperature_.start + place * temperature_.step), band);
     temperature_.value.push_back(std::log(found));
-    temperature_.slope.push_back(temperature_.step / power(found, band));
+    temperature_.slope.push_back(temperature_.step / temperature_exponent(found, band));
   }
 }
 

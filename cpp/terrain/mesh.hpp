@@ -34,7 +34,7 @@ struct Mesh {
   std::vector<std::int32_t> triangle; ///< [n 3] vertices
 };
 
-/// A mesh of few triangles whose vertical error is nowhere above the tolerance: at no point of the
+/// Adaptive triangle mesh whose vertical error is nowhere above the tolerance: at no point of the
 /// grid, nor where `fine` asks for more at any point of the halved cells.
 ///
 /// Right triangles are halved from two that cover all (newest vertex bisection; Lindstrom et al.

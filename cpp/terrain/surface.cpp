@@ -19,7 +19,7 @@ std::uint32_t hash(std::int64_t x, std::int64_t y, std::int64_t seed) {
   std::uint32_t h =
       static_cast<std::uint32_t>(x) * 0x9E3779B1U ^ static_cast<std::uint32_t>(y) * 0x85EBCA77U;
   h ^= static_cast<std::uint32_t>(seed) * 0x27D4EB2FU + 0x165667B1U;
-  return finished(h);
+  return murmur_finalizer(h);
 }
 
 } // namespace

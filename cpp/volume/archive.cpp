@@ -143,8 +143,9 @@ void VdbArchive::add(LeafGrid grid) {
   grids_.push_back(std::move(grid));
 }
 
-Frame VdbArchive::write(const std::filesystem::path& path, const io::Metadata& metadata) const {
-  Frame frame = frame_;
+VdbSummary VdbArchive::write(const std::filesystem::path& path,
+                             const io::Metadata& metadata) const {
+  VdbSummary frame = frame_;
   frame.bytes = io::write_file(path, [&](std::ostream& file) { write(file, metadata); });
   return frame;
 }

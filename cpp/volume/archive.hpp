@@ -1,8 +1,8 @@
 #pragma once
 
 #include "io/metadata.hpp"
-#include "volume/frame.hpp"
 #include "volume/leaf.hpp"
+#include "volume/vdb_summary.hpp"
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/openvdb.h>
@@ -40,7 +40,7 @@ public:
   void add(LeafGrid grid);
 
   /// @throws InputError when the folder or file cannot be written.
-  Frame write(const std::filesystem::path& path, const io::Metadata& metadata) const;
+  VdbSummary write(const std::filesystem::path& path, const io::Metadata& metadata) const;
 
 private:
   struct Piece;
@@ -52,7 +52,7 @@ private:
   void describe(const openvdb::GridBase& grid, std::ostream& stream) const;
 
   std::vector<LeafGrid> grids_;
-  Frame frame_;
+  VdbSummary frame_;
 };
 
 } // namespace firetwin::volume

@@ -1,7 +1,7 @@
 #include "volume/bricks.hpp"
 
-#include "volume/brick.hpp"
 #include "volume/half.hpp"
+#include "volume/voxel_grid.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -29,7 +29,7 @@ bool smoky(const SparseSmoke& smoke, const Drawn& drawn, const Place& block) {
         const float most = *std::max_element(row, row + end(2));
         const Index column = (at[0] * side + x) * smoke.shape()[1] + at[1] * side + y;
         if (most > 0.0F &&
-            drawn.density(most, static_cast<std::size_t>(column)) > Bricks::thinnest) {
+            drawn.density(most, static_cast<std::size_t>(column)) > Bricks::min_extinction) {
           return true;
         }
       }
@@ -148,7 +148,7 @@ template <class Smoky, class Filler> void Bricks::build(const Smoky& smoky, cons
 Bricks::Bricks(const Fields& fields, const std::array<Index, 3>& shape, double voxel,
                const Vector& origin)
     : shape_(shape), voxel_(voxel), origin_(origin) {
-  check(Brick{fields.density, shape, voxel, origin});
+  check(VoxelGrid{fields.density, shape, voxel, origin});
   check_fields(fields);
   build([&](const Place& at) { return smoky(fields.density, at); },
         [&] { return [&](const Place& at, std::uint16_t* out) { pack(fields, at, out); }; });
@@ -173,7 +173,7 @@ bool Bricks::smoky(std::span<const float> density, const Place& at) const {
   for (Index x = i; x < std::min(i + wide, shape_[0]); ++x) {
     for (Index y = j; y < std::min(j + wide, shape_[1]); ++y) {
       const float* row = density.data() + (x * shape_[1] + y) * shape_[2] + k;
-      if (*std::max_element(row, row + count) > thinnest) {
+      if (*std::max_element(row, row + count) > min_extinction) {
         return true;
       }
     }

@@ -15,16 +15,15 @@ namespace firetwin::volume {
 /// What is drawn of smoke that dims the light.
 struct Drawn {
   std::span<const double> share; ///< [nx][ny] of the density, 0 to 1
-  float thinnest = 0.0F;         ///< 1/m; what is thinner then is clear
+  float min_extinction = 0.0F;   ///< 1/m; what is thinner then is clear
 
   float density(float all, std::size_t column) const {
     const auto left = static_cast<float>(static_cast<double>(all) * share[column]);
-    return left < thinnest ? 0.0F : left;
+    return left < min_extinction ? 0.0F : left;
   }
 };
 
-/// Smoke and the light in it on voxels of one size, only where there is smoke: what rays are
-/// marched through.
+/// Sparse voxel grid of smoke and light for ray marching.
 ///
 /// Blocks of 8^3 cells, each with the 9^3 voxels at its cells' corners, so that what is between
 /// them is found within one block. A voxel is eight half floats, one after the other.
@@ -34,7 +33,7 @@ public:
   static constexpr std::int64_t wide = side + 1;
   static constexpr std::size_t channels = 8; ///< of which three are spare
   static constexpr std::size_t block_size = wide * wide * wide * channels;
-  static constexpr float thinnest = 2.5e-5F; ///< 1/m; a block without more counts as clear
+  static constexpr float min_extinction = 2.5e-5F; ///< 1/m; a block without more counts as clear
 
   /// Of a voxel, as they lie in a block.
   struct Fields {

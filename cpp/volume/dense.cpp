@@ -23,9 +23,9 @@ namespace {
 
 } // namespace
 
-Frame write_dense(const std::filesystem::path& path,
-                  const std::map<std::string, DenseField>& fields, const DenseSettings& settings,
-                  const io::Metadata& metadata) {
+VdbSummary write_dense(const std::filesystem::path& path,
+                       const std::map<std::string, DenseField>& fields,
+                       const DenseSettings& settings, const io::Metadata& metadata) {
   check_voxel_size(settings.voxel_size);
   check_finite(settings.origin, "origin");
   check_zero_or_more(static_cast<double>(settings.tolerance), "tolerance");
@@ -35,7 +35,7 @@ Frame write_dense(const std::filesystem::path& path,
   }
   VdbArchive archive;
   double mass = 0.0;
-  double hidden = 0.0;
+  double culled_mass = 0.0;
   const double volume = settings.voxel_size * settings.voxel_size * settings.voxel_size;
   const auto add = [&](const std::string& name, const openvdb::FloatTree* within) {
     const DenseField& field = fields.at(name);
@@ -48,7 +48,7 @@ Frame write_dense(const std::filesystem::path& path,
     }
     if (is_density) {
       mass = leaves.sum * volume;
-      hidden = leaves.hidden * volume;
+      culled_mass = leaves.culled_sum * volume;
     }
     archive.add({grid, [&field](const Leaf& leaf, LeafValues& values) {
                    copy_leaf(field, leaf.origin(), values);
@@ -62,9 +62,9 @@ Frame write_dense(const std::filesystem::path& path,
       add(name, outer ? &outer->constTree() : nullptr);
     }
   }
-  Frame frame = archive.write(path, metadata);
+  VdbSummary frame = archive.write(path, metadata);
   frame.mass = mass;
-  frame.hidden = hidden;
+  frame.culled_mass = culled_mass;
   return frame;
 }
 

@@ -2,8 +2,8 @@
 
 #include "base/vector.hpp"
 #include "io/metadata.hpp"
-#include "lod/sight.hpp"
-#include "volume/frame.hpp"
+#include "lod/view_set.hpp"
+#include "volume/vdb_summary.hpp"
 
 #include <array>
 #include <cstdint>
@@ -21,22 +21,23 @@ struct DenseField {
 };
 
 struct DenseSettings {
-  double voxel_size = 1.0;           ///< m
-  Vector origin{};                   ///< centre of voxel (0, 0, 0), m
-  bool half = true;                  ///< precision
-  float tolerance = 0.0F;            ///< values this near 0 are left out
-  const lod::Sight* sight = nullptr; ///< leaves that do not count are left out, see Seen
-  std::string within;                ///< the field without whose leaves others have none; none: ""
+  double voxel_size = 1.0; ///< m
+  Vector origin{};         ///< centre of voxel (0, 0, 0), m
+  bool half = true;        ///< precision
+  float tolerance = 0.0F;  ///< values this near 0 are left out
+  const lod::ViewSet* view_set =
+      nullptr;        ///< leaves that do not count are left out, see LeafCulling
+  std::string within; ///< the field without whose leaves others have none; none: ""
 };
 
 /// Writes dense arrays as sparse fog volumes, each with its own active voxels: those beyond the
 /// tolerance. Leaves of one value become tiles. The frame's mass is the sum of `density` (kg/m3)
-/// over voxels times their volume, where there is such a grid, and `hidden` that of what is left
-/// out because it is not seen.
+/// over voxels times their volume, where there is such a grid, and `culled_mass` that of what is
+/// left out because it is not seen.
 /// @throws std::invalid_argument when there is no field called `within`, and for values that are
 /// not finite or too large for half precision
-Frame write_dense(const std::filesystem::path& path,
-                  const std::map<std::string, DenseField>& fields, const DenseSettings& settings,
-                  const io::Metadata& metadata);
+VdbSummary write_dense(const std::filesystem::path& path,
+                       const std::map<std::string, DenseField>& fields,
+                       const DenseSettings& settings, const io::Metadata& metadata);
 
 } // namespace firetwin::volume

@@ -1,7 +1,7 @@
 #include "volume/dense_leaves.hpp"
 
 #include "base/clones.hpp"
-#include "volume/seen.hpp"
+#include "volume/leaf_culling.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -85,7 +85,7 @@ struct Column {
 /// of the others need not be asked for.
 class Blocks {
 public:
-  Blocks(const DenseField& field, const Seen& seen) {
+  Blocks(const DenseField& field, const LeafCulling& seen) {
     std::size_t size = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       count_[axis] = (field.shape[axis] - 1) / block_side + 1;
@@ -98,11 +98,11 @@ public:
       const auto y = static_cast<std::int32_t>(number / count_[2] % count_[1]);
       const auto x = static_cast<std::int32_t>(number / count_[2] / count_[1]);
       const openvdb::Coord lowest(x * block_side, y * block_side, z * block_side);
-      seen_[i] = seen.counts(lowest, block_side) ? 1 : 0;
+      seen_[i] = seen.is_visible(lowest, block_side) ? 1 : 0;
     });
   }
 
-  bool counts(const openvdb::Coord& voxel) const {
+  bool is_visible(const openvdb::Coord& voxel) const {
     const auto row =
         std::int64_t{voxel.x() / block_side} * count_[1] + std::int64_t{voxel.y() / block_side};
     return seen_[static_cast<std::size_t>(row * count_[2] + voxel.z() / block_side)] != 0;
@@ -119,7 +119,7 @@ public:
   Scan(const DenseField& field, const DenseSettings& settings, bool wanted,
        const openvdb::FloatTree* within)
       : field_(field), settings_(settings), wanted_(wanted), within_(within),
-        seen_(settings.sight, settings.voxel_size, settings.origin), blocks_(field, seen_) {}
+        seen_(settings.view_set, settings.voxel_size, settings.origin), blocks_(field, seen_) {}
 
   void column(std::int32_t x, std::int32_t y, Column& column) const {
     for (std::int32_t z = 0; z < field_.shape[2]; z += side) {
@@ -127,7 +127,7 @@ public:
       if (within_ != nullptr && !has(*within_, origin)) {
         continue;
       }
-      const bool counts = blocks_.counts(origin) && seen_.counts(origin, side);
+      const bool counts = blocks_.is_visible(origin) && seen_.is_visible(origin, side);
       if (counts || wanted_) {
         leaf(origin, counts, column);
       }
@@ -154,7 +154,7 @@ private:
     if (largest <= std::bit_cast<std::uint32_t>(std::abs(settings_.tolerance))) {
       return;
     }
-    (counts ? column.found.sum : column.found.hidden) += sum_of(values, settings_.tolerance);
+    (counts ? column.found.sum : column.found.culled_sum) += sum_of(values, settings_.tolerance);
     if (!counts) {
       return;
     }
@@ -179,7 +179,7 @@ private:
   const DenseSettings& settings_;
   bool wanted_;
   const openvdb::FloatTree* within_;
-  Seen seen_;
+  LeafCulling seen_;
   Blocks blocks_;
 };
 
@@ -221,7 +221,7 @@ DenseLeaves find_leaves(const DenseField& field, const DenseSettings& settings, 
   DenseLeaves all;
   for (Column& column : columns) {
     all.sum += column.found.sum;
-    all.hidden += column.found.hidden;
+    all.culled_sum += column.found.culled_sum;
     all.bad = all.bad ? all.bad : column.found.bad;
     for (std::unique_ptr<Leaf>& leaf : column.leaves) {
       tree.addLeaf(leaf.release()); // the tree owns it now

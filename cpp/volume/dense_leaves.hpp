@@ -11,8 +11,8 @@ namespace firetwin::volume {
 
 /// What a dense field comes to as a grid.
 struct DenseLeaves {
-  double sum = 0.0;    ///< of all active values
-  double hidden = 0.0; ///< of those that would be, in leaves that do not count; see find_leaves
+  double sum = 0.0;        ///< of all active values
+  double culled_sum = 0.0; ///< of those that would be, in leaves that do not count; see find_leaves
   std::optional<openvdb::Coord> bad; ///< the first voxel whose value cannot be held
 };
 

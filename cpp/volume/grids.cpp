@@ -2,7 +2,7 @@
 
 #include "volume/archive.hpp"
 #include "volume/fog.hpp"
-#include "volume/seen.hpp"
+#include "volume/leaf_culling.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -29,7 +29,7 @@ constexpr std::array<NamedGrid, 7> all_grids{{{SmokeGrid::density, "density", ""
                                               {SmokeGrid::glow, "glow", "1"},
                                               {SmokeGrid::flame, "flame", "1"}}};
 
-bool is_wanted(const Wanted& wanted, SmokeGrid grid) {
+bool is_wanted(const GridRequest& wanted, SmokeGrid grid) {
   const bool lit = grid == SmokeGrid::glow || grid == SmokeGrid::flame;
   if (lit && wanted.flames.power.empty()) {
     return false;
@@ -71,27 +71,27 @@ LeafGrid whole(const openvdb::FloatGrid::Ptr& grid) {
           }};
 }
 
-/// Those leaves of a source that count, and what is known of them.
+/// The visible leaves of a source, and their masses.
 class Chosen {
 public:
-  Chosen(const LeafSource& source, double voxel_size, const lod::Sight* sight)
+  Chosen(const LeafSource& source, double voxel_size, const lod::ViewSet* view_set)
       : source_(source), voxel_size_(voxel_size), tree_(std::make_shared<openvdb::FloatTree>()),
         mass_(source.leaves.size()) {
     const SharedLeaves& all = source.leaves;
-    const Seen seen(sight, voxel_size, {0.0, 0.0, 0.0});
-    std::vector<char> counts(all.size());
-    std::vector<double> hidden(all.size());
+    const LeafCulling culling(view_set, voxel_size, {0.0, 0.0, 0.0});
+    std::vector<char> visible(all.size());
+    std::vector<double> culled(all.size());
     tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-      counts[i] = seen.counts(all.origins[i], static_cast<int>(leaf_side)) ? 1 : 0;
-      if (counts[i] == 0) {
+      visible[i] = culling.is_visible(all.origins[i], static_cast<int>(leaf_side)) ? 1 : 0;
+      if (visible[i] == 0) {
         LeafValues dilution;
         source.values(i, SmokeGrid::dilution, dilution);
-        hidden[i] = mass_of(all.masks[i], dilution, voxel_size) * fresh_smoke;
+        culled[i] = mass_of(all.masks[i], dilution, voxel_size) * fresh_smoke;
       }
     });
-    hidden_ = std::accumulate(hidden.begin(), hidden.end(), 0.0);
+    culled_ = std::accumulate(culled.begin(), culled.end(), 0.0);
     for (std::size_t i = 0; i < all.size(); ++i) {
-      if (counts[i] != 0) {
+      if (visible[i] != 0) {
         auto leaf = std::make_unique<Leaf>(openvdb::PartialCreate(), all.origins[i]);
         leaf->setValueMask(all.masks[i]);
         leaf->setTransientData(static_cast<openvdb::Index32>(i));
@@ -124,15 +124,15 @@ public:
 
   /// kg of the dilution that was asked for.
   double mass() const { return std::accumulate(mass_.begin(), mass_.end(), 0.0); }
-  /// kg in the leaves that do not count.
-  double hidden() const { return hidden_; }
+  /// kg in culled leaves.
+  double culled_mass() const { return culled_; }
 
 private:
   const LeafSource& source_;
   double voxel_size_;
   openvdb::FloatTree::Ptr tree_;
   std::vector<double> mass_;
-  double hidden_ = 0.0;
+  double culled_ = 0.0;
 };
 
 } // namespace
@@ -148,9 +148,9 @@ SmokeGrid smoke_grid(const std::string& name) {
   throw std::invalid_argument("there is no smoke grid \"" + name + "\"; choose from " + known);
 }
 
-Frame write_leaves(const std::filesystem::path& path, const LeafSource& source, double voxel_size,
-                   const Wanted& wanted) {
-  Chosen chosen(source, voxel_size, wanted.sight);
+VdbSummary write_leaves(const std::filesystem::path& path, const LeafSource& source,
+                        double voxel_size, const GridRequest& wanted) {
+  Chosen chosen(source, voxel_size, wanted.view_set);
   VdbArchive archive;
   for (const NamedGrid& named : all_grids) {
     if (is_wanted(wanted, named.grid)) {
@@ -158,9 +158,9 @@ Frame write_leaves(const std::filesystem::path& path, const LeafSource& source, 
                                                  : chosen.grid(named, wanted.flames));
     }
   }
-  Frame frame = archive.write(path, wanted.metadata);
+  VdbSummary frame = archive.write(path, wanted.metadata);
   frame.mass = chosen.mass();
-  frame.hidden = chosen.hidden();
+  frame.culled_mass = chosen.culled_mass();
   return frame;
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "io/metadata.hpp"
-#include "lod/sight.hpp"
-#include "volume/frame.hpp"
+#include "lod/view_set.hpp"
 #include "volume/leaf.hpp"
 #include "volume/smooth.hpp"
+#include "volume/vdb_summary.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -35,11 +35,11 @@ enum class SmokeGrid { density, dilution, shade, size, temperature, glow, flame 
 /// @throws std::invalid_argument for a name that is not one of them.
 SmokeGrid smoke_grid(const std::string& name);
 
-/// What is to be written of the smoke of a moment.
-struct Wanted {
+/// Options of writing smoke grids.
+struct GridRequest {
   std::vector<SmokeGrid> grids; ///< none: all; glow and flame only with flames
   Flames flames;
-  const lod::Sight* sight = nullptr; ///< what counts; null: everything
+  const lod::ViewSet* view_set = nullptr; ///< for culling; null culls nothing
   io::Metadata metadata;
 };
 
@@ -59,9 +59,9 @@ struct LeafSource {
   std::function<void(std::size_t leaf, SmokeGrid grid, LeafValues& out)> values;
 };
 
-/// Writes the wanted grids of the leaves that count (with 300 m round them). The frame's mass is
-/// that of the dilution written, `hidden` that of the leaves left out.
-Frame write_leaves(const std::filesystem::path& path, const LeafSource& source, double voxel_size,
-                   const Wanted& wanted);
+/// Writes the wanted grids of the visible leaves (with a margin of 300 m). The summary's mass is
+/// that of the dilution written, `culled_mass` that of the culled leaves.
+VdbSummary write_leaves(const std::filesystem::path& path, const LeafSource& source,
+                        double voxel_size, const GridRequest& wanted);
 
 } // namespace firetwin::volume

@@ -10,7 +10,8 @@ namespace firetwin::volume {
 namespace {
 
 /// Value (rows, columns) at a place, linear between, held outside.
-float field(std::span<const float> values, const Warmth& air, const std::array<double, 2>& place) {
+float field(std::span<const float> values, const AirTemperature& air,
+            const std::array<double, 2>& place) {
   std::array<std::int64_t, 2> low{};
   std::array<float, 2> part{};
   for (std::size_t axis = 0; axis < 2; ++axis) { // x, y
@@ -32,7 +33,7 @@ float field(std::span<const float> values, const Warmth& air, const std::array<d
 }
 
 /// Radiance of air at a place.
-float radiance(const Warmth& air, const Vector& place) {
+float radiance(const AirTemperature& air, const Vector& place) {
   const std::array<double, 2> flat{place[0], place[1]};
   const double above = place[2] - static_cast<double>(field(air.elevation, air, flat));
   const double kelvin = static_cast<double>(field(air.kelvin, air, flat)) - above * air.lapse;
@@ -57,8 +58,8 @@ Crossing* nearest(std::vector<Crossing>& crossings) {
 }
 
 /// Radiance and transmittance of the smoke on a ray.
-std::array<float, 2> along(Way& way, const Vector& origin, const Vector& direction,
-                           const Warmth& air, double step) {
+std::array<float, 2> along(RayTraversal& way, const Vector& origin, const Vector& direction,
+                           const AirTemperature& air, double step) {
   float light = 0.0F, through = 1.0F;
   // Layers fade into each other: they are gone through block by block.
   while (Crossing* crossing = nearest(way.crossings())) {
@@ -79,7 +80,7 @@ std::array<float, 2> along(Way& way, const Vector& origin, const Vector& directi
 } // namespace
 
 void march_infrared(Layers layers, const Rays& rays, std::span<const float> distances,
-                    const Warmth& air, double step, std::span<float> out) {
+                    const AirTemperature& air, double step, std::span<float> out) {
   check(rays, distances, 1);
   const auto cells = static_cast<std::size_t>(air.shape[0] * air.shape[1]);
   if (cells < 1 || air.kelvin.size() != cells || air.elevation.size() != cells ||
@@ -87,8 +88,8 @@ void march_infrared(Layers layers, const Rays& rays, std::span<const float> dist
     throw std::invalid_argument("air needs temperature and elevation of one shape, and radiances");
   }
   for_rays(
-      rays.size(), [layers] { return Way(layers); },
-      [&](Way& way, std::size_t ray) {
+      rays.size(), [layers] { return RayTraversal(layers); },
+      [&](RayTraversal& way, std::size_t ray) {
         const Vector origin = rays.origin(ray), direction = rays.direction(ray);
         const bool smoky = way.follow(origin, direction, distances[ray]);
         const auto [light, through] =

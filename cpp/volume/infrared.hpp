@@ -8,8 +8,8 @@
 
 namespace firetwin::volume {
 
-/// Air that smoke is as warm as, and what that gives off.
-struct Warmth {
+/// Air temperature, which is the smoke's, and the band radiance of black bodies.
+struct AirTemperature {
   std::span<const float> kelvin;    ///< (rows, columns) at the model's ground, rows to the north
   std::span<const float> elevation; ///< (rows, columns) of the model's ground, m
   std::array<std::int64_t, 2> shape;
@@ -21,12 +21,11 @@ struct Warmth {
   double absorption;               ///< per extinction in green light
 };
 
-/// What smoke adds to each ray in the infrared, where it absorbs and gives off and scatters
-/// nothing, and what comes through: (n, 2) radiance and transmittance up to each ray's distance
-/// (n). Air has one temperature in a block.
+/// Infrared ray marching with absorption and emission and without scattering: (n, 2) radiance and
+/// transmittance up to each ray's distance (n). A block has one temperature.
 ///
 /// @throws std::invalid_argument
 void march_infrared(Layers layers, const Rays& rays, std::span<const float> distances,
-                    const Warmth& air, double step, std::span<float> out);
+                    const AirTemperature& air, double step, std::span<float> out);
 
 } // namespace firetwin::volume

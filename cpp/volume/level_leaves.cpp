@@ -111,7 +111,7 @@ private:
   }
 
   static bool is_thick(float smoke) {
-    return known_smoke(smoke) > static_cast<float>(thinnest_dilution * fresh_smoke);
+    return valid_smoke(smoke) > static_cast<float>(thinnest_dilution * fresh_smoke);
   }
 
   bool has_smoke() const {

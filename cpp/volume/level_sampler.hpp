@@ -74,7 +74,7 @@ public:
 
   /// Smoke where the sampler is, kg/m3.
   double smoke() const {
-    return between([&](std::size_t i) { return known_smoke(levels_.smoke[i]); });
+    return between([&](std::size_t i) { return valid_smoke(levels_.smoke[i]); });
   }
   double temperature() const { ///< K
     return between([&](std::size_t i) { return levels_.temperature[i]; });

@@ -154,8 +154,8 @@ float spacing(const geo::LocalFrame& frame, const Levels& levels) {
 
 } // namespace
 
-Frame write_levels(const std::filesystem::path& path, const geo::LocalFrame& frame,
-                   const Levels& levels, double voxel_size, const Wanted& wanted) {
+VdbSummary write_levels(const std::filesystem::path& path, const geo::LocalFrame& frame,
+                        const Levels& levels, double voxel_size, const GridRequest& wanted) {
   check_voxel_size(voxel_size);
   check_heights(levels);
   const std::vector<openvdb::Coord> origins = reached_leaves(frame, levels, voxel_size);

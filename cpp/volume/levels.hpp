@@ -21,7 +21,7 @@ struct Levels {
 };
 
 /// Smoke without gaps: what is not a number or negative is none.
-inline float known_smoke(float smoke) {
+inline float valid_smoke(float smoke) {
   return smoke > 0.0F && smoke <= std::numeric_limits<float>::max() ? smoke : 0.0F;
 }
 
@@ -32,14 +32,14 @@ inline float known_smoke(float smoke) {
 /// centimetres) fields and heights of the levels are bilinear, and the field is linear in height
 /// between levels: linear functions of height are kept exactly. Below the lowest level its value
 /// holds down to the ground; above the highest, outside the grid and under the ground there is no
-/// smoke. Nothing is scaled: Frame::mass is the integral of what was found.
+/// smoke. Nothing is scaled: VdbSummary::mass is the integral of what was found.
 ///
 /// The model gives no surface, so one is made of its concentration: `density` is a smoothstep of
 /// `dilution` from thinnest_dilution to 0.1, thick in every voxel, `shade` follows from both as in
 /// write_smoke, and `size` is the spacing of the model's columns, below which only noise can show
 /// detail.
 /// @throws std::invalid_argument unless check_voxel_size passes; Error where heights do not ascend
-Frame write_levels(const std::filesystem::path& path, const geo::LocalFrame& frame,
-                   const Levels& levels, double voxel_size, const Wanted& wanted);
+VdbSummary write_levels(const std::filesystem::path& path, const geo::LocalFrame& frame,
+                        const Levels& levels, double voxel_size, const GridRequest& wanted);
 
 } // namespace firetwin::volume

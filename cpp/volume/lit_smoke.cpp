@@ -20,7 +20,7 @@ using Place = SparseSmoke::Place;
 using Row = std::array<float, BlockLight::row>;
 
 constexpr int fine_steps = 4; // as far as the middle of the next voxel but one of twice the size
-static_assert(fine_steps <= Neighbourhood::reach && BlockLight::row == Between::lanes);
+static_assert(fine_steps <= Neighbourhood::reach && BlockLight::row == GridResampler::lanes);
 
 void check_direction(const Vector& direction) {
   check_finite(direction, "direction");
@@ -30,8 +30,8 @@ void check_direction(const Vector& direction) {
 }
 
 /// Means of 2^3 voxels; what lies beyond the smoke is clear.
-OwnBrick halved(const SparseSmoke& smoke) {
-  OwnBrick coarse{{}, smoke.shape(), 2.0 * smoke.voxel(), smoke.origin()};
+OwnedVoxelGrid halved(const SparseSmoke& smoke) {
+  OwnedVoxelGrid coarse{{}, smoke.shape(), 2.0 * smoke.voxel(), smoke.origin()};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     coarse.shape[axis] = (coarse.shape[axis] + 1) / 2;
     coarse.origin[axis] += 0.5 * smoke.voxel();
@@ -62,8 +62,8 @@ OwnBrick halved(const SparseSmoke& smoke) {
   return coarse;
 }
 
-OwnBrick sky_over(const OwnBrick& smoke, double part) {
-  OwnBrick open = volume::halved(smoke.view());
+OwnedVoxelGrid sky_over(const OwnedVoxelGrid& smoke, double part) {
+  OwnedVoxelGrid open = volume::halved(smoke.view());
   open.values = sky_light(open.view(), part);
   return open;
 }
@@ -181,17 +181,17 @@ LitSmoke::Stencil::Stencil(const Vector& direction) {
 }
 
 LitSmoke::LitSmoke(std::shared_ptr<const SparseSmoke> smoke, const Vector& direction,
-                   const Brick* beyond, std::array<double, 2> parts)
+                   const VoxelGrid* beyond, std::array<double, 2> parts)
     : smoke_((check_direction(direction), std::move(smoke))),
       thinner_(static_cast<float>(-parts[0])), depths_(halved(*smoke_)),
       open_(sky_over(depths_, parts[1])), first_steps_(direction) {
   depths_.values = optical_depth(depths_.view(), direction, beyond);
-  const auto between = [this](const OwnBrick& values, double steps, const Vector& way) {
+  const auto between = [this](const OwnedVoxelGrid& values, double steps, const Vector& way) {
     Vector shift{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       shift[axis] = steps * smoke_->voxel() * way[axis];
     }
-    return Between(values, smoke_->shape(), smoke_->voxel(), smoke_->origin(), shift);
+    return GridResampler(values, smoke_->shape(), smoke_->voxel(), smoke_->origin(), shift);
   };
   sky_ = between(open_, 0.0, direction);
   depth_ = between(depths_, 0.0, direction);

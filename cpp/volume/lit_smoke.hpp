@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/sparse_smoke.hpp"
-#include "volume/between.hpp"
-#include "volume/brick.hpp"
+#include "volume/grid_resampler.hpp"
+#include "volume/voxel_grid.hpp"
 
 #include <array>
 #include <cstddef>
@@ -36,7 +36,7 @@ struct BlockLight {
   std::array<float, wide * wide * row> sun, sky;
 };
 
-/// Smoke, and the light of sun and sky in it: exp(-part of the optical depth), 1 where it is clear;
+/// Sunlight and skylight in sparse smoke: exp(-part of the optical depth), 1 where it is clear;
 /// only where there is smoke in the voxel or one of the 26 around it, which is all that is needed
 /// to interpolate it: elsewhere it is 0.
 ///
@@ -50,12 +50,12 @@ public:
   ///   null
   /// @param parts of the optical depth that count, for the sun and for the sky
   /// @throws std::invalid_argument
-  LitSmoke(std::shared_ptr<const SparseSmoke> smoke, const Vector& direction, const Brick* beyond,
-           std::array<double, 2> parts);
+  LitSmoke(std::shared_ptr<const SparseSmoke> smoke, const Vector& direction,
+           const VoxelGrid* beyond, std::array<double, 2> parts);
 
   const SparseSmoke& smoke() const { return *smoke_; }
   /// Optical depths to the sun, on voxels of twice the size.
-  const OwnBrick& depths() const { return depths_; }
+  const OwnedVoxelGrid& depths() const { return depths_; }
   void gather(const SparseSmoke::Place& block, Neighbourhood& out) const;
   /// Light in a block. False where there is no smoke near, and nothing is written.
   bool light(const SparseSmoke::Place& block, const Neighbourhood& around, BlockLight& out) const;
@@ -76,9 +76,10 @@ private:
 
   std::shared_ptr<const SparseSmoke> smoke_;
   float thinner_; ///< than nothing is the light, for each optical depth
-  OwnBrick depths_, open_;
+  OwnedVoxelGrid depths_, open_;
   Stencil first_steps_;
-  std::optional<Between> sky_, depth_, depth_beyond_; ///< the last from the end of the first steps
+  std::optional<GridResampler> sky_, depth_,
+      depth_beyond_; ///< the last from the end of the first steps
 };
 
 } // namespace firetwin::volume

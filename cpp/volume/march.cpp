@@ -33,7 +33,7 @@ struct Shade {
       : fresh(four(light.fresh)), old(four(light.old)),
         sun(four(light.sun, 0.25F / std::numbers::pi_v<float>)), sky(four(light.sky)),
         glow(four(light.glow)), air(four(light.air)), density(light.density),
-        twice(light.oftener[0]), thrice(light.oftener[1]), thin(light.thin),
+        twice(light.multiple_scattering[0]), thrice(light.multiple_scattering[1]), thin(light.thin),
         thick_from(light.thick[0]), thick_more(1.0F / (light.thick[1] - light.thick[0])),
         glows(std::max({light.glow[0], light.glow[1], light.glow[2]}) > 0.0F) {}
 };
@@ -114,7 +114,7 @@ void add(const Inside& inside, const Steps& steps, const Shade& shade, float sto
     for (std::size_t k = 0; k < inside.count; ++k) {
       Lanes v;
       sample(*inside.crossing[k], *inside.segment[k], steps.from + way, v);
-      if (v[0] <= Bricks::thinnest) {
+      if (v[0] <= Bricks::min_extinction) {
         continue;
       }
       v[0] *= shade.density;
@@ -146,7 +146,7 @@ private:
 /// Follows rays one by one; one for each thread.
 class Marcher {
 public:
-  Marcher(Layers layers, const Taps& taps, const Illumination& light, const March& how)
+  Marcher(Layers layers, const Taps& taps, const Illumination& light, const MarchSettings& how)
       : way_(layers), taps_(taps), light_(light), how_(how), shade_(light), order_(taps.count) {}
 
   void ray(const Vector& origin, const Vector& direction, std::size_t number, float* out);
@@ -157,10 +157,10 @@ private:
   void step(float t, float until, const Haze& haze);
   void record(float* out);
 
-  Way way_;
+  RayTraversal way_;
   Taps taps_;
   const Illumination& light_;
-  March how_;
+  MarchSettings how_;
   Shade shade_;
   Inside inside_;
   Sum sum_;
@@ -233,7 +233,7 @@ void Marcher::ray(const Vector& origin, const Vector& direction, std::size_t num
       ends_.push_back(static_cast<float>(static_cast<double>(distances[tap]) - way_.entry()));
     }
     const double g = light_.anisotropy,
-                 base = 1.0 + g * g - 2.0 * g * dot(direction, light_.toward);
+                 base = 1.0 + g * g - 2.0 * g * dot(direction, light_.sun_direction);
     shade_.spread = static_cast<float>((1.0 - g * g) / (base * std::sqrt(base)));
     const Haze haze(light_, origin, direction);
     float t = 0.0F;
@@ -263,7 +263,7 @@ void Marcher::ray(const Vector& origin, const Vector& direction, std::size_t num
 } // namespace
 
 void march(Layers layers, const Rays& rays, const Taps& taps, const Illumination& light,
-           const March& how, std::span<float> out) {
+           const MarchSettings& how, std::span<float> out) {
   check(rays, taps.distances, taps.count);
   if (layers.size() > Inside{}.crossing.size() || taps.count < 1) {
     throw std::invalid_argument("a march takes at most four layers, and one tap or more");

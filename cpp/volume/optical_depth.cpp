@@ -22,8 +22,8 @@ void optical_depth(Layers layers, const Rays& rays, std::span<const float> dista
                    float enough, std::span<float> out) {
   check(rays, distances, 1);
   for_rays(
-      rays.size(), [layers] { return Way(layers); },
-      [&](Way& way, std::size_t ray) {
+      rays.size(), [layers] { return RayTraversal(layers); },
+      [&](RayTraversal& way, std::size_t ray) {
         float sum = 0.0F;
         if (way.follow(rays.origin(ray), rays.direction(ray), distances[ray])) {
           for (const Crossing& crossing : way.crossings()) {

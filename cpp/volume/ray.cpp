@@ -119,7 +119,7 @@ const Segment* Crossing::reach(float distance) {
   return at < segments.size() ? &segments[at] : nullptr;
 }
 
-Way::Way(Layers layers)
+RayTraversal::RayTraversal(Layers layers)
     : layers_(layers),
       box_{Vector{endless, endless, endless}, Vector{-endless, -endless, -endless}},
       crossings_(layers.size()) {
@@ -133,7 +133,7 @@ Way::Way(Layers layers)
   }
 }
 
-bool Way::follow(const Vector& origin, const Vector& direction, double end) {
+bool RayTraversal::follow(const Vector& origin, const Vector& direction, double end) {
   double enter = 0.0, leave = end;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     clip(box_[0][axis] - origin[axis], box_[1][axis] - origin[axis], direction[axis], enter, leave);

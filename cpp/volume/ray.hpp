@@ -47,11 +47,11 @@ struct Crossing {
   const Segment* reach(float distance);
 };
 
-/// A ray through all layers, found block by block with a 3-D digital differential analyser
-/// (J. Amanatides and A. Woo 1987). It keeps its memory from ray to ray: one for each thread.
-class Way {
+/// Ray traversal of the blocks of all layers by a 3-D digital differential analyser
+/// (J. Amanatides and A. Woo 1987). Use one object per thread: it reuses its memory.
+class RayTraversal {
 public:
-  explicit Way(Layers layers);
+  explicit RayTraversal(Layers layers);
 
   /// Follows a ray to `end` (m). False where it meets no smoke.
   bool follow(const Vector& origin, const Vector& direction, double end);

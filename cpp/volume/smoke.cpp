@@ -1,8 +1,8 @@
 #include "volume/smoke.hpp"
 
 #include "base/smoothstep.hpp"
-#include "volume/bins.hpp"
 #include "volume/grids.hpp"
+#include "volume/leaf_bins.hpp"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -50,14 +50,14 @@ Leaves fill(const Puffs& puffs, double voxel_size) {
     reach[i] = puffs.mass[i] > 0.0 ? spread(puffs.radius[i], voxel) : 0.0F;
   }
   const LeafBox box(puffs, reach, voxel_size); // there is no smoke where no mass is
-  const Bins with_mass(box, puffs, reach, voxel_size);
-  const Bins near(box, puffs, edge, voxel_size);
+  const LeafBins with_mass(box, puffs, reach, voxel_size);
+  const LeafBins near(box, puffs, edge, voxel_size);
   const SpreadMass smoke(puffs, voxel);
   std::vector<Leaves> planes(box.planes());
   tbb::enumerable_thread_specific<DepthMeter> meters;
   tbb::parallel_for(std::size_t{0}, planes.size(), [&](std::size_t plane) {
-    const Bins::Plane masses(with_mass, plane);
-    const Bins::Plane edges(near, plane);
+    const LeafBins::Plane masses(with_mass, plane);
+    const LeafBins::Plane edges(near, plane);
     for (std::size_t i = 0; i < box.leaves_in_plane(); ++i) {
       if (masses.balls(i).empty() || edges.balls(i).empty()) {
         continue;
@@ -152,8 +152,8 @@ private:
 
 } // namespace
 
-Frame write_smoke(const std::filesystem::path& path, const Puffs& puffs, double voxel_size,
-                  const Wanted& wanted) {
+VdbSummary write_smoke(const std::filesystem::path& path, const Puffs& puffs, double voxel_size,
+                       const GridRequest& wanted) {
   check_voxel_size(voxel_size);
   const Leaves all = fill(puffs, voxel_size);
   LeafSource source;

@@ -19,7 +19,7 @@ namespace firetwin::volume {
 /// - `temperature`: K, of the air at that height (ISA) plus what the smoke's own heat adds;
 /// - with flames, `glow`: sum of P / 1e9 W exp(-r / 1100 m) / (1 + (r / 250 m)^2), so 1 amid flames
 ///   of 1 GW, and `flame`: power of the flames within 1.5 voxels in GW, at most 1.
-Frame write_smoke(const std::filesystem::path& path, const Puffs& puffs, double voxel_size,
-                  const Wanted& wanted);
+VdbSummary write_smoke(const std::filesystem::path& path, const Puffs& puffs, double voxel_size,
+                       const GridRequest& wanted);
 
 } // namespace firetwin::volume

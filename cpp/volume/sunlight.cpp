@@ -18,13 +18,13 @@ constexpr double ring = 0.4; // sine of the middle of four fifths of the sky
 struct Slices {
   Index count, rows, columns;            ///< slices, and voxels of one
   Index next, row, column;               ///< from one to its neighbour in memory
-  Index first, toward;                   ///< the lit slice's number, and +1 or -1 towards the light
+  Index first, sun_direction;            ///< the lit slice's number, and +1 or -1 towards the light
   std::size_t along, across_r, across_c; ///< axes
   float row_shift, column_shift;         ///< voxels, from a slice to that before it
   float half_step;                       ///< m
 };
 
-Slices slices(const Brick& brick, const Vector& direction) {
+Slices slices(const VoxelGrid& brick, const Vector& direction) {
   const auto length = [&](std::size_t axis) { return std::abs(direction[axis]); };
   const std::size_t along = length(0) >= length(1) && length(0) >= length(2) ? 0
                             : length(1) >= length(2)                         ? 1
@@ -32,15 +32,15 @@ Slices slices(const Brick& brick, const Vector& direction) {
   const std::size_t r = along == 0 ? 1 : 0, c = along == 2 ? 1 : 2;
   const std::array<Index, 3> stride{brick.shape[1] * brick.shape[2], brick.shape[2], 1};
   const double main = length(along);
-  const Index toward = direction[along] > 0.0 ? 1 : -1;
+  const Index sun_direction = direction[along] > 0.0 ? 1 : -1;
   return {brick.shape[along],
           brick.shape[r],
           brick.shape[c],
           stride[along],
           stride[r],
           stride[c],
-          toward > 0 ? brick.shape[along] - 1 : 0,
-          toward,
+          sun_direction > 0 ? brick.shape[along] - 1 : 0,
+          sun_direction,
           along,
           r,
           c,
@@ -49,7 +49,7 @@ Slices slices(const Brick& brick, const Vector& direction) {
           static_cast<float>(0.5 * brick.voxel / main)};
 }
 
-/// Between neighbours of a slice, where a way crosses it. Shifts are of at most one voxel.
+/// GridResampler neighbours of a slice, where a way crosses it. Shifts are of at most one voxel.
 struct Crossing {
   Index low;  ///< the lower neighbour's offset
   float high; ///< weight of the upper
@@ -72,7 +72,8 @@ template <class Function> void each_block(std::size_t count, const Function& f) 
 
 } // namespace
 
-std::vector<float> optical_depth(const Brick& smoke, const Vector& direction, const Brick* beyond) {
+std::vector<float> optical_depth(const VoxelGrid& smoke, const Vector& direction,
+                                 const VoxelGrid* beyond) {
   std::vector<float> depth(smoke.values.size());
   const Slices s = slices(smoke, direction);
   const Crossing over_rows = crossing(s.row_shift), over_columns = crossing(s.column_shift);
@@ -88,7 +89,7 @@ std::vector<float> optical_depth(const Brick& smoke, const Vector& direction, co
     return sample(*beyond, place);
   };
   for (Index step = 0; step < s.count; ++step) {
-    const Index slice = s.first - step * s.toward, before = slice + s.toward;
+    const Index slice = s.first - step * s.sun_direction, before = slice + s.sun_direction;
     tbb::parallel_for(Index{0}, s.rows, [&](Index row) {
       const Index low_row = row + over_rows.low;
       const bool rows_inside = step > 0 && low_row >= 0 && low_row + 1 < s.rows;
@@ -117,7 +118,7 @@ std::vector<float> optical_depth(const Brick& smoke, const Vector& direction, co
   return depth;
 }
 
-std::vector<float> sky_light(const Brick& smoke, double part) {
+std::vector<float> sky_light(const VoxelGrid& smoke, double part) {
   const double flat = std::sqrt(1.0 - ring * ring);
   const std::array<Vector, 5> ways{
       {{0, 0, 1}, {flat, 0, ring}, {-flat, 0, ring}, {0, flat, ring}, {0, -flat, ring}}};

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/vector.hpp"
-#include "volume/brick.hpp"
+#include "volume/voxel_grid.hpp"
 
 #include <vector>
 
@@ -17,9 +17,10 @@ namespace firetwin::volume {
 /// @param direction unit vector that the light comes from
 /// @param beyond optical depths of a larger brick, counted where a way leaves this one; may be null
 /// @throws std::invalid_argument
-std::vector<float> optical_depth(const Brick& smoke, const Vector& direction, const Brick* beyond);
+std::vector<float> optical_depth(const VoxelGrid& smoke, const Vector& direction,
+                                 const VoxelGrid* beyond);
 
 /// Mean of exp(-part * optical depth) over five ways up, each for a fifth of the sky.
-std::vector<float> sky_light(const Brick& smoke, double part);
+std::vector<float> sky_light(const VoxelGrid& smoke, double part);
 
 } // namespace firetwin::volume

@@ -46,10 +46,9 @@ def begin() -> tuple[flow.Solver, flow.Drift]:
     """The fire after six minutes, its detail carried for four."""
     levels = np.arange(LEVELS + 1) * DEPTH
     high = levels[-1]
-    solver = flow.Solver(
-        levels, SHAPE, SPACING, [0.0, high], [300.0, 300.0 + 0.004 * high], [[5.0, 0.0], [12.0, 0.0]],
-        gust_strength=0.9, gust_size=180.0, gust_time=45.0,
-    )  # fmt: skip
+    profile = flow.Profile([0.0, high], [300.0, 300.0 + 0.004 * high], [[5.0, 0.0], [12.0, 0.0]])
+    settings = flow.SolverSettings(gust_strength=0.9, gust_size=180.0, gust_time=45.0)
+    solver = flow.Solver(flow.Domain(levels, SHAPE, SPACING), profile, settings)
     place = np.array([0.2 * SHAPE[1], 0.5 * SHAPE[0]]) * SPACING
     place = place + np.random.default_rng(1).uniform(-150, 150, (40, 2))
     solver.set_sources(place, np.full(40, POWER / 40), np.full(40, 1.2e-9 * POWER / 40))
@@ -77,7 +76,7 @@ def painted(solver: flow.Solver, drift: flow.Drift) -> Grid:
         smoke=solver.smoke(),
         age=solver.age(),
         rise=solver.velocity()[..., 2],
-        warmth=solver.warmth(),
+        temperature_excess=solver.temperature_excess(),
         drift=moved,
         weights=tuple(drift.weights),
         turns=tuple(drift.turns),

@@ -61,7 +61,7 @@ def calm(
     n = round(side / spacing)
     solver = still_air(
         (n, n), spacing, 3000.0, 50.0, 0.0,
-        source_depth=50.0, gust_strength=0.6, gust_size=100.0, gust_time=20.0, top=0.1,
+        source_depth=50.0, gust_strength=0.6, gust_size=100.0, gust_time=20.0, damping_share=0.1,
     )  # fmt: skip
     flux = (rise / 5.0) ** 4 * (GRAVITY / THETA * GRADIENT) ** 1.5
     burn(solver, disc(radius) + n * spacing / 2, flux)
@@ -104,7 +104,7 @@ def warmed() -> tuple[float, float]:
 
     What warms air of a lower pressure makes more potential temperature of it; that is allowed for.
     """
-    solver = _room((0.0, 0.0), 0.0, side_time=1e9, top_time=1e9)
+    solver = _room((0.0, 0.0), 0.0, sponge_time=1e9, damping_time=1e9)
     _light(solver, 4e9)
     solver.step(5.0, 24)
     heat = solver.heat()
@@ -127,10 +127,11 @@ def written() -> float:
     return unbalanced(moment.mass | {"airborne": float(airborne)})
 
 
-def _room(wind: tuple[float, float], lapse: float, **options: float) -> flow.Solver:
+def _room(wind: tuple[float, float], lapse: float, **settings: float) -> flow.Solver:
     levels, shape, spacing = ROOM
     theta = [300.0, 300.0 + lapse * levels[-1]]
-    return flow.Solver(levels, shape, spacing, [0.0, levels[-1]], theta, [wind] * 2, **options)
+    profile = flow.Profile([0.0, levels[-1]], theta, [wind] * 2)
+    return flow.Solver(flow.Domain(levels, shape, spacing), profile, flow.SolverSettings(**settings))
 
 
 def _light(solver: flow.Solver, power: float) -> None:

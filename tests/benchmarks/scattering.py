@@ -86,7 +86,8 @@ def plume() -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Extinction (nx, ny, nz), 1/m, and freshness of a steady fire's smoke after five minutes."""
     levels = np.arange(LEVELS + 1) * DEPTH
     theta = [300.0, 300.0 + 0.004 * levels[-1]]
-    solver = flow.Solver(levels, SHAPE, SPACING, [0.0, levels[-1]], theta, [[WIND, 0.0], [2 * WIND, 0.0]])
+    profile = flow.Profile([0.0, levels[-1]], theta, [[WIND, 0.0], [2 * WIND, 0.0]])
+    solver = flow.Solver(flow.Domain(levels, SHAPE, SPACING), profile)
     place = np.array([0.25 * SHAPE[1], 0.5 * SHAPE[0]]) * SPACING
     place = place + np.random.default_rng(1).uniform(-200.0, 200.0, (40, 2))
     solver.set_sources(place, np.full(40, POWER / 40), np.full(40, SMOKE * POWER / 40))
@@ -96,7 +97,7 @@ def plume() -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         smoke=solver.smoke(),
         age=solver.age(),
         rise=solver.velocity()[..., 2],
-        warmth=solver.warmth(),
+        temperature_excess=solver.temperature_excess(),
         drift=np.zeros((*solver.shape, 2, 3), np.float32),
         weights=(1.0, 0.0),
         turns=(0, 0),
@@ -198,7 +199,7 @@ def _build(file: settings.Settings, scene: bpy.types.Scene) -> dict[str, bpy.typ
     for layer in flow_frames.layers(shot, Flow(shot)):
         part = 1.0 if layer.name == "smoke" else 0.0
         toward = sun.toward_light(shot.run, shot.frames.first)
-        sunlight, skylight, _ = volume.lit(part * density, VOXEL, toward, *flow_frames.LIGHT)
+        sunlight, skylight, _ = volume.smoke_light(part * density, VOXEL, toward, *flow_frames.LIGHT)
         grids = {"density": part * density, "fresh": fresh, "sun": sunlight, "sky": skylight}
         volume.write(str(layer.file(place, 1)), grids, VOXEL, origin, tolerance=1e-6, within="density")
     stage = owned.adopt(scene)

@@ -111,7 +111,7 @@ def test_what_is_in_the_picture_is_seen_and_what_is_far_beside_it_is_not(shot, r
     places = shot.ground.point(
         *(axis.ravel() for axis in np.meshgrid(run.fuel_latitude[::9], run.fuel_longitude[::9]))
     )
-    seen = lod.seen(places, 0.0, lod.Sight(view.position, view.rotation, view.half))
+    seen = lod.visible_mask(places, 0.0, lod.ViewSet(view.position, view.rotation, view.half))
     assert not (shot.sights.seen(places, 0.0) & ~seen).any()
     for place, verdict in zip(places, seen, strict=True):
         inside = False

@@ -267,7 +267,7 @@ def test_what_nobody_sees_is_not_painted_and_nothing_else_changes(shot, flowing,
     solved = flow.Flow(shot)
     solved.ready(1)
     painter = flow_frames.Painter(shot, flow_frames.layers(shot, solved)[-1], None)
-    sight = shot.sights.at(1)
+    views = shot.sights.at(1)
     asked = []
     real = flow_frames._wanted
 
@@ -276,9 +276,9 @@ def test_what_nobody_sees_is_not_painted_and_nothing_else_changes(shot, flowing,
         return asked[-1]
 
     monkeypatch.setattr(flow_frames, "_wanted", wanted)
-    painter.write(tmp_path / "some.vdb", 1, None, sight, {})
+    painter.write(tmp_path / "some.vdb", 1, None, views, {})
     monkeypatch.setattr(flow_frames, "_wanted", lambda *given: None)
-    painter.write(tmp_path / "all.vdb", 1, None, sight, {})
+    painter.write(tmp_path / "all.vdb", 1, None, views, {})
     assert asked[0].any()
     some, whole = grids(tmp_path / "some.vdb")[0], grids(tmp_path / "all.vdb")[0]
     for name in ("density", "fresh", "sun", "sky"):
@@ -290,7 +290,7 @@ def test_smoke_hides_smoke_from_those_cameras_that_film_the_frame(flowing, run, 
     drone = flowing.cameras[0]
     above = replace(drone, name="above", rig=rigs.kinds()["satellite"](), frames="2")
     shot = Shot(replace(flowing, cameras=(replace(drone, frames="1"), above)), run)
-    asked, real = [], flow_frames.volume.hidden
+    asked, real = [], flow_frames.volume.occluded_smoke
 
     def hidden(*given):
         asked.append(given[2:4])

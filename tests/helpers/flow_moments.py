@@ -18,7 +18,7 @@ def moment(**changed):
         "smoke": 3e-6 * np.exp(-(x**2 + y**2 + z**2) / 3.0),
         "age": np.full((N, N, N), 2000.0),
         "rise": np.zeros((N, N, N)),
-        "warmth": np.zeros((N, N, N)),
+        "temperature_excess": np.zeros((N, N, N)),
         "drift": np.zeros((N, N, N, 2, 3)),
         "weights": (0.6, 0.8),
         "turns": (0, 0),

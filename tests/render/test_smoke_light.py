@@ -44,12 +44,14 @@ def ball(shot, stage, scene, tmp_path):
 
     def fill(lighting, bearing, hide):
         towards = (-np.sin(np.radians(bearing)), -np.cos(np.radians(bearing)), 0.0)
-        sunlight, skylight, _ = volume.lit(density, VOXEL, towards, *flow_frames.LIGHT)
+        sunlight, skylight, _ = volume.smoke_light(density, VOXEL, towards, *flow_frames.LIGHT)
         path = tmp_path / f"ball{bearing:.0f}{hide}.vdb"
         grids = {"density": density, "fresh": np.zeros_like(density), "sun": sunlight, "sky": skylight}
         if hide == "behind":
             front = [(0.0, -1.0, 0.0)]
-            grids["hidden"], _ = volume.hidden(density, VOXEL, np.empty((0, 3)), front, flow_frames.DEEP)
+            grids["hidden"], _ = volume.occluded_smoke(
+                density, VOXEL, np.empty((0, 3)), front, flow_frames.DEEP
+            )
             assert 0.1 < grids["hidden"].sum() / (density > 0.0).sum() < 0.5
         elif hide == "all":
             grids["hidden"] = (density > 0.0).astype(np.float32)

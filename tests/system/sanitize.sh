@@ -6,8 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 python=${PYTHON:-.venv/bin/python}
 build=build/sanitize
 
-cmake -S . -B "$build" -G Ninja -DFIRETWIN_SANITIZE=ON -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O1 \
-  -DPython_EXECUTABLE="$python" -Dpybind11_DIR="$("$python" -m pybind11 --cmakedir)" >/dev/null
+cmake --preset asan -B "$build" -DPython_EXECUTABLE="$python" >/dev/null
 cmake --build "$build" -j 2 >&2
 
 # The package as it is installed, with the sanitized module beside it.

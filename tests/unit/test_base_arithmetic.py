@@ -46,7 +46,7 @@ with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
         "intensity": fires.intensity, "cell": trees.cell, "tree": trees.position, "scale": trees.scale,
         "model": trees.model, "level": lod.levels(np.linspace(0, 5000, 777)), "radiance": radiance,
         "brightness": sensor.brightness_temperature(radiance),
-        "near": lod.select(position.reshape(-1, 3), [[0., 0, 0]], 500),
+        "near": lod.select_nearest(position.reshape(-1, 3), [[0., 0, 0]], 500),
     }
     libm.fesetround(0)
 np.savez(out, **result)

@@ -9,7 +9,7 @@ from firetwin_core.geo import HeightField
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-EMBER = particles.Kind(particles.lift(200.0), (0.1, 0.6), (5.0, 25.0), (0.0, 4.0), (5.0, 60.0))
+EMBER = particles.ParticleKind(particles.lift(200.0), (0.1, 0.6), (5.0, 25.0), (0.0, 4.0), (5.0, 60.0))
 PLACES = np.array([[0.0, 0.0, 20.0], [100.0, -50.0, 30.0], [5.0, 5.0, 25.0]])
 WIND = np.array([[8.0, 0, 0], [12.0, 5, 0], [3.0, 9, 0]])
 
@@ -165,8 +165,8 @@ def test_threads_do_not_matter(time, seed):
         ({"rate": np.nan}, "rate"),
         ({"rate": 1e9}, "limit"),
         ({"wind_time": (0, 0, 1)}, "ascend"),
-        ({"kind": particles.Kind(-9, (0.5, 0.1), (0, 1), (0, 1), (1, 2))}, "relaxation"),
-        ({"kind": particles.Kind(-9, (0.1, 0.2), (0, 1), (0, 1), (1, np.inf))}, "life"),
+        ({"kind": particles.ParticleKind(-9, (0.5, 0.1), (0, 1), (0, 1), (1, 2))}, "relaxation"),
+        ({"kind": particles.ParticleKind(-9, (0.1, 0.2), (0, 1), (0, 1), (1, np.inf))}, "life"),
     ],
 )
 def test_impossible_emissions(options, message):

@@ -11,17 +11,23 @@ from hypothesis import strategies as st
 CP, KAPPA, GRAVITY = 1004.7, 287.05 / 1004.7, 9.80665
 
 
-def box(shape=(24, 32), spacing=100.0, top=2000.0, levels=20, wind=(0.0, 0.0), lapse=0.003, **options):
+def box(
+    shape=(24, 32),
+    spacing=100.0,
+    top=2000.0,
+    levels=20,
+    wind=(0.0, 0.0),
+    lapse=0.003,
+    *,
+    ground=None,
+    water=None,
+    pressure=101325.0,
+    **options,
+):
     """A small box with the same wind at all heights and air that warms upwards by `lapse` K/m."""
-    return flow.Solver(
-        np.linspace(0, top, levels + 1),
-        shape,
-        spacing,
-        [0.0, top],
-        [300.0, 300.0 + lapse * top],
-        [wind, wind],
-        **options,
-    )
+    profile = flow.Profile([0.0, top], [300.0, 300.0 + lapse * top], [wind, wind], water, pressure)
+    domain = flow.Domain(np.linspace(0, top, levels + 1), shape, spacing, ground=ground)
+    return flow.Solver(domain, profile, flow.SolverSettings(**options))
 
 
 def hills(shape, height, seed=3):
@@ -63,7 +69,8 @@ def test_rest_stays_at_rest_over_hills(water):
 
 def test_a_steady_wind_stays_what_it_is():
     heights, wind = [0.0, 500.0, 2000.0], [[4.0, -1.0], [8.0, 0.0], [12.0, 5.0]]
-    solver = flow.Solver(np.linspace(0, 2000, 21), (24, 32), 100.0, heights, [300.0, 301.0, 310.0], wind)
+    domain = flow.Domain(np.linspace(0, 2000, 21), (24, 32), 100.0)
+    solver = flow.Solver(domain, flow.Profile(heights, [300.0, 301.0, 310.0], wind))
     before = solver.velocity()
     solver.step(5.0, 20)
     np.testing.assert_allclose(solver.velocity(), before, rtol=0, atol=1e-5)
@@ -108,7 +115,7 @@ def test_mass_is_that_of_the_true_air_over_hills():
 
 
 def test_heat_is_what_was_given():
-    solver = plume(box(lapse=0.0, side_time=1e9, top_time=1e9), power=4e9)
+    solver = plume(box(lapse=0.0, sponge_time=1e9, damping_time=1e9), power=4e9)
     solver.step(5.0, 24)
     heat = solver.heat()
     assert heat["given"] == pytest.approx(4e9 * 120.0, rel=1e-9)
@@ -116,8 +123,8 @@ def test_heat_is_what_was_given():
     assert 0.98 < heat["warmed"] / heat["given"] < 1.02
     exner = 1 - GRAVITY * 0.5 * (solver.levels[1:] + solver.levels[:-1]) / (CP * 300) + (1.01325**KAPPA - 1)
     mass = volumes(solver) * solver.density[:, None, None]
-    warmth = np.sum(solver.warmth() / exner[:, None, None] * mass) * CP
-    assert warmth == pytest.approx(heat["warmed"], rel=1e-3)
+    excess = np.sum(solver.temperature_excess() / exner[:, None, None] * mass) * CP
+    assert excess == pytest.approx(heat["warmed"], rel=1e-3)
 
 
 @settings(deadline=None, max_examples=15)
@@ -126,7 +133,7 @@ def test_any_wind_is_balanced_and_makes_no_new_extremes(seed, speed, dt, hilly):
     """Random gusts of any Courant number: no divergence is left, smoke stays between 0 and its largest."""
     rng = np.random.default_rng(seed)
     solver = box(
-        (12, 16), levels=8, top=800.0, ground=hills((12, 16), 20.0) if hilly else None, side_width=3.0
+        (12, 16), levels=8, top=800.0, ground=hills((12, 16), 20.0) if hilly else None, sponge_width=3.0
     )
     state = solver.state()
     for key in "uvw":
@@ -156,7 +163,7 @@ def run(threads, water=None):
     core.set_threads(threads)
     solver = plume(box(wind=(4.0, 1.0), gust_strength=0.5, water=water, ground=hills((24, 32), 40.0)))
     solver.step(8.0, 12)
-    nest = plume(solver.nest(solver.levels, (30, 30), 50.0, (800.0, 500.0)), power=5e9)
+    nest = plume(solver.nest(flow.Domain(solver.levels, (30, 30), 50.0, (800.0, 500.0))), power=5e9)
     solver.step(8.0)
     nest.step(4.0, 2)
     return solver.state(), nest.state()
@@ -177,7 +184,7 @@ def test_going_on_from_a_state_is_going_on(water):
         return plume(box(wind=(6.0, 2.0), gust_strength=0.5, water=water, ground=hills((24, 32), 40.0)))
 
     def finer(solver):
-        return plume(solver.nest(np.linspace(0, 1800, 25), (32, 30), 50.0, (800.0, 400.0)))
+        return plume(solver.nest(flow.Domain(np.linspace(0, 1800, 25), (32, 30), 50.0, (800.0, 400.0))))
 
     one = begin()
     one.step(10.0, 7)
@@ -262,16 +269,10 @@ def top_of(solver):
 def test_condensation_lifts_the_column():
     tops = []
     for water in (None, [0.0135, 0.0135, 0.002]):
-        solver = flow.Solver(
-            np.linspace(0, 5000, 41),
-            (30, 30),
-            200.0,
-            [0.0, 1500.0, 5000.0],
-            [300.0, 300.0, 316.0],
-            [[2.0, 0.0]] * 3,
-            water=water,
-            pressure=9e4,
+        profile = flow.Profile(
+            [0.0, 1500.0, 5000.0], [300.0, 300.0, 316.0], [[2.0, 0.0]] * 3, water=water, pressure=9e4
         )
+        solver = flow.Solver(flow.Domain(np.linspace(0, 5000, 41), (30, 30), 200.0), profile)
         plume(solver, 6e9).step(10.0, 90)
         tops.append(top_of(solver))
         cloud = solver.cloud().max()
@@ -282,7 +283,7 @@ def test_condensation_lifts_the_column():
 def nested(water=None):
     outer = plume(box((40, 40), wind=(6.0, 0.0), water=water, lapse=0.001))
     outer.step(10.0, 20)
-    inner = plume(outer.nest(outer.levels, (56, 60), 40.0, (900.0, 900.0)), at=(27.5, 27.5))
+    inner = plume(outer.nest(flow.Domain(outer.levels, (56, 60), 40.0, (900.0, 900.0))), at=(27.5, 27.5))
     outer.set_sources([[2020.0, 1970.0], [2120.0, 2070.0]], [3.5e9, 1.5e9], [8.0, 2.0])
     inner.set_sources([[2020.0, 1970.0], [2120.0, 2070.0]], [3.5e9, 1.5e9], [8.0, 2.0])
     for _ in range(12):
@@ -312,7 +313,8 @@ def test_a_nest_goes_with_the_flow_around():
 
 def test_a_nest_at_rest_over_finer_hills_stays_at_rest():
     outer = box(ground=hills((24, 32), 60.0), lapse=0.006)
-    inner = outer.nest(outer.levels, (40, 40), 40.0, (600.0, 500.0), ground=hills((40, 40), 70.0, seed=8))
+    finer = flow.Domain(outer.levels, (40, 40), 40.0, (600.0, 500.0), hills((40, 40), 70.0, seed=8))
+    inner = outer.nest(finer)
     outer.step(10.0)
     inner.step(5.0, 2)
     assert np.abs(inner.velocity()).max() == 0.0
@@ -320,7 +322,7 @@ def test_a_nest_at_rest_over_finer_hills_stays_at_rest():
 
 def test_a_nest_in_a_steady_wind_keeps_it_and_follows_its_change():
     outer = box(wind=(5.0, 2.0))
-    inner = outer.nest(outer.levels, (40, 40), 40.0, (600.0, 500.0))
+    inner = outer.nest(flow.Domain(outer.levels, (40, 40), 40.0, (600.0, 500.0)))
     outer.step(10.0)
     inner.step(5.0, 2)
     np.testing.assert_allclose(inner.velocity(), np.broadcast_to([5, 2, 0], (20, 40, 40, 3)), atol=1e-4)
@@ -357,9 +359,9 @@ def test_gusts_share_out_and_keep_the_sum():
         ({"pressure": -1.0}, "pressure"),
         ({"ground": np.zeros((3, 3))}, "ground"),
         ({"ground": np.full((24, 32), np.inf)}, "ground"),
-        ({"ground": hills((24, 32), 900.0)}, "half the box's height"),
-        ({"side_width": 20.0}, "half the box"),
-        ({"mixing": -1.0}, "mixing"),
+        ({"ground": hills((24, 32), 900.0)}, "half the domain's height"),
+        ({"sponge_width": 20.0}, "half the domain"),
+        ({"smagorinsky": -1.0}, "smagorinsky"),
         ({"source_depth": 0.0}, "source_depth"),
     ],
 )
@@ -372,9 +374,43 @@ def test_bad_arguments(change, message):
         "potential_temperature": [300.0, 306.0],
         "wind": [[1.0, 0.0]] * 2,
     }
-    flow.Solver(**good)
+    made(**good)
     with pytest.raises(ValueError, match=message):
-        flow.Solver(**(good | change))
+        made(**(good | change))
+
+
+def made(levels, shape, spacing, height, potential_temperature, wind, **more):
+    """A solver of arguments that belong to its domain, its profile or its settings."""
+    domain = flow.Domain(levels, shape, spacing, ground=more.pop("ground", None))
+    air = {name: more.pop(name) for name in ("water", "pressure") if name in more}
+    profile = flow.Profile(height, potential_temperature, wind, **air)
+    return flow.Solver(domain, profile, flow.SolverSettings(**more))
+
+
+def test_settings_say_what_they_hold():
+    given = {"sponge_width": 3.0, "sponge_time": 9.0, "damping_share": 0.1, "damping_time": 7.0}
+    given |= {"drag_time": 5.0, "smagorinsky": 0.2, "source_depth": 30.0, "gust_strength": 0.4}
+    given |= {"gust_size": 55.0, "gust_time": 11.0, "seed": 8}
+    held = flow.SolverSettings(**given)
+    assert {name: getattr(held, name) for name in given} == given
+    with pytest.raises(AttributeError):
+        held.seed = 1
+    with pytest.raises(TypeError):
+        flow.SolverSettings(side_width=3.0)
+
+
+def test_a_nest_without_settings_has_a_wide_and_quick_sponge_layer():
+    def end(settings):
+        outer = plume(box(wind=(5.0, 1.0)))
+        outer.step(10.0, 3)
+        inner = plume(outer.nest(flow.Domain(outer.levels, (40, 40), 40.0, (600.0, 500.0)), settings))
+        outer.step(10.0)
+        inner.step(5.0, 2)
+        return inner.state()
+
+    usual = end(None)
+    assert same(usual, end(flow.SolverSettings(sponge_width=10.0, sponge_time=8.0)))
+    assert not same(usual, end(flow.SolverSettings()))
 
 
 def test_bad_calls():
@@ -390,8 +426,8 @@ def test_bad_calls():
     with pytest.raises(ValueError, match="lacks"):
         solver.restore({})
     with pytest.raises(ValueError, match="inside the box"):
-        solver.nest(solver.levels, (40, 40), 40.0, (0.0, 0.0))
-    inner = solver.nest(solver.levels, (40, 40), 40.0, (600.0, 500.0))
+        solver.nest(flow.Domain(solver.levels, (40, 40), 40.0, (0.0, 0.0)))
+    inner = solver.nest(flow.Domain(solver.levels, (40, 40), 40.0, (600.0, 500.0)))
     with pytest.raises(ValueError, match="overtake"):
         inner.step(1.0)
     state = solver.state()

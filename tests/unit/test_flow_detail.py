@@ -12,7 +12,9 @@ from hypothesis import strategies as st
 def in_wind(wind=(6.0, -3.0), period=120.0):
     """A solver in a steady uniform wind, and its drift."""
     levels = np.arange(11) * DEPTH
-    solver = flow.Solver(levels, (N, N), SPACING, [0.0, 2000.0], [300.0, 306.0], [wind] * 2, side_width=3)
+    profile = flow.Profile([0.0, 2000.0], [300.0, 306.0], [wind] * 2)
+    settings = flow.SolverSettings(sponge_width=3)
+    solver = flow.Solver(flow.Domain(levels, (N, N), SPACING), profile, settings)
     solver.set_sources(np.empty((0, 2)), [], [])
     return solver, flow.Drift(solver, period)
 
@@ -84,13 +86,13 @@ def test_any_number_of_threads_paints_the_same(all_threads):
     found = []
     for threads in (1, 3):
         core.set_threads(threads)
-        found.append(painted(warmth=np.full((N, N, N), 2.0), glow=np.ones((N, N, N))))
+        found.append(painted(temperature_excess=np.full((N, N, N), 2.0), glow=np.ones((N, N, N))))
     for one, three in zip(*found, strict=True):
         assert np.array_equal(one, three)
 
 
 def test_a_part_of_a_brick_is_painted_as_in_the_whole():
-    lively = {"warmth": np.full((N, N, N), 2.0), "age": np.full((N, N, N), 100.0)}
+    lively = {"temperature_excess": np.full((N, N, N), 2.0), "age": np.full((N, N, N), 100.0)}
     whole = painted(**lively)
     part = painted(origin=(12 * VOXEL, 20 * VOXEL, 0.0), count=16, **lively)
     for one, other in zip(whole[:2], part[:2], strict=True):
@@ -116,7 +118,7 @@ def test_cells_far_away_change_nothing(west):
     rng = np.random.default_rng(3)
     fields = moment(
         age=rng.uniform(0.0, 900.0, (N, N, N)),
-        warmth=rng.uniform(0.0, 1.0, (N, N, N)),
+        temperature_excess=rng.uniform(0.0, 1.0, (N, N, N)),
         drift=rng.uniform(-200.0, 200.0, (N, N, N, 2, 3)),
         blur=(1.5, 1.0, 0.7),
     )
@@ -125,7 +127,7 @@ def test_cells_far_away_change_nothing(west):
         """Painted where these cells are the last or, with none to the west, the first of so many columns."""
         first = columns - N if west else 0
         place = np.clip(np.arange(columns) - first, 0, N - 1)
-        names = ("heights", "smoke", "age", "rise", "warmth", "drift")
+        names = ("heights", "smoke", "age", "rise", "temperature_excess", "drift")
         wide = {name: fields[name].take(place, axis=2) for name in names}
         more = {"ground": np.zeros((N, columns)), "corner": (-first * SPACING, 0.0)}
         return painted(**fields | wide | more)
@@ -181,10 +183,10 @@ def test_all_smoke_is_found_and_nothing_else(cells, slope, wanted):
 
 
 def test_vapour_makes_rising_smoke_white_and_thicker_from_its_height_on():
-    young = {"age": np.full((N, N, N), 60.0), "rise": np.full((N, N, N), 5.0), "thickest": 1.0}
+    young = {"age": np.full((N, N, N), 60.0), "rise": np.full((N, N, N), 5.0), "max_extinction": 1.0}
     below, above = slice(4, 16), slice(28, 32)  # condensation at 600 m, cloud from 1100 m on
-    without, cloudy = painted(**young), painted(condensation=100.0, **young)
-    middle = painted(condensation=600.0, **young)
+    without, cloudy = painted(**young), painted(condensation_height=100.0, **young)
+    middle = painted(condensation_height=600.0, **young)
     there = without[0] > 1e-3
     assert there[:, :, above].any()
     assert np.all(
@@ -200,7 +202,7 @@ def test_calm_old_smoke_makes_no_cloud():
     thin = {"smoke": np.full((N, N, N), 1e-7), "age": np.full((N, N, N), 3600.0)}
     without = painted(**thin)[0]
     assert without.max() > 0.0
-    assert np.array_equal(painted(condensation=0.0, **thin)[0], without)
+    assert np.array_equal(painted(condensation_height=0.0, **thin)[0], without)
 
 
 def test_thin_rising_smoke_is_not_torn_to_pieces():
@@ -213,7 +215,7 @@ def test_thin_rising_smoke_is_not_torn_to_pieces():
 
 
 def test_thin_plumes_are_translucent_and_thick_ones_are_not():
-    """Both rise; the medians of what shows, of the thickest there is (0.03 / m)."""
+    """Both rise; the medians of what shows, of the max_extinction there is (0.03 / m)."""
     rising = {"rise": np.full((N, N, N), 5.0)}
     thin, thick = (painted(smoke=amount * moment()["smoke"] / 3e-6, **rising)[0] for amount in (6e-7, 6e-6))
     thin, thick = (np.median(each[each > 1e-3]) / 0.03 for each in (thin, thick))
@@ -250,7 +252,9 @@ def test_young_smoke_is_fresh():
     assert painted()[1].max() == 0.0
 
 
-@pytest.mark.parametrize("name", ["age", "rise", "warmth", "heights", "drift", "ground", "levels"])
+@pytest.mark.parametrize(
+    "name", ["age", "rise", "temperature_excess", "heights", "drift", "ground", "levels"]
+)
 def test_arrays_of_other_shapes_are_refused(name):
     with pytest.raises(ValueError, match=name):
         flow.Detail(**moment(**{name: np.zeros((3, 3, 3))}))

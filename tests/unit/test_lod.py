@@ -24,8 +24,8 @@ from hypothesis.extra.numpy import arrays
 )
 def test_levels_of_the_paper(distance, level, multiplier):
     assert lod.levels([distance]).tolist() == [level]
-    assert lod.Table().levels([distance]).tolist() == [level]
-    assert lod.Table().multiplier([distance]).tolist() == [multiplier]
+    assert lod.LevelTable().levels([distance]).tolist() == [level]
+    assert lod.LevelTable().multiplier([distance]).tolist() == [multiplier]
 
 
 def test_shape_stays():
@@ -34,7 +34,7 @@ def test_shape_stays():
 
 
 def test_other_tables():
-    table = lod.Table((10.0,), (1.0, 0.0))
+    table = lod.LevelTable((10.0,), (1.0, 0.0))
     assert (table.thresholds, table.multipliers) == ([10.0], [1.0, 0.0])
     assert table.levels([10, 11]).tolist() == [0, 1]
 
@@ -51,7 +51,7 @@ def test_other_tables():
 )
 def test_impossible_tables(thresholds, multipliers, message):
     with pytest.raises(ValueError, match=message):
-        lod.Table(thresholds, multipliers)
+        lod.LevelTable(thresholds, multipliers)
 
 
 @settings(deadline=None)
@@ -69,24 +69,24 @@ def test_levels_never_fall_with_distance(distances):
 def test_nearest_first_with_ties_by_index(position, camera, budget):
     square = ((position[:, None] - camera[None]) ** 2).sum(-1).min(axis=1, initial=np.inf)
     expected = np.lexsort((np.arange(len(position)), square))[:budget]
-    np.testing.assert_array_equal(lod.select(position, camera, budget), expected)
+    np.testing.assert_array_equal(lod.select_nearest(position, camera, budget), expected)
 
 
 def test_what_is_not_a_number_comes_last():
     position = [[np.nan, 0, 0], [5, 0, 0], [1, 0, 0]]
-    assert lod.select(position, [[0, 0, 0]], 3).tolist() == [2, 1, 0]
-    assert lod.select(position, [[np.nan, 0, 0], [4, 0, 0]], 2).tolist() == [1, 2]
-    assert lod.select(position, [[np.nan, 0, 0]], 2).tolist() == [0, 1]
+    assert lod.select_nearest(position, [[0, 0, 0]], 3).tolist() == [2, 1, 0]
+    assert lod.select_nearest(position, [[np.nan, 0, 0], [4, 0, 0]], 2).tolist() == [1, 2]
+    assert lod.select_nearest(position, [[np.nan, 0, 0]], 2).tolist() == [0, 1]
 
 
 def test_a_camera_on_an_emitter():
     position = np.array([[7, 7, 7], [0, 0, 0], [1e-300, 0, 0]])
-    assert lod.select(position, [[0, 0, 0]], 2).tolist() == [1, 2]
+    assert lod.select_nearest(position, [[0, 0, 0]], 2).tolist() == [1, 2]
     assert lod.levels(np.linalg.norm(position - position[1], axis=1)).tolist() == [0, 0, 0]
 
 
 def test_wrong_arguments():
     with pytest.raises(ValueError, match="budget"):
-        lod.select(np.zeros((1, 3)), np.zeros((1, 3)), -1)
+        lod.select_nearest(np.zeros((1, 3)), np.zeros((1, 3)), -1)
     with pytest.raises(ValueError, match="camera must have shape"):
-        lod.select(np.zeros((1, 3)), np.zeros(3), 1)
+        lod.select_nearest(np.zeros((1, 3)), np.zeros(3), 1)

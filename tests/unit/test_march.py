@@ -13,9 +13,9 @@ NO_LIGHT = {
     "old": (0.0, 0.0, 0.0),
     "sun": (0.0, 0.0, 0.0),
     "sky": (0.0, 0.0, 0.0),
-    "toward": (0.0, 0.0, 1.0),
+    "sun_direction": (0.0, 0.0, 1.0),
     "anisotropy": 0.0,
-    "oftener": (0.0, 0.0),
+    "multiple_scattering": (0.0, 0.0),
     "glow": (0.0, 0.0, 0.0),
     "thin": 1.0,
     "thick": (1.0, 2.0),
@@ -71,7 +71,7 @@ def test_density_that_rises_steadily_is_integrated_as_its_line():
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
 def test_light_scattered_once_is_spread_after_henyey_and_greenstein(way):
-    lit = light(old=(1.0, 1.0, 1.0), sun=(3.0, 3.0, 3.0), toward=(1.0, 0.0, 0.0), anisotropy=0.4)
+    lit = light(old=(1.0, 1.0, 1.0), sun=(3.0, 3.0, 3.0), sun_direction=(1.0, 0.0, 0.0), anisotropy=0.4)
     rays = [195.0 - way * 300.0, 95.0, 95.0], [[way, 0.0, 0.0]], [[FAR]]
     found = volume.march([slab(0.02, sun=0.9)], *rays, lit)[0, 0]
     g, cosine = 0.4, way  # of the angle between light's way, away from the sun, and the way to the eye

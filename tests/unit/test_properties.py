@@ -101,7 +101,7 @@ def test_the_same_on_any_number_of_threads(make_run, tmp_path, all_threads):
             at_time(run, 1234.5),
             grid,
             frame.forward(grid[:, 0, 0] * 1e-5 + 38, grid[:, 0, 1] * 1e-5 - 120, height[:, 0]),
-            lod.select(position, position[:7], 1000),
+            lod.select_nearest(position, position[:7], 1000),
         ]
 
     core.set_threads(1)

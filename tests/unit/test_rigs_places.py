@@ -75,8 +75,8 @@ def test_a_lookout_zooms_evenly_to_the_eye(run):
     assert across[1:] / across[:-1] == pytest.approx(0.25 ** (1 / 20))
     aim = view.position[0] + 1000.0 * (-view.rotation[0, :, 2] + 0.5 * wide * view.rotation[0, :, 0])
     first, last = (shot.sights.at(frame) for frame in (1, 21))
-    assert lod.seen(aim[None], 0.0, first).all()
-    assert not lod.seen(aim[None], 0.0, last).any()
+    assert lod.visible_mask(aim[None], 0.0, first).all()
+    assert not lod.visible_mask(aim[None], 0.0, last).any()
 
 
 def test_a_chase_stays_behind_the_head_and_frames_it(run):

@@ -16,9 +16,9 @@ LIGHT = volume.Illumination(
     old=(0.5, 0.6, 0.7),
     sun=(1.0, 2.0, 3.0),
     sky=(0.1, 0.2, 0.3),
-    toward=(0.0, 0.0, 1.0),
+    sun_direction=(0.0, 0.0, 1.0),
     anisotropy=0.6,
-    oftener=(0.4, 0.2),
+    multiple_scattering=(0.4, 0.2),
     glow=(1.0, 0.5, 0.2),
     thin=0.3,
     thick=(0.001, 0.02),
@@ -47,7 +47,7 @@ def dense(detail, shape, end, share, direction, beyond):
     nx, ny, nz = shape
     density, fresh, glow = detail.paint((0.0, 0.0, 0.0), VOXEL, np.zeros((nx, ny)), end, nz)
     density[density < THIN] = 0.0
-    sun, sky, depths = volume.lit(density, VOXEL, direction, *PARTS, (0.0, 0.0, 0.0), beyond)
+    sun, sky, depths = volume.smoke_light(density, VOXEL, direction, *PARTS, (0.0, 0.0, 0.0), beyond)
     density *= share[:, :, None]
     density[density < THIN] = 0.0
     return {"density": density, "fresh": fresh, "sun": sun, "sky": sky, "glow": glow}, depths
@@ -56,7 +56,7 @@ def dense(detail, shape, end, share, direction, beyond):
 def sparse(detail, shape, end, direction, beyond):
     nx, ny, nz = shape
     what = (0.0, 0.0, 0.0), VOXEL, np.zeros((nx, ny)), end, nz
-    return volume.LitSmoke(detail.paint_sparse(*what, thinnest=THIN), direction, *PARTS, beyond)
+    return volume.LitSmoke(detail.paint_sparse(*what, min_extinction=THIN), direction, *PARTS, beyond)
 
 
 def seen(bricks):
@@ -121,7 +121,7 @@ def test_any_number_of_threads_makes_the_same_bricks(all_threads):
 def test_only_blocks_with_smoke_are_kept():
     detail = flow.Detail(**moment())
     plane = np.zeros((48, 48))
-    smoke = detail.paint_sparse((0.0, 0.0, 0.0), VOXEL, plane, plane + 1.0, 40, thinnest=THIN)
+    smoke = detail.paint_sparse((0.0, 0.0, 0.0), VOXEL, plane, plane + 1.0, 40, min_extinction=THIN)
     assert 0 < smoke.used < 6 * 6 * 5
     assert (smoke.shape, smoke.voxel_size, smoke.origin) == ([48, 48, 40], VOXEL, [0.0, 0.0, 0.0])
     none = detail.paint_sparse((0.0, 0.0, 0.0), VOXEL, plane, plane, 40)

@@ -47,7 +47,7 @@ def test_as_many_trees_as_there_are_stems(fuel, kept):
     side = 8 if kept > 0.05 else 30
     field = site(side, side, fuel)
     wanted = kept * forest.stems(fuel) * area(side, side)
-    found = len(stand(field, kept=np.full(field[0].shape, kept)))
+    found = len(stand(field, retained=np.full(field[0].shape, kept)))
     # a hard core scatters less than a Poisson process; 1 % for what the reach and late births leave out
     assert found == pytest.approx(wanted, abs=4.0 * np.sqrt(wanted) + 0.01 * wanted)
 
@@ -69,7 +69,7 @@ def _correlation(place, edges):
 def test_trees_keep_their_distance_and_know_nothing_of_those_far_away(kept):
     side = int(8 / np.sqrt(kept))
     field = site(side, side)
-    place = stand(field, kept=np.full(field[0].shape, kept)).position[:, :2]
+    place = stand(field, retained=np.full(field[0].shape, kept)).position[:, :2]
     spacing = 1.0 / np.sqrt(kept * forest.stems(1.0))
     edges = spacing * np.concatenate([[0.0, 0.55], np.arange(0.6, 5.6, 0.25)])
     found = _correlation(place, edges)
@@ -127,7 +127,7 @@ def test_a_cells_trees_do_not_hang_on_which_others_are_asked_for(mask):
     arrays.arrays(float, (6, 7), elements=st.floats(0.0, 1.0)),
 )
 def test_what_is_kept_of_less_is_kept_of_more(more, part):
-    many, few = (set(stand(FIELD, seed=3, kept=k).key.tolist()) for k in (more, more * part))
+    many, few = (set(stand(FIELD, seed=3, retained=k).key.tolist()) for k in (more, more * part))
     assert few <= many <= set(ALL.key.tolist())
     assert len(set(ALL.key.tolist())) == len(ALL)
 
@@ -179,7 +179,7 @@ def test_a_thinned_stand_covers_as_much_ground(fuel):
     low, high = corners + middle
     whole = _cover(stand(field), low, high)
     for kept in (0.6, 0.3, 0.1, 0.03):
-        thinned = stand(field, kept=np.full(field[0].shape, kept))
+        thinned = stand(field, retained=np.full(field[0].shape, kept))
         assert np.all(thinned.width >= 1.0)
         assert _cover(thinned, low, high) == pytest.approx(whole, abs=0.04), kept
 
@@ -247,7 +247,7 @@ def test_cells_without_ground_are_clear():
 def test_what_is_kept_of_nothing():
     field = site(4, 4)
     for kept in (0.0, np.nan, -1.0):
-        assert len(stand(field, kept=np.full((4, 4), kept))) == 0
+        assert len(stand(field, retained=np.full((4, 4), kept))) == 0
     assert len(stand(field, mask=np.zeros((4, 4), bool))) == 0
     assert len(stand(site(1, 1))) == 0  # an only cell has no size
     assert len(forest.stand(np.zeros((0, 0)), [], [], np.zeros((0, 0)), FRAME)) == 0
@@ -255,6 +255,6 @@ def test_what_is_kept_of_nothing():
 
 def test_shapes_that_do_not_fit():
     field = site(4, 4)
-    for wrong in ({"kept": np.ones((3, 4))}, {"mask": np.ones((4, 3), bool)}):
+    for wrong in ({"retained": np.ones((3, 4))}, {"mask": np.ones((4, 3), bool)}):
         with pytest.raises(ValueError, match="shape"):
             stand(field, **wrong)

@@ -32,14 +32,14 @@ def marched(smoke, voxel, direction, steps=8):
 
 def test_the_sun_over_an_even_slab():
     smoke = np.full((9, 9, 30), 0.002, np.float32)
-    sun, _, _ = volume.lit(smoke, 20.0, UP, 1.0, 1.0)
+    sun, _, _ = volume.smoke_light(smoke, 20.0, UP, 1.0, 1.0)
     under = (30 - np.arange(30) - 0.5) * 20.0
     assert sun[4, 4, 2:24] == pytest.approx(np.exp(-0.002 * under[2:24]), rel=0.05)
 
 
 @pytest.mark.parametrize("direction", [UP, SLANTED, SLANTED * (-1, -1, 1), SLANTED[[2, 0, 1]]])
 def test_the_sun_in_lumps_is_as_a_fine_march_finds_it(cloud, direction):
-    sun, _, _ = volume.lit(cloud, 20.0, direction, 0.25, 1.0)
+    sun, _, _ = volume.smoke_light(cloud, 20.0, direction, 0.25, 1.0)
     expected = np.exp(-0.25 * marched(cloud, 20.0, direction))
     inside = cloud > 0.0
     inside[:6] = inside[-6:] = inside[:, :6] = inside[:, -6:] = inside[:, :, -6:] = False
@@ -48,12 +48,12 @@ def test_the_sun_in_lumps_is_as_a_fine_march_finds_it(cloud, direction):
 
 
 def test_what_lies_beyond_a_brick_dims_it_too(cloud):
-    whole, _, depths = volume.lit(cloud, 20.0, SLANTED, 0.25, 1.0)
+    whole, _, depths = volume.smoke_light(cloud, 20.0, SLANTED, 0.25, 1.0)
     low = 10
     part = np.ascontiguousarray(cloud[low:-low, low:-low, :-low])
     place = (20.0 * low, 20.0 * low, 0.0)
-    with_rest, _, _ = volume.lit(part, 20.0, SLANTED, 0.25, 1.0, place, depths)
-    alone, _, _ = volume.lit(part, 20.0, SLANTED, 0.25, 1.0, place)
+    with_rest, _, _ = volume.smoke_light(part, 20.0, SLANTED, 0.25, 1.0, place, depths)
+    alone, _, _ = volume.smoke_light(part, 20.0, SLANTED, 0.25, 1.0, place)
     inside, same = part > 0.0, whole[low:-low, low:-low, :-low]
     assert np.abs(with_rest - same)[inside].mean() < 0.05
     assert np.abs(alone - same)[inside].mean() > 0.1
@@ -62,7 +62,7 @@ def test_what_lies_beyond_a_brick_dims_it_too(cloud):
 def test_the_sky_over_an_even_slab():
     smoke = np.zeros((240, 240, 24), np.float32)
     smoke[:, :, 8:16] = 0.004
-    _, sky, _ = volume.lit(smoke, 20.0, UP, 1.0, 0.5)
+    _, sky, _ = volume.smoke_light(smoke, 20.0, UP, 1.0, 0.5)
     beneath = 0.5 * 0.004 * 8 * 20.0
     expected = 0.2 * np.exp(-beneath) + 0.8 * np.exp(-beneath / 0.4)
     assert sky[120, 120, 7] == pytest.approx(expected, abs=0.03)
@@ -70,7 +70,7 @@ def test_the_sky_over_an_even_slab():
 
 
 def test_light_is_known_in_smoke_and_a_voxel_round_it_alone(cloud):
-    sun, sky, _ = volume.lit(cloud, 20.0, SLANTED, 0.25, 0.5)
+    sun, sky, _ = volume.smoke_light(cloud, 20.0, SLANTED, 0.25, 0.5)
     near = maximum_filter(cloud, 3, mode="constant") > 0.0
     for light in (sun, sky):
         assert np.array_equal(light > 0.0, near)
@@ -81,21 +81,21 @@ def test_any_number_of_threads_finds_the_same_light(cloud, all_threads):
     found = []
     for threads in (1, 2):
         core.set_threads(threads)
-        found.append(volume.lit(cloud, 20.0, SLANTED, 0.25, 0.5)[:2])
+        found.append(volume.smoke_light(cloud, 20.0, SLANTED, 0.25, 0.5)[:2])
     assert np.array_equal(found[0], found[1])
 
 
 def test_flat_arrays_are_refused():
     with pytest.raises(ValueError, match="extinction must have shape"):
-        volume.lit(np.ones((4, 4)), 20.0, UP, 1.0, 1.0)
+        volume.smoke_light(np.ones((4, 4)), 20.0, UP, 1.0, 1.0)
 
 
 @pytest.mark.parametrize("direction", [(0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (np.nan, 0.0, 1.0)])
 def test_what_is_no_direction_is_refused(direction):
     with pytest.raises(ValueError, match="direction"):
-        volume.lit(np.ones((4, 4, 4)), 20.0, direction, 1.0, 1.0)
+        volume.smoke_light(np.ones((4, 4, 4)), 20.0, direction, 1.0, 1.0)
 
 
 def test_voxels_without_size_are_refused():
     with pytest.raises(ValueError, match="voxel_size"):
-        volume.lit(np.ones((4, 4, 4)), 0.0, UP, 1.0, 1.0)
+        volume.smoke_light(np.ones((4, 4, 4)), 0.0, UP, 1.0, 1.0)

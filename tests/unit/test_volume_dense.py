@@ -120,14 +120,14 @@ def test_what_no_camera_sees_is_left_out(tmp_path):
         "density": random.random(shape, np.float32) + 0.1,
         "tint": random.random(shape, np.float32) + 0.1,
     }
-    view = lod.Sight([(0.0, -2500.0, 1000.0)], NORTH, np.tan((0.2, 0.15)), sun=(0.6, 0.0, 0.8))
+    view = lod.ViewSet([(0.0, -2500.0, 1000.0)], NORTH, np.tan((0.2, 0.15)), sun=(0.6, 0.0, 0.8))
     path = tmp_path / "seen.vdb"
-    frame = volume.write(path, fields, voxel, origin, half=False, sight=view)
+    frame = volume.write(path, fields, voxel, origin, half=False, views=view)
     seen = np.zeros(shape, bool)
     for corner in np.ndindex(19, 18, 5):
         middle = (8 * np.array(corner) + 3.5) * voxel + origin
         block = tuple(slice(8 * i, 8 * i + 8) for i in corner)
-        seen[block] = lod.seen([middle], 4 * voxel * 3**0.5 + 300.0, view, shadows=True)[0]
+        seen[block] = lod.visible_mask([middle], 4 * voxel * 3**0.5 + 300.0, view, shadows=True)[0]
     assert 0.1 < seen.mean() < 0.9
     for name, field in fields.items():
         grid, found = openvdb.read(str(path), name), np.zeros(shape, np.float32)
@@ -136,15 +136,15 @@ def test_what_no_camera_sees_is_left_out(tmp_path):
         assert grid.activeVoxelCount() == seen.sum()
     density = fields["density"].astype(np.float64)
     assert frame.mass == pytest.approx(density[seen].sum() * voxel**3, rel=1e-12)
-    assert frame.hidden == pytest.approx(density[~seen].sum() * voxel**3, rel=1e-12)
+    assert frame.culled_mass == pytest.approx(density[~seen].sum() * voxel**3, rel=1e-12)
 
 
 def test_what_is_not_seen_is_not_looked_at_but_for_its_mass(tmp_path):
-    view = lod.Sight([(0.0, 0.0, 0.0)], NORTH, np.tan((0.2, 0.15)))
+    view = lod.ViewSet([(0.0, 0.0, 0.0)], NORTH, np.tan((0.2, 0.15)))
     behind = np.full((8, 8, 8), np.nan, np.float32)
-    more = {"voxel_size": 10.0, "origin": (0.0, -5000.0, 0.0), "sight": view}
+    more = {"voxel_size": 10.0, "origin": (0.0, -5000.0, 0.0), "views": view}
     frame = volume.write(tmp_path / "behind.vdb", {"tint": behind}, **more)
-    assert (frame.active_voxels, frame.mass, frame.hidden) == (0, 0.0, 0.0)
+    assert (frame.active_voxels, frame.mass, frame.culled_mass) == (0, 0.0, 0.0)
     with pytest.raises(ValueError, match="density"):
         volume.write(tmp_path / "behind.vdb", {"density": behind}, **more)
 

@@ -143,7 +143,7 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
     crowns = bilinear(ground.fields.canopy_fuel, row, column) > _CROWNS
     even = flame_length(intensity, settings.fire.flame_length, crowns)
     length = np.clip(even * uneven * _bursts(place, even, shot), *_LENGTHS)
-    thin = lod.Table().multiplier(distance) if len(distance) else np.ones(0)
+    thin = lod.LevelTable().multiplier(distance) if len(distance) else np.ones(0)
     wind = float(np.hypot(*shot.wind))
     finest = _spaced(ground.cell, _SPACING[0][1] * _closeness(shot))[1]
     fewer = (spacing / finest) ** 2 * _residence(finest, speed, stands) / (residence * thin)
@@ -345,7 +345,7 @@ def _within_budget(points: Points, shot: Shot, views: list[Path]) -> Points:
         lit = lit[keep[lit]]
         if len(lit) > budget:
             eyes = np.array([view.position[index] for view in views]) if views else np.zeros((1, 3))
-            near = lod.select(points.position[lit], np.ascontiguousarray(eyes), budget)
+            near = lod.select_nearest(points.position[lit], np.ascontiguousarray(eyes), budget)
             drop = np.ones(len(lit), bool)
             drop[near] = False
             keep[lit[drop]] = False

@@ -117,7 +117,7 @@ def _planted(shot: Shot, plots: list[Plot]) -> _Stems:
             each.elevation,
             shot.local_frame,
             each.seed,
-            kept=kept,
+            retained=kept,
             mask=each.mask,
         )
         for each, kept in zip(plots, _kept(shot, plots), strict=True)

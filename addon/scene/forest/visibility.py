@@ -26,7 +26,7 @@ def visible(
     Those beside a view within `_AROUND` count too, as they take light of the sky from it; those farther away
     than `reach` or too small for a satellite do not. `wider` than their models they reach farther from their
     middles; feet may be so far `beside` their places, m. Shadows are as long as the sun is low in each frame
-    (`lod.seen`), so no margin is guessed.
+    (`lod.visible_mask`), so no margin is guessed.
     """
     height = np.broadcast_to(height, len(foot))
     middle = np.column_stack([foot[:, :2], foot[:, 2] + 0.5 * height])

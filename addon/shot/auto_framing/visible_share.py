@@ -83,15 +83,15 @@ class Visible:
     def over_ground(self, view: Path, frame: int, place: Array) -> NDArray[np.bool_]:
         """Which places (n, 3) are in the picture of a frame (from 0) and not behind ground."""
         ground, eye = self.front.ground, view.position[frame]
-        sight = lod.Sight(
+        views = lod.ViewSet(
             eye[None],
             view.rotation[frame][None],
             _INSIDE * view.halves[frame][None],
-            parallel=not view.perspective,
-            clear=bool(eye[2] > ground.up(eye[0], eye[1])[0]),
-            ground=self._ground,
+            orthographic=not view.perspective,
+            above_terrain=bool(eye[2] > ground.up(eye[0], eye[1])[0]),
+            occluder=self._ground,
         )
-        return lod.seen(place, np.full(len(place), _RADIUS), sight)
+        return lod.visible_mask(place, np.full(len(place), _RADIUS), views)
 
 
 def _height(view: Path, frame: int, place: Array) -> Array:

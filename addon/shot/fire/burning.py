@@ -58,7 +58,7 @@ def crossing(
 
     Of the two one-sided differences the smaller: a jump to another fire's arrival is no slow front. It is the
     time over which a cell begins to release its heat, whatever way the front goes; from a cell's first corner
-    to its last (cpp/flux/crossing.hpp) it takes up to 1.4 times as long.
+    to its last (cpp/flux/crossing_time.hpp) it takes up to 1.4 times as long.
 
     Parameters
     ----------

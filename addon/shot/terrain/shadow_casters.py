@@ -16,7 +16,7 @@ from .. import sun
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView
 
-_LOWEST = 1.0  # degrees; suns lower than this throw no shadows, as in `lod.seen`
+_LOWEST = 1.0  # degrees; suns lower than this throw no shadows, as in `lod.visible_mask`
 _TURN = 2.0  # degrees; of suns nearer to each other than this one is asked: blocks are wider all round
 
 

@@ -44,12 +44,12 @@ class SingleVolume(Source):
         """One."""
         return [VolumeLayer("smoke", self.resolution.voxel, self.resolution.step, self.resolution.extinction)]
 
-    def write(self, path: Path, frame: int) -> volume.Frame:
+    def write(self, path: Path, frame: int) -> volume.VdbSummary:
         """Write the volume of a frame."""
         time = float(self.times[frame - 1])
         more: dict[str, Any] = {
             "grids": None if self.shot.settings.smoke.complete else SHOWN,
-            "sight": self.sight(frame),
+            "views": self.sight(frame),
             "metadata": self.metadata(time, self.made_from),
         }
         position, power = self.lights(time)
@@ -62,5 +62,5 @@ class SingleVolume(Source):
         return written
 
     @abstractmethod
-    def _write_volume(self, path: Path, time: float, more: dict[str, Any]) -> volume.Frame:
+    def _write_volume(self, path: Path, time: float, more: dict[str, Any]) -> volume.VdbSummary:
         """Write the smoke at a model time (s). `more` is for the core's writer."""

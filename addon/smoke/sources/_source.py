@@ -146,7 +146,7 @@ class Source(ABC):
         """The volumes of a frame, the last of which is named "smoke"."""
 
     @abstractmethod
-    def write(self, path: Path, frame: int) -> volume.Frame:
+    def write(self, path: Path, frame: int) -> volume.VdbSummary:
         """Write the volumes of a frame beside `path`, and that of the layer "smoke" last, as `path`.
 
         A file is there when it is complete, also where several threads or processes write it at once.
@@ -167,7 +167,7 @@ class Source(ABC):
         """What the cameras see (see `visibility.Sights`), if only that is wanted. Else None."""
         return None if self.shot.settings.smoke.complete else self.shot.sights
 
-    def sight(self, frame: int) -> lod.Sight | None:
+    def sight(self, frame: int) -> lod.ViewSet | None:
         """What the cameras see in a frame, if only that is wanted."""
         return self.sights.at(frame) if self.sights else None
 

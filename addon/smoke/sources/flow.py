@@ -90,7 +90,7 @@ class FlowSource(Source):
         """Voxels of the largest layer's whole domain, smoke or not."""
         return max((_voxels(each) for each in self._painted), default=0)
 
-    def write(self, path: Path, frame: int) -> volume.Frame:
+    def write(self, path: Path, frame: int) -> volume.VdbSummary:
         """Write the volumes of a frame of the flow, which is solved up to there. `path` is written last."""
         self.flow.ready(frame)
         time = float(self.times[frame - 1])

@@ -19,7 +19,7 @@ class ModelSource(SingleVolume):
     fields = ("smoke_3d",)
     made_from = "of the model, smoke_3d"
 
-    def _write_volume(self, path: Path, time: float, more: dict[str, Any]) -> volume.Frame:
+    def _write_volume(self, path: Path, time: float, more: dict[str, Any]) -> volume.VdbSummary:
         """Outside of the model's times there is no smoke."""
         run = self.shot.run
         known = float(np.clip(time, run.times[0], run.times[-1]))

@@ -53,7 +53,7 @@ class PuffSource(SingleVolume):
             smallest=1.2 * self.resolution.voxel,
         )
 
-    def _write_volume(self, path: Path, time: float, more: dict[str, Any]) -> volume.Frame:
+    def _write_volume(self, path: Path, time: float, more: dict[str, Any]) -> volume.VdbSummary:
         return volume.write_smoke(path, self.puffs(time), self.resolution.voxel, **more)
 
 

@@ -1,35 +1,109 @@
-"""Smoke of a fire as a solved buoyant flow."""
+"""Anelastic flow solver for a fire's smoke plume, and procedural smoke detail below its cells."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .volume import SparseSmoke
 
-class Solver:
-    """Smoke of a fire as a buoyant flow of the air, on a box that follows the ground.
+class SolverSettings:
+    """Settings of a `Solver`: sponge layer, Rayleigh damping, drag, subgrid mixing, sources and gusts.
 
-    Solves the anelastic equations on a staggered grid of `shape` (rows, columns) square cells of `spacing` m and
-    the levels between the heights `levels` (nz + 1,) m above ground, the first 0. Arrays are (level, row, column);
-    row 0 is the southernmost, column 0 the westernmost, and `corner` (x, y) m is that cell's outer corner.
+    Parameters
+    ----------
+    sponge_width
+        Width of the lateral sponge layer, cells; less than half of the domain. Its weight falls as a square.
+    sponge_time
+        Relaxation time of the sponge layer at the lateral boundaries, s.
+    damping_share
+        Share of the domain's height, below the top, that has Rayleigh damping, 0 to 1.
+    damping_time
+        Relaxation time of the Rayleigh damping at the top, s.
+    drag_time
+        Relaxation time of the lowest level's wind to the ambient wind, s.
+    smagorinsky
+        Smagorinsky constant of the subgrid mixing; 0 leaves the advection's own diffusion.
+    source_depth
+        e-folding height of heat and smoke sources, m.
+    gust_strength
+        Standard deviation of the logarithm of a lognormal factor on the sources; 0 has no gusts. The factor
+        redistributes heat and smoke and conserves their sums.
+    gust_size, gust_time
+        Correlation length (m) and time (s) of this factor.
+    seed
+        Seed of the gusts.
 
-    The air around, by its `height` (n,) m above the box's mean ground, rising: `potential_temperature` (n,) K;
-    `wind` (n, 2) east and north, m/s, over height above the ground itself; `water` (n,) kg/kg of vapour and cloud,
-    without which the air is dry and nothing condenses; `pressure` at height 0, Pa. Linear between, constant
-    outside.
+    Notes
+    -----
+    The sponge layer and the Rayleigh damping relax wind, temperature and water to the air around. Smoke is not
+    relaxed: it leaves with the wind.
+    """
 
-    `ground` (rows, columns) m: levels follow it, less and less up to an even top. Warm air is driven up slopes, and
-    air at rest stays at rest; the pressure treats the levels as even, so slopes must be well below 1 and relief well
-    below the box's height, at most half of it.
+    def __init__(
+        self,
+        *,
+        sponge_width: float = 8.0,
+        sponge_time: float = 40.0,
+        damping_share: float = 0.22,
+        damping_time: float = 60.0,
+        drag_time: float = 300.0,
+        smagorinsky: float = 0.18,
+        source_depth: float = 90.0,
+        gust_strength: float = 0.0,
+        gust_size: float = 400.0,
+        gust_time: float = 90.0,
+        seed: int = 0,
+    ) -> None: ...
+    @property
+    def sponge_width(self) -> float:
+        """Width of the lateral sponge layer, cells."""
+    @property
+    def sponge_time(self) -> float:
+        """Relaxation time of the sponge layer, s."""
+    @property
+    def damping_share(self) -> float:
+        """Share of the domain's height that has Rayleigh damping, 0 to 1."""
+    @property
+    def damping_time(self) -> float:
+        """Relaxation time of the Rayleigh damping at the top, s."""
+    @property
+    def drag_time(self) -> float:
+        """Relaxation time of the lowest level's wind, s."""
+    @property
+    def smagorinsky(self) -> float:
+        """Smagorinsky constant of the subgrid mixing."""
+    @property
+    def source_depth(self) -> float:
+        """Height at which heat and smoke sources fall to 1/e, m."""
+    @property
+    def gust_strength(self) -> float:
+        """Standard deviation of the logarithm of the sources' factor."""
+    @property
+    def gust_size(self) -> float:
+        """Correlation length of gusts, m."""
+    @property
+    def gust_time(self) -> float:
+        """Correlation time of gusts, s."""
+    @property
+    def seed(self) -> int:
+        """Seed of the gusts."""
 
-    Near the sides (`side_width` cells, within `side_time` s) and in the uppermost share `top` of the height (within
-    `top_time` s) the flow returns to the air around, at the ground its wind does in `ground_time` s; smoke is not
-    held there but leaves with the wind. Eddies smaller than the cells mix with Smagorinsky's constant `mixing`.
-    Heat and smoke of a source go in as exp(-height / source_depth). Gusts share heat and smoke out unevenly among
-    sources and leave their sums: a lognormal factor, `gust_strength` the standard deviation of its logarithm,
-    alike within `gust_size` m and `gust_time` s, from `seed`.
+class Domain:
+    """Computational domain of a `Solver`: a terrain-following grid of square columns.
 
-    float32 with sums in float64. Any number of threads gives the same digits. Memory: about 100 bytes a cell of
-    the grid with two cells more on each side and rows of whole 16s; 160 for a nest.
+    Parameters
+    ----------
+    levels
+        (nz + 1,) heights of level faces above ground, m, rising from 0.
+    shape
+        Rows and columns. Row 0 is the southernmost, column 0 the westernmost.
+    spacing
+        Side of a square cell, m.
+    corner
+        x and y of the south-west corner, m.
+    ground
+        (rows, columns) elevation of cell centres, m; None is flat terrain at 0. Levels follow the terrain,
+        less and less up to an even top. Slopes must be well below 1. Relief must be at most half of the
+        domain's height.
     """
 
     def __init__(
@@ -37,169 +111,226 @@ class Solver:
         levels: ArrayLike,
         shape: tuple[int, int],
         spacing: float,
+        corner: tuple[float, float] = (0.0, 0.0),
+        ground: ArrayLike | None = None,
+    ) -> None: ...
+
+class Profile:
+    """Vertical profile of the ambient air (sounding). Values are linear between heights, constant outside.
+
+    Parameters
+    ----------
+    height
+        (n,) m above the domain's mean ground, rising.
+    potential_temperature
+        (n,) K.
+    wind
+        (n, 2) east and north, m/s; its heights are above the local ground.
+    water
+        (n,) mixing ratio of vapour and cloud, kg/kg; None is dry air, in which nothing condenses.
+    pressure
+        At height 0, Pa.
+    """
+
+    def __init__(
+        self,
         height: ArrayLike,
         potential_temperature: ArrayLike,
         wind: ArrayLike,
-        *,
         water: ArrayLike | None = None,
         pressure: float = 101325.0,
-        corner: tuple[float, float] = (0.0, 0.0),
-        ground: ArrayLike | None = None,
-        side_width: float = 8.0,
-        side_time: float = 40.0,
-        top: float = 0.22,
-        top_time: float = 60.0,
-        ground_time: float = 300.0,
-        mixing: float = 0.18,
-        source_depth: float = 90.0,
-        gust_strength: float = 0.0,
-        gust_size: float = 400.0,
-        gust_time: float = 90.0,
-        seed: int = 0,
     ) -> None: ...
-    def nest(
-        self,
-        levels: ArrayLike,
-        shape: tuple[int, int],
-        spacing: float,
-        corner: tuple[float, float],
-        *,
-        ground: ArrayLike | None = None,
-        side_width: float = 10.0,
-        side_time: float = 8.0,
-        top: float = 0.22,
-        top_time: float = 60.0,
-        ground_time: float = 300.0,
-        mixing: float = 0.18,
-        source_depth: float = 90.0,
-        gust_strength: float = 0.0,
-        gust_size: float = 400.0,
-        gust_time: float = 90.0,
-        seed: int = 0,
-    ) -> Solver:
-        """A finer box within this one, at least two of its cells from the sides, that begins as this flow is now.
 
-        Step this flow first and then the nest, up to the same time: its sides follow this flow, linearly between
-        its steps, and so does its wind. Nothing goes back. Both need their sources set.
+class Solver:
+    """Anelastic flow solver for a buoyant smoke plume on a terrain-following Arakawa C grid.
+
+    The equations are those of Lipps and Hemler (1982, "A scale analysis of deep moist convection", J. Atmos.
+    Sci. 39). Arrays are (level, row, column).
+
+    Parameters
+    ----------
+    domain
+        The grid and its terrain.
+    profile
+        The ambient air.
+    settings
+        None is `SolverSettings()`.
+
+    Notes
+    -----
+    Warm air accelerates up slopes. Air at rest stays at rest over any terrain. The pressure solver treats
+    levels as even.
+
+    Fields are float32; sums are float64. The result is the same for any number of threads. Memory is about 100
+    bytes a cell, 160 in a nest. It includes two ghost cells on each side, and rows are padded to multiples of
+    16 cells.
+
+    Raises
+    ------
+    ValueError
+        A number makes no sense, or shapes do not fit.
+    """
+
+    def __init__(self, domain: Domain, profile: Profile, settings: SolverSettings | None = None) -> None: ...
+    def nest(self, domain: Domain, settings: SolverSettings | None = None) -> Solver:
+        """Make a one-way nest: a finer domain in this one, at least two of this domain's cells from its sides.
+
+        The nest starts from this flow's present state. Its boundary values and ambient wind follow this flow,
+        linearly between its steps. There is no feedback to this flow. Step this flow first and then the nest,
+        up to the same time. Set the sources of both. `settings` None is `SolverSettings(sponge_width=10.0,
+        sponge_time=8.0)`.
         """
 
     def set_sources(
         self, position: ArrayLike, heat: ArrayLike, smoke: ArrayLike, water: ArrayLike | None = None
     ) -> None:
-        """What burns from now on: position (n, 2) m, heat (n,) W into the air, smoke and water vapour (n,) kg/s.
+        """Set the fire's sources: position (n, 2) m, heat (n,) W into the air, smoke and vapour (n,) kg/s.
 
-        Each source goes to the four nearest columns; one that is not within the middles of the outermost cells is
-        left out.
+        A source is distributed bilinearly to the four nearest columns. A source outside of the outermost cell
+        centres is left out.
         """
 
     def set_wind(self, wind: ArrayLike) -> None:
-        """Change the wind around (n, 2), m/s, one for each of the profile's heights; the flow moves along with it."""
+        """Change the ambient wind (n, 2), m/s, one for each height of the profile; the whole flow is shifted."""
 
     def step(self, dt: float, count: int = 1) -> None:
-        """Go on by `count` steps of `dt` s; what moves is carried in substeps below Courant number 0.8.
+        """Advance by `count` time steps of `dt` s. Advection has substeps below Courant number 0.8.
 
-        0.05 s per metre of `spacing` is a good step. Raises `Error` when the flow has become infinite.
+        0.05 s per metre of `spacing` is a good step. Raises `Error` when the flow diverges to infinity.
         """
 
     @property
     def time(self) -> float:
-        """Since the beginning, s."""
+        """Model time since the start, s."""
     @property
     def steps(self) -> int:
-        """Taken since the beginning."""
+        """Number of time steps since the start."""
     @property
     def substeps(self) -> int:
-        """Of the last step."""
+        """Number of advection substeps in the last step."""
     @property
     def courant(self) -> float:
-        """Largest Courant number of the last step as a whole."""
+        """Largest Courant number of the last step."""
     @property
     def divergence(self) -> float:
-        """Largest |div(density x wind)| / density that the pressure left, 1/s."""
+        """Largest residual |div(density x wind)| / density after the pressure projection, 1/s."""
     @property
     def levels(self) -> NDArray[np.float64]:
-        """(nz + 1,) m above ground."""
+        """(nz + 1,) heights of level faces above ground, m."""
     @property
     def density(self) -> NDArray[np.float64]:
-        """(nz,) of the air in each level, kg/m3."""
+        """(nz,) air density of each level, kg/m3."""
     @property
     def spacing(self) -> float:
-        """Edge of a square cell, m."""
+        """Side of a square cell, m."""
     @property
     def corner(self) -> tuple[float, float]:
-        """(x, y) of the outer corner of row 0, column 0, m."""
+        """x and y of the south-west corner, m."""
     @property
     def shape(self) -> tuple[int, int, int]:
         """Levels, rows, columns."""
     def smoke(self) -> NDArray[np.float32]:
-        """(nz, ny, nx) smoke, kg/m3 of true air: times the cells' true volume it sums to what is airborne."""
+        """(nz, ny, nx) smoke density, kg/m3; its sum times the true cell volumes is the airborne mass."""
     def age(self) -> NDArray[np.float32]:
-        """(nz, ny, nx) mean time since the smoke there was given off, s; 0 without smoke."""
+        """(nz, ny, nx) mean age of the smoke since emission, s; 0 without smoke."""
     def velocity(self) -> NDArray[np.float32]:
-        """(nz, ny, nx, 3) wind east, north and up in cells' middles, m/s; along a slope it climbs."""
-    def warmth(self) -> NDArray[np.float32]:
-        """(nz, ny, nx) temperature above the ambient's at that height, K."""
+        """(nz, ny, nx, 3) wind east, north and up at cell centres, m/s; wind along a slope has an upward part."""
+    def temperature_excess(self) -> NDArray[np.float32]:
+        """(nz, ny, nx) temperature above the ambient air at the same height, K."""
     def cloud(self) -> NDArray[np.float32]:
-        """(nz, ny, nx) cloud water, kg/kg."""
+        """(nz, ny, nx) cloud water mixing ratio, kg/kg."""
     def heights(self) -> NDArray[np.float32]:
-        """(nz, ny, nx) of cells' middles, m, in the ground's datum."""
+        """(nz, ny, nx) elevation of cell centres, m, in the ground's datum."""
     def mass(self) -> dict[str, float]:
-        """The smoke's account, kg: initial + emitted + entered + rounding = airborne + left."""
+        """Smoke mass budget, kg: initial + emitted + entered + rounding = airborne + left."""
     def heat(self) -> dict[str, float]:
-        """The heat's account, J: `given` by sources; `warmed`, the same over the Exner function where it went in;
-        `held`, cp x mass x potential temperature above the ambient's. In neutral air, held = warmed until the plume
-        meets the sides or the top."""
-    def state(self) -> dict[str, NDArray]:
-        """All that `restore` needs, as new arrays: u, v, w, theta, smoke, age, water (float32), account, wind."""
-    def restore(self, state: dict[str, NDArray]) -> None:
-        """Go on from a `state` of a solver made alike, to the last digit, once sources are set again.
+        """Heat budget, J.
 
-        The state of a nest is restored after its outer flow's, both taken at the same time.
+        `given` is released by sources. `warmed` is the same divided by the Exner function at the place of
+        release. `held` is cp x mass x potential temperature excess. In neutral air held = warmed until the
+        plume reaches a boundary.
+        """
+    def state(self) -> dict[str, NDArray]:
+        """Checkpoint for `restore`, as new arrays: u, v, w, theta, smoke, age, water (float32), account, wind."""
+    def restore(self, state: dict[str, NDArray]) -> None:
+        """Restart from a checkpoint of a solver with the same arguments; the run continues bit for bit.
+
+        Set the sources again afterwards. Restore the outer flow before its nest, both from the same time.
         """
 
 class Drift:
-    """How far the air in every other cell of a solver has come since its phase began.
+    """Advected texture coordinates (Neyret 2003, "Advected textures"): displacement of air since a phase's start.
 
-    Noise at (place - drift) travels with the flow. Flow shears it into streaks in the end, so a phase begins anew
-    every `period` s, and two of them, half a period apart, take turns (Neyret 2003, "Advected textures").
-    Semi-Lagrangian, linear between. Any number of threads gives the same digits.
+    Noise at (place - drift) travels with the flow. Shear stretches noise into streaks, so each phase restarts
+    every `period` s. Two phases, half a period apart, are blended. Advection is semi-Lagrangian with linear
+    interpolation, on every other cell. The result is the same for any number of threads.
     """
 
     def __init__(self, solver: Solver, period: float = 120.0) -> None: ...
     def advance(self) -> None:
-        """Go on to the solver's time with the wind that it has now: call it after each of its steps."""
+        """Advect up to the solver's time with its present wind; call it after each of the solver's steps."""
     def values(self) -> NDArray[np.float32]:
         """(nz', ny', nx', 2, 3) drift of both phases east, north and up along the levels, m.
 
-        In the middles of cells 0, 2, 4 ... along each axis.
+        Values are at the centres of cells 0, 2, 4 ... along each axis.
         """
     def restore(self, time: float, values: ArrayLike) -> None:
-        """Go on from values of this `time`, s."""
+        """Restart from the values of a time (s)."""
     @property
     def time(self) -> float:
-        """Up to which it was advanced, s."""
+        """Time up to which the drift is advected, s."""
     @property
     def weights(self) -> list[float]:
-        """How much each phase shows: none where it begins and ends; their squares add up to 1."""
+        """Blend weight of each phase, 0 where it starts and ends; the squares sum to 1."""
     @property
     def turns(self) -> list[int]:
-        """How often each phase has begun."""
+        """Number of restarts of each phase."""
 
 class Detail:
-    """Smoke of a moment with detail below the cells of its flow.
+    """Procedural smoke detail below the cells of a flow, for one snapshot.
 
-    The logarithm of the smoke is raised and lowered by noise that travels with the air, and what falls below a
-    threshold is cut away: crisp lumps where smoke is vigorous (rises, is warm, fresh or dense), veils elsewhere.
-    The formulas and what was chosen by eye are in cpp/flow/detail.hpp, detail.cpp and detail_brush.cpp.
+    Noise that is advected with the air changes the logarithm of the smoke. A threshold then removes thin smoke.
+    Vigorous smoke (rising, warm, fresh or dense) has billows with crisp edges (Worley noise). Other smoke has
+    soft veils (Perlin noise). Formulas and constants are in cpp/flow/detail.hpp, detail.cpp and
+    detail_brush.cpp; thresholds and gains are chosen by eye.
 
-    Arrays are (nz, ny, nx) on square cells of `spacing` m from `corner` (x, y) m: a solver's, or a block of its
-    cells that reaches down to the ground. `levels` (nz,) m are the cells' middles above ground, `heights` the same
-    in the ground's datum, `ground` (ny, nx) m; `smoke` kg/m3, `age` s, `rise` m/s, `warmth` K, `drift`
-    (nz, ny, nx, 2, 3) m with its `weights` and `turns`; `glow`, the light of flames in any unit, or None.
+    Arrays are (nz, ny, nx) on square cells: a solver's, or a block of its cells that reaches down to the ground.
 
-    `size` m of the largest lumps; `scale` of the fire over that of 200 m cells; `blur` of the drift along levels, rows and columns, cells; `opacity` times the
-    extinction; `thickest` 1/m, where that levels off; `ages` s between which smoke turns from dark to white;
-    `condensation` m, the height (in the ground's datum) from which vapour turns rising smoke white and thicker.
+    Parameters
+    ----------
+    spacing, corner
+        Side of a cell, and x and y of the south-west corner, m.
+    levels
+        (nz,) heights of cell centres above ground, m.
+    heights
+        Elevation of cell centres in the ground's datum, m.
+    ground
+        (ny, nx) terrain elevation, m.
+    smoke, age, rise
+        kg/m3, s, and upward wind in m/s.
+    temperature_excess
+        K above the ambient air.
+    drift, weights, turns
+        (nz, ny, nx, 2, 3) m, and the rest of a `Drift`.
+    glow
+        Light of flames in any unit, or None.
+    size
+        Diameter of the largest billows, m.
+    scale
+        Scale of the fire over that of a fire on 200 m cells.
+    blur
+        Standard deviation of the drift's Gaussian blur along levels, rows and columns, cells.
+    opacity
+        Factor on the extinction.
+    max_extinction
+        Extinction at which thick smoke levels off, 1/m.
+    ages
+        Ages between which smoke turns from dark to white, s.
+    condensation_height
+        Height in the ground's datum above which vapour condenses in rising smoke, m. Such smoke is white and
+        thicker.
+    seed
+        Seed of the noise.
     """
 
     def __init__(
@@ -213,17 +344,18 @@ class Detail:
         smoke: ArrayLike,
         age: ArrayLike,
         rise: ArrayLike,
-        warmth: ArrayLike,
+        temperature_excess: ArrayLike,
         drift: ArrayLike,
         weights: tuple[float, float],
         turns: tuple[int, int],
         glow: ArrayLike | None = None,
         size: float = 340.0,
+        scale: float = 1.0,
         blur: tuple[float, float, float] = (0.0, 0.0, 0.0),
         opacity: float = 1.0,
-        thickest: float = 0.03,
+        max_extinction: float = 0.03,
         ages: tuple[float, float] = (20.0, 600.0),
-        condensation: float = 1e6,
+        condensation_height: float = 1e6,
         seed: int = 0,
     ) -> None: ...
     def paint(
@@ -235,11 +367,20 @@ class Detail:
         layers: int,
         wanted: ArrayLike | None = None,
     ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32] | None]:
-        """Extinction (1/m), freshness (1 young, 0 old or none) and glow of voxels (nx, ny, layers).
+        """Dense voxels (nx, ny, layers): extinction (1/m), freshness (1 young, 0 old or none) and glow.
 
-        `origin` is the centre of the first, `surface` (nx, ny) the height of the true ground, m, and `share`
-        (nx, ny) a factor of the extinction. `wanted` says which blocks of 16 voxels along each side, the last
-        ones less, are painted; left out, all are.
+        Parameters
+        ----------
+        origin, voxel
+            Centre of the first voxel, and side of a voxel, m.
+        surface
+            (nx, ny) elevation of the true terrain, m.
+        share
+            (nx, ny) factor on the extinction, 0 to 1.
+        layers
+            Number of voxels along z.
+        wanted
+            Mask of blocks of 16^3 voxels to compute; the last blocks may be smaller. None computes all blocks.
         """
     def paint_sparse(
         self,
@@ -249,6 +390,6 @@ class Detail:
         share: ArrayLike,
         layers: int,
         wanted: ArrayLike | None = None,
-        thinnest: float = 0.0,
+        min_extinction: float = 0.0,
     ) -> SparseSmoke:
-        """The same, kept only where there is smoke; what is thinner than `thinnest` (1/m) is clear."""
+        """The same as a sparse grid. Smoke with an extinction below `min_extinction` (1/m) is set to clear."""

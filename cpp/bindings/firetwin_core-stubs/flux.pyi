@@ -6,7 +6,7 @@ from numpy.typing import ArrayLike, NDArray
 from .run import Run
 
 class Emitters:
-    """Fire emitters of one moment, one per burning cell (Algorithm 1), n of them."""
+    """Fire emitters at one time, one per burning cell (Algorithm 1), n of them."""
 
     @property
     def cell(self) -> NDArray[np.int64]:
@@ -28,31 +28,30 @@ class Emitters:
         """(n,) W/m2."""
     @property
     def invalid(self) -> int:
-        """How many cells held NaN and so made no emitter."""
+        """Number of cells without an emitter because their flux is NaN."""
     def __len__(self) -> int: ...
 
 def emitters(flux: ArrayLike, position: ArrayLike, flux_min: float, flux_max: float) -> Emitters:
     """Algorithm 1: flux (ny, nx) W/m2 and position (ny, nx, 3) metres -> emitters where flux > 0."""
 
 class Interpolator:
-    """The heat flux of a run's fire at any time; keeps what it has read.
+    """Heat flux of a run at any time: interpolation in time, with a cache of frames.
 
-    Exact at the model times. Between them F^1.5, on which the size of flames depends, is even in every cell
-    that burned before and in the sum of all; cells that first burn in between stay cold until the moving
-    front reaches them (cpp/flux/step.hpp says how, cpp/flux/arrival.hpp when). Cells that the fire has not
-    reached and that have less than 1 W/m2, such as models leave where nothing burns, are 0. Before the first
-    and after the last model time all are.
+    The result is exact at model times. Between them F^1.5, which sets the size of flames, is linear in cells
+    that burned before, and so is its sum over all cells. A cell that ignites in between stays cold until its
+    ignition time (cpp/flux/interval_interpolator.hpp, cpp/flux/arrival.hpp). Cells that the front has not
+    reached and that have less than 1 W/m2 are 0. All cells are 0 before the first and after the last model time.
 
-    A moment costs what burns in it, and frames asked for in order are read once each. Any thread may ask, in
-    any order, for the same results.
+    The cost of a time is that of its burning cells. Frames in order are read once each. The class is
+    thread-safe, and the result does not depend on the order of calls.
     """
 
     def __init__(self, run: Run) -> None:
-        """Find when cells begin to burn; that reads all of a run without fuel_arrival_time once."""
+        """Find ignition times. This reads all of a run without fuel_arrival_time once."""
     def at(self, time: float) -> NDArray[np.float32]:
         """Heat flux (ny, nx) in W/m2 at `time` (seconds since start). ValueError when that is NaN."""
     def burning(self, time: float) -> tuple[NDArray[np.int64], NDArray[np.float32]]:
         """The cells whose flux is not 0, and their flux: (n,) ascending flat indices y*nx + x, (n,) W/m2."""
 
 def at_time(run: Run, time: float) -> NDArray[np.float32]:
-    """Interpolator(run).at(time); who asks for more than one moment keeps an Interpolator."""
+    """Interpolator(run).at(time). For several times make one Interpolator."""

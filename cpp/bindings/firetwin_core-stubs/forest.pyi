@@ -52,13 +52,13 @@ class Stems:
         """Height in metres (the models are one metre tall), 3.1 to 41."""
     @property
     def width(self) -> NDArray[np.float32]:
-        """How much wider than its model a tree is drawn, for those left out; 1 where all are kept."""
+        """Crown widening: width over the model's, which makes up for thinned trees; 1 without thinning."""
     @property
     def rotation(self) -> NDArray[np.float32]:
         """Radians about the vertical."""
     @property
     def key(self) -> NDArray[np.int64]:
-        """Of each tree alone, whatever is kept: random choices for it hang on this."""
+        """(n,) identifier of a tree, whatever the thinning: it keys the tree's random numbers."""
     def __len__(self) -> int: ...
 
 class Grass:
@@ -129,27 +129,26 @@ def stand(
     elevation: ArrayLike,
     frame: LocalFrame,
     seed: int = 0,
-    kept: ArrayLike | None = None,
+    retained: ArrayLike | None = None,
     mask: ArrayLike | None = None,
 ) -> Stems:
-    """Stands of as many trees as canopy_fuel (fy, fx) kg/m2 on latitude (fy,), longitude (fx,) calls for.
+    """Trees of stands by Matérn hard-core thinning, from canopy_fuel (fy, fx) kg/m2 on latitude, longitude.
 
-    Fuel, elevation (fy, fx) m and `kept` are bilinear between the cells' middles. Cells with 0.01 kg/m2 or
+    Fuel, elevation (fy, fx) m and `retained` are bilinear between the cells' middles. Cells with 0.01 kg/m2 or
     less, or without elevation, are clear.
 
-    The places are Matern's second hard-core process (1960): no two of d trees per m2 are nearer than
-    sqrt(1 / (pi d)), 0.56 of their mean spacing (1 to 3 % less, as late births are left out), and beyond twice
-    that the pair correlation is 1; no lattice, no period. Diameters fall off exponentially from 5 cm up (de
+    The places are a Matérn type II hard-core process (1960). No two of d trees per m2 are nearer than
+    sqrt(1 / (pi d)), 0.56 of their mean spacing (1 to 3 % less, as points of late marks are left out). Beyond
+    twice that distance the pair correlation is 1. There is no lattice and no period. Diameters fall off exponentially from 5 cm up (de
     Liocourt 1898); heights follow from them by the Western Sierra variant of the Forest Vegetation Simulator:
     feet = 4.5 + exp(4.86039 - 9.32795 / (inches + 1)), the same for its pines, firs and cedar.
 
     Parameters
     ----------
-    kept
-        (fy, fx) part, 0 to 1, of the stems to keep: the oldest, and so chiefly the largest. Those kept of a
-        part are among those kept of any larger part. Their crowns are wider, so that as much ground is
-        covered: by the sum of their areas the same, with their overlap within 4 % of the ground (measured for 3 to
-        100 % and 0.2 to 2.5 kg/m2).
+    retained
+        (fy, fx) share of the stems to retain, 0 to 1: the oldest, and so mostly the largest. Trees of a share
+        are a subset of the trees of any larger share. Crowns are widened, so that their summed area stays the
+        same; cover, with overlaps, stays within 4 % of the ground (measured for 3 to 100 % and 0.2 to 2.5 kg/m2).
     mask
         (fy, fx) bool; only cells that are true are looked at, and their trees are the same as without it.
     """

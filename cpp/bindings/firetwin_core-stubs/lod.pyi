@@ -1,4 +1,4 @@
-"""What a shot can see: distance levels, budgets, views and stable slots."""
+"""Visibility of a shot: level of detail, frustum culling and occlusion culling."""
 
 from collections.abc import Sequence
 
@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 def levels(distance: ArrayLike) -> NDArray[np.uint8]:
-    """Level of each distance (m): <= 1500 -> 0, <= 3500 -> 1, else (and for NaN) 2."""
+    """Level of detail of each distance (m): 0 up to 1500, 1 up to 3500, else (and for NaN) 2."""
 
-class Table:
-    """Levels of detail by distance: up to each of the thresholds (m) one level, and beyond them one more."""
+class LevelTable:
+    """Level of detail by distance: level i ends at thresholds[i] (m, included); one more level follows."""
 
     def __init__(
         self, thresholds: Sequence[float] = (1500.0, 3500.0), multipliers: Sequence[float] = (1.0, 0.7, 0.4)
@@ -19,23 +19,26 @@ class Table:
         """m, ascending."""
     @property
     def multipliers(self) -> list[float]:
-        """Of particles, for each level: one more than thresholds."""
+        """Particle multiplier of each level: one more than thresholds."""
     def levels(self, distance: ArrayLike) -> NDArray[np.uint8]:
-        """Level of each distance (m), of the same shape; NaN has the last."""
+        """Level of each distance (m), of the same shape; NaN has the last level."""
     def multiplier(self, distance: ArrayLike) -> NDArray[np.float64]:
         """Particle multiplier of each distance (m), of the same shape."""
 
-def select(position: ArrayLike, camera: ArrayLike, budget: int) -> NDArray[np.int64]:
-    """Indices of the `budget` positions (n, 3) nearest to any camera (m, 3), nearest first, ties by index."""
+def select_nearest(position: ArrayLike, camera: ArrayLike, budget: int) -> NDArray[np.int64]:
+    """Distance budget: indices of the `budget` positions (n, 3) nearest to any camera (m, 3).
+
+    The order is nearest first, ties by index.
+    """
 
 class Occluder:
-    """The ground as what hides things: of a continuous surface, the heights that it is nowhere below."""
+    """Terrain as an occluder for occlusion culling. It keeps a lower bound of a continuous surface."""
 
     def __init__(self, position: ArrayLike) -> None:
-        """The surface through position (rows, columns, 3) m: neighbours are joined by triangles.
+        """Make an occluder of the surface through position (rows, columns, 3) m: triangles join neighbours.
 
-        Finer surfaces are hidden behind as well if they are nowhere below these triangles. What it does not
-        cover hides nothing.
+        The bound also holds for finer surfaces that are nowhere below these triangles. Places outside of the
+        surface occlude nothing.
 
         Raises
         ------
@@ -43,21 +46,21 @@ class Occluder:
             There are fewer than 2 x 2 places, they cover no area, or one is not finite.
         """
 
-class Sight:
-    """What some views see, usually all that a shot films."""
+class ViewSet:
+    """Views of a shot as a tree, for frustum and occlusion culling (see `visible_mask`)."""
 
     def __init__(
         self,
         camera: ArrayLike,
         rotation: ArrayLike,
-        half: ArrayLike,
+        half_extent: ArrayLike,
         sun: ArrayLike = (0.0, 0.0, 0.0),
-        parallel: ArrayLike = False,
-        clear: ArrayLike = True,
-        ground: Occluder | None = None,
-        floor: float = 0.0,
+        orthographic: ArrayLike = False,
+        above_terrain: ArrayLike = True,
+        occluder: Occluder | None = None,
+        lowest_terrain: float = 0.0,
     ) -> None:
-        """Make m views; all but the cameras may be the same for all of them. Neighbours on a path come together.
+        """Make m views. All arguments but `camera` broadcast to m views. Order views along the camera path.
 
         Parameters
         ----------
@@ -65,54 +68,56 @@ class Sight:
             (m, 3) m.
         rotation
             (m, 3, 3) to world axes; the camera looks along its -z, y is up.
-        half
-            (m, 2) tangents of half the angles of view, across and from bottom to top; with parallel lines of
-            sight half the width and height of the picture, m.
+        half_extent
+            (m, 2) perspective: tangents of half the horizontal and vertical angle of view. Orthographic: half
+            the width and height of the picture, m.
         sun
-            (m, 3) unit vectors towards what throws shadows; under one degree, and for 0, there are none.
-        parallel
-            (m,) whether lines of sight are parallel.
-        clear
-            (m,) whether the camera is above the ground: only then does the ground hide anything from it.
-        ground
-            What hides; without it nothing does.
-        floor
-            m, where shadows end at the latest: no ground is lower.
+            (m, 3) unit vectors to the sun. A sun below one degree, or a zero vector, casts no shadows.
+        orthographic
+            (m,) whether the projection is parallel.
+        above_terrain
+            (m,) whether the camera is above the terrain. Terrain occludes only for such cameras.
+        occluder
+            Terrain; None disables occlusion culling.
+        lowest_terrain
+            Lower bound of all terrain, m. Shadow rays end there.
 
         Raises
         ------
         ValueError
-            A shape does not fit, a number is not finite, `half` is not above 0, or a rotation is none.
+            A shape does not fit, a number is not finite, `half_extent` is not above 0, or a rotation is not
+            orthonormal.
         """
 
-def seen(
+def visible_mask(
     position: ArrayLike,
     radius: ArrayLike,
-    sight: Sight,
-    reach: float = float("inf"),
+    views: ViewSet,
+    max_distance: float = float("inf"),
     margin: float = 0.0,
     shadows: bool = False,
 ) -> NDArray[np.bool_]:
-    """(n,) which balls at position (n, 3) of radius (n,) m any view sees.
+    """(n,) visibility of bounding spheres at position (n, 3) with radius (n,) m: frustum and occlusion culling.
 
-    Nothing that is visible is left out; some that hide just behind an edge are kept. A ball with NaN is never
-    seen. All views count exactly, however many: they are asked as a tree, whose branches bound how far the
-    cameras move and turn between its views, after squares of ground with all that stands in them.
+    Culling is conservative: a visible sphere is never culled, and a sphere just behind an edge may be kept. A
+    sphere with a NaN is never visible. The result is exact for each view. Views are tested as a tree, whose
+    branches bound the translation and rotation of their views. Tiles of terrain are tested before the spheres
+    in them.
 
     Parameters
     ----------
-    reach
-        m; what is farther from a camera in perspective does not count.
+    max_distance
+        m; a perspective camera does not see spheres beyond it.
     margin
-        m that every view is wider and higher.
+        m by which every frustum is enlarged.
     shadows
-        Whether what throws its shadow on a place (air or ground) that is seen counts as well.
+        Whether to keep shadow casters: spheres whose shadow falls on a visible place, air or terrain.
 
     Raises
     ------
     ValueError
-        A shape does not fit, or radius, reach or margin is below 0.
+        A shape does not fit, or radius, max_distance or margin is below 0.
     """
 
-def distance(position: ArrayLike, sight: Sight) -> NDArray[np.float64]:
-    """(n,) least distance of position (n, 3) from the cameras in perspective, m; infinite without any."""
+def distance(position: ArrayLike, views: ViewSet) -> NDArray[np.float64]:
+    """(n,) distance of position (n, 3) from the nearest perspective camera, m; infinite without one."""

@@ -1,4 +1,4 @@
-"""Embers and flame particles: drag, wind, gravity, buoyancy, the ground."""
+"""Particles of embers and flame gas: drag, wind, gravity, buoyancy and contact with the ground."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,8 +10,8 @@ GRAVITY: float
 def lift(density: float, air_density: float = 1.2) -> float:
     """Weight less buoyancy of a particle, upwards, m/s2: g (air_density / density - 1)."""
 
-class Kind:
-    """What is thrown up: embers (heavier than air) or flame gas (lighter); pairs are uniform ranges.
+class ParticleKind:
+    """Particle properties: embers (heavier than air) or flame gas (lighter). Pairs are uniform ranges.
 
     `lift` m/s2 upwards; `relaxation` of the drag, s (terminal speed = |lift| relaxation); `rise` upward and
     `spread` sideways speed at launch, m/s; `life` s.
@@ -41,15 +41,15 @@ class Kind:
     def life(self) -> list[float]:
         """s, least and most."""
 
-class Cloud:
-    """The n particles of one moment, in order of source and number."""
+class ParticleCloud:
+    """The n particles at one time, in order of source and number."""
 
     @property
     def source(self) -> NDArray[np.int64]:
         """(n,) index of the source."""
     @property
     def number(self) -> NDArray[np.int64]:
-        """(n,) how many its source launched before: with the source it names a particle for good."""
+        """(n,) number of the particle within its source; source and number identify a particle."""
     @property
     def position(self) -> NDArray[np.float64]:
         """(n, 3) m."""
@@ -83,7 +83,7 @@ def advance(
 
     Solves dv/dt = (wind - v) / relaxation + lift exactly, for relaxation 0 (carried by the wind) to infinity
     (free fall) and any step, in a wind (3,) or (n, 3) m/s that changes linearly to `wind_end` within the step, or
-    as the parabola through `wind_middle`. What meets the ground stays there, and so does what is `landed`.
+    as the parabola through `wind_middle`. A particle that meets the ground stays there, and so does one that has `landed`.
     """
 
 def state(
@@ -92,18 +92,18 @@ def state(
     start: ArrayLike,
     end: ArrayLike,
     rate: ArrayLike,
-    kind: Kind,
+    kind: ParticleKind,
     wind: ArrayLike,
     wind_time: ArrayLike = [0.0],
     id: ArrayLike | None = None,
     size: float = 0.0,
     ground: HeightField | None = None,
     seed: int = 0,
-) -> Cloud:
-    """The particles of one moment (s), from m sources; no moment before it is needed.
+) -> ParticleCloud:
+    """Particles at a time (s) from m sources, in closed form: no earlier state is needed.
 
     Sources at position (m, 3) launch `rate` (m,) particles a second from `start` to `end` (m,) s, in a square
     `size` m wide. `wind` (k, 3), or (k, m, 3) for each source, in m/s at `wind_time` (k,) s, is linear between
-    and constant outside. `id` (m,) is what a source's random numbers hang on (its cell, say; default its
+    and constant outside. `id` (m,) keys a source's random numbers (its cell, for instance; default its
     index). A particle stays where it lands until its life ends.
     """

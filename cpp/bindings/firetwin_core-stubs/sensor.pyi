@@ -11,7 +11,7 @@ def radiance(kelvin: ArrayLike, band: tuple[float, float] = (8.0, 14.0)) -> NDAr
 def brightness_temperature(
     radiance: ArrayLike, band: tuple[float, float] = (8.0, 14.0)
 ) -> NDArray[np.float64]:
-    """The inverse of `radiance` -> K."""
+    """Brightness temperature of a band radiance: the inverse of `radiance` -> K."""
 
 def spectral_radiance(kelvin: ArrayLike, wavelength: float) -> NDArray[np.float64]:
     """Planck's law at a wavelength (micrometres) -> W m-2 sr-1 um-1."""
@@ -43,11 +43,10 @@ class PlanckTable:
         bits: int = 0,
         key: int = 0,
     ) -> tuple[NDArray[np.float32], NDArray[np.uint16] | None]:
-        """What a detector makes of the radiance (h, w) W m-2 sr-1 that reaches it.
+        """Detector model: blur, noise (NETD), saturation and quantisation of at-sensor radiance (h, w) W m-2 sr-1.
 
-        `blur`: standard deviation of its Gaussian point spread function, pixels; beyond the edges pixels go
-        on as they are. `noise`: noise-equivalent temperature difference of black bodies at 300 K; Gaussian, by
-        `key` and the pixel alone. `saturation`: temperature that fills its range, K; 0: none. `bits`: of
+        `blur`: standard deviation of the Gaussian point spread function, pixels; edge pixels are replicated. `noise`: noise-equivalent temperature difference of black bodies at 300 K; Gaussian, by
+        `key` and the pixel alone. `saturation`: brightness temperature at full scale, K; 0: none. `bits`: of
         counts proportional to radiance, at most 16 and with a saturation; 0: not quantised.
 
         Returns

@@ -1,4 +1,4 @@
-"""The ground as a surface, and a mesh of few triangles that follows it as closely as is asked."""
+"""Terrain surface with procedural relief, and its adaptive triangle mesh."""
 
 from collections.abc import Sequence
 
@@ -18,14 +18,14 @@ def bilinear(field: ArrayLike, row: ArrayLike, column: ArrayLike) -> NDArray[np.
     """
 
 class Surface:
-    """The ground between the points of a grid, seen closely: smooth, with relief.
+    """Terrain surface between grid points: Catmull-Rom interpolation with fractal relief.
 
     Parameters
     ----------
     elevation
         (ny, nx) m, two rows and columns or more.
     steep
-        (ny, nx) how far relief is that of a slope of 45 degrees, 0..1.
+        (ny, nx) weight of the relief of 45 degree slopes, 0..1.
     dry
         (ny, nx) 0 on water, where there is no relief, 1 elsewhere.
     cell
@@ -35,11 +35,11 @@ class Surface:
     strength
         Of the relief where slopes are 45 degrees, m; on level ground `level` of it.
     sharp
-        How much lower than its ridges a wave is.
+        Depth of a wave's valleys below its ridges (ridged noise).
     mean
-        Of the waves together, which is taken away.
+        Mean of the sum of waves, which is subtracted.
     seed
-        Another number gives other relief.
+        Seed of the noise.
     patch
         Heights known more finely in a part of the grid: its first row and column, how many points it has to
         a cell, their heights (m, n) less the grid's bilinear ones in metres, and shares (m, n) 0..1: how far
@@ -61,7 +61,7 @@ class Surface:
         patch: tuple[int, int, int, ArrayLike, ArrayLike] | None = None,
     ) -> None: ...
     def detail(self, row: ArrayLike, column: ArrayLike) -> NDArray[np.float64]:
-        """Heights (n,) seen closely, less the bilinear ones, at fractional rows and columns (n,); m.
+        """Height (n,) of the surface above the bilinear one, at fractional rows and columns (n,); m.
 
         Between grid points the surface is that of Catmull and Rom 1974, with gradient noise (Perlin 2002).
         """
@@ -76,10 +76,10 @@ def mesh(
     margin: int = 0,
     widest: int = 4,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]:
-    """Triangles whose vertical error is nowhere above the tolerance, without cracks.
+    """Adaptive triangle mesh without cracks: its vertical error is nowhere above the tolerance.
 
-    At no point of the grid is it, nor at any point of the cells that are halved. Right triangles are halved
-    where they are off, and their neighbours with them (newest vertex bisection; Lindstrom et al. 1996; Evans
+    The error is tested at grid points and at points of refined cells. Right triangles with a larger error are
+    bisected, and their neighbours with them (newest vertex bisection; Lindstrom et al. 1996; Evans
     et al. 2001). The same for any number of threads.
 
     Parameters

@@ -1,4 +1,4 @@
-"""Smoke and flames as OpenVDB volumes."""
+"""Smoke volumes: OpenVDB files, light in smoke, and ray marching."""
 
 from collections.abc import Mapping, Sequence
 from os import PathLike
@@ -7,13 +7,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .geo import LocalFrame
-from .lod import Sight
+from .lod import ViewSet
 
 FRESH_SMOKE: float
 """Smoke that counts as dilution 1, kg/m3."""
 
 class Puffs:
-    """Smoke of one moment as n balls; the state at any time needs no frame before it."""
+    """Gaussian-puff smoke at one time as n balls. It has a closed form in time: no earlier state is needed."""
 
     @property
     def position(self) -> NDArray[np.float32]:
@@ -23,7 +23,7 @@ class Puffs:
         """(n,) metres."""
     @property
     def density(self) -> NDArray[np.float32]:
-        """(n,) kg/m3 of the puff's own smoke; of its parent's for a ball on its surface."""
+        """(n,) smoke density of the puff, kg/m3; a surface ball has its parent's."""
     @property
     def age(self) -> NDArray[np.float32]:
         """(n,) seconds."""
@@ -32,13 +32,13 @@ class Puffs:
         """(n,) kg of smoke; 0 for the balls that shape the surface of a puff."""
     @property
     def identity(self) -> NDArray[np.uint64]:
-        """(n,) the same for the same ball at every time."""
+        """(n,) identifier of a ball, constant in time."""
     @property
     def emitted(self) -> float:
         """kg of smoke emitted up to this time."""
     @property
     def left(self) -> float:
-        """kg of it that is too old to be shown: emitted = sum of mass + left."""
+        """kg of smoke that is too old or too thin to be shown: emitted = sum of mass + left."""
     def __len__(self) -> int: ...
 
 def puffs(
@@ -93,18 +93,18 @@ def puffs(
         An array has the wrong shape or holds NaN, or a number is not positive.
     """
 
-class Frame:
-    """What one VDB file holds."""
+class VdbSummary:
+    """Summary of one VDB file."""
 
     @property
     def active_voxels(self) -> int:
-        """Of the grid with the most."""
+        """Active voxels of the grid that has the most."""
     @property
     def voxels(self) -> int:
         """Active voxels of all grids together."""
     @property
     def bytes(self) -> int:
-        """Of the file."""
+        """Size of the file, bytes."""
     @property
     def bounds(self) -> NDArray[np.float64]:
         """(2, 3) metres, world space; zeros for an empty file."""
@@ -115,8 +115,8 @@ class Frame:
         0 where its grid, `dilution` or that of `write`, `density`, is not written.
         """
     @property
-    def hidden(self) -> float:
-        """kg of smoke left out because no camera sees it."""
+    def culled_mass(self) -> float:
+        """kg of smoke in blocks that frustum and occlusion culling removed."""
 
 def write_smoke(
     path: str | PathLike[str],
@@ -126,15 +126,15 @@ def write_smoke(
     flame_power: ArrayLike | None = None,
     metadata: Mapping[str, str] | None = None,
     grids: Sequence[str] | None = None,
-    sight: Sight | None = None,
-) -> Frame:
+    views: ViewSet | None = None,
+) -> VdbSummary:
     """Write puffs as a sparse volume, half precision with Blosc, to a temporary file that is then renamed.
 
     Grids: `density` (clipped signed distance (m + 300) / 600), `dilution` (in units of FRESH_SMOKE), `shade`
     (dilution with a plain edge), `size` (km, of the local ball), `temperature` (K) and, with flames (n, 3) m
     and (n,) W, `glow` (1 amid 1 GW) and `flame` (GW, at most 1). See cpp/volume/smoke.hpp. `grids` names those
-    that are wanted (None: all). With `sight`, blocks of 8^3 voxels that do not count (300 m round them) are left
-    out; what is written stays the same.
+    that are wanted (None: all). With `views`, blocks of 8^3 voxels are culled (with a margin of 300 m); the other
+    blocks are the same as without.
 
     Raises
     ------
@@ -160,8 +160,8 @@ def write_levels(
     flame_power: ArrayLike | None = None,
     metadata: Mapping[str, str] | None = None,
     grids: Sequence[str] | None = None,
-    sight: Sight | None = None,
-) -> Frame:
+    views: ViewSet | None = None,
+) -> VdbSummary:
     """Write smoke on terrain-following levels as a volume with the grids of `write_smoke`.
 
     Parameters
@@ -198,9 +198,9 @@ def write(
     half: bool = True,
     tolerance: float = 0.0,
     metadata: Mapping[str, str] | None = None,
-    sight: Sight | None = None,
+    views: ViewSet | None = None,
     within: str = "",
-) -> Frame:
+) -> VdbSummary:
     """Write dense arrays as sparse fog volumes of cubic voxels, to a temporary file that is then renamed.
 
     Parameters
@@ -217,16 +217,16 @@ def write(
         Values this near 0, the background, are left out. Each grid has its own active voxels.
     metadata
         What the file says of itself.
-    sight
-        Blocks of 8^3 voxels that do not count (300 m round them) are left out; what is written stays the same.
-        They are not looked at, whatever they hold, but in `density`, for `Frame.hidden`.
+    views
+        Blocks of 8^3 voxels are culled (with a margin of 300 m); the other blocks are the same as without. Values
+        in culled blocks are not checked. Only `density` is summed there, for `VdbSummary.culled_mass`.
     within
         Name of a grid: the others are left out of blocks of 8^3 voxels where it has nothing. Of smoke nothing is seen
         there, yet renderers go step by step through all blocks that any grid has.
 
     Returns
     -------
-    Frame
+    VdbSummary
         `mass` is the integral of what is written of `density`, read as kg/m3, before rounding, `hidden` of what
         is left out because no camera sees it; both 0 without a grid of that name.
 
@@ -245,7 +245,7 @@ def write(
         The folder is missing or cannot be written.
     """
 
-def hidden(
+def occluded_smoke(
     extinction: ArrayLike,
     voxel_size: float,
     places: ArrayLike,
@@ -254,7 +254,7 @@ def hidden(
     origin: Sequence[float] = (0.0, 0.0, 0.0),
     beyond: tuple[ArrayLike, float, Sequence[float]] | None = None,
 ) -> tuple[NDArray[np.float32], tuple[NDArray[np.float32], float, list[float]]]:
-    """Smoke that is behind so much other smoke that nobody sees it.
+    """Occlusion culling of smoke by smoke: voxels behind a given optical depth from every viewpoint.
 
     Parameters
     ----------
@@ -263,30 +263,30 @@ def hidden(
     voxel_size
         m.
     places
-        (n, 3) m, of eyes where lines of sight meet.
+        (n, 3) m, perspective viewpoints.
     directions
-        (m, 3) unit vectors towards eyes far away, to which lines of sight are parallel.
+        (m, 3) unit vectors to orthographic viewpoints (parallel lines of sight).
     depth
-        The optical depth behind which smoke is hidden, if it lies before each eye.
+        Optical depth. A voxel is occluded if at least so much lies between it and every viewpoint.
     origin
         m, the centre of voxel (0, 0, 0).
     beyond
-        Smoke of a larger brick that is drawn as well, as below; it hides too.
+        `smoke` of a coarser, larger grid, as returned; it occludes too.
 
     Returns
     -------
-    hidden
-        (nx, ny, nz) 1 where smoke is hidden, else 0; 0 all over without eyes.
+    occluded
+        (nx, ny, nz) 1 where smoke is occluded, else 0; 0 everywhere without viewpoints.
     smoke
-        The extinction (1/m) on voxels of four times the size, that size (m), and the middle of the first (m).
+        Extinction (1/m) on voxels of four times the size, that size (m), and the centre of the first (m).
 
     Notes
     -----
-    The depth is found on the larger voxels, linear between: lines of sight are marched, a step for each of
-    these, to a little more than the depth.
+    Optical depth is found on the larger voxels by ray marching, one step a voxel, and is linear between them.
+    Rays end a little beyond `depth`.
     """
 
-def lit(
+def smoke_light(
     extinction: ArrayLike,
     voxel_size: float,
     direction: Sequence[float],
@@ -295,7 +295,7 @@ def lit(
     origin: Sequence[float] = (0.0, 0.0, 0.0),
     beyond: tuple[ArrayLike, float, Sequence[float]] | None = None,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], tuple[NDArray[np.float32], float, list[float]]]:
-    """Light in smoke, 1 where it is clear and 0 farther than a voxel from any smoke.
+    """Sunlight and skylight in smoke (transmittance): 1 in clear air beside smoke, 0 farther than a voxel from it.
 
     Parameters
     ----------
@@ -304,30 +304,29 @@ def lit(
     voxel_size
         m.
     direction
-        Unit vector (x, y, z) that the sun's light comes from.
+        Unit vector (x, y, z) to the sun.
     sun_part, sky_part
-        How much of the optical depth counts.
+        Factors on the optical depth for sunlight and skylight.
     origin
         m, the centre of voxel (0, 0, 0).
     beyond
-        Depths of a larger brick round this one, as below; they count where the sun's way leaves this one.
+        `depths` of a coarser, larger grid, as returned. They are added where a ray to the sun leaves this grid.
 
     Returns
     -------
     sun
-        (nx, ny, nz) exp(-sun_part * depth to the sun). The first four voxels of the way are marched one by
-        one; the rest is found on voxels of twice the size, slice by slice from the lit side on, linear
-        between, where the edge of a shadow widens by about half a voxel times the root of the number of
-        slices behind what throws it.
+        (nx, ny, nz) exp(-sun_part * optical depth to the sun). The first four voxels of a ray are marched one by
+        one. The rest is swept slice by slice from the lit side on voxels of twice the size, linear between. A
+        shadow's edge widens by about half a voxel times the root of the number of slices.
     sky
-        (nx, ny, nz) of an evenly bright sky: the mean of the like along five ways up, each for a fifth of the
-        sky, on voxels of four times the size.
+        (nx, ny, nz) transmittance of a uniform sky: the mean over five upward directions, each for a fifth of
+        the sky, on voxels of four times the size.
     depths
-        Optical depths to the sun on voxels of twice the size, that size (m), and the middle of the first (m).
+        Optical depths to the sun on voxels of twice the size, that size (m), and the centre of the first (m).
     """
 
 class SparseSmoke:
-    """Smoke on voxels of one size, kept only where there is any, in blocks of 8^3.
+    """Sparse voxel grid of smoke: blocks of 8^3 voxels; clear blocks are not stored.
 
     `firetwin_core.flow.Detail.paint_sparse` makes it: extinction (1/m), freshness, and a glow if there is one.
     """
@@ -343,10 +342,10 @@ class SparseSmoke:
         """Voxels along x, y and z."""
     @property
     def used(self) -> int:
-        """Number of blocks that are kept."""
+        """Number of stored blocks."""
 
 class LitSmoke:
-    """Smoke and the light of sun and sky in it, as `lit` has it of dense smoke, found where it is needed."""
+    """Sparse smoke with sunlight and skylight in it; `smoke_light` is the same for dense smoke."""
 
     def __init__(
         self,
@@ -356,28 +355,28 @@ class LitSmoke:
         sky_part: float,
         beyond: tuple[ArrayLike, float, Sequence[float]] | None = None,
     ) -> None:
-        """Find how the smoke dims light; the arguments are those of `lit`."""
+        """Compute optical depths; the arguments are those of `smoke_light`."""
     @property
     def depths(self) -> tuple[NDArray[np.float32], float, list[float]]:
-        """As `lit` returns them."""
-    def bricks(self, share: ArrayLike, thinnest: float) -> Bricks:
-        """What is drawn of it, to march rays through.
+        """Optical depths to the sun, as `smoke_light` returns them."""
+    def bricks(self, share: ArrayLike, min_extinction: float) -> Bricks:
+        """Pack the drawn part for ray marching.
 
         Parameters
         ----------
         share
-            (nx, ny) factor of the extinction; all of it dims the light.
-        thinnest
-            1/m; what is thinner then is clear.
+            (nx, ny) factor on the drawn extinction, 0 to 1. Light is dimmed by all of the smoke.
+        min_extinction
+            1/m; smoke with a smaller extinction after that is clear.
         """
-    def grids(self, share: ArrayLike, thinnest: float) -> dict[str, NDArray[np.float32]]:
-        """The same as dense arrays (nx, ny, nz): density, fresh, sun, sky, and glow if there is one."""
+    def grids(self, share: ArrayLike, min_extinction: float) -> dict[str, NDArray[np.float32]]:
+        """The same as dense arrays (nx, ny, nz): density, fresh, sun, sky, and glow where the smoke has one."""
 
 class Bricks:
-    """Smoke and the light in it on voxels of one size, only where there is smoke: to march rays through.
+    """Sparse voxel grid of smoke and light for ray marching; clear blocks are not stored.
 
-    Blocks of 8^3 cells, each with the 9^3 voxels at the cells' corners, are kept where extinction is over
-    2.5e-5 /m. Numbers are half floats: off by at most 1/2048 of themselves, and by 3e-8.
+    A block has 8^3 cells and the 9^3 voxels at their corners. Blocks are stored where extinction is above
+    2.5e-5 /m. Values are half floats: the error is at most 1/2048 of the value plus 3e-8.
     """
 
     def __init__(
@@ -399,7 +398,7 @@ class Bricks:
         fresh
             1 where smoke is young, 0 where it is old.
         sun, sky
-            As `lit` gives them.
+            As `smoke_light` gives them.
         glow
             Light of flames; None: none.
         voxel_size
@@ -421,10 +420,10 @@ class Bricks:
         """Number of blocks with smoke."""
     @property
     def bytes(self) -> int:
-        """Memory that their voxels take."""
+        """Memory of these blocks, bytes."""
 
 class Illumination:
-    """Light that smoke scatters and gives off, and the haze before it. Colours are linear."""
+    """Light sources of `march`: sun, sky, flames and haze, with the smoke's albedo. Colours are linear."""
 
     def __init__(
         self,
@@ -434,9 +433,9 @@ class Illumination:
         old: Sequence[float],
         sun: Sequence[float],
         sky: Sequence[float],
-        toward: Sequence[float],
+        sun_direction: Sequence[float],
         anisotropy: float,
-        oftener: Sequence[float],
+        multiple_scattering: Sequence[float],
         glow: Sequence[float],
         thin: float,
         thick: Sequence[float],
@@ -455,19 +454,19 @@ class Illumination:
         sun
             Irradiance of the sun.
         sky
-            Mean radiance from all round.
-        toward
+            Mean radiance of the sky over all directions.
+        sun_direction
             Unit vector to the sun.
         anisotropy
             g of Henyey and Greenstein's phase function.
-        oftener
-            Weights of light scattered twice and thrice, beside that scattered once.
+        multiple_scattering
+            Multiple scattering: weights of light scattered twice and thrice, relative to single scattering.
         glow
-            Radiance where `glow` is 1; black: there is none.
+            Radiance where `glow` is 1; black has no glow.
         thin, thick
-            Part of the glow that thin smoke gives on, and the extinctions (1/m) between which that rises to all.
+            Part of the glow that thin smoke scatters, and the extinctions (1/m) between which this part rises to 1.
         air, haze, haze_height
-            Radiance of the haze, its extinction (1/m) at height 0, and the height (m) in which it thins to 1/e.
+            Radiance of the haze, its extinction (1/m) at height 0, and its e-folding height (m).
         """
 
 def march(
@@ -479,7 +478,7 @@ def march(
     step: float = 0.5,
     stop: float = 1.0e-3,
 ) -> NDArray[np.float32]:
-    """Ray marching: the light that smoke adds to rays, and how much of what is behind it comes through.
+    """Ray marching: radiance that smoke adds to rays, and the transmittance of the background.
 
     Parameters
     ----------
@@ -490,11 +489,11 @@ def march(
     directions
         (n, 3) unit vectors.
     distances
-        (n, taps) m, in any order: where on the way it is asked what came so far. Infinite: behind all smoke.
+        (n, taps) m, in any order: distances at which a ray's result is returned. Infinity is behind all smoke.
     step
-        In voxels of the finest layer there.
+        Step length, voxels of the finest layer at the place.
     stop
-        Transmittance at which a ray ends; what is left counts as more of the same smoke.
+        Transmittance at which a ray ends. The remaining light is extrapolated from the same smoke.
 
     Returns
     -------
@@ -529,7 +528,7 @@ def march_infrared(
     absorption: float,
     step: float = 4.0,
 ) -> NDArray[np.float32]:
-    """The same in the infrared, where smoke absorbs and emits and scatters nothing.
+    """Ray marching in the infrared: smoke absorbs and emits, and does not scatter.
 
     Parameters
     ----------
@@ -538,15 +537,15 @@ def march_infrared(
     distances
         (n,) m, how far each ray goes.
     kelvin, elevation
-        (rows, columns) K and m: the air at the model's ground, and that ground; rows to the north.
+        (rows, columns) air temperature at the model's ground, K, and elevation of that ground, m; rows to the north.
     corner, spacing
-        x and y of the first of these values, and between them, m.
+        x and y of the first of these values, and of the distance between values, m.
     lapse
-        K that air is colder for each metre above that ground.
+        Lapse rate above that ground, K/m.
     radiance
         (k,) W m-2 sr-1 of a black body at `coldest` K and every `kelvin_step` K from there on.
     absorption
-        Times the extinction in green light.
+        Infrared absorption over the extinction in green light.
 
     Returns
     -------
@@ -566,7 +565,7 @@ def optical_depth(
     step: float = 2.0,
     enough: float = 20.0,
 ) -> NDArray[np.float32]:
-    """Optical depth of smoke along rays in green light, (n,), or of so much of them as is `enough`.
+    """Optical depth of smoke along rays in green light, (n,). A ray ends at the optical depth `enough`.
 
     Parameters
     ----------

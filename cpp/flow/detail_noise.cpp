@@ -1,0 +1,85 @@
+#include "flow/detail_noise.hpp"
+
+#include "base/clones.hpp"
+#include "flow/linear_interpolator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace firetwin::flow {
+namespace {
+
+constexpr float roughness = 0.7F;
+constexpr double finer = 0.47;
+constexpr float calm = 0.02F, lively = 0.98F; // vigour without lumps, and without veils
+
+FIRETWIN_CLONES("avx512f", "avx2")
+void scale(const std::array<double, static_cast<std::size_t>(lanes)>& places, double by, Row& out) {
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    out[n] = static_cast<float>(places[n] * by);
+  }
+}
+
+FIRETWIN_CLONES("avx512f", "avx2")
+void add_veils(float share, const Row& vigour, float most, const Row& perlin, Row& soft) {
+  for (std::size_t n = 0; n < soft.size(); ++n) {
+    soft[n] += vigour[n] < most ? share * 0.9F * perlin[n] : 0.0F;
+  }
+}
+
+FIRETWIN_CLONES("avx512f", "avx2")
+void add_lumps(float share, const Row& distance, Row& crisp) {
+  for (std::size_t n = 0; n < crisp.size(); ++n) {
+    crisp[n] += share * (1.25F * (0.49F - distance[n]));
+  }
+}
+
+FIRETWIN_CLONES("avx512f", "avx2")
+void add_ridges(float share, const Row& perlin, Row& crisp) {
+  for (std::size_t n = 0; n < crisp.size(); ++n) {
+    crisp[n] += share * (0.6F * (0.5F - 2.0F * std::abs(perlin[n])));
+  }
+}
+
+FIRETWIN_CLONES("avx512f", "avx2")
+void blend(const Row& soft, const Row& crisp, const Row& vigour, Row& noise) {
+  for (std::size_t n = 0; n < noise.size(); ++n) {
+    noise[n] = mix(soft[n], vigour[n] > calm ? crisp[n] : 0.0F, vigour[n]);
+  }
+}
+
+} // namespace
+
+DetailNoise::DetailNoise(double size, double finest,
+                         const std::array<std::uint32_t, Drift::phases>& seeds)
+    : size_(size), finest_(finest), seeds_(seeds) {}
+
+void DetailNoise::at(const Origins& places, std::size_t phase, const Row& vigour, Row& noise) {
+  const auto [least, most] = std::minmax_element(vigour.begin(), vigour.end());
+  const bool veils = *least<lively, lumps = *most> calm;
+  Row crisp{}, soft{}, found, x, y, z;
+  float share = 1.0F;
+  double size = size_;
+  for (int octave = 0; octave < most_octaves && size > finest_; ++octave) {
+    const std::uint32_t own = seeds_[phase] * 8U + static_cast<std::uint32_t>(octave);
+    scale(places[0], 1.0 / size, x);
+    scale(places[1], 1.0 / size, y);
+    scale(places[2], 1.0 / size, z);
+    const bool round = octave < lump_octaves;
+    if (veils || !round) {
+      perlin(x, y, z, own, found);
+      add_veils(share, vigour, round ? lively : 2.0F, found, soft);
+    }
+    if (lumps && !round) {
+      add_ridges(share, found, crisp);
+    } else if (lumps) {
+      worley_[phase][static_cast<std::size_t>(octave)].at(x, y, z, own, found);
+      add_lumps(share, found, crisp);
+    }
+    share *= roughness;
+    size *= finer;
+  }
+  blend(soft, crisp, vigour, noise);
+}
+
+} // namespace firetwin::flow

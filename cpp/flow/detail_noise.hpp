@@ -1,0 +1,33 @@
+#pragma once
+
+#include "flow/drift.hpp"
+#include "flow/noise.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace firetwin::flow {
+
+/// Advected coordinates (place - drift) of a row of voxels, m: east, north and up.
+using Origins = std::array<std::array<double, static_cast<std::size_t>(lanes)>, 3>;
+
+/// Fractal noise of smoke detail: octaves of Worley noise (billows) where smoke is vigorous, of
+/// Perlin noise (veils) elsewhere.
+class DetailNoise {
+public:
+  /// @param size, finest wavelengths of the largest and the finest octave, m
+  /// @param seeds of each phase's noise
+  DetailNoise(double size, double finest, const std::array<std::uint32_t, Drift::phases>& seeds);
+
+  /// Noise of a phase; `vigour`, 0 to 1, blends from veils to billows.
+  void at(const Origins& places, std::size_t phase, const Row& vigour, Row& noise);
+
+private:
+  static constexpr int lump_octaves = 3, most_octaves = 7;
+
+  double size_, finest_;
+  std::array<std::uint32_t, Drift::phases> seeds_;
+  std::array<std::array<Worley, lump_octaves>, Drift::phases> worley_;
+};
+
+} // namespace firetwin::flow

@@ -1,0 +1,94 @@
+#pragma once
+
+#include "lod/frustum.hpp"
+#include "lod/occluder.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace firetwin::lod {
+
+/// Options of a visibility query.
+struct CullOptions {
+  double max_distance = std::numeric_limits<double>::infinity(); ///< from perspective cameras, m
+  double margin = 0.0;  ///< m by which every frustum is enlarged, for indirect light
+  bool shadows = false; ///< keep shadow casters: spheres whose shadow falls on a visible place
+};
+
+/// Views of a shot as a tree, for frustum and occlusion culling. Culling is conservative: it never
+/// removes a visible object.
+///
+/// The views are the leaves of a binary tree. A branch stands for all views below it. It has the
+/// frustum of its middle view, the largest translation of the other cameras from it and their
+/// largest rotation. A sphere is enlarged by this motion before the test. Where the test of a
+/// branch fails, none of its views is tested.
+class ViewSet {
+public:
+  /// @param views in order along the camera path, so that neighbours share a branch
+  /// @param occluder terrain; null disables occlusion culling
+  /// @param lowest_terrain lower bound of all terrain, m; shadow rays end there
+  /// @throws std::invalid_argument unless positions are finite, rotations are orthonormal and
+  ///         half_width and half_height are positive.
+  ViewSet(std::vector<View> views, std::shared_ptr<const Occluder> occluder, double lowest_terrain);
+
+  /// Whether any view sees any part of a bounding sphere. A sphere with a NaN is never visible.
+  bool is_visible(const BoundingSphere& sphere, const CullOptions& options) const;
+
+  /// Distance of a place from the nearest perspective camera, m; infinite without one.
+  double distance(const Vector& place) const;
+
+  /// Number of views.
+  std::size_t size() const { return views_.size(); }
+
+private:
+  friend class Tiles;
+
+  /// Views first to last - 1.
+  struct Branch {
+    std::size_t first, last;
+    std::size_t left, right; ///< branches; 0 for leaves
+    std::size_t middle;      ///< view that represents the branch
+    Frustum frustum;         ///< of the middle view, as wide as the widest
+    double moved;            ///< largest translation from the middle view, m
+    double turned;           ///< largest change of a unit vector by rotation from the middle view
+    bool perspective;        ///< any of them
+    bool orthographic;       ///< any of them
+    bool above_terrain;      ///< all of them
+    Vector sun;              ///< of a view with shadows
+    double sun_moved;        ///< largest difference of another's from it
+    double sun_height;       ///< least sine of those with shadows; 0 where none has
+  };
+
+  std::size_t grow(std::size_t first, std::size_t last);
+  Branch branch(std::size_t first, std::size_t last) const;
+  /// Bound of a place's displacement between the middle view's frame and another view's, m.
+  double shift(const Branch& branch, const Vector& place) const;
+  /// Whether a sphere may be visible in a view of this branch; exact for leaves.
+  /// @param occluder null tests the frusta alone, which is quick
+  /// @param ridge fraction of the last occlusion (see `Occluder::occludes`)
+  bool may_be_visible(const Branch& branch, const BoundingSphere& sphere,
+                      const CullOptions& options, const Occluder* occluder, double& ridge) const;
+  bool may_be_in_view(const Branch& branch, const BoundingSphere& sphere,
+                      const CullOptions& options, const Occluder* occluder, double& ridge) const;
+  bool may_cast_shadow(const Branch& branch, const BoundingSphere& sphere,
+                       const CullOptions& options, const Occluder* occluder, double& ridge) const;
+  /// Bounding sphere of a shadow between two distances (m) from the caster, for all suns of the
+  /// branch.
+  static BoundingSphere shadow_sphere(const Branch& branch, const BoundingSphere& sphere,
+                                      double from, double to);
+  /// @param leaf receives the leaf whose view sees the sphere
+  bool is_visible(std::size_t branch, const BoundingSphere& sphere, const CullOptions& options,
+                  std::size_t& leaf, double& ridge) const;
+  void distance(std::size_t branch, const Vector& place, double& least) const;
+
+  std::vector<View> views_;
+  std::vector<Branch> branches_; ///< [0] is the root
+  std::shared_ptr<const Occluder> occluder_;
+  double lowest_terrain_;
+};
+
+} // namespace firetwin::lod

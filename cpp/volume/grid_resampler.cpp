@@ -1,0 +1,74 @@
+#include "volume/grid_resampler.hpp"
+
+#include "base/clones.hpp"
+
+#include <algorithm>
+
+namespace firetwin::volume {
+namespace {
+
+using Index = std::int64_t;
+
+/// Four rows of values and their weights.
+struct Rows {
+  std::array<const float*, 4> values;
+  std::array<float, 4> weight;
+};
+
+FIRETWIN_CLONES("avx512f", "avx2")
+void mix_rows(const Rows& rows, const std::int32_t* __restrict low,
+              const std::int32_t* __restrict high, const float* __restrict part,
+              float* __restrict out) {
+  const auto [a, b, c, d] = rows.values;
+  const auto [wa, wb, wc, wd] = rows.weight;
+  for (Index l = 0; l < GridResampler::lanes; ++l) {
+    const float less = 1.0F - part[l], more = part[l];
+    const std::int32_t m = low[l], n = high[l];
+    float sum = wa * less * a[m];
+    sum += wb * less * b[m];
+    sum += wc * less * c[m];
+    sum += wd * less * d[m];
+    sum += wa * more * a[n];
+    sum += wb * more * b[n];
+    sum += wc * more * c[n];
+    out[l] = sum + wd * more * d[n];
+  }
+}
+
+} // namespace
+
+GridResampler::GridResampler(const OwnedVoxelGrid& of, const std::array<Index, 3>& shape,
+                             double voxel, const Vector& origin, const Vector& shift)
+    : values_(of.values.data()), shape_(of.shape) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Axis& a = axes_[axis];
+    const double last = static_cast<double>(shape_[axis] - 1);
+    for (Index n = 0; n < shape[axis] + lanes; ++n) {
+      const auto voxels = static_cast<double>(std::min(n, shape[axis] - 1));
+      const double place = origin[axis] + voxel * voxels + shift[axis];
+      const double at = std::clamp((place - of.origin[axis]) / of.voxel, 0.0, last);
+      const Index low = std::min(static_cast<Index>(at), std::max(shape_[axis] - 2, Index{0}));
+      a.low.push_back(static_cast<std::int32_t>(low));
+      a.high.push_back(static_cast<std::int32_t>(std::min(low + 1, shape_[axis] - 1)));
+      a.part.push_back(static_cast<float>(at - static_cast<double>(low)));
+    }
+  }
+}
+
+void GridResampler::row(Index x, Index y, Index z, float* out) const {
+  const auto i = static_cast<std::size_t>(x), j = static_cast<std::size_t>(y),
+             k = static_cast<std::size_t>(z);
+  const std::array<Index, 2> columns{axes_[0].low[i], axes_[0].high[i]},
+      rows{axes_[1].low[j], axes_[1].high[j]};
+  const std::array<float, 2> along_x{1.0F - axes_[0].part[i], axes_[0].part[i]},
+      along_y{1.0F - axes_[1].part[j], axes_[1].part[j]};
+  Rows four{};
+  for (std::size_t n = 0; n < 4; ++n) {
+    four.values[n] = values_ + (columns[n % 2] * shape_[1] + rows[n / 2]) * shape_[2];
+    four.weight[n] = along_x[n % 2] * along_y[n / 2];
+  }
+  const Axis& up = axes_[2];
+  mix_rows(four, up.low.data() + k, up.high.data() + k, up.part.data() + k, out);
+}
+
+} // namespace firetwin::volume
