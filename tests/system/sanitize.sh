@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 python=${PYTHON:-.venv/bin/python}
 build=build/sanitize
 
-cmake --preset asan -B "$build" -DPython_EXECUTABLE="$python" >/dev/null
+cmake --preset asan -B "$build" -DPython_EXECUTABLE="$(realpath --no-symlinks "$python")" >/dev/null
 cmake --build "$build" -j 2 >&2
 
 # The package as it is installed, with the sanitized module beside it.
