@@ -63,17 +63,18 @@ SolverSettings nest_settings() {
   return settings;
 }
 
-Solver::Solver(Domain box, Profile profile, const SolverSettings& settings)
-    : Solver(std::move(box), std::move(profile), settings, nullptr) {}
+Solver::Solver(Domain domain, Profile profile, const SolverSettings& settings)
+    : Solver(std::move(domain), std::move(profile), settings, nullptr) {}
 
-Solver::Solver(Domain box, std::shared_ptr<const Solver> outer, const SolverSettings& settings)
-    : Solver(std::move(box), outer->profile(), settings, outer) {}
+Solver::Solver(Domain domain, const std::shared_ptr<const Solver>& outer,
+               const SolverSettings& settings)
+    : Solver(std::move(domain), outer->profile(), settings, outer) {}
 
-Solver::Solver(Domain box, Profile profile, const SolverSettings& settings,
+Solver::Solver(Domain domain, Profile profile, const SolverSettings& settings,
                std::shared_ptr<const Solver> outer)
-    : lattice_(box.nx, box.ny, box.spacing, std::move(box.levels)), corner_(box.corner),
-      profile_(std::move(profile)), settings_(settings), outer_(std::move(outer)),
-      ground_(terrain_of(lattice_, box.ground, outer_.get())),
+    : lattice_(domain.nx, domain.ny, domain.spacing, std::move(domain.levels)),
+      corner_(domain.corner), profile_(std::move(profile)), settings_(settings),
+      outer_(std::move(outer)), ground_(terrain_of(lattice_, domain.ground, outer_.get())),
       ambient_(lattice_, ground_, profile_), state_(lattice_, ambient_.moist()),
       transport_(lattice_, ambient_.air()), pressure_(lattice_, ambient_.air()),
       mixing_(lattice_, ambient_, settings.smagorinsky), buoyancy_(lattice_, ground_, ambient_),

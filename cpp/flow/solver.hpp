@@ -71,7 +71,7 @@ public:
 
   /// A nest: a finer domain inside of `outer`, one-way nested. It starts from the outer flow and
   /// has boundary conditions from it. The nest keeps `outer` alive.
-  Solver(Domain domain, std::shared_ptr<const Solver> outer, const SolverSettings& settings);
+  Solver(Domain domain, const std::shared_ptr<const Solver>& outer, const SolverSettings& settings);
 
   /// Sets the fire's sources from now on.
   void set_sources(Sources sources);
@@ -114,7 +114,7 @@ public:
   void fill_ghost_cells() { boundaries_.fill_ghost_cells(state_, outside_.get()); }
 
 private:
-  Solver(Domain box, Profile profile, const SolverSettings& settings,
+  Solver(Domain domain, Profile profile, const SolverSettings& settings,
          std::shared_ptr<const Solver> outer);
   void start();
   void follow(double dt);

@@ -33,7 +33,7 @@ struct Sweep {
   /// Fields that are carried, at most `max_fields`, and how many of them are rescaled to `rest`.
   std::span<Field* const> fields;
   std::size_t rescaled = 0;
-  /// The first so many fields are nothing in most of the box: rows of nothing are left alone.
+  /// Number of leading fields that are 0 in most of the domain; their zero rows are skipped.
   std::size_t sparse = 0;
   /// Air that eddies exchange through the same faces, kg/m2, or null; and how much more of it.
   const Field* exchange = nullptr;

@@ -33,7 +33,7 @@ class Transport {
 public:
   Transport(const Lattice& lattice, const Air& air);
 
-  /// @param scalars 2 to `max_fields`, the first two of them nothing in most of the box; of all
+  /// @param scalars 2 to `max_fields`, the first two of them 0 in most of the domain; of all
   /// but the last `loose` ones sums are kept to rounding, of the loose ones constants
   /// @param crossed [scalars] what came and went through the sides, value x kg
   /// @param mixing K of eddies in cells, m2/s, or null

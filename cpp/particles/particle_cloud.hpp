@@ -51,7 +51,7 @@ struct ParticleCloud {
 /// The particles that are in the air or on the ground at one time. It needs no time before it: how
 /// particle k of a source starts follows from Philox keyed by (seed, id, k), its launch at
 /// start + (k + U) / rate, and its path from motion.hpp's exact solution. So a frame comes out the
-/// same whatever was asked for before, and no source changes another's particles.
+/// same in any order of calls, and no source changes another's particles.
 /// @param ground may be null; particles that meet it lie there until their life ends
 /// @throws std::invalid_argument
 ParticleCloud state(double time, const Sources& sources, const ParticleKind& kind, const Wind& wind,

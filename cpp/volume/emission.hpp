@@ -12,7 +12,7 @@ constexpr std::size_t stem_count =
     6; ///< parts of an interval that are followed one by one at first
 
 /// What the cells of one block burn in one interval. The place, wind and powers belong to the whole
-/// interval, also the part still to come, so that they do not depend on the moment looked at.
+/// interval, also the part still to come, so they do not depend on the time of the query.
 struct Source {
   std::uint64_t key = 0;  ///< of block and interval
   std::uint64_t gust = 0; ///< shared by neighbours in place and time

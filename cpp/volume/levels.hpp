@@ -9,7 +9,7 @@
 
 namespace firetwin::volume {
 
-/// Smoke of one moment on terrain-following levels [nz ny nx], heights ascending.
+/// Model smoke at one time on terrain-following levels [nz ny nx], heights ascending.
 struct Levels {
   std::span<const double> latitude;   ///< [ny] degrees
   std::span<const double> longitude;  ///< [nx]
@@ -20,7 +20,7 @@ struct Levels {
   std::size_t levels = 0;
 };
 
-/// Smoke without gaps: what is not a number or negative is none.
+/// Valid smoke density: NaN, infinity and negative values become 0.
 inline float valid_smoke(float smoke) {
   return smoke > 0.0F && smoke <= std::numeric_limits<float>::max() ? smoke : 0.0F;
 }

@@ -29,22 +29,22 @@ struct PuffSettings {
   std::uint64_t seed = 0;
 };
 
-/// Smoke of one moment as balls. Balls of mass 0 shape the surface of the puff that they sit on.
+/// Puff smoke at one time, as balls. Balls of mass 0 shape the surface of their parent puff.
 struct Puffs {
   std::vector<float> position; ///< (n, 3) m
   std::vector<float> radius;   ///< m
   std::vector<float> density;  ///< kg/m3 of the puff's own smoke; its parent's for a surface ball
   std::vector<float> age;      ///< s
   std::vector<double> mass;    ///< kg
-  std::vector<std::uint64_t> identity; ///< the same ball keeps it from moment to moment
-  double emitted = 0.0;                ///< kg of smoke up to this moment
+  std::vector<std::uint64_t> identity; ///< identifier of a ball, constant in time
+  double emitted = 0.0;                ///< kg of smoke up to this time
   double left = 0.0;                   ///< kg of it that is too old or too thin to be shown
   double heat_per_smoke = 0.0;         ///< J released per kg of smoke
 
   std::size_t size() const { return radius.size(); }
 };
 
-/// The smoke at `time`, in closed form: no earlier moment is needed.
+/// Puff smoke at `time`, in closed form: no earlier state is needed.
 ///
 /// Cells are gathered in blocks, and the fuel that a block burns in one interval makes one puff,
 /// born at the start of the interval with neither mass nor size. For its first minutes the puff is

@@ -267,7 +267,7 @@ def occluded_smoke(
     directions
         (m, 3) unit vectors to orthographic viewpoints (parallel lines of sight).
     depth
-        Optical depth. A voxel is occluded if at least so much lies between it and every viewpoint.
+        Optical depth. A voxel is occluded if every ray from it to a viewpoint has more than that.
     origin
         m, the centre of voxel (0, 0, 0).
     beyond
