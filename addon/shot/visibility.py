@@ -1,4 +1,4 @@
-"""What the cameras of a shot see in the frames that they film, and how near they come, by `lod.visible_mask`."""
+"""Visibility of a shot: what its cameras see in the frames that they film, and how near they come."""
 
 from __future__ import annotations
 

@@ -56,7 +56,7 @@ _BLOCK, _ROUND = 16, 300.0  # voxels; m round a block that count as it: of light
 
 Array = NDArray[np.float64]
 Brick = tuple[NDArray[np.float32], float, list[float]]
-"""Values (nx, ny, nz), voxel size and the first voxel's middle (m), as `volume.smoke_light` gives and takes them."""
+"""Values (nx, ny, nz), voxel size and the first voxel's middle (m), as `volume.smoke_light` has them."""
 Eyes = tuple[Array, Array]
 """Where smoke is seen from, as `Sights.eyes` gives it."""
 
@@ -170,7 +170,9 @@ class Painter:
         smoke = None
         if eyes is not None:
             outer = beyond.smoke if beyond else None
-            grids["hidden"], smoke = volume.occluded_smoke(grids["density"], voxel, *eyes, DEEP, origin, outer)
+            grids["hidden"], smoke = volume.occluded_smoke(
+                grids["density"], voxel, *eyes, DEEP, origin, outer
+            )
         written = volume.write(
             path,
             grids,
