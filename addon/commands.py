@@ -203,7 +203,7 @@ def track(arguments: argparse.Namespace) -> None:
         raise UsageError(f"{arguments.scene} has no [[cameras]], so there is no way to write")
     alone = comparison.for_view(shot, arguments.camera or names[0])
     (view,) = alone.paths
-    moments = [alone.moment(frame) for frame in range(1, alone.frames.count + 1)]
+    moments = [alone.utc(frame) for frame in range(1, alone.frames.count + 1)]
     text = track_xml.gpx_text(view.camera.name, *alone.local_frame.reverse(view.position), moments)
     files.write(arguments.out, lambda part: part.write_text(text, encoding="utf-8"))
     result(arguments.out)
@@ -360,7 +360,7 @@ def _fitted(
             raise UsageError(
                 f"--{name}: lies outside of the run, which has {times.iso(first)} to {times.iso(last)}"
             )
-    if wrong := window.wrong():
+    if wrong := window.validate():
         raise UsageError(f"--end: {wrong[1]}")
     with notify_if_slow(READING):
         found = auto_framing.fit_folder(run, path, cache, window)

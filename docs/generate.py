@@ -16,7 +16,7 @@ from typing import Any, get_args
 
 from firetwin.shot import passes
 from firetwin.shot.cameras import rigs
-from firetwin.shot.settings.schema import Key, Part, parts, plain
+from firetwin.shot.settings.schema import Field, Key, fields, plain
 from firetwin.shot.settings.settings import Camera, Settings
 
 FOLDER = Path(__file__).parent
@@ -40,7 +40,7 @@ def table(head: tuple[str, ...], rows: Iterator[tuple[str, ...]]) -> str:
     )
 
 
-def value(part: Part) -> str:
+def value(part: Field) -> str:
     """A key's default as a scene file writes it."""
     if part.table:
         return "none"
@@ -52,7 +52,7 @@ def value(part: Part) -> str:
     return f"`{found}`".replace("'", '"') if not isinstance(found, str) else f'`"{found}"`'
 
 
-def kind(part: Part) -> str:
+def kind(part: Field) -> str:
     """Type, unit and bounds of a key."""
     if part.table:
         return "list of tables" if part.tables else "table"
@@ -74,14 +74,14 @@ def meaning(key: Key, listed: bool = True) -> str:
     return key.help + (": " + "; ".join(choices) if choices else "")
 
 
-def keys(found: list[Part]) -> str:
+def keys(found: list[Field]) -> str:
     """A table of keys; choices that are passes have a page of their own."""
     rows = (
         (f"`{p.name}`", value(p), kind(p), meaning(p.key, listed=p.key.choices is not passes.helps))
         for p in found
     )
     out = table(("key", "default", "what it takes", "meaning"), rows)
-    inner = [f"\nEach table of `{p.name}`:\n\n{keys(list(parts(p.table)))}" for p in found if p.table]
+    inner = [f"\nEach table of `{p.name}`:\n\n{keys(list(fields(p.table)))}" for p in found if p.table]
     return out + "".join(inner)
 
 
@@ -102,8 +102,8 @@ def prose(text: str | None, module: str = "") -> str:
 
 def settings() -> str:
     """Every section of a scene file with its keys."""
-    sections = [part for part in parts(Settings) if part.table]
-    own = [part for part in parts(Settings) if not part.table]
+    sections = [part for part in fields(Settings) if part.table]
+    own = [part for part in fields(Settings) if not part.table]
     out = [
         HEAD,
         "# Settings\n",
@@ -113,7 +113,7 @@ def settings() -> str:
     ]
     for part in sections:
         name = f"[[{part.name}]]" if part.tables else f"[{part.name}]"
-        inner = [each for each in parts(part.table) if not each.key.kinds]
+        inner = [each for each in fields(part.table) if not each.key.variants]
         out += [
             f"## `{name}`\n",
             f"{sentence(inspect.cleandoc(part.table.__doc__ or part.key.help))}\n",
@@ -151,7 +151,7 @@ def pass_section(each: passes.Pass) -> str:
 
 def rig_section(name: str, rig: type) -> str:
     """One kind of camera."""
-    texts = (prose(sys.modules[rig.__module__].__doc__), prose(rig.__doc__), keys(list(parts(rig))))
+    texts = (prose(sys.modules[rig.__module__].__doc__), prose(rig.__doc__), keys(list(fields(rig))))
     return "\n\n".join((f"### {name}", *texts))
 
 

@@ -286,7 +286,7 @@ def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:
     chunk = shot.settings.render.chunk
     own = frames.parts(shot.frames_of(camera), chunk)
     for k, group in itertools.groupby(wanted, lambda picture: frames.part_of(picture.frame, chunk)):
-        yield shot if len(own) == 1 else shot.part(own[k]), list(group)
+        yield shot if len(own) == 1 else shot.for_frames(own[k]), list(group)
 
 
 def smoky(shot: Shot, wanted: list[Any]) -> list[int]:

@@ -47,7 +47,7 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
     """
     aspects = passes.known()[name].all_aspects
     (mine,) = (each for each in settings.cameras if each.name == camera)
-    leader = mine.rig.leader(settings.cameras)
+    leader = mine.rig.followed(settings.cameras)
     cameras = [mine] if leader is None else [mine, leader]
     made_with = {
         "versions": versions(),
@@ -57,8 +57,8 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
         "run": run,
         "camera": camera,
         "pass": name,
-        "settings": schema.chosen(_built(settings, mine), aspects, camera),
-    } | ({"leader": schema.chosen(settings, {"camera"}, leader.name)} if leader else {})
+        "settings": schema.select(_built(settings, mine), aspects, camera),
+    } | ({"leader": schema.select(settings, {"camera"}, leader.name)} if leader else {})
     taken = mount.taken(settings, settings.cameras, camera, passes.known()[name])
     others = {need: pair for need, pair in taken.items() if pair[0] != camera}
     given = {need: [*pair, fingerprint(of_picture(settings, run, *pair))] for need, pair in others.items()}
@@ -124,7 +124,7 @@ def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silen
     shots = {
         label: comparison.for_run(shot, label) for label in {view.partition("@")[2] for view, _ in pairs}
     }
-    runs = {label: own.inputs(progress=progress) | more for label, own in shots.items()}
+    runs = {label: own.input_hashes(progress=progress) | more for label, own in shots.items()}
     found = {}
     for view, name in sorted(pairs):
         label = view.partition("@")[2]

@@ -187,7 +187,7 @@ def publish(shot: Shot, making: RenderSession, part: Path, pictures: list[Pictur
                 "camera": picture.camera,
                 "pass": picture.name,
                 "frame": picture.frame,
-                "time": shot.moment(picture.frame).isoformat(timespec="seconds"),
+                "time": shot.utc(picture.frame).isoformat(timespec="seconds"),
             }
             files.publish(made[name], making.store.out / name)
         making.store.add(making.made_with[picture.camera, picture.name], entries)

@@ -95,7 +95,7 @@ def _strips(
         editor.strips.new_image(f"picture {number}", shown, 1, position, fit_method="ORIGINAL")
         if not passes.known()[name].captions:
             continue
-        label = times.text(shot.moment(number), shot.settings.time.zone)
+        label = times.text(shot.utc(number), shot.settings.time.zone)
         for eye, up in enumerate(low):
             _text(editor, label, position, 1, 2 + eye, size, (left, up), "LEFT")
     if scene_runs.of_view(shot, camera).synthetic and passes.known()[name].captions:

@@ -89,8 +89,8 @@ def steps(
         "terrain": lambda: ground.build(shot, stage(), grown, shape),
         "forest": lambda: forest.build(shot, stage(), grown),
         "fire": lambda: fire.build(shot, stage(), grown),
-        "smoke": lambda: smoke.build(shot.whole, stage()),
-        "light": lambda: [tell(text) for text in light.build(shot.whole, stage())],
+        "smoke": lambda: smoke.build(shot.full, stage()),
+        "light": lambda: [tell(text) for text in light.build(shot.full, stage())],
         "cameras": lambda: camera.build(shot, stage()),
         "labels": lambda: labels.build(shot, stage()),
     }
@@ -106,7 +106,7 @@ def _grown_and_shaped(shot: Shot) -> tuple[stand.Stand, ground.Shape]:
     Neither asks Blender for anything, nor does the exposure, which is remembered; all are there before it
     goes on.
     """
-    shot.sights.distance([(0.0, 0.0, 0.0)])  # what they need of them is made now
+    shot.visibility.distance([(0.0, 0.0, 0.0)])  # what they need of them is made now
     with ThreadPoolExecutor(1) as beside:
         shaping = beside.submit(ground.shape, shot)
         metering = beside.submit(exposure.at, shot, np.ones(1))

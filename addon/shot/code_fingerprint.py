@@ -50,7 +50,7 @@ def hashes(aspects: Iterable[str], cameras: Iterable[Camera], *more: str | Path)
     folders = [place for place in wanted if (PACKAGE / place).is_dir()]
     rigs = {file for camera in cameras for file in _modules(type(camera.rig))}
     places = [PACKAGE / place for place in (*EVERYWHERE, *folders, *rigs, *more)]
-    read = {path.name: sha256(path)[:16] for camera in cameras for path in camera.rig.reads()}
+    read = {path.name: sha256(path)[:16] for camera in cameras for path in camera.rig.input_files()}
     return {"core": _core()} | dict(sorted(map(_hash, places))) | read
 
 

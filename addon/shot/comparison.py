@@ -59,14 +59,16 @@ class ComparisonShot(Shot):
         self.cameras = tuple(_renamed(camera, label) for camera in first.cameras)
         self.others = first.others
 
-    def inputs(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
+    def input_hashes(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
         """Those of its own run, and of the first, by which the cameras fly."""
-        flown = self.first.inputs((), progress)
-        return super().inputs(leave_out, progress) | {f"first {name}": each for name, each in flown.items()}
+        flown = self.first.input_hashes((), progress)
+        return super().input_hashes(leave_out, progress) | {
+            f"first {name}": each for name, each in flown.items()
+        }
 
-    def of(self, name: str) -> Shot:
+    def for_camera(self, name: str) -> Shot:
         """The same shot with this camera alone."""
-        return ComparisonShot(self.first.of(name.partition("@")[0]), self.label)
+        return ComparisonShot(self.first.for_camera(name.partition("@")[0]), self.label)
 
     def other_runs(self) -> dict[str, Run]:
         """The runs that this one stands beside, by name."""
@@ -91,7 +93,7 @@ class ComparisonShot(Shot):
                 f'heights of run "{self.label}" are {self.run.vertical}, those of the first '
                 f"{self.first.run.vertical}: cameras are as far off over its ground as the geoid is"
             )
-        for view in self.near:
+        for view in self.perspective_paths:
             ground = self.ground.up(*view.position[:, :2].T)
             depth = float(np.max(ground - view.position[:, 2]))
             if depth > _BURIED:
@@ -102,7 +104,7 @@ class ComparisonShot(Shot):
 def for_view(shot: Shot, view: str) -> Shot:
     """The shot of one camera: of the first run, or as ``camera@run`` of another."""
     name, _, label = view.partition("@")
-    return for_run(shot.of(name), label)
+    return for_run(shot.for_camera(name), label)
 
 
 def for_run(shot: Shot, label: str) -> Shot:
@@ -146,4 +148,4 @@ def caption(shot: Shot, frame: int) -> list[str]:
     runs = [shot.run, *shot.others.values()]
     made_up = sum(run.synthetic for run in runs)
     note = ["synthetic" if made_up == len(runs) else f"{made_up} of {len(runs)} runs synthetic"]
-    return [*(note if made_up else []), times.text(shot.moment(frame), shot.settings.time.zone)]
+    return [*(note if made_up else []), times.text(shot.utc(frame), shot.settings.time.zone)]

@@ -29,9 +29,9 @@ def check(settings: Settings, run: Run) -> None:
     if settings.labels.enabled and settings.labels.file:
         labels.read(settings.labels.file)
     for index, camera in enumerate(settings.cameras):
-        for where, latitude, longitude in camera.rig.places():
+        for where, latitude, longitude in camera.rig.coordinates():
             _near(settings, run, ("cameras", index, *where), camera.name, latitude, longitude)
-        if found := camera.rig.misfit(run, frames.resolve(settings.time, run)):
+        if found := camera.rig.validate_against(run, frames.resolve(settings.time, run)):
             reason = f'camera "{camera.name}" {found[1]}'
             raise scene_file.error_at(settings.path, ("cameras", index, *found[0]), reason)
 

@@ -30,7 +30,7 @@ from .smoke_scale import Scale
 from .terrain import elevation
 from .terrain.elevation import Elevation
 from .terrain.terrain import Ground
-from .visibility import Sights
+from .visibility import Visibility
 
 _BEFORE = 3600.0  # s before the first frame that ground which burned since counts as burning
 WIDE_LENS = 28.0  # mm; pictures to scale count as taken with it
@@ -55,19 +55,19 @@ class Shot:
         Heights of the ground on the run's grids.
     cameras
         All of the scene file's, also those that are not filmed here: others may follow them.
-    whole
+    full
         The shot that this is a part of; else itself.
     """
 
     def __init__(self, settings: Settings, run: Run) -> None:
         if not settings.time.zone:
             settings = replace(settings, time=replace(settings.time, zone=zone.time_zone(run)))
-        self.settings, self.run, self.cameras, self.whole = settings, run, settings.cameras, self
+        self.settings, self.run, self.cameras, self.full = settings, run, settings.cameras, self
         self.frames: Frames = frames.resolve(settings.time, run)
         self._filmed: dict[str, NDArray[np.int64]] = {}
         self.relief: Elevation = elevation.resolve(settings, run)
 
-    def inputs(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
+    def input_hashes(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
         """SHA-256 of each field of the run but some, and of the elevation model."""
         settings = self.settings
         found = content.inputs(self.run, settings.cache, leave_out, progress)
@@ -119,7 +119,7 @@ class Shot:
         """The runs that this one stands beside, by name."""
         return dict(self.others)
 
-    def of(self, name: str) -> Shot:
+    def for_camera(self, name: str) -> Shot:
         """The same shot with this camera alone: what it films depends on no other but that it follows.
 
         See `comparison.for_view` for views of other runs.
@@ -130,7 +130,7 @@ class Shot:
         shot.others = self.others
         return shot
 
-    def part(self, listed: list[int]) -> Shot:
+    def for_frames(self, listed: list[int]) -> Shot:
         """The same shot of one camera, for some of the frames that it films, ascending.
 
         Paths, smoke and light stay those of the whole; ground, plants and flames are what these frames show.
@@ -138,7 +138,7 @@ class Shot:
         (camera,) = self.settings.cameras
         camera = replace(camera, frames=",".join(map(str, listed)))
         shot = self._sharing(replace(self.settings, cameras=(camera,)))
-        shot.whole, shot.paths = self, [replace(self.paths[0], camera=camera)]
+        shot.full, shot.paths = self, [replace(self.paths[0], camera=camera)]
         return shot
 
     def _sharing(self, settings: Settings) -> Shot:
@@ -181,19 +181,19 @@ class Shot:
             self._filmed[listed] = np.array(self.frames_of(path.camera)) - 1
         return self._filmed[listed]
 
-    def moment(self, frame: float) -> datetime:
+    def utc(self, frame: float) -> datetime:
         """UTC of a frame."""
         return times.utc(self.run, self.frames.time(frame))
 
     @cached_property
-    def built(self) -> NDArray[np.int64]:
+    def built_frames(self) -> NDArray[np.int64]:
         """Frames, from 0, that ground, plants and flames are built for: all, or those that a part films."""
-        return np.arange(self.frames.count) if self.whole is self else self.filmed(self.paths[0])
+        return np.arange(self.frames.count) if self.full is self else self.filmed(self.paths[0])
 
     @property
-    def moments(self) -> NDArray[np.float64]:
+    def built_times(self) -> NDArray[np.float64]:
         """Model times (s) of the frames that are built."""
-        return self.frames.times[self.built]
+        return self.frames.times[self.built_frames]
 
     @cached_property
     def local_frame(self) -> geo.LocalFrame:
@@ -213,12 +213,12 @@ class Shot:
     @cached_property
     def front_scale(self) -> float:
         """Size of what is seen of the front and the scar beside that of a crown fire's, to 1."""
-        return flame_depth.scale(self.whole)
+        return flame_depth.scale(self.full)
 
     @cached_property
     def ground(self) -> Ground:
         """The ground, with detail along the cameras' paths."""
-        rough = self._paths(self.bare_ground) if self.whole is self else self.paths
+        rough = self._paths(self.bare_ground) if self.full is self else self.paths
         near = [view.position[self.filmed(view)] for view in rough if view.perspective]
         return self.bare_ground.seen_from(path.eyes(near, self.settings.terrain.near_radius))
 
@@ -243,14 +243,14 @@ class Shot:
         return [*self.settings.notes, *camera_warnings.ridges(self)]
 
     @property
-    def near(self) -> list[Path]:
+    def perspective_paths(self) -> list[Path]:
         """Paths of the cameras that things can be near to."""
         return [view for view in self.paths if view.perspective]
 
     @cached_property
-    def sights(self) -> Sights:
+    def visibility(self) -> Visibility:
         """What the cameras see in the frames that they film, and how near they come."""
-        return Sights(self)
+        return Visibility(self)
 
     @cached_property
     def wind(self) -> tuple[float, float]:
@@ -270,7 +270,7 @@ class Shot:
         if not self.paths or len(cells.arrival) == 0:
             return _NOWHERE
         return min(
-            float(np.percentile(self.sights.distance_from(view, cells.position[::5]), 10.0))
+            float(np.percentile(self.visibility.distance_from(view, cells.position[::5]), 10.0))
             if view.perspective
             else 2.0 * view.half[0] * WIDE_LENS / SENSOR  # as a lens with pixels as large on the ground
             for view in self.paths

@@ -21,22 +21,22 @@ _HALF_SPACE = 1.0e9  # tangent of half of 180 degrees
 _ONE_PLACE = 0.5  # m; to eyes farther apart the ground counts as hiding nothing: one may see past its edge
 
 
-class Sights:
-    """Sights of a shot's cameras, each made when it is first asked for.
+class Visibility:
+    """Frustum and occlusion culling by the cameras of a shot; each view set is made when it is first needed.
 
     Attributes
     ----------
-    whole
-        Nothing is skipped: all counts as seen, and from as near as can be.
+    unculled
+        Nothing is culled: all counts as visible, and from as near as can be.
     """
 
     def __init__(self, shot: ShotView) -> None:
-        self.shot, self.whole = shot, not shot.settings.render.cull
+        self.shot, self.unculled = shot, not shot.settings.render.cull
         self._known: dict[tuple[int, ...], lod.ViewSet] = {}
         self._ground: lod.Occluder | None = None
         self._floor = 0.0
 
-    def seen(
+    def visible_mask(
         self,
         position: ArrayLike,
         radius: ArrayLike,
@@ -65,7 +65,7 @@ class Sights:
             Whether cameras in perspective count.
         """
         showing = self._showing(pixel, perspective)
-        if self.whole:
+        if self.unculled:
             flat = any(not self.shot.paths[number].perspective for number in showing)
             near = perspective and self.distance(position) - radius <= reach
             return np.broadcast_to(near | flat, len(np.asarray(position)))
@@ -76,17 +76,17 @@ class Sights:
         """Least distance (n,) of places (n, 3) from cameras in perspective, m; infinite without any."""
         return lod.distance(position, self._of(self._showing(0.0)))
 
-    def drawn_from(self, position: ArrayLike) -> NDArray[np.float64]:
+    def lod_distance(self, position: ArrayLike) -> NDArray[np.float64]:
         """Distance (n,) that things at places (n, 3) are drawn for, m: 0 where nothing is skipped."""
-        return np.zeros(len(position)) if self.whole else self.distance(position)
+        return np.zeros(len(position)) if self.unculled else self.distance(position)
 
     def distance_from(self, path: Path, position: ArrayLike) -> NDArray[np.float64]:
         """Least distance (n,) of places (n, 3) from one camera in perspective, m."""
         return lod.distance(position, self._made([path]))
 
-    def at(self, frame: int) -> lod.ViewSet | None:
+    def view_set(self, frame: int) -> lod.ViewSet | None:
         """What all cameras that film this frame see in it; None where none does, or nothing is skipped."""
-        if self.whole:
+        if self.unculled:
             return None
         paths = self._filming(frame)
         return self._made(paths, frame - 1) if paths else None
@@ -96,7 +96,7 @@ class Sights:
 
         Both are empty where no camera films it, or nothing is skipped.
         """
-        paths = [] if self.whole else self._filming(frame)
+        paths = [] if self.unculled else self._filming(frame)
         places = [path.position[frame - 1] for path in paths if path.perspective]
         back = [path.rotation[frame - 1, :, 2] for path in paths if not path.perspective]
         return np.reshape(places, (-1, 3)), np.reshape(back, (-1, 3))
@@ -178,7 +178,7 @@ def _occluder(shot: ShotView) -> tuple[lod.Occluder, float]:
 
 def _distance(shot: ShotView, place: NDArray[np.float64]) -> NDArray[np.float64]:
     """Least distance of places (ny, nx, 3) from cameras in perspective, m."""
-    views = [(path, shot.filmed(path)) for path in shot.near]
+    views = [(path, shot.filmed(path)) for path in shot.perspective_paths]
     position = _joined([path.position[frames] for path, frames in views], (3,))
     rotation = _joined([path.rotation[frames] for path, frames in views], (3, 3))
     alone = lod.ViewSet(position, rotation, np.ones(2))

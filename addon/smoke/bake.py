@@ -241,8 +241,8 @@ def _key(shot: Shot, progress: Progress) -> str:
     """Hash of everything that the volumes depend on."""
     settings, complete = shot.settings, shot.settings.smoke.complete
     source = sources.select(shot)
-    found = schema.chosen(settings, {"time", "smoke"} if complete else {"time", "smoke", "camera", "terrain"})
-    leaders = [each for camera in settings.cameras if (each := camera.rig.leader(shot.cameras))]
+    found = schema.select(settings, {"time", "smoke"} if complete else {"time", "smoke", "camera", "terrain"})
+    leaders = [each for camera in settings.cameras if (each := camera.rig.followed(shot.cameras))]
     for name in (*_NOT_IN_FILES, *source.unused_settings):
         del found["smoke"][name]
     found |= source.inputs()
@@ -257,7 +257,7 @@ def _key(shot: Shot, progress: Progress) -> str:
             "sources": code_fingerprint.hashes(
                 {"smoke"}, [*settings.cameras, *leaders], *source.code_files()
             ),
-            "run": shot.inputs(("temperature",), progress),
+            "run": shot.input_hashes(("temperature",), progress),
             "settings": found,
             "voxel": source.voxels(),
             "grids": None if complete else SHOWN,

@@ -39,7 +39,7 @@ def window(shot: Shot, frame: int, voxel: float) -> Window | None:
     """The square round the eyes of a frame, where smoke on voxels of `voxel` m is too coarse for them."""
     if shot.settings.smoke.voxel_size or shot.fire_distance > _NEAR * voxel:
         return None
-    paths = [path for path in shot.near if frame - 1 in shot.filmed(path)]
+    paths = [path for path in shot.perspective_paths if frame - 1 in shot.filmed(path)]
     if not paths:
         return None
     half = _HALF * voxel

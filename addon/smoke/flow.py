@@ -154,8 +154,8 @@ class Flow:
         shot = self.shot
         found = {
             "sources": code_fingerprint.hashes((), (), *_MADE_BY),
-            "run": shot.inputs(("temperature", "smoke_3d")),
-            "time": schema.chosen(shot.settings, {"time"}),
+            "run": shot.input_hashes(("temperature", "smoke_3d")),
+            "time": schema.select(shot.settings, {"time"}),
             "spin_up": shot.spin_up,
             "fuel_since": shot.fire.before,
             "seed": shot.settings.seed,

@@ -58,7 +58,7 @@ Array = NDArray[np.float64]
 Brick = tuple[NDArray[np.float32], float, list[float]]
 """Values (nx, ny, nz), voxel size and the first voxel's middle (m), as `volume.smoke_light` has them."""
 Eyes = tuple[Array, Array]
-"""Where smoke is seen from, as `Sights.eyes` gives it."""
+"""Where smoke is seen from, as `Visibility.eyes` gives it."""
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ def layers(shot: Shot, solved: Flow) -> list[Layer]:
 def _pixel(shot: Shot) -> float:
     """Size (m) at the fire of the smallest pixel of a picture."""
     plain = SENSOR / WIDE_LENS / shot.settings.render.resolution[0]  # where no camera is in perspective
-    return shot.fire_distance * (shot.pixel[0] if shot.near else plain)
+    return shot.fire_distance * (shot.pixel[0] if shot.perspective_paths else plain)
 
 
 def thickest(scale: Scale) -> float:

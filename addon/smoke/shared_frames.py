@@ -27,7 +27,7 @@ def frames(shot: Shot, wanted: Iterable[int]) -> list[tuple[Shot, list[int]]]:
         name: [frame for frame in wanted if count[frame] == 1 and frame in each]
         for name, each in filmed.items()
     }
-    shots = [(shot.of(name), listed) for name, listed in own.items() if listed]
+    shots = [(shot.for_camera(name), listed) for name, listed in own.items() if listed]
     drawn = _drawn(shot) if shots else None
     return [(one, listed) for one, listed in shots if _drawn(one) == drawn]
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ..blender import owned
-from ..shot.settings.schema import parts, plain
+from ..shot.settings.schema import fields, plain
 from ..shot.settings.settings import Settings, Time
 from . import camera_list, keys
 from .job import InThread, Steps
@@ -46,7 +46,7 @@ def _found(folder: str, stamps: str, start: datetime | None, end: datetime | Non
 
     run = readers.open(folder)
     fits = auto_framing.fit(run, Settings(run=Path(folder), time=Time(start, end)))
-    values = {part.name: plain(part.type, getattr(fits.settings.time, part.name)) for part in parts(Time)}
+    values = {part.name: plain(part.type, getattr(fits.settings.time, part.name)) for part in fields(Time)}
     return {"cameras": camera_list.text(fits.settings.cameras), "time": values, "lines": fits.lines}
 
 
@@ -77,7 +77,7 @@ def again(uid: int) -> Steps:
         return ""
     run = readers.open(bpy.path.abspath(panel.run))
     first, last = (times.utc(run, float(run.times[i])) for i in (0, -1))
-    if time.wrong() or any(moment and not first <= moment <= last for moment in (time.start, time.end)):
+    if time.validate() or any(moment and not first <= moment <= last for moment in (time.start, time.end)):
         return ""  # which is told by what reads the settings
     fits = yield InThread("placing the cameras", lambda **_: found(run, time.start, time.end))
     panel = owned.scene(uid).firetwin
@@ -105,12 +105,12 @@ def _usual(panel: bpy.types.PropertyGroup) -> dict[str, Any]:
 
 
 def _time_of(panel: bpy.types.PropertyGroup) -> Time:
-    return Time(**{part.name: keys.take(panel.time, part) for part in parts(Time)})
+    return Time(**{part.name: keys.take(panel.time, part) for part in fields(Time)})
 
 
 def _put_time(group: bpy.types.PropertyGroup, before: dict[str, Any], now: dict[str, Any]) -> None:
     """Let keys of [time] that show their default, or what fitted the run before, show what fits this one."""
-    for part in parts(Time):
+    for part in fields(Time):
         if not keys.differs(group, part) or keys.shows(group, part, _values(before)[part.name]):
             keys.put(group, part, _values(now)[part.name])
 

@@ -24,7 +24,7 @@ from dataclasses import replace
 import bpy
 
 from ..errors import Error, InputError
-from ..shot.settings.schema import Part, parts
+from ..shot.settings.schema import Field, fields
 from ..shot.settings.settings import Camera, Settings
 from . import changed_settings, tables
 
@@ -106,8 +106,8 @@ def _read(text: str) -> Camera:
     return listed(text)[0]
 
 
-def _part() -> Part:
-    return next(part for part in parts(Settings) if part.name == "cameras")
+def _part() -> Field:
+    return next(part for part in fields(Settings) if part.name == "cameras")
 
 
 classes = (FIRETWIN_PG_camera,)

@@ -17,7 +17,7 @@ import bpy
 import numpy as np
 
 from ..errors import Error
-from ..shot.settings.schema import Key, Part, parts, plain
+from ..shot.settings.schema import Field, Key, fields, plain
 
 Items = tuple[tuple[str, str, str], ...]
 
@@ -41,7 +41,7 @@ def prop(kind: type, name: str, first: tuple[str, str, str] | None = None, **opt
     options
         Given on to `bpy.props`, in place of what the schema says.
     """
-    part = next(part for part in parts(kind) if part.name == name)
+    part = next(part for part in fields(kind) if part.name == name)
     about = {"name": label(name), "description": sentence(part.key.described())}
     if part.key.choices is not None:
         return bpy.props.EnumProperty(**{**about, **_choice(part, first), **options})
@@ -49,13 +49,13 @@ def prop(kind: type, name: str, first: tuple[str, str, str] | None = None, **opt
     return make(**{**about, **more, **options})
 
 
-def switch(part: Part, **options: Any) -> Any:
+def switch(part: Field, **options: Any) -> Any:
     """The Blender property that says whether a number stands at all; `options` as those of `prop`."""
     text = f"Set this value: {part.key.described()}"
     return bpy.props.BoolProperty(name=label(part.name), description=text, default=False, **options)
 
 
-def switched(part: Part) -> bool:
+def switched(part: Field) -> bool:
     """Whether a number may be left out; empty texts say so themselves."""
     return part.default is None and (part.type in _NUMBERS or typing.get_origin(part.type) is tuple)
 
@@ -70,7 +70,7 @@ def label(name: str) -> str:
     return name.upper() if name in _SHORT else sentence(name.replace("_", " "))
 
 
-def heading(part: Part) -> str:
+def heading(part: Field) -> str:
     """The label of a key in a panel, with the unit where Blender does not show it behind the number."""
     unit = "UTC" if part.type is datetime else part.key.unit
     return f"{label(part.name)} ({unit})" if unit and unit not in _UNITS else label(part.name)
@@ -81,7 +81,7 @@ def sentence(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-def put(group: bpy.types.PropertyGroup, part: Part, value: Any) -> None:
+def put(group: bpy.types.PropertyGroup, part: Field, value: Any) -> None:
     """Let a group's property show a value of the key."""
     exact = json.loads(group.exact or "{}")
     exact.pop(part.name, None)
@@ -91,7 +91,7 @@ def put(group: bpy.types.PropertyGroup, part: Part, value: Any) -> None:
     group.exact = json.dumps(exact) if exact else ""
 
 
-def take(group: bpy.types.PropertyGroup, part: Part, exact: dict[str, Any] | None = None) -> Any:
+def take(group: bpy.types.PropertyGroup, part: Field, exact: dict[str, Any] | None = None) -> Any:
     """The value of the key that a group's property shows.
 
     Raises
@@ -105,12 +105,12 @@ def take(group: bpy.types.PropertyGroup, part: Part, exact: dict[str, Any] | Non
     return kept if same else _value(group, part)
 
 
-def shows(group: bpy.types.PropertyGroup, part: Part, value: Any) -> bool:
+def shows(group: bpy.types.PropertyGroup, part: Field, value: Any) -> bool:
     """Whether a property shows this value."""
     return stored_value(group, part) == _as_shown(part, value)
 
 
-def differs(group: bpy.types.PropertyGroup, part: Part) -> bool:
+def differs(group: bpy.types.PropertyGroup, part: Field) -> bool:
     """Whether a property shows something else than the default."""
     return not shows(group, part, part.default)
 
@@ -125,7 +125,7 @@ def _stored(value: Any) -> Any:
     return list(value) if isinstance(value, tuple) else str(value) if isinstance(value, Path) else value
 
 
-def _restored(part: Part, stored: Any) -> Any:
+def _restored(part: Field, stored: Any) -> Any:
     """The value that `_stored` has kept, if the key still has its type."""
     try:
         if part.type is datetime:
@@ -137,7 +137,7 @@ def _restored(part: Part, stored: Any) -> Any:
         return _ABSENT
 
 
-def _show(group: bpy.types.PropertyGroup, part: Part, value: Any) -> None:
+def _show(group: bpy.types.PropertyGroup, part: Field, value: Any) -> None:
     use, shown = _as_shown(part, value)
     if switched(part):
         setattr(group, USE + part.name, use)
@@ -145,7 +145,7 @@ def _show(group: bpy.types.PropertyGroup, part: Part, value: Any) -> None:
         setattr(group, part.name, shown)
 
 
-def stored_value(group: bpy.types.PropertyGroup, part: Part) -> tuple[bool, Any]:
+def stored_value(group: bpy.types.PropertyGroup, part: Field) -> tuple[bool, Any]:
     """What the panel shows: whether the value stands, and the value as Blender keeps it."""
     if switched(part) and not getattr(group, USE + part.name):
         return False, None
@@ -153,7 +153,7 @@ def stored_value(group: bpy.types.PropertyGroup, part: Part) -> tuple[bool, Any]
     return True, tuple(value) if isinstance(value, bpy.types.bpy_prop_array) else value
 
 
-def _as_shown(part: Part, value: Any) -> tuple[bool, Any]:
+def _as_shown(part: Field, value: Any) -> tuple[bool, Any]:
     """What `shown` says where the property shows `value`."""
     if value is None:
         return (False, None) if switched(part) else (True, "")
@@ -173,7 +173,7 @@ def _as_shown(part: Part, value: Any) -> tuple[bool, Any]:
     return True, value
 
 
-def _number(part: Part, value: float) -> float:
+def _number(part: Field, value: float) -> float:
     """A number as Blender keeps it: within bounds, of 32 bits."""
     low, high = _bounds(part)
     if isinstance(value, int):
@@ -183,7 +183,7 @@ def _number(part: Part, value: float) -> float:
     return float(np.float32(value))
 
 
-def _value(group: bpy.types.PropertyGroup, part: Part) -> Any:
+def _value(group: bpy.types.PropertyGroup, part: Field) -> Any:
     """The value of the key as a property alone tells it: of numbers the shortest that looks the same."""
     use, value = stored_value(group, part)
     if not use:
@@ -206,7 +206,7 @@ def _shortest(value: Any) -> Any:
     return float(str(np.float32(value))) if isinstance(value, float) else value
 
 
-def _listed(part: Part, text: str) -> tuple[Any, ...]:
+def _listed(part: Field, text: str) -> tuple[Any, ...]:
     """A list that is typed in as ``1, 2.5``."""
     try:
         found = json.loads(f"[{text}]")
@@ -218,7 +218,7 @@ def _listed(part: Part, text: str) -> tuple[Any, ...]:
     return tuple(kind(each) for each in found)
 
 
-def _moment(part: Part, text: str) -> datetime:
+def _moment(part: Field, text: str) -> datetime:
     """A time that is typed in, in UTC where it names no zone."""
     try:
         found = datetime.fromisoformat(text.strip())
@@ -228,21 +228,21 @@ def _moment(part: Part, text: str) -> datetime:
     return found.astimezone(UTC) if found.tzinfo else found.replace(tzinfo=UTC)
 
 
-def _choice(part: Part, first: tuple[str, str, str] | None) -> dict[str, Any]:
+def _choice(part: Field, first: tuple[str, str, str] | None) -> dict[str, Any]:
     known = items(part.key)
     if typing.get_origin(part.type) is tuple:
         return {"items": known, "options": {"ENUM_FLAG"}, "default": set(part.default)}
     return {"items": (first, *known) if first else known, "default": first[0] if first else part.default}
 
 
-def _bounds(part: Part) -> tuple[float | None, float | None]:
+def _bounds(part: Field) -> tuple[float | None, float | None]:
     """The least and the largest number that the property takes; what must be above 0 begins close by."""
     key = part.key
     above = None if key.above is None else key.above + (1 if part.type is int else 1.0e-4)
     return key.at_least if key.at_least is not None else above, key.at_most
 
 
-def _plain(part: Part) -> tuple[Any, dict[str, Any]]:
+def _plain(part: Field) -> tuple[Any, dict[str, Any]]:
     """What makes the property of a key without choices, and what it is given."""
     kind, inner = part.type, typing.get_args(part.type)
     default = None if part.default is None else _as_shown(part, part.default)[1]

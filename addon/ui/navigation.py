@@ -122,7 +122,7 @@ class FIRETWIN_OT_camera_add(Working, bpy.types.Operator):
         uid, stage = scene.session_uid, owned.stage(scene)
         for text in camera_edits.pull(scene):
             yield Message(text, "WARNING")
-        rig = rigs.kinds()[kind].seeing(view(stage, *eye(context)))
+        rig = rigs.kinds()[kind].from_view(view(stage, *eye(context)))
         taken = {item.name for item in scene.firetwin.cameras}
         name = next(name for n in range(1, 1000) if (name := kind if n == 1 else f"{kind}{n}") not in taken)
         item = camera_list.add(scene.firetwin, Camera(name, rig))

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import bpy
 
-from ..shot.settings.schema import parts
+from ..shot.settings.schema import fields
 from ..shot.settings.settings import OtherRun
 from . import sections
 
@@ -15,14 +15,14 @@ FIRETWIN_PG_otherrun = sections.group(OtherRun)
 
 def runs(panel: bpy.types.PropertyGroup) -> tuple[OtherRun, ...]:
     """All of them in their order."""
-    return tuple(sections.take(item, parts(OtherRun), OtherRun()) for item in panel.runs)
+    return tuple(sections.take(item, fields(OtherRun), OtherRun()) for item in panel.runs)
 
 
 def fill(panel: bpy.types.PropertyGroup, found: Iterable[OtherRun]) -> None:
     """Let the list hold these runs alone."""
     panel.runs.clear()
     for each in found:
-        sections.put(panel.runs.add(), parts(OtherRun), each)
+        sections.put(panel.runs.add(), fields(OtherRun), each)
 
 
 classes = (FIRETWIN_PG_otherrun,)

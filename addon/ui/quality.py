@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 from bl_operators.presets import AddPresetBase
 
-from ..shot.settings.schema import Part, parts
+from ..shot.settings.schema import Field, fields
 from . import job, keys, sections, working
 
 _MOVED = (
@@ -61,14 +61,14 @@ def level(panel: bpy.types.PropertyGroup) -> str:
     return ""
 
 
-def _found(panel: bpy.types.PropertyGroup, section: str, name: str) -> tuple[bpy.types.PropertyGroup, Part]:
+def _found(panel: bpy.types.PropertyGroup, section: str, name: str) -> tuple[bpy.types.PropertyGroup, Field]:
     return getattr(panel, section), _part(section, name)
 
 
 @functools.cache
-def _part(section: str, name: str) -> Part:
+def _part(section: str, name: str) -> Field:
     kind = next(part.table for part in sections.sections() if part.name == section)
-    return next(part for part in parts(kind) if part.name == name)
+    return next(part for part in fields(kind) if part.name == name)
 
 
 class FIRETWIN_OT_quality(bpy.types.Operator):
@@ -116,12 +116,12 @@ class FIRETWIN_OT_preset(AddPresetBase, bpy.types.Operator):
         for section in sections.sections():
             names = [
                 part.name
-                for part in parts(section.table)
+                for part in fields(section.table)
                 if part.name not in _NOT_SAVED.get(section.name, ())
             ]
             switches = [
                 keys.USE + part.name
-                for part in parts(section.table)
+                for part in fields(section.table)
                 if part.name in names and keys.switched(part)
             ]
             found += [f"firetwin.{section.name}.{name}" for name in (*switches, *names)]

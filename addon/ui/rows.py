@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..shot.settings.schema import Part, parts
+from ..shot.settings.schema import Field, fields
 from . import keys, sections, working
 from .text import labelled
 
@@ -12,7 +12,7 @@ _LABEL = 0.48  # of the width
 _LETTERS = 17  # of a label that has room in it, in a sidebar of the usual width
 
 
-def key(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Part, section: str) -> None:
+def key(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field, section: str) -> None:
     """A key on one line, or on two where its value is long."""
     row = layout.row(align=True)
     shown = _value(row, group, part)
@@ -25,7 +25,7 @@ def key(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Part, 
         mark.label(text="", icon="BLANK1")
 
 
-def _value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Part) -> bpy.types.UILayout:
+def _value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field) -> bpy.types.UILayout:
     """Draw the label and the value; where its mark comes."""
     text = keys.heading(part)
     if part.type is bool:
@@ -51,7 +51,7 @@ def _value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Part) 
     return line
 
 
-def _long(part: Part) -> bool:
+def _long(part: Field) -> bool:
     """Whether a key wants the width of the sidebar: paths, moments, lists, and labels that need it."""
     if part.type in (int, float):
         return len(keys.heading(part)) > _LETTERS and not keys.switched(part)
@@ -75,7 +75,7 @@ class FIRETWIN_OT_reset(bpy.types.Operator):
     @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         section = next(part for part in sections.sections() if part.name == self.section)
-        part = next(part for part in parts(section.table) if part.name == self.key)
+        part = next(part for part in fields(section.table) if part.name == self.key)
         keys.put(getattr(context.scene.firetwin, self.section), part, part.default)
         return {"FINISHED"}
 

@@ -14,7 +14,7 @@ import bpy
 from .. import files
 from ..errors import Error
 from ..shot.settings import scene_file, toml_update
-from ..shot.settings.schema import wrong
+from ..shot.settings.schema import validate
 from ..shot.settings.settings import Settings
 from . import camera_edits, camera_list, keys, other_runs, sections
 
@@ -33,7 +33,7 @@ def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Setting
     listed = {"cameras": camera_list.cameras(panel), "runs": other_runs.runs(panel)}
     whole = Settings(path=path, run=run, cache=cache, **listed)
     whole = sections.take(panel, sections.single() + sections.sections(), whole)
-    if found := wrong(whole):
+    if found := validate(whole):
         raise Error(keys.sentence(found[1]))
     return whole
 

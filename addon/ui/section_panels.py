@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..scene.build import PARTS
-from ..shot.settings.schema import Part, parts
+from ..shot.settings.schema import Field, fields
 from . import build, job, keys, panel_order, rows, sections
 
 _OWN = ("time",)  # drawn by a panel of its own
@@ -19,12 +19,12 @@ def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup, name: str) 
     group = getattr(panel, name)
     column = layout.column(align=False)
     column.enabled = job.Job.current is None
-    for part in parts(section.table):
-        if not part.table and not part.key.kinds:
+    for part in fields(section.table):
+        if not part.table and not part.key.variants:
             rows.key(column, group, part, name)
 
 
-def _panel(section: Part, place: int) -> type[bpy.types.Panel]:
+def _panel(section: Field, place: int) -> type[bpy.types.Panel]:
     """The panel of a section; that of a part that can be built alone has a button for it in its head."""
     name = section.name
 

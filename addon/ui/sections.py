@@ -13,7 +13,7 @@ from typing import Any
 
 import bpy
 
-from ..shot.settings.schema import Part, parts, summary
+from ..shot.settings.schema import Field, fields, summary
 from ..shot.settings.settings import Settings
 from . import changed_settings, keys
 from .tables import from_text, to_text
@@ -23,18 +23,18 @@ NOT_HERE = ("path", "run", "cache", "runs", "cameras")
 
 
 @functools.cache
-def sections() -> tuple[Part, ...]:
+def sections() -> tuple[Field, ...]:
     """The sections of a scene file in their order."""
-    return tuple(part for part in parts(Settings) if part.table and not part.tables)
+    return tuple(part for part in fields(Settings) if part.table and not part.tables)
 
 
-def single() -> tuple[Part, ...]:
+def single() -> tuple[Field, ...]:
     """Keys before all sections, and lists of tables, less those that the panel keeps otherwise."""
-    found = (part for part in parts(Settings) if not part.table or part.tables)
+    found = (part for part in fields(Settings) if not part.table or part.tables)
     return tuple(part for part in found if part.name not in NOT_HERE)
 
 
-def properties(known: tuple[Part, ...], kind: type) -> dict[str, Any]:
+def properties(known: tuple[Field, ...], kind: type) -> dict[str, Any]:
     """Annotations of a group for keys of a dataclass."""
     found: dict[str, Any] = {"exact": bpy.props.StringProperty(options={"HIDDEN"})}
     for part in known:
@@ -60,7 +60,7 @@ def group(kind: type) -> type[bpy.types.PropertyGroup]:
         _groups[kind] = type(
             f"FIRETWIN_PG_{kind.__name__.lower()}",
             (bpy.types.PropertyGroup,),
-            {"__doc__": keys.sentence(summary(kind)), "__annotations__": properties(parts(kind), kind)},
+            {"__doc__": keys.sentence(summary(kind)), "__annotations__": properties(fields(kind), kind)},
         )
     return _groups[kind]
 
@@ -69,7 +69,7 @@ def groups() -> Iterator[type[bpy.types.PropertyGroup]]:
     """All groups, those in others first, as Blender wants them registered."""
 
     def inner(kind: type) -> Iterator[type[bpy.types.PropertyGroup]]:
-        for part in parts(kind):
+        for part in fields(kind):
             if part.table and not part.tables:
                 yield from inner(part.table)
         yield group(kind)
@@ -78,19 +78,19 @@ def groups() -> Iterator[type[bpy.types.PropertyGroup]]:
         yield from inner(section.table)
 
 
-def put(group: bpy.types.PropertyGroup, known: tuple[Part, ...], values: Any) -> None:
+def put(group: bpy.types.PropertyGroup, known: tuple[Field, ...], values: Any) -> None:
     """Let a group show the values of a dataclass."""
     for part in known:
         value = getattr(values, part.name)
         if part.tables:
             setattr(group, part.name, to_text(part, value))
         elif part.table:
-            put(getattr(group, part.name), parts(part.table), value)
+            put(getattr(group, part.name), fields(part.table), value)
         else:
             keys.put(group, part, value)
 
 
-def take(group: bpy.types.PropertyGroup, known: tuple[Part, ...], values: Any) -> Any:
+def take(group: bpy.types.PropertyGroup, known: tuple[Field, ...], values: Any) -> Any:
     """The values of a dataclass with those in it that a group shows.
 
     Raises
@@ -104,7 +104,7 @@ def take(group: bpy.types.PropertyGroup, known: tuple[Part, ...], values: Any) -
             found[part.name] = from_text(part, getattr(group, part.name))
         elif part.table:
             inner = getattr(values, part.name)
-            found[part.name] = take(getattr(group, part.name), parts(part.table), inner)
+            found[part.name] = take(getattr(group, part.name), fields(part.table), inner)
         else:
             found[part.name] = keys.take(group, part)
     return replace(values, **found)

@@ -6,15 +6,15 @@ from pathlib import Path
 from typing import Any
 
 from ..shot.settings import scene_file, toml_writer
-from ..shot.settings.schema import Part
+from ..shot.settings.schema import Field
 
 
-def to_text(part: Part, tables: tuple[Any, ...]) -> str:
+def to_text(part: Field, tables: tuple[Any, ...]) -> str:
     """A list of tables as the lines of a scene file; paths are absolute, nothing is explained."""
     return toml_writer.tables(part.name, tables)
 
 
-def from_text(part: Part, text: str) -> tuple[Any, ...]:
+def from_text(part: Field, text: str) -> tuple[Any, ...]:
     """The tables that `to_text` has written, or that were typed in.
 
     Raises

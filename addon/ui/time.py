@@ -9,7 +9,7 @@ from datetime import UTC, datetime, timedelta
 import bpy
 
 from ..run import times
-from ..shot.settings.schema import parts
+from ..shot.settings.schema import fields
 from ..shot.settings.settings import Time
 from ..shot.shot import Shot
 from . import job, keys, rows, run, working
@@ -29,7 +29,7 @@ def go_to(settings: bpy.types.PropertyGroup, value: float) -> None:
 
 def remember(settings: bpy.types.PropertyGroup, shot: Shot) -> None:
     """Keep how frames and model time belong together."""
-    settings.first_time = shot.moment(1).isoformat()
+    settings.first_time = shot.utc(1).isoformat()
     settings.seconds_per_frame = shot.frames.step
     settings.frames, settings.zone = shot.frames.count, shot.settings.time.zone
 
@@ -90,7 +90,7 @@ class FIRETWIN_OT_window(bpy.types.Operator):
 
     @working.reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        part = next(part for part in parts(Time) if part.name == self.key)
+        part = next(part for part in fields(Time) if part.name == self.key)
         keys.put(context.scene.firetwin.time, part, datetime.fromisoformat(self.moment).astimezone(UTC))
         return {"FINISHED"}
 
@@ -196,7 +196,7 @@ class FIRETWIN_PT_time(bpy.types.Panel):
             row = column.row(align=True)
             row.prop(settings.time, name, text="", placeholder=f"The run's {other} (UTC)")
             row.menu(menu.bl_idname, text="", icon="DOWNARROW_HLT")
-        for part in parts(Time):
+        for part in fields(Time):
             if part.name not in ("start", "end"):
                 rows.key(layout, settings.time, part, "time")
         if None not in ends and settings.time.frames > 1:

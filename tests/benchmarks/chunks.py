@@ -58,7 +58,7 @@ def build(scene: Path, frame: int, picture: Path | None = None, seed: int = 0) -
     watch = Stopwatch()
     shot = ShotSource(str(scene)).shot()
     ((part, _),) = render._parts(
-        shot.of(shot.settings.cameras[0].name), [Picture(shot.settings.cameras[0].name, frame, "rgb")]
+        shot.for_camera(shot.settings.cameras[0].name), [Picture(shot.settings.cameras[0].name, frame, "rgb")]
     )
     stage = worker_scene.build_scene(part, lambda *_: None, lambda _: None)
     found = {

@@ -224,7 +224,7 @@ def _solve(scene: str) -> int:
 
     shot = ShotSource(scene=scene).shot()
     for camera in shot.settings.cameras:
-        Flow(shot.of(camera.name)).solve([shot.frames.count])
+        Flow(shot.for_camera(camera.name)).solve([shot.frames.count])
     return 0
 
 

@@ -209,11 +209,11 @@ def measured(shot: Shot, picture: Array, plain: Array) -> dict[str, dict[str, fl
     up = ground.up(*flat).reshape(east.shape)
     reach = shot.settings.forest.draw_distance
     radii = {"finer ground": ground.near_radius, "trees end": reach, "trees thin": 0.875 * reach}
-    for view in shot.near:
+    for view in shot.perspective_paths:
         place = np.stack([east, north, up], axis=-1)
         away = np.linalg.norm(place - view.position[0], axis=-1)
-        alone = shot.of(view.camera.name)
-        seen = alone.sights.seen(place.reshape(-1, 3), 30.0).reshape(away.shape)
+        alone = shot.for_camera(view.camera.name)
+        seen = alone.visibility.visible_mask(place.reshape(-1, 3), 30.0).reshape(away.shape)
         for name, radius in radii.items():
             known[f"{view.camera.name}: {name}"] = bands(away - radius, counts & seen)
         near = counts & (away < 0.75 * reach)
@@ -252,7 +252,7 @@ def main() -> None:
     parser.add_argument("--json", action="store_true")
     asked = parser.parse_args()
     shot = scene(asked.run, asked.out, asked.size, asked.samples)
-    names = {"seams.png": shot, "plain.png": shot.of("satellite")}
+    names = {"seams.png": shot, "plain.png": shot.for_camera("satellite")}
     for name, each in names.items():
         if not asked.again:
             draw(each, asked.out / name)

@@ -112,7 +112,7 @@ def test_what_is_in_the_picture_is_seen_and_what_is_far_beside_it_is_not(shot, r
         *(axis.ravel() for axis in np.meshgrid(run.fuel_latitude[::9], run.fuel_longitude[::9]))
     )
     seen = lod.visible_mask(places, 0.0, lod.ViewSet(view.position, view.rotation, view.half))
-    assert not (shot.sights.seen(places, 0.0) & ~seen).any()
+    assert not (shot.visibility.visible_mask(places, 0.0) & ~seen).any()
     for place, verdict in zip(places, seen, strict=True):
         inside = False
         for frame in (1, 2, 3):
@@ -130,8 +130,8 @@ def test_a_satellite_looks_straight_down_on_its_swath(settings, run, stage):
     assert camera.data.ortho_scale == 8000.0
     assert camera.matrix_world.col[2][:3] == pytest.approx((0.0, 0.0, 1.0), abs=1e-6)
     edge = [[3900.0, 0.0, 1000.0], [4100.0, 0.0, 1000.0]]
-    assert shot.sights.seen(edge, 0.0, pixel=np.inf).tolist() == [True, False]
-    assert not shot.sights.seen(edge, 0.0, pixel=100.0).any()  # 8 km over 64 pixels are 125 m each
+    assert shot.visibility.visible_mask(edge, 0.0, pixel=np.inf).tolist() == [True, False]
+    assert not shot.visibility.visible_mask(edge, 0.0, pixel=100.0).any()  # 8 km / 64 pixels = 125 m
 
 
 def test_the_head_is_on_the_front_and_moves_smoothly(shot):
@@ -145,7 +145,7 @@ def test_the_head_is_on_the_front_and_moves_smoothly(shot):
 
 
 def test_a_drone_without_keys_is_an_error_that_says_so():
-    where, reason = Camera("lost", Drone()).wrong()
+    where, reason = Camera("lost", Drone()).validate()
     assert where == ("keys",)
     assert 'camera "lost" has no [[cameras.keys]]' in reason
 

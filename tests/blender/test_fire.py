@@ -92,8 +92,8 @@ def without_skipping(settings):
 
 def test_flames_in_sight_are_those_that_stand_there_without_skipping(shot, settings, run):
     some, whole = flames.front(shot), flames.front(Shot(without_skipping(settings), run))
-    seen = shot.sights.seen(whole.position, whole.length)
-    assert np.sum(seen & (shot.sights.distance(whole.position) > 2500.0)) > 100
+    seen = shot.visibility.visible_mask(whole.position, whole.length)
+    assert np.sum(seen & (shot.visibility.distance(whole.position) > 2500.0)) > 100
     assert len(some.seed) < len(whole.seed)
     of_both = [
         {tuple(row) for row in np.column_stack([p.position, p.residence, p.length, p.width])}
@@ -107,7 +107,7 @@ def test_a_front_of_fewer_flames_is_as_bright(shot, monkeypatch):
 
     def light(points):
         lit = points.take(points.lit(shot.frames.times[2]))
-        far = shot.sights.distance(lit.position) > 2500.0
+        far = shot.visibility.distance(lit.position) > 2500.0
         return np.sum(far), np.sum((lit.width * lit.length)[far])
 
     many = light(flames.front(shot))
@@ -196,7 +196,7 @@ def test_flames_smoke_and_flux_agree_on_the_front(settings, quarters):
 
 def test_flames_of_a_part_are_those_of_the_whole_that_burn_in_its_frames(settings, run):
     shot = Shot(without_skipping(settings), run)  # what is out of sight too
-    whole, part = flames.front(shot), flames.front(shot.part([2]))
+    whole, part = flames.front(shot), flames.front(shot.for_frames([2]))
     burning = whole.take(whole.lit(float(shot.frames.times[1])))
     assert 0 < len(part.position) < len(whole.position)
     assert np.array_equal(part.position, burning.position)

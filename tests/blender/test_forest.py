@@ -141,7 +141,7 @@ def test_the_stand_grows_where_there_is_canopy_and_leaves_cameras_free(near_shot
     ground, grown = near_shot.ground, stand.grow(near_shot)
     canopy = ground.sample(ground.fields.canopy_fuel, *grown.position[:, :2].T)
     assert np.mean(canopy > 0.0) > 0.99
-    assert near_shot.sights.distance(grown.position).min() > stand.CLEARING
+    assert near_shot.visibility.distance(grown.position).min() > stand.CLEARING
     again = stand.grow(near_shot)
     assert np.array_equal(grown.position, again.position)
 

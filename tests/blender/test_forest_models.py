@@ -131,14 +131,14 @@ def test_each_tree_is_in_the_level_that_its_nearest_view_asks_for(shot):
     }
     seen = library.levelled(shot, points)
     lens = 0.5 * 64 / shot.paths[0].half[0]
-    near = levels.level(20.0 * lens / shot.sights.distance(place))
+    near = levels.level(20.0 * lens / shot.visibility.distance(place))
     assert near[1] == 3 > near[0]
     assert seen["model"].tolist() == [12 + near[0], 15]
     assert seen["snag_model"].tolist() == [48 + near[0], 15]
     wide = library.levelled(shot, points, wider=1.0e4)
     assert wide["model"].tolist() == [
         12,
-        12 + levels.level(2.0e5 * lens / shot.sights.distance(place[1:]))[0],
+        12 + levels.level(2.0e5 * lens / shot.visibility.distance(place[1:]))[0],
     ]
     assert wide["model"][1] < 15
 

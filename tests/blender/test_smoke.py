@@ -168,16 +168,16 @@ def test_a_thermal_picture_shows_all_smoke(smoky, run, monkeypatch):
     still = replace(smoky.cameras[0], name="b", frames="2")
     shot = Shot(replace(smoky, cameras=(thermal, still)), run)
     assert bake.shot_frames(shot) == [1, 2, 3]
-    shot.sights.distance(np.zeros((1, 3)))  # the ground that hides is made with true sights
+    shot.visibility.distance(np.zeros((1, 3)))  # the ground that hides is made with true sights
     monkeypatch.setattr(visibility.lod, "ViewSet", lambda cameras, *_, **_more: len(cameras))
-    assert [shot.sights.at(frame) for frame in (1, 2, 3)] == [1, 2, 1]
+    assert [shot.visibility.at(frame) for frame in (1, 2, 3)] == [1, 2, 1]
 
 
 def test_a_camera_that_records_no_smoke_culls_none_of_anothers(smoky, run):
     above = Camera("above", Satellite(), passes=("depth",), frames="2")
     shot = Shot(replace(smoky, cameras=(*smoky.cameras, above)), run)
     eye, aim = shot.paths[0].position[1], shot.paths[0].target[1]
-    seen = [lod.visible_mask([eye - (aim - eye)], 0.0, shot.sights.at(frame))[0] for frame in (1, 2, 3)]
+    seen = [lod.visible_mask([eye - (aim - eye)], 0.0, shot.visibility.at(frame))[0] for frame in (1, 2, 3)]
     assert seen == [False, True, False]
 
 
@@ -245,7 +245,7 @@ def test_smoke_is_off_when_it_is_off(settings, run, stage):
 def test_eevee_slices_lie_where_the_smoke_is(shot, stage, scene):
     smoke.build(shot, stage)
     cells = shot.fire.cells(shot.frames.first, shot.frames.last).position
-    nearest = shot.sights.distance(cells).min()
+    nearest = shot.visibility.distance(cells).min()
     eevee = scene.eevee
     assert eevee.use_volume_custom_range
     assert eevee.use_volumetric_shadows

@@ -267,7 +267,7 @@ def test_what_nobody_sees_is_not_painted_and_nothing_else_changes(shot, flowing,
     solved = flow.Flow(shot)
     solved.ready(1)
     painter = flow_frames.Painter(shot, flow_frames.layers(shot, solved)[-1], None)
-    views = shot.sights.at(1)
+    views = shot.visibility.at(1)
     asked = []
     real = flow_frames._wanted
 
@@ -410,7 +410,7 @@ def test_voxels_of_smoke_are_as_fine_as_pixels_show(flowing, run, monkeypatch):
         shot = Shot(settings, run)
         return flow_frames.layers(shot, flow.Flow(shot))[-1].voxel
 
-    lens = 2.0 * Shot(flowing, run).near[0].half[0]
+    lens = 2.0 * Shot(flowing, run).perspective_paths[0].half[0]
     assert voxel(1000) == pytest.approx(4.0 * 5000.0 * lens / 1000)
     assert voxel(100) == 36.0
     assert voxel(8000) == 20.0

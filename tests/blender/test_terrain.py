@@ -90,11 +90,11 @@ def test_the_mesh_is_as_near_to_the_ground_as_cameras_can_tell(near_settings, ru
     rng = np.random.default_rng(0)
     place = np.column_stack([rng.uniform(-4000.0, 4000.0, (3000, 2)), np.zeros(3000)])
     place[:, 2] = shot.ground.up(place[:, 0], place[:, 1])
-    place = place[shot.sights.seen(place, 0.0)]
+    place = place[shot.visibility.visible_mask(place, 0.0)]
     assert len(place) > 100
     drawn = np.array([tree.ray_cast((x, y, 9000.0), (0.0, 0.0, -1.0))[0][2] for x, y, _ in place])
     (view,) = shot.paths
-    pixel = 2.0 * view.half[0] / shot.settings.render.resolution[0] * shot.sights.distance(place)
+    pixel = 2.0 * view.half[0] / shot.settings.render.resolution[0] * shot.visibility.distance(place)
     off = np.abs(drawn - place[:, 2]) / pixel
     assert np.percentile(off, 99) < error
     assert off.max() < 1.6 * error
@@ -106,7 +106,7 @@ def test_what_no_camera_sees_is_coarse(near_settings, run, stage, plain_looks):
     centre = np.array([polygon.center for polygon in mesh.polygons])
     size = np.sqrt([polygon.area for polygon in mesh.polygons])
     inside = np.abs(centre[:, :2]).max(axis=1) < 4000.0
-    seen = shot.sights.seen(centre, 300.0, margin=300.0, shadows=True)
+    seen = shot.visibility.visible_mask(centre, 300.0, margin=300.0, shadows=True)
     assert np.median(size[inside & ~seen]) > 2.0 * np.median(size[inside & seen])
 
 

@@ -15,7 +15,7 @@ from firetwin.errors import Error, InputError, input_error
 from firetwin.jobs import assets
 from firetwin.shot import auto_framing, passes
 from firetwin.shot.settings import scene_file as file
-from firetwin.shot.settings.schema import parts
+from firetwin.shot.settings.schema import fields
 from firetwin.smoke import sources
 from firetwin.ui import (
     build,
@@ -211,7 +211,7 @@ def test_solved_smoke_is_a_button_that_names_its_cost(settings, run_folder, monk
 def test_properties_say_what_the_schema_says(settings):
     for section in sections.sections():
         shown = getattr(settings, section.name).bl_rna.properties
-        for part in parts(section.table):
+        for part in fields(section.table):
             prop = shown[part.name]
             assert prop.description == keys.sentence(part.key.described())
             if part.key.choices is not None:

@@ -33,7 +33,7 @@ def panel(scene):
 
 
 def key(kind, name):
-    return next(part for part in schema.parts(kind) if part.name == name)
+    return next(part for part in schema.fields(kind) if part.name == name)
 
 
 @settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
@@ -110,7 +110,7 @@ def test_only_what_differs_from_the_default_is_marked(panel):
         return {
             part.name
             for section in sections.sections()
-            for part in schema.parts(section.table)
+            for part in schema.fields(section.table)
             if keys.differs(getattr(panel, section.name), part)
         }
 
@@ -120,7 +120,7 @@ def test_only_what_differs_from_the_default_is_marked(panel):
     assert marked() == {
         part.name
         for section in sections.sections()
-        for part in schema.parts(section.table)
+        for part in schema.fields(section.table)
         if getattr(getattr(whole, section.name), part.name) != part.default
     }
     assert marked() >= {"start", "end", "fps", "samples"}

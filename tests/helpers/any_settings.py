@@ -24,8 +24,8 @@ def any_value(part):
     key, kind = part.key, part.type
     if kind is not int and part.name in SPECIAL:
         return SPECIAL[part.name]
-    if key.kinds:
-        return st.one_of(*(any_table(rig) for rig in key.kinds().values()))
+    if key.variants:
+        return st.one_of(*(any_table(rig) for rig in key.variants().values()))
     if part.name == "keys":
         at = st.lists(st.floats(0, 1), unique=True, min_size=1, max_size=3).map(sorted)
         return at.flatmap(lambda at: st.tuples(*(any_table(part.table, at=st.just(a)) for a in at)))
@@ -54,5 +54,5 @@ def any_value(part):
 
 
 def any_table(kind, **known):
-    tables = st.builds(kind, **{part.name: any_value(part) for part in schema.parts(kind)} | known)
-    return tables.filter(lambda table: not schema.wrong(table))
+    tables = st.builds(kind, **{part.name: any_value(part) for part in schema.fields(kind)} | known)
+    return tables.filter(lambda table: not schema.validate(table))

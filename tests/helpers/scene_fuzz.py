@@ -128,11 +128,13 @@ def plain(kind):
 
 def _places(kind, values, where=()):
     """Where each key of a dataclass stands in nested tables, and the key; the last table of a list."""
-    for part in schema.parts(kind):
+    for part in schema.fields(kind):
         here = (*where, part.name)
-        if part.key.kinds:
+        if part.key.variants:
             yield (*where, part.key.tag), part
-            yield from _places(part.key.kinds()[values.get(part.key.tag, part.key.usual)], values, where)
+            yield from _places(
+                part.key.variants()[values.get(part.key.tag, part.key.default_kind)], values, where
+            )
         elif part.tables:
             yield here, part
             tables = values.get(part.name) or [{}]

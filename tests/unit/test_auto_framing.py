@@ -84,7 +84,7 @@ def test_what_is_said_to_show_is_what_the_shot_sees(fit_of, name):
     for camera in ("overview", "satellite"):
         shot = Shot(found.settings, run).of(camera)
         points = front.find_front(shot).point
-        seen = shot.sights.seen(points, 1.0, pixel=np.inf)
+        seen = shot.visibility.visible_mask(points, 1.0, pixel=np.inf)
         assert seen.mean() >= max(found.shares[camera] - 0.02, candidates.LEAST)
 
 
@@ -92,7 +92,7 @@ def test_what_is_said_to_show_is_what_the_shot_sees(fit_of, name):
 def test_the_overview_has_the_whole_front_in_its_picture_and_the_horizon_over_it(fit_of, name):
     found, run = fit_of(name)
     shot = Shot(found.settings, run)
-    moving, view = front.find_front(shot), shot.of("overview").paths[0]
+    moving, view = front.find_front(shot), shot.for_camera("overview").paths[0]
     local = (moving.point - view.position[0]) @ view.rotation[0]
     x, y = (local[:, axis] / -local[:, 2] / view.half[axis] for axis in (0, 1))
     assert (local[:, 2] < 0.0).all()
@@ -106,7 +106,7 @@ def test_the_overview_has_the_whole_front_in_its_picture_and_the_horizon_over_it
 def test_the_overview_stands_to_windward_with_the_sun_behind_it(fit_of):
     found, run = fit_of("grass")  # wind from the west, and the sun in the south-west
     shot = Shot(found.settings, run)
-    way = candidates.bearing(shot.of("overview").paths[0]) % 360.0
+    way = candidates.bearing(shot.for_camera("overview").paths[0]) % 360.0
     assert 200.0 < way < 320.0
     assert "windward" in found.cameras["overview"]
     found, run = fit_of("calm")

@@ -72,7 +72,7 @@ def scene(tmp_path):
 def test_a_camera_is_at_the_same_place_of_the_earth_and_looks_the_same_way(scene):
     shot = ShotSource(scene=str(scene)).shot()
     for name in ("drone", "ir"):
-        (here,), other = shot.of(name).paths, comparison.for_view(shot, f"{name}@wide")
+        (here,), other = shot.for_camera(name).paths, comparison.for_view(shot, f"{name}@wide")
         (there,) = other.paths
         assert (other.run.name, there.camera.name) == ("Wide", f"{name}@wide")
         for points in ("position", "target"):
@@ -87,7 +87,7 @@ def test_a_camera_is_at_the_same_place_of_the_earth_and_looks_the_same_way(scene
             for each, view in ((shot, here), (other, there))
         ]
         np.testing.assert_allclose(*compass, atol=1e-7)
-        assert shot.moment(2) == other.moment(2)
+        assert shot.utc(2) == other.utc(2)
     assert abs(shot.local_frame.latitude - other.local_frame.latitude) > 0.002
 
 

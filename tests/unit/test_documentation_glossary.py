@@ -62,7 +62,7 @@ def helps_of_settings():
         name = ".".join((*section, part.name))
         yield name, part.key.help
         yield from ((f"{name} = {choice}", words) for choice, words in part.key.names().items())
-        kinds = part.key.kinds() if part.key.kinds else {}
+        kinds = part.key.variants() if part.key.variants else {}
         yield from ((f"{name}: {kind}", schema.summary(made)) for kind, made in kinds.items())
 
 

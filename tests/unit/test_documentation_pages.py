@@ -34,7 +34,7 @@ def test_every_key_pass_and_kind_of_camera_is_there():
     for name in (*passes.known(), *rigs.kinds()):
         assert f"### {name}\n" in MADE["passes_and_cameras.md"]
     text = "".join(MADE.values())
-    keys = {part.name for _, part in walk(Settings) if not part.table and not part.key.kinds}
+    keys = {part.name for _, part in walk(Settings) if not part.table and not part.key.variants}
     assert not [key for key in keys if f"| `{key}` |" not in text]
 
 

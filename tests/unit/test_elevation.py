@@ -238,7 +238,7 @@ def test_without_rasterio_it_says_what_to_install(make, monkeypatch):
 def test_what_stands_on_the_ground_depends_on_the_models_content(make, tiff, tmp_path):
     tiff()
     shot = make().shot()
-    plain, whole = content.inputs(shot.run, tmp_path / "cache"), shot.inputs()
+    plain, whole = content.inputs(shot.run, tmp_path / "cache"), shot.input_hashes()
     assert set(whole) - set(plain) == {"elevation model"}
     assert make().shot().inputs() == whole
     tiff(waves)

@@ -50,7 +50,7 @@ def shot(make_run):
 def test_sensors_of_a_mount_share_place_and_direction_in_every_frame(shot):
     narrow = Camera("narrow", Mounted("drone", 50.0, 13.2), resolution=(160, 128))
     made = shot(DRONE, Camera("same", Mounted("drone")), narrow)
-    drone, same, narrow = (made.of(name).paths[0] for name in ("drone", "same", "narrow"))
+    drone, same, narrow = (made.for_camera(name).paths[0] for name in ("drone", "same", "narrow"))
     for other in (same, narrow):  # also where the others are not filmed
         assert np.array_equal(other.position, drone.position)
         assert np.array_equal(other.rotation, drone.rotation)
@@ -86,9 +86,9 @@ def test_a_mount_that_is_not_there_is_an_error(tmp_path, line, words):
 
 def test_nothing_follows_what_follows_and_nothing_is_mounted_on_a_satellite():
     cameras = (Camera("two", Mounted("drone")), Camera("sat", Satellite()), DRONE)
-    assert Minimap().leader(cameras[:1]) is None
-    assert Minimap().leader(cameras[::2]) is DRONE
-    assert Mounted("sat").leader(cameras) is None
+    assert Minimap().followed(cameras[:1]) is None
+    assert Minimap().followed(cameras[::2]) is DRONE
+    assert Mounted("sat").followed(cameras) is None
 
 
 def test_a_mounted_sensor_is_made_again_when_its_mount_moves():
@@ -224,12 +224,16 @@ def test_the_index_lists_frames_that_have_picture_and_sidecar(shot, tmp_path):
             ("drone", 2, "rgb"),
             ("sat", 1, "rgb pose"),
         ):
-            view = made.of(camera).paths[0]
+            view = made.for_camera(camera).paths[0]
             for name in names.split():
                 for end in passes.known()[name].files:
                     path = tmp_path / passes.file_of(camera, name, frame, end)
                     path.parent.mkdir(parents=True, exist_ok=True)
-                    text = json.dumps(pose.described(made.of(camera), view, frame)) if name == "pose" else "x"
+                    text = (
+                        json.dumps(pose.described(made.for_camera(camera), view, frame))
+                        if name == "pose"
+                        else "x"
+                    )
                     path.write_text(text)
                     store.add({}, {str(path.relative_to(tmp_path)): describe(path)})
         dataset.write(store)
@@ -307,7 +311,7 @@ MOUNT = (
 
 def test_a_place_is_at_the_same_point_of_every_panel_of_a_mount(shot, tmp_path):
     made = shot(*MOUNT)
-    own, infrared, over = (made.of(name).paths[0] for name in ("drone", "infrared", "map"))
+    own, infrared, over = (made.for_camera(name).paths[0] for name in ("drone", "infrared", "map"))
     aim = own.position[2] + own.rotation[2] @ [0.2 * 800.0, 0.1 * 800.0, -800.0]
     pictures = {}
     for view, size in ((own, (640, 360)), (infrared, (160, 128)), (over, (200, 200))):
@@ -329,7 +333,7 @@ def test_a_place_is_at_the_same_point_of_every_panel_of_a_mount(shot, tmp_path):
     hot = np.where(pictures["infrared"], 1200.0, 300.0)
     sensor.write_image(needed["thermal"]["exr"], np.stack([hot, hot], axis=-1))
     sensor.write_image(needed["depth"]["exr"], np.full((360, 640, 2), 800.0))
-    passes.known()["fused"].finish({"png": tmp_path / "f.png"}, needed, made.of("drone"), "drone", 3)
+    passes.known()["fused"].finish({"png": tmp_path / "f.png"}, needed, made.for_camera("drone"), "drone", 3)
     shown = sensor.read_image(tmp_path / "f.png")[..., :3]
     sheet = _sheet.Sheet(1280, 720)
     wide, high = sheet.wide * sheet.unit, sheet.high * sheet.unit
@@ -363,7 +367,7 @@ def test_the_map_shows_front_and_scar_whatever_its_ground(make_run, tmp_path, mi
     ground, render = Ground(near_radius=0.0, apron=5000.0), Render(resolution=(640, 360))
     settings = Settings(time=Time(frames=5), terrain=ground, cameras=cameras, render=render)
     made = Shot(settings, runs.open(make_run(**fields)))
-    view = made.of("drone").paths[0]
+    view = made.for_camera("drone").paths[0]
     axes = _sheet.Sheet(640, 360).panel(2, "MAP")
     white = np.ones((50, 90, 3))
     _map.draw(axes, made, view, 3, *((white, 3000.0) if minimap else ()))
@@ -436,7 +440,7 @@ def test_what_is_told_beside_the_panels_is_true(shot, monkeypatch):
     burned = lambda _, moments: [square_metres * (1000.0 + time) for time in moments]  # noqa: E731
     monkeypatch.setattr(info, "burned", burned)
     facts = dict(fused_pass.facts(made, "drone", 3))
-    assert facts["TIME"][1] == f"{made.moment(3):%Y-%m-%d %H:%M:%S} UTC"
+    assert facts["TIME"][1] == f"{made.utc(3):%Y-%m-%d %H:%M:%S} UTC"
     assert facts["TIME"][0].endswith("PDT")
     latitude, longitude, height = (float(v[0]) for v in made.local_frame.reverse(made.paths[0].position[2:3]))
     assert facts["POSITION"] == [f"{latitude:.5f}° N", f"{-longitude:.5f}° W"]

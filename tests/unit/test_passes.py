@@ -251,7 +251,7 @@ def test_the_thermal_scale_follows_the_moment_alone(make_run, monkeypatch):
         (295.0, 800.0),
         (305.0, 800.0),
     ]
-    still = Shot(Settings(time=Time(frames=1, start=made.moment(3))), run)
+    still = Shot(Settings(time=Time(frames=1, start=made.utc(3))), run)
     assert thermal_pass.scale(still, 1) == (305.0, 800.0)
     held = Shot(Settings(time=Time(frames=3), render=Render(thermal_low=280.0)), run)
     assert {thermal_pass.scale(held, frame) for frame in (1, 2, 3)} == {(280.0, 800.0)}

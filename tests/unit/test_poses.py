@@ -87,6 +87,6 @@ def test_a_flown_way_comes_back_through_the_file(make_run, tmp_path):
 
 
 def test_poses_without_any_say_so():
-    where, reason = Camera("lost", poses.Poses()).wrong()
+    where, reason = Camera("lost", poses.Poses()).validate()
     assert where == ("keys",)
     assert 'camera "lost" has no [[cameras.keys]]' in reason

@@ -27,7 +27,7 @@ class Tower(Rig):
     mast: float = key(20.0, "length of the mast", unit="m", above=0)
     turns: int = key(1, "how often it turns", at_least=0)
 
-    def wrong(self):
+    def validate(self):
         return (("turns",), "turns faster than a short mast bears") if self.turns > self.mast else None
 
 
@@ -56,8 +56,8 @@ def test_a_kind_says_what_it_is(name):
     assert issubclass(kind, rigs.Rig)
     assert Camera("x", kind()).kind == name
     assert schema.summary(kind)[0].islower()
-    own = {part.name for part in schema.parts(kind)}
-    assert not own & ({"kind"} | {part.name for part in schema.parts(Camera)}), "they lie in one table"
+    own = {part.name for part in schema.fields(kind)}
+    assert not own & ({"kind"} | {part.name for part in schema.fields(Camera)}), "they lie in one table"
 
 
 def test_the_kinds_are_known():
@@ -74,7 +74,7 @@ def test_a_kind_is_added_by_one_file(tower, tmp_path):
     assert "mast = 30.0                 # length of the mast, m (default 20.0)" in scene_file.text(settings)
     assert "kind of camera: on the ground, turning round" in scene_file.text(settings)
     tables = [{"kind": "tower", "mast": 30.0, "turns": 1, "frames": "", "resolution": None}]
-    assert schema.chosen(settings, {"camera"}) == {"cameras": tables}
+    assert schema.select(settings, {"camera"}) == {"cameras": tables}
     validator = jsonschema.Draft202012Validator(json_schema(Settings))
     assert validator.is_valid({"cameras": [{"kind": "tower", "mast": 30}]})
     assert not validator.is_valid({"cameras": [{"kind": "tower", "mast": 0}]})

@@ -59,7 +59,7 @@ def test_it_looks_at_the_point_with_a_level_horizon(orbit):
 def test_without_a_place_it_circles_the_middle_of_the_run(orbit):
     shot, path = orbit(latitude=None, longitude=None)
     assert path.target[0][:2] == pytest.approx([0.0, 0.0], abs=1.0)
-    assert shot.camera("round").rig.places() == []
+    assert shot.camera("round").rig.coordinates() == []
 
 
 @given(st.floats(-50, 50), st.floats(10, 5000), st.floats(1, 3000), st.floats(-720, 720), st.floats(0, 500))

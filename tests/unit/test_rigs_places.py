@@ -74,7 +74,7 @@ def test_a_lookout_zooms_evenly_to_the_eye(run):
     assert across[[0, -1]] == pytest.approx([wide, wide / 4.0])
     assert across[1:] / across[:-1] == pytest.approx(0.25 ** (1 / 20))
     aim = view.position[0] + 1000.0 * (-view.rotation[0, :, 2] + 0.5 * wide * view.rotation[0, :, 0])
-    first, last = (shot.sights.at(frame) for frame in (1, 21))
+    first, last = (shot.visibility.at(frame) for frame in (1, 21))
     assert lod.visible_mask(aim[None], 0.0, first).all()
     assert not lod.visible_mask(aim[None], 0.0, last).any()
 
@@ -100,7 +100,7 @@ def test_a_minimap_goes_along_north_up(run):
     drone, over = Camera("scout", Drone(keys=KEYS)), Camera("map", Minimap(swath=800.0))
     shot = shot_of(run, over, drone)
     flown = shot.paths[1].position
-    for one in (shot, shot.of("map")):  # also where the drone is not filmed
+    for one in (shot, shot.for_camera("map")):  # also where the drone is not filmed
         view = one.paths[0]
         assert view.position[:, :2] == pytest.approx(flown[:, :2], abs=1.0)
         assert np.ptp(view.position[:, 0]) > 500.0
@@ -151,7 +151,7 @@ def test_a_geostationary_satellite_is_over_the_equator_and_sees_rows_of_parallel
     assert view.rotation[0, :, 0] @ axis == pytest.approx(0.0, abs=1e-4)
     assert view.rotation[0, :, 1] @ axis > 0.5
     side = middle + view.rotation[0, :, 0] * np.array([[1900.0], [2100.0]])
-    assert shot.sights.seen(side, 0.0, pixel=np.inf).tolist() == [True, False]
+    assert shot.visibility.visible_mask(side, 0.0, pixel=np.inf).tolist() == [True, False]
     near, far = path.clip(view, shot.ground)
     assert near < view.meet - 5e4 < view.meet + 5e4 < far
     assert near > 1e7

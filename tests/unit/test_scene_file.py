@@ -209,7 +209,7 @@ def code(text):
 
 
 def test_the_text_of_settings_holds_every_key_and_explains_it_once():
-    keyed = {kind: {part.name: part.table for part in schema.parts(kind)} for kind in kinds().values()}
+    keyed = {kind: {part.name: part.table for part in schema.fields(kind)} for kind in kinds().values()}
     rigs = [
         kind(keys=(parts["keys"](), parts["keys"](1.0))) if "keys" in parts else kind()
         for kind, parts in keyed.items()
@@ -221,7 +221,7 @@ def test_the_text_of_settings_holds_every_key_and_explains_it_once():
     for _, part in schema.walk(Settings):
         name = part.key.tag or part.name
         explained = [line for line in text.splitlines() if f"  # {part.key.described()}" in line]
-        if not part.key.kinds and texts[part.name, part.key.described()] == 1:
+        if not part.key.variants and texts[part.name, part.key.described()] == 1:
             assert len(explained) == 1, name
         assert any(line.lstrip("#[ ").startswith(name) or f".{name}]]" in line for line in explained), name
 

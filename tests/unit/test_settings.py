@@ -48,12 +48,12 @@ def test_every_key_is_explained_in_one_line():
         help = part.key.help
         assert re.fullmatch(r"\S.*[^.\s]", help), (section, part.name)
         assert not part.key.names() or all(isinstance(name, str) for name in part.key.names())
-        assert set(part.key.shows or ()) <= ASPECTS
+        assert set(part.key.affects or ()) <= ASPECTS
 
 
 def test_every_default_is_right():
-    assert schema.wrong(Settings()) is None
-    assert schema.wrong(SETTINGS) is None
+    assert schema.validate(Settings()) is None
+    assert schema.validate(SETTINGS) is None
     assert Settings().time == Time()
     assert Camera().kind == "drone"
 
@@ -85,42 +85,42 @@ WRONG = [
 
 @pytest.mark.parametrize(("path", "value", "words"), WRONG)
 def test_settings_made_by_hand_are_checked_like_a_file(path, value, words):
-    where, reason = schema.wrong(with_(SETTINGS, path, value))
+    where, reason = schema.validate(with_(SETTINGS, path, value))
     assert where == tuple(name for name in path if name != "rig")  # a rig's keys lie flat
     assert all(word in reason for word in words), reason
 
 
 def test_what_a_product_depends_on_is_chosen_by_aspect():
     time = {"start": "2014-09-17T23:00:00+00:00", "end": None, "frames": 48}
-    assert schema.chosen(SETTINGS, {"time"}) == {"time": time}
-    assert schema.chosen(SETTINGS, {"film"}) == {"time": {"fps": 24, "zone": ""}}
-    assert schema.chosen(SETTINGS, {"picture"}) == {"render": {"engine": "cycles", "resolution": [640, 360]}}
+    assert schema.select(SETTINGS, {"time"}) == {"time": time}
+    assert schema.select(SETTINGS, {"film"}) == {"time": {"fps": 24, "zone": ""}}
+    assert schema.select(SETTINGS, {"picture"}) == {"render": {"engine": "cycles", "resolution": [640, 360]}}
     grain = {"samples": 6, "denoise": True, "seed": 0}
-    assert schema.chosen(SETTINGS, {"grain"}) == {"render": grain}
-    found = schema.chosen(SETTINGS, {"thermal"})
+    assert schema.select(SETTINGS, {"grain"}) == {"render": grain}
+    found = schema.select(SETTINGS, {"thermal"})
     assert found["render"] == {"thermal_low": None, "thermal_high": 800.0}
     assert found["thermal"]["band"] == "lwir"
-    found = schema.chosen(SETTINGS, {"terrain"})["forest"]  # the colours of what grows on it
+    found = schema.select(SETTINGS, {"terrain"})["forest"]  # the colours of what grows on it
     assert set(found) == {"biome", "greenness", "shrub_cover", "tree_cover"}
     for aspect in ("terrain", "forest", "fire", "smoke"):
-        found = schema.chosen(SETTINGS, {aspect})
+        found = schema.select(SETTINGS, {aspect})
         assert set(found) == {"seed", aspect, "render"} | ({"forest"} if aspect == "terrain" else set())
         assert found["render"] == {"cull": True} | ({} if aspect == "smoke" else {"chunk": 480})
-    assert set(schema.chosen(SETTINGS, {"light"})) == {"light"}
-    assert schema.chosen(SETTINGS, set()) == {}
+    assert set(schema.select(SETTINGS, {"light"})) == {"light"}
+    assert schema.select(SETTINGS, set()) == {}
 
 
 def test_moving_one_camera_leaves_what_another_shows():
-    one, two = (schema.chosen(SETTINGS, {"camera"}, name)["cameras"] for name in ("one", "two"))
+    one, two = (schema.select(SETTINGS, {"camera"}, name)["cameras"] for name in ("one", "two"))
     assert two == [
         {"kind": "satellite", "swath": 56000.0, "geostationary": None, "frames": "", "resolution": None}
     ]
     assert [table["kind"] for table in one] == ["drone"]
     assert [key["latitude"] for key in one[0]["keys"]] == [38.9, 39.0]
-    assert schema.chosen(SETTINGS, {"camera"})["cameras"] == one + two
+    assert schema.select(SETTINGS, {"camera"})["cameras"] == one + two
     moved = with_(SETTINGS, ("cameras", 0, "rig", "keys", 0, "latitude"), 38.8)
-    assert schema.chosen(moved, ASPECTS, "two") == schema.chosen(SETTINGS, ASPECTS, "two")
-    assert schema.chosen(moved, ASPECTS, "one") != schema.chosen(SETTINGS, ASPECTS, "one")
+    assert schema.select(moved, ASPECTS, "two") == schema.select(SETTINGS, ASPECTS, "two")
+    assert schema.select(moved, ASPECTS, "one") != schema.select(SETTINGS, ASPECTS, "one")
 
 
 @pytest.mark.parametrize(
@@ -134,7 +134,7 @@ def test_moving_one_camera_leaves_what_another_shows():
     ],
 )
 def test_what_shows_nothing_is_never_chosen(path, value):
-    assert schema.chosen(with_(SETTINGS, path, value), ASPECTS) == schema.chosen(SETTINGS, ASPECTS)
+    assert schema.select(with_(SETTINGS, path, value), ASPECTS) == schema.select(SETTINGS, ASPECTS)
 
 
 def test_equal_settings_are_chosen_as_equal_json():
@@ -143,7 +143,7 @@ def test_equal_settings_are_chosen_as_equal_json():
     same = with_(same, ("cameras", 0, "rig", "keys", 0, "target_latitude"), -0.0)
     same = with_(same, ("light", "haze"), 1)
     assert same == SETTINGS
-    assert repr(schema.chosen(same, ASPECTS)) == repr(schema.chosen(SETTINGS, ASPECTS))
+    assert repr(schema.select(same, ASPECTS)) == repr(schema.select(SETTINGS, ASPECTS))
 
 
 def test_the_pass_thermal_depends_on_smoke_and_its_own_settings():
@@ -152,7 +152,7 @@ def test_the_pass_thermal_depends_on_smoke_and_its_own_settings():
     assert "smoke" in aspects
     changed = dataclasses.replace(SETTINGS, render=Render(thermal_high=900.0), fire=Fire(torches=False))
     depth = passes.known()["depth"].aspects
-    assert schema.chosen(changed, depth) == schema.chosen(SETTINGS, depth)
+    assert schema.select(changed, depth) == schema.select(SETTINGS, depth)
 
 
 # What editors are given.

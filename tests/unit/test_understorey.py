@@ -126,7 +126,7 @@ def test_a_budget_keeps_what_is_seen_largest(film):
 def test_less_is_drawn_farther_away_without_a_ring(film):
     shot = film(camera("a"), canopy=0.0)
     things = understorey.grow(shot)
-    distance = shot.sights.distance(things.position)
+    distance = shot.visibility.distance(things.position)
     pixel, _ = shot.pixel
     assert np.all(things.height > 1.0 * pixel * distance)  # half of two pixels
     tufts = np.isin(things.model, models.TUFTS)

@@ -47,37 +47,39 @@ def test_frames_that_are_not_filmed_do_not_count(film):
     assert np.ptp(path.position, axis=0).max() > 100.0
     away = [np.linalg.norm(path.position - path.position[8], axis=1)[[0, 2]].min(), 0.0]
     for shot, least in zip((some, whole), away, strict=True):
-        assert shot.sights.distance(path.position[8:]) == pytest.approx([least], abs=1e-6)
-        assert shot.sights.distance_from(shot.paths[0], path.position[8:]) == pytest.approx([least], abs=1e-6)
+        assert shot.visibility.distance(path.position[8:]) == pytest.approx([least], abs=1e-6)
+        assert shot.visibility.distance_from(shot.paths[0], path.position[8:]) == pytest.approx(
+            [least], abs=1e-6
+        )
     aim = path.position + 50.0 * -path.rotation[:, :, 2]
     alone = lod.visible_mask(aim, 0.0, lod.ViewSet(path.position[[0, 2]], path.rotation[[0, 2]], path.half))
-    assert some.sights.seen(aim, 0.0).tolist() == alone.tolist()
-    assert whole.sights.seen(aim, 0.0).all()
-    assert [some.sights.at(frame) is None for frame in (1, 2, 3)] == [False, True, False]
+    assert some.visibility.visible_mask(aim, 0.0).tolist() == alone.tolist()
+    assert whole.visibility.visible_mask(aim, 0.0).all()
+    assert [some.visibility.at(frame) is None for frame in (1, 2, 3)] == [False, True, False]
 
 
 def test_satellites_can_be_asked_alone(film):
     """What they see and what cameras in perspective see is what all see: nobody need be asked twice."""
     shot = film(Camera("a", ORBIT), Camera("above", Satellite(swath=2000.0)))
     places = np.random.default_rng(5).uniform((-3e3, -3e3, 1.1e3), (3e3, 3e3, 1.4e3), (3000, 3))
-    near, all_of_them = (shot.sights.seen(places, 5.0, pixel=pixel) for pixel in (0.0, np.inf))
-    flat = shot.sights.seen(places, 5.0, pixel=np.inf, perspective=False)
+    near, all_of_them = (shot.visibility.visible_mask(places, 5.0, pixel=pixel) for pixel in (0.0, np.inf))
+    flat = shot.visibility.visible_mask(places, 5.0, pixel=np.inf, perspective=False)
     assert (near | flat).tolist() == all_of_them.tolist()
     assert (near & ~flat).any()
     assert (flat & ~near).any()
-    assert not shot.sights.seen(places, 5.0, perspective=False).any()
+    assert not shot.visibility.visible_mask(places, 5.0, perspective=False).any()
     whole = film(*shot.settings.cameras, render=Render(cull=False))
-    assert whole.sights.seen(places, 5.0, pixel=np.inf, perspective=False).all()
-    assert not whole.sights.seen(places, 5.0, perspective=False).any()
+    assert whole.visibility.visible_mask(places, 5.0, pixel=np.inf, perspective=False).all()
+    assert not whole.visibility.visible_mask(places, 5.0, perspective=False).any()
 
 
 def test_satellites_count_by_their_pixels_and_are_near_to_nothing(film):
     shot = film(Camera("above", Satellite(swath=640.0)))
     width = shot.settings.render.resolution[0]
     edge = np.array([[310.0, 0.0, 1200.0], [330.0, 0.0, 1200.0]]) + shot.paths[0].target[0] * [1, 1, 0]
-    assert shot.sights.seen(edge, 0.0, pixel=1.01 * 640.0 / width).tolist() == [True, False]
-    assert not shot.sights.seen(edge, 0.0, pixel=640.0 / width).any()
-    assert np.isinf(shot.sights.distance(edge)).all()
+    assert shot.visibility.visible_mask(edge, 0.0, pixel=1.01 * 640.0 / width).tolist() == [True, False]
+    assert not shot.visibility.visible_mask(edge, 0.0, pixel=640.0 / width).any()
+    assert np.isinf(shot.visibility.distance(edge)).all()
 
 
 def test_what_is_under_a_place_is_found_along_its_vertical(film):
@@ -94,16 +96,16 @@ def test_without_skipping_all_counts_as_seen_and_is_drawn_as_from_near_by(film):
     place = np.random.default_rng(5).uniform(-3000.0, 3000.0, (200, 3))
     place[-1] = np.nan
     some, whole = (film(Camera("a", ORBIT), render=Render(cull=skip)) for skip in (True, False))
-    seen = some.sights.seen(place, 5.0)
+    seen = some.visibility.visible_mask(place, 5.0)
     assert 0 < seen.sum() < 150
-    assert whole.sights.seen(place, 5.0).tolist() == [True] * 199 + [False]
-    near = whole.sights.distance(place) <= 1400.0
-    assert whole.sights.seen(place, 600.0, reach=800.0).tolist() == near.tolist()
-    np.testing.assert_array_equal(some.sights.distance(place), whole.sights.distance(place))
-    np.testing.assert_array_equal(some.sights.drawn_from(place), some.sights.distance(place))
-    assert not whole.sights.drawn_from(place).any()
-    assert some.sights.at(1) is not None
-    assert whole.sights.at(1) is None
+    assert whole.visibility.visible_mask(place, 5.0).tolist() == [True] * 199 + [False]
+    near = whole.visibility.distance(place) <= 1400.0
+    assert whole.visibility.visible_mask(place, 600.0, reach=800.0).tolist() == near.tolist()
+    np.testing.assert_array_equal(some.visibility.distance(place), whole.visibility.distance(place))
+    np.testing.assert_array_equal(some.visibility.drawn_from(place), some.visibility.distance(place))
+    assert not whole.visibility.drawn_from(place).any()
+    assert some.visibility.at(1) is not None
+    assert whole.visibility.at(1) is None
     tolerance = [mesh_tolerance.wanted(shot).tolerance for shot in (some, whole)]
     assert np.all(tolerance[1] <= tolerance[0] + 1e-6)
     assert tolerance[1].max() < 0.03 < tolerance[0].max()

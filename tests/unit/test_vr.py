@@ -87,8 +87,8 @@ def test_it_sees_to_all_sides_and_up_and_down(run):
     away = rng.normal(size=(400, 3))
     away *= 60.0 / np.linalg.norm(away, axis=1, keepdims=True)
     place = view.position[0] + away
-    assert shot.sights.seen(place, 0.5).all()
-    assert not shot.sights.seen(place, 0.5, reach=50.0).any()
+    assert shot.visibility.visible_mask(place, 0.5).all()
+    assert not shot.visibility.visible_mask(place, 0.5, reach=50.0).any()
 
 
 @pytest.mark.parametrize(("apart", "hidden"), [(0.065, True), (20.0, False)])
@@ -99,7 +99,7 @@ def test_hills_hide_nothing_from_eyes_far_apart(make_run, apart, hidden):
     low = replace(KEY, longitude=float(run.longitude[0]), latitude=float(run.latitude[2]), height=200.0)
     shot = shot_of(run, Camera("vr", Vr(apart, keys=(low,))))
     behind = shot.ground.point(float(run.latitude[2]), float(run.longitude[4]), 5.0)
-    assert shot.sights.seen(behind, 1.0).tolist() == [not hidden]
+    assert shot.visibility.visible_mask(behind, 1.0).tolist() == [not hidden]
 
 
 def test_what_is_built_follows_the_pixels_of_each_camera(run):
@@ -115,9 +115,11 @@ def test_what_is_built_follows_the_pixels_of_each_camera(run):
         [2.0 / 512, 1.0 / 4000, 50.0, 2.0 * np.pi / 2048]
     )
     assert shot.pixel == pytest.approx((1.0 / 4000, 50.0))
-    assert shot.of("small").pixel == pytest.approx((2.0 / 512, np.inf))
+    assert shot.for_camera("small").pixel == pytest.approx((2.0 / 512, np.inf))
     maps = shot_of(run, *cameras[2:3])  # its pixels are 50 m
-    found = [maps.sights.seen([(0.0, 0.0, 1e4)], 10.0, pixel=pixel).tolist() for pixel in (40.0, 60.0)]
+    found = [
+        maps.visibility.visible_mask([(0.0, 0.0, 1e4)], 10.0, pixel=pixel).tolist() for pixel in (40.0, 60.0)
+    ]
     assert found == [[False], [True]]
 
 

@@ -95,12 +95,12 @@ def fly(shot: Shot, points: flames.Points) -> Flights | None:
     At no frame are there more than `fire.firebrands`; the nearest stay.
     """
     most_shown = shot.settings.fire.firebrands
-    if not shot.near or most_shown == 0 or len(points.seed) == 0:
+    if not shot.perspective_paths or most_shown == 0 or len(points.seed) == 0:
         return None
-    distance = shot.sights.distance(points.position)
+    distance = shot.visibility.distance(points.position)
     fade = np.clip((REACH - distance) / (0.3 * REACH), 0.0, 1.0)
     rate = PER_MEGAJOULE * points.intensity * points.width / 1000.0 * fade
-    times, zero = shot.moments, shot.frames.first
+    times, zero = shot.built_times, shot.frames.first
     most = max(float(rate[points.lit(float(t))].sum()) for t in times) * _MEAN_LIFE
     rate *= min(1.3 * most_shown / max(most, 1.0), 1.0)
     lapse = shot.frames.step > _LIFE[1] or len(times) == 1

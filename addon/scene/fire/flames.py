@@ -119,8 +119,8 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
     of the arrival time. Crowns of the stand flare up besides, where it is given. Where flames stand farther
     apart they are as much wider, so that the front is as bright.
     """
-    settings, ground, near = shot.settings, shot.ground, shot.near
-    first, last = shot.moments[[0, -1]]
+    settings, ground, near = shot.settings, shot.ground, shot.perspective_paths
+    first, last = shot.built_times[[0, -1]]
     row, column, spacing, distance, key = _candidates(shot)
     arrival = ground.arrival_at(row, column)
     keep = (arrival <= last) & (arrival > first - _LONGEST)
@@ -175,7 +175,7 @@ def _residence(spacing: Array | float, speed: Array, stands: Array) -> Array:
 def _closeness(shot: Shot) -> float:
     """How close points stand in a shot, beside a crown fire's front: as its flames are long."""
     ground, front = shot.bare_ground, shot.front
-    passed = (ground.burned >= 0.5) & (np.abs(ground.arrival - shot.whole.frames.middle) < _LONGEST + 900.0)
+    passed = (ground.burned >= 0.5) & (np.abs(ground.arrival - shot.full.frames.middle) < _LONGEST + 900.0)
     if not passed.any():
         return 1.0
     fuel, canopy = ground.fields.surface_fuel[passed], ground.fields.canopy_fuel[passed]
@@ -205,7 +205,7 @@ def torches(shot: Shot, grown: Stand) -> Points:
     Of the crowns that burn (`fire_effects`) the denser the canopy the more flare up, for half a minute
     to a minute and up to twice the tree's height (assumed).
     """
-    ground, (first, last) = shot.ground, shot.moments[[0, -1]]
+    ground, (first, last) = shot.ground, shot.built_times[[0, -1]]
     near = np.flatnonzero((grown.distance < _TORCH_SIGHT) & (grown.height > 6.0))
     row, column = ground.under(grown.position[near])
     arrival = ground.arrival_at(row, column)
@@ -245,7 +245,7 @@ def cells(shot: Shot) -> Points:
     step = shot.frames.step or 1.0
     width = float(np.sqrt(burning.cell_area(run) * run.surface_fuel.size / run.elevation.size))
     parts = []
-    for time in shot.moments:
+    for time in shot.built_times:
         found = flux.emitters(shot.fire.flux.at(float(time)), position, low, high)
         count = len(found.cell)
         length = found.scale / 100.0 * _CELL_FLAME
@@ -277,14 +277,14 @@ def _candidates(shot: Shot) -> tuple[Array, Array, Array, Array, NDArray[np.int6
     With them come the distance (n,) that they are drawn for, m, and integers (n, 2) that random choices for a
     point hang on: cell and number in it. So a point is the same whatever else is seen.
     """
-    ground, near, (first, last) = shot.ground, shot.near, shot.moments[[0, -1]]
+    ground, near, (first, last) = shot.ground, shot.perspective_paths, shot.built_times[[0, -1]]
     arrival = ground.arrival
     cells_lit = np.argwhere((arrival >= first - _LONGEST - 300.0) & (arrival <= last + 300.0))
     empty = np.empty(0)
     if len(cells_lit) == 0 or not near:
         return empty, empty, empty, empty, np.empty((0, 2), np.int64)
     centre = ground.point(*ground.places(cells_lit[:, 0].astype(float), cells_lit[:, 1].astype(float)))
-    seen = shot.sights.seen(centre, max(ground.cell) + _AROUND, reach=SIGHT)
+    seen = shot.visibility.visible_mask(centre, max(ground.cell) + _AROUND, reach=SIGHT)
     cells_lit, distance = cells_lit[seen], _drawn_for(shot, centre[seen])
     parts = []
     before, close = 0.0, _closeness(shot)
@@ -328,7 +328,7 @@ def _drawn_for(shot: Shot, centre: Array) -> Array:
 
     So those in sight are mostly the same whatever else is built, and in each part of a film.
     """
-    distance = shot.sights.drawn_from(centre)
+    distance = shot.visibility.lod_distance(centre)
     count, _ = _spaced(shot.ground.cell, _SPACING[0][1] * _closeness(shot))
     distance[np.argsort(distance, kind="stable")[: _FINE // count**2]] = 0.0
     return distance
@@ -336,11 +336,11 @@ def _drawn_for(shot: Shot, centre: Array) -> Array:
 
 def _within_budget(points: Points, shot: Shot, views: list[Path]) -> Points:
     """Drop the farthest flames until no frame lights more than `fire.budget`, unless nothing is skipped."""
-    if shot.sights.whole:
+    if shot.visibility.unculled:
         return points
     budget = max(shot.settings.fire.budget, 0)
     keep = np.ones(len(points.arrival_time), bool)
-    for index, time in zip(shot.built, shot.moments, strict=True):
+    for index, time in zip(shot.built_frames, shot.built_times, strict=True):
         lit = points.lit(float(time))
         lit = lit[keep[lit]]
         if len(lit) > budget:

@@ -21,8 +21,8 @@ def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> None:
     """
     if not shot.settings.fire.fronts:
         return
-    colours = fronts.colours(shot.whole)
-    for name, run in shot.whole.other_runs().items():
+    colours = fronts.colours(shot.full)
+    for name, run in shot.full.other_runs().items():
         thing = owned.add(collection, f"Front {name}", _mesh(shot, name, run))
         thing.data.materials.append(_material(shot, stage, name, colours[name]))
         thing.modifiers.new("Firetwin Front", "NODES").node_group = _of_the_moment(shot, name)

@@ -63,7 +63,7 @@ def place(shot: Shot) -> Lamps:
     show. Each bit of heat is shared between the lamps near it, so that a passing front fades from one to
     the next. Without any heat near a camera there are no lamps.
     """
-    times, near = moments(shot), shot.near
+    times, near = moments(shot), shot.perspective_paths
     none = Lamps(times, np.empty((0, 3)), np.empty(0), np.empty((len(times), 0)))
     if not near:
         return none
@@ -71,7 +71,7 @@ def place(shot: Shot) -> Lamps:
     position = np.concatenate([part.position for part in parts])
     power = np.concatenate([part.power for part in parts])
     moment = np.repeat(np.arange(len(times)), [len(part.power) for part in parts])
-    distance = shot.sights.distance(position)
+    distance = shot.visibility.distance(position)
     size = shot.scale.length
     power = power * np.clip((_REACH - distance) / (0.3 * _REACH), 0.0, 1.0)
     lit = np.flatnonzero(power > 0.0)

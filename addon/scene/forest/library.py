@@ -114,7 +114,7 @@ def levelled(shot: Shot, points: dict[str, NDArray], wider: float = 1.0) -> dict
     trees of their height, and drawn like trees as much taller.
     """
     lens, plain = (1.0 / size for size in shot.pixel)
-    near = lens / np.maximum(shot.sights.drawn_from(points["position"]), 1.0)
+    near = lens / np.maximum(shot.visibility.lod_distance(points["position"]), 1.0)
     level = levels.level(wider * points["scale"] * np.maximum(near, plain))
     return {**points, **{key: models.instance(points[key], level) for key in ("model", "snag_model")}}
 

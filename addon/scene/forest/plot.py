@@ -110,7 +110,7 @@ def _lines(
 def _near_edge(shot: Shot, reach: float) -> bool:
     """Whether any camera in perspective is as near to the run's edge as it sees trees."""
     fields, cell = shot.ground.fields, shot.ground.cell
-    for view in shot.near:
+    for view in shot.perspective_paths:
         place = view.position[shot.filmed(view)]
         row, column = shot.ground.indices(*shot.ground.geodetic(place[:, 0], place[:, 1]))
         for at, count, size in zip((row, column), fields.elevation.shape, cell, strict=True):

@@ -68,7 +68,7 @@ def grow(shot: Shot) -> Stand:
     found = _planted(shot, plots)
     position = visibility.settled(shot.ground, found.position)
     key = np.stack([found.key >> 32, found.key & 0xFFFFFFFF], axis=-1)
-    distance = shot.sights.distance(position)
+    distance = shot.visibility.distance(position)
     fade = _fade(distance, reach) if shot.pixel[1] > visibility.PIXEL else 1.0
     chosen = (noise.uniform(*key.T, settings.seed + 202) < fade) & (distance > CLEARING)
     stands = noise.uniform(*key[chosen].T, settings.seed + 203)
@@ -138,7 +138,7 @@ def _kept(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
     Pixels at a place are those of the sharpest camera at the distance of the nearest. All trees are kept
     where a pixel is smaller than a crown, or smaller than lets all be about `forest.budget`.
     """
-    if shot.sights.whole:
+    if shot.visibility.unculled:
         return [np.ones(each.mask.shape, np.float32) for each in plots]
     budget, reach = shot.settings.forest.budget, shot.settings.forest.draw_distance
     near, parallel = shot.pixel
@@ -146,7 +146,7 @@ def _kept(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
     besides = [widened(each.mask, 1) for each in plots]
     pixels, stems = [], []
     for each, beside in zip(plots, besides, strict=True):
-        distance = shot.sights.distance(each.places(shot.local_frame, beside))
+        distance = shot.visibility.distance(each.places(shot.local_frame, beside))
         pixels.append(np.minimum(distance * near if np.isfinite(near) else np.inf, parallel))
         fade = _fade(distance, reach) if parallel > visibility.PIXEL else 1.0
         stems.append(core.stems(each.canopy_fuel[beside]) * each.mask[beside] * fade * each.area)

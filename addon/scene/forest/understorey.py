@@ -256,7 +256,7 @@ def _scattered(shot: Shot, kind: Kind, number: int, pixel: float, budget: int) -
     stands = np.flatnonzero(lot(2, cells) < density * width**2)
     cells, place, height, tall = cells[stands], place[stands], height[stands], tall[stands]
     position = np.column_stack([place, shot.ground.up(*place.T)]) if len(place) else np.empty((0, 3))
-    distance = shot.sights.distance(position)
+    distance = shot.visibility.distance(position)
     size = tall / np.maximum(distance, 0.1)
     kept = np.flatnonzero((size > 1.0) & (distance > 0.5 + 1.2 * height) & (distance < _FARTHEST))
     cells, height = cells[kept], height[kept]
@@ -282,7 +282,9 @@ def _cells(shot: Shot, count: int, reach: float, budget: int) -> tuple[NDArray[n
     With them comes how near (n,) a camera may be to each, m. A block has `count` along its side. Where they
     are more than 40 for each thing of the budget, those farther away are left out.
     """
-    eyes = np.concatenate([path.position[shot.filmed(path)] for path in shot.near] or [np.empty((0, 3))])
+    eyes = np.concatenate(
+        [path.position[shot.filmed(path)] for path in shot.perspective_paths] or [np.empty((0, 3))]
+    )
     low = eyes[:, 2] - shot.ground.up(*eyes[:, :2].T) < reach if len(eyes) else np.empty(0, bool)
     if not low.any():
         return np.empty((0, 2), np.int64), np.empty(0)
@@ -293,9 +295,9 @@ def _cells(shot: Shot, count: int, reach: float, budget: int) -> tuple[NDArray[n
     blocks = np.unique((blocks[:, None] + ring).reshape(-1, 2), axis=0)
     middle = (blocks + 0.5) * _BLOCK
     middle = np.column_stack([middle, shot.ground.up(*middle.T)])
-    distance = shot.sights.distance(middle)
+    distance = shot.visibility.distance(middle)
     near = distance < reach + _BLOCK
-    near[near] = shot.sights.seen(middle[near], np.full(near.sum(), 1.5 * _BLOCK), shadows=True)
+    near[near] = shot.visibility.visible_mask(middle[near], np.full(near.sum(), 1.5 * _BLOCK), shadows=True)
     most = max(40 * budget // count**2, 1)
     chosen = np.flatnonzero(near)
     chosen = np.sort(chosen[np.argsort(distance[chosen], kind="stable")[:most]])

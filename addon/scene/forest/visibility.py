@@ -31,7 +31,9 @@ def visible(
     height = np.broadcast_to(height, len(foot))
     middle = np.column_stack([foot[:, :2], foot[:, 2] + 0.5 * height])
     radius = models.REACH * height * np.maximum(wider, 1.0) + beside
-    return shot.sights.seen(middle, radius, reach=reach, margin=_AROUND, shadows=True, pixel=PIXEL)
+    return shot.visibility.visible_mask(
+        middle, radius, reach=reach, margin=_AROUND, shadows=True, pixel=PIXEL
+    )
 
 
 def too_far(shot: Shot) -> bool:

@@ -208,10 +208,10 @@ def _stand_cover(shot: Shot, grown: Stand | None, size: int) -> NDArray[np.float
     fields = shot.ground.fields
     latitude, longitude = (_thinned(axis[None], size)[0] for axis in (fields.latitude, fields.longitude))
     elevation = _thinned(fields.elevation, size)
-    if grown is None or not shot.near:
+    if grown is None or not shot.perspective_paths:
         return np.zeros(elevation.shape)
     place = shot.ground.frame.forward_grid(latitude, longitude, elevation)
-    distance = shot.sights.distance(place.reshape(-1, 3)).reshape(elevation.shape)
+    distance = shot.visibility.distance(place.reshape(-1, 3)).reshape(elevation.shape)
     cover = np.zeros(elevation.shape)
     close = distance < grown.radius
     cover[close] = grown.coverage(distance[close])

@@ -38,7 +38,7 @@ def taken(
     (camera,) = (each for each in cameras if each.name == name)
     own = _records(settings, camera)
     for other in cameras:
-        if other.rig.leader(cameras) is not camera or other.frames not in ("", camera.frames):
+        if other.rig.followed(cameras) is not camera or other.frames not in ("", camera.frames):
             continue
         records = _records(settings, other)
         if isinstance(other.rig, Mounted):

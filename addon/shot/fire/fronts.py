@@ -142,7 +142,7 @@ def contour(field: Array) -> tuple[Array, Array, NDArray[np.int64]]:
 
 def lines(shot: Shot, run: Run) -> Lines:
     """The front of a run over the ground of a shot, at the moments that are built: one line for each."""
-    moments = shot.moments
+    moments = shot.built_times
     if len(moments) > _MOST:
         moments = np.linspace(moments[0], moments[-1], _MOST)
     ends = np.concatenate([[-np.inf], 0.5 * (moments[1:] + moments[:-1]), [np.inf]])

@@ -63,7 +63,7 @@ def darkness(shot: Shot, times: NDArray) -> Array:
 
 
 def _metered(shot: Shot) -> _Metered:
-    shot = shot.whole
+    shot = shot.full
     if shot not in _known:
         count = min(shot.frames.count, _KEYS)
         frames = np.unique(np.linspace(1, shot.frames.count, count).round())

@@ -31,7 +31,7 @@ def draw(png: Path, depth: Path, shot: Shot, camera: str, frame: int, long: bool
     """Write the brightness temperature of the long or the short band with bar, time and label."""
     view = pixel_rays.path_of(shot, camera)
     instrument, grid = _instrument(shot, view.camera.rig)
-    moment = shot.moment(frame)
+    moment = shot.utc(frame)
     try:
         seen = imager.picture(instrument, grid, shot.fire, float(shot.frames.time(frame)))
     except imager.NothingSeenError:

@@ -62,7 +62,7 @@ def classes(shot: Shot, points: NDArray[np.float64], frame: int) -> list[NDArray
 
     ground = np.isfinite(points).all(axis=-1)
     latitude, longitude, _ = shot.local_frame.reverse(points[ground])
-    moment, found = shot.moment(frame), []
+    moment, found = shot.utc(frame), []
     burned = {}
     for label, run in {"": shot.run, **shot.others}.items():
         burned[label] = reach(run).burned(latitude, longitude, times.seconds(run, moment))

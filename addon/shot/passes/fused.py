@@ -86,7 +86,7 @@ def facts(shot: Shot, camera: str, frame: int) -> list[tuple[str, list[str]]]:
     from ...run import info, times
     from ..cameras import pixel_rays
 
-    view, moment = pixel_rays.path_of(shot, camera), shot.moment(frame)
+    view, moment = pixel_rays.path_of(shot, camera), shot.utc(frame)
     here = pose.pose(shot, view, frame)
     places = (("latitude", "NS"), ("longitude", "EW"))
     degrees = [f"{abs(here[name]):.5f}° {signs[here[name] < 0.0]}" for name, signs in places]

@@ -56,7 +56,7 @@ def described(shot: Shot, view: Path, frame: int) -> dict[str, Any]:
         "frame": frame,
         "run": run.name,
         "synthetic": run.synthetic,
-        "time_utc": shot.moment(frame).isoformat(timespec="milliseconds"),
+        "time_utc": shot.utc(frame).isoformat(timespec="milliseconds"),
         "model_time": shot.frames.time(frame),
         "units": UNITS,
         "pose": pose(shot, view, frame),

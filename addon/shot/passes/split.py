@@ -29,7 +29,7 @@ def finish(files: Files, needed: Mapping[str, Files], shot: Shot, camera: str, f
         from ...imaging import split_screen
     except ModuleNotFoundError as error:
         raise Error(f"the split pass needs {error.name}, which is not in Blender: pip install it") from None
-    moment, colours, drawn = shot.moment(frame), fronts.colours(shot), shot.settings.fire.fronts
+    moment, colours, drawn = shot.utc(frame), fronts.colours(shot), shot.settings.fire.fronts
     names = ["rgb", *(view_of("rgb", label) for label in shot.others)]
     pictures = [sensor.read_image(needed[name]["png"])[..., :3] for name in names]
     keys = []

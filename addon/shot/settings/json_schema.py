@@ -7,7 +7,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from .schema import Key, Part, parts, plain, summary
+from .schema import Field, Key, fields, plain, summary
 
 _TYPES = {
     bool: {"type": "boolean"},
@@ -26,26 +26,28 @@ def json_schema(kind: type) -> dict[str, Any]:
 
 def _table(kind: type) -> dict[str, Any]:
     """A dataclass; where one of several kinds stands in it, a schema for each of them."""
-    rig = next((part for part in parts(kind) if part.key.kinds), None)
+    rig = next((part for part in fields(kind) if part.key.variants), None)
     if not rig:
-        return _object([part for part in parts(kind)], {}, [])
-    return {"oneOf": [_of_kind(kind, rig.key, name, rig_kind) for name, rig_kind in rig.key.kinds().items()]}
+        return _object([part for part in fields(kind)], {}, [])
+    return {
+        "oneOf": [_of_kind(kind, rig.key, name, rig_kind) for name, rig_kind in rig.key.variants().items()]
+    }
 
 
 def _of_kind(kind: type, key: Key, name: str, rig_kind: type) -> dict[str, Any]:
-    own = [part for part in parts(kind) if not part.key.kinds]
+    own = [part for part in fields(kind) if not part.key.variants]
     tag = {key.tag: {"const": name, "description": f"{key.help}: {summary(rig_kind)}"}}
-    found = _object([*own, *parts(rig_kind)], tag, [] if name == key.usual else [key.tag])
+    found = _object([*own, *fields(rig_kind)], tag, [] if name == key.default_kind else [key.tag])
     return {"title": name, "description": summary(rig_kind)} | found
 
 
-def _object(known: list[Part], more: dict[str, Any], required: list[str]) -> dict[str, Any]:
+def _object(known: list[Field], more: dict[str, Any], required: list[str]) -> dict[str, Any]:
     properties = more | {part.name: _property(part) for part in known}
     found = {"type": "object", "properties": properties, "additionalProperties": False}
     return found | ({"required": required} if required else {})
 
 
-def _property(part: Part) -> dict[str, Any]:
+def _property(part: Field) -> dict[str, Any]:
     found: dict[str, Any] = {"description": part.key.described()}
     if part.tables:
         return found | {"type": "array", "items": _table(part.table)}

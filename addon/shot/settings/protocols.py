@@ -57,6 +57,14 @@ class CameraSettings(Protocol):
         """Passes that it records; empty: those of [render]."""
 
     @property
+    def resolution(self) -> tuple[int, int] | None:
+        """Width and height (pixels) of its pictures; None: those of [render]."""
+
+    @property
+    def kind(self) -> str:
+        """Name of its rig."""
+
+    @property
     def rig(self) -> Any:
         """How it is set up and moved (see `cameras.rigs.Rig`)."""
 
@@ -89,7 +97,7 @@ class ShotView(Protocol):
         """`cameras.path.Path` of each camera that is filmed."""
 
     @property
-    def near(self) -> list[Any]:
+    def perspective_paths(self) -> list[Any]:
         """Those of the cameras in perspective."""
 
     @property
@@ -109,8 +117,8 @@ class ShotView(Protocol):
         """`fire.flame_depth.Fields` of the front."""
 
     @property
-    def sights(self) -> Any:
-        """`visibility.Sights` of the cameras."""
+    def visibility(self) -> Any:
+        """`visibility.Visibility` of the cameras."""
 
     def resolution(self, camera: Any) -> tuple[int, int]:
         """Width and height (pixels) of a camera's pictures."""

@@ -14,7 +14,7 @@ from typing import Any
 
 from ...errors import InputError, input_error
 from .did_you_mean import suggestion
-from .schema import Key, Part, Where, either, items, parts, wrong
+from .schema import Field, Key, Where, either, fields, items, validate
 from .settings import FORMER, FORMER_KEYS, Settings
 from .toml_positions import places
 from .toml_writer import text
@@ -33,7 +33,7 @@ def read(path: str | Path) -> Settings:
     path = Path(path)
     text = _load(path)
     settings = parse(text, path)
-    if found := wrong(settings):
+    if found := validate(settings):
         raise _Reader(path, text).error(*found)
     return settings
 
@@ -92,7 +92,7 @@ def _syntax_error(path: Path, text: str, message: str) -> InputError:
 
 
 class _Reader:
-    """Makes dataclasses of tables; bounds and choices are left to `schema.wrong`."""
+    """Makes dataclasses of tables; bounds and choices are left to `schema.validate`."""
 
     def __init__(self, path: Path, text: str) -> None:
         self.path = path
@@ -133,32 +133,32 @@ class _Reader:
 
     def table(self, kind: type, values: dict[str, Any], where: Where) -> Any:
         """A table of the file as the dataclass `kind`, with what it leaves out at its default."""
-        own = {part.name: part for part in parts(kind) if not part.key.kinds}
-        rig = next((part for part in parts(kind) if part.key.kinds), None)
+        own = {part.name: part for part in fields(kind) if not part.key.variants}
+        rig = next((part for part in fields(kind) if part.key.variants), None)
         rig_kind, tag = self.kind(rig.key, values, where) if rig else (None, ())
-        flat = {part.name: part for part in parts(rig_kind)} if rig_kind else {}
+        flat = {part.name: part for part in fields(rig_kind)} if rig_kind else {}
         for name in values:
             if name not in own and name not in flat and name not in tag:
                 raise self.error((*where, name), self.unknown(name, [*tag, *own, *flat], rig, where))
-        fields = {name: self.part(part, values, where) for name, part in own.items()}
+        known = {name: self.part(part, values, where) for name, part in own.items()}
         if rig:
-            fields[rig.name] = rig_kind(
+            known[rig.name] = rig_kind(
                 **{name: self.part(part, values, where) for name, part in flat.items()}
             )
         own = {"path": self.path, "notes": tuple(self.former)} if kind is Settings else {}
-        return kind(**fields, **own)
+        return kind(**known, **own)
 
     def kind(self, key: Key, values: dict[str, Any], where: Where) -> tuple[type, tuple[str]]:
         """The dataclass that the key `tag` of a table chooses, and the tag."""
-        here, name = (*where, key.tag), values.get(key.tag, key.usual)
-        if reason := key.wrong(self.expect(str, name, here)):
+        here, name = (*where, key.tag), values.get(key.tag, key.default_kind)
+        if reason := key.invalid(self.expect(str, name, here)):
             raise self.error(here, f"{_dotted(here)} {reason}")
-        return key.kinds()[name], (key.tag,)
+        return key.variants()[name], (key.tag,)
 
-    def unknown(self, name: str, known: list[str], rig: Part | None, where: Where) -> str:
+    def unknown(self, name: str, known: list[str], rig: Field | None, where: Where) -> str:
         """What to say of a key that is none."""
-        kinds = rig.key.kinds() if rig else {}
-        having = [kind for kind, made in kinds.items() if name in (part.name for part in parts(made))]
+        kinds = rig.key.variants() if rig else {}
+        having = [kind for kind, made in kinds.items() if name in (part.name for part in fields(made))]
         if having:
             return f"{name} belongs to {rig.key.tag} {either(having)}; known here: {', '.join(known)}"
         place = f"in [{_dotted(where)}]" if where else "in a scene file"
@@ -166,7 +166,7 @@ class _Reader:
             suggestion(name, known) or f"; known here: {', '.join(known)}"
         )
 
-    def part(self, part: Part, values: dict[str, Any], where: Where) -> Any:
+    def part(self, part: Field, values: dict[str, Any], where: Where) -> Any:
         """The value of one key of a table."""
         if part.name in values:
             return self.value(part.type, values[part.name], (*where, part.name))

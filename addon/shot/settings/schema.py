@@ -41,11 +41,11 @@ class Key:
         each; or a function that returns one of them.
     check
         Returns what else is wrong with a value, as words that follow the key's name, or None.
-    shows
+    affects
         Aspects of a product that the key changes; None: those of what it is in, or the name of its section.
-    kinds
+    variants
         Where one of several dataclasses may stand: each by its name. Their keys lie flat beside `tag`.
-    tag, usual
+    tag, default_kind
         The key that chooses the kind, and the kind that stands where it is left out.
     """
 
@@ -56,10 +56,10 @@ class Key:
     at_most: float | None = None
     choices: Names | Callable[[], Names] | None = None
     check: Callable[[Any], str | None] | None = None
-    shows: tuple[str, ...] | None = None
-    kinds: Callable[[], Mapping[str, type]] | None = None
+    affects: tuple[str, ...] | None = None
+    variants: Callable[[], Mapping[str, type]] | None = None
     tag: str = ""
-    usual: str = ""
+    default_kind: str = ""
 
     def names(self) -> dict[str, str]:
         """The choices, each with a few words about it ("" where there are none)."""
@@ -71,7 +71,7 @@ class Key:
         head, mark, remark = self.help.partition(";")
         return (f"{head}, {self.unit}" if self.unit else head) + mark + remark
 
-    def wrong(self, value: Any) -> str | None:
+    def invalid(self, value: Any) -> str | None:
         """What is wrong with a value of the right type, as words that follow the key's name."""
         if value is None:
             return None
@@ -125,20 +125,22 @@ def key(
     at_most: float | None = None,
     choices: Names | Callable[[], Names] | None = None,
     check: Callable[[Any], str | None] | None = None,
-    shows: tuple[str, ...] | None = None,
+    affects: tuple[str, ...] | None = None,
 ) -> Any:
     """Make the field of a key, or of a section; see `Key` for what the arguments mean."""
-    known = Key(help, unit, at_least, above, at_most, choices, check, shows)
+    known = Key(help, unit, at_least, above, at_most, choices, check, affects)
     return dataclasses.field(default=default, default_factory=default_factory, metadata={"key": known})
 
 
-def one_of(kinds: Callable[[], Mapping[str, type]], help: str, *, tag: str, usual: str) -> Any:
+def one_of(variants: Callable[[], Mapping[str, type]], help: str, *, tag: str, default_kind: str) -> Any:
     """Make the field of one of several dataclasses, with keys that lie flat beside the key `tag`."""
-    known = Key(help, choices=lambda: tuple(kinds()), kinds=kinds, tag=tag, usual=usual)
-    return dataclasses.field(default_factory=lambda: kinds()[usual](), metadata={"key": known})
+    known = Key(
+        help, choices=lambda: tuple(variants()), variants=variants, tag=tag, default_kind=default_kind
+    )
+    return dataclasses.field(default_factory=lambda: variants()[default_kind](), metadata={"key": known})
 
 
-class Part(NamedTuple):
+class Field(NamedTuple):
     """One key of a dataclass."""
 
     field: dataclasses.Field
@@ -169,11 +171,11 @@ class Part(NamedTuple):
 
 
 @functools.cache
-def parts(kind: type) -> tuple[Part, ...]:
+def fields(kind: type) -> tuple[Field, ...]:
     """Keys of a dataclass in their order."""
     hints = typing.get_type_hints(kind)
     fields = [field for field in dataclasses.fields(kind) if "key" in field.metadata]
-    return tuple(Part(field, field.metadata["key"], _declared(hints[field.name])) for field in fields)
+    return tuple(Field(field, field.metadata["key"], _declared(hints[field.name])) for field in fields)
 
 
 def _declared(hint: Any) -> Any:
@@ -182,7 +184,7 @@ def _declared(hint: Any) -> Any:
 
 def kind_of(known: Key, value: Any) -> str:
     """Name of the kind that `value` is one of."""
-    return next(name for name, kind in known.kinds().items() if type(value) is kind)
+    return next(name for name, kind in known.variants().items() if type(value) is kind)
 
 
 def summary(kind: type) -> str:
@@ -191,78 +193,78 @@ def summary(kind: type) -> str:
     return line[:1].lower() + line[1:]
 
 
-def walk(kind: type, section: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Part]]:
+def walk(kind: type, section: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Field]]:
     """Every key of a dataclass and of those in it: the section that it is in, and the key.
 
     A key that several kinds have (see `one_of`) comes once for each of them.
     """
-    for part in parts(kind):
+    for part in fields(kind):
         yield section, part
-        for inner in part.key.kinds().values() if part.key.kinds else ():
+        for inner in part.key.variants().values() if part.key.variants else ():
             yield from walk(inner, section)
         if part.table:
             yield from walk(part.table, (*section, part.name))
 
 
-def wrong(settings: Any, section: tuple[str, ...] = ()) -> tuple[Where, str] | None:
+def validate(settings: Any, section: tuple[str, ...] = ()) -> tuple[Where, str] | None:
     """First of what is wrong with settings whose types are right: where, and what in words.
 
-    A dataclass may have a method `wrong` of its own, for what no single key can say; that of a kind (see
+    A dataclass may have a method `validate` of its own, for what no single key can say; that of a kind (see
     `one_of`) is called by what it stands in.
     """
-    own = getattr(settings, "wrong", None)
+    own = getattr(settings, "validate", None)
     return _wrong_key(settings, section) or (own() if own else None)
 
 
 def _wrong_key(settings: Any, section: tuple[str, ...]) -> tuple[Where, str] | None:
-    for part in parts(type(settings)):
+    for part in fields(type(settings)):
         value, here = getattr(settings, part.name), (*section, part.name)
-        if part.key.kinds:
+        if part.key.variants:
             if found := _wrong_key(value, section):
                 return found
-        elif reason := part.key.wrong(value):
+        elif reason := part.key.invalid(value):
             return (part.name,), f"{'.'.join(here)} {reason}"
         elif found := _wrong_inside(part, value, here):
             return (part.name, *found[0]), found[1]
     return None
 
 
-def _wrong_inside(part: Part, value: Any, section: tuple[str, ...]) -> tuple[Where, str] | None:
+def _wrong_inside(part: Field, value: Any, section: tuple[str, ...]) -> tuple[Where, str] | None:
     if not part.tables:
-        return wrong(value, section) if part.table else None
+        return validate(value, section) if part.table else None
     for i, table in enumerate(value):
-        if found := wrong(table, section):
+        if found := validate(table, section):
             return (i, *found[0]), found[1]
     return None
 
 
-def chosen(settings: Any, shows: Iterable[str], camera: str | None = None) -> dict[str, Any]:
-    """The keys that change any of the aspects `shows`, as JSON can carry them: equal where the settings are.
+def select(settings: Any, affects: Iterable[str], camera: str | None = None) -> dict[str, Any]:
+    """The keys that affect any of these aspects, as JSON can carry them: equal where the settings are.
 
     Parameters
     ----------
     camera
         Name of the only one to take out of lists of tables that have names.
     """
-    return _chosen(settings, frozenset(shows), camera, ())
+    return _chosen(settings, frozenset(affects), camera, ())
 
 
 def _chosen(
-    settings: Any, shows: frozenset[str], camera: str | None, inherited: tuple[str, ...]
+    settings: Any, affects: frozenset[str], camera: str | None, inherited: tuple[str, ...]
 ) -> dict[str, Any]:
     found: dict[str, Any] = {}
-    for part in parts(type(settings)):
+    for part in fields(type(settings)):
         value = getattr(settings, part.name)
-        aspects = part.key.shows if part.key.shows is not None else inherited
-        if part.key.kinds:
-            tag = {part.key.tag: kind_of(part.key, value)} if shows & {*aspects} else {}
-            found |= tag | _chosen(value, shows, camera, aspects)
+        aspects = part.key.affects if part.key.affects is not None else inherited
+        if part.key.variants:
+            tag = {part.key.tag: kind_of(part.key, value)} if affects & {*aspects} else {}
+            found |= tag | _chosen(value, affects, camera, aspects)
         elif part.table:
             aspects = aspects or (part.name,)
             tables = [t for t in (value if part.tables else (value,)) if camera in (None, _name(t, camera))]
-            inner = [table for t in tables if (table := _chosen(t, shows, camera, aspects))]
+            inner = [table for t in tables if (table := _chosen(t, affects, camera, aspects))]
             found |= {part.name: inner if part.tables else inner[0]} if inner else {}
-        elif shows & {*aspects}:
+        elif affects & {*aspects}:
             found[part.name] = plain(part.type, value)
     return found
 

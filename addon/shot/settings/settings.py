@@ -21,7 +21,7 @@ from ..cameras import rigs
 from . import frame_list
 from .bounds import file_name, twice
 from .did_you_mean import suggestion
-from .schema import Where, key, kind_of, one_of, parts
+from .schema import Where, fields, key, kind_of, one_of
 
 BANDS = {"lwir": (8.0, 14.0), "mwir": (3.4, 4.1)}  # um, of infrared cameras
 MOST_RUNS = 3  # beside the first
@@ -70,12 +70,12 @@ class Time:
     )
     end: datetime | None = key(None, "model time of the last frame; if left out, the run's last time")
     frames: int = key(48, "number of frames, spread evenly from start to end", at_least=1, at_most=100_000)
-    fps: int = key(24, "frames per second of the films", at_least=1, at_most=240, shows=("film",))
+    fps: int = key(24, "frames per second of the films", at_least=1, at_most=240, affects=("film",))
     zone: str = key(
-        "", "time zone of the clock in the films; empty: the run's zone", check=_zone, shows=("film",)
+        "", "time zone of the clock in the films; empty: the run's zone", check=_zone, affects=("film",)
     )
 
-    def wrong(self) -> tuple[Where, str] | None:
+    def validate(self) -> tuple[Where, str] | None:
         """The end comes last."""
         if self.start and self.end and self.end <= self.start:
             return ("end",), "time.end must be later than time.start"
@@ -103,24 +103,24 @@ class Ground:
     elevation: Path | None = key(
         None,
         "digital elevation model, a GeoTIFF in any projection; overrides the run's heights where it has data",
-        shows=(),
+        affects=(),
     )
     photo: Path | None = key(
         None,
         "orthophoto of unburned terrain: a GeoTIFF, or a PNG or JPEG with a world file in degrees",
-        shows=(),
+        affects=(),
     )
     photo_extent: tuple[float, ...] = key(
         (),
         "bounds of a PNG or JPEG without a world file: west, south, east, north",
         unit="degrees",
         check=_box,
-        shows=(),
+        affects=(),
     )
     land_use: Path | None = key(
         None,
         "fields, tracks, roads, water and buildings: polygons and lines, .geojson or .gpkg",
-        shows=(),
+        affects=(),
     )
     apron: float = key(
         110_000.0,
@@ -139,28 +139,28 @@ class Forest:
         "auto",
         'vegetation type, such as "maquis" or "boreal"; "auto" selects it by place and fuel',
         choices=biome_names.choices,
-        shows=("terrain", "forest"),
+        affects=("terrain", "forest"),
     )
     greenness: float | None = key(
         None,
         "greenness of grass; 0: cured, 1: green; if left out, by date and hemisphere",
         at_least=0,
         at_most=1,
-        shows=("terrain", "forest"),
+        affects=("terrain", "forest"),
     )
     shrub_cover: float | None = key(
         None,
         "smallest share of open land under shrubs, except in sierra_conifer; if left out, by fuel and biome",
         at_least=0,
         at_most=1,
-        shows=("terrain", "forest"),
+        affects=("terrain", "forest"),
     )
     tree_cover: float | None = key(
         None,
         "share of open land under single trees, except in sierra_conifer; if left out, by biome",
         at_least=0,
         at_most=1,
-        shows=("terrain", "forest"),
+        affects=("terrain", "forest"),
     )
     trees: bool = key(True, "draw trees where the run has canopy fuel")
     grass: bool = key(True, "draw clumps of grass where the run has surface fuel")
@@ -219,7 +219,7 @@ class Fire:
     observed: Path | None = key(
         None,
         "observed perimeters or detections, drawn by date: .geojson, .shp, .kml, .gpkg, .csv or a folder",
-        shows=(),
+        affects=(),
     )
     observed_width: float = key(
         40.0, "line width of observed perimeters and of fronts", unit="m", above=0, at_most=5000
@@ -331,7 +331,7 @@ class Places:
     file: Path | None = key(
         None,
         "places to label: GeoJSON, or CSV with name, latitude, longitude; if left out, the fire's own",
-        shows=(),
+        affects=(),
     )
     size: float = key(0.035, "letter height", unit="heights of the picture", at_least=0.001, at_most=0.5)
     distance: float = key(
@@ -373,7 +373,7 @@ class Thermal:
         0, "bit depth of counts in the EXR, up to saturation; 0: no counts", at_least=0, at_most=16
     )
 
-    def wrong(self) -> tuple[Where, str] | None:
+    def validate(self) -> tuple[Where, str] | None:
         """Counts end somewhere."""
         if self.bits and not self.saturation:
             return ("bits",), "thermal.bits needs thermal.saturation, which fills the range of the counts"
@@ -384,10 +384,10 @@ class Thermal:
 class Camera:
     """A camera: its passes, and its rig (the kind of camera, with position and motion)."""
 
-    name: str = key("drone", "name of the camera, its folder and its files", check=file_name, shows=())
-    rig: Any = one_of(rigs.kinds, "kind of camera", tag="kind", usual=rigs.USUAL)
+    name: str = key("drone", "name of the camera, its folder and its files", check=file_name, affects=())
+    rig: Any = one_of(rigs.kinds, "kind of camera", tag="kind", default_kind=rigs.USUAL)
     passes: tuple[str, ...] = key(
-        (), 'passes, such as ["rgb"]; empty: those of [render]', choices=passes.helps, shows=("passes",)
+        (), 'passes, such as ["rgb"]; empty: those of [render]', choices=passes.helps, affects=("passes",)
     )
     frames: str = key("", 'frames, such as "24" or "1-48:4"; empty: all')
     resolution: tuple[int, int] | None = key(
@@ -402,12 +402,12 @@ class Camera:
     @property
     def kind(self) -> str:
         """Name of the kind of camera."""
-        rig = next(part for part in parts(Camera) if part.name == "rig")
+        rig = next(part for part in fields(Camera) if part.name == "rig")
         return kind_of(rig.key, self.rig)
 
-    def wrong(self) -> tuple[Where, str] | None:
+    def validate(self) -> tuple[Where, str] | None:
         """What its rig finds."""
-        found = self.rig.wrong()
+        found = self.rig.validate()
         return (found[0], f'camera "{self.name}" {found[1]}') if found else None
 
 
@@ -416,9 +416,9 @@ class OtherRun:
     """Another run of the same place and time, filmed by the same cameras."""
 
     name: str = key(
-        "what-if", 'name of the run; its camera "drone" is called drone@what-if', check=file_name, shows=()
+        "what-if", 'name of the run; its camera "drone" is called drone@what-if', check=file_name, affects=()
     )
-    path: Path = key(Path("what-if"), "folder of the run", shows=())
+    path: Path = key(Path("what-if"), "folder of the run", affects=())
 
 
 @dataclass(frozen=True)
@@ -429,13 +429,13 @@ class Render:
         "cycles",
         "render engine",
         choices={"cycles": "path tracing", "eevee": "rasterizing: faster, needs OpenGL"},
-        shows=("picture",),
+        affects=("picture",),
     )
     device: str = key(
         "auto",
         "device of Cycles",
         choices={"auto": "a GPU if there is one", "cpu": "the processor", "gpu": ""},
-        shows=(),
+        affects=(),
     )
     resolution: tuple[int, int] = key(
         (640, 360),
@@ -444,38 +444,40 @@ class Render:
         at_least=16,
         at_most=16384,
         check=_even,
-        shows=("picture",),
+        affects=("picture",),
     )
     samples: int = key(
         6,
         "samples per pixel; 3: a quick film, 12 to 24: a final picture",
         at_least=1,
         at_most=65536,
-        shows=("grain",),
+        affects=("grain",),
     )
     denoise: bool = key(
-        True, "denoise the picture; depth and temperatures are never denoised", shows=("grain",)
+        True, "denoise the picture; depth and temperatures are never denoised", affects=("grain",)
     )
     passes: tuple[str, ...] = key(
         ("rgb", "depth", "thermal"),
         "passes that cameras record",
         choices=passes.helps,
         check=_at_least_one,
-        shows=("passes",),
+        affects=("passes",),
     )
-    video: bool = key(True, "write rgb and thermal films of cameras with more than one frame", shows=())
-    seed: int = key(0, "random seed of the render noise", at_least=0, at_most=_LARGEST_SEED, shows=("grain",))
+    video: bool = key(True, "write rgb and thermal films of cameras with more than one frame", affects=())
+    seed: int = key(
+        0, "random seed of the render noise", at_least=0, at_most=_LARGEST_SEED, affects=("grain",)
+    )
     cull: bool = key(
         True,
         "frustum culling, occlusion culling and level of detail; false: none, for comparison",
-        shows=("terrain", "forest", "fire", "smoke"),
+        affects=("terrain", "forest", "fire", "smoke"),
     )
     chunk: int = key(
         480,
         "frames of a film built together; fewer need less memory, 0: all at once",
         at_least=0,
         at_most=_LARGEST_SEED,
-        shows=("terrain", "forest", "fire"),
+        affects=("terrain", "forest", "fire"),
     )
     thermal_low: float | None = key(
         None,
@@ -483,13 +485,13 @@ class Render:
         unit="K",
         above=0,
         at_most=10_000,
-        shows=("thermal",),
+        affects=("thermal",),
     )
     thermal_high: float = key(
-        800.0, "upper end of the thermal palette", unit="K", shows=("thermal",), above=0, at_most=10_000
+        800.0, "upper end of the thermal palette", unit="K", affects=("thermal",), above=0, at_most=10_000
     )
 
-    def wrong(self) -> tuple[Where, str] | None:
+    def validate(self) -> tuple[Where, str] | None:
         """The thermal picture's colours have a range."""
         if self.thermal_low is not None and self.thermal_high <= self.thermal_low:
             return ("thermal_high",), "render.thermal_high must be above render.thermal_low"
@@ -502,14 +504,14 @@ class Settings:
 
     path: Path = Path("scene.toml")  # the file itself; relative paths in it start at its folder
     notes: tuple[str, ...] = field(default=(), compare=False)  # what its reader has to tell
-    run: Path = key(Path("sample"), "run folder, such as `firetwin sample` writes", shows=())
-    cache: Path = key(Path("cache"), "folder of smoke volumes, kept and reused", shows=())
+    run: Path = key(Path("sample"), "run folder, such as `firetwin sample` writes", affects=())
+    cache: Path = key(Path("cache"), "folder of smoke volumes, kept and reused", affects=())
     seed: int = key(
         1,
         "random seed of trees, flames and puffs; the fire stays the same",
         at_least=0,
         at_most=_LARGEST_SEED,
-        shows=("terrain", "forest", "fire", "smoke"),
+        affects=("terrain", "forest", "fire", "smoke"),
     )
     time: Time = key(default_factory=Time, help="model times that the frames show")
     terrain: Ground = key(
@@ -525,9 +527,9 @@ class Settings:
     runs: tuple[OtherRun, ...] = key(
         (), "another run, filmed by the same cameras at the same times; at most 3"
     )
-    cameras: tuple[Camera, ...] = key((), "a camera and what it records", shows=("camera",))
+    cameras: tuple[Camera, ...] = key((), "a camera and what it records", affects=("camera",))
 
-    def wrong(self) -> tuple[Where, str] | None:
+    def validate(self) -> tuple[Where, str] | None:
         """Names of cameras differ, and their frames are among those of the scene."""
         i = twice([camera.name for camera in self.cameras])
         if i is not None:
@@ -540,7 +542,7 @@ class Settings:
                 frame_list.parse(camera.frames, self.time.frames)
             except ValueError as error:
                 return ("cameras", i, "frames"), f"cameras.frames: {error}"
-        return self._leaderless() or self._impossible() or self._alone()
+        return self._unknown_followed() or self._impossible() or self._alone()
 
     def _alone(self) -> tuple[Where, str] | None:
         """What is wrong with the other runs, or asked of them and there are none."""
@@ -578,10 +580,10 @@ class Settings:
                 return ("cameras", i, "resolution"), reason
         return None
 
-    def _leaderless(self) -> tuple[Where, str] | None:
+    def _unknown_followed(self) -> tuple[Where, str] | None:
         for i, camera in enumerate(self.cameras):
             name = getattr(camera.rig, "follows", "")
-            if name and camera.rig.leader(self.cameras) is None:
+            if name and camera.rig.followed(self.cameras) is None:
                 others = [each.name for each in self.cameras if not hasattr(each.rig, "follows")]
                 reason = f'camera "{camera.name}" follows "{name}", and no other camera has this name'
                 return ("cameras", i, "follows"), reason + suggestion(name, others)

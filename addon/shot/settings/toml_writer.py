@@ -10,7 +10,7 @@ from datetime import UTC, datetime, tzinfo
 from pathlib import Path
 from typing import Any
 
-from .schema import Key, Part, items, kind_of, parts, plain, summary
+from .schema import Field, Key, fields, items, kind_of, plain, summary
 from .settings import Settings
 
 Line = tuple[str, str]  # what is written, and the comment beside it
@@ -88,9 +88,9 @@ class _Writer:
                 head = brackets.format(".".join(inner)), self.once(part.key, _comment(part.key))
                 yield from self.table(each, inner, [head])
 
-    def shown(self, section: tuple[str, ...], part: Part, value: Any) -> bool:
+    def shown(self, section: tuple[str, ...], part: Field, value: Any) -> bool:
         """Whether a key has a line: of a brief file one that is asked for, or differs from its default."""
-        if part.table or self.asked is None or part.key.kinds:
+        if part.table or self.asked is None or part.key.variants:
             return not part.table
         if ".".join((*section, part.name)) in self.asked:
             return True
@@ -102,10 +102,10 @@ class _Writer:
         text = self.remarks.get(getattr(table, "name", "") if section else "run", "")
         return [(f"# {line}", "") for line in text.splitlines()]
 
-    def line(self, part: Part, value: Any, placed: bool = False) -> Line:
+    def line(self, part: Field, value: Any, placed: bool = False) -> Line:
         """A key, its value and its comment, which tells the default unless it is of a placed camera."""
         key = part.key
-        if key.kinds:
+        if key.variants:
             return f'{key.tag} = "{kind_of(key, value)}"', f"{key.help}: {summary(type(value))}"
         if value is None:
             return f"# {part.name} = {_SAMPLES[part.type]}", self.once(key, _comment(key))
@@ -114,7 +114,7 @@ class _Writer:
         comment = _comment(key) + (f" (default {usual})" if told else "")
         return f"{part.name} = {written}", self.once(key, comment)
 
-    def usual(self, part: Part) -> str:
+    def usual(self, part: Field) -> str:
         """The default in TOML; empty where there is none."""
         if part.default is None:
             return ""
@@ -145,12 +145,12 @@ def quoted(text: str) -> str:
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-def _flat(table: Any) -> Iterator[tuple[Part, Any]]:
+def _flat(table: Any) -> Iterator[tuple[Field, Any]]:
     """Keys of a dataclass with their values; those of a kind follow the key that names it."""
-    for part in parts(type(table)):
+    for part in fields(type(table)):
         value = getattr(table, part.name)
         yield part, value
-        if part.key.kinds:
+        if part.key.variants:
             yield from _flat(value)
 
 

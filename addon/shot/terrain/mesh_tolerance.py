@@ -133,13 +133,13 @@ def _tolerance(
 
     near = np.zeros(len(centre), bool)
     if angle is not None:
-        near = shot.sights.seen(centre, radius, margin=_MARGIN)
+        near = shot.visibility.visible_mask(centre, radius, margin=_MARGIN)
         seen = shaded(near)
-        distance[seen] = np.maximum(shot.sights.distance(centre[seen]) - radius[seen], _NEAREST)
-        drawn = np.maximum(shot.sights.drawn_from(centre[seen]) - radius[seen], _NEAREST)
+        distance[seen] = np.maximum(shot.visibility.distance(centre[seen]) - radius[seen], _NEAREST)
+        drawn = np.maximum(shot.visibility.lod_distance(centre[seen]) - radius[seen], _NEAREST)
         tolerance[seen] = _allowed(angle * drawn)
     if pixel is not None:
-        far = shot.sights.seen(centre, radius, margin=_MARGIN, pixel=np.inf, perspective=False)
+        far = shot.visibility.visible_mask(centre, radius, margin=_MARGIN, pixel=np.inf, perspective=False)
         seen = shaded(near | far)
         tolerance[seen] = np.minimum(tolerance[seen], pixel)
     return tolerance, distance

@@ -128,7 +128,7 @@ class Source(ABC):
 
     def prepare(self, frames: Iterable[int], progress: Progress = silent) -> None:
         """Do once what these frames need, before several threads write them."""
-        _ = self.sights
+        _ = self.visibility
 
     def in_use(self) -> AbstractContextManager[None]:
         """Keep others from clearing meanwhile what it has prepared."""
@@ -163,13 +163,13 @@ class Source(ABC):
     # what sources share
 
     @property
-    def sights(self) -> Any:
-        """What the cameras see (see `visibility.Sights`), if only that is wanted. Else None."""
-        return None if self.shot.settings.smoke.complete else self.shot.sights
+    def visibility(self) -> Any:
+        """What the cameras see (see `visibility.Visibility`), if only that is wanted. Else None."""
+        return None if self.shot.settings.smoke.complete else self.shot.visibility
 
     def sight(self, frame: int) -> lod.ViewSet | None:
         """What the cameras see in a frame, if only that is wanted."""
-        return self.sights.at(frame) if self.sights else None
+        return self.visibility.view_set(frame) if self.visibility else None
 
     def lights(self, time: float) -> Lights:
         """Flames that light the smoke at a model time, s."""

@@ -95,7 +95,7 @@ class FlowSource(Source):
         self.flow.ready(frame)
         time = float(self.times[frame - 1])
         metadata = self.metadata(time, "a flow of the air, solved from the model's heat")
-        eyes = self.sights.eyes(frame) if self.sights else None
+        eyes = self.visibility.eyes(frame) if self.visibility else None
         beyond: flow_frames.Beyond | None = None
         for painter in self.painters:
             place = painter.layer.file(path.parent, frame)

@@ -39,27 +39,27 @@ class Rig:
     around: ClassVar[bool] = False
 
     @classmethod
-    def seeing(cls, view: View) -> Rig:
+    def from_view(cls, view: View) -> Rig:
         """One that shows about what is seen in a view; a usual one where its kind cannot."""
         return cls()
 
-    def wrong(self) -> tuple[Where, str] | None:
+    def validate(self) -> tuple[Where, str] | None:
         """What no single key can say: where in its table, and words that follow the camera's name."""
         return None
 
-    def places(self) -> list[Place]:
+    def coordinates(self) -> list[Place]:
         """Where in the table a place stands, and its latitude and longitude: all must be on the ground."""
         return []
 
-    def reads(self) -> list[Path]:
+    def input_files(self) -> list[Path]:
         """Files that its way depends on."""
         return []
 
-    def leader(self, cameras: Sequence[CameraSettings]) -> CameraSettings | None:
+    def followed(self, cameras: Sequence[CameraSettings]) -> CameraSettings | None:
         """Another of these cameras on whose way its own depends."""
         return None
 
-    def misfit(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
+    def validate_against(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
         """What of it does not fit the run: where in its table, and words that follow the camera's name."""
         return None
 

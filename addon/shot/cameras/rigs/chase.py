@@ -33,7 +33,7 @@ class Chase(Lens):
     over_ridges: bool = key(True, "rise until no ridge hides the head")
 
     @classmethod
-    def seeing(cls, view: View) -> Chase:
+    def from_view(cls, view: View) -> Chase:
         """As far from the head, and as high above the ground, as the eye is from the middle of the view."""
         return cls(**view.lens, distance=max(view.away, 1.0), height=view.above)
 

@@ -47,24 +47,24 @@ class Drone(Lens):
     track: File | None = key(  # noqa: RUF009
         None,
         "flight track, .gpx, .kml or .csv; keys then set only the view (no keys: ahead)",
-        shows=(),
+        affects=(),
     )
     track_times: str = key("own", "time base of a track with times", choices=MOMENTS)
     keys: tuple[CameraKey, ...] = key((), "position and view at one time")
 
     @classmethod
-    def seeing(cls, view: View) -> Drone:
+    def from_view(cls, view: View) -> Drone:
         """It hovers there and looks at what is in the middle of the view."""
         place = view.latitude, view.longitude, max(view.height, 1.0)
         return cls(**view.lens, keys=(CameraKey(0.0, *place, "point", *view.aim, above="sea"),))
 
-    def wrong(self) -> tuple[Where, str] | None:
+    def validate(self) -> tuple[Where, str] | None:
         """A drone is somewhere, and its moments rise."""
         if not self.keys and self.track is None:
             return ("keys",), "has no [[cameras.keys]] and no track; a drone needs at least one key"
         return rising(self.keys)
 
-    def places(self) -> list[Place]:
+    def coordinates(self) -> list[Place]:
         """Its keys, and the points that it looks at."""
         found: list[Place] = []
         for i, at in enumerate(self.keys):
@@ -76,11 +76,11 @@ class Drone(Lens):
             found += [(("track",), *corner) for corner in read(self.track).corners()]
         return found
 
-    def reads(self) -> list[File]:
+    def input_files(self) -> list[File]:
         """Its track."""
         return [] if self.track is None else [self.track]
 
-    def misfit(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
+    def validate_against(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
         """A track that keeps its own times is flown while the frames are."""
         if self.track is None or self.track_times != "own":
             return None

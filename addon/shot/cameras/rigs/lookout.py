@@ -47,18 +47,18 @@ class Lookout(Lens):
     keys: tuple[LookoutKey, ...] = key((), "view at one time; without keys the camera looks north")
 
     @classmethod
-    def seeing(cls, view: View) -> Lookout:
+    def from_view(cls, view: View) -> Lookout:
         """A mast as high as the eye."""
         keys = (LookoutKey(0.0, view.heading, float(np.clip(view.tilt, -89.0, 89.0))),)
         return cls(
             **view.lens, latitude=view.latitude, longitude=view.longitude, height=view.above, keys=keys
         )
 
-    def wrong(self) -> tuple[Where, str] | None:
+    def validate(self) -> tuple[Where, str] | None:
         """Its moments rise."""
         return rising(self.keys)
 
-    def places(self) -> list[Place]:
+    def coordinates(self) -> list[Place]:
         """Where it stands."""
         return [(("latitude",), self.latitude, self.longitude)]
 

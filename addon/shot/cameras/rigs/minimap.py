@@ -28,18 +28,18 @@ class Minimap(Rig):
     swath: float = key(6000.0, "swath: width of the picture on the terrain", **SWATH)
 
     @classmethod
-    def seeing(cls, view: View) -> Minimap:
+    def from_view(cls, view: View) -> Minimap:
         """As wide as the view."""
         return cls(swath=view.width)
 
-    def leader(self, cameras: Sequence[CameraSettings]) -> CameraSettings | None:
+    def followed(self, cameras: Sequence[CameraSettings]) -> CameraSettings | None:
         """The camera that it follows; None where there is none of that name, or none at all."""
         found = (each for each in cameras if not hasattr(each.rig, "follows"))
         return next((each for each in found if self.follows in ("", each.name)), None)
 
     def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
         """Over the camera that it follows in every frame; over the middle of the run without one."""
-        leader = self.leader(shot.cameras)
+        leader = self.followed(shot.cameras)
         east, north = np.zeros((2, shot.frames.count))
         if leader is not None:
             way = leader.rig.path(leader, shot, ground)

@@ -30,18 +30,18 @@ class Mounted(Rig):
     )
     sensor_width: float = key(SENSOR, "width of its own sensor, used with its own focal length", **WIDTH)
 
-    def wrong(self) -> tuple[Where, str] | None:
+    def validate(self) -> tuple[Where, str] | None:
         """It is on some mount."""
         return None if self.follows else (("follows",), "has no follows; name the camera it is mounted with")
 
-    def leader(self, cameras: Sequence[CameraSettings]) -> CameraSettings | None:
+    def followed(self, cameras: Sequence[CameraSettings]) -> CameraSettings | None:
         """The camera whose mount it shares; None where none in perspective has the name."""
         found = (each for each in cameras if isinstance(each.rig, Lens))
         return next((each for each in found if each.name == self.follows), None)
 
     def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
         """The way of the camera that it follows, seen by its own lens."""
-        leader = self.leader(shot.cameras)
+        leader = self.followed(shot.cameras)
         way = self.through(leader.rig.path(leader, shot, ground))
         width, height = shot.resolution(camera)
         half = way.half[0], way.half[0] * height / width

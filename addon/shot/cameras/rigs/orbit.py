@@ -53,7 +53,7 @@ class Orbit(Lens):
     clearance: float = key(50.0, "minimum height above the terrain under the circle", **CLEARANCE)
 
     @classmethod
-    def seeing(cls, view: View) -> Orbit:
+    def from_view(cls, view: View) -> Orbit:
         """Round what is in the middle of the view, beginning at the eye."""
         latitude, longitude = view.aim
         return cls(
@@ -65,7 +65,7 @@ class Orbit(Lens):
             bearing=(view.heading + 180.0) % 360.0,
         )
 
-    def places(self) -> list[Place]:
+    def coordinates(self) -> list[Place]:
         """The point that it circles."""
         if self.latitude is None or self.longitude is None:
             return []

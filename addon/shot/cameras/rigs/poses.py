@@ -51,18 +51,18 @@ class Poses(Lens):
     keys: tuple[Pose, ...] = key((), "pose at one time")
 
     @classmethod
-    def seeing(cls, view: View) -> Poses:
+    def from_view(cls, view: View) -> Poses:
         """The view itself."""
         pose = Pose(0.0, view.latitude, view.longitude, view.height, view.heading, view.tilt, view.roll)
         return cls(**view.lens, keys=(pose,))
 
-    def wrong(self) -> tuple[Where, str] | None:
+    def validate(self) -> tuple[Where, str] | None:
         """It is somewhere, and its moments rise."""
         if not self.keys:
             return ("keys",), "has no [[cameras.keys]]; poses need at least one"
         return rising(self.keys)
 
-    def places(self) -> list[Place]:
+    def coordinates(self) -> list[Place]:
         """Its poses."""
         return [(("keys", i, "latitude"), at.latitude, at.longitude) for i, at in enumerate(self.keys)]
 

@@ -49,19 +49,19 @@ class Satellite(Rig):
     )
 
     @classmethod
-    def seeing(cls, view: View) -> Satellite:
+    def from_view(cls, view: View) -> Satellite:
         """Straight over the middle of the view, and as wide."""
         return cls(swath=view.width, keys=(CameraKey(0.0, *view.aim),))
 
-    def wrong(self) -> tuple[Where, str] | None:
+    def validate(self) -> tuple[Where, str] | None:
         """Its moments rise."""
         return rising(self.keys)
 
-    def places(self) -> list[Place]:
+    def coordinates(self) -> list[Place]:
         """Where it stands."""
         return [(("keys", i, "latitude"), at.latitude, at.longitude) for i, at in enumerate(self.keys)]
 
-    def misfit(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
+    def validate_against(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
         """From there it sees the place."""
         if self.geostationary is None:
             return None

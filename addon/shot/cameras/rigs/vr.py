@@ -44,28 +44,28 @@ class Vr(Rig):
     )
     clearance: float = key(10.0, "minimum height above the terrain, also between frames", **CLEARANCE)
     track: File | None = key(  # noqa: RUF009
-        None, "flight track, as of a drone", shows=()
+        None, "flight track, as of a drone", affects=()
     )
     track_times: str = key("own", "time base of a track with times", choices=MOMENTS)
     keys: tuple[CameraKey, ...] = key((), "position and view at one time")
 
-    def wrong(self) -> tuple[Where, str] | None:
+    def validate(self) -> tuple[Where, str] | None:
         """It is somewhere, and its moments rise."""
         if not self.keys and self.track is None:
             return ("keys",), "has no [[cameras.keys]] and no track; one key puts it in a place"
-        return self._drone().wrong()
+        return self._drone().validate()
 
-    def places(self) -> list[Place]:
+    def coordinates(self) -> list[Place]:
         """Its keys, and the points in the middle of its pictures."""
-        return self._drone().places()
+        return self._drone().coordinates()
 
-    def reads(self) -> list[File]:
+    def input_files(self) -> list[File]:
         """Its track."""
-        return self._drone().reads()
+        return self._drone().input_files()
 
-    def misfit(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
+    def validate_against(self, run: Run, frames: Frames) -> tuple[Where, str] | None:
         """A track that keeps its own times is flown while the frames are."""
-        return self._drone().misfit(run, frames)
+        return self._drone().validate_against(run, frames)
 
     def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
         """Where a drone with these keys would be, upright; what it sees next to its feet is to the north."""
