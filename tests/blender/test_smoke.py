@@ -170,14 +170,14 @@ def test_a_thermal_picture_shows_all_smoke(smoky, run, monkeypatch):
     assert bake.shot_frames(shot) == [1, 2, 3]
     shot.visibility.distance(np.zeros((1, 3)))  # the ground that hides is made with true sights
     monkeypatch.setattr(visibility.lod, "ViewSet", lambda cameras, *_, **_more: len(cameras))
-    assert [shot.visibility.at(frame) for frame in (1, 2, 3)] == [1, 2, 1]
+    assert [shot.visibility.view_set(frame) for frame in (1, 2, 3)] == [1, 2, 1]
 
 
 def test_a_camera_that_records_no_smoke_culls_none_of_anothers(smoky, run):
     above = Camera("above", Satellite(), passes=("depth",), frames="2")
     shot = Shot(replace(smoky, cameras=(*smoky.cameras, above)), run)
     eye, aim = shot.paths[0].position[1], shot.paths[0].target[1]
-    seen = [lod.visible_mask([eye - (aim - eye)], 0.0, shot.visibility.at(frame))[0] for frame in (1, 2, 3)]
+    seen = [lod.visible_mask([eye - (aim - eye)], 0.0, shot.visibility.view_set(frame))[0] for frame in (1, 2, 3)]
     assert seen == [False, True, False]
 
 

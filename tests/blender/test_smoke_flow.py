@@ -267,7 +267,7 @@ def test_what_nobody_sees_is_not_painted_and_nothing_else_changes(shot, flowing,
     solved = flow.Flow(shot)
     solved.ready(1)
     painter = flow_frames.Painter(shot, flow_frames.layers(shot, solved)[-1], None)
-    views = shot.visibility.at(1)
+    views = shot.visibility.view_set(1)
     asked = []
     real = flow_frames._wanted
 

@@ -240,9 +240,9 @@ def test_what_stands_on_the_ground_depends_on_the_models_content(make, tiff, tmp
     shot = make().shot()
     plain, whole = content.inputs(shot.run, tmp_path / "cache"), shot.input_hashes()
     assert set(whole) - set(plain) == {"elevation model"}
-    assert make().shot().inputs() == whole
+    assert make().shot().input_hashes() == whole
     tiff(waves)
-    assert make().shot().inputs() != whole
+    assert make().shot().input_hashes() != whole
     assert not (tmp_path / content.REMEMBERED).exists()
     bare = replace(scene_file.read(tmp_path / "scene.toml").terrain, elevation=None)
     assert replace(shot.settings, terrain=bare).terrain.elevation is None

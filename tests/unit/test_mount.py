@@ -172,7 +172,7 @@ def seen(sidecar, latitude, longitude, height):
 def test_a_sidecar_alone_says_where_a_place_is_seen(shot, name):
     cameras = [DRONE, Camera("two", Mounted("drone", 50.0)), Camera("sat", Satellite(swath=4000.0))]
     cameras += [Camera("goes", Satellite(swath=4000.0, geostationary=-137.0)), Camera("map", Minimap())]
-    made = shot(*cameras).of(name)
+    made = shot(*cameras).for_camera(name)
     (view,) = made.paths
     found = json.loads(json.dumps(pose.described(made, view, 3)))
     side = view.halves[2] / (view.meet or 1.0) * [0.5, 0.25]  # in the middle of the upper right quarter

@@ -74,7 +74,7 @@ def test_a_lookout_zooms_evenly_to_the_eye(run):
     assert across[[0, -1]] == pytest.approx([wide, wide / 4.0])
     assert across[1:] / across[:-1] == pytest.approx(0.25 ** (1 / 20))
     aim = view.position[0] + 1000.0 * (-view.rotation[0, :, 2] + 0.5 * wide * view.rotation[0, :, 0])
-    first, last = (shot.visibility.at(frame) for frame in (1, 21))
+    first, last = (shot.visibility.view_set(frame) for frame in (1, 21))
     assert lod.visible_mask(aim[None], 0.0, first).all()
     assert not lod.visible_mask(aim[None], 0.0, last).any()
 

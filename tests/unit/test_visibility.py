@@ -55,7 +55,7 @@ def test_frames_that_are_not_filmed_do_not_count(film):
     alone = lod.visible_mask(aim, 0.0, lod.ViewSet(path.position[[0, 2]], path.rotation[[0, 2]], path.half))
     assert some.visibility.visible_mask(aim, 0.0).tolist() == alone.tolist()
     assert whole.visibility.visible_mask(aim, 0.0).all()
-    assert [some.visibility.at(frame) is None for frame in (1, 2, 3)] == [False, True, False]
+    assert [some.visibility.view_set(frame) is None for frame in (1, 2, 3)] == [False, True, False]
 
 
 def test_satellites_can_be_asked_alone(film):
@@ -102,10 +102,10 @@ def test_without_skipping_all_counts_as_seen_and_is_drawn_as_from_near_by(film):
     near = whole.visibility.distance(place) <= 1400.0
     assert whole.visibility.visible_mask(place, 600.0, reach=800.0).tolist() == near.tolist()
     np.testing.assert_array_equal(some.visibility.distance(place), whole.visibility.distance(place))
-    np.testing.assert_array_equal(some.visibility.drawn_from(place), some.visibility.distance(place))
-    assert not whole.visibility.drawn_from(place).any()
-    assert some.visibility.at(1) is not None
-    assert whole.visibility.at(1) is None
+    np.testing.assert_array_equal(some.visibility.lod_distance(place), some.visibility.distance(place))
+    assert not whole.visibility.lod_distance(place).any()
+    assert some.visibility.view_set(1) is not None
+    assert whole.visibility.view_set(1) is None
     tolerance = [mesh_tolerance.wanted(shot).tolerance for shot in (some, whole)]
     assert np.all(tolerance[1] <= tolerance[0] + 1e-6)
     assert tolerance[1].max() < 0.03 < tolerance[0].max()
