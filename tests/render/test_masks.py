@@ -37,7 +37,7 @@ def shoot(near_settings, run, tmp_path):
             render=replace(near_settings.render, resolution=(96, 54), samples=1),
             smoke=replace(near_settings.smoke, draw="volume"),
         )
-        shot = Shot(settings, run).of(camera)
+        shot = Shot(settings, run).for_camera(camera)
         build.build(shot, stage.scene)
         layers.build(shot.settings, stage)
         engine.apply(shot.settings, stage.scene)

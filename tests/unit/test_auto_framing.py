@@ -82,7 +82,7 @@ def test_what_is_said_to_show_is_what_the_shot_sees(fit_of, name):
     """Over its own ground, with detail near cameras, by the views that everything else is skipped by."""
     found, run = fit_of(name)
     for camera in ("overview", "satellite"):
-        shot = Shot(found.settings, run).of(camera)
+        shot = Shot(found.settings, run).for_camera(camera)
         points = front.find_front(shot).point
         seen = shot.visibility.visible_mask(points, 1.0, pixel=np.inf)
         assert seen.mean() >= max(found.shares[camera] - 0.02, candidates.LEAST)
@@ -110,7 +110,7 @@ def test_the_overview_stands_to_windward_with_the_sun_behind_it(fit_of):
     assert 200.0 < way < 320.0
     assert "windward" in found.cameras["overview"]
     found, run = fit_of("calm")
-    way = candidates.bearing(Shot(found.settings, run).of("overview").paths[0])
+    way = candidates.bearing(Shot(found.settings, run).for_camera("overview").paths[0])
     azimuth, height = sun.position(run, 0.0)
     assert height > 0.0
     assert np.cos(np.radians(way - azimuth)) > 0.8
@@ -284,7 +284,7 @@ def test_a_run_that_burns_nothing_is_seen_whole(make_run):
     run = readers.open(folder)
     run_checks.check(found.settings, run)
     assert list(found.cameras) == ["overview", "satellite"]
-    view = Shot(found.settings, run).of("overview").paths[0]
+    view = Shot(found.settings, run).for_camera("overview").paths[0]
     corners = Shot(found.settings, run).ground.point(run.latitude[[0, -1]], run.longitude[[0, -1]])
     local = (corners - view.position[0]) @ view.rotation[0]
     assert (np.abs(local[:, 0] / -local[:, 2]) < view.half[0]).all()
