@@ -84,7 +84,7 @@ def _built(settings: Settings, camera: Camera) -> Settings:
 def _modules(name: str) -> list[str]:
     """Files of a pass, of what passes are finished with, and of those that it is made from."""
     file, each = inspect.getfile(sys.modules[f"{passes.__name__}.{name}"]), passes.known()[name]
-    helpers = map(str, sorted(Path(passes.__file__).parent.glob("_[a-z]*.py")))
+    helpers = ("imaging", *map(str, sorted(Path(passes.__file__).parent.glob("_[a-z]*.py"))))
     return [
         file,
         *each.code,

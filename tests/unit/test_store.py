@@ -389,6 +389,7 @@ def test_a_changed_source_changes_what_it_makes_and_no_more(tmp_path, monkeypatc
     shown = {"rgb", "thermal", "thermal_map", "edl", "overlay", "fused", "masks", "split", "difference"}
     assert changed("scene/smoke/material.py") == shown
     assert changed("scene/fire/flames.py") == shown
+    assert changed("imaging/colour_bar.py") == set(passes.known()) - {"rgb", "normal"}
     assert changed("scene/terrain/build.py") == set(passes.known())
     assert changed("scene/haze.py") == set(passes.known())
     assert changed("shot/fire/fire.py") == set(passes.known())
