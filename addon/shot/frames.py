@@ -1,4 +1,4 @@
-"""Frames of a shot and the model times that they show."""
+"""Frame times: frames of a shot and the model times that they show."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Frames:
-    """Frames 1 to `count`, spread evenly from model time `first` to `last` (s since the run began)."""
+    """Frames 1 to `count` at even steps from model time `first` to `last` (s since the run began)."""
 
     first: float
     last: float
@@ -33,7 +33,7 @@ class Frames:
 
     @property
     def middle(self) -> float:
-        """Model time (s) half-way."""
+        """Model time at the middle of the shot, s."""
         return 0.5 * (self.first + self.last)
 
     @property
@@ -42,12 +42,12 @@ class Frames:
         return self.first + np.arange(self.count) * self.step
 
     def time(self, frame: float) -> float:
-        """Model time (s) that a frame shows: first + (frame - 1) (last - first) / (count - 1)."""
+        """Model time of a frame, s: first + (frame - 1) (last - first) / (count - 1)."""
         return self.first + (frame - 1.0) * self.step
 
 
 def resolve(time: Time, run: Run) -> Frames:
-    """Frames of the scene file's [time] in a run; a still has one moment, its start."""
+    """Frame times from the scene file's [time] in a run; a still has one time, its start."""
     first = float(run.times[0]) if time.start is None else times.seconds(run, time.start)
     if time.frames == 1:
         return Frames(first, first, 1)
@@ -56,17 +56,17 @@ def resolve(time: Time, run: Run) -> Frames:
 
 
 def parts(listed: list[int], chunk: int) -> dict[int, list[int]]:
-    """Frames that are built together, `render.chunk` numbers at a time, by the number of the part; 0: all."""
+    """Chunks: frames that are built together, by chunk number. A `chunk` of 0 builds all frames at once."""
     return {k: list(part) for k, part in itertools.groupby(listed, lambda frame: part_of(frame, chunk))}
 
 
 def part_of(frame: int, chunk: int) -> int:
-    """Number of the part that a frame is in."""
+    """Chunk number of a frame."""
     return (frame - 1) // chunk if chunk else 0
 
 
 def chunk(settings: Settings, camera: Camera) -> int:
-    """`render.chunk`, or 0 where all frames that a camera films are built together."""
+    """Chunk size of a camera: `render.chunk`, or 0 if all its frames are built together."""
     asked = settings.render.chunk
     listed = frame_list.parse(camera.frames, settings.time.frames)
     return asked if part_of(listed[0], asked) != part_of(listed[-1], asked) else 0

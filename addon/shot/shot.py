@@ -1,4 +1,4 @@
-"""What is filmed: settings and run, resolved once. Everything that builds, bakes or renders takes it."""
+"""Shot: a scene file resolved with its fire model run, as input of building, baking and rendering."""
 
 from __future__ import annotations
 
@@ -32,31 +32,31 @@ from .terrain.elevation import Elevation
 from .terrain.terrain import Ground
 from .visibility import Visibility
 
-_BEFORE = 3600.0  # s before the first frame that ground which burned since counts as burning
-WIDE_LENS = 28.0  # mm; pictures to scale count as taken with it
-_SPIN_UP = 1800.0  # s, of a fire of 15 km
-_NOWHERE = 20_000.0  # m, distance of a fire that no camera looks at
+_BEFORE = 3600.0  # s before the first frame; ground that burned in this time still counts as burning
+WIDE_LENS = 28.0  # mm, reference focal length at which orthographic views are compared with perspective ones
+_SPIN_UP = 1800.0  # s, spin-up of a fire 15 km across
+_NOWHERE = 20_000.0  # m, fire distance of a shot without cameras or without fire
 
 
 class Shot:
-    """A scene file and its run.
+    """A scene file resolved with its run.
 
-    What takes time to work out is worked out when it is first asked for, and once.
+    Expensive properties are computed at first use and cached.
 
     Attributes
     ----------
     settings
-        The scene file; its clock's zone is the run's where it says none.
+        The scene file. A missing time zone is filled in from the run.
     run
         The model run.
     frames
-        Frames and the model times that they show.
+        Frames and their model times.
     relief
-        Heights of the ground on the run's grids.
+        Terrain elevation on the run's grids.
     cameras
-        All of the scene file's, also those that are not filmed here: others may follow them.
+        All cameras of the scene file. A filmed camera may follow one that is not filmed.
     full
-        The shot that this is a part of; else itself.
+        The full shot of which this is a subset; else itself.
     """
 
     def __init__(self, settings: Settings, run: Run) -> None:
@@ -68,7 +68,7 @@ class Shot:
         self.relief: Elevation = elevation.resolve(settings, run)
 
     def input_hashes(self, leave_out: Collection[str] = (), progress: Progress = silent) -> dict[str, str]:
-        """SHA-256 of each field of the run but some, and of the elevation model."""
+        """SHA-256 of each input: the run's fields except `leave_out`, and the elevation model."""
         settings = self.settings
         found = content.inputs(self.run, settings.cache, leave_out, progress)
         model = settings.terrain.elevation
@@ -78,28 +78,28 @@ class Shot:
 
     @cached_property
     def arrival(self) -> NDArray[np.float64]:
-        """(fy, fx) s, when the front passes the middle of each fuel cell; NaN where never."""
+        """Fire arrival time (fy, fx), s, at the centre of each fuel cell; NaN where it never burns."""
         return self.run.fuel_arrival_time()
 
     @cached_property
     def scale(self) -> Scale:
-        """How fine the air over the fire is solved, and its smoke drawn."""
+        """Resolution scale of the flow solver and of its smoke."""
         long = smoke_scale.extent(self.run, self.arrival, self.frames.first, self.frames.last)
         return smoke_scale.choose(long, max(burning.fuel_cell(self.run)), self.settings.smoke.cell_budget)
 
     @property
     def spin_up(self) -> float:
-        """How long before the first frame the flow of smoke begins, s."""
+        """Spin-up: time that the smoke flow is solved before the first frame, s."""
         return self._history("spin_up")
 
     def _history(self, key: str) -> float:
-        """How far back from the first frame (s) a key of [smoke] reaches; left out, by the fire's size."""
+        """Time before the first frame, s, of a key of [smoke]; its default scales with the fire's size."""
         told = getattr(self.settings.smoke, key)
         return self.scale.time(_SPIN_UP) if told is None else told
 
     @cached_property
     def fire(self) -> Fire:
-        """What burns from the first frame to the last; it is there for all cameras."""
+        """The fire from the first frame to the last, with the history that smoke needs."""
         since = self._history(SMOKE_METHODS[self.settings.smoke.method].history)
         before = max(since + burning.BURN_TIME, _BEFORE)
         span = self.frames.first, self.frames.last, before
@@ -107,20 +107,20 @@ class Shot:
 
     @cached_property
     def others(self) -> dict[str, Run]:
-        """The scene file's other runs by their names."""
+        """The scene file's comparison runs, by name."""
         return scene_runs.open_others(self.settings)
 
     @property
     def label(self) -> str:
-        """Name of the run beside others: that of its folder."""
+        """Label of the run in comparisons: the name of its folder."""
         return self.settings.run.absolute().name
 
     def other_runs(self) -> dict[str, Run]:
-        """The runs that this one stands beside, by name."""
+        """Comparison runs of this shot, by name."""
         return dict(self.others)
 
     def for_camera(self, name: str) -> Shot:
-        """The same shot with this camera alone: what it films depends on no other but that it follows.
+        """A shot with this camera alone. Its content depends only on this camera and on the one it follows.
 
         See `comparison.for_view` for views of other runs.
         """
@@ -131,9 +131,9 @@ class Shot:
         return shot
 
     def for_frames(self, listed: list[int]) -> Shot:
-        """The same shot of one camera, for some of the frames that it films, ascending.
+        """A subset of a one-camera shot: some of its filmed frames, ascending.
 
-        Paths, smoke and light stay those of the whole; ground, plants and flames are what these frames show.
+        Paths, smoke and light are those of the full shot. Terrain, plants and flames cover these frames only.
         """
         (camera,) = self.settings.cameras
         camera = replace(camera, frames=",".join(map(str, listed)))
@@ -142,19 +142,19 @@ class Shot:
         return shot
 
     def _sharing(self, settings: Settings) -> Shot:
-        """A shot of these settings that shares ground, fire and scale with this one."""
+        """A shot with other settings that shares terrain, fire and scale with this one."""
         shot = Shot(settings, self.run)
         shot.relief, shot.fire, shot.bare_ground = self.relief, self.fire, self.bare_ground
         shot.scale, shot.arrival, shot.cameras = self.scale, self.arrival, self.cameras
         return shot
 
     def camera(self, name: str) -> Camera:
-        """The camera of this name; in another run it has the name of that view.
+        """Look up a camera by name. A view of a comparison run has a name of its own.
 
         Raises
         ------
         UsageError
-            There is none.
+            No camera has this name.
         """
         known, _, _ = name.partition("@")
         views = scene_runs.views(self.settings)
@@ -167,69 +167,69 @@ class Shot:
         raise UsageError(f'--camera: there is no "{name}"; the scene has {names}')
 
     def resolution(self, camera: CameraSettings) -> tuple[int, int]:
-        """Width and height (pixels) of a camera's pictures."""
+        """Picture width and height of a camera, pixels."""
         return camera.resolution or self.settings.render.resolution
 
     def frames_of(self, camera: CameraSettings) -> list[int]:
-        """Frames that a camera films, ascending."""
+        """Frames that a camera films, ascending, from 1."""
         return frame_list.parse(camera.frames, self.frames.count)
 
     def filmed(self, path: Path) -> NDArray[np.int64]:
-        """The frames that a path's camera films, from 0, as its arrays count them."""
+        """Frames that a path's camera films, counted from 0, as indices into the path's arrays."""
         listed = path.camera.frames
         if listed not in self._filmed:
             self._filmed[listed] = np.array(self.frames_of(path.camera)) - 1
         return self._filmed[listed]
 
     def utc(self, frame: float) -> datetime:
-        """UTC of a frame."""
+        """UTC time of a frame."""
         return times.utc(self.run, self.frames.time(frame))
 
     @cached_property
     def built_frames(self) -> NDArray[np.int64]:
-        """Frames, from 0, that ground, plants and flames are built for: all, or those that a part films."""
+        """Frames, from 0, for which terrain, plants and flames are built: all, or those of a subset."""
         return np.arange(self.frames.count) if self.full is self else self.filmed(self.paths[0])
 
     @property
     def built_times(self) -> NDArray[np.float64]:
-        """Model times (s) of the frames that are built."""
+        """Model times of the built frames, s."""
         return self.frames.times[self.built_frames]
 
     @cached_property
     def local_frame(self) -> geo.LocalFrame:
-        """The scene's east, north and up."""
+        """Local east-north-up frame of the scene."""
         return local_frame(self.run)
 
     @cached_property
     def bare_ground(self) -> Ground:
-        """The ground without the detail near cameras."""
+        """Terrain without camera-dependent detail."""
         return Ground(self.settings, self.run, self.fire.arrival, self.relief)
 
     @cached_property
     def front(self) -> flame_depth.Fields:
-        """How the front goes over the ground's grid."""
+        """Fire front properties (rate of spread, residence time) on the terrain grid."""
         return flame_depth.Fields(self.bare_ground, self.run)
 
     @cached_property
     def front_scale(self) -> float:
-        """Size of what is seen of the front and the scar beside that of a crown fire's, to 1."""
+        """Pattern size of flaming front and burn scar relative to a crown fire's, at most 1."""
         return flame_depth.scale(self.full)
 
     @cached_property
     def ground(self) -> Ground:
-        """The ground, with detail along the cameras' paths."""
+        """Terrain with added detail near the cameras' paths."""
         rough = self._paths(self.bare_ground) if self.full is self else self.paths
         near = [view.position[self.filmed(view)] for view in rough if view.perspective]
         return self.bare_ground.seen_from(path.eyes(near, self.settings.terrain.near_radius))
 
     @cached_property
     def paths(self) -> list[Path]:
-        """Paths of all cameras over the ground."""
+        """Camera paths over the terrain, one for each camera."""
         return self._paths(self.ground)
 
     @cached_property
     def pixel(self) -> tuple[float, float]:
-        """Sizes of the smallest pixels: in perspective m per m of distance, with parallel lines m."""
+        """Smallest pixel size: m per m of distance in perspective, and m in orthographic views."""
         return path.finest(self.paths)
 
     def _paths(self, ground: Ground) -> list[Path]:
@@ -239,39 +239,39 @@ class Shot:
         ]
 
     def warnings(self) -> list[str]:
-        """What an artist should know of the scene file and of the cameras' paths."""
+        """Warnings about the scene file and the camera paths."""
         return [*self.settings.notes, *camera_warnings.ridges(self)]
 
     @property
     def perspective_paths(self) -> list[Path]:
-        """Paths of the cameras that things can be near to."""
+        """Paths of the perspective cameras, the only ones that objects can be close to."""
         return [view for view in self.paths if view.perspective]
 
     @cached_property
     def visibility(self) -> Visibility:
-        """What the cameras see in the frames that they film, and how near they come."""
+        """Visibility of objects in the filmed frames."""
         return Visibility(self)
 
     @cached_property
     def wind(self) -> tuple[float, float]:
-        """Mean wind (m/s, east and north) where it burns in the middle of the shot."""
+        """Mean wind near the fire at the middle of the shot, m/s east and north."""
         east, north = burning.wind_at(self.run, np.array([self.frames.middle]), self.fire.surroundings)[0]
         return float(east), float(north)
 
     @cached_property
     def air(self) -> air_temperature.OverShot:
-        """Temperatures of the air over the shot."""
+        """Air temperature over the shot."""
         return air_temperature.OverShot(self.run, self.frames)
 
     @cached_property
     def fire_distance(self) -> float:
-        """How near (m) cameras come to the fire: nearer than nine tenths of it in their nearest frame."""
+        """Distance of the cameras to the fire, m: 10th percentile of the cells in the closest frame."""
         cells = self.fire.cells(self.frames.first - 1800.0, self.frames.last + 1.0)
         if not self.paths or len(cells.arrival) == 0:
             return _NOWHERE
         return min(
             float(np.percentile(self.visibility.distance_from(view, cells.position[::5]), 10.0))
             if view.perspective
-            else 2.0 * view.half[0] * WIDE_LENS / SENSOR  # as a lens with pixels as large on the ground
+            else 2.0 * view.half[0] * WIDE_LENS / SENSOR  # equal pixel size of the reference lens
             for view in self.paths
         )

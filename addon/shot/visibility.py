@@ -1,4 +1,4 @@
-"""Visibility of a shot: what its cameras see in the frames that they film, and how near they come."""
+"""Visibility culling: frustum culling, occlusion culling and camera distance over a shot's filmed frames."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ if TYPE_CHECKING:
     from .settings.protocols import ShotView
 
 
-_HALF_SPACE = 1.0e9  # tangent of half of 180 degrees
-_ONE_PLACE = 0.5  # m; to eyes farther apart the ground counts as hiding nothing: one may see past its edge
+_HALF_SPACE = 1.0e9  # tangent of 90 degrees, half the angle of a hemisphere
+_ONE_PLACE = 0.5  # m; with eyes farther apart terrain is no occluder: one eye may see past its edge
 
 
 class Visibility:
-    """Frustum and occlusion culling by the cameras of a shot; each view set is made when it is first needed.
+    """Frustum and occlusion culling by the cameras of a shot. View sets are built at first use and cached.
 
     Attributes
     ----------
     unculled
-        Nothing is culled: all counts as visible, and from as near as can be.
+        Culling is off: everything counts as visible, at distance 0.
     """
 
     def __init__(self, shot: ShotView) -> None:
@@ -47,22 +47,22 @@ class Visibility:
         pixel: float = 0.0,
         perspective: bool = True,
     ) -> NDArray[np.bool_]:
-        """Which balls (n,) any camera sees; nothing that is visible is left out.
+        """Visible mask (n,) of bounding spheres. Conservative: no visible sphere is culled.
 
         Parameters
         ----------
         position, radius
-            (n, 3) m in the scene; (n,), or what broadcasts to it, m.
+            Sphere centres (n, 3) in the scene, m, and radii (n,) or broadcastable, m.
         reach
-            How far from cameras in perspective, m.
+            Maximum distance from perspective cameras, m.
         margin
-            How much wider each view is, m: for what is no part of the picture, but of its light.
+            Width added to each view frustum, m, for objects outside of the picture that light it.
         shadows
-            Whether what throws its shadow on a place that is seen counts as seen.
+            Whether an object counts as visible if its shadow falls on a visible place.
         pixel
-            Cameras with parallel lines of sight count if their pixels are smaller than this, m.
+            Orthographic cameras count if their pixels are smaller than this, m.
         perspective
-            Whether cameras in perspective count.
+            Whether perspective cameras count.
         """
         showing = self._showing(pixel, perspective)
         if self.unculled:
@@ -73,28 +73,28 @@ class Visibility:
         return lod.visible_mask(position, radius, views, max_distance=reach, margin=margin, shadows=shadows)
 
     def distance(self, position: ArrayLike) -> NDArray[np.float64]:
-        """Least distance (n,) of places (n, 3) from cameras in perspective, m; infinite without any."""
+        """Distance (n,) from points (n, 3) to the nearest perspective camera, m; infinite without one."""
         return lod.distance(position, self._of(self._showing(0.0)))
 
     def lod_distance(self, position: ArrayLike) -> NDArray[np.float64]:
-        """Distance (n,) that things at places (n, 3) are drawn for, m: 0 where nothing is skipped."""
+        """Distance (n,) that sets the level of detail of objects at points (n, 3), m; 0 with culling off."""
         return np.zeros(len(position)) if self.unculled else self.distance(position)
 
     def distance_from(self, path: Path, position: ArrayLike) -> NDArray[np.float64]:
-        """Least distance (n,) of places (n, 3) from one camera in perspective, m."""
+        """Smallest distance (n,) from points (n, 3) to the path of one perspective camera, m."""
         return lod.distance(position, self._made([path]))
 
     def view_set(self, frame: int) -> lod.ViewSet | None:
-        """What all cameras that film this frame see in it; None where none does, or nothing is skipped."""
+        """View set of all cameras that film a frame; None without such a camera or with culling off."""
         if self.unculled:
             return None
         paths = self._filming(frame)
         return self._made(paths, frame - 1) if paths else None
 
     def eyes(self, frame: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Where a frame is seen from: places (n, 3), m, and unit vectors (m, 3) to cameras of parallel lines.
+        """Viewpoints of a frame: eye points (n, 3), m, and unit vectors (m, 3) to orthographic cameras.
 
-        Both are empty where no camera films it, or nothing is skipped.
+        Both are empty if no camera films the frame or culling is off.
         """
         paths = [] if self.unculled else self._filming(frame)
         places = [path.position[frame - 1] for path in paths if path.perspective]
@@ -105,7 +105,7 @@ class Visibility:
         return [path for path in self.shot.paths if frame - 1 in self.shot.filmed(path)]
 
     def _showing(self, pixel: float, perspective: bool = True) -> tuple[int, ...]:
-        """Numbers of the cameras in perspective, if they count, and of others of small enough pixels."""
+        """Indices of the cameras that count: perspective ones if wanted, orthographic ones by pixel size."""
         return tuple(
             number
             for number, path in enumerate(self.shot.paths)
@@ -118,7 +118,7 @@ class Visibility:
         return self._known[numbers]
 
     def _made(self, paths: list[Path], frame: int | None = None) -> lod.ViewSet:
-        """What these cameras see in all that they film, or in a frame (from 0)."""
+        """View set of some cameras, over all frames that they film or in one frame (from 0)."""
         shot = self.shot
         filmed = [shot.filmed(path) if frame is None else np.array([frame]) for path in paths]
         looks = [
@@ -143,14 +143,14 @@ class Visibility:
         )
 
     def _sun(self, frames: NDArray[np.int64]) -> NDArray[np.float64]:
-        """Where light comes from in frames (m,) from 0: unit vectors (m, 3)."""
+        """Unit vectors (m, 3) towards the sun or moon in frames (m,), from 0."""
         each, number = np.unique(frames, return_inverse=True)
         times = self.shot.frames.times[each]
         return np.array([sun.toward_light(self.shot.run, float(t)) for t in times]).reshape(-1, 3)[number]
 
 
 def _looks(path: Path, frames: NDArray[np.int64]) -> list[tuple[NDArray, NDArray]]:
-    """Rotations (n, 3, 3) and `half` (n, 2) of what a camera sees; all round is before it and behind."""
+    """View frusta of a camera: rotations (n, 3, 3) and `half` (n, 2). A panorama has two: ahead, behind."""
     rotation = path.rotation[frames]
     if not path.around:
         return [(rotation, path.halves[frames])]
@@ -163,10 +163,10 @@ def _joined(parts: list[NDArray], shape: tuple[int, ...]) -> NDArray:
 
 
 def _occluder(shot: ShotView) -> tuple[lod.Occluder, float]:
-    """The run's part of the ground, as what hides, and the lowest scene z of all of it.
+    """Terrain occluder of the run's area, and the lowest scene z of all terrain.
 
-    It is as much lower as its mesh may be where it is seen, for where a line of sight goes into the ground it
-    is seen. Hills of the apron hide nothing: its cells are too large to make good walls.
+    The occluder lies below the terrain by the mesh tolerance: a ray that enters the drawn ground still counts
+    as unobstructed. Apron hills do not occlude, as their cells are too coarse.
     """
     floor, margin = shot.ground.floor(), shot.ground.fields.margin
     lowest = float(floor[..., 2].min()) - mesh_tolerance.UNSEEN
@@ -177,7 +177,7 @@ def _occluder(shot: ShotView) -> tuple[lod.Occluder, float]:
 
 
 def _distance(shot: ShotView, place: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Least distance of places (ny, nx, 3) from cameras in perspective, m."""
+    """Smallest distance (ny, nx) from points (ny, nx, 3) to perspective cameras, m."""
     views = [(path, shot.filmed(path)) for path in shot.perspective_paths]
     position = _joined([path.position[frames] for path, frames in views], (3,))
     rotation = _joined([path.rotation[frames] for path, frames in views], (3, 3))
@@ -186,7 +186,7 @@ def _distance(shot: ShotView, place: NDArray[np.float64]) -> NDArray[np.float64]
 
 
 def _clear(ground: Ground, position: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which places are surely above the ground as it is drawn, which is `rough`."""
+    """Whether points lie above the drawn terrain for certain, by more than its roughness `rough`."""
     if len(position) == 0:
         return np.empty(0, bool)
     return position[:, 2] > ground.up(position[:, 0], position[:, 1]) + ground.rough

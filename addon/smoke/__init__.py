@@ -1,1 +1,1 @@
-"""Smoke without Blender: the solved flow, its snapshots and cache, and the volumes painted from them."""
+"""Smoke without Blender: flow solver runs, snapshots, volume cache, and painting of OpenVDB volumes."""

@@ -1,4 +1,4 @@
-"""The air that a flow of smoke rises into: wind, temperature and water with height. Needs no Blender."""
+"""Ambient atmosphere of a smoke flow: profiles of wind, temperature and humidity. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -10,27 +10,30 @@ from numpy.typing import NDArray
 from ..shot.terrain import noise
 from . import stability
 
-WIND = 0.75  # of the run's: its wind near the ground holds what the fire itself draws in (assumed)
-_SHEAR = 0.1  # power of height with which wind grows, over rough ground by day
-_VEER = 10.0, 4000.0  # degrees that it turns to the right up to this height, m
-_HIGH = 1.2  # times that height, where wind no longer turns
+WIND = 0.75  # factor on the run's near-surface wind, which includes the fire's own inflow (assumed)
+_SHEAR = 0.1  # exponent of the wind power law, over rough ground by day
+_VEER = 10.0, 4000.0  # degrees of veering to the right, up to this height, m
+_HIGH = 1.2  # times that height, above which wind turns no further
 _WARM = 312.0  # K, potential temperature of the mixed layer: 27 degrees C over ground at 1200 m (assumed)
 _MIXED = 3300.0  # m, depth of the layer that a dry September day mixes (assumed)
-_DAY, _ALOFT, _NIGHT = 0.3e-3, 4.5e-3, 12e-3  # K/m: in it, above it, and in a valley's inversion by night
-STABILITY = 9.81 / _WARM * _DAY  # 1/s2, of the layer that a day mixes
-BUOYANCY = 9.81 / (np.pi * 1005.0 * 1.1 * 300.0)  # m4/s3 per W, of a plume in air of 1.1 kg/m3 and 300 K
-_INVERSION = 600.0  # m, its depth (assumed)
+# K/m, potential temperature gradient: mixed layer, free atmosphere, nocturnal valley inversion
+_DAY, _ALOFT, _NIGHT = 0.3e-3, 4.5e-3, 12e-3
+STABILITY = 9.81 / _WARM * _DAY  # 1/s2, squared buoyancy frequency of the daytime mixed layer
+# m4/s3 per W, buoyancy flux of a plume in air of 1.1 kg/m3 and 300 K
+BUOYANCY = 9.81 / (np.pi * 1005.0 * 1.1 * 300.0)
+_INVERSION = 600.0  # m, depth of the inversion (assumed)
 _HEIGHTS = np.array([0.0, 10, 30, 100, 300, 600, 1000, 1800, 2600, 3300, 4000, 4800, 6000, 9000])
-# m, kg/kg: a fifth of what air holds at the ground, as much through the mixed layer, less above (assumed);
+# m, kg/kg: water vapour at a fifth of saturation at the ground, constant in the mixed layer, less above
+# (assumed)
 _WATER = [0.0, 3300.0, 4500.0, 9000.0], [5.2e-3, 5.2e-3, 1.5e-3, 0.1e-3]
-_MOIST = 0.8  # of what air holds, at most: the sky is clear (assumed)
+_MOIST = 0.8  # upper limit of relative humidity: the sky is clear (assumed)
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Air:
-    """Values at heights (n,) m above the ground, as `firetwin_core.flow.Profile` takes them."""
+    """Atmospheric profile at heights (n,), m above ground, as `firetwin_core.flow.Profile` takes it."""
 
     height: Array
     potential_temperature: Array
@@ -39,32 +42,33 @@ class Air:
 
 
 def air(sun: float, ground: float) -> Air:
-    """The air under a sun at `sun` degrees over ground of a mean height (m above the sea)."""
+    """Atmosphere under a sun at elevation `sun` (degrees), over ground of mean height (m above the sea)."""
     day = float(noise.smoothstep(*stability.TURN, sun))
     low = np.exp(np.log(_NIGHT) + day * (np.log(_DAY) - np.log(_NIGHT)))
     gradient = np.where(
         _HEIGHTS[1:] <= _INVERSION, low, np.where(_HEIGHTS[1:] <= _MIXED, _DAY + (1 - day) * 2.7e-3, _ALOFT)
     )
     warmer = np.concatenate([[0.0], np.cumsum(gradient * np.diff(_HEIGHTS))])
-    theta = _WARM + warmer - np.interp(_MIXED, _HEIGHTS, warmer)  # nights are cold below, not warm aloft
+    # nights are colder near the ground, not warmer aloft
+    theta = _WARM + warmer - np.interp(_MIXED, _HEIGHTS, warmer)
     water = np.minimum(np.interp(_HEIGHTS, *_WATER), _MOIST * _held(theta, _pressure(ground + _HEIGHTS)))
     return Air(_HEIGHTS, theta, water, float(_pressure(ground)))
 
 
 def _pressure(height: Array | float) -> Array | float:
-    """Pa at heights above the sea, m: International Standard Atmosphere."""
+    """Pressure, Pa, at heights above the sea, m: International Standard Atmosphere."""
     return 101325.0 * np.maximum(1.0 - 2.25577e-5 * np.asarray(height), 0.0) ** 5.25588
 
 
 def _held(potential_temperature: Array, pressure: Array) -> Array:
-    """Water vapour that air holds, kg/kg, by the formula of Magnus (cpp/flow/thermodynamics.hpp)."""
+    """Saturation mixing ratio of water vapour, kg/kg, by Magnus' formula (cpp/flow/thermodynamics.hpp)."""
     celsius = potential_temperature * (pressure / 1e5) ** 0.2857 - 273.15
     vapour = 610.94 * np.exp(17.625 * celsius / (celsius + 243.04))
     return 0.622 * vapour / (pressure - 0.378 * vapour)
 
 
 def wind(near_ground: tuple[float, float]) -> Array:
-    """Wind (n, 2) m/s at the air's heights, from that at 10 m: a power law that veers with height."""
+    """Wind profile (n, 2), m/s, from the wind at 10 m: a power law that veers with height."""
     speed = WIND * np.hypot(*near_ground) * (np.maximum(_HEIGHTS, 10.0) / 10.0) ** _SHEAR
     degrees, height = _VEER
     turned = np.radians(degrees) * np.clip(_HEIGHTS / height, 0.0, _HIGH)

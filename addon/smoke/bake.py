@@ -1,8 +1,8 @@
-"""The smoke volumes of a shot on disk: one OpenVDB file per frame, made once.
+"""Bake: write the smoke volumes of a shot to disk, one OpenVDB file per frame.
 
-They lie in ``<cache>/<key>/smoke_000001.vdb``; the key is a hash of what is in the run's files, of the
-settings that change the smoke and of the code that makes it, so that a changed setting never shows old
-smoke, and a repeated bake has nothing to do. Every file is whole: it gets its name when it is complete.
+Files are ``<cache>/<key>/smoke_000001.vdb``. The key is a hash of the run's inputs, of the settings that
+affect smoke, and of the code that makes it. A changed setting therefore never shows stale smoke, and a
+repeated bake has nothing to do. Files are renamed into place when complete.
 """
 
 from __future__ import annotations
@@ -28,34 +28,34 @@ from .view import resolution, shot_frames
 
 __all__ = ["ahead", "bake", "estimate", "file", "folder", "resolution", "shot_frames"]
 
-_FRAME_MEMORY = 2 << 30  # bytes that a frame may need while it is made: 0.5 GB, of a flow 1.9, were measured
-_FRAME_PROCESSORS = 4  # a frame keeps two busy: two at once on those took as long, and twice the memory
+_FRAME_MEMORY = 2 << 30  # bytes of memory per frame; 0.5 GB was measured, and 1.9 GB for a flow
+_FRAME_PROCESSORS = 4  # processors per frame; two frames at once on these took as long and twice the memory
 _NOT_IN_FILES = ("enabled", "extinction", "voxel_size", "draw")
-"""Keys of [smoke] that only say how it is drawn; voxel sizes count by themselves."""
+"""Keys of [smoke] that affect only rendering; voxel sizes are hashed separately."""
 
 
 def folder(shot: Shot, progress: Progress = silent) -> Path:
-    """Where the smoke of this shot is kept. What of the run was never read is read now.
+    """Cache folder of this shot's smoke. Inputs that were not read before are read now.
 
-    It is absolute: Blender takes other paths for places beside the .blend file.
+    The path is absolute, as Blender takes relative ones from the .blend file.
     """
     return shot.settings.cache.absolute() / _key(shot, progress)
 
 
 def file(shot: Shot, frame: int) -> Path:
-    """The volume of a frame."""
+    """Volume file of a frame."""
     return _in(folder(shot), frame)
 
 
 def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None = None) -> Path:
-    """Write the volumes of the shot (or of those of `frames` that it has) that are not there yet.
+    """Write the missing volumes of the shot, or of those of `frames` that it has.
 
-    Several frames are made at once, as many as there are processors and memory for. Those that one of several
-    cameras films alone are that camera's own, as its film has them: they are made once for both.
+    Several frames are made in parallel, as processors and memory allow. A frame filmed by only one of several
+    cameras uses that camera's own volume, as a render of this camera does; it is made once for both.
 
     Returns
     -------
-    The folder that holds them.
+    The folder of the volumes.
 
     Raises
     ------
@@ -97,20 +97,20 @@ def bake(shot: Shot, progress: Progress = silent, frames: Iterable[int] | None =
 def ahead(
     shot: Shot, frames: Iterable[int], progress: Progress = silent, tell: MessageCallback = no_message
 ) -> Iterator[Callable[..., None]]:
-    """Write volumes while pictures are made, one frame before it is shown.
+    """Write volumes during rendering, one frame ahead.
 
-    Gives a function ``ready(frame, ahead)`` that waits until the volume of a frame is there and has the first
-    of the frames `ahead` whose volume is missing made meanwhile; left out, they are those that come after it.
-    It raises what went wrong with that frame. With smoke off it does nothing.
+    Yields a function ``ready(frame, ahead)``. It waits for a frame's volume and starts the first missing one
+    of the frames `ahead`, by default those that follow. It raises the error of that frame. With smoke off it
+    does nothing.
 
     Parameters
     ----------
     frames
-        In the order in which they are shown; those that the shot does not have count for nothing.
+        Frames in order of rendering; frames outside of the shot are ignored.
     progress
-        Called while the first frame waits.
+        Called while the first frame is waited for.
     tell
-        Told how much room the volumes will need, once there is one to judge by.
+        Receives a message on the disk space needed, once a volume exists to estimate it.
 
     Raises
     ------
@@ -130,19 +130,19 @@ def ahead(
 
 
 def estimate(shot: Shot, frames: Iterable[int]) -> int | None:
-    """Bytes that the volumes of `frames` need, from the mean of those that are there; None without any."""
+    """Estimated bytes of the volumes of `frames`, from the mean of those that exist; None without any."""
     sizes = {path.name: path.stat().st_size for path in folder(shot).glob("*.vdb")}
     there = sum(name.startswith("smoke") for name in sizes)
     return round(sum(sizes.values()) / there * len(_of_shot(shot, frames))) if there else None
 
 
 class Line:
-    """Frames whose smoke stands in line to be made, by one thread.
+    """Queue of frames whose smoke one thread makes.
 
     Attributes
     ----------
     elsewhere
-        Whether another process of ours prepares the shot; None: none does.
+        Whether another of our processes prepares the shot; None: no such process.
     """
 
     elsewhere: Callable[[], bool] | None = None
@@ -155,7 +155,7 @@ class Line:
 
     @functools.cached_property
     def source(self) -> Source:
-        """What makes it."""
+        """Smoke source of the frames."""
         source = sources.select(self.shot)
         if cost := source.cost():
             self.tell(cost.describe())
@@ -166,7 +166,7 @@ class Line:
         return source
 
     def close(self) -> None:
-        """Let go of frames that nobody waits for any more."""
+        """Cancel queued frames."""
         if "source" in self.__dict__:
             self.source.stop.set()
         self.pool.shutdown(cancel_futures=True)
@@ -174,14 +174,14 @@ class Line:
 
 
 class _Volumes(Line):
-    """Frames whose volumes are written."""
+    """Queue of frames whose volumes are written to disk."""
 
     def __init__(self, shot: Shot, frames: list[int], progress: Progress, tell: MessageCallback) -> None:
         super().__init__(shot, progress, tell)
         self.frames, self.place = frames, _prepared(shot, progress)
 
     def ready(self, frame: int, ahead: Iterable[int] | None = None) -> None:
-        """Wait for a frame and have the next one begun."""
+        """Wait for a frame and start the next one."""
         if frame not in self.frames:
             return
         self._begin(frame)
@@ -200,7 +200,7 @@ class _Volumes(Line):
         self.progress, self.tell = silent, no_message
 
     def _room(self) -> str:
-        """How much the volumes need, in words."""
+        """Message on the disk space that the volumes need."""
         needed = size(max(estimate(self.shot, self.frames) or 0, 1e6))
         return f"smoke of {count(len(self.frames), 'frame')} takes about {needed} in {self.place}"
 
@@ -215,12 +215,12 @@ def _in(place: Path, frame: int) -> Path:
 
 
 def _of_shot(shot: Shot, frames: Iterable[int]) -> list[int]:
-    """Those of `frames` that the shot has, each once."""
+    """Those of `frames` that the shot has, without duplicates."""
     return [frame for frame in dict.fromkeys(frames) if 1 <= frame <= shot.frames.count]
 
 
 def _prepared(shot: Shot, progress: Progress) -> Path:
-    """The folder of the volumes, made and swept."""
+    """Create the folder of the volumes and remove unfinished files."""
     place = folder(shot, progress)
     with writing(place):
         place.mkdir(parents=True, exist_ok=True)
@@ -229,7 +229,7 @@ def _prepared(shot: Shot, progress: Progress) -> Path:
 
 
 def _at_once(frames: int) -> int:
-    """How many frames are made at the same time."""
+    """Number of frames made in parallel."""
     try:
         free = os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     except (AttributeError, OSError, ValueError):
@@ -238,7 +238,7 @@ def _at_once(frames: int) -> int:
 
 
 def _key(shot: Shot, progress: Progress) -> str:
-    """Hash of everything that the volumes depend on."""
+    """Cache key: hash of all inputs of the volumes."""
     settings, complete = shot.settings, shot.settings.smoke.complete
     source = sources.select(shot)
     found = schema.select(settings, {"time", "smoke"} if complete else {"time", "smoke", "camera", "terrain"})
@@ -246,10 +246,10 @@ def _key(shot: Shot, progress: Progress) -> str:
     for name in (*_NOT_IN_FILES, *source.unused_settings):
         del found["smoke"][name]
     found |= source.inputs()
-    if not complete:  # what is left out depends on what the cameras see, and when
+    if not complete:  # what is culled depends on the cameras and their frames
         width, height = settings.render.resolution
         for camera in found.get("cameras", ()):
-            del camera["frames"]  # however they are written
+            del camera["frames"]  # normalised form
         found["sight"] = [height / width, [shot.frames_of(camera) for camera in settings.cameras]]
         found["leaders"] = [repr(each) for each in leaders]
     return content.fingerprint(

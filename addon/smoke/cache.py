@@ -1,4 +1,4 @@
-"""Folders of smoke volumes in a cache: which there are, and which may go. Needs no Blender."""
+"""Cache of smoke volumes: listing and eviction of folders, heartbeat of their use. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from pathlib import Path
 from .. import files, leases
 from ..errors import Error, input_error, writing
 
-IN_USE = 600.0  # s after the last sign of use; also how long a file in the making may stand still
-_SIGN = 60.0  # s between two signs
+IN_USE = 600.0  # s since the last heartbeat; also the age at which an unfinished file is abandoned
+_SIGN = 60.0  # s between heartbeats
 _MAGIC = b" BDV\0\0\0\0"
 _OURS = re.compile(r"\.?((smoke|far|moment)_\d{6,}|state)(\.[0-9a-f]{12}\.part)?\.(vdb|npz)|state\.lock")
 
 
 @dataclass(frozen=True)
 class CachedVolumes:
-    """The volumes of one shot: their folder, how large they are, and when they were used last (s, epoch)."""
+    """Cached volumes of one shot: folder, size in bytes, and time of last use (s, epoch)."""
 
     folder: Path
     bytes: int
@@ -29,12 +29,12 @@ class CachedVolumes:
 
     @property
     def in_use(self) -> bool:
-        """Whether a bake or a render may be using them now."""
+        """Whether a bake or a render may be using them."""
         return time.time() - self.used < IN_USE
 
 
 def list_volumes(cache: Path) -> list[CachedVolumes]:
-    """The volumes in a cache, those used last first. What is not ours is left out."""
+    """Volumes in a cache, most recently used first. Foreign files are ignored."""
     found = []
     for folder in cache.iterdir() if cache.is_dir() else ():
         if re.fullmatch("[0-9a-f]{16}", folder.name) and folder.is_dir() and not folder.is_symlink():
@@ -44,7 +44,7 @@ def list_volumes(cache: Path) -> list[CachedVolumes]:
 
 
 def beyond(volumes: list[CachedVolumes], limit: int) -> list[CachedVolumes]:
-    """Those that have to go so that the rest, used later, has at most `limit` bytes. Never any in use."""
+    """Least recently used volumes to evict so that the rest takes at most `limit` bytes; never any in use."""
     left, going = limit - sum(each.bytes for each in volumes if each.in_use), []
     for each in sorted((each for each in volumes if not each.in_use), key=lambda each: -each.used):
         left -= each.bytes
@@ -54,7 +54,7 @@ def beyond(volumes: list[CachedVolumes], limit: int) -> list[CachedVolumes]:
 
 
 def remove(volumes: CachedVolumes) -> bool:
-    """Remove a shot's volumes unless they are in use by now. Files that are not ours stay."""
+    """Remove a shot's volumes unless they are in use. Foreign files stay."""
     if _measure(volumes.folder).in_use:
         return False
     for path in volumes.folder.iterdir():
@@ -67,7 +67,7 @@ def remove(volumes: CachedVolumes) -> bool:
 
 @contextlib.contextmanager
 def in_use(*folders: Path) -> Iterator[None]:
-    """Give signs of use: the time of change of a folder is that of its last use."""
+    """Heartbeat of use: touch the folders, whose modification time is their time of last use."""
 
     def sign() -> None:
         for folder in folders:
@@ -82,7 +82,7 @@ def in_use(*folders: Path) -> Iterator[None]:
 
 
 def sweep(folder: Path) -> None:
-    """Remove unfinished files that nobody has written to for long."""
+    """Remove abandoned unfinished files."""
     for path in folder.glob(".*.part.*"):
         with contextlib.suppress(OSError):
             if time.time() - path.stat().st_mtime > IN_USE:
@@ -90,12 +90,12 @@ def sweep(folder: Path) -> None:
 
 
 def check(path: Path, size: int) -> None:
-    """Look whether a volume that was just written is whole.
+    """Check that a volume just written is complete.
 
     Raises
     ------
     InputError
-        It is missing, cut off or something else.
+        The file is missing, truncated or not a volume.
     """
     with writing(path), path.open("rb") as file:
         begins = file.read(len(_MAGIC))
@@ -105,18 +105,18 @@ def check(path: Path, size: int) -> None:
 
 
 def publish(part: Path, path: Path, size: int) -> None:
-    """Give a complete volume of so many bytes its name. Who comes second replaces it by the same."""
+    """Rename a complete volume of `size` bytes into place. A concurrent writer replaces it by the same."""
     try:
         check(part, size)
         files.publish(part, path)
-    except Error:  # Windows replaces no file that is being read
+    except Error:  # Windows does not replace an open file
         part.unlink(missing_ok=True)
         if not path.exists():
             raise
 
 
 def _measure(folder: Path) -> CachedVolumes:
-    """A folder's volumes. Of those that lie in several folders (see `shared_frames`) each has its part."""
+    """Measure a folder's volumes. A volume linked into several folders (`shared_frames`) is shared out."""
     states = [path.stat() for path in folder.iterdir() if _OURS.fullmatch(path.name)]
     size = sum(state.st_size // max(state.st_nlink, 1) for state in states)
     return CachedVolumes(folder, size, folder.stat().st_mtime)

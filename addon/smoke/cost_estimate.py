@@ -1,4 +1,4 @@
-"""What solving the flow of smoke will cost in time and room, before it begins. Needs no Blender."""
+"""Cost estimate of solving a smoke flow: time and disk space. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -12,13 +12,14 @@ from . import domains
 from .domains import Domain
 from .flow import Flow
 
-_SPEED = 1.5e7  # cells a second on 2 cores (tests/benchmarks/solved_smoke.py); half or twice that elsewhere
-_KEPT = 2.2  # bytes of a snapshot for each cell of its box, measured with smoke in most of it
+# cells per second on 2 cores (tests/benchmarks/solved_smoke.py); other machines differ by a factor of 2
+_SPEED = 1.5e7
+_KEPT = 2.2  # bytes of a snapshot per cell of its domain, measured with smoke in most of it
 
 
 @dataclass(frozen=True)
 class Cost:
-    """Of solving a flow: s of the fire, s it takes on 2 cores, bytes, widths of cells, where it is kept."""
+    """Cost of solving a flow: s of fire time, s of computation on 2 cores, bytes, cell widths, and folder."""
 
     time: float
     seconds: float
@@ -27,11 +28,11 @@ class Cost:
     folder: Path
 
     def brief(self) -> str:
-        """``about 2 min, 1.1 GB``."""
+        """Short form: ``about 2 min, 1.1 GB``."""
         return f"about {duration(self.seconds)}, {size(self.bytes)}"
 
     def describe(self) -> str:
-        """Time and room in a sentence, and what to do without."""
+        """Full sentence with time, disk space and the alternative."""
         return (
             f"the air over {duration(self.time)} of the fire is solved once in cells of {self.cells}, which "
             f"takes about {duration(self.seconds)} on 2 cores and {size(self.bytes)} in {self.folder}; "
@@ -40,7 +41,7 @@ class Cost:
 
 
 def estimate(flow: Flow) -> Cost | None:
-    """What is still to be solved of a flow; None where that is nothing."""
+    """Cost of what is still to be solved of a flow; None if nothing is."""
     shot, frames = flow.shot, flow.shot.frames
     missing = [each for each in flow.domains if not each.snapshot_path(frames.count).exists()]
     if not missing:
@@ -57,6 +58,6 @@ def estimate(flow: Flow) -> Cost | None:
 
 
 def _widths(solved: list[Domain]) -> str:
-    """Cells of the whole fire's domain, and of the nested one if there is one."""
+    """Cell widths of the domain and of the nested domain if there is one."""
     outer, *inner = (f"{each.box.spacing:.3g} m" for each in solved)
     return outer + "".join(f", {each} where cameras look" for each in inner)

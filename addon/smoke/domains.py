@@ -1,6 +1,6 @@
-"""Where a flow of smoke is solved: a box round what burns, and a finer one where cameras look. No Blender.
+"""Flow domains: a box around the fire, and a finer nest where cameras look. Needs no Blender.
 
-Lengths and times here are those at cells of `scale.REFERENCE`; they go with the shot's cells.
+Lengths and times here apply to cells of `scale.REFERENCE`; they scale with the shot's cells.
 """
 
 from __future__ import annotations
@@ -18,31 +18,31 @@ from ..shot.shot import Shot
 from ..shot.smoke_scale import FINER, LEVELS, NEST, Scale
 from . import atmosphere, snapshots
 
-LEAD = 600.0  # s that the nest is solved before the first frame: its own eddies need them
+LEAD = 600.0  # s, spin-up of the nest before the first frame, in which its own eddies develop
 _LEVELS, _NEST_LEVELS = (
     (60.0, 270.0, LEVELS[0]),
     (36.0, 186.0, LEVELS[1]),
 )  # lowest m, growth to the highest, count
-_MARGIN = 5000.0  # m round what burns: air that the fire draws in
-_DOWNWIND = (6000.0, 15_000.0)  # m that smoke is followed
-_WIDEST = 130_000.0  # m along a side; smoke of what burns farther out is left out
-_SHARE = 0.01  # of the heat that may lie outside of the middle on each side
+_MARGIN = 5000.0  # m around the burning area, for the inflow of the fire
+_DOWNWIND = (6000.0, 15_000.0)  # m, downwind extent, least and most
+_WIDEST = 130_000.0  # m, side limit; smoke of more distant burning cells is left out
+_SHARE = 0.01  # fraction of the heat that may lie outside of the bounds on each side
 _NEST = NEST  # cells along a side: 12 km
-_COVERED = 0.8  # of a nest's side that the heat in its middle may be long
-_NEST_ROUND = 6000.0  # m; the nest's middle is that of the heat so near to what a camera looks at
-_NEST_SEEN = 60_000.0  # m; cameras farther away see nothing that the nest adds
-_NEST_SWATH = 20_000.0  # m; pictures from straight above that are wider show more rest than nest
-_SNAP = 1000.0  # m; a nest stays where it is when a camera moves a little
-_TOP = 600.0, 2.0  # m, and times the rise of a plume: how high the box is at least
-_CALM = 1.0  # m/s, the least wind that a plume's rise is reckoned with
-_EVEN = (1, 2, 3, 5)  # sides have no other factors, for the transforms
+_COVERED = 0.8  # fraction of a nest's side up to which the fire's extent lets the nest centre on it
+_NEST_ROUND = 6000.0  # m; radius of the heat on which the nest is centred, near the camera's target
+_NEST_SEEN = 60_000.0  # m; for cameras farther away the nest adds no visible detail
+_NEST_SWATH = 20_000.0  # m; wider pictures from above show more of the domain than of the nest
+_SNAP = 1000.0  # m; a nest stays in place under small camera changes
+_TOP = 600.0, 2.0  # m, and factor on the plume rise: least height of the box
+_CALM = 1.0  # m/s, lower limit of the wind in the plume rise
+_EVEN = (1, 2, 3, 5)  # factors of the side lengths, for the fast transforms
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Box:
-    """Square cells of `spacing` m on levels (nz + 1,) m above ground, from the corner of least x and y."""
+    """Grid of square cells of `spacing` m on levels (nz + 1,), m above ground; `corner` has least x and y."""
 
     levels: tuple[float, ...]
     shape: tuple[int, int]
@@ -50,11 +50,11 @@ class Box:
     corner: tuple[float, float]
 
     def plain(self) -> list[object]:
-        """As JSON can carry it."""
+        """JSON form."""
         return [list(self.levels), list(self.shape), self.spacing, list(self.corner)]
 
     def middles(self) -> tuple[Array, Array]:
-        """Columns' x (nx,) and rows' y (ny,) in the cells' middles, m."""
+        """Cell centres: x (nx,) of columns and y (ny,) of rows, m."""
         return tuple(
             low + (np.arange(n) + 0.5) * self.spacing
             for low, n in zip(self.corner, self.shape[::-1], strict=True)
@@ -62,15 +62,15 @@ class Box:
 
     @property
     def high(self) -> tuple[float, float]:
-        """The corner of greatest x and y."""
+        """Corner of greatest x and y."""
         return tuple(low + n * self.spacing for low, n in zip(self.corner, self.shape[::-1], strict=True))
 
 
 @dataclass(frozen=True)
 class Domain:
-    """A box in which a flow is solved: the ground in it (rows, columns), m, and the folder of its snapshots.
+    """Flow domain: box, ground height in its cells (rows, columns), m, and folder of its snapshots.
 
-    Levels follow the ground about its mean in the outermost box. They follow it less and less up to that
+    Levels are terrain-following relative to the mean height of the outermost box. They flatten towards that
     box's top, m.
     """
 
@@ -87,24 +87,24 @@ class Domain:
         return math.prod(self.box.shape) * (len(self.box.levels) - 1)
 
     def heights(self) -> Array:
-        """Heights of cells' middles (nz, rows, columns), m."""
+        """Heights of cell centres (nz, rows, columns), m."""
         levels = np.array(self.box.levels)
         middles = 0.5 * (levels[1:] + levels[:-1])[:, None, None]
         return self.mean + middles + (self.ground - self.mean) * np.maximum(1.0 - middles / self.top, 0.0)
 
     def snapshot_path(self, frame: int) -> FilePath:
-        """The file of a frame's snapshot."""
+        """Snapshot file of a frame."""
         return self.folder / f"moment_{frame:06d}.npz"
 
     def has(self, frame: int) -> bool:
-        """Whether a frame's snapshot is kept."""
+        """Whether a frame's snapshot exists."""
         return snapshots.is_whole(self.snapshot_path(frame), (len(self.box.levels) - 1, *self.box.shape))
 
 
 def whole(shot: Shot) -> Box | None:
-    """The box round what burns from the flow's beginning to the last frame; None where nothing does.
+    """Domain box around everything that burns from spin-up to the last frame; None without fire.
 
-    It does not depend on the cameras.
+    It is independent of the cameras.
     """
     length, cell = shot.scale.length, shot.scale.cell
     begin = shot.frames.first - shot.spin_up
@@ -129,9 +129,9 @@ def whole(shot: Shot) -> Box | None:
 
 
 def nest(shot: Shot, around: Box) -> Box | None:
-    """The finer box round the heat that the cameras look at; None where no camera is near, or no time.
+    """Nested box around the heat that cameras look at; None without a near camera or without spin-up for it.
 
-    Heat that fits into it lies in its middle, whatever the cameras look at: they share what is solved.
+    If all heat fits, the nest is centred on it for any camera, so that cameras share the solution.
     """
     length = shot.scale.length
     near = [view.target.mean(axis=0) for view in shot.paths if _sees_nest(view, shot.scale)]
@@ -155,7 +155,7 @@ def nest(shot: Shot, around: Box) -> Box | None:
 
 
 def smooth_ground(shot: Shot, box: Box, smoothings: int) -> Array:
-    """Smoothed height of the ground in a box's cells (rows, columns), m."""
+    """Smoothed ground height in a box's cells (rows, columns), m."""
     x, y = box.middles()
     height = shot.bare_ground.up(np.tile(x, len(y)), np.repeat(y, len(x))).reshape(len(y), len(x))
     for _ in range(smoothings):
@@ -168,7 +168,7 @@ def smooth_ground(shot: Shot, box: Box, smoothings: int) -> Array:
 
 
 def _burning(shot: Shot) -> tuple[Array, Array]:
-    """Lowest and highest x and y of all heat but a little in the shot, m. There is some."""
+    """Bounds (x, y) of the shot's heat without outliers, lowest and highest, m; unbounded without heat."""
     bounds = [_bounds(shot.fire, time) for time in np.linspace(shot.frames.first, shot.frames.last, 5)]
     found = np.array([each for each in bounds if each is not None])
     if len(found) == 0:
@@ -177,7 +177,7 @@ def _burning(shot: Shot) -> tuple[Array, Array]:
 
 
 def _looked_at(shot: Shot, target: Array) -> Array | None:
-    """The middle (x, y) of the heat round that which is nearest to a place; None where there is none."""
+    """Centre (x, y) of the heat around the source nearest to `target`; None without heat."""
     sources = shot.fire.sources(shot.frames.middle)
     if len(sources.power) == 0:
         return None
@@ -188,17 +188,17 @@ def _looked_at(shot: Shot, target: Array) -> Array | None:
 
 
 def _sees_nest(view: Path, scale: Scale) -> bool:
-    """Whether a camera shows what the nest adds."""
+    """Whether the nest adds visible detail for a camera."""
     if not view.perspective:
         return 2.0 * view.half[0] < scale.length(_NEST_SWATH)
     return np.hypot(*(view.position - view.target).mean(axis=0)[:2]) < scale.length(_NEST_SEEN)
 
 
 def _height_fraction(shot: Shot) -> float:
-    """Fraction of the full height that the plume needs. A small fire's plume would have few levels in all.
+    """Fraction of the full domain height that the plume needs; else a small fire's plume spans few levels.
 
-    It rises by 2.6 (F / (U s))^(1/3) (G. A. Briggs 1975, "Plume rise predictions", AMS Lectures on Air
-    Pollution), with F = g Q / (pi cp rho T), at the stratification of air by day.
+    Plume rise is 2.6 (F / (U s))^(1/3) (G. A. Briggs 1975, "Plume rise predictions", AMS Lectures on Air
+    Pollution), with buoyancy flux F = g Q / (pi cp rho T), at the daytime stability.
     """
     times = np.linspace(shot.frames.first, shot.frames.last, 5)
     power = max(float(shot.fire.sources(time).power.sum()) for time in times)
@@ -209,7 +209,7 @@ def _height_fraction(shot: Shot) -> float:
 
 
 def _levels(depths: tuple[float, float, int], ratio: float, fraction: float) -> tuple[float, ...]:
-    """Levels whose depth grows evenly, m above ground: the lowest as cells are, the highest as it must."""
+    """Levels of linearly growing depth, m above ground: the lowest scales with the cells."""
     lowest, growth, count = depths
     top = (lowest + 0.5 * growth) * count * fraction
     lowest *= ratio
@@ -219,7 +219,7 @@ def _levels(depths: tuple[float, float, int], ratio: float, fraction: float) -> 
 
 
 def _bounds(fire: Fire, time: float) -> Array | None:
-    """Lowest and highest x and y (2, 2) of all heat but a little, m."""
+    """Bounds (2, 2), lowest and highest x and y, of all heat without outliers, m."""
     sources = fire.sources(time)
     if sources.power.sum() <= 0.0:
         return None
@@ -233,7 +233,7 @@ def _bounds(fire: Fire, time: float) -> Array | None:
 
 
 def _even(cells: int) -> int:
-    """The next number of cells, at least 48, that transforms like: 2, 3 and 5 are its only factors."""
+    """Next even cell count of at least 48 with prime factors 2, 3 and 5 only, for fast transforms."""
     for count in range(max(cells, 48), 10 * max(cells, 48)):
         left = count
         for factor in _EVEN[1:]:

@@ -1,4 +1,4 @@
-"""Light of flames on smoke: where they are, and how bright cells are. Needs no Blender."""
+"""Flame light on smoke: light sources and their glow in cells. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from ..shot.fire import heat_release
 from ..shot.fire.fire import Fire
 from ..shot.smoke_scale import Scale
 
-_BLOCK = 300.0  # m; flames this near each other light the smoke as one
-_COUNT = 400  # of lights, at most
-_FLAME_HEIGHT = 20.0  # m over the ground, where their light comes from
+_BLOCK = 300.0  # m, grid on which flames are merged into lights
+_COUNT = 400  # lights at most
+_FLAME_HEIGHT = 20.0  # m above ground, height of the lights
 _POWER, _REACH, _CORE, _EVERY = 1e9, 600.0, 250.0, 3  # W, m, m, cells; at a fire of 15 km
 
 Array = NDArray[np.float64]
 
 
 def luminous(fire: Fire, time: float, scale: Scale) -> tuple[Array, Array]:
-    """What lights the smoke from within: positions (n, 3) m and powers (n,) W of luminous heat."""
+    """Lights of the flames in smoke: positions (n, 3), m, and luminous powers (n,), W."""
     found = heat_release.lights(fire.sources(time).luminous(), scale.length(_BLOCK), _COUNT)
     return found.position + np.array([0.0, 0.0, scale.length(_FLAME_HEIGHT)]), found.power
 
@@ -26,7 +26,7 @@ def luminous(fire: Fire, time: float, scale: Scale) -> tuple[Array, Array]:
 def glow(
     lights: tuple[Array, Array], heights: Array, spacing: float, corner: tuple[float, float], scale: Scale
 ) -> NDArray[np.float32]:
-    """Sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2) in cells. Every third one, linear between."""
+    """Glow in cells: sum of P / 1 GW exp(-r / 600 m) / (1 + (r / 250 m)^2); every third cell, then linear."""
     places, power = lights
     reach, core = np.float32(scale.length(_REACH)), np.float32(scale.length(_CORE) ** 2)
     every = [np.unique(np.append(np.arange(0, count, _EVERY), count - 1)) for count in heights.shape]
@@ -50,7 +50,7 @@ def glow(
 
 
 def _stretched(values: NDArray, at: NDArray[np.int64], count: int, axis: int) -> NDArray[np.float32]:
-    """Values at whole places `at` of an axis, at all of its `count` places. Linear between."""
+    """Interpolate linearly along an axis from indices `at` to all of its `count` indices."""
     place = np.interp(np.arange(count), at, np.arange(len(at)))
     low = np.minimum(place.astype(np.int64), max(len(at) - 2, 0))
     part = (place - low).reshape([-1 if a == axis else 1 for a in range(values.ndim)])

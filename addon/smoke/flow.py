@@ -1,12 +1,13 @@
-"""Smoke as a flow of the air, solved once per shot and kept as snapshots at its frames. Needs no Blender.
+"""Smoke flow: plume dynamics solved once per shot and stored as snapshots at its frames. Needs no Blender.
 
-The flow is solved from `Shot.spin_up` seconds before the first frame in a domain round the fire. A while
-before the first frame it is solved also in a finer, nested domain where cameras look (see `domains`). The
-model's heat and the smoke that goes with it drive the flow. `atmosphere` gives the wind, temperature and
-water around it. Of all this only the nested domain depends on the cameras.
+Solving begins `Shot.spin_up` seconds before the first frame, in a domain around the fire. Shortly before the
+first frame a finer, nested domain is added where cameras look (see `domains`). The model's heat and its smoke
+drive the flow. `atmosphere` gives ambient wind, temperature and humidity. Only the nested domain depends on
+the cameras.
 
-Snapshots lie in ``<cache>/<key>/moment_000001.npz``, one folder for each domain. Beside them lies
-`integrator.STATE`, from which an interrupted solution goes on. An interruption changes no byte of either.
+Snapshots are ``<cache>/<key>/moment_000001.npz``, one folder for each domain. The same folder holds the
+checkpoint `integrator.STATE`, from which an interrupted solution resumes. Results after a resume are
+identical to the byte.
 """
 
 from __future__ import annotations
@@ -32,29 +33,29 @@ _MADE_BY = [
     f"smoke/{name}.py" for name in ("atmosphere", "domains", "flow", "integrator", "snapshots", "stability")
 ]
 
-_LOOK = 0.1  # s between two looks at what another process has solved
+_LOOK = 0.1  # s between checks of another process's progress
 
 
 class Flow:
-    """The flow of a shot. Several threads may ask for its snapshots."""
+    """Smoke flow of a shot. Several threads may request its snapshots."""
 
     def __init__(self, shot: Shot, progress: Progress = silent) -> None:
         self.shot = shot
         self.progress = progress
         self.stop = threading.Event()
         self.elsewhere: Callable[[], bool] = lambda: False
-        """Whether a process that is ours solves it."""
+        """Whether another of our processes is solving the flow."""
         self._lock = threading.Lock()
         self._integrator: Integrator | None = None
 
     @property
     def begin(self) -> float:
-        """Model time (s) at which it begins."""
+        """Model time at which solving begins, s."""
         return self.shot.frames.first - self.shot.spin_up
 
     @functools.cached_property
     def domains(self) -> list[Domain]:
-        """The domain of the whole fire, and the nested one if there is one. None where nothing burns."""
+        """The domain of the whole fire and the nested domain if there is one; empty without fire."""
         box = domains.whole(self.shot)
         if box is None:
             return []
@@ -69,21 +70,21 @@ class Flow:
         return found
 
     def key(self) -> list[str]:
-        """Names of the folders of its snapshots."""
+        """Folder names of its snapshots."""
         return [domain.folder.name for domain in self.domains]
 
     def ready(self, frame: int, progress: Progress | None = None, last: int = 0) -> None:
-        """Solve up to a frame, unless its snapshots are kept.
+        """Solve up to a frame unless its snapshots exist.
 
         Parameters
         ----------
         last
-            The frame at which work will end, for `progress`; left out, this one.
+            Final frame of the work, for `progress`; by default this one.
 
         Raises
         ------
         StoppedError
-            `stop` was set meanwhile.
+            `stop` was set in the meantime.
         InputError
             The cache cannot be written.
         """
@@ -112,20 +113,20 @@ class Flow:
                     self._integrator.solve(frame, progress, max(frame, last))
 
     def has(self, frame: int) -> bool:
-        """Whether a frame's snapshots are kept, in all domains."""
+        """Whether a frame's snapshots exist in all domains."""
         return all(domain.has(frame) for domain in self.domains)
 
     def solve(self, frames: Iterable[int], progress: Progress = silent) -> None:
-        """Solve up to the last of these frames, unless their snapshots are kept."""
+        """Solve up to the last of these frames unless their snapshots exist."""
         wanted = sorted(frames)
         for frame in wanted:
             self.ready(frame, progress, wanted[-1])
         with self._lock:
-            self._integrator = None  # half a gigabyte
+            self._integrator = None  # frees half a gigabyte
 
     def renew(self, frame: int) -> None:
-        """Solve a frame's snapshots anew. Those that are kept turned out broken."""
-        self.elsewhere = lambda: False  # which is beyond it
+        """Solve a frame's snapshots again after a file turned out broken."""
+        self.elsewhere = lambda: False  # the other process is past this frame
         with self._lock:
             for domain in self.domains:
                 with writing(domain.folder):
@@ -134,7 +135,7 @@ class Flow:
 
     @contextlib.contextmanager
     def in_use(self) -> Iterator[None]:
-        """Keep others from clearing the snapshots away meanwhile."""
+        """Protect the snapshots from eviction while in use."""
         folders = self._make_folders()
         for folder in folders:
             cache.sweep(folder)
@@ -142,7 +143,7 @@ class Flow:
             yield
 
     def _make_folders(self) -> list[Path]:
-        """Make the folders of all domains."""
+        """Create the folders of all domains."""
         folders = [domain.folder for domain in self.domains]
         for folder in folders:
             with writing(folder):
@@ -150,7 +151,7 @@ class Flow:
         return folders
 
     def _folder(self, boxes: list[Box]) -> Path:
-        """Where the snapshots of the last of these boxes are kept."""
+        """Snapshot folder of the innermost of these nested boxes, named by a hash of all inputs."""
         shot = self.shot
         found = {
             "sources": code_fingerprint.hashes((), (), *_MADE_BY),

@@ -1,10 +1,9 @@
-"""Writes the frames of a solved flow as OpenVDB files, with detail below its cells. Needs no Blender.
+"""Flow frames: paint snapshots of a solved flow, with subgrid detail, into OpenVDB files. Needs no Blender.
 
-A frame is one file, or two: the nested domain's, and the rest with larger voxels. Where they meet, one fades
-into the other. These are the grids: `density` is the extinction in 1/m. `fresh` is 1 where smoke is young and
-0 where it is old. `sun` and `sky` are how much of their light comes there, see `LIGHT`. `hidden` is 1 where
-smoke is so far behind other smoke that no camera sees it, see `DEEP`. `glow` is the light of flames in the
-dark, 1 amid 1 GW of them.
+A frame has one file, or two: the nested domain, and the rest with larger voxels. The two cross-fade at their
+border. The grids are: `density`, extinction in 1/m. `fresh`, 1 for young and 0 for aged smoke. `sun` and
+`sky`, transmitted fraction of their light, see `LIGHT`. `hidden`, 1 for smoke occluded by other smoke in all
+views, see `DEEP`. `glow`, light of flames in the dark, 1 amid 1 GW of them.
 """
 
 from __future__ import annotations
@@ -28,42 +27,42 @@ from .domains import Box, Domain
 from .flow import Flow
 
 GRIDS = ("density", "fresh", "sun", "sky", "hidden", "glow")
-"""All of one voxel size: `sky` on voxels of twice the size takes 10 of 40 MB less, but Cycles 4.5 draws each
-grid off by half a voxel of its own, and took 12.6 instead of 10.3 processor seconds for a picture.
+"""Grids of a volume, all of one voxel size. `sky` on voxels twice as large saves 10 of 40 MB. But Cycles 4.5
+offsets each grid by half a voxel of its own, and took 12.6 instead of 10.3 processor seconds for a picture.
 """
 LIGHT = 0.65 / 4, 0.5
-"""Parts of the optical depth that dim `sun` and `sky`. Light that smoke scatters forwards goes on as if it
-had not been: 0.36 of 0.86 to 0.95 for an asymmetry of 0.6 (Joseph, Wiscombe and Weinman 1976); 0.65 is left.
-The fourth root of that light is kept, which half floats hold four times as deep.
+"""Fractions of optical depth that attenuate `sun` and `sky`. Forward-scattered light counts as unscattered:
+0.36 of 0.86 to 0.95 for an asymmetry of 0.6 (Joseph, Wiscombe and Weinman 1976); 0.65 remains. The fourth
+root of the transmission is stored, which half floats resolve to four times the optical depth.
 """
-DEEP = 6.0  # optical depth behind which smoke is `hidden`: 0.25 % of its light is left
-_THICKEST = 0.03  # 1/m, at which extinction levels off: more is as opaque and takes shorter steps
-_NEAR = (20.0, 36.0)  # m, voxels of the nest: the smallest and the largest
-_PIXELS = 4.0  # that a voxel is wide where it lies between them: finer smoke shows no better, and costs more
-_FAR = 80.0  # m, of the rest
-_ALONE = 60.0  # m, the least without a nest
+DEEP = 6.0  # optical depth beyond which smoke is `hidden`: transmission is 0.25 %
+_THICKEST = 0.03  # 1/m, at which extinction saturates: denser smoke is as opaque and needs shorter steps
+_NEAR = (20.0, 36.0)  # m, smallest and largest voxels of the nest
+_PIXELS = 4.0  # pixels per voxel between these limits: finer smoke shows no better and costs more
+_FAR = 80.0  # m, voxels outside of the nest
+_ALONE = 60.0  # m, smallest voxels without a nest
 _LUMPS = {True: (340.0, (3.5, 2.5, 2.5)), False: (1100.0, (2.5, 1.5, 1.5))}  # m; blur of the drift, cells
 _SURFACE_STEP = 40.0  # m
-_INSIDE, _FADE = 600.0, (700.0, 4000.0)  # m from a box's side where smoke ends, and in which it fades
+_INSIDE, _FADE = 600.0, (700.0, 4000.0)  # m from a box's side where smoke ends, and over which it fades
 _TORN, _TEARS, _EDGE = 0.8, 6000.0, 1.4  # of that way, m: how ragged smoke ends; and how steeply at the side
-_THINNING = 6  # power of the fade at the far end: what is thick hides as much until a hundredth is left
-_SEEN = 1e-9  # kg/m3; thinner smoke is not looked at
-_THIN = 5.0e-5  # 1/m; thinner smoke is left out
-_AGES = 20.0, 600.0  # s, of dark and of white smoke
-_BLOCK, _ROUND = 16, 300.0  # voxels; m round a block that count as it: of light that smoke passes on
+_THINNING = 6  # exponent of the fade at the far end: dense smoke stays opaque down to a hundredth
+_SEEN = 1e-9  # kg/m3; thinner smoke is skipped
+_THIN = 5.0e-5  # 1/m; thinner smoke is not stored
+_AGES = 20.0, 600.0  # s, ages of dark and of white smoke
+_BLOCK, _ROUND = 16, 300.0  # voxels of a culling block; m of margin for multiply scattered light
 
 # Lengths, times and extinctions are those of a fire on cells of `scale.REFERENCE` m.
 
 Array = NDArray[np.float64]
 Brick = tuple[NDArray[np.float32], float, list[float]]
-"""Values (nx, ny, nz), voxel size and the first voxel's middle (m), as `volume.smoke_light` has them."""
+"""Values (nx, ny, nz), voxel size and centre of the first voxel (m), as `volume.smoke_light` takes them."""
 Eyes = tuple[Array, Array]
-"""Where smoke is seen from, as `Visibility.eyes` gives it."""
+"""Viewpoints, as `Visibility.eyes` returns them."""
 
 
 @dataclass(frozen=True)
 class Beyond:
-    """What a layer is to the one within it: optical depths to the sun, and the smoke that hides (1/m)."""
+    """Outer layer's effect on the next: optical depth towards the sun, and occluding extinction (1/m)."""
 
     depths: Brick | None = None
     smoke: Brick | None = None
@@ -71,7 +70,7 @@ class Beyond:
 
 @dataclass(frozen=True)
 class _Painted:
-    """A layer's smoke with the light in it, how much of it is drawn (nx, ny), and the flow's masses (kg)."""
+    """Painted layer: smoke with its light, blend weight of columns (nx, ny), and the flow's masses (kg)."""
 
     lit: volume.LitSmoke
     share: Array
@@ -81,22 +80,22 @@ class _Painted:
 
 @dataclass(frozen=True)
 class Layer:
-    """A domain's smoke as it is drawn: voxels of one size (m) in files of one name."""
+    """Volume layer: a domain's smoke on voxels of one size (m), in files of one name."""
 
     name: str
     domain: Domain
     voxel: float
     fine: bool
     close: bool = False
-    """Of the domain only what lies in a frame's window."""
+    """Whether only the part within a frame's close-up window is drawn."""
 
     def file(self, folder: Path, frame: int) -> Path:
-        """Its volume of a frame."""
+        """Volume file of a frame."""
         return folder / f"{self.name}_{frame:06d}.vdb"
 
 
 def layers(shot: Shot, solved: Flow) -> list[Layer]:
-    """The layers of a shot's smoke. The last, which is written last, is named "smoke" as all smoke is."""
+    """Volume layers of a shot's smoke. The last one is written last and is named "smoke"."""
     found = solved.domains
     if not found:
         return []
@@ -110,28 +109,28 @@ def layers(shot: Shot, solved: Flow) -> list[Layer]:
 
 
 def _pixel(shot: Shot) -> float:
-    """Size (m) at the fire of the smallest pixel of a picture."""
-    plain = SENSOR / WIDE_LENS / shot.settings.render.resolution[0]  # where no camera is in perspective
+    """Smallest pixel size (m) at the fire."""
+    plain = SENSOR / WIDE_LENS / shot.settings.render.resolution[0]  # without a perspective camera
     return shot.fire_distance * (shot.pixel[0] if shot.perspective_paths else plain)
 
 
 def thickest(scale: Scale) -> float:
-    """Extinction (1/m) at which that of smoke levels off."""
+    """Extinction (1/m) at which smoke saturates."""
     return _THICKEST / scale.ratio
 
 
 def thinnest(scale: Scale) -> float:
-    """Extinction (1/m) of smoke that is left out."""
+    """Extinction (1/m) below which smoke is not stored."""
     return _THIN / scale.ratio
 
 
 class Painter:
-    """Writes the volumes of one layer.
+    """Paints and writes the volumes of one layer.
 
     Parameters
     ----------
     inner
-        The box that a finer layer draws.
+        Box of a finer layer, which is left out.
     """
 
     def __init__(self, shot: Shot, layer: Layer, inner: Box | None) -> None:
@@ -149,20 +148,21 @@ class Painter:
         eyes: Eyes | None = None,
         beyond: Beyond | None = None,
     ) -> tuple[volume.VdbSummary, Beyond]:
-        """Write a frame's volume, or of it what is seen.
+        """Write a frame's volume, culled to what is visible.
 
         Parameters
         ----------
         lights
-            Positions (n, 3) m and powers (n,) W of flames; without them there is no glow.
+            Positions (n, 3), m, and powers (n,), W, of flames; None: no glow.
         eyes
-            Where all that see the frame do; left out, no smoke is hidden.
+            Viewpoints of the frame; None: no smoke is occluded.
         beyond
-            The layer before, round this one.
+            The outer layer around this one.
 
         Returns
         -------
-        The frame, and what this layer is to the next; smoke dims the sun whether this layer draws it or not.
+        Summary of the file, and this layer's effect on the next. Smoke attenuates sunlight even where it is
+        not drawn.
         """
         painted = self._paint(frame, lights, views, beyond)
         voxel, origin = self.layer.voxel, painted.origin
@@ -193,12 +193,12 @@ class Painter:
         beyond: Beyond | None = None,
         window: Window | None = None,
     ) -> tuple[volume.Bricks, Beyond]:
-        """The same for rays to be marched through, and no file.
+        """Paint a frame as bricks for ray marching, without a file.
 
         Parameters
         ----------
         window
-            What of it is painted again, more finely.
+            Close-up window that is painted again on finer voxels.
         """
         painted = self._paint(frame, lights, views, beyond, window)
         return painted.lit.bricks(painted.share, self._thin), Beyond(painted.lit.depths)
@@ -224,13 +224,13 @@ class Painter:
 
     @functools.cached_property
     def _heights(self) -> Array:
-        """Of the ground and of cells' middles (1 + nz, rows, columns), m, as the solver has them."""
+        """Heights of the ground and of cell centres (1 + nz, rows, columns), m, as in the solver."""
         return np.concatenate([self.layer.domain.ground[None], self.layer.domain.heights()])
 
     def _brick(
         self, snapshot: snapshots.Snapshot, window: Window | None
     ) -> tuple[tuple[float, float, float], Array, Array, Array, int]:
-        """Centre of the first voxel; of columns the ground and the shares of `_shares`; count of levels."""
+        """First voxel's centre, columns' ground heights, the weights of `_shares`, and number of levels."""
         box, voxel = self.layer.domain.box, self.layer.voxel
         _nz, rows, columns = snapshot.fields["smoke"].shape
         low = np.array(box.corner) + np.array(snapshot.low) * box.spacing
@@ -254,12 +254,12 @@ class Painter:
 
     @property
     def _surface_step(self) -> float:
-        """Between places of the true ground, m."""
+        """Spacing of samples of the true ground, m."""
         return self.scale.length(_SURFACE_STEP)
 
     @functools.cached_property
     def _surface(self) -> Array:
-        """The true ground over the box (nx, ny) every `_surface_step` m."""
+        """True ground height over the box (nx, ny) every `_surface_step` m."""
         box = self.layer.domain.box
         x, y = (
             np.arange(low, high + self._surface_step, self._surface_step)
@@ -269,7 +269,7 @@ class Painter:
         return up.reshape(len(x), len(y))
 
     def _shares(self, x: Array, y: Array, window: Window | None = None) -> tuple[Array, Array]:
-        """How much smoke there is at places, for light, and how much of that this layer draws, 0 to 1."""
+        """Weights 0..1 at points: smoke that attenuates light, and fraction of it that this layer draws."""
         box = self.layer.domain.box
         if self.layer.fine:
             close = 0.0 if window is None else window.share(x, y)
@@ -282,7 +282,7 @@ class Painter:
         )
 
     def _inside(self, box: Box, x: Array, y: Array, fade: float, torn: Array | float = 0.0) -> Array:
-        """0 outside of a box and near its sides, 1 farther in than `fade`; `torn` is added to that."""
+        """Fade of a box: 0 outside and near its sides, 1 farther in than `fade`; `torn` offsets the depth."""
         low, high = box.corner, box.high
         depth = np.minimum(np.minimum(x - low[0], high[0] - x), np.minimum(y - low[1], high[1] - y))
         way = (depth - self.scale.length(_INSIDE)) / self.scale.length(fade)
@@ -296,7 +296,7 @@ class Painter:
         corner = tuple(low + at * box.spacing for low, at in zip(box.corner, snapshot.low, strict=True))
         size, blur = _LUMPS[self.layer.fine]
         mix = shot.fire.smoke
-        # Thresholds are those of a crown fire's smoke: of thinner smoke, as warm, they are as much lower.
+        # Thresholds apply to a crown fire's smoke; they are lower for thinner smoke of equal temperature.
         fields = snapshot.fields | {"smoke": snapshot.fields["smoke"] / np.float32(mix.dilution)}
         scale = self.layer.domain.scale
         levels = np.array(box.levels)
@@ -330,7 +330,7 @@ def _wanted(
     voxel: float,
     around: float,
 ) -> NDArray[np.bool_] | None:
-    """Which blocks of a brick anything that is seen lies in. `volume.write` leaves out the others' voxels."""
+    """Culling mask of a brick's blocks that are visible. `volume.write` leaves out the other blocks."""
     if views is None:
         return None
     side = _BLOCK * voxel
@@ -341,7 +341,7 @@ def _wanted(
 
 
 def _sampled(values: Array, step: float, corner: tuple[float, float], x: Array, y: Array) -> Array:
-    """Values (nx, ny) every `step` m from a corner, at places x and y. Linear between."""
+    """Interpolate values (nx, ny), every `step` m from a corner, linearly at points x and y."""
     i, j = ((at - low) / step for at, low in zip((x, y), corner, strict=True))
     i, j = (np.clip(at, 0.0, count - 1.001) for at, count in zip((i, j), values.shape, strict=True))
     a, b = i.astype(np.int64), j.astype(np.int64)

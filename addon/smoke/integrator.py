@@ -1,4 +1,4 @@
-"""Solving a flow of smoke step by step, and going on where that was interrupted. Needs no Blender."""
+"""Flow integrator: time stepping of a smoke flow, with checkpoints to resume from. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -23,23 +23,23 @@ from .domains import Domain
 
 STATE = "state.npz"
 WORK = "the smoke's flow"
-CONVECTED = 0.7  # of the heat rises with the air; the rest is radiated (Freeborn et al. 2008)
-_BURN = 30.0  # s between two looks at what burns
-_RAMP = 300.0  # s in which the fire grows to its strength: a sudden one would bang
-# Standard deviation of the logarithm of what single flames give off, alike within m and s.
+CONVECTED = 0.7  # convective fraction of the heat; the rest is radiated (Freeborn et al. 2008)
+_BURN = 30.0  # s between updates of the heat sources
+_RAMP = 300.0  # s in which the fire ramps up; a sudden start would send out a pressure wave
+# Gusts of the sources: standard deviation of the logarithm, correlation length (m) and time (s).
 _GUSTS = 0.6, 400.0, 90.0
-_FINE_GUSTS = 0.9, 180.0, 45.0  # the same in the nest: single runs of flames
-_SIDES = (8.0, 40.0), (10.0, 8.0)  # of box and nest: cells and relaxation time (s) of the sponge layer
+_FINE_GUSTS = 0.9, 180.0, 45.0  # the same in the nest, for single flame runs
+_SIDES = (8.0, 40.0), (10.0, 8.0)  # sponge layer of domain and nest: cells and relaxation time (s)
 _TOP = 60.0  # s, relaxation time of the Rayleigh damping at the top
-_DRAG = 300.0  # s, relaxation time of the lowest level's wind; as long as that level is deep
-_DEPTH = 90.0  # m, over which heat and smoke go in
-_DRIFT = 240.0  # s before the first frame from which detail is carried along; twice what it lasts
-_SAVE = 30.0  # s of work that an interruption may cost
-_LONGEST_STEP = 1.2  # times the scale's step, where frames are that far apart
+_DRAG = 300.0  # s, relaxation time of surface drag on wind in the lowest level, per its depth
+_DEPTH = 90.0  # m, injection depth of heat and smoke
+_DRIFT = 240.0  # s before the first frame from which detail is advected; twice its lifetime
+_SAVE = 30.0  # s between checkpoints
+_LONGEST_STEP = 1.2  # times the scale's step, upper limit between frames
 
 
 class StoppedError(Exception):
-    """Somebody asked for the end of solving."""
+    """Solving was stopped on request."""
 
 
 class Integrator:
@@ -48,11 +48,11 @@ class Integrator:
     Parameters
     ----------
     nested
-        The domain of the whole fire, and the nested one if there is one.
+        The domain of the whole fire, and the nested domain if there is one.
     stop
-        Ends solving when it is set.
+        Event that stops solving.
     frame
-        It resumes from no step beyond this frame.
+        Latest frame that a checkpoint may have passed.
     """
 
     def __init__(self, shot: Shot, nested: list[Domain], stop: Event, frame: int) -> None:
@@ -77,7 +77,7 @@ class Integrator:
         return self.begin + self.solvers[0].time
 
     def solve(self, frame: int, progress: Progress, last: int) -> None:
-        """Go on to a frame and keep what is passed. `progress` counts the work up to the frame `last`."""
+        """Solve up to a frame and save its snapshots. `progress` counts the work up to the frame `last`."""
         end, total = self._step_of(frame), int(self.work[self._step_of(last)])
         with cache.in_use(self.domains[-1].folder):
             self._keep()
@@ -99,7 +99,7 @@ class Integrator:
         return next(step for step, each in self.frame_of.items() if each == frame)
 
     def _work(self) -> NDArray[np.int64]:
-        """What the steps up to each cost, in steps of the box alone."""
+        """Cumulative work of the steps, in steps of the outer domain."""
         left = self.shot.spin_up - np.concatenate([[0.0], np.cumsum(self.steps)[:-1]])
         cost = np.ones(len(self.steps))
         if len(self.domains) > 1:
@@ -117,7 +117,7 @@ class Integrator:
             drift.advance()
 
     def _widen(self) -> None:
-        """Begin the nest, and the detail's drift, once it is time."""
+        """Start the nest and the detail's drift when they are due."""
         left = self.shot.frames.first - self.now
         if len(self.domains) > len(self.solvers) and left <= self.lead + 1e-6:
             self.solvers.append(self._inner(self.domains[1]))
@@ -126,7 +126,7 @@ class Integrator:
             self.drifts += [self._drift(solver) for solver in self.solvers[len(self.drifts) :]]
 
     def _burn(self) -> None:
-        """Have what burns now give off heat and smoke, and the wind blow."""
+        """Update heat and smoke sources and the ambient wind."""
         slot = math.floor(self.solvers[0].time / self.slots + 1e-6)
         if slot == self.slot:
             return
@@ -149,7 +149,7 @@ class Integrator:
 
     def _save(self) -> None:
         self.saved = time.monotonic()
-        if self.step <= self.saved_step:  # what is kept is farther on
+        if self.step <= self.saved_step:  # the saved checkpoint is later
             return
         kept: dict[str, NDArray[Any]] = {"step": np.array([self.step])}
         for number, solver in enumerate(self.solvers):
@@ -161,7 +161,7 @@ class Integrator:
         self.saved, self.saved_step = time.monotonic(), self.step
 
     def _resume(self, end: int) -> None:
-        """Go on from the saved state, if it is whole and not beyond what is asked for."""
+        """Resume from a checkpoint if it is complete and not later than requested."""
         path = self.domains[-1].folder / STATE
         try:
             kept = snapshots.read(path)
@@ -213,7 +213,7 @@ class Integrator:
     def _settings(
         self, sponge_width: float, sponge_time: float, gusts: tuple[float, float, float]
     ) -> flow.SolverSettings:
-        """Settings of a solver at the shot's scale; `gusts` are strength, size (m) and time (s)."""
+        """Solver settings at the shot's scale; `gusts` are strength, size (m) and time (s)."""
         strength, size, time = gusts
         return flow.SolverSettings(
             sponge_width=sponge_width,
@@ -229,17 +229,17 @@ class Integrator:
 
 
 def _nested_lead(shot: Shot) -> float:
-    """How long before the first frame the nested domain begins, s."""
+    """Spin-up of the nested domain before the first frame, s."""
     return shot.scale.time(domains.LEAD)
 
 
 def _count(dt: float, scale: Scale) -> int:
-    """Steps of the nest in one of the box's."""
+    """Substeps of the nest in a step of the outer domain."""
     return max(1, round(dt * FINER / scale.step))
 
 
 def _schedule(shot: Shot) -> tuple[list[float], dict[int, int]]:
-    """Every step's length, s, and which frame is reached after so many steps."""
+    """Lengths of all steps, s, and the frame reached after a number of steps."""
     frames, step = shot.frames, shot.scale.step
     lead = math.ceil(shot.spin_up / step)
     steps = [shot.spin_up / lead] * lead if lead else []
@@ -252,7 +252,7 @@ def _schedule(shot: Shot) -> tuple[list[float], dict[int, int]]:
 
 
 def _winds(shot: Shot, begin: float) -> list[tuple[float, float]]:
-    """The run's wind near the ground at every look at what burns."""
+    """The run's near-surface wind at every source update."""
     slot = shot.scale.time(_BURN)
     count = max(1, math.ceil((shot.frames.last - begin) / slot) + 1)
     found = burning.wind_at(shot.run, begin + slot * np.arange(count), shot.fire.surroundings)

@@ -1,7 +1,7 @@
-"""How much smoke a shot has, and how thick it is from above, in words beside what was measured of others.
+"""Plume mass and optical depth of a shot, with published values for comparison.
 
-Needs no Blender. Optical depths are those of the smoke's mass alone, at 4 m2/g in green light: what is drawn
-of it besides (ash and droplets of a crown fire's column, see `flow_frames`) is a matter of looks.
+Needs no Blender. Optical depth is that of the smoke's mass alone, at 4 m2/g in green light. Ash and droplets
+of a crown fire's column (see `flow_frames`) are drawn in addition, for looks.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from ..shot.shot import Shot
 from . import snapshots, sources
 from .domains import Domain
 
-_WIDE = 1000.0  # m; satellites and photometers see means over about as much
-_SMOKY = 0.1  # optical depth from which a column counts as the plume's
-_LOOKS = 3  # at most so many of the shot's snapshots
+_WIDE = 1000.0  # m, averaging width, about that of satellites and photometers
+_SMOKY = 0.1  # optical depth from which a column belongs to the plume
+_LOOKS = 3  # snapshots at most that are measured
 
-# Over burning savanna in Zambia, at 440 nm (Eck et al. 2003, doi 10.1029/2002JD002321); of wildfires in the
-# western United States, at 550 nm, where photometers saw 0.5 to 3 (Ye et al. 2022, doi 10.3390/rs14236113).
-# Both are of smoke that has spread; young plumes near the fire are deeper than either can tell.
+# Over burning savanna in Zambia, at 440 nm (Eck et al. 2003, doi 10.1029/2002JD002321). Of wildfires in the
+# western United States, at 550 nm, where photometers measured 0.5 to 3 (Ye et al. 2022, doi
+# 10.3390/rs14236113). Both are of dispersed smoke; young plumes near the fire are deeper than either range.
 _PUBLISHED = {
     False: ("of savanna fires", 0.4, 2.5, "Eck et al. 2003"),
     True: ("of western wildfires", 0.5, 3.0, "Ye et al. 2022"),
@@ -31,15 +31,15 @@ _PUBLISHED = {
 
 @dataclass(frozen=True)
 class Plume:
-    """Smoke of a shot.
+    """Smoke plume of a shot.
 
     Attributes
     ----------
     made
-        kg of PM2.5 given off from the first frame to the last.
+        Emitted PM2.5 from the first frame to the last, kg.
     deepest, wide, mean
-        Optical depths from above: the largest of a column of cells, and of the mean of columns over a
-        kilometre, and the mean over all of the plume; None where no snapshots are kept.
+        Vertical optical depth: maximum of a column of cells, maximum of the mean over a kilometre, and mean
+        over the plume; None without snapshots.
     """
 
     made: float
@@ -49,14 +49,14 @@ class Plume:
 
 
 def measure(shot: Shot) -> Plume:
-    """What is known of the smoke of a shot, from the snapshots that are kept of its flow."""
+    """Measure the plume of a shot from the flow's snapshots that exist."""
     frames = shot.frames
     made = shot.fire.smoke_made(frames.first, frames.last)
     looks = np.unique(np.linspace(1, frames.count, min(_LOOKS, frames.count)).round().astype(int)).tolist()
     found = [
         [_depths(domain, frame) for frame in looks if domain.has(frame)]
         for domain in sources.select(shot).domains
-    ]  # of the box, and of a nest, which does not hold all of the plume
+    ]  # domains, outermost first; a nest does not contain all of the plume
     if not found or not found[0]:
         return Plume(made)
     deepest, wide = (max(depths[k] for each in found for depths in each) for k in (0, 1))
@@ -64,7 +64,7 @@ def measure(shot: Shot) -> Plume:
 
 
 def describe(shot: Shot) -> str:
-    """The smoke of a shot in words: mass, fuels and optical depth."""
+    """Describe the smoke of a shot in words: mass, fuels and optical depth."""
     found, mix = measure(shot), shot.fire.smoke
     shares = [
         f"{round(100.0 * share)} % {kind.name}"
@@ -82,7 +82,7 @@ def describe(shot: Shot) -> str:
 
 
 def _depths(domain: Domain, frame: int) -> tuple[float, float, float]:
-    """Optical depths of a snapshot: the largest of a column and over `_WIDE`, and the plume's mean."""
+    """Optical depths of a snapshot: maximum of a column, maximum over `_WIDE`, and mean of the plume."""
     depth = columns(domain, *snapshots.load_smoke(domain.snapshot_path(frame)))
     side = max(1, round(_WIDE / domain.box.spacing))
     padded = np.pad(depth, [(0, -count % side) for count in depth.shape])
@@ -92,11 +92,11 @@ def _depths(domain: Domain, frame: int) -> tuple[float, float, float]:
 
 
 def columns(domain: Domain, low: tuple[int, int], smoke: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Optical depth (ny, nx), straight down, of smoke (nz, ny, nx), kg/m3, from column and row `low` on."""
+    """Vertical optical depth (ny, nx) of smoke (nz, ny, nx), kg/m3, of a block that starts at `low`."""
     (west, south), (_, rows, across) = low, smoke.shape
     thick = np.diff(domain.box.levels)[: len(smoke)]
     ground = domain.ground[south : south + rows, west : west + across]
-    squeezed = 1.0 - (ground - domain.mean) / domain.top  # levels lie closer over what is high
+    squeezed = 1.0 - (ground - domain.mean) / domain.top  # levels are thinner over high ground
     return emissions.EXTINCTION * squeezed * np.tensordot(thick, smoke.astype(np.float64), 1)
 
 

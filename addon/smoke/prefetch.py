@@ -1,4 +1,4 @@
-"""Smoke of frames for rays to be marched through, painted one frame before it is shown."""
+"""Prefetch of smoke bricks for ray marching: each frame is painted one frame ahead."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def smoke(
     tell: MessageCallback = no_message,
     elsewhere: Callable[[], bool] | None = None,
 ) -> AbstractContextManager[Callable[..., Smoke | None]]:
-    """What gives pictures their smoke: `bricks` where it is marched, else `bake.ahead`."""
+    """Supply rendered frames with smoke: `bricks` for ray marching, else `bake.ahead`."""
     if sources.is_integrated(shot):
         return bricks(shot, frames, progress, tell, elsewhere)
     return bake.ahead(shot, frames, progress, tell)
@@ -36,16 +36,16 @@ def bricks(
     tell: MessageCallback = no_message,
     elsewhere: Callable[[], bool] | None = None,
 ) -> Iterator[Ready]:
-    """Paint smoke while pictures are made.
+    """Paint smoke bricks during rendering.
 
-    Gives a function ``ready(frame, after)`` that waits until the smoke of a frame is painted and returns it;
-    the first of the frames `after` is painted meanwhile. Frames that are not among `frames` have none. It
-    raises what went wrong with that frame.
+    Yields a function ``ready(frame, after)``. It waits for a frame's smoke and returns it; meanwhile the
+    first of the frames `after` is painted. Frames outside of `frames` have no smoke. It raises the error of
+    that frame.
 
     Parameters
     ----------
     elsewhere
-        Whether another process of ours prepares the shot. What it leaves undone is done here.
+        Whether another of our processes prepares the shot. What it leaves undone is done here.
     """
     line = _Bricks(shot, set(frames), progress, tell, elsewhere)
     try:
@@ -55,7 +55,7 @@ def bricks(
 
 
 class _Bricks(bake.Line):
-    """Frames whose smoke is painted."""
+    """Queue of frames whose smoke is painted as bricks."""
 
     def __init__(
         self,
@@ -70,7 +70,7 @@ class _Bricks(bake.Line):
         self.elsewhere = elsewhere
 
     def ready(self, frame: int, after: Iterable[int] = ()) -> Smoke:
-        """The smoke of a frame. That of the next is begun, and what nobody waits for any more is let go."""
+        """Return a frame's smoke, start the next frame, and cancel frames that are no longer needed."""
         if frame not in self.frames:
             return []
         following = next((each for each in after if each in self.frames), None)

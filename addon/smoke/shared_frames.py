@@ -1,4 +1,4 @@
-"""Frames that one of a shot's cameras films alone: their smoke is that of this camera's own shot."""
+"""Shared frames: frames that only one camera films share their smoke volumes with that camera's own shot."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from . import sources
 
 
 def frames(shot: Shot, wanted: Iterable[int]) -> list[tuple[Shot, list[int]]]:
-    """Those of the `wanted` frames that one of several cameras films alone, with the shot of that camera.
+    """Group those of the `wanted` frames that a single camera films, with the shot of that camera.
 
-    None of a camera for which smoke is drawn otherwise than for all of them.
+    A camera is left out if its own shot has other smoke resolution than the shot of all cameras.
     """
     cameras = shot.settings.cameras
     if len(cameras) < 2 or shot.settings.smoke.complete or not shot.settings.render.cull:
@@ -33,7 +33,7 @@ def frames(shot: Shot, wanted: Iterable[int]) -> list[tuple[Shot, list[int]]]:
 
 
 def link(source: Path, place: Path, listed: Iterable[int]) -> None:
-    """Give volumes of one folder of the cache a place in another too. Copies where a disk has no links."""
+    """Hard-link volumes into another cache folder; copy where the file system has no links."""
     for path in (path for frame in listed for path in sorted(source.glob(f"*_{frame:06d}.vdb"))):
         files.write(place / path.name, lambda part, path=path: _same(path, part))
 
@@ -46,6 +46,6 @@ def _same(path: Path, part: Path) -> None:
 
 
 def _drawn(shot: Shot) -> list[object]:
-    """What of the cameras decides how fine smoke is."""
+    """Camera-dependent inputs that decide the smoke's resolution."""
     source = sources.select(shot)
     return [source.inputs(), source.voxels()]

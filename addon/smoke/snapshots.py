@@ -1,4 +1,4 @@
-"""Snapshots of a solved flow: the smoke's block of cells at one time, in one file. Needs no Blender."""
+"""Snapshots of a solved flow: one file with the smoke's block of cells at one time. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from .. import files
 
-_NONE = 1e-15  # kg/m3; thinner smoke is left out
-_UNSEEN = 3e-10  # kg/m3; what else is known of thinner smoke is not kept
-_DRIFT_STEP = 4.0  # m, to which drift is rounded
-_PACKING = 1  # of zlib: three times as fast as the usual, files a tenth larger
+_NONE = 1e-15  # kg/m3; thinner smoke is not stored
+_UNSEEN = 3e-10  # kg/m3; other fields of thinner smoke are not stored
+_DRIFT_STEP = 4.0  # m, quantization of drift
+_PACKING = 1  # zlib level: three times as fast as the default, files a tenth larger
 
 _NAMES = ("smoke", "age", "rise", "temperature_excess", "drift", "low", "weights", "turns", "mass")
 
@@ -26,12 +26,12 @@ Fields = dict[str, NDArray[Any]]
 
 
 class BrokenError(Exception):
-    """A file is cut off, or is no snapshot of this flow."""
+    """The file is truncated or is no snapshot of this flow."""
 
 
 @dataclass(frozen=True)
 class Snapshot:
-    """A block of a flow's cells that reaches down to the ground.
+    """Block of a flow's cells above the ground.
 
     Attributes
     ----------
@@ -41,9 +41,9 @@ class Snapshot:
         smoke, age, rise, temperature_excess (nz, ny, nx) and drift (nz, ny, nx, 2, 3), as of
         `firetwin_core.flow`.
     weights, turns
-        Of the drift's two phases.
+        Weights and turn counts of the drift's two phases.
     mass
-        The flow's account of smoke, kg.
+        Mass budget of smoke, kg.
     """
 
     low: tuple[int, int]
@@ -54,7 +54,7 @@ class Snapshot:
 
 
 def save(path: Path, solver: flow.Solver, drift: flow.Drift) -> None:
-    """Write a snapshot of a flow as it is now."""
+    """Write a snapshot of a flow's present state."""
     smoke = solver.smoke()
     there = smoke > _NONE
     block = tuple(_range(there.any(axis=axes)) for axes in ((1, 2), (0, 2), (0, 1)))
@@ -85,7 +85,7 @@ def load(path: Path) -> Snapshot:
     Raises
     ------
     BrokenError
-        It is not whole.
+        The file is not complete.
     """
     kept = read(path)
     try:
@@ -110,12 +110,12 @@ def load(path: Path) -> Snapshot:
 
 
 def load_smoke(path: Path) -> tuple[tuple[int, int], NDArray[np.float32]]:
-    """Read of a snapshot the block's first column and row, and the smoke alone (nz, ny, nx), kg/m3.
+    """Read only the smoke (nz, ny, nx), kg/m3, of a snapshot, with its block's first column and row.
 
     Raises
     ------
     BrokenError
-        It is not whole.
+        The file is not complete.
     """
     try:
         with np.load(path, allow_pickle=False) as file:
@@ -126,7 +126,7 @@ def load_smoke(path: Path) -> tuple[tuple[int, int], NDArray[np.float32]]:
 
 
 def is_whole(path: Path, shape: tuple[int, int, int]) -> bool:
-    """Whether a file is there that looks like a snapshot of a flow of so many cells. Quick."""
+    """Whether a file looks like a complete snapshot of a flow of so many cells. Reads headers only."""
     try:
         with zipfile.ZipFile(path) as file:
             if set(file.namelist()) != {f"{name}.npy" for name in _NAMES}:
@@ -144,12 +144,12 @@ def is_whole(path: Path, shape: tuple[int, int, int]) -> bool:
 
 
 def read(path: Path) -> Fields:
-    """All arrays of a file that `write` wrote.
+    """Read all arrays of a file that `write` made.
 
     Raises
     ------
     BrokenError
-        It is not whole.
+        The file is not complete.
     """
     try:
         with np.load(path, allow_pickle=False) as file:
@@ -161,14 +161,14 @@ def read(path: Path) -> Fields:
 
 
 def _header(file: zipfile.ZipFile, name: str) -> tuple[int, ...]:
-    """The shape of one of a file's arrays."""
+    """Shape of an array in an .npz file."""
     with file.open(f"{name}.npy") as part:
         np.lib.format.read_magic(part)
         return np.lib.format.read_array_header_1_0(part)[0]
 
 
 def write(path: Path, arrays: Fields, packing: int = 0) -> None:
-    """Write arrays as an .npz file of the same bytes whenever it is written."""
+    """Write arrays as an .npz file, reproducible to the byte."""
     way = zipfile.ZIP_DEFLATED if packing else zipfile.ZIP_STORED
     with zipfile.ZipFile(path, "w", way) as file:
         for name, array in arrays.items():
@@ -178,7 +178,7 @@ def write(path: Path, arrays: Fields, packing: int = 0) -> None:
 
 
 def _doubled(values: NDArray[np.float32], axis: int, count: int) -> NDArray[np.float32]:
-    """Values of every other one of `count` places, at all of them. Linear between."""
+    """Upsample every second of `count` points to all of them along an axis, linearly."""
     values = np.moveaxis(values, axis, 0)
     found = np.repeat(values, 2, 0)
     found[1:-1:2] = 0.5 * (values[:-1] + values[1:])
@@ -186,6 +186,6 @@ def _doubled(values: NDArray[np.float32], axis: int, count: int) -> NDArray[np.f
 
 
 def _range(there: NDArray[np.bool_]) -> slice:
-    """From the first to the last that is there. One cell where none is."""
+    """Slice from the first to the last true element; one element if there is none."""
     found = np.flatnonzero(there)
     return slice(int(found[0]), int(found[-1]) + 1) if len(found) else slice(0, 1)

@@ -1,4 +1,4 @@
-"""Smoke as the cameras of a shot see it: how fine it must be, and where none of it is needed."""
+"""Smoke resolution for a shot's cameras: voxel size, ray step, distances, and frames that show smoke."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from ..shot import passes
 from ..shot.settings.settings import Camera, Settings
 from ..shot.shot import Shot
 
-_NEAR, _BEHIND = 0.1, 25_000.0  # part of the fire's distance, and m beyond it, between which smoke shows
+_NEAR, _BEHIND = 0.1, 25_000.0  # nearest distance as fraction of the fire's, and m beyond the fire
 _VOXELS, _EXTINCTION = (50.0, 160.0), (0.009, 0.03)  # m, 1/m, at a fire of 15 km
-STEP_DEPTH = 0.8  # optical depth of a step through thick smoke; much longer steps lose smoke
-SOLVED_STEP_DEPTH = 1.2  # where smoke shines by itself: FLIP 0.019 off steps of 0.2; 0.8 is 0.010 off
+STEP_DEPTH = 0.8  # optical depth of a ray step in thick smoke; much longer steps lose smoke
+SOLVED_STEP_DEPTH = 1.2  # with light in the volume: FLIP error 0.019 against steps of 0.2; 0.8 has 0.010
 
 
 @dataclass(frozen=True)
 class Resolution:
-    """How finely smoke is drawn, from the distance of the nearest camera.
+    """Smoke resolution, from the distance of the nearest camera.
 
     Attributes
     ----------
     voxel
         Edge of a voxel, m.
     step
-        Step along rays through the smoke, m.
+        Ray marching step, m.
     extinction
-        Of thick smoke, 1/m; see STEP_DEPTH.
+        Extinction of thick smoke, 1/m; see STEP_DEPTH.
     """
 
     voxel: float
@@ -36,7 +36,7 @@ class Resolution:
 
 
 def resolution(shot: Shot) -> Resolution:
-    """The scene file's voxel size and extinction, where it gives them, else those for the cameras."""
+    """Voxel size and extinction from the scene file; defaults follow the cameras."""
     smoke = shot.settings.smoke
     voxel = smoke.voxel_size or _voxel(shot)
     thick = np.array(_EXTINCTION) / shot.scale.ratio
@@ -45,18 +45,18 @@ def resolution(shot: Shot) -> Resolution:
 
 
 def _voxel(shot: Shot) -> float:
-    """Of puffs (m): coarser from afar, and as fine as the fire."""
+    """Voxel size of puffs (m): coarser with distance and with the fire's size."""
     least, most = (shot.scale.length(each) for each in _VOXELS)
     return float(np.clip(70.0 * (shot.fire_distance / 4000.0) ** 0.4, least, most))
 
 
 def span(shot: Shot) -> tuple[float, float]:
-    """Distances from the cameras (m) between which smoke shows. The far side of old smoke may lie beyond."""
+    """Near and far distances from the cameras (m) for smoke. Old smoke may extend beyond the far one."""
     return max(_NEAR * shot.fire_distance, 1.0), shot.fire_distance + _BEHIND
 
 
 def shot_frames(shot: Shot) -> list[int]:
-    """Frames whose smoke some picture shows. All of them where there is no camera."""
+    """Frames in which some pass shows smoke; all frames without cameras."""
     cameras = shot.settings.cameras
     if not cameras:
         return list(range(1, shot.frames.count + 1))
@@ -65,7 +65,7 @@ def shot_frames(shot: Shot) -> list[int]:
 
 
 def _shows_smoke(settings: Settings, camera: Camera) -> bool:
-    """Whether a camera's passes, or those that they are made from, show smoke."""
+    """Whether a camera's passes, or the passes that they are composed of, show smoke."""
     return any(_sees_smoke(each) for each in passes.of_camera(settings, camera))
 
 

@@ -177,7 +177,9 @@ def test_a_camera_that_records_no_smoke_culls_none_of_anothers(smoky, run):
     above = Camera("above", Satellite(), passes=("depth",), frames="2")
     shot = Shot(replace(smoky, cameras=(*smoky.cameras, above)), run)
     eye, aim = shot.paths[0].position[1], shot.paths[0].target[1]
-    seen = [lod.visible_mask([eye - (aim - eye)], 0.0, shot.visibility.view_set(frame))[0] for frame in (1, 2, 3)]
+    seen = [
+        lod.visible_mask([eye - (aim - eye)], 0.0, shot.visibility.view_set(frame))[0] for frame in (1, 2, 3)
+    ]
     assert seen == [False, True, False]
 
 

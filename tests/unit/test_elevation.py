@@ -169,19 +169,19 @@ BAD = {
     "feet": (
         lambda *at: plane(*at) / 0.3048,
         {},
-        "look like feet; say so with gdal_edit.py -units ft dem.tif",
+        "look like feet; set the unit with gdal_edit.py -units ft dem.tif",
     ),
-    "fathoms": (plane, {"unit": "fathom"}, 'has heights in "fathom", and metres or feet are wanted'),
+    "fathoms": (plane, {"unit": "fathom"}, 'has heights in "fathom"; convert them to metres or feet'),
     "centimetres": (lambda *at: 100.0 * plane(*at), {}, "gdal_edit.py -a_nodata"),
-    "decimetres": (lambda *at: 5.0 * plane(*at), {}, "above the run's ground for the most part"),
-    "elsewhere": (plane, {"box": (-119.0, 37.0, -118.99, 37.01)}, "beside the run, which covers 38.900"),
-    "empty": (lambda y, x: y * 0 - 9999, {"nodata": -9999}, "has no data at any place of the run"),
+    "decimetres": (lambda *at: 5.0 * plane(*at), {}, "above the run's ground in most places"),
+    "elsewhere": (plane, {"box": (-119.0, 37.0, -118.99, 37.01)}, "outside of the run, which covers 38.900"),
+    "empty": (lambda y, x: y * 0 - 9999, {"nodata": -9999}, "has no data in the run's area"),
     "not said": (
         lambda y, x: np.where(x > -120.59, -9999.0, plane(y, x)),
         {},
         "has heights of -9999 m; if that means no data: gdal_edit.py -a_nodata -9999 dem.tif",
     ),
-    "no projection": (plane, {"crs": None}, "does not say where on the Earth it lies"),
+    "no projection": (plane, {"crs": None}, "has no georeference"),
 }
 
 
@@ -200,7 +200,7 @@ def test_other_files_are_one_line(make, tiff, tmp_path):
     whole = tiff().read_bytes()
     for content_of in (b"", b"no raster", whole[:400], b"\x89PNG\r\n\x1a\n", b"<VRTDataset/>"):
         (tmp_path / "dem.tif").write_bytes(content_of)
-        with pytest.raises(InputError, match=r"dem\.tif:? (cannot be read as a GeoTIFF|does not say where)"):
+        with pytest.raises(InputError, match=r"dem\.tif:? (cannot be read as a GeoTIFF|has no georeference)"):
             make().shot()
     (tmp_path / "dem.tif").unlink()
     for _ in range(2):

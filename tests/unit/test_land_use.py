@@ -127,8 +127,8 @@ def test_without_a_map_there_is_nothing(make_run):
 @pytest.mark.parametrize(
     ("found", "says"),
     [
-        ([box(WEST, SOUTH, EAST, NORTH, natural="peak")], "no polygon or line whose kind is one of meadow"),
-        ([box(10.0, 45.0, 10.1, 45.1, kind="field")], "covers 45.000 to 45.100 N.*beside the run"),
+        ([box(WEST, SOUTH, EAST, NORTH, natural="peak")], "no polygon or line with .* a kind of meadow"),
+        ([box(10.0, 45.0, 10.1, 45.1, kind="field")], "covers 45.000 to 45.100 N.*outside of the run"),
     ],
 )
 def test_a_map_that_shows_nothing_is_refused(make, found, says):

@@ -128,16 +128,16 @@ def test_a_photo_without_rasterio_is_a_png(make, tmp_path, monkeypatch):
 
 BAD = {
     "none": ('photo = "no.png"', None, r"scene\.toml:9:1: terrain\.photo: .*no\.png cannot be read: No such"),
-    "no world": ('photo = "photo.png"', None, r"photo\.png: has no world file beside it"),
+    "no world": ('photo = "photo.png"', None, r"photo\.png: has no world file"),
     "four": ('photo_extent = [1.0, 2.0]', None, r"9:1: terrain\.photo_extent must be west, south"),
     "turned": ('photo_extent = [2.0, 1.0, 1.0, 2.0]', None, r"terrain\.photo_extent must be west, south"),
     "alone": (f'photo_extent = {list(BOX)}', None, r"scene\.toml:9:1: .*_extent needs a terrain\.photo"),
     "elsewhere": (
         'photo = "photo.png"\nphoto_extent = [10.0, 50.0, 11.0, 51.0]', None,
-        r"photo\.png: covers 50\.000 to 51\.000 N .* beside the run, which covers",
+        r"photo\.png: covers 50\.000 to 51\.000 N .* outside of the run, which covers",
     ),
-    "metres": ('photo = "photo.png"', "10\n0\n0\n-10\n700000\n4300000\n", r"not placed in degrees.*gdal"),
-    "words": ('photo = "photo.png"', "ten\n", r"photo\.pgw: is no world file: six numbers"),
+    "metres": ('photo = "photo.png"', "10\n0\n0\n-10\n700000\n4300000\n", r"file that is not in degrees.*gdal"),
+    "words": ('photo = "photo.png"', "ten\n", r"photo\.pgw: is no world file: it must hold six"),
     "no area": ('photo = "photo.png"', "0\n0\n0\n0\n1\n1\n", r"photo\.pgw: is no world file: its pixels"),
 }  # fmt: skip
 

@@ -1,1 +1,1 @@
-"""Cameras without Blender: paths, lenses, rotations, recorded tracks; `rigs` has one file for each kind."""
+"""Camera models without Blender: paths, lenses, rotations, recorded tracks. `rigs` has one file per kind."""

@@ -1,4 +1,4 @@
-"""How cameras fly: smoothly along geodesics, clear of the ground all the way, leaning and trembling."""
+"""Flight paths of cameras: smooth geodesic legs, terrain clearance, banking and shake."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from ..terrain.terrain import Ground
 from . import path
 from .path import Array
 
-_APART = 5.0  # m between the places of a way where the ground under it is looked at
-_PLACES = 400_000  # most of them
-_STILL = 0.05  # m from frame to frame; what moves less keeps its heading
+_APART = 5.0  # m between terrain samples along a path
+_PLACES = 400_000  # samples at most
+_STILL = 0.05  # m per frame; slower motion keeps its heading
 _GRAVITY = 9.80665  # m/s2
-_STEEPEST = np.radians(60.0)  # of a bank
+_STEEPEST = np.radians(60.0)  # largest bank angle
 
 
 @dataclass(frozen=True)
 class Waypoints:
-    """Places to fly through.
+    """Waypoints of a flight.
 
     Attributes
     ----------
     at
-        (n,) when, rising.
+        (n,) time or parameter, ascending.
     latitude, longitude
         (n,) degrees.
     height
@@ -43,11 +43,11 @@ class Waypoints:
     over_ground: NDArray[np.bool_]
 
     def flown(self, ground: Ground, moments: Array) -> Array:
-        """Where (frames, 3), m in the scene, one is at moments that are counted as `at` is.
+        """Positions (frames, 3), m in the scene, at times on the scale of `at`.
 
-        Places go along the chords between waypoints and are set on the ellipsoid by their own normals, so
-        that a leg is a geodesic (a normal section is within millimetres of it over any run); heights go
-        smoothly from one to the next by themselves.
+        Horizontal positions interpolate the chords between waypoints and are projected to the ellipsoid along
+        its normal. A leg is thus a geodesic (a normal section is within millimetres of it over any run).
+        Heights are interpolated separately.
         """
         frame = ground.frame
         above = ground.point(self.latitude, self.longitude, self.height)
@@ -59,18 +59,18 @@ class Waypoints:
 
 
 def short(ground: Ground, position: Array, clearance: Array) -> Array:
-    """How much higher (frames,) cameras must be for the ground to stay `clearance` away, also between frames.
+    """Height deficit (frames,), m: how much cameras must rise to keep their terrain clearance.
 
-    The way is straight from frame to frame: a frame needs what any place of the two legs that it ends needs.
-    Between the places that are looked at, the ground counts as rising half as much again as from one to the
-    next.
+    The clearance holds between frames too: the path is straight there. A frame takes the largest deficit
+    along its two adjacent legs. Between terrain samples the ground is assumed to rise by 1.5 times its
+    difference from sample to sample.
 
     Parameters
     ----------
     position
         (frames, 3) m in the scene.
     clearance
-        (frames,) m above the ground.
+        (frames,) required height above ground, m.
     """
     if len(position) == 1:
         return np.maximum(ground.up(*position.T[:2]) + clearance - position[:, 2], 0.0)
@@ -89,9 +89,9 @@ def short(ground: Ground, position: Array, clearance: Array) -> Array:
 
 
 def heading(position: Array) -> Array:
-    """Bearings (frames,), radians clockwise from north and without jumps, along a way (frames, 3).
+    """Heading (frames,), radians clockwise from north and unwrapped, along a path (frames, 3).
 
-    What stands still keeps the bearing it came with, or has that with which it will leave; north if never.
+    A camera at rest keeps its last heading, or takes its next one; north if it never moves.
     """
     if len(position) == 1:
         return np.zeros(1)
@@ -105,7 +105,7 @@ def heading(position: Array) -> Array:
 
 
 def ahead(position: Array, tilt: Array, distance: float = 1000.0) -> Array:
-    """Points (frames, 3) that far ahead on a way (frames, 3), `tilt` (degrees) under the horizon."""
+    """Look-at points (frames, 3) `distance` m ahead on a path, `tilt` degrees below the horizon."""
     bearing, down = heading(position), np.radians(tilt)
     flat = np.cos(down)
     along = np.stack([np.sin(bearing) * flat, np.cos(bearing) * flat, -np.sin(down)], axis=-1)
@@ -113,9 +113,9 @@ def ahead(position: Array, tilt: Array, distance: float = 1000.0) -> Array:
 
 
 def bank(position: Array, step: float) -> Array:
-    """Angles (frames,), radians to the right, by which an aircraft leans in a coordinated turn.
+    """Bank angle (frames,), radians to the right, of an aircraft in a coordinated turn.
 
-    tan(angle) = speed x rate of turn / gravity, with `step` seconds from frame to frame.
+    tan(angle) = speed x turn rate / gravity, with `step` seconds between frames.
     """
     if len(position) < 3 or step <= 0.0:
         return np.zeros(len(position))
@@ -125,19 +125,19 @@ def bank(position: Array, step: float) -> Array:
 
 
 def rolled(rotation: Array, angle: Array) -> Array:
-    """Rotations (frames, 3, 3) leaning to the right by angles (frames,), radians."""
+    """Apply roll: rotations (frames, 3, 3) leaned to the right by angles (frames,), radians."""
     return rotation @ _about(2, -angle)
 
 
 def trembling(rotation: Array, strength: float, seed: int, name: str) -> Array:
-    """Rotations (frames, 3, 3) that shake about all three axes, each by normal deviates.
+    """Camera shake: rotations (frames, 3, 3) disturbed about all three axes by normal deviates.
 
     Parameters
     ----------
     strength
         Standard deviation, degrees.
     seed, name
-        What the deviates of each frame hang on, beside its number.
+        Seeds of the deviates, with the frame number.
     """
     frame = np.arange(len(rotation))
     first = (seed + zlib.crc32(name.encode())) % 2**31
@@ -148,7 +148,7 @@ def trembling(rotation: Array, strength: float, seed: int, name: str) -> Array:
 
 
 def _about(axis: int, angle: Array) -> Array:
-    """Rotations (n, 3, 3) about an axis by angles (n,), counter-clockwise as it points at the viewer."""
+    """Rotation matrices (n, 3, 3) about an axis by angles (n,), counter-clockwise towards the viewer."""
     turn = np.repeat(np.eye(3)[None], len(angle), axis=0)
     i, j = (axis + 1) % 3, (axis + 2) % 3
     turn[:, i, i] = turn[:, j, j] = np.cos(angle)

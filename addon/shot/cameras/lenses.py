@@ -1,6 +1,6 @@
-"""Lenses and chips of cameras as they are flown and carried: widths that pictures cover, and focal lengths.
+"""Lens presets: focal length and sensor width of real camera types.
 
-Names are of kinds, not of products. Figures are those of a data sheet where one is named, else typical.
+Names are of types, not of products. Figures come from a data sheet where one is named; else they are typical.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Lens:
-    """A kind of camera: focal length and width of the chip in mm, and where the figures come from."""
+    """A camera type: focal length and sensor width in mm, and the source of the figures."""
 
     name: str
     focal_length: float
@@ -19,7 +19,7 @@ class Lens:
 
     @property
     def about(self) -> str:
-        """The figures in a line."""
+        """Describe the figures in one line."""
         return f"{self.focal_length:g} mm on a chip {self.sensor_width:g} mm wide; {self.source}"
 
 
@@ -39,4 +39,4 @@ LENSES = {
     "normal": Lens("Full frame, normal", 50.0, 36.0, "36 x 24 mm, 40 degrees wide"),
     "long": Lens("Full frame, long", 200.0, 36.0, "36 x 24 mm, 10 degrees wide"),
 }
-"""Each by its name in scripts."""
+"""Lens presets by their name in scripts."""

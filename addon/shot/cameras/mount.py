@@ -1,8 +1,8 @@
-"""What the sensors of a mount give to a pass of the camera that they are on, such as its fused view.
+"""Sensor mounts: which camera supplies each input of a composite pass, such as the fused view.
 
-What the camera records itself is its own. What it does not record comes from the first sensor on its mount
-that does, and the map from the first minimap that follows it and records the visible picture. What none of
-them records is made for the camera. A sensor that films other frames than the camera gives nothing.
+A camera's own recording comes first. What it does not record comes from the first sensor on its mount that
+records it. A map comes from the first minimap that follows the camera and records the visible picture. Any
+other input is rendered for the camera. A sensor supplies nothing if it films other frames than the camera.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ MAP = "map"
 def taken(
     settings: Settings, cameras: Sequence[Camera], name: str, made: passes.Pass
 ) -> dict[str, tuple[str, str]]:
-    """Camera and pass that each need of a pass of the camera `name` is taken from.
+    """Camera and pass that supply each input of a pass of the camera `name`.
 
     Parameters
     ----------
     cameras
-        All of the scene file's.
+        All cameras of the scene file.
     """
     if not isinstance(made, passes.DerivedPass):
         return {}

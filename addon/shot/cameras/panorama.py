@@ -1,4 +1,4 @@
-"""Directions of pictures that hold all of them: equirectangular, for two eyes one above the other."""
+"""Equirectangular panoramas: pixel directions, mono or as over-under stereo (ODS)."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ Array = NDArray[np.float64]
 
 
 def direction(bearing: Array, elevation: Array) -> Array:
-    """Unit vectors (n, 3), right, up and back, of bearings to the right and elevations (n,), rad."""
+    """Unit vectors (n, 3), right, up and back, from bearings to the right and elevations (n,), rad."""
     flat = np.cos(elevation)
     return np.stack([np.sin(bearing) * flat, np.sin(elevation), -np.cos(bearing) * flat], axis=-1)
 
 
 def pixels(height: int, width: int, at: tuple[float, float] = (0.5, 0.5)) -> tuple[Array, Array]:
-    """Bearings to the right and elevations (h, w), rad, of places `at` in pixels, the same for both eyes."""
+    """Bearings to the right and elevations (h, w), rad, at offsets `at` in pixels; the same for both eyes."""
     bearing = ((np.arange(width) + at[0]) / width * 2.0 - 1.0) * np.pi
     eye = 0.5 * np.pi - (np.arange(height // 2) + at[1]) / (height // 2) * np.pi
     return np.meshgrid(bearing, np.tile(eye, 2))
 
 
 def right(bearing: Array) -> Array:
-    """Unit vectors (n, 3) to the right of an observer who looks to bearings (n,), rad: from eye to eye."""
+    """Unit vectors (n, 3) to an observer's right at bearings (n,), rad: the direction from eye to eye."""
     return np.stack([np.cos(bearing), 0.0 * bearing, np.sin(bearing)], axis=-1)
 
 
 def points(view: Path, frame: int, far: Array) -> Array:
-    """Scene points (h, w, 3) m of a stereo picture whose places are `far` (h, w) m from between the eyes.
+    """Scene points (h, w, 3), m, of a stereo panorama with ranges `far` (h, w), m from mid-eye.
 
-    Lines of sight leave an eye at right angles to the way to the other eye.
+    Each ray leaves its eye at a right angle to the baseline.
     """
     bearing, elevation = pixels(*far.shape)
     side = np.where(np.arange(far.shape[0])[:, None] < far.shape[0] // 2, -0.5, 0.5)
@@ -45,9 +45,9 @@ def points(view: Path, frame: int, far: Array) -> Array:
 
 
 def merged(elevation: Array) -> Array:
-    """Part of their distance that the eyes keep: all up to 60 degrees, none from 75 on, as Blender has it.
+    """Pole merging: fraction of eye separation left at an elevation, 1 up to 60 degrees and 0 from 75.
 
-    Cycles: cos(pi / 2 (|elevation| - from) / (to - from)) between the two.
+    As in Cycles: cos(pi / 2 (|elevation| - from) / (to - from)) between the two.
     """
     part = (np.abs(elevation) - _MERGE[0]) / (_MERGE[1] - _MERGE[0])
     return np.cos(0.5 * np.pi * np.clip(part, 0.0, 1.0))

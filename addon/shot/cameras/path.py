@@ -1,4 +1,4 @@
-"""Where a camera is and where it looks in every frame, without Blender."""
+"""Camera paths: position, rotation and lens of a camera in every frame. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -16,49 +16,48 @@ if TYPE_CHECKING:
 
     from ..settings.protocols import CameraSettings
 
-SENSOR = 36.0  # mm, width of the film
+SENSOR = 36.0  # mm, sensor width of a full-frame camera
 UP = np.array([0.0, 0.0, 1.0])
 _NEAREST = 0.5  # m
-_HIGHEST_AIR = 20_000.0  # m, over any smoke
-_HIGHEST = 1500.0  # m; a camera is not raised more than this to see over a ridge
-_LOOKS = 600  # frames at most whose lines of sight are looked at for ridges
+_HIGHEST_AIR = 20_000.0  # m, above any smoke
+_HIGHEST = 1500.0  # m, limit to which a camera is raised to see over a ridge
+_LOOKS = 600  # frames at most that are tested for ridges
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Path:
-    """A camera's way through the shot.
+    """Path of a camera through the shot.
 
     Attributes
     ----------
     position
         (frames, 3) metres in the scene.
     rotation
-        (frames, 3, 3) matrices whose columns are the camera's right, up and back.
+        (frames, 3, 3) rotation matrices; their columns are the camera's right, up and back.
     target
-        (frames, 3) where it looks.
+        (frames, 3) look-at points.
     half
-        Tangents of half the horizontal and vertical angle of view; where lines of sight are parallel, half
-        the width and height of the picture in metres. Of a lens that zooms, those of its longest.
+        Tangents of half the horizontal and vertical angle of view. In an orthographic view, half the width
+        and height of the picture, m. Of a zoom lens, the values at its longest focal length.
     perspective
-        Whether lines of sight meet in the camera; else they are parallel.
+        Whether the projection is perspective; else it is orthographic.
     hidden
-        (frames,) metres that the camera would have to be higher than its keys say to see its target over the
-        ridges between; None where nobody asked.
+        (frames,) height to add to the keys so that the target is visible over ridges, m; None: not computed.
     sensor
-        Width of the chip or film, mm.
+        Sensor width, mm.
     wider
-        (frames,) how many times as large `half` is in each frame; None: 1 always.
+        (frames,) factor on `half` in each frame, for zoom; None: 1 in all frames.
     meet
-        Where lines of sight meet so far away that they count as parallel: how far, m, from what it looks at;
-        `half` is there. 0: never.
+        Distance (m) from the target to the eye of a very distant camera that counts as orthographic; `half`
+        is its picture at the target. 0: parallel rays.
     around
-        It sees all round, in a picture that holds every direction: `half` is half of its angles, radians.
+        Whether it is a panorama of all directions. `half` is then half of its angles, radians.
     apart
-        How far its eyes are apart, m; they stand right and left of `position` as seen in each direction.
+        Eye separation, m. The eyes are right and left of `position` in each direction of view.
     width
-        Of its pictures (of one eye), pixels; the shot knows it.
+        Picture width (of one eye), pixels; the shot fills it in.
     """
 
     camera: CameraSettings
@@ -77,7 +76,7 @@ class Path:
 
     @property
     def pixel(self) -> float:
-        """Size of its smallest pixels: in perspective m per m of distance, and with parallel lines m."""
+        """Smallest pixel size: m per m of distance in perspective, and m in an orthographic view."""
         return 2.0 * self.half[0] / self.width
 
     @property
@@ -88,7 +87,7 @@ class Path:
 
 
 def finest(paths: list[Path]) -> tuple[float, float]:
-    """Sizes of the smallest pixels of each kind (see `Path.pixel`), infinite without a camera of it."""
+    """Smallest pixel sizes of perspective and orthographic paths (see `Path.pixel`); infinite if none."""
     return tuple(
         min((path.pixel for path in paths if path.perspective == near), default=np.inf)
         for near in (True, False)
@@ -96,7 +95,7 @@ def finest(paths: list[Path]) -> tuple[float, float]:
 
 
 def eyes(ways: list[Array], radius: float) -> Array:
-    """(m, 3) places along ways (n, 3) each, a quarter of `radius` apart: where the ground needs detail."""
+    """Sample points (m, 3) of paths (n, 3), a quarter of `radius` apart, for terrain detail."""
     kept: list[Array] = []
     for way in ways:
         last = None
@@ -108,7 +107,7 @@ def eyes(ways: list[Array], radius: float) -> Array:
 
 
 def smooth(at: Array, values: Array, moments: Array) -> Array:
-    """Monotone cubic through (at, values), held outside (Fritsch and Butland 1984: no overshoot)."""
+    """Monotone cubic interpolation through (at, values), clamped outside (Fritsch and Butland 1984)."""
     if len(at) == 1:
         return np.full(len(moments), values[0])
     gap, delta = np.diff(at), np.diff(values)
@@ -132,13 +131,14 @@ def smooth(at: Array, values: Array, moments: Array) -> Array:
 
 
 def hidden(ground: Ground, position: Array, target: Array, margin: float = 40.0) -> Array:
-    """How much higher (frames,) cameras must be to see their target over the ridges between, by `margin`.
+    """Height deficit (frames,), m: how much cameras must rise to see their target over ridges.
 
-    Of a long film that is looked at in `_LOOKS` frames, linear between.
+    The line of sight clears ridges by `margin` m. A long film is tested in `_LOOKS` frames, with linear
+    interpolation between.
     """
     frames = np.arange(len(position))
     some = np.unique(np.linspace(0, len(frames) - 1, min(len(frames), _LOOKS)).round().astype(int))
-    part = np.linspace(0.03, 0.85, 40)[:, None, None]  # of the way; near the target any slope hides it
+    part = np.linspace(0.03, 0.85, 40)[:, None, None]  # of the line; slopes near its end block it
     way = position[some] + part * (target - position)[some]
     ridge = ground.up(way[..., 0].ravel(), way[..., 1].ravel()).reshape(way.shape[:2])
     needed = (ridge + margin - way[..., 2]) / (1.0 - part[..., 0])
@@ -146,7 +146,7 @@ def hidden(ground: Ground, position: Array, target: Array, margin: float = 40.0)
 
 
 def eased(short: Array) -> Array:
-    """Heights to add (frames,): at least `short`, changing smoothly over a sixth of the shot."""
+    """Smooth height offsets (frames,), at least `short`, that ease over a sixth of the shot."""
     reach = max(len(short) // 12, 1)
     padded = np.pad(short, 2 * reach, "edge")
     highest = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(1)
@@ -155,7 +155,7 @@ def eased(short: Array) -> Array:
 
 
 def blend(at: Array, aims: Array, moments: Array) -> Array:
-    """Between two keys the aim goes smoothly from that of one to that of the other."""
+    """Interpolate look-at points (aims) smoothly between keys."""
     if len(at) == 1:
         return aims[0]
     i = np.clip(np.searchsorted(at, moments, "right") - 1, 0, len(at) - 2)
@@ -165,7 +165,7 @@ def blend(at: Array, aims: Array, moments: Array) -> Array:
 
 
 def look(position: Array, target: Array, up: Array = UP) -> Array:
-    """Rotations (n, 3, 3) that look from `position` at `target` with the horizon level: across `up` (3,)."""
+    """Look-at rotations (n, 3, 3) from `position` to `target`; the horizon is level across `up` (3,)."""
     back = position - target
     back /= np.maximum(np.linalg.norm(back, axis=1, keepdims=True), 1.0e-9)
     right = np.cross(up, back)
@@ -175,7 +175,7 @@ def look(position: Array, target: Array, up: Array = UP) -> Array:
 
 
 def compass(frame: geo.LocalFrame, place: Array) -> tuple[Array, Array, Array]:
-    """East, north and up, unit vectors (3,), of a place (3,) in the scene, whose up is not the scene's."""
+    """Local east, north and up unit vectors (3,) at a scene point (3,), by the ellipsoid's normal."""
     latitude, longitude, height = (float(v[0]) for v in frame.reverse(place[None]))
     north = frame.forward([latitude - 1.0e-3, latitude + 1.0e-3], [longitude] * 2, [height] * 2)
     up = frame.forward([latitude] * 2, [longitude] * 2, [height - 1000.0, height + 1000.0])
@@ -184,9 +184,9 @@ def compass(frame: geo.LocalFrame, place: Array) -> tuple[Array, Array, Array]:
 
 
 def clip(view: Path, ground: Ground) -> tuple[float, float]:
-    """Nearest and farthest distance (m) that a camera draws: all of the ground and of the air over it.
+    """Near and far clip distances of a camera, m, that contain the terrain and the air above it.
 
-    Cameras over all that is drawn begin half-way to it, so that depth keeps its digits.
+    A camera above all content has its near plane half-way to it, which keeps depth precision.
     """
     latitude, longitude = (np.linspace(axis[0], axis[-1], 17) for axis in _axes(ground))
     heights = [float(ground.fields.elevation.min()), _HIGHEST_AIR]

@@ -1,4 +1,4 @@
-"""What a camera's picture says of space: rays through its pixels, and points from their depth."""
+"""Pixel rays: directions of a camera's pixels, and scene points from depth (unprojection)."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ if TYPE_CHECKING:
     from ..settings.protocols import ShotView
     from .path import Path
 
-SKY = 1.0e9  # m; what is deeper is no ground
+SKY = 1.0e9  # m; larger depths are sky
 
 
 def path_of(shot: ShotView, camera: str) -> Path:
-    """The path of a camera."""
+    """Path of a camera, by name."""
     return next(view for view in shot.paths if view.camera.name == camera)
 
 
 def plane(view: Path, frame: int, height: int, width: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Tangents to the right and up (h, w) of the middles of pixels; metres without perspective."""
+    """Image-plane coordinates (h, w) of pixel centres, right and up: tangents, or metres if orthographic."""
     across, up = view.halves[frame - 1]
     x = ((np.arange(width) + 0.5) / width * 2.0 - 1.0) * across
     y = (1.0 - (np.arange(height) + 0.5) / height * 2.0) * up
@@ -30,9 +30,9 @@ def plane(view: Path, frame: int, height: int, width: int) -> tuple[NDArray[np.f
 
 
 def ranges(view: Path, frame: int, planar: NDArray) -> NDArray[np.float32]:
-    """Distances (h, w) along lines of sight, m, from those along the camera's axis; the sky stays.
+    """Convert planar depth to range: distances (h, w) along rays, m. The sky stays.
 
-    Of a camera that sees all round these are one, and counted from between its eyes.
+    In a panorama depth is range already, measured from the centre of the eyes.
     """
     if view.around or not view.perspective:
         return planar
@@ -41,7 +41,7 @@ def ranges(view: Path, frame: int, planar: NDArray) -> NDArray[np.float32]:
 
 
 def points(view: Path, frame: int, planar: NDArray) -> NDArray[np.float64]:
-    """Scene points (h, w, 3) m of depths along the camera's axis (h, w), m; NaN for the sky."""
+    """Unproject planar depth (h, w), m, to scene points (h, w, 3), m; NaN for the sky."""
     deep = np.where(planar < SKY, planar, np.nan).astype(np.float64)
     if view.around:
         return panorama.points(view, frame, deep)

@@ -1,4 +1,4 @@
-"""Turned cameras: matrices, quaternions, and bearing, tilt and roll, in double precision."""
+"""Camera rotations: matrices, quaternions, and heading, tilt and roll, in double precision."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from firetwin_core import geo
 
 from .path import Array, compass
 
-_UPRIGHT = 1.0e-9  # sine of the angle from the vertical under which a bearing says nothing
+_UPRIGHT = 1.0e-9  # sine of the angle from the vertical below which heading is undefined
 
 
 def quaternions(rotation: Array) -> Array:
-    """(n, 4) unit quaternions (w, x, y, z) of matrices (n, 3, 3), without jumps in sign.
+    """Unit quaternions (n, 4) (w, x, y, z) of matrices (n, 3, 3), with continuous sign.
 
-    The largest component is worked out first, and so loses no digits (Shepperd 1978).
+    The largest component is computed first for precision (Shepperd 1978).
     """
     r = np.asarray(rotation, np.float64)
     trace = np.einsum("nii->n", r)
@@ -33,7 +33,7 @@ def quaternions(rotation: Array) -> Array:
 
 
 def matrices(quaternion: Array) -> Array:
-    """(n, 3, 3) matrices of quaternions (n, 4) of any length."""
+    """Rotation matrices (n, 3, 3) of quaternions (n, 4) of any length."""
     w, x, y, z = (quaternion / np.linalg.norm(quaternion, axis=1, keepdims=True)).T
     rows = (
         (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)),
@@ -44,13 +44,13 @@ def matrices(quaternion: Array) -> Array:
 
 
 def turned(frame: geo.LocalFrame, place: Array, heading: float, tilt: float, roll: float) -> Array:
-    """The matrix (3, 3), columns right, up and back, of a camera at a place (3,) in the scene.
+    """Rotation matrix (3, 3), columns right, up and back, from heading, tilt and roll at a scene point (3,).
 
     Parameters
     ----------
     heading, tilt, roll
-        Bearing clockwise from north, angle under the horizon and lean to the right, degrees; north and
-        horizon are those of the place.
+        Bearing clockwise from north, angle below the horizon and lean to the right, degrees, in the local
+        east-north-up frame of the point.
     """
     right, above, back = _level(frame, place, np.radians(heading), np.radians(tilt))
     c, s = np.cos(np.radians(roll)), np.sin(np.radians(roll))
@@ -58,9 +58,9 @@ def turned(frame: geo.LocalFrame, place: Array, heading: float, tilt: float, rol
 
 
 def angles(frame: geo.LocalFrame, place: Array, rotation: Array) -> tuple[float, float, float]:
-    """Heading, tilt and roll, degrees, of a camera's matrix (3, 3): what `turned` makes it of.
+    """Heading, tilt and roll, degrees, of a camera matrix (3, 3): inverse of `turned`.
 
-    What looks straight up or down has the bearing of its upper edge, or lower one, and no roll.
+    A camera that looks straight up or down takes its heading from its picture's edge and has no roll.
     """
     east, north, up = compass(frame, place)
     ahead = -rotation[:, 2]
@@ -73,7 +73,7 @@ def angles(frame: geo.LocalFrame, place: Array, rotation: Array) -> tuple[float,
 
 
 def _level(frame: geo.LocalFrame, place: Array, heading: float, tilt: float) -> tuple[Array, Array, Array]:
-    """Right, up and back (3,) of a camera whose horizon is level; angles in radians."""
+    """Right, up and back (3,) of a camera with a level horizon; angles in radians."""
     east, north, up = compass(frame, place)
     flat = np.sin(heading) * east + np.cos(heading) * north
     right = np.cos(heading) * east - np.sin(heading) * north

@@ -1,4 +1,4 @@
-"""Few keys with slopes in place of one for every frame, so that people can edit a way."""
+"""Keyframe reduction: few keys with slopes replace one key per frame, so that a path can be edited."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from .path import Array
 
 
 def keys(values: Array, tolerance: float) -> tuple[NDArray[np.int64], Array]:
-    """Frames (k,) from 0 to keep of values (frames, channels), and slopes (k, channels) per frame at them.
+    """Reduce curves to Hermite keys: frames (k,) from 0, and slopes (k, channels) per frame.
 
-    Cubics with these values and slopes at their ends are within `tolerance` (of the length of the difference
-    of all channels) of the values in every frame. Slopes are central differences; each stretch that is not
-    good enough is cut where it is worst, so that what is not smooth ends with a key in every frame.
+    `values` are (frames, channels). The cubics are within `tolerance` of them in every frame (Euclidean norm
+    over channels). Slopes are central differences. A segment with a larger error is split at its worst frame,
+    so a curve that is not smooth ends with a key in every frame.
     """
     last = len(values) - 1
     if last < 1:
@@ -33,14 +33,14 @@ def keys(values: Array, tolerance: float) -> tuple[NDArray[np.int64], Array]:
 
 
 def fit(values: Array, tolerance: float, first: tuple[int, ...] = ()) -> NDArray[np.int64]:
-    """Frames (k,) from 0 to keep of values (frames, channels) for `through` to go through the rest too.
+    """Reduce curves (frames, channels) to key frames (k,), from 0, that `through` interpolates.
 
     Parameters
     ----------
     tolerance
-        How far `through` may be off in any frame, as the length of the difference of all channels.
+        Largest error of `through` in any frame, as Euclidean norm over channels.
     first
-        Frames that are kept in any case.
+        Frames that are always keys.
     """
     last, moments = len(values) - 1, np.arange(len(values), dtype=np.float64)
     kept = np.unique([0, last, *(frame for frame in first if 0 <= frame <= last)])
@@ -55,9 +55,9 @@ def fit(values: Array, tolerance: float, first: tuple[int, ...] = ()) -> NDArray
 
 
 def through(at: Array, values: Array, moments: Array) -> Array:
-    """Cubics through values (k, channels) at rising moments `at` (k,), held outside: (moments, channels).
+    """Cubic interpolation (moments, channels) through values (k, channels) at `at` (k,), clamped outside.
 
-    The slope at a key is that of the parabola through it and its neighbours.
+    The slope at a key is that of the parabola through the key and its neighbours.
     """
     if len(at) == 1:
         return np.repeat(values, len(moments), axis=0)
@@ -66,7 +66,7 @@ def through(at: Array, values: Array, moments: Array) -> Array:
 
 
 def curve(kept: NDArray[np.int64], values: Array, slopes: Array, frames: int) -> Array:
-    """What cubics (Hermite) through values and slopes (k, channels) at frames (k,) give in all frames."""
+    """Evaluate Hermite cubics with values and slopes (k, channels) at frames (k,) in all frames."""
     return _cubics(kept, values, slopes, np.arange(frames))
 
 

@@ -1,4 +1,4 @@
-"""Moving targets for cameras, from arrival times: the head of the fire and its middle."""
+"""Moving camera targets from fire arrival times: the fire's head and its centre."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from ..terrain.terrain import NEVER, UNKNOWN, Ground, box
 
 Array = NDArray[np.float64]
 
-MOVING = ("head", "fire")  # what moves by itself
-_RECENT = 1800.0  # s; ground of a large fire reached within this time belongs to the moving front
-_KNOTS = 24  # the target is worked out at this many moments and is smooth between them
-_BLOCK = 1500.0  # m; parts of the front that are compared in a large fire
-_LARGE = 20_000.0  # m, size of a fire from which on both count; of a smaller one they are smaller
-_CELLS = 4.0  # of the fuel grid: parts are no smaller, and the front is as deep
-_STAY = 4.0  # blocks from the head that is followed to one that is e times as strong and is not
+MOVING = ("head", "fire")  # targets that move by themselves
+_RECENT = 1800.0  # s; in a large fire, ground that burned within this time belongs to the active front
+_KNOTS = 24  # times at which the target is computed; it is interpolated between
+_BLOCK = 1500.0  # m, blocks of a large fire's front that are compared
+_LARGE = 20_000.0  # m, fire size from which block and time apply; they shrink with smaller fires
+_CELLS = 4.0  # fuel cells, lower bound of block size and front depth
+_STAY = 4.0  # blocks; distance in which another head must be e times as strong to be followed
 
 
 def follow(target: str, ground: Ground, times: Array, above: float) -> Array:
-    """Where (frames, 3) a camera looks that follows the "head" of the fire or the middle of the "fire".
+    """Look-at points (frames, 3) that follow the "head" or the centre of the "fire".
 
     Parameters
     ----------
     above
-        Height of that over the ground, m.
+        Height above ground, m.
     """
     east, north = (head if target == "head" else middle)(ground, times)
     place = ground.point(*ground.geodetic(east, north), above)
@@ -34,14 +34,14 @@ def follow(target: str, ground: Ground, times: Array, above: float) -> Array:
 
 
 def head(ground: Ground, times: Array) -> tuple[Array, Array]:
-    """East and north (frames,) of the part of the front that advances fastest."""
+    """East and north (frames,) of the head: the block of the front with the highest rate of spread."""
     east, north, arrival, speed = _burned(ground)
     block, recent = _scale(ground, speed, times[-1])
     return _follow(times, lambda t, last: _head_at(t, last, east, north, arrival, speed, block, recent))
 
 
 def middle(ground: Ground, times: Array) -> tuple[Array, Array]:
-    """East and north (frames,) of the middle of the ground that burns."""
+    """East and north (frames,) of the centre of the burning ground."""
     east, north, arrival, speed = _burned(ground)
     recent = _scale(ground, speed, times[-1])[1]
     return _follow(times, lambda t, last: _middle_at(t, last, east, north, arrival, recent))
@@ -55,7 +55,7 @@ def smoothed(values: Array) -> Array:
 
 
 def _burned(ground: Ground) -> tuple[Array, Array, Array, Array]:
-    """East, north (m), arrival (s) and rate of spread (m/s) of every cell that burns."""
+    """East, north (m), arrival time (s) and rate of spread (m/s) of every cell that burns."""
     near = box(ground.arrival < NEVER, more=1)
     if near is None:
         return np.empty(0), np.empty(0), np.empty(0), np.empty(0)
@@ -71,7 +71,7 @@ def _burned(ground: Ground) -> tuple[Array, Array, Array, Array]:
 
 
 def _follow(times: Array, place: object) -> tuple[Array, Array]:
-    """Places at a few moments, joined and smoothed over the shot."""
+    """Track of a target: sampled at a few times, interpolated and smoothed over the shot."""
     knots = np.linspace(times[0], times[-1], min(len(times), _KNOTS))
     last, found = None, []
     for time in knots:
@@ -82,14 +82,14 @@ def _follow(times: Array, place: object) -> tuple[Array, Array]:
 
 
 def _scale(ground: Ground, speed: Array, time: float) -> tuple[float, float]:
-    """Size (m) of the parts of the front that are compared, and for how long (s) ground belongs to it.
+    """Block size (m) for comparing parts of the front, and time (s) for which ground belongs to the front.
 
     Parameters
     ----------
     speed
-        (n,) of all that burns, m/s.
+        (n,) rate of spread of all burning cells, m/s.
     time
-        By when the size of the largest fire counts, s.
+        Time up to which the fire's largest size counts, s.
     """
     size = extent.largest(ground.arrival <= time, ground.cell)
     if size <= 0.0:
@@ -99,7 +99,7 @@ def _scale(ground: Ground, speed: Array, time: float) -> tuple[float, float]:
 
 
 def _front(time: float, arrival: Array, recent: float) -> Array:
-    """Indices of the cells reached in the `recent` s before `time`; the nearest in time where none are."""
+    """Indices of the cells that burned within `recent` s before `time`; else those nearest in time."""
     found = np.flatnonzero((arrival <= time) & (arrival > time - recent))
     if len(found) or len(arrival) == 0:
         return found
@@ -125,7 +125,7 @@ def _head_at(
     blocks, member = np.unique(block, return_inverse=True)
     total = np.bincount(member, weight, len(blocks))
     centre = np.stack([np.bincount(member, weight * v, len(blocks)) / total for v in (e, n)], axis=-1)
-    if last is not None:  # stay with the head that is followed unless another is much faster
+    if last is not None:  # keep the followed head unless another one is much faster
         total = total * np.exp(-np.linalg.norm(centre - last, axis=1) / (_STAY * size))
     best = centre[np.argmax(total)]
     near = weight * np.exp(-((e - best[0]) ** 2 + (n - best[1]) ** 2) / (2.0 * size**2))

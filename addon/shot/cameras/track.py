@@ -1,7 +1,7 @@
-"""Recorded flights: GPX, KML and CSV files, and which moments of a shot show them.
+"""Recorded flight tracks: GPX, KML and CSV files, and their alignment to the times of a shot.
 
-Heights are above the sea, as the run's elevations are (no geoid is applied). A file without heights lies on
-the ground, over which a drone keeps its clearance.
+Heights are above mean sea level, as the run's elevations are (no geoid is applied). A file without heights
+lies on the ground; a drone keeps its clearance above it.
 """
 
 from __future__ import annotations
@@ -35,16 +35,16 @@ MOMENTS = {"own": "UTC", "start": "from frame 1 on", "shot": "over all frames"}
 
 @dataclass(frozen=True)
 class Track:
-    """A flight.
+    """A recorded flight.
 
     Attributes
     ----------
     latitude, longitude, height, over_ground
         (n,) as in `Waypoints`.
     utc
-        (n,) s since 1970, rising; None where the file has no times.
+        (n,) s since 1970, ascending; None if the file has no times.
     part
-        (n,) 0..1 of the shot, rising; None where the file does not say.
+        (n,) fraction 0..1 of the shot, ascending; None if the file has none.
     """
 
     latitude: Array
@@ -55,12 +55,11 @@ class Track:
     part: Array | None = None
 
     def at(self, moments: str, run: Run, frames: Frames, frame: geo.LocalFrame) -> tuple[Waypoints, Array]:
-        """Where to be when, and the moments (frames,) of the frames, counted alike.
+        """Waypoints of the flight, and the frames' times (frames,) on the same scale.
 
-        The rule: "own" times are model times by their UTC; with "start" the first point is flown in the first
-        frame and the rest as long after it as recorded, in model time; with "shot" the first point is flown
-        in the first frame and the last in the last. Parts of the shot are what they say. A track without
-        either is flown over the whole shot at one speed.
+        "own": recorded UTC is model time. "start": the first point is at the first frame, and the rest
+        follows in recorded time. "shot": the first point is at the first frame and the last point at the last
+        frame. Fractions of the shot apply as recorded. A track with neither spans the shot at constant speed.
         """
         own = self.utc is not None and moments != "shot"
         if own:
@@ -71,7 +70,7 @@ class Track:
         return Waypoints(at, self.latitude, self.longitude, self.height, self.over_ground), shown
 
     def _parts(self, frame: geo.LocalFrame) -> Array:
-        """Parts (n,) of the shot: as said, by time, or by the way gone."""
+        """Fraction (n,) of the shot at each point: as recorded, by time, or by distance."""
         if self.part is not None:
             return self.part
         if self.utc is not None:
@@ -82,12 +81,12 @@ class Track:
         return gone / max(gone[-1], 1.0e-9)
 
     def corners(self) -> list[tuple[float, float]]:
-        """Latitude and longitude of the points farthest to each side."""
+        """Latitude and longitude of the extreme points to each side."""
         ends = {int(f(v)) for f in (np.argmin, np.argmax) for v in (self.latitude, self.longitude)}
         return [(float(self.latitude[i]), float(self.longitude[i])) for i in sorted(ends)]
 
     def missed(self, run: Run, frames: Frames) -> str:
-        """What to say where its own times are none of the shot's; empty where some are."""
+        """Warning text if the recorded times do not overlap the shot; else empty."""
         if self.utc is None:
             return ""
         flown = [datetime.fromtimestamp(self.utc[i], UTC) for i in (0, -1)]
@@ -99,7 +98,7 @@ class Track:
 
 
 def read(path: Path) -> Track:
-    """The flight in a file, whose name tells its format.
+    """Read a flight track; the file's name tells its format.
 
     Raises
     ------
@@ -124,7 +123,7 @@ def _read(path: Path, _changed: int, _size: int) -> Track:
 
 
 def _made(path: Path, points: Sequence[Point]) -> Track:
-    """Points, checked, as a track."""
+    """Validate points and make a track."""
     if not points:
         raise input_error(path, 0, 0, "holds no track: it needs points with latitude and longitude")
     for point in points:
@@ -149,12 +148,12 @@ def _made(path: Path, points: Sequence[Point]) -> Track:
 
 
 def _all_or_none(path: Path, points: Iterable[Point], name: str, what: str, remedy: str) -> bool:
-    """Whether the points have it.
+    """Whether all points have an attribute.
 
     Raises
     ------
     InputError
-        Some have and some have not.
+        Some points have it and some do not.
     """
     lacking = [point for point in points if getattr(point, name) is None]
     if lacking and any(getattr(point, name) is not None for point in points):
@@ -163,7 +162,7 @@ def _all_or_none(path: Path, points: Iterable[Point], name: str, what: str, reme
 
 
 def _rising(path: Path, points: Sequence[Point]) -> list[Point]:
-    """Points whose times rise; a point written twice counts once."""
+    """Points with ascending times; duplicate points are merged."""
     kept = [points[0]]
     for point in points[1:]:
         last = kept[-1]

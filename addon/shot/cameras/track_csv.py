@@ -1,4 +1,4 @@
-"""Tracks in CSV: a line of names, then a line for each point."""
+"""CSV tracks: a header line, then one line per point."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _COLUMNS = "latitude, longitude, height (m above the sea) and time (2014-09-17T2
 
 
 def points(path: Path) -> Iterator[Point]:
-    """Points of a CSV file with commas, semicolons or tabs between its values."""
+    """Read the points of a CSV file separated by commas, semicolons or tabs."""
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
             for line, value in tables.rows(path, file, _NAMES, ("latitude", "longitude"), _COLUMNS):
@@ -36,7 +36,7 @@ def _point(path: Path, line: int, value: dict[str, str]) -> Point:
 
 
 def _moment(path: Path, line: int, value: dict[str, str]) -> object:
-    """UTC, part of the shot, or None."""
+    """Time of a point: UTC, fraction of the shot, or None."""
     if value.get("time", "").strip():
         return moment(path, line, value["time"], zone=True)
     if value.get("at", "").strip():

@@ -1,4 +1,4 @@
-"""A point of a recorded flight, and how the readers of tracks read its times and numbers."""
+"""Track points, and parsing of their times and numbers."""
 
 from __future__ import annotations
 
@@ -12,9 +12,10 @@ from ...errors import input_error
 
 
 class Point(NamedTuple):
-    """A point of a file and its line.
+    """A track point and its line in the file.
 
-    The height, if any, is m above the sea or the ground; the moment, if any, is UTC or 0..1 of the shot.
+    The height, if any, is m above the sea or the ground. The moment, if any, is UTC or a fraction 0..1 of the
+    shot.
     """
 
     line: int
@@ -26,12 +27,12 @@ class Point(NamedTuple):
 
 
 def moment(path: Path, line: int, text: str, zone: bool = False) -> datetime:
-    """A time in UTC; one without a zone is in UTC already, unless it must have a `zone`.
+    """Parse a time as UTC. A time without zone counts as UTC, or is an error if a `zone` is required.
 
     Raises
     ------
     InputError
-        It is none.
+        The text is no time.
     """
     try:
         found = datetime.fromisoformat(text.strip())
@@ -45,12 +46,12 @@ def moment(path: Path, line: int, text: str, zone: bool = False) -> datetime:
 
 
 def number(path: Path, line: int, text: str | None, what: str) -> float:
-    """A finite number.
+    """Parse a finite number.
 
     Raises
     ------
     InputError
-        It is none.
+        The text is no finite number.
     """
     try:
         found = float(text or "")

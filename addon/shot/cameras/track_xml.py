@@ -1,6 +1,6 @@
-"""Tracks in GPX and KML, both ways in and GPX out.
+"""GPX and KML tracks: readers for both, and a GPX writer.
 
-Read with expat: a file with a document type is refused, for entities in it can grow without bound.
+The parser is expat. A file with a document type is refused, as its entities can grow without bound.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class _Element(NamedTuple):
 
 
 def gpx(path: Path) -> Iterator[Point]:
-    """Points of the tracks of a GPX file, one after the other; of its routes where it has no track."""
+    """Read the points of a GPX file's tracks in order; of its routes if it has no track."""
     found = _elements(path, {"trkpt", "rtept", "ele", "time"})
     wanted = "trkpt" if any(each.name == "trkpt" for each in found) else "rtept"
     inside: dict[str, _Element] = {}
@@ -50,7 +50,7 @@ def gpx(path: Path) -> Iterator[Point]:
 
 
 def kml(path: Path) -> Iterator[Point]:
-    """Points of the tracks (gx:Track) of a KML file; of its lines where it has none."""
+    """Read the points of a KML file's tracks (gx:Track); of its lines if it has no track."""
     found = _elements(path, {"when", "coord", "Track", "altitudeMode", "coordinates", "LineString"})
     if any(each.name == "Track" for each in found):
         yield from _tracks(path, found)
@@ -92,7 +92,7 @@ def _lines(path: Path, found: list[_Element]) -> Iterator[Point]:
 
 
 def _kml_point(path: Path, line: int, parts: list[str], mode: str) -> Point:
-    """Longitude, latitude and perhaps height, which counts as `mode` says."""
+    """Parse longitude, latitude and optional height; `mode` is KML's altitude mode."""
     if len(parts) not in (2, 3):
         raise input_error(path, line, 0, "a place is longitude, latitude and height, in this order")
     longitude, latitude = (number(path, line, text, "longitude or latitude") for text in parts[:2])
@@ -103,7 +103,7 @@ def _kml_point(path: Path, line: int, parts: list[str], mode: str) -> Point:
 
 
 def _elements(path: Path, wanted: set[str]) -> list[_Element]:
-    """Elements of these names (without prefixes) in the order in which they end, so the inner ones first."""
+    """Elements of these local names, in the order of their end tags: inner elements come first."""
     parser = expat.ParserCreate()
     found: list[_Element] = []
     opened: list[tuple[str, int, dict[str, str], list[str]]] = []
@@ -140,7 +140,7 @@ def _elements(path: Path, wanted: set[str]) -> list[_Element]:
 def gpx_text(
     name: str, latitude: np.ndarray, longitude: np.ndarray, height: np.ndarray, moments: list[datetime]
 ) -> str:
-    """A GPX 1.1 file of one track: (n,) degrees to 0.1 mm, m to 0.1 mm, times to a microsecond."""
+    """Write a GPX 1.1 file with one track: (n,) degrees to 0.1 mm, m to 0.1 mm, times to a microsecond."""
     points = "\n".join(
         f'<trkpt lat="{y:.9f}" lon="{x:.9f}"><ele>{h:.4f}</ele><time>{_utc(moment)}</time></trkpt>'
         for y, x, h, moment in zip(latitude, longitude, height, moments, strict=True)

@@ -1,1 +1,1 @@
-"""What burns in a shot: fuel, fronts, heat release, flame depth, emissions; gathered once."""
+"""Fire of a shot: fuel, fronts, heat release, flame depth and emissions, computed once."""

@@ -1,4 +1,4 @@
-"""Cells that burn: their size, how long a front takes across them, and the wind round them; no Blender."""
+"""Burning cells: cell size, crossing time of the front, and wind around the fire. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ from ...run import areas
 from ...run.frame import local_frame
 from . import emissions
 
-BURN_TIME = 600.0  # s in which a cell's fuel burns out
+BURN_TIME = 600.0  # s, burn-out time of a cell's fuel
 CROSSING = (60.0, 3600.0)  # s
-_COARSE, _QUICK = 60.0, 2.0  # m, cells that a front takes `CROSSING` s to cross at least; s, for the finest
+# m, cell size from which `CROSSING` is the least crossing time; s, the least on the finest cells
+_COARSE, _QUICK = 60.0, 2.0
 HEAT = emissions.HEAT  # J/kg
-_WIND_STEP = 600.0  # s between the moments at which the wind is looked up
+_WIND_STEP = 600.0  # s between wind samples
 
 Array = NDArray[np.float64]
 
@@ -38,15 +39,15 @@ def model_cell_area(run: Run) -> float:
 
 
 def _area(run: Run, rows: Array, columns: Array, within: tuple[Array, Array] | None = None) -> float:
-    """Mean area of the cells of a grid, m2, from its spacing in the middle of the run."""
+    """Mean cell area of a grid, m2, from its spacing at the run's centre."""
     width, height = areas.cell_size(rows, columns, local_frame(run).latitude, within)
     return width * height
 
 
 def least_crossing(cell: float) -> float:
-    """Seconds that a front takes to cross a cell (m) at least: on coarse ones it is known no better.
+    """Lower bound of the front's crossing time of a cell (m), s; coarse cells resolve no faster front.
 
-    A front of 3 m/s crosses cells of 20 m as fast as it is.
+    On cells of 20 m a front of 3 m/s is not slowed.
     """
     return float(np.clip(CROSSING[0] * (cell / _COARSE) ** 2, _QUICK, CROSSING[0]))
 
@@ -54,18 +55,18 @@ def least_crossing(cell: float) -> float:
 def crossing(
     arrival: NDArray, row: NDArray[np.int64], column: NDArray[np.int64], least: float = CROSSING[0]
 ) -> Array:
-    """Seconds that the front takes to cross cells (n,) of the fuel grid: size times the slope of arrival.
+    """Crossing time (n,) of the front through fuel cells, s: cell size times the gradient of arrival time.
 
-    Of the two one-sided differences the smaller: a jump to another fire's arrival is no slow front. It is the
-    time over which a cell begins to release its heat, whatever way the front goes; from a cell's first corner
-    to its last (cpp/flux/crossing_time.hpp) it takes up to 1.4 times as long.
+    Along each axis the smaller one-sided difference counts: a jump to another fire's arrival is no slow
+    front. It is the time over which a cell begins to release its heat, for any direction of spread. From the
+    first corner of a cell to the last (cpp/flux/crossing_time.hpp) the front takes up to 1.4 times as long.
 
     Parameters
     ----------
     arrival
-        (fy, fx) s, NaN where never.
+        Arrival time (fy, fx), s; NaN where it never burns.
     least
-        s.
+        Lower bound, s.
     """
     here, steps = arrival[row, column].astype(np.float64), []
     for axis, index in enumerate((row, column)):
@@ -79,7 +80,7 @@ def crossing(
 
 
 def nearest(axis: ArrayLike, values: ArrayLike) -> NDArray[np.int64]:
-    """Index of the axis value nearest to each value; the axis ascends or descends."""
+    """Index of the axis value nearest to each value; the axis may ascend or descend."""
     axis = np.asarray(axis, np.float64)
     order = np.argsort(axis, kind="stable")
     edges = 0.5 * (axis[order][1:] + axis[order][:-1])
@@ -87,7 +88,7 @@ def nearest(axis: ArrayLike, values: ArrayLike) -> NDArray[np.int64]:
 
 
 def wind_at(run: Run, times: Array, within: tuple[slice, slice]) -> Array:
-    """Mean wind (n, 2) over rows and columns of the model grid, at model times (n,) s; 0 without data."""
+    """Mean wind (n, 2), m/s, over a window of the model grid at model times (n,), s; 0 without data."""
     times = np.asarray(times, np.float64)
     if not {"wind_east", "wind_north"} <= set(run.fields) or len(times) == 0:
         return np.zeros((len(times), 2))
@@ -103,7 +104,7 @@ def wind_at(run: Run, times: Array, within: tuple[slice, slice]) -> Array:
 
 
 def surroundings(run: Run, arrival: Array) -> tuple[slice, slice]:
-    """Rows and columns of the model grid round everything that burns: arrival (fy, fx), NaN where never."""
+    """Rows and columns of the model grid around all burned cells of `arrival` (fy, fx); NaN: unburned."""
     burned = np.isfinite(arrival)
     slices = []
     for axis, (fine, coarse) in enumerate(

@@ -1,4 +1,4 @@
-"""What each kind of fuel gives as it burns: heat, smoke, and how that looks; a row of numbers for each.
+"""Emissions by kind of fuel: heat of combustion, emission factors, residence time and look of the smoke.
 
 Emission factors of particles under 2.5 um (PM2.5) and of carbon monoxide are those of S. P. Urbanski (2014,
 "Wildland fire emissions, carbon, and climate: Emission factors", Forest Ecology and Management 317, 51-60),
@@ -18,45 +18,46 @@ from numpy.typing import ArrayLike, NDArray
 from ...run import fuel_category
 from ...run.models import fuels
 
-HEAT = fuels.HEAT  # J/kg: what runs' heat is made with, whatever the fuel
-_OF_CO = 10.1e6  # J/kg, heat that carbon monoxide would give if it burned
-EXTINCTION = 4000.0  # m2/kg of fresh smoke in green light (Reid et al. 2005, doi 10.5194/acp-5-799-2005)
-_PLAIN = 0.02  # kg/kg of burned fuel, where none is known (WRF-SFIRE's fire_tracer_smoke)
+HEAT = fuels.HEAT  # J/kg, heat of combustion of all fuels, with which runs' heat is made
+_OF_CO = 10.1e6  # J/kg, heat of combustion of carbon monoxide
+# m2/kg, mass extinction of fresh smoke in green light (Reid et al. 2005, doi 10.5194/acp-5-799-2005)
+EXTINCTION = 4000.0
+_PLAIN = 0.02  # kg/kg, PM2.5 emission factor of unknown fuel (WRF-SFIRE's fire_tracer_smoke)
 PLAIN = _PLAIN / HEAT
-"""kg/J. The looks of a solved flow's smoke were chosen by eye with it."""
+"""kg/J, reference smoke per heat. The look of a solved flow's smoke was tuned by eye with it."""
 
 GRASS, SHRUB, LITTER, CROWN = range(4)
-"""Kinds of fuel: grass; shrubs; litter, duff and wood on a forest's floor; and the crowns over it."""
+"""Kinds of fuel: grass; shrubs; forest floor (litter, duff and wood); crowns."""
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Kind:
-    """How a kind of fuel burns.
+    """Combustion and smoke properties of a kind of fuel.
 
     Attributes
     ----------
     name
-        In words.
+        Name in words.
     smoke
-        kg of PM2.5 per kg of fuel, flaming and smouldering.
+        Emission factor of PM2.5, kg per kg of fuel: flaming, smouldering.
     monoxide
-        kg of CO per kg of fuel, smouldering: the heat that is lacking then.
+        Emission factor of CO in smouldering, kg per kg of fuel; its heat is not released.
     residence
-        s that flames stand over a spot.
+        Residence time of flames at a spot, s.
     burn_out
-        s, and s for each kg/m2, in which smouldering fuel is down to 1/e.
+        Burn-out time: s, plus s for each kg/m2 of fuel, until smouldering fuel is down to 1/e.
     embers
-        s in which spots that glow in the ash are down to 1/e.
+        Decay time of glowing embers in the ash, s to 1/e.
     gain
-        Of the smoke's extinction, beside that which was chosen for a crown fire with `PLAIN` smoke.
+        Factor on the smoke's extinction, relative to a crown fire with `PLAIN` smoke.
     dark
-        0..1, how much of the dark brown of a crown fire's base fresh smoke has.
+        0..1, darkness of fresh smoke, relative to the brown base of a crown fire's plume.
     white
-        Albedo of its smoke that has spread, in green light.
+        Single-scattering albedo of aged smoke in green light.
     ash
-        0..1, how pale what is left is.
+        0..1, brightness of the ash.
     """
 
     name: str
@@ -72,20 +73,19 @@ class Kind:
 
     @property
     def heat(self) -> tuple[float, float]:
-        """J per kg of fuel, flaming and smouldering."""
+        """Heat of combustion, J per kg of fuel: flaming, smouldering."""
         return HEAT, HEAT - _OF_CO * self.monoxide
 
 
-# Litter that burns on behind the front counts half as prescribed fires of western forest and half as
-# residual smouldering, the mean of wood's and duff's: wood still has flames then (assumed). Crowns are as
-# wildfires of western forest. Smouldering of grass and shrubs is in Urbanski's means of both phases.
-# Residence: of grass 15 s (measured by the fire laboratory of the University of Toronto, "Grass fire
-# behaviour and flame"), of the others assumed. Burn-out: of grass and brush the weights 7 and 100 to 180 of
-# WRF-SFIRE over 0.8514, of litter 210 s at 0.3 kg/m2 and 1020 s at 3 kg/m2, as its 180 and 900. Albedo: of
-# grass, whose hot flames make more soot, near the 0.84 of Reid et al. (2005); of shrubs assumed; of forest
-# as it was chosen by eye for aged haze. Gain: of grass such that a flow's smoke is drawn with 0.8 to 1.1
-# times its mass; of forest such that it is as it was chosen by eye, three times its mass, for ash and
-# droplets; of shrubs between. Darkness and ash are chosen by eye.
+# Emission factors: litter that burns behind the front is half prescribed fire of western forest and half
+# residual smouldering (mean of wood and duff), as wood still has flames then (assumed). Crowns are wildfires
+# of western forest. For grass and shrubs Urbanski's means cover both phases, smouldering included. Residence
+# time: grass 15 s (measured by the fire laboratory of the University of Toronto, "Grass fire behaviour and
+# flame"); others assumed. Burn-out time: grass and brush use the weights 7 and 100 to 180 of WRF-SFIRE over
+# 0.8514; litter 210 s at 0.3 kg/m2 and 1020 s at 3 kg/m2, as its 180 and 900. Albedo: grass near the 0.84 of
+# Reid et al. (2005), as its hot flames make more soot; shrubs assumed; forest chosen by eye for aged haze.
+# Gain: grass smoke of a flow is drawn with 0.8 to 1.1 times its mass; forest smoke, chosen by eye, with three
+# times its mass, for ash and droplets; shrubs between. Darkness and ash are chosen by eye.
 KINDS = (
     Kind("grass", (0.0085, 0.0085), 0.0, 15.0, (8.0, 0.0), 90.0, 0.30, 0.12, 0.86, 0.35),
     Kind("shrub", (0.0071, 0.0071), 0.0, 45.0, (100.0, 45.0), 600.0, 0.55, 0.5, 0.90, 0.8),
@@ -93,8 +93,9 @@ KINDS = (
     Kind("crowns", (0.0232, 0.0232), 0.0, 120.0, (90.0, 0.0), 3600.0, 0.79, 1.0, 0.945, 0.6),
 )
 
-_GRASS_MOST = 0.6  # kg/m2 of surface fuel without canopy that is grass: the heaviest of Anderson's 1 to 3
-_UNDER = 0.05  # kg/m2 of canopy from which what lies under it is litter (assumed)
+# kg/m2, largest surface fuel without canopy that counts as grass: the heaviest of Anderson's 1 to 3
+_GRASS_MOST = 0.6
+_UNDER = 0.05  # kg/m2, canopy fuel from which the surface fuel counts as litter (assumed)
 
 
 _OF_CATEGORY = {
@@ -106,10 +107,10 @@ _OF_CATEGORY = {
 
 
 def kind(surface: ArrayLike, canopy: ArrayLike, category: ArrayLike | None = None) -> NDArray[np.int8]:
-    """The kind of surface fuel (kg/m2).
+    """Kind of the surface fuel (kg/m2).
 
-    That of the fuel model's number (`category`), where there is one that burns; else by how much there is of
-    it, and of canopy over it (kg/m2).
+    The fuel model number (`category`) decides where it is a burnable one. Else the surface fuel and the
+    canopy fuel above it (kg/m2) decide.
     """
     open_ground = np.where(np.asarray(surface) > _GRASS_MOST, SHRUB, GRASS)
     found = np.where(np.asarray(canopy) > _UNDER, LITTER, open_ground).astype(np.int8)
@@ -121,38 +122,39 @@ def kind(surface: ArrayLike, canopy: ArrayLike, category: ArrayLike | None = Non
 
 
 def of_run(run: Run) -> NDArray[np.int8]:
-    """(fy, fx) kind of the surface fuel of a run."""
+    """Kind of surface fuel (fy, fx) in a run."""
     told = run.has(fuel_category.FIELD)
     category = run.fuel_rows(fuel_category.FIELD, 0, len(run.fuel_latitude)) if told else None
     return kind(run.surface_fuel, run.canopy_fuel, category)
 
 
 def column(name: str, part: int | None = None) -> Array:
-    """One attribute of all kinds, to be looked up by kind; of a pair its first or second."""
+    """Lookup table of one attribute by kind; `part` selects an entry of a pair."""
     found = [getattr(each, name) for each in KINDS]
     return np.array([each[part] if part is not None else each for each in found], np.float64)
 
 
 def burn_out(surface: ArrayLike, kinds: ArrayLike) -> Array:
-    """Burn-out time (s) of so much surface fuel (kg/m2) of these kinds."""
+    """Burn-out time of a surface fuel load (kg/m2) of these kinds, s."""
     return column("burn_out", 0)[kinds] + column("burn_out", 1)[kinds] * np.asarray(surface, np.float64)
 
 
-_COLUMN = 1.0e9, 5.0e10  # W of fires whose columns begin to have ash and droplets, and have all (by eye)
+# W, fire power at which ash and droplets in the column begin and are complete (by eye)
+_COLUMN = 1.0e9, 5.0e10
 
 
 @dataclass(frozen=True)
 class Mix:
-    """Smoke of several kinds of fuel.
+    """Smoke mixed from several kinds of fuel.
 
     Attributes
     ----------
     shares
-        (4,) of its mass.
+        (4,) mass fractions of the kinds.
     per_heat
-        kg per J of heat.
+        kg of PM2.5 per J of heat.
     power
-        W of the fire: a strong one's column takes ash up and makes droplets.
+        Fire power, W. The column of a strong fire lifts ash and forms droplets.
     """
 
     shares: Array
@@ -161,36 +163,36 @@ class Mix:
 
     @property
     def dark(self) -> float:
-        """How dark its base is, 0..1."""
+        """Darkness of the plume's base, 0..1."""
         return float(self.shares @ column("dark"))
 
     @property
     def residence(self) -> float:
-        """How long (s) flames stand over a spot, in the mean."""
+        """Mean residence time of flames, s."""
         return float(self.shares @ column("residence"))
 
     @property
     def white(self) -> float:
-        """Albedo of it when it has spread."""
+        """Single-scattering albedo of aged smoke."""
         return float(self.shares @ column("white"))
 
     @property
     def dilution(self) -> float:
-        """Smoke of a watt beside that which looks were chosen with: as warm, it is so much thinner."""
+        """Smoke per heat relative to the reference `PLAIN`: the dilution at equal temperature."""
         return self.per_heat / PLAIN
 
     @property
     def opacity(self) -> float:
-        """Of its extinction, beside that of smoke which looks were chosen with, as warm."""
+        """Extinction relative to the reference smoke at equal temperature."""
         strong = np.log(max(self.power, _COLUMN[0]) / _COLUMN[0]) / np.log(_COLUMN[1] / _COLUMN[0])
         plain, full = KINDS[GRASS].gain, float(self.shares @ column("gain"))
         return self.dilution * float(plain + min(strong, 1.0) * (full - plain))
 
 
 def mix(smoke: ArrayLike, heat: float, power: float = _COLUMN[1]) -> Mix:
-    """The mix of so much smoke (kg) of each kind (4,) with so much heat (J); without any a crown fire's.
+    """Mix from the smoke (kg) of each kind (4,) and the heat (J); a crown fire's without any smoke.
 
-    `power` (W) is the fire's.
+    `power` (W) is the fire's total heat release rate.
     """
     smoke = np.asarray(smoke, np.float64)
     total = float(smoke.sum())

@@ -1,11 +1,11 @@
-"""What burns in a shot, gathered once: flames, lamps, firebrands and smoke take it from here.
+"""Fire of a shot: burning fuel and heat release for flames, lights, firebrands and smoke.
 
-The model's heat is shared out exactly. A model cell with flux F gives F x area watts, shared among its fuel
-in proportion to the heat of what that consumes at the moment. So the model's heat says how much fuel burns,
-and that how much smoke it gives (`emissions`). The front crosses a fuel cell in its size over the rate of
-spread; each spot of it loses its fuel as exp(-age / T) from when the front comes (Mandel et al. 2011,
-doi 10.5194/gmd-4-591-2011, eq. 3: the ground heat of WRF-SFIRE). So a cell consumes most while the front is
-in it and smoulders after.
+The model's heat is conserved. A model cell with heat flux F releases F x area watts. They are shared among
+its fuel in proportion to the heat that each piece releases at that time. The model's heat thus decides how
+much fuel burns, and the fuel burned decides the smoke (`emissions`). The front crosses a fuel cell in the
+cell's size over the rate of spread. Each spot loses its fuel as exp(-age / T) after the front arrives (Mandel
+et al. 2011, doi 10.5194/gmd-4-591-2011, eq. 3: the ground heat of WRF-SFIRE). A cell therefore consumes most
+while the front crosses it and smoulders later.
 """
 
 from __future__ import annotations
@@ -28,27 +28,27 @@ from .heat_release import Array, Sources
 
 _FLAMES = emissions.column("residence")
 _HEAT, _SMOKE = ([emissions.column(name, part) for part in (0, 1)] for name in ("heat", "smoke"))
-_LOOK, _LOOKS = 30.0, 240  # s between two looks at what burns, and how many looks at most
-_MOMENTS = 3  # at which a fire's power is looked at, for its column
-_AHEAD = 600.0  # s after the last moment: what catches fire in the interval that goes on then
+_LOOK, _LOOKS = 30.0, 240  # s between samples of the heat release, and samples at most
+_MOMENTS = 3  # times at which the fire's power is sampled for its column
+_AHEAD = 600.0  # s after the last frame; includes fuel that ignites in the interval under way then
 
 
 @dataclass(frozen=True)
 class Cells:
-    """Fuel that catches fire in some time window, n pieces.
+    """Fuel that ignites within a time window, n pieces.
 
     Attributes
     ----------
     arrival
-        (n,) s.
+        (n,) arrival time, s.
     fuel
-        (n,) kg/m2 burned, surface and canopy; of a piece of several fuel cells their sum.
+        (n,) burned surface and canopy fuel, kg/m2; summed over the fuel cells of a piece.
     position
         (n, 3) scene metres, on the ground.
     area
         m2 of one fuel cell.
     fire
-        What they are part of.
+        The fire to which they belong.
     """
 
     arrival: Array
@@ -59,25 +59,25 @@ class Cells:
 
     @cached_property
     def wind(self) -> Array:
-        """(n, 2) m/s east and north near the ground, at arrival, averaged over the fire's surroundings."""
+        """Near-surface wind (n, 2), m/s east and north, at arrival time, averaged around the fire."""
         return burning.wind_at(self.fire.run, self.arrival, self.fire.surroundings)
 
 
 class Fire:
-    """The fire of a run between two model times: when it comes, and what heat and smoke it gives.
+    """Fire of a run between two model times: arrival times, heat release and smoke.
 
     Parameters
     ----------
     first, last
-        Model times of the shot, s.
+        Model times of the first and last frame, s.
     before
-        s before `first` from which on what has burned is asked for, smoke for instance.
+        Time before `first` for which burned fuel is included, s, for instance for smoke.
     relief
-        Heights of the ground; None: the run's.
+        Terrain elevation; None: the run's.
     arrival
-        (fy, fx) s, when the front passes the middle of each fuel cell; None: as the run says.
+        Arrival time (fy, fx), s, at the centre of each fuel cell; None: the run's.
     detail
-        Fuel cells nearer than this burn as one, m.
+        Distance within which fuel cells are merged, m.
     """
 
     def __init__(
@@ -98,17 +98,17 @@ class Fire:
 
     @cached_property
     def arrival(self) -> Array:
-        """(fy, fx) s, when the front passes the middle of each fuel cell; NaN where never."""
+        """Arrival time (fy, fx), s, at the centre of each fuel cell; NaN where it never burns."""
         return self.run.fuel_arrival_time()
 
     @cached_property
     def flux(self) -> flux.Interpolator:
-        """The heat flux at any time."""
+        """Interpolator of the heat flux in time."""
         return flux.Interpolator(self.run)
 
     @cached_property
     def cell_area(self) -> Array:
-        """(ny * nx,) m2 of each cell of the model grid."""
+        """Area (ny * nx,) of each model cell, m2."""
         run = self.run
         if min(run.elevation.shape) == 1:
             return np.full(run.elevation.size, burning.model_cell_area(run))
@@ -116,14 +116,15 @@ class Fire:
 
     @cached_property
     def fuel(self) -> Fuel:
-        """What burns in the shot, or has burned not long before it."""
+        """Fuel that burns in the shot or burned shortly before it."""
         known = None if self.run.has("fuel_arrival_time") else self.arrival
         return gather(self.run, known, self.first, self.last + _AHEAD, self.before, self.relief, self.detail)
 
     def sources(self, time: float) -> Sources:
-        """Everything that gives heat at `time` (s): together each model cell's flux times its area.
+        """Heat sources at `time` (s); their power sums to flux times area in each model cell.
 
-        A model cell without burning fuel gives its heat from its centre. The cost is that of what burns.
+        A model cell without burning fuel releases its heat at its centre. The cost scales with the burning
+        fuel.
         """
         fuel = self.fuel
         hot, found = self.flux.burning(time)
@@ -162,7 +163,7 @@ class Fire:
         )
 
     def cells(self, first: float, last: float) -> Cells:
-        """Fuel that catches fire between `first` and `last` (s), by its place on the grid."""
+        """Fuel that ignites between `first` and `last` (s), in grid order."""
         fuel = self.fuel
         chosen = np.flatnonzero((fuel.arrival >= first) & (fuel.arrival <= last))
         chosen = chosen[np.argsort(fuel.fuel_cell[chosen], kind="stable")]
@@ -177,13 +178,13 @@ class Fire:
 
     @cached_property
     def residence(self) -> Array:
-        """(fy, fx) s that flames stand over each fuel cell."""
+        """Residence time of flames (fy, fx), s, in each fuel cell."""
         run = self.run
         return _FLAMES[emissions.of_run(run)]
 
     @cached_property
     def smoke(self) -> emissions.Mix:
-        """What the smoke of all this fuel is made of: as it would burn out."""
+        """Composition of the smoke of all this fuel at complete burn-out."""
         fuel, crown = self.fuel, emissions.CROWN
         made, heat_of = np.zeros(len(emissions.KINDS)), 0.0
         parts = ((fuel.surface, fuel.kind, fuel.slow), (fuel.canopy, crown, np.float64(BURN_OUT_CANOPY)))
@@ -199,7 +200,7 @@ class Fire:
         return emissions.mix(made, heat_of, float(power))
 
     def smoke_made(self, first: float, last: float) -> float:
-        """Smoke (kg) given off between two model times (s), by the trapezoidal rule."""
+        """Smoke emitted between two model times (s), kg, by the trapezoidal rule."""
         step = max(_LOOK, (last - first) / _LOOKS)
         times = np.linspace(first, last, max(1, math.ceil((last - first) / step)) + 1)
         rate = np.array([self.sources(float(time)).smoke.sum() for time in times])
@@ -207,16 +208,16 @@ class Fire:
 
     @cached_property
     def surroundings(self) -> tuple[slice, slice]:
-        """Rows and columns of the model grid round everything that burns in the run."""
+        """Rows and columns of the model grid around all cells that burn in the run."""
         return burning.surroundings(self.run, self.arrival)
 
     @cached_property
     def _longest(self) -> float:
-        """Seconds that a piece burns at most."""
+        """Longest burning time of a piece, s."""
         return float(np.max(self.fuel.over - self.fuel.begin, initial=0.0))
 
     def _centres(self, cell: NDArray[np.int64]) -> Array:
-        """Scene points (n, 3) of the centres of model cells."""
+        """Centres of model cells (n, 3), scene points on the ground."""
         run = self.run
         row, column = np.divmod(cell, len(run.longitude))
         height = np.nan_to_num(self.relief.coarse[row, column].astype(np.float64))

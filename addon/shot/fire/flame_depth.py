@@ -1,6 +1,6 @@
-"""How deep the front's flames are: the rate of spread times how long flames stand over a spot.
+"""Flame depth of the front: rate of spread times residence time.
 
-So their depth does not hang on the cells of a grid, and is less at the flanks and the rear than at the head.
+It does not depend on the grid's cell size. It is less at the flanks and the rear than at the head.
 """
 
 from __future__ import annotations
@@ -20,24 +20,24 @@ if TYPE_CHECKING:
     from ..settings.protocols import ShotView
     from ..terrain.terrain import Ground
 
-_WHOLE = 60.0  # m; of a front as deep, or deeper, patterns have their full size: a crown fire's
-_LEAST = 0.15  # of that size
-_STRONG = 95.0  # percentile of the depths along the front: of its head
-_AROUND = 600.0  # s before the first frame that the front counts
+_WHOLE = 60.0  # m, flame depth of a crown fire, at which patterns have their full size
+_LEAST = 0.15  # lower bound of the relative pattern size
+_STRONG = 95.0  # percentile of flame depth along the front that stands for the head
+_AROUND = 600.0  # s before the first frame for which the front is included
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Fields:
-    """What the front is like on the grid of a ground.
+    """Properties of the fire front on a terrain grid.
 
     Parameters
     ----------
     ground
-        With its apron.
+        Terrain with its apron.
     run
-        Of the fuel.
+        Run that supplies the fuel.
     """
 
     ground: Ground
@@ -45,7 +45,7 @@ class Fields:
 
     @cached_property
     def kind(self) -> NDArray[np.int8]:
-        """(ny, nx) kind of the surface fuel, of `emissions.KINDS`."""
+        """Kind of surface fuel (ny, nx), of `emissions.KINDS`."""
         fields, run, category = self.ground.fields, self.run, None
         if run.has(fuel_category.FIELD):
             numbers = run.fuel_rows(fuel_category.FIELD, 0, len(run.fuel_latitude))
@@ -54,7 +54,7 @@ class Fields:
 
     @cached_property
     def speed(self) -> Array:
-        """(ny, nx) rate of spread (m/s) where the fire goes; 1 elsewhere."""
+        """Rate of spread (ny, nx), m/s; 1 where it does not burn."""
         row, column = np.nonzero(self.ground.burned > 0.0)
         found = np.ones(self.ground.shape)
         found[row, column] = self.ground.spread(row.astype(np.float64), column.astype(np.float64))
@@ -62,17 +62,17 @@ class Fields:
 
     @cached_property
     def residence(self) -> Array:
-        """(ny, nx) s that flames stand over a spot."""
+        """Residence time of flames (ny, nx), s."""
         return emissions.column("residence")[self.kind]
 
     @cached_property
     def ash(self) -> Array:
-        """(ny, nx) 0..1, how pale what is left is."""
+        """Brightness of the ash (ny, nx), 0..1."""
         return emissions.column("ash")[self.kind]
 
 
 def head(shot: ShotView) -> float:
-    """Depth (m) of the flames at the head of the front in a shot; 0 where nothing burns."""
+    """Flame depth at the head of the front in a shot, m; 0 without fire."""
     ground, front = shot.bare_ground, shot.front
     passed = (ground.burned >= 0.5) & (ground.arrival <= shot.frames.last)
     passed &= ground.arrival >= shot.frames.first - _AROUND
@@ -82,6 +82,6 @@ def head(shot: ShotView) -> float:
 
 
 def scale(shot: ShotView) -> float:
-    """Size of what is seen of the front and the scar beside that of a crown fire's, to 1."""
+    """Pattern size of flaming front and burn scar relative to a crown fire's, at most 1."""
     deep = head(shot)
     return float(np.clip(deep / _WHOLE, _LEAST, 1.0)) if deep else 1.0

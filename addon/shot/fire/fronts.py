@@ -1,7 +1,7 @@
-"""Where the fire of a run is at any moment: at places, and as the line of its front.
+"""Fire fronts: burned state at points, and the front as a contour line, at any time.
 
-Both are those that scores know (see `run.score.shapes`): between two cells' middles the front moves evenly,
-and where it has stopped it is half-way.
+Both match the scores (see `run.score.shapes`): the front moves at constant speed between two cell centres,
+and a front that has stopped lies half-way between them.
 """
 
 from __future__ import annotations
@@ -25,25 +25,25 @@ if TYPE_CHECKING:
     from ..shot import Shot
 
 COLOURS = ("#b8f53d", "#ff4fd0", "#5fd7ff", "#ffffff")
-"""Of the first run and of the others in their order; no flame and no burned ground has them."""
-_FINE = 80.0  # m; a coarser grid is divided, so that lines follow the ground
-_MOST = 480  # moments that a front is drawn at
+"""Front colours: the first run, then the others in order. Flames and burned ground have other colours."""
+_FINE = 80.0  # m; a coarser grid is subdivided so that lines follow the terrain
+_MOST = 480  # times at most for which a front is drawn
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Lines:
-    """A front at several moments, on the ground.
+    """Fire front at several times, draped on the terrain.
 
     Attributes
     ----------
     points
         (n, 3) m in the scene.
     after
-        (n,) which point comes next on its closed line; the burned side is left.
+        (n,) index of the next point of its closed line; the burned side is on the left.
     start, end
-        (n,) model times of the shot's run (s) between which the line of a point is drawn.
+        (n,) model times, s of the shot's run, between which a point's line is drawn.
     """
 
     points: Array
@@ -53,7 +53,7 @@ class Lines:
 
 
 class Reach:
-    """What of a run has burned by when."""
+    """Burned area of a run as a function of time."""
 
     def __init__(self, run: Run) -> None:
         self.run = run
@@ -67,7 +67,7 @@ class Reach:
         return 0.5 * float(self.longitude[0] + self.longitude[-1])
 
     def burned(self, latitude: ArrayLike, longitude: ArrayLike, time: float) -> Array:
-        """1 where places (degrees) have burned by a model time (s), 0 where not, NaN outside of the grid."""
+        """Burned state of points (degrees) at a model time (s): 1 burned, 0 not, NaN outside of the grid."""
         longitude = areas.turned(longitude, self._middle)
         row, column = (
             np.interp(at, axis, np.arange(len(axis)), left=np.nan, right=np.nan)
@@ -78,7 +78,7 @@ class Reach:
         return np.where(inside, since <= 0.0, np.nan)
 
     def line(self, time: float) -> tuple[Array, Array, NDArray[np.int64]]:
-        """Latitude and longitude (n,) of the front's points at a model time (s), and which comes next."""
+        """Front contour at a model time (s): latitude, longitude (n,) and the index of each point's next."""
         burned = self.arrival <= time
         if not burned.any():
             return np.empty(0), np.empty(0), np.empty(0, np.int64)
@@ -103,15 +103,15 @@ class Reach:
 
 @functools.lru_cache(maxsize=len(COLOURS))
 def reach(run: Run) -> Reach:
-    """What of a run has burned by when; that of the last runs asked for is kept."""
+    """Burned area of a run; those of the last runs are cached."""
     return Reach(run)
 
 
 def contour(field: Array) -> tuple[Array, Array, NDArray[np.int64]]:
-    """Fractional rows and columns (n,) where a field (ny, nx) is 0, and the index of each point's next.
+    """Zero contour of a field (ny, nx): fractional rows and columns (n,), and the index of each point's next.
 
-    Marching squares: the field is even between two neighbours. Lines are closed, with what is 0 or less on
-    their left where columns go right and rows up; it must not reach the field's rim.
+    Marching squares with linear interpolation between neighbours. Lines are closed. Values of 0 or less lie
+    on their left, with columns to the right and rows up. The contour must not reach the field's border.
     """
     inside = field <= 0.0
     corners = [inside[:-1, :-1], inside[:-1, 1:], inside[1:, 1:], inside[1:, :-1]]
@@ -141,7 +141,7 @@ def contour(field: Array) -> tuple[Array, Array, NDArray[np.int64]]:
 
 
 def lines(shot: Shot, run: Run) -> Lines:
-    """The front of a run over the ground of a shot, at the moments that are built: one line for each."""
+    """Fronts of a run on the terrain of a shot, one for each built frame."""
     moments = shot.built_times
     if len(moments) > _MOST:
         moments = np.linspace(moments[0], moments[-1], _MOST)
@@ -161,6 +161,6 @@ def lines(shot: Shot, run: Run) -> Lines:
 
 
 def colours(shot: Shot) -> dict[str, str]:
-    """The colour of each run of the scene file, the first one's name first."""
+    """Front colour of each run of the scene file, by name; the first run comes first."""
     first = getattr(shot, "first", shot)
     return dict(zip((first.label, *first.others), COLOURS, strict=False))

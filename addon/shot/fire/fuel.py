@@ -1,4 +1,4 @@
-"""The fuel that burns in some time, gathered from the fuel grid; without Blender."""
+"""Burning fuel: fuel cells that burn within a time window, merged into pieces. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -16,10 +16,8 @@ from ..terrain.elevation import Elevation
 from . import burning, emissions
 
 BURN_OUT_CANOPY = emissions.KINDS[emissions.CROWN].burn_out[0]  # s, foliage and twigs (assumed)
-_OVER = 14.0  # burn-out times after which what is left, e^-14, is not worth a look
-DETAIL = (
-    75.0  # m, at a fire of 15 km; fuel cells nearer than this burn as one: a finer run makes no more of them
-)
+_OVER = 14.0  # burn-out times after which the rest, e^-14, is neglected
+DETAIL = 75.0  # m, merging distance of fuel cells in a fire of 15 km; it bounds the pieces of a finer run
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -27,23 +25,23 @@ Index = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Fuel:
-    """Fuel that burns, n pieces by the time that they begin to: a fuel cell, or several of one model cell.
+    """Burning fuel, n pieces in order of ignition: a fuel cell, or several merged within one model cell.
 
     Attributes
     ----------
     fuel_cell, cell
-        (n,) flat index on the fuel grid (of the first cell of a piece), and on the model grid.
+        (n,) flat index on the fuel grid (of a piece's first cell), and on the model grid.
     arrival
-        (n,) s, when the front is in its middle.
+        (n,) arrival time at the centre, s.
     begin, crossing, over
-        (n,) s, when the front enters it, how long it takes to leave it, and when the piece has burned out.
+        (n,) ignition time, crossing time of the front, and time of burn-out, s.
     surface, canopy
-        (n,) kg for each m2 of a fuel cell's area, summed over the cells of the piece; of the burned
-        fraction of its cells, where the run has it.
+        (n,) fuel load per fuel-cell area, kg/m2, summed over the cells of a piece. If the run has a burned
+        fraction, only that part counts.
     kind
-        (n,) kind of the surface fuel, of `emissions.KINDS`; all of a piece is of one.
+        (n,) kind of the surface fuel, of `emissions.KINDS`; one for each piece.
     slow
-        (n,) s, burn-out time of the surface fuel.
+        (n,) burn-out time of the surface fuel, s.
     position
         (n, 3) scene metres, on the ground.
     """
@@ -61,7 +59,7 @@ class Fuel:
     position: Array
 
     def take(self, chosen: NDArray) -> Fuel:
-        """Some of it."""
+        """Select pieces by index or mask."""
         return Fuel(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
 
@@ -74,18 +72,18 @@ def gather(
     relief: Elevation | None = None,
     detail: float = DETAIL,
 ) -> Fuel:
-    """Fuel that burns between the model times `first` and `last`, or that `before` s earlier caught fire.
+    """Gather fuel that burns between `first` and `last` (model time, s) or ignited up to `before` s earlier.
 
-    Of the run's fields only the rows are read in which something burns, some at a time.
+    The run's fields are read in blocks of rows, and only where something burns.
 
     Parameters
     ----------
     known
-        (fy, fx) s, arrival times, NaN where never; none asks the run for its own.
+        Arrival times (fy, fx), s, NaN where never; None: the run's.
     relief
-        Heights of the ground; None: the run's.
+        Terrain elevation; None: the run's.
     detail
-        Fuel cells nearer than this burn as one, m.
+        Merging distance of fuel cells, m.
     """
     heights = relief or Elevation(run)
     arrival, share = blocks.arrival(run, known), None
@@ -107,15 +105,16 @@ def _of_rows(
     rows: tuple[int, int],
     window: tuple[float, float, float],
 ) -> Fuel:
-    """The fuel of some rows, each cell a piece."""
+    """Burning fuel of a block of rows, one piece for each cell."""
     (top, end), (first, last, before) = rows, window
-    edge, beyond = max(top - 2, 0), min(end + 2, len(run.fuel_latitude))  # a row on each side for its slope
+    # a halo row on each side for gradients
+    edge, beyond = max(top - 2, 0), min(end + 2, len(run.fuel_latitude))
     time = arrival(edge, beyond)
     if share is not None:
         time = _touched(time, share[edge:beyond])
     inner = time[top - edge : end - edge]
     came = inner < last + burning.CROSSING[1]
-    if came.any():  # the slowest fuel of these rows tells what may still burn
+    if came.any():  # the slowest fuel of these rows bounds the burning time
         most = np.fmax.reduce(run.fuel_rows("surface_fuel", top, end), axis=None, initial=0.0)
         longest = burning.CROSSING[1] + _OVER * max(float(_slowest(most)), BURN_OUT_CANOPY)
         came &= inner > first - max(longest, before)
@@ -133,7 +132,7 @@ def _of_rows(
     came = inner[row, column].astype(np.float64)
     least = burning.least_crossing(float(np.sqrt(burning.cell_area(run))))
     crossing = burning.crossing(time, row + top - edge, column, least)
-    begin = came - 0.5 * crossing  # the arrival time is that of the cell's centre
+    begin = came - 0.5 * crossing  # arrival time is defined at the cell's centre
     over = begin + crossing + _OVER * np.maximum(slow, BURN_OUT_CANOPY)
     recent = (over > first) | (came >= first - before)
     burns = np.flatnonzero((surface + canopy > 0.0) & (begin < last) & recent)
@@ -157,9 +156,9 @@ def _of_rows(
 
 
 def _touched(time: NDArray, share: NDArray) -> NDArray:
-    """Arrival times, also of cells that burn in part though the front never gets to their middle.
+    """Arrival times, extended to cells that burn in part although the front never reaches their centre.
 
-    Theirs is the latest of their neighbours', which the front came from; without one they have none.
+    Such a cell takes the latest arrival time of its neighbours; without one it stays NaN.
     """
     padded, found = np.pad(time, 1, constant_values=np.nan), np.full_like(time, np.nan)
     rows, columns = time.shape
@@ -170,7 +169,7 @@ def _touched(time: NDArray, share: NDArray) -> NDArray:
 
 
 def _at(rows: Callable[[int, int], NDArray], top: int, row: Index, column: Index) -> Array:
-    """Values of what `rows` reads of the fuel grid at rows, counted from `top` on, and columns."""
+    """Values of the fuel grid at rows (counted from `top`) and columns, read by `rows`."""
     if len(row) == 0:
         return np.empty(0)
     first = int(row.min())
@@ -179,14 +178,14 @@ def _at(rows: Callable[[int, int], NDArray], top: int, row: Index, column: Index
 
 
 def _slowest(surface: Array | float) -> Array:
-    """Burn-out time (s) of so much surface fuel (kg/m2) at most, of whatever kind."""
+    """Longest burn-out time of any kind of fuel at a surface fuel load (kg/m2), s."""
     return np.max(
         [emissions.burn_out(surface, np.int8(kind)) for kind in range(len(emissions.KINDS))], axis=0
     )
 
 
 def _model_cell(run: Run, row: Index, column: Index) -> Index:
-    """The cell of the model grid that fuel cells lie in."""
+    """Flat index of the model cell around each fuel cell."""
     rows, columns = (
         burning.nearest(coarse, fine)[index]
         for coarse, fine, index in (
@@ -198,7 +197,7 @@ def _model_cell(run: Run, row: Index, column: Index) -> Index:
 
 
 def _pieces(run: Run, fuel: Fuel, row: Index, column: Index, detail: float) -> Fuel:
-    """The same in pieces of `detail` (m) or larger, none of two kinds or in two cells of the model grid."""
+    """Merge fuel into pieces of `detail` (m) or larger. A piece has one kind and lies in one model cell."""
     most = max(round(float(np.sqrt(burning.model_cell_area(run))) / detail), 1)
     parts = (
         _part(run.latitude, run.fuel_latitude, most)[row],
@@ -238,7 +237,7 @@ def _pieces(run: Run, fuel: Fuel, row: Index, column: Index, detail: float) -> F
 
 
 def _part(coarse: Array, fine: Array, most: int) -> Index:
-    """Which of at most `most` parts of its model cell, along one axis, each fuel cell lies in."""
+    """Subdivision index of fuel cells within their model cell along one axis, at most `most` parts."""
     inside = burning.nearest(coarse, fine)
     count = np.bincount(inside, minlength=len(coarse))
     first = np.full(len(coarse), len(fine))

@@ -1,4 +1,4 @@
-"""Sources of heat, light and smoke of one moment, and how they are merged; without Blender."""
+"""Heat release: sources of heat, light and smoke at one time, and their merging. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -10,31 +10,31 @@ from numpy.typing import ArrayLike, NDArray
 from . import emissions
 
 FLAMING = emissions.KINDS[emissions.LITTER].residence
-"""s that a spot of timber flames after the front reached it; later it smoulders."""
-SMOULDER_LIGHT = 0.1  # light of a smouldering watt over that of a flaming one (assumed)
+"""Residence time of flames in timber, s; it smoulders later."""
+SMOULDER_LIGHT = 0.1  # luminous efficiency of smouldering relative to flaming heat (assumed)
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Sources:
-    """Heat of one moment, n sources.
+    """Heat sources at one time, n of them.
 
     Attributes
     ----------
     position
         (n, 3) scene metres, on the ground.
     power
-        (n,) W.
+        (n,) heat release rate, W.
     flaming
-        (n,) W, that part of it which comes from where flames stand.
+        (n,) heat release rate of the flaming part, W.
     smoke
-        (n,) kg/s of PM2.5.
+        (n,) emission rate of PM2.5, kg/s.
     cell
-        (n,) flat index on the model grid; -1 where sources of several cells were merged.
+        (n,) flat index on the model grid; -1 for sources merged across cells.
     fuel_cell
-        (n,) flat index on the fuel grid, of the first where several cells are one source; -1 for the centre
-        of a model cell and for merged sources.
+        (n,) flat index on the fuel grid, of the first cell of a source; -1 for the centre of a model cell and
+        for merged sources.
     """
 
     position: Array
@@ -45,11 +45,11 @@ class Sources:
     fuel_cell: NDArray[np.int64]
 
     def take(self, chosen: NDArray) -> Sources:
-        """Some of the sources."""
+        """Select sources by index or mask."""
         return Sources(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
     def luminous(self) -> Sources:
-        """The same with the power that counts as light: of flames all, of smouldering fuel little."""
+        """Sources with luminous power: flaming heat counts fully, smouldering heat by `SMOULDER_LIGHT`."""
         light = self.flaming + SMOULDER_LIGHT * (self.power - self.flaming)
         return replace(self, power=light, flaming=np.minimum(self.flaming, light))
 
@@ -57,10 +57,10 @@ class Sources:
 def consumed(
     age: ArrayLike, crossing: ArrayLike, burn_out: ArrayLike, flames: ArrayLike = FLAMING
 ) -> tuple[Array, Array]:
-    """Part of a cell's fuel lost per second `age` s after the front came in, 1/s, and its flaming part.
+    """Fuel consumption rate of a cell, 1/s, at `age` s after the front entered: total and flaming part.
 
-    The mean of exp(-a / T) / T over the ages a of the cell's spots, which lie evenly between age - crossing
-    and age; spots younger than `flames` (s) flame.
+    The mean of exp(-a / T) / T over the ages a of the cell's spots, uniform from age - crossing to age. Spots
+    younger than `flames` (s) flame.
     """
     age, crossing, burn_out = (np.asarray(v, np.float64) for v in (age, crossing, burn_out))
     youngest = np.maximum(age - crossing, 0.0)
@@ -72,12 +72,12 @@ def consumed(
 
 
 def lights(sources: Sources, block: float = 300.0, count: int = 400) -> Sources:
-    """Sources merged into at most `count`, without losing heat and without jumps from moment to moment.
+    """Merge sources into at most `count` lights, with heat conserved and without temporal popping.
 
-    Each is shared between the four nearest nodes of a fixed grid, `block` metres apart, by bilinear weights.
-    Half of `count` is for the strongest nodes; what the others have goes to a grid twice as coarse, half of
-    what is left of `count` is for that, and so on. A node becomes one of the strongest gradually, between
-    the power of the strongest that is not and twice that, so no light comes or goes at once.
+    Each source is shared between the four nearest nodes of a fixed grid, `block` metres apart, by bilinear
+    weights. The strongest nodes take half of `count`. The rest goes to a grid twice as coarse with half of
+    the remaining `count`, and so on. A node is promoted gradually: its strong part rises from 0 at the power
+    of the strongest excluded node to 1 at twice that power.
     """
     kept: list[Sources] = []
     rest = sources.take(np.flatnonzero(sources.power > 0.0))
@@ -99,7 +99,7 @@ def lights(sources: Sources, block: float = 300.0, count: int = 400) -> Sources:
 
 
 def _on_grid(sources: Sources, block: float) -> Sources:
-    """Sources shared between the nodes of a grid, `block` metres apart, by bilinear weights."""
+    """Distribute sources to the nodes of a grid, `block` metres apart, by bilinear weights."""
     low = np.floor(sources.position[:, :2] / block).astype(np.int64)
     part = sources.position[:, :2] / block - low
     corners = [(east, north) for east in (0, 1) for north in (0, 1)]
@@ -115,7 +115,7 @@ def _gathered(
     weight: Array | float = 1.0,
     member: NDArray | slice = slice(None),
 ) -> Sources:
-    """Sums of parts `weight` of the sources `member` in each `group`, at their centres of power."""
+    """Sum sources in each `group`: fractions `weight` of the sources `member`, at their centres of power."""
     power = sources.power[member] * weight
     total = np.bincount(group, power)
     place = np.stack([np.bincount(group, power * sources.position[member, k]) for k in range(3)], axis=-1)

@@ -1,9 +1,9 @@
-"""What was seen of the fire (`fire.observed`), as lines on the ground that appear at their dates.
+"""Observed fire (`fire.observed`): perimeters, detections and infrared heat, draped on the terrain.
 
-A perimeter is there from its date on; when the next one of its file is, it fades. A satellite's pixel is a
-square of its size for twelve hours, the longest from one overpass by day or night to the next. Heat that an
-infrared flight saw is there for a day, as flights come by night, or until the next flight; sources too small
-for a polygon are circles.
+A perimeter appears at its date and fades at the date of its file's next one. A satellite detection is a
+square of its pixel size, shown for twelve hours: the longest gap between day and night overpasses. Heat of an
+infrared flight is shown until the next flight or for a day, as flights are nightly. Sources too small for a
+polygon are circles.
 """
 
 from __future__ import annotations
@@ -25,20 +25,20 @@ from ..settings.settings import Settings
 if TYPE_CHECKING:
     from ..shot import Shot
 
-ABOVE = 25.0  # m over the ground: over most crowns, which would hide them
+ABOVE = 25.0  # m over the ground, above most crowns, which would occlude the lines
 FOREVER = 1e12  # s
-_SHOWN = 12 * 3600.0  # s, of a detection
-_FLIGHT = 24 * 3600.0  # s, of an infrared flight's heat
-_SOURCE = 30.0  # m, radius of the circle round an isolated source of heat, at least
-_MOST = 60_000  # points of a perimeter
-_STEP = 20.0  # m from point to point, so that lines follow the ground
+_SHOWN = 12 * 3600.0  # s, display time of a detection
+_FLIGHT = 24 * 3600.0  # s, display time of an infrared flight's heat
+_SOURCE = 30.0  # m, least radius of the circle around an isolated heat source
+_MOST = 60_000  # points of a perimeter at most
+_STEP = 20.0  # m between points, so that lines follow the terrain
 
 
 @dataclass(frozen=True)
 class Line:
-    """A closed line: points (n, 3) in the scene (m), model times (s) when it is there, fades and is gone.
+    """A closed line: points (n, 3) in the scene (m), and model times (s) of its start, fade and end.
 
-    `kind` is one of `heat.KINDS`, or "" of perimeters and satellites' pixels.
+    `kind` is one of `heat.KINDS`; it is "" for perimeters and satellite pixels.
     """
 
     points: NDArray[np.float64]
@@ -49,7 +49,7 @@ class Line:
 
 
 def files(settings: Settings) -> list[Path]:
-    """The file that is named, or those of the folder."""
+    """Observation files: the named file, or those of the named folder."""
     path = settings.fire.observed
     if path is None:
         return []
@@ -59,7 +59,7 @@ def files(settings: Settings) -> list[Path]:
 
 
 def check(settings: Settings) -> None:
-    """See whether the files can be read, and whether there are any.
+    """Check that observation files exist and can be read.
 
     Raises
     ------
@@ -79,14 +79,14 @@ def check(settings: Settings) -> None:
 
 
 def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
-    """SHA-256 of each file."""
+    """SHA-256 of each observation file."""
     return {
         f"observed {path.name}": content.of_file(path, settings.cache, progress) for path in files(settings)
     }
 
 
 def lines(shot: Shot) -> list[Line]:
-    """Every line, in the order of their dates."""
+    """All lines in order of their start times."""
     found = observations.read(files(shot.settings))
     every = [*_perimeters(shot, found), *_pixels(shot, found), *_heat(shot, found)]
     return sorted(every, key=lambda line: line.start)
@@ -137,7 +137,7 @@ def _pixels(shot: Shot, found: observations.Observations) -> Iterator[Line]:
 
 
 def _metres(ring: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Lengths (n,) of a ring's sides."""
+    """Side lengths (n,) of a ring, m."""
     north, east = areas.metres_per_degree(float(ring[:, 1].mean()))
     return np.hypot(*((np.roll(ring, -1, axis=0) - ring) * [east, north]).T)
 
@@ -147,7 +147,7 @@ def _length(ring: NDArray[np.float64]) -> float:
 
 
 def _draped(shot: Shot, ring: NDArray[np.float64], step: float) -> NDArray[np.float64]:
-    """Points (n, 3) along a ring in degrees, no farther apart than `step` m, above the ground."""
+    """Drape a ring (degrees) on the terrain: points (n, 3), at most `step` m apart, above the ground."""
     counts = np.maximum(np.ceil(_metres(ring) / step), 1).astype(int)
     side = np.repeat(np.arange(len(ring)), counts)
     along = np.concatenate([np.arange(count) / count for count in counts])

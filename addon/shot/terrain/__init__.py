@@ -1,1 +1,1 @@
-"""The terrain as a function: elevation, fuels, land use, the apron, and how finely it is drawn."""
+"""Terrain: elevation, fuels, land use, the apron, and mesh accuracy."""

@@ -1,6 +1,6 @@
-"""The ground beyond the run's grid, out to the horizon: invented, so that no edge of the world is seen.
+"""Apron: synthetic terrain beyond the run's grid, out to the horizon.
 
-Its rows and columns continue those of the grid with growing spacing, so that the whole ground is one mesh.
+Its rows and columns continue the grid's with growing spacing, so that all terrain is one mesh.
 """
 
 from __future__ import annotations
@@ -15,18 +15,18 @@ from numpy.typing import NDArray
 
 from . import noise
 
-GROWTH = 1.05  # each row beyond the grid is this much wider than the one before
-_BANDS = 12  # of height, each with its own fuels
-_PATCHES = ((1_700.0, 50), (400.0, 58), (300.0, 54))  # m and random numbers of the fuels' patches
-_FORGET = 9_000.0  # m; the heights of the edge fade into the region's within this distance
-_LIKE = 3_000.0  # m; in patches that grow rarer so fast, land is as that at the other side of the edge
-_FLAT, _NO_FUEL = 0.05, 0.05  # m from cell to cell and kg/m2 that water has at most
-_COAST = 0.25  # part of the edge that is water, from which on it is sea
-_DEVIATION = 0.304  # of a wave of gradient noise
-_ENOUGH = 720  # rows or columns of a grid that what is said of all of it is taken from
-_SMOOTH = 20  # cells to each side; relief finer than this crosses the edge as it is
-_BANDS_OF_RELIEF = (2, 6, _SMOOTH)  # cells to each side: what is finer than each, and not than the one before
-_FADES = 2.5  # times a band's half-width: where its height at the edge has faded (by eye)
+GROWTH = 1.05  # ratio of spacings of successive apron rows
+_BANDS = 12  # height bands, each with its own distribution of fuels
+_PATCHES = ((1_700.0, 50), (400.0, 58), (300.0, 54))  # m and seeds of the fuel patches
+_FORGET = 9_000.0  # m; distance within which edge heights fade into the regional plane
+_LIKE = 3_000.0  # m; e-folding distance of patches that mirror the land across the edge
+_FLAT, _NO_FUEL = 0.05, 0.05  # m between cells and kg/m2, upper limits for water
+_COAST = 0.25  # water fraction of the edge from which it counts as sea
+_DEVIATION = 0.304  # standard deviation of one octave of gradient noise
+_ENOUGH = 720  # rows or columns at most for statistics of the whole grid
+_SMOOTH = 20  # cells to each side; finer relief is mirrored across the edge
+_BANDS_OF_RELIEF = (2, 6, _SMOOTH)  # cells to each side, upper limits of the relief bands
+_FADES = 2.5  # half-widths of a band over which its height at the edge fades (by eye)
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Fields:
     elevation, canopy_fuel, surface_fuel
         (ny, nx) m, kg/m2, kg/m2.
     margin
-        How many rows and columns at each side are apron.
+        Number of apron rows and columns at each side.
     """
 
     latitude: NDArray[np.float64]
@@ -57,14 +57,14 @@ Known = Callable[[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
 def extend(
     fields: Fields, cell: tuple[float, float], half_width: float, seed: int, known: Known | None = None
 ) -> Fields:
-    """`fields` with an apron that reaches `half_width` metres from the middle.
+    """Extend fields by an apron that reaches `half_width` metres from the centre.
 
     Parameters
     ----------
     cell
-        Size of a cell, north and east, m.
+        Cell size north and east, m.
     known
-        Makes heights (ny, nx) of a grid of latitudes and longitudes of invented ones, where more is known.
+        Function that replaces synthetic heights (ny, nx) on a grid of latitudes and longitudes by known ones.
     """
     rows, columns = fields.elevation.shape
     reach = half_width - 0.5 * min(rows * cell[0], columns * cell[1])
@@ -100,7 +100,7 @@ def extend(
         ranks = [each.result() for each in ranked]
     sea = _sea(fields, points, ranks[1])
     if sea is not None:
-        sea &= elevation[row, column] == invented  # an elevation model knows better
+        sea &= elevation[row, column] == invented  # an elevation model overrides it
         elevation[row[sea], column[sea]] = _level(fields)
     fuels = []
     for fuel in (fields.canopy_fuel, fields.surface_fuel):
@@ -112,7 +112,7 @@ def extend(
 
 
 def _wet(fields: Fields) -> NDArray[np.bool_]:
-    """Which cells (ny, nx) are as level as only water is, and without fuel."""
+    """Water cells (ny, nx): level ground without fuel."""
     level = np.ones(fields.elevation.shape, bool)
     for axis in (0, 1):
         same = np.abs(np.diff(fields.elevation, axis=axis)) < _FLAT
@@ -124,19 +124,19 @@ def _wet(fields: Fields) -> NDArray[np.bool_]:
 
 
 def _rim(field: NDArray) -> NDArray:
-    """The cells of the edge of a grid, once round."""
+    """Edge cells of a grid, once around."""
     return np.concatenate([field[0], field[1:, -1], field[-1, -2::-1], field[-2:0:-1, 0]])
 
 
 def _level(fields: Fields) -> float:
-    """Height of the water at the grid's edge, m."""
+    """Water level at the grid's edge, m."""
     return float(np.median(_rim(fields.elevation)[_rim(_wet(fields))]))
 
 
 def _sea(fields: Fields, points: _Points, rank: NDArray[np.float64]) -> NDArray[np.bool_] | None:
-    """Which points (n,) are sea that goes on beyond the grid, with a ragged coast; None: it has no sea.
+    """Sea mask (n,) of apron points, with a ragged coast; None without sea.
 
-    That is water along much of its edge, and of one height: lakes are less.
+    Sea is water along much of the edge at one height. A smaller share counts as lakes.
     """
     wet = _wet(fields)
     rim = _rim(wet)
@@ -163,9 +163,9 @@ class _Points(NamedTuple):
     y, x
         (n,) m from the grid's first row and column.
     distance, spacing
-        (n,) m from the grid; between points there.
+        (n,) m from the grid's edge, and mesh spacing there.
     edge, across
-        Rows and columns (n,) of the grid: of its nearest point, and of that as far within its edge.
+        Rows and columns (n,) of the grid: the nearest point, and its mirror image within the edge.
     """
 
     y: NDArray[np.float64]
@@ -177,18 +177,18 @@ class _Points(NamedTuple):
 
 
 def _continue(axis: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray[np.float64]:
-    """An axis of two values or more with `steps` (cells beyond its ends) added at both ends."""
+    """Extend an axis of two or more values by `steps` (in cells) beyond both ends."""
     before = axis[0] - steps[::-1] * (axis[1] - axis[0])
     return np.concatenate([before, axis, axis[-1] + steps * (axis[-1] - axis[-2])])
 
 
 def _positions(count: int, steps: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Row numbers of the continued axis, fractional beyond the grid."""
+    """Row numbers of the extended axis, fractional beyond the grid."""
     return np.concatenate([-steps[::-1], np.arange(count), count - 1 + steps])
 
 
 def _reflected(count: int, position: NDArray[np.float64]) -> NDArray[np.int64]:
-    """The row of a grid of `count` that lies as far within the edge as each of these lies beyond it."""
+    """Mirror rows at the edges of a grid of `count` rows."""
     whole = 2 * (count - 1)
     around = np.round(position).astype(int) % whole
     return np.minimum(around, whole - around)
@@ -201,11 +201,11 @@ def _heights(
     points: _Points,
     seed: int,
 ) -> NDArray[np.float64]:
-    """Edge heights that fade into the region's plane with hills; hills finer than the mesh are left out.
+    """Apron heights: edge heights that fade into the regional plane, with hills no finer than the mesh.
 
-    The grid's rows and columns are at `y` and `x`, m. Relief finer than `_SMOOTH` goes on as it is within the
-    edge, turned over so that slopes go on; its height at the edge fades the sooner the finer it is, as it
-    would be drawn out into ridges across the edge.
+    The grid's rows and columns are at `y` and `x`, m. Relief finer than `_SMOOTH` is mirrored across the edge
+    with inverted sign, so that slopes continue. Its offset at the edge fades faster the finer it is; else it
+    would form ridges across the edge.
     """
     part = _part(known.shape)
     some, y, x = known[part], y[part[0]], x[part[1]]
@@ -239,13 +239,13 @@ def _heights(
 
 
 def _part(shape: tuple[int, ...]) -> tuple[slice, slice]:
-    """Rows and columns of a grid that what is said of all of it is taken from: all, of a large one some."""
+    """Subset of rows and columns for statistics of the whole grid: all, or a stride of a large grid."""
     rows, columns = (max(count // _ENOUGH, 1) for count in shape)
     return slice(None, None, rows), slice(None, None, columns)
 
 
 def _blurred(field: NDArray[np.float64], cells: int) -> NDArray[np.float64]:
-    """Means over so many cells to each side along both axes, twice; beyond its ends it goes on level."""
+    """Box blur, applied twice along both axes, over so many cells to each side; edges are extended level."""
     window = 2 * cells + 1
     for _ in range(4):
         total = np.cumsum(np.pad(field, [(cells + 1, cells), (0, 0)], "edge"), axis=0)
@@ -260,10 +260,11 @@ def _fuel(
     points: _Points,
     ranks: list[NDArray[np.float64]],
 ) -> NDArray[np.float64]:
-    """The apron's fuel (n,): first as across the edge, farther out as at such a height of the grid, patchy.
+    """Apron fuel (n,): near the edge as mirrored there, farther out by height band of the grid, in patches.
 
-    Not only its mean but all its distribution is that of the grid: as much ground has to be bare.
-    `ranks` are 0..1 at the apron's points: of its fuels, its height, and whether it is as across the edge.
+    The whole distribution matches that of the grid, not only its mean, so that the share of bare ground is
+    the same. `ranks` are 0..1 at the apron's points: for the fuel, its height, and the choice of mirrored
+    fuel.
     """
     part = _part(known_height.shape)
     some_heights, some_fuels = known_height[part].ravel(), known_fuel[part].ravel()
@@ -281,9 +282,9 @@ def _fuel(
 
 
 def _rank(points: _Points, size: float, seed: int) -> NDArray[np.float64]:
-    """Noise at the apron's points (n,) spread evenly from 0 to 1, in patches of `size` metres.
+    """Noise rank (n,) at the apron's points, uniform in 0..1, in patches of `size` metres.
 
-    Where the grid is too coarse for them they are larger, else they would be streaks.
+    Patches grow where the mesh is too coarse for them; else they would become streaks.
     """
     x, y = points.x, points.y
     largest = np.maximum(size, 4.0 * points.spacing)
@@ -295,4 +296,5 @@ def _rank(points: _Points, size: float, seed: int) -> NDArray[np.float64]:
         some = np.flatnonzero(strength > 0.0)
         total[some] += strength[some] * noise.perlin(x[some] / wave, y[some] / wave, seed + octave % 4)
         square[some] += strength[some] ** 2
-    return 1.0 / (1.0 + np.exp(-1.702 / _DEVIATION * total / np.sqrt(square)))  # nearly normal
+    # logistic approximation of the normal distribution
+    return 1.0 / (1.0 + np.exp(-1.702 / _DEVIATION * total / np.sqrt(square)))

@@ -1,4 +1,4 @@
-"""An elevation model close to the cameras: heights between the points of the ground's grid."""
+"""DEM patch: elevation model near the cameras at finer resolution than the terrain grid."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from .apron import Fields
 from .elevation import Elevation, between, ramp
 
-_FINEST = 2.0  # m between points
-_MOST = 6_000_000  # points
-_FADE = 8  # points beside a gap, over which the model gives way to invented relief
+_FINEST = 2.0  # m, smallest point spacing
+_MOST = 6_000_000  # points at most
+_FADE = 8  # points next to a gap over which the model blends into synthetic relief
 
 
 class Patch(NamedTuple):
-    """Heights of a part of the ground's grid, as `terrain.Surface` takes them."""
+    """Heights of a part of the terrain grid, as `terrain.Surface` takes them."""
 
     row: int
     column: int
@@ -26,12 +26,12 @@ class Patch(NamedTuple):
 
     @property
     def place(self) -> tuple[slice, slice]:
-        """The cells of the grid that it covers."""
+        """Grid cells that the patch covers."""
         rows, columns = ((side - 1) // self.parts for side in self.offset.shape)
         return slice(self.row, self.row + rows), slice(self.column, self.column + columns)
 
     def hollows(self) -> NDArray[np.float32]:
-        """How far (m) the lowest point of each cell is below the grid's bilinear ground, 0 or more."""
+        """Depth (m) of each cell's lowest point below the bilinear terrain, 0 or more."""
         below = -np.minimum(self.offset, 0.0) * self.share
         for axis in (0, 1):
             count = below.shape[axis] - 1
@@ -48,14 +48,14 @@ def patch(
     cell: tuple[float, float],
     near: tuple[slice, slice],
 ) -> Patch | None:
-    """The model's heights in these rows and columns of the grid, less the apron's; None where there are none.
+    """Sample the elevation model in these rows and columns, without the apron; None if it has no data there.
 
-    As fine as the model, or as so many points allow.
+    Its resolution is that of the model, or as many points allow.
 
     Parameters
     ----------
     share
-        (ny, nx) 0..1, how far the grid's heights are the model's.
+        Weight of the elevation model in the grid's heights (ny, nx), 0..1.
     """
     place = tuple(_inner(part, side, fields.margin) for part, side in zip(near, share.shape, strict=True))
     if min(part.stop - part.start for part in place) < 2 or not share[place].any():
@@ -75,12 +75,12 @@ def patch(
 
 
 def _inner(part: slice, side: int, margin: int) -> slice:
-    """Those of some rows or columns that are no apron."""
+    """Clip a range of rows or columns to the grid without its apron."""
     return slice(max(part.start, margin), min(part.stop, side - margin))
 
 
 def _parts(resolution: float, cell: tuple[float, float], cells: int) -> int:
-    """Points to a cell, a power of two."""
+    """Points per cell, a power of two."""
     wanted = max(cell) / max(resolution, _FINEST)
     allowed = np.sqrt(_MOST / cells)
     return 2 ** max(int(np.floor(min(np.ceil(np.log2(max(wanted, 1.0))), np.log2(max(allowed, 1.0))))), 0)

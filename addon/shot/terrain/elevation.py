@@ -1,7 +1,7 @@
-"""Heights of the ground in a shot: the run's, or an elevation model of the user's own where it has any.
+"""Terrain elevation of a shot: the run's heights, or a user's elevation model (DEM) where it has data.
 
-Everything that stands on the ground takes its heights from here. Where the model ends or has no data the
-run's go on, and over `_BLEND` metres the one becomes the other.
+All objects on the ground take their heights from here. Where the model ends or has no data, it blends into
+the run's heights over `_BLEND` metres.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ _UNITS = {
     "us-ft": 1200.0 / 3937.0, "us survey foot": 1200.0 / 3937.0, "us_survey_foot": 1200.0 / 3937.0,
     "ussurveyfoot": 1200.0 / 3937.0, "foot_us": 1200.0 / 3937.0,
 }  # fmt: skip
-_POSSIBLE = (-1000.0, 9500.0)  # m; no ground on Earth is lower or higher
-_FEET = (2.9, 3.7)  # times the run's heights, and a model is taken to be in feet
-_FAR = 500.0  # m that most heights may differ from the run's
-_APRON = 2048  # points a side that the apron's heights are made from
+_POSSIBLE = (-1000.0, 9500.0)  # m, plausible elevations on Earth
+_FEET = (2.9, 3.7)  # ratio to the run's heights at which a model counts as feet
+_FAR = 500.0  # m, limit of the median difference from the run's heights
+_APRON = 2048  # points per side at most for the apron's heights
 
 
 class Elevation:
-    """Heights of a run's grids, m; NaN where neither the run nor the model has any.
+    """Elevation on a run's grids, m; NaN where neither the run nor the model has data.
 
     Parameters
     ----------
@@ -43,12 +43,12 @@ class Elevation:
 
     @property
     def fuel(self) -> NDArray[np.float32]:
-        """(fy, fx) of the fuel grid."""
+        """Elevation (fy, fx) of the fuel grid, m."""
         return self._fuel[0]
 
     @property
     def share(self) -> NDArray[np.float32]:
-        """(fy, fx) 0..1, how far the heights of the fuel grid are the model's."""
+        """Weight of the elevation model (fy, fx), 0..1, on the fuel grid."""
         return self._fuel[1]
 
     @cached_property
@@ -58,12 +58,12 @@ class Elevation:
 
     @cached_property
     def coarse(self) -> NDArray[np.float32]:
-        """(ny, nx) of the model grid."""
+        """Elevation (ny, nx) of the model grid, m."""
         return self.mixed(self.run.latitude, self.run.longitude, self.run.elevation)[0]
 
     @cached_property
     def air(self) -> NDArray[np.float32]:
-        """(ay, ax) of the places of what the run has on levels."""
+        """Elevation (ay, ax) at the horizontal grid of the run's 3D fields, m."""
         run = self.run
         if not run.has("air_latitude"):
             return self.coarse
@@ -75,13 +75,13 @@ class Elevation:
         return self.mixed(run.air_latitude, run.air_longitude, own)[0]
 
     def rows(self, first: int, last: int) -> NDArray[np.float32]:
-        """Some rows of `fuel`; of the run's own no more is read."""
+        """Rows of `fuel`; of the run's own heights only these are read."""
         return self.fuel[first:last] if self.model else self.run.fuel_rows("fuel_elevation", first, last)
 
     def mixed(self, latitude: Array, longitude: Array, own: NDArray) -> tuple[NDArray, NDArray[np.float32]]:
-        """Heights (ny, nx) of a grid whose `own` they are where the model has none, and the model's share.
+        """Blend model and run heights `own` on a grid (ny, nx); return heights and the model's weight.
 
-        The share is 1 where all is the model's, 0 where nothing is.
+        The weight is 1 for the model alone and 0 for the run alone.
         """
         if self.model is None or not self.model.overlaps(latitude, longitude):
             return own, np.zeros(own.shape, np.float32)
@@ -94,7 +94,7 @@ class Elevation:
         return (own_there + share * (found - own_there)).astype(own.dtype), share
 
     def read(self, latitude: Array, longitude: Array) -> NDArray[np.float32]:
-        """The model's heights (ny, nx), m, NaN where it has none; the axes may be uneven, or fall."""
+        """Model heights (ny, nx), m, NaN without data; axes may be uneven or descending."""
         even = [_even(axis) for axis in (latitude, longitude)]
         found = self.model.on_grid(*even)[0] * unit(self.model)
         found[(found < _POSSIBLE[0]) | (found > _POSSIBLE[1])] = np.nan
@@ -108,7 +108,7 @@ class Elevation:
 
 
 def resolve(settings: Settings, run: Run) -> Elevation:
-    """Heights for a scene.
+    """Elevation for a scene.
 
     Raises
     ------
@@ -119,7 +119,7 @@ def resolve(settings: Settings, run: Run) -> Elevation:
 
 
 def check(settings: Settings, run: Run) -> None:
-    """See whether an elevation model is one, and has heights of this run's ground in a known unit.
+    """Validate an elevation model: file type, overlap with the run, and unit of its heights.
 
     Raises
     ------
@@ -130,16 +130,18 @@ def check(settings: Settings, run: Run) -> None:
     if model is None:
         return
     if model.unit not in _UNITS:
-        raise model.error(f'has heights in "{model.unit}", and metres or feet are wanted: gdal_calc.py')
+        raise model.error(f'has heights in "{model.unit}"; convert them to metres or feet with gdal_calc.py')
     if not model.overlaps(run.latitude, run.longitude):
-        raise model.error(f"covers {said(model.bounds)}, beside the run, which covers {said(extent(run))}")
+        raise model.error(
+            f"covers {said(model.bounds)}, outside of the run, which covers {said(extent(run))}"
+        )
     height, latitude, longitude = model.glimpse(extent(run))
     height = height * unit(model)
     own = _own(run, latitude, longitude)
     here = np.isfinite(own) & np.isfinite(height)
     if not here.any():
         if not Elevation(run, model).share.any():
-            raise model.error("has no data at any place of the run")
+            raise model.error("has no data in the run's area")
         return
     height, own = height[here], own[here]
     wrong = (height < _POSSIBLE[0]) | (height > _POSSIBLE[1])
@@ -157,13 +159,13 @@ def _compare(model: Raster, height: Array, own: Array) -> None:
     off = float(np.median(height - own))
     if abs(off) > _FAR and _FEET[0] < times < _FEET[1]:
         raise model.error(
-            f"has heights {times:.2f} times the run's: they look like feet; say so with "
-            f"gdal_edit.py -units ft {model.path.name}, and they are turned into metres"
+            f"has heights {times:.2f} times the run's: they look like feet; set the unit with "
+            f"gdal_edit.py -units ft {model.path.name}; they are then converted to metres"
         )
     if abs(off) > _FAR:
         raise model.error(
-            f"is {abs(off):,.0f} m {'above' if off > 0.0 else 'below'} the run's ground for the most part; "
-            "heights in metres above the sea are wanted, in its first band"
+            f"is {abs(off):,.0f} m {'above' if off > 0.0 else 'below'} the run's ground in most places; "
+            "its first band must hold heights in metres above mean sea level"
         )
 
 

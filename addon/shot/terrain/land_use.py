@@ -1,7 +1,7 @@
-"""The user's map of land use: fields, tracks, roads, water and buildings, as pictures of the ground.
+"""Land use map: fields, tracks, roads, water and buildings of a vector file, rasterized onto the terrain.
 
-A GeoJSON or GeoPackage of polygons and lines in degrees. What each is is read from its properties, in
-OpenStreetMap's words: `building`, `highway`, `waterway`, `natural`, `landuse`, or one of our own in `kind`.
+The file is a GeoJSON or GeoPackage with polygons and lines in degrees. A feature's kind comes from its
+OpenStreetMap tags (`building`, `highway`, `waterway`, `natural`, `landuse`) or from one of our own in `kind`.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ if TYPE_CHECKING:
     from ..settings.protocols import ShotView
 
 LAYERS = ("soft", "hard", "water")
-"""What burns over, what does not, and lakes and rivers; each a picture, from below."""
+"""Layers from bottom to top: burnable land, unburnable land, water. Each becomes a picture."""
 
-_LARGEST = 3072  # pixels of a picture's side
-_FINEST = 0.5  # m, of a pixel
-_STOREY, _ROOF = 3.0, 4.0  # m: of a building's level, and of one that says nothing of its height (assumed)
-_SOLID = 0.8  # of a colour's strength, from which on nothing grows through it
-_BEYOND = 50.0  # m round the map that count as mapped
+_LARGEST = 3072  # pixels, largest side of a picture
+_FINEST = 0.5  # m, smallest pixel
+_STOREY, _ROOF = 3.0, 4.0  # m, height of a storey, and of a building without height or levels (assumed)
+_SOLID = 0.8  # colour strength from which no plant grows there
+_BEYOND = 50.0  # m around the map that count as mapped
 
 Array = NDArray[np.float64]
 Rings = tuple[Array, ...]
@@ -44,18 +44,18 @@ Rings = tuple[Array, ...]
 
 @dataclass(frozen=True)
 class Kind:
-    """What a feature may be. Colours (sRGB, 0..1) and widths are by eye.
+    """A kind of feature. Colours (sRGB, 0..1) and widths are by eye.
 
     Attributes
     ----------
     layer
         One of `LAYERS`.
     colours
-        Of which each feature has one.
+        Palette; each feature takes one of them.
     width
-        Of a line, m.
+        Width of a line, m.
     strength
-        How far its colour counts; less than `_SOLID`: trees and bushes may stand there.
+        Opacity of the colour. Below `_SOLID` trees and bushes may stand there.
     """
 
     layer: str
@@ -64,7 +64,7 @@ class Kind:
     strength: float = 1.0
 
 
-KINDS = {  # from the lowest to what lies over the others
+KINDS = {  # from bottom to top
     "meadow": Kind("soft", ((0.30, 0.34, 0.18), (0.35, 0.35, 0.20), (0.27, 0.33, 0.16)), strength=0.75),
     "field": Kind(
         "soft",
@@ -110,22 +110,22 @@ _WIDTHS = {  # m, by highway or waterway
 
 @dataclass(frozen=True)
 class Thing:
-    """A feature of the map in the scene.
+    """A map feature in scene coordinates.
 
     Attributes
     ----------
     kind
         One of `KINDS`.
     polygons
-        Each its rings (n, 2), the outer first, east and north, m.
+        Polygons, each a list of rings (n, 2), the outer first; east and north, m.
     lines
-        (n, 2) east and north, m.
+        Lines (n, 2), east and north, m.
     width
-        Of the lines, m.
+        Line width, m.
     height
-        Of a building, m.
+        Building height, m.
     number
-        Its place in the file.
+        Index in the file.
     """
 
     kind: str
@@ -138,7 +138,7 @@ class Thing:
 
 @dataclass(frozen=True)
 class Map:
-    """All of the map in the scene: its things, and the corners (2,) of the rectangle that it covers, m."""
+    """Land use map in scene coordinates: features, and the corners (2,) of its extent, m."""
 
     things: tuple[Thing, ...]
     low: Array
@@ -150,7 +150,7 @@ _PICTURES: WeakKeyDictionary[ShotView, dict[str, list[Picture]]] = WeakKeyDictio
 
 
 def kind_of(properties: Mapping[str, Any]) -> str | None:
-    """Which of `KINDS` a feature is by its properties; None: none of them."""
+    """Kind of a feature (of `KINDS`) by its tags; None if it has none of them."""
     words = {str(key).lower(): str(value).lower() for key, value in properties.items() if value is not None}
     if (own := words.get("kind", "")) in KINDS:
         return own
@@ -165,7 +165,7 @@ def kind_of(properties: Mapping[str, Any]) -> str | None:
 
 
 def check(settings: Settings, run: Run) -> None:
-    """See whether a map of land use is one, and shows any of this run's ground.
+    """Validate a land use map: file type and overlap with the run.
 
     Raises
     ------
@@ -179,18 +179,18 @@ def check(settings: Settings, run: Run) -> None:
     (west, south), (east, north) = corners.min(axis=0), corners.max(axis=0)
     bounds = (float(west), float(south), float(east), float(north))
     if not overlap(bounds, run.latitude, run.longitude):
-        reason = f"covers {said(bounds)}, beside the run, which covers {said(extent(run))}"
+        reason = f"covers {said(bounds)}, outside of the run, which covers {said(extent(run))}"
         raise input_error(settings.terrain.land_use, 0, 0, reason)
 
 
 def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
-    """What the map's colours and roofs depend on: SHA-256 of the file."""
+    """SHA-256 of the map file, on which colours and roofs depend."""
     path = settings.terrain.land_use
     return {"land use": content.of_file(path, settings.cache, progress)} if path else {}
 
 
 def read_map(shot: ShotView) -> Map | None:
-    """The map of a shot; None: there is none."""
+    """Land use map of a shot; None if there is none."""
     if shot.settings.terrain.land_use is None:
         return None
     if shot not in _MAPS:
@@ -199,7 +199,7 @@ def read_map(shot: ShotView) -> Map | None:
 
 
 def pictures(shot: ShotView) -> dict[str, list[Picture]]:
-    """Pictures of each of `LAYERS` that the map has: all of it, and what is near cameras finer."""
+    """Pictures of each map layer: the whole map, and finer ones near the cameras."""
     known = read_map(shot)
     if known is None:
         return {}
@@ -211,7 +211,7 @@ def pictures(shot: ShotView) -> dict[str, list[Picture]]:
 
 
 def mapped(shot: ShotView, place: Array) -> NDArray[np.bool_]:
-    """Whether the map covers places (n, 2) in the scene, m: nothing is invented there."""
+    """Whether points (n, 2) in the scene, m, lie within the map's extent; nothing is invented there."""
     known = read_map(shot)
     if known is None:
         return np.zeros(len(place), bool)
@@ -219,7 +219,7 @@ def mapped(shot: ShotView, place: Array) -> NDArray[np.bool_]:
 
 
 def keeps_out(shot: ShotView, place: Array) -> NDArray[np.bool_]:
-    """Whether no plant stands at places (n, 2 or 3) in the scene, m: water, roads, fields and buildings."""
+    """Plant exclusion mask of points (n, 2 or 3) in the scene, m: water, roads, fields and buildings."""
     out = np.zeros(len(place), bool)
     for layer, drawn in pictures(shot).items():
         for picture in drawn:
@@ -232,7 +232,7 @@ def keeps_out(shot: ShotView, place: Array) -> NDArray[np.bool_]:
 
 
 def _read(settings: Settings) -> list[tuple[str, Feature]]:
-    """Features of known kinds.
+    """Read the features of known kinds.
 
     Raises
     ------
@@ -248,7 +248,7 @@ def _read(settings: Settings) -> list[tuple[str, Feature]]:
     every = features(path)
     found = [(kind, each) for each in every if (kind := kind_of(each.properties)) and _rings((kind, each))]
     if not found:
-        reason = f"has no polygon or line whose kind is one of {', '.join(KINDS)}, nor OpenStreetMap's tags"
+        reason = f"has no polygon or line with OpenStreetMap's tags or a kind of {', '.join(KINDS)}"
         raise input_error(path, 0, 0, reason)
     return found
 
@@ -286,7 +286,7 @@ def _placed(shot: ShotView, found: list[tuple[str, Feature]]) -> Map:
 
 
 def _frames(shot: ShotView, known: Map) -> list[tuple[Array, Array]]:
-    """Corners of the pictures to draw: of all of the map, and of what is near cameras."""
+    """Corners of the pictures to draw: the whole map, and areas near cameras."""
     ground = shot.ground
     low, high = known.low - _BEYOND, known.high + _BEYOND
     frames = [(low, high)]
@@ -300,7 +300,7 @@ def _frames(shot: ShotView, known: Map) -> list[tuple[Array, Array]]:
 
 
 def _drawn(shot: ShotView, known: Map, layer: str, low: Array, high: Array) -> Picture:
-    """One layer of the map as a picture."""
+    """Rasterize one layer of the map."""
     size = np.clip(np.ceil((high - low) / _FINEST), 2, _LARGEST).astype(int)
     pixel = (high - low) / size
     pixels = np.zeros((size[1], size[0], 4), np.uint8)

@@ -1,4 +1,4 @@
-"""How exactly the ground has to be drawn, place by place: by what cameras see of it, and from how near."""
+"""Mesh tolerance: screen-space error bound of the terrain mesh, by visibility and camera distance."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ from . import shadow_casters
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView
 
-UNSEEN = 50.0  # m; ground that is neither seen nor throws shadows on what is may be so far off
-_BLOCK = 150.0  # m; ground is asked about in squares of about this size
-_MARGIN = 200.0  # m beside the views, from where ground still gives light to what is in them
-_NEAREST = 60.0  # m; ground nearer than this is drawn as if it were so far away
-_EXACT = 0.02  # m; no elevation model is as exact
-_FINEST = 6.0  # m; waves of the relief are 26 m and longer
-_SPACING = 8.0  # errors, between the places where the surface is compared with its mesh
-_LIMIT = 6_000_000  # such places; more than this and they are farther apart
+UNSEEN = 50.0  # m, vertical error of ground that is neither visible nor casts visible shadows
+_BLOCK = 150.0  # m, size of the blocks that are tested
+_MARGIN = 200.0  # m around view frusta from where ground still lights the picture
+_NEAREST = 60.0  # m; nearer ground counts as at this distance
+_EXACT = 0.02  # m, smallest error; no elevation model is more accurate
+_FINEST = 6.0  # m, finest spacing; the shortest relief waves are 26 m
+_SPACING = 8.0  # errors between the points where surface and mesh are compared
+_LIMIT = 6_000_000  # points at most; above it their spacing grows
 
 
 @dataclass(frozen=True)
 class Accuracy:
-    """What is asked of the mesh.
+    """Accuracy required of the terrain mesh.
 
     Attributes
     ----------
     place
-        (ny, nx, 3) points of the ground's grid without what is added near cameras, m.
+        Terrain grid points (ny, nx, 3) without detail near cameras, m.
     tolerance
-        (ny, nx) largest vertical error, m.
+        Largest vertical error (ny, nx), m.
     fine
-        (ny - 1, nx - 1) how often each cell is halved, so that heights between the grid's points count.
+        Number of subdivisions (ny - 1, nx - 1) of each cell, so that heights between grid points count.
     """
 
     place: NDArray[np.float32]
@@ -43,7 +43,7 @@ class Accuracy:
 
 
 def wanted(shot: ShotView) -> Accuracy:
-    """The accuracy that `terrain.error` asks for, which is in pixels of whichever camera sees most."""
+    """Accuracy for `terrain.error`, which is in pixels of the camera with the finest view."""
     ground = shot.ground
     place = _places(shot)
     size = max(round(_BLOCK / max(ground.cell)), 1)
@@ -59,7 +59,7 @@ def wanted(shot: ShotView) -> Accuracy:
 
 
 def _places(shot: ShotView) -> NDArray[np.float32]:
-    """Points (ny, nx, 3) of the grid, m; off by at most 8 mm at the apron's end."""
+    """Terrain grid points (ny, nx, 3), m; within 8 mm at the apron's end."""
     fields, frame = shot.ground.fields, shot.ground.frame
     place = np.empty((*fields.elevation.shape, 3), np.float32)
     for first in range(0, len(place), 256):
@@ -71,9 +71,9 @@ def _places(shot: ShotView) -> NDArray[np.float32]:
 def _blocks(
     place: NDArray[np.float32], size: int, more: float
 ) -> tuple[NDArray, NDArray, NDArray, tuple[int, int]]:
-    """Blocks of `size` cells: middles (n, 3), radii (n,) that hold all of each, m, and how many there are.
+    """Blocks of `size` cells: bounding spheres (n, 3), (n,), m, half heights (n,), m, and block counts.
 
-    Third, how far the ground of each is above and below its middle (n,), m; `more` is added to both.
+    `more` is added to radius and half height.
     """
     rows, columns = (np.arange(0, count - 1, size) for count in place.shape[:2])
     low, high = place[rows][:, columns], place
@@ -101,19 +101,19 @@ def _blocks(
 
 
 def most(shot: ShotView, distance: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Bound of the vertical error (m) of ground that is seen, by its distance (m) from the nearest camera."""
+    """Vertical error bound (m) of visible ground by its distance (m) from the nearest camera."""
     angle, pixel = _views(shot)
     near = np.zeros(distance.shape) if angle is None else _allowed(angle * np.maximum(distance, _NEAREST))
     return np.minimum(np.maximum(near, pixel or 0.0), UNSEEN)
 
 
 def _allowed(error: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Errors (n,) that cameras in perspective allow, m, within what is possible and what is drawn anyway."""
+    """Clip error bounds (n,), m, of perspective cameras to the useful range."""
     return np.clip(error, _EXACT, UNSEEN)
 
 
 def _views(shot: ShotView) -> tuple[float | None, float | None]:
-    """Errors that may be seen: of cameras in perspective, m for each m of distance; of others, m."""
+    """Error bounds: of perspective cameras, m per m of distance; of orthographic cameras, m."""
     error = shot.settings.terrain.error
     angle, pixel = (error * size if np.isfinite(size) else None for size in shot.pixel)
     return angle, None if pixel is None else max(pixel, _EXACT)
@@ -122,7 +122,7 @@ def _views(shot: ShotView) -> tuple[float | None, float | None]:
 def _tolerance(
     shot: ShotView, centre: NDArray, radius: NDArray, rise: NDArray, shape: tuple[int, int]
 ) -> tuple[NDArray, NDArray]:
-    """Largest vertical error (n,) of blocks, m, and how near cameras come that see them; infinite if none."""
+    """Vertical error bound (n,) of blocks, m, and distance of the cameras that see them; infinite if none."""
     tolerance, distance = np.full(len(centre), UNSEEN), np.full(len(centre), np.inf)
     angle, pixel = _views(shot)
 
@@ -146,7 +146,7 @@ def _tolerance(
 
 
 def _halvings(shot: ShotView, tolerance: NDArray, distance: NDArray) -> NDArray[np.int64]:
-    """How often cells of blocks are halved: where the surface has more than its grid, as errors ask for."""
+    """Number of subdivisions of blocks where the surface is finer than its grid, from the error bounds."""
     ground = shot.ground
     finest = min(_FINEST, max(ground.cell) / ground.patch.parts) if ground.patch else _FINEST
     spacing = np.maximum(_SPACING * tolerance, finest)
@@ -155,14 +155,14 @@ def _halvings(shot: ShotView, tolerance: NDArray, distance: NDArray) -> NDArray[
 
 
 def _within_limit(fine: NDArray[np.int64]) -> NDArray[np.uint8]:
-    """Halvings, fewer where they are most until there are no more than `_LIMIT` places."""
+    """Reduce the largest subdivisions until at most `_LIMIT` points remain."""
     while np.sum(4.0**fine, where=fine > 0) > _LIMIT:
         fine = np.minimum(fine, max(int(fine.max()) - 1, 0))
     return fine.astype(np.uint8)
 
 
 def _at_points(cells: NDArray[np.float64]) -> NDArray[np.float32]:
-    """Values at the grid's points: the least of the cells round each."""
+    """Values at grid points: the minimum over adjacent cells."""
     padded = np.pad(cells, 1, "edge")
     down = np.minimum(padded[:-1], padded[1:])
     return np.minimum(down[:, :-1], down[:, 1:]).astype(np.float32)

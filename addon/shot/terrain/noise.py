@@ -1,4 +1,4 @@
-"""Gradient noise on the plane and random numbers by place, for relief and patches that geometry needs."""
+"""Gradient noise and hashed random numbers by position, for relief and patches."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def perlin(x: ArrayLike, y: ArrayLike, seed: int) -> NDArray[np.float64]:
 def fractal(
     x: ArrayLike, y: ArrayLike, size: float, octaves: int, seed: int, roughness: float = 0.5
 ) -> NDArray[np.float64]:
-    """Octaves of gradient noise, the longest of wavelength `size`; its standard deviation is about 0.4."""
+    """Fractal noise: octaves of gradient noise from wavelength `size` down; standard deviation about 0.4."""
     total, amplitude = np.zeros(np.broadcast(x, y).shape), 1.0
     for octave in range(octaves):
         scale = 2.0**octave / size

@@ -1,6 +1,6 @@
-"""The user's own orthophoto: colours of the ground as pictures in scene coordinates.
+"""Orthophoto: a user's georeferenced image as ground colours, reprojected to scene coordinates.
 
-A GeoTIFF says itself where it lies. A PNG or JPEG has a world file beside it (.pgw, .jgw or .wld) or
+A GeoTIFF holds its own georeference. A PNG or JPEG has a world file (.pgw, .jgw or .wld) or
 `terrain.photo_extent`, both in degrees.
 """
 
@@ -27,10 +27,10 @@ from .raster import Array, Raster, extent, overlap, said
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView
 
-_LARGEST = 3072  # pixels of a picture's side
-_STRIP = 256  # rows that are made at once
-_LATTICE = 128.0  # m between places that are looked up; between them, 0.2 m off at most in the sample run
-_FADE = 6  # pixels at its rim, over which it gives way to the invented ground
+_LARGEST = 3072  # pixels, largest side of a picture
+_STRIP = 256  # rows that are resampled at once
+_LATTICE = 128.0  # m between reprojected points; bilinear between, within 0.2 m in the sample run
+_FADE = 6  # pixels at the border over which it fades into the synthetic ground
 _TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 
 Pixels = NDArray[np.uint8]
@@ -38,14 +38,14 @@ Pixels = NDArray[np.uint8]
 
 @dataclass(frozen=True)
 class Picture:
-    """Colours of a part of the ground, seen from straight above.
+    """Ground colours of an area, seen from above.
 
     Attributes
     ----------
     low, high
         (2,) east and north of its corners, m.
     pixels
-        (h, w, 4) the southern row first: colour as pictures have it (sRGB), and how far it counts.
+        (h, w, 4) sRGB colour and alpha; the southern row comes first.
     """
 
     low: Array
@@ -54,7 +54,7 @@ class Picture:
 
 
 def check(settings: Settings, run: Run) -> None:
-    """See whether an orthophoto is one, and shows any of this run's ground.
+    """Validate an orthophoto: file type and overlap with the run.
 
     Raises
     ------
@@ -67,16 +67,18 @@ def check(settings: Settings, run: Run) -> None:
             raise scene_file.error_at(settings.path, where, "terrain.photo_extent needs a terrain.photo")
         return
     path = settings.terrain.photo
-    if path.exists() and not path.is_file():  # a pipe would be waited for
+    if path.exists() and not path.is_file():  # opening a pipe would block
         reason = f"terrain.photo: {path} is no file; name a GeoTIFF, PNG or JPEG"
         raise scene_file.error_at(settings.path, ("terrain", "photo"), reason)
     source = _source(settings)
     if not overlap(source.bounds, run.latitude, run.longitude):
-        raise source.error(f"covers {said(source.bounds)}, beside the run, which covers {said(extent(run))}")
+        raise source.error(
+            f"covers {said(source.bounds)}, outside of the run, which covers {said(extent(run))}"
+        )
 
 
 def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
-    """What the photo's colours depend on: SHA-256 of it and of its world file, and its extent."""
+    """SHA-256 of the photo and of its world file, and the extent."""
     path = settings.terrain.photo
     if path is None:
         return {}
@@ -86,7 +88,7 @@ def inputs(settings: Settings, progress: Progress = silent) -> dict[str, str]:
 
 
 def pictures(shot: ShotView) -> list[Picture]:
-    """All of the photo as one picture, and what is near cameras as another if the photo is finer there."""
+    """The whole photo as one picture, and a finer one near the cameras if the photo has the resolution."""
     if shot.settings.terrain.photo is None:
         return []
     source, ground = _source(shot.settings), shot.ground
@@ -113,13 +115,13 @@ def pictures(shot: ShotView) -> list[Picture]:
 
 
 def _pixel(shot: ShotView) -> float:
-    """Half of the smallest pixel (m) that shows ground, 200 m from cameras in perspective."""
+    """Half of the smallest pixel (m) on the ground, at 200 m from perspective cameras."""
     sizes = [view.pixel * (200.0 if view.perspective else 1.0) for view in shot.paths]
     return 0.5 * min(sizes, default=1.0)
 
 
 def _picture(shot: ShotView, source: _Source, low: Array, high: Array, step: float) -> Picture:
-    """A part of the ground, no finer than `step` (m) or `_LARGEST` allow, made strip by strip."""
+    """Resample an area in strips, at `step` (m) or the coarser step that `_LARGEST` allows."""
     size = np.clip(np.ceil((high - low) / step), 2, _LARGEST).astype(int)
     pixels = np.zeros((size[1], size[0], 4), np.uint8)
     east, north = (low[k] + (np.arange(size[k]) + 0.5) / size[k] * (high[k] - low[k]) for k in (0, 1))
@@ -136,7 +138,7 @@ def _picture(shot: ShotView, source: _Source, low: Array, high: Array, step: flo
 
 
 class _Places:
-    """Latitude and longitude at scene coordinates: looked up on a lattice, and bilinear between."""
+    """Latitude and longitude at scene coordinates, bilinear on a lattice of exact points."""
 
     def __init__(self, shot: ShotView, low: Array, high: Array) -> None:
         counts = np.ceil((high - low) / _LATTICE).astype(int) + 1
@@ -147,23 +149,23 @@ class _Places:
         self.fields = [v.reshape(counts[::-1]) for v in shot.ground.geodetic(east, north)]
 
     def __call__(self, east: Array, north: Array) -> tuple[Array, Array]:
-        """(n, m) degrees, of n norths and m easts."""
+        """Degrees (n, m) at n norths and m easts."""
         row, column = (north - self.low[1]) / self.step[1], (east - self.low[0]) / self.step[0]
         return tuple(between(field, row, column) for field in self.fields)
 
 
 class _Source:
-    """An orthophoto of any kind: `bounds` (west, south, east, north), degrees, and `resolution`, m."""
+    """An orthophoto file: `bounds` (west, south, east, north), degrees, and `resolution`, m."""
 
     bounds: tuple[float, float, float, float]
     resolution: float
 
     def error(self, reason: str) -> InputError:
-        """An error about the file."""
+        """Error about the file."""
         raise NotImplementedError
 
     def colours(self, latitude: Array, longitude: Array, step: float) -> NDArray[np.float32]:
-        """(h, w, 4) colours 0..1 and 1 where they are known, at places (h, w) about `step` metres apart."""
+        """Colours 0..1 and coverage (h, w, 4) at points (h, w) about `step` metres apart."""
         raise NotImplementedError
 
 
@@ -184,7 +186,7 @@ class _Tiff(_Source):
         self.bounds, self.resolution = self.raster.bounds, self.raster.resolution
         if self.raster.types[0] != "uint8":
             raise self.error(
-                f"has {self.raster.types[0]} values, and colours of 8 bits are wanted: "
+                f"has {self.raster.types[0]} values; convert it to colours of 8 bits: "
                 f"gdal_translate -ot Byte -scale {self.raster.path.name} OTHER.tif"
             )
         self.bands = {1: 1, 2: 2, 3: 3}.get(self.raster.count, 4)
@@ -220,7 +222,7 @@ class _Plain(_Source):
         self.bounds = (west, south, east, north)
         if not (-90.0 <= south < north <= 90.0 and west < east <= west + 360.0 and abs(west) <= 360.0):
             raise self.error(
-                "is not placed in degrees by its world file; make a GeoTIFF of it: "
+                "has a world file that is not in degrees; convert it to a GeoTIFF: "
                 f"gdal_translate -a_srs EPSG:NNNN {self.path.name} OTHER.tif"
             )
         scale = np.array(areas.metres_per_degree(0.5 * (south + north)))
@@ -228,7 +230,7 @@ class _Plain(_Source):
         self.resolution = float(np.min(metres / (height, width)))
 
     def _affine(self, settings: Settings) -> Array:
-        """(2, 3): longitude and latitude of the middles of pixels from column, row and 1."""
+        """Affine georeference (2, 3): longitude and latitude of pixel centres from column, row and 1."""
         extent = settings.terrain.photo_extent
         if extent:
             west, south, east, north = extent
@@ -238,13 +240,13 @@ class _Plain(_Source):
         world = _world_file(self.path)
         if world is None:
             raise self.error(
-                "has no world file beside it (.pgw, .jgw or .wld); say where it lies with "
+                "has no world file (.pgw, .jgw or .wld); georeference it with "
                 "terrain.photo_extent = [west, south, east, north] in degrees"
             )
         try:
             a, d, b, e, c, f = map(float, world.read_text(encoding="utf-8").split())
         except (OSError, ValueError):
-            raise input_error(world, 0, 0, "is no world file: six numbers are wanted, one a line") from None
+            raise input_error(world, 0, 0, "is no world file: it must hold six numbers, one a line") from None
         if not np.isfinite([a, d, b, e, c, f]).all() or abs(a * e - b * d) == 0.0:
             raise input_error(world, 0, 0, "is no world file: its pixels have no area")
         return np.array([[a, b, c], [d, e, f]])
@@ -261,7 +263,7 @@ class _Plain(_Source):
         return _rgba(_bilinear(self._thinned(size), (row + 0.5) / size - 0.5, (column + 0.5) / size - 0.5))
 
     def _thinned(self, size: int) -> NDArray[np.float32]:
-        """Means of size x size pixels each."""
+        """Average blocks of size x size pixels."""
         return self._means.setdefault(size, _means(self.pixels, size))
 
     @cached_property
@@ -277,13 +279,13 @@ def _means(pixels: Pixels, size: int) -> NDArray[np.float32]:
 
 
 def _axis(values: Array, step: float) -> Array:
-    """An even axis over all of these values and a little more."""
+    """Even axis that covers these values with a margin."""
     low, high = values.min() - 2.0 * step, values.max() + 2.0 * step
     return np.linspace(low, high, max(int(np.ceil((high - low) / step)), 1) + 1)
 
 
 def _bilinear(field: NDArray[np.float32], row: Array, column: Array) -> NDArray[np.float32]:
-    """Values (h, w, bands) between pixels; NaN beyond the outermost pixels' edges."""
+    """Bilinear values (h, w, bands) between pixels; NaN beyond the outer edge."""
     height, width, bands = field.shape
     inside = (row >= -0.5) & (row <= height - 0.5) & (column >= -0.5) & (column <= width - 0.5)
     low, left = (np.clip(np.floor(at), 0, max(n - 2, 0)) for at, n in ((row, height), (column, width)))
@@ -299,7 +301,7 @@ def _bilinear(field: NDArray[np.float32], row: Array, column: Array) -> NDArray[
 
 
 def _rgba(found: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Grey, grey and alpha, RGB or RGB and alpha (h, w, bands) with NaN for unknown -> (h, w, 4)."""
+    """Convert grey, grey-alpha, RGB or RGBA (h, w, bands), NaN for no data, to RGBA (h, w, 4)."""
     bands = found.shape[-1]
     grey = bands < 3
     alpha = found[..., -1] if bands in (2, 4) else np.ones(found.shape[:2], np.float32)
@@ -309,7 +311,7 @@ def _rgba(found: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 def _world_file(path: Path) -> Path | None:
-    """The file beside a picture that says where it lies; None: there is none."""
+    """World file of an image; None if there is none."""
     ends = {".png": ".pgw", ".jpg": ".jgw", ".jpeg": ".jgw"}.get(path.suffix.lower())
     names = [path.with_suffix(end) for end in (ends, ".wld") if end] + [Path(f"{path}w")]
     return next((name for name in names if name.is_file()), None)

@@ -1,7 +1,7 @@
-"""A raster of the user's own, placed on the Earth by its projection: a GeoTIFF, read by rasterio.
+"""Georeferenced raster: a user's GeoTIFF, read and reprojected by rasterio.
 
-rasterio is an extra, wanted only where such a file is named. Of a file no more is read than is asked for, and
-no more of that is held at once than `_MEMORY`.
+rasterio is an optional package, needed only for such files. Only the requested area is read, in blocks of at
+most `_MEMORY`.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from ..settings import scene_file
 from ..settings.settings import Settings
 
 _MEMORY = 64  # MB
-_GLIMPSES, _GLIMPSE = 6, 8  # looks along each side, and pixels of one
-_OFF = 0.02  # pixels that a place may be off when it is looked up
+_GLIMPSES, _GLIMPSE = 6, 8  # samples along each side, and their size in pixels
+_OFF = 0.02  # pixels, tolerance of reprojection
 _EARTH = "EPSG:4326"  # WGS84, degrees
 
 Array = NDArray[np.float64]
@@ -33,12 +33,12 @@ Bounds = tuple[float, float, float, float]
 
 
 def library(settings: Settings, name: str) -> ModuleType:
-    """The package rasterio, which the key `name` of [terrain] needs.
+    """Import rasterio, which the key `name` of [terrain] needs.
 
     Raises
     ------
     InputError
-        It is not installed; names the line of the scene file.
+        rasterio is not installed; the error names the line of the scene file.
     """
     try:
         import rasterio
@@ -58,12 +58,12 @@ class Raster:
     bounds
         West, south, east and north, degrees.
     resolution
-        Size of a pixel in its middle, about, m.
+        Approximate pixel size at the centre, m.
 
     Raises
     ------
     InputError
-        rasterio is missing, the file is no GeoTIFF, or says not where it lies on the Earth.
+        rasterio is missing, or the file is no GeoTIFF or has no georeference.
     """
 
     def __init__(self, settings: Settings, name: str) -> None:
@@ -75,12 +75,12 @@ class Raster:
             raise scene_file.error_at(settings.path, ("terrain", name), reason)
         with self.open() as source:
             if source.crs is None or source.transform.is_identity:
-                raise self.error(
-                    "does not say where on the Earth it lies; gdal_edit.py -a_srs and -a_ullr can tell it"
-                )
+                raise self.error("has no georeference; add one with gdal_edit.py -a_srs and -a_ullr")
             bounds = self.rasterio.warp.transform_bounds(source.crs, _EARTH, *source.bounds)
             if not np.isfinite(bounds).all():
-                raise self.error("lies nowhere on the Earth by its own projection")
+                raise self.error(
+                    "has a projection that maps it to no place on Earth; correct it with gdal_edit.py -a_srs"
+                )
             self.bounds, self.shape = bounds, source.shape
             self.count, self.unit = source.count, (source.units[0] or "").strip().lower()
             self.types, self.nodata = source.dtypes, source.nodata
@@ -89,12 +89,12 @@ class Raster:
         self.resolution = float(np.min(metres / self.shape))
 
     def error(self, reason: str) -> InputError:
-        """An error about this file."""
+        """Error about this file."""
         return input_error(self.path, 0, 0, reason)
 
     @contextmanager
     def open(self) -> Iterator[Any]:
-        """The file, open; whatever goes wrong in reading is said in one line.
+        """Open the file; read errors become one-line messages.
 
         Raises
         ------
@@ -117,13 +117,13 @@ class Raster:
             raise scene_file.error_at(*self.key, reason) from error
 
     def overlaps(self, latitude: Array, longitude: Array) -> bool:
-        """Whether it covers any of a rectangle that holds these places, degrees."""
+        """Whether the raster overlaps the bounding box of these points, degrees."""
         return overlap(self.bounds, latitude, longitude)
 
     def on_grid(self, latitude: Array, longitude: Array, bands: int = 1) -> NDArray[np.float32]:
-        """Its values (bands, ny, nx) at the points of a regular grid, NaN where it has none.
+        """Resample to a regular grid: values (bands, ny, nx), NaN without data.
 
-        Between pixels they are bilinear; where the grid is coarser, means about each point.
+        Bilinear between pixels; on a coarser grid the mean around each point.
 
         Parameters
         ----------
@@ -158,9 +158,9 @@ class Raster:
         return whole
 
     def glimpse(self, within: Bounds) -> tuple[NDArray[np.float32], Array, Array]:
-        """Some values of the first band (n,) as they stand there, NaN for no data, with their places.
+        """Sample the first band: raw values (n,), NaN without data, latitude and longitude (n,), degrees.
 
-        Latitude and longitude (n,) are degrees; the places are spread over a box, degrees.
+        The samples are spread over the box `within`, degrees.
         """
         values, columns, rows = [], [], []
         with self.open() as source:
@@ -186,7 +186,7 @@ class Raster:
 
 
 def overlap(bounds: Bounds, latitude: Array, longitude: Array) -> bool:
-    """Whether west, south, east and north hold any of a rectangle that holds these places; degrees."""
+    """Whether a box (west, south, east, north) overlaps the bounding box of these points; degrees."""
     west, south, east, north = bounds
     longitude = longitude + _turn(bounds, longitude)
     return bool(
@@ -198,31 +198,31 @@ def overlap(bounds: Bounds, latitude: Array, longitude: Array) -> bool:
 
 
 def extent(run: Run) -> Bounds:
-    """West, south, east and north of a run's grid, degrees."""
+    """Bounding box of a run's grid: west, south, east and north, degrees."""
     return run.longitude.min(), run.latitude.min(), run.longitude.max(), run.latitude.max()
 
 
 def said(bounds: Bounds) -> str:
-    """``38.900 to 38.909 N and -120.600 to -120.584 E``."""
+    """Format a bounding box: ``38.900 to 38.909 N and -120.600 to -120.584 E``."""
     west, south, east, north = bounds
     return f"{south:.3f} to {north:.3f} N and {west:.3f} to {east:.3f} E"
 
 
 def _turn(bounds: Bounds, longitude: Array) -> float:
-    """Whole turns (degrees) that bring these longitudes to those of west and east."""
+    """Multiple of 360 degrees that shifts these longitudes to those of the bounds."""
     middle = 0.5 * float(longitude[0] + longitude[-1])
     return float(areas.turned(middle, 0.5 * (bounds[0] + bounds[2]))) - middle
 
 
 def _within(axis: Array, low: float, high: float) -> slice:
-    """Which points of an even, ascending axis lie between two values, and one more at each end."""
+    """Slice of an even, ascending axis between two values, with one more point at each end."""
     step = axis[1] - axis[0]
     first, last = np.searchsorted(axis, (low - step, high + step))
     return slice(int(first), int(last))
 
 
 def _pixels(transform: Any, box: Bounds) -> tuple[Array, Array]:
-    """Rows and columns of the corners of a box in a raster's own coordinates."""
+    """Row and column ranges of a box in the raster's own coordinates."""
     a, b, c, d, e, f = (~transform)[:6]
     x, y = np.array(box)[[0, 2, 0, 2]], np.array(box)[[1, 1, 3, 3]]
     row, column = d * x + e * y + f, a * x + b * y + c

@@ -1,7 +1,7 @@
-"""Which blocks of ground throw shadows on blocks that are seen, found along the rays of the sun.
+"""Shadow casters: terrain blocks whose shadow falls on visible blocks, traced along sun rays.
 
-Ground shades nothing but ground and what stands on it. So it is enough to know which blocks are seen, and no
-view need be asked about the shadow of each.
+Terrain shades only terrain and objects on it. So testing the visible blocks is enough; no view is tested for
+the shadow of each block.
 """
 
 from __future__ import annotations
@@ -16,19 +16,19 @@ from .. import sun
 if TYPE_CHECKING:
     from ..settings.protocols import ShotView
 
-_LOWEST = 1.0  # degrees; suns lower than this throw no shadows, as in `lod.visible_mask`
-_TURN = 2.0  # degrees; of suns nearer to each other than this one is asked: blocks are wider all round
+_LOWEST = 1.0  # degrees; lower suns cast no shadows, as in `lod.visible_mask`
+_TURN = 2.0  # degrees; suns closer together are merged, as blocks are widened on all sides
 
 
 def with_shade(
     shot: ShotView, centre: NDArray[np.float64], rise: NDArray[np.float64], seen: NDArray[np.bool_]
 ) -> NDArray[np.bool_]:
-    """Blocks (ny, nx) that are `seen`, and those that throw a shadow on one that is, with any of the suns.
+    """Visible blocks (ny, nx) and the blocks that cast a shadow on one of them under any of the suns.
 
     Parameters
     ----------
     centre, rise
-        (ny, nx, 3) middles in the scene, m, and (ny, nx) how far the ground of each is above and below, m.
+        Block centres (ny, nx, 3) in the scene, m, and half heights (ny, nx), m.
     """
     if not seen.any():
         return seen
@@ -44,9 +44,9 @@ def with_shade(
 def _reaches(
     centre: NDArray, rise: NDArray, low: NDArray, lit: NDArray, rest: NDArray, bearing: float, height: float
 ) -> NDArray[np.bool_]:
-    """Whether the shadow of each of some blocks (n,) falls on a `lit` one before it is under the ground.
+    """Whether each block's shadow (n,) falls on a `lit` block before it passes below the ground.
 
-    Blocks are taken to be a block wider on all sides.
+    Blocks are widened by one block on all sides.
     """
     north, east = centre[:, centre.shape[1] // 2, 1], centre[centre.shape[0] // 2, :, 0]
     step = min(np.diff(axis).min(initial=np.inf) for axis in (north, east))
@@ -56,7 +56,7 @@ def _reaches(
     toward_north, toward_east = -np.cos(np.radians(bearing)), -np.sin(np.radians(bearing))
     found, going = np.zeros(len(rest), bool), np.arange(len(rest))
     way = 0.0
-    while len(going) and np.isfinite(step):  # a block alone has nothing to shade
+    while len(going) and np.isfinite(step):  # a single block shades no other
         way += step
         row = np.searchsorted(ends[0], y[going] + way * toward_north)
         column = np.searchsorted(ends[1], x[going] + way * toward_east)
@@ -68,7 +68,7 @@ def _reaches(
 
 
 def _suns(shot: ShotView) -> list[tuple[float, float]]:
-    """Bearings and heights (degrees) of what throws shadows in what is filmed, `_TURN` apart."""
+    """Azimuth and elevation (degrees) of the shadow-casting lights over the filmed frames, `_TURN` apart."""
     frames = np.unique(np.concatenate([shot.filmed(path) for path in shot.paths]))
     suns: list[tuple[float, float]] = []
     for time in shot.frames.times[frames]:
@@ -81,7 +81,7 @@ def _suns(shot: ShotView) -> list[tuple[float, float]]:
 
 
 def _widest(field: NDArray) -> NDArray:
-    """The largest of each value and its eight neighbours'."""
+    """Maximum filter over each value and its eight neighbours."""
     padded = np.pad(field, 1, "edge")
     rows = np.maximum(np.maximum(padded[:-2], padded[1:-1]), padded[2:])
     return np.maximum(np.maximum(rows[:, :-2], rows[:, 1:-1]), rows[:, 2:])

@@ -1,4 +1,4 @@
-"""The ground as a function: its height and fuels at any place, which the mesh, trees and cameras share."""
+"""Terrain as a function: height, fuel and arrival time at any point, for mesh, trees and cameras."""
 
 from __future__ import annotations
 
@@ -17,12 +17,13 @@ from ..settings.settings import Settings
 from . import apron, dem_patch, noise
 from .elevation import Elevation
 
-NEVER = 1.0e9  # arrival time of places that never burned, s
-UNKNOWN = 1.0e8  # the same in `burn_time`: less, so that little is lost beside a place that burned
+NEVER = 1.0e9  # s, arrival time of ground that never burns
+# the same in `burn_time`; smaller, so that interpolation next to burned ground keeps precision
+UNKNOWN = 1.0e8
 _LEVEL = 0.05  # m
 _SPREAD = (0.01, 5.0)  # m/s
-_RINGS = 3  # cells beyond the last perimeter whose arrival times are made up
-RELIEF = 7.0  # standard deviation of the added relief where slopes are 45 degrees, m
+_RINGS = 3  # rings of cells beyond the final perimeter with extrapolated arrival times
+RELIEF = 7.0  # m, standard deviation of the added relief on slopes of 45 degrees
 _OCTAVES = ((210.0, 1.0), (105.0, 0.55), (52.0, 0.27), (26.0, 0.12))  # of the relief: m, weight
 _SHARP = 2.4
 _RELIEF_LEVEL, _RELIEF_MEAN = 0.25, 0.55  # its strength on level ground, the mean of its shape
@@ -32,28 +33,28 @@ Array = NDArray[np.float64]
 
 
 class Ground:
-    """Height and fuel over the run's fuel grid and the apron round it.
+    """Terrain height and fuel on the run's fuel grid and the apron.
 
-    Within `near_radius` of the given eyes the surface between grid points is smooth (Catmull-Rom) with added
-    relief; farther away it is bilinear, as the tree heights of the core are. The two are blended.
+    Within `near_radius` of eye points the surface between grid points is Catmull-Rom with added relief.
+    Farther away it is bilinear, as the core's tree heights are. The two are blended.
 
     Parameters
     ----------
     arrival
-        (fy, fx) s, when the front is in the middle of each fuel cell; NaN where never.
+        Arrival time (fy, fx), s, at the centre of each fuel cell; NaN where it never burns.
 
     Attributes
     ----------
     made_up
-        Whether the run is synthetic: islands that the fire left out are invented in such a one alone.
+        Whether the run is synthetic. Only then are unburned islands invented.
     eyes
-        (m, 3) camera places in the scene, m; without any the ground is bilinear everywhere.
+        Eye points (m, 3) in the scene, m. Without them the terrain is bilinear everywhere.
     surface
-        What the ground has near eyes, more than between its grid points: Catmull-Rom, and ridges and gullies.
+        Near-camera surface between the grid points: Catmull-Rom with ridges and gullies.
     patch
-        What an elevation model says in their place; None: nothing.
+        Patch of an elevation model that replaces it; None if there is none.
     rough
-        How far (m) the surface may be from the bilinear ground, about.
+        Approximate distance (m) between this surface and the bilinear terrain.
     """
 
     def __init__(self, settings: Settings, run: Run, arrival: Array, relief: Elevation | None = None) -> None:
@@ -113,7 +114,7 @@ class Ground:
         )
 
     def seen_from(self, eyes: ArrayLike) -> Ground:
-        """The same ground with detail near these places (m, 3) in the scene, m."""
+        """The same terrain with detail near these eye points (m, 3) in the scene, m."""
         seen = copy.copy(self)
         seen.eyes = np.asarray(eyes, np.float64).reshape(-1, 3)
         if self._relief.model and self.near_radius > 0.0 and (near := seen._round_eyes(seen._grid())):
@@ -128,7 +129,7 @@ class Ground:
         return self.frame.forward_grid(self.fields.latitude, self.fields.longitude, self.fields.elevation)
 
     def padded(self, field: NDArray, latitude: Array, longitude: Array) -> NDArray:
-        """A field of the run's fuel grid, whose axes these are, on the ground's; NaN in the apron."""
+        """Pad a field of the run's fuel grid, on these axes, to the terrain grid; NaN in the apron."""
         return np.pad(_oriented(field, latitude, longitude), self.fields.margin, constant_values=np.nan)
 
     @property
@@ -137,16 +138,16 @@ class Ground:
         return self.fields.elevation.shape
 
     def _metres(self) -> tuple[Array, Array]:
-        """Rough metres along both axes, for slopes."""
+        """Approximate coordinates along both axes, m, for gradients."""
         north, east = areas.metres_per_degree(self.frame.latitude)
         return self.fields.latitude * north, self.fields.longitude * east
 
     def _set_arrival(self, arrival: Array, end: float) -> None:
-        """Arrival times (s) within the last perimeter and a few cells beyond, and what of the ground burns.
+        """Arrival times (s) within the final perimeter and a few cells beyond, and the burned mask.
 
-        Beyond the perimeter they go on at the pace of the front beside it. `burned` is above 0.5 where the
-        front has passed by the `end` of the run (s): where it still moves then, its place lies between the
-        centres of two cells as their times say; where it has stopped, half-way.
+        Beyond the perimeter arrival times are extrapolated at the rate of spread of the adjacent front.
+        `burned` exceeds 0.5 where the front has passed by the `end` of the run (s). A moving front lies
+        between two cell centres by their arrival times; a stopped front lies half-way.
         """
         margin, reached = self.fields.margin, np.isfinite(arrival)
         self.arrival = np.full(self.shape, NEVER)
@@ -169,14 +170,14 @@ class Ground:
                 for at, lines, size in zip((row, column), near, self.cell, strict=True)
             )
             patches = noise.fractal(east, north, 800.0, 3, self.seed + 70)
-            burned[row, column] *= 1.0 - noise.smoothstep(0.50, 0.68, patches)  # islands left out, 6 %
+            burned[row, column] *= 1.0 - noise.smoothstep(0.50, 0.68, patches)  # unburned islands, 6 %
         inner = slice(margin, -margin or None)
         self.arrival[inner, inner][near] = np.where(reached, arrival, NEVER)
         self.burn_time[inner, inner][near] = np.where(known, time, UNKNOWN)
         self.burned[inner, inner][near] = burned
 
     def indices(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
-        """Fractional row and column of places, held inside the grid."""
+        """Fractional row and column of points (degrees), clamped to the grid."""
         fields = self.fields
         row = np.interp(latitude, fields.latitude, np.arange(len(fields.latitude)))
         longitude = areas.turned(longitude, 0.5 * (fields.longitude[0] + fields.longitude[-1]))
@@ -189,7 +190,7 @@ class Ground:
         return latitude, np.interp(column, np.arange(len(fields.longitude)), fields.longitude)
 
     def detail(self, east: ArrayLike, north: ArrayLike, up: ArrayLike = 0.0) -> Array:
-        """Weight 0..1 of the near surface: 1 within 0.6 of the near radius of an eye, 0 beyond it."""
+        """Weight 0..1 of the near-camera surface: 1 within 0.6 of an eye's near radius, 0 beyond it."""
         east, north, up = (np.asarray(v, np.float32) for v in np.broadcast_arrays(east, north, up))
         if self.near_radius <= 0.0 or len(self.eyes) == 0:
             return np.zeros(east.shape)
@@ -200,7 +201,7 @@ class Ground:
         return noise.smoothstep(self.near_radius, 0.6 * self.near_radius, np.sqrt(nearest))
 
     def height(self, row: ArrayLike, column: ArrayLike, detail: ArrayLike = 0.0) -> Array:
-        """Height above the datum (m) at fractional rows and columns, given the weight of detail there."""
+        """Height above the datum (m) at fractional rows and columns, with the weight of detail there."""
         row, column, detail = np.broadcast_arrays(row, column, np.asarray(detail, np.float64))
         height = bilinear(self.fields.elevation, row, column)
         near = np.flatnonzero(detail.ravel() > 0.0)
@@ -212,13 +213,13 @@ class Ground:
         return height
 
     def floor(self) -> Array:
-        """Scene points (ny, nx, 3) of the grid, lowered where need be: no ground is under them.
+        """Lower bound of the terrain: scene points (ny, nx, 3) of the grid, with no ground below them.
 
-        Over a quad of the grid ground is nowhere lower than the lowest of its corners. Far from eyes that is
-        so as quads are drawn as they are. Near them Catmull-Rom is at most 1/8 of the second differences off
-        the straight line along one axis and 1.25/8 along the other, as its weights' sizes add up to 1.25; and
-        relief goes down to RELIEF times the slope's factor times the least of its octaves together. Where an
-        elevation model says more, its lowest point within a quad counts.
+        Bilinear ground within a quad is never below its lowest corner. Far from eyes this holds for the quads
+        as drawn. Near eyes Catmull-Rom deviates from the chord by at most 1/8 of the second differences along
+        one axis and 1.25/8 along the other, as the absolute values of its weights add up to 1.25. Relief goes
+        down to RELIEF times the slope factor times the sum of the octaves' minima. Where an elevation model
+        has finer data, its lowest point in a quad counts.
         """
         place = self._grid()
         near = self._round_eyes(place)
@@ -235,14 +236,14 @@ class Ground:
         return place
 
     def _hollows(self) -> NDArray[np.float32]:
-        """How far (ny, nx) m an elevation model goes below the grid's ground in the next cell."""
+        """Depth (ny, nx), m, of an elevation model below the grid's ground in the next cell."""
         below = np.zeros(self.shape, np.float32)
         if self.patch:
             below[self.patch.place] = self.patch.hollows()
         return below
 
     def _round_eyes(self, place: Array) -> tuple[slice, slice] | None:
-        """Rows and columns of the grid, whose points are `place`, that hold all that is near an eye."""
+        """Rows and columns of the grid (points `place`) that contain everything near an eye."""
         if len(self.eyes) == 0:
             return None
         low, high = (f(self.eyes[:, :2], axis=0) for f in (np.min, np.max))
@@ -251,7 +252,7 @@ class Ground:
         return box(inside)
 
     def point(self, latitude: ArrayLike, longitude: ArrayLike, above: ArrayLike = 0.0) -> Array:
-        """Scene points (n, 3) at a height above the ground (m) at places (degrees)."""
+        """Scene points (n, 3) at a height above the ground (m), at points in degrees."""
         latitude, longitude, above = (
             np.atleast_1d(np.asarray(v, np.float64)) for v in np.broadcast_arrays(latitude, longitude, above)
         )
@@ -261,7 +262,7 @@ class Ground:
         return self.frame.forward(latitude, longitude, self.height(row, column, weight) + above)
 
     def geodetic(self, east: ArrayLike, north: ArrayLike) -> tuple[Array, Array]:
-        """Latitude and longitude of the ground at scene coordinates (m); the vertical leans there."""
+        """Latitude and longitude of the ground at scene coordinates (m); verticals converge with distance."""
         east, north = (np.atleast_1d(np.asarray(v, np.float64)) for v in np.broadcast_arrays(east, north))
         up = -(east**2 + north**2) / (2.0 * 6_371_000.0)
         for _ in range(3):
@@ -271,7 +272,7 @@ class Ground:
         return latitude, longitude
 
     def under(self, position: NDArray[np.float64]) -> tuple[Array, Array]:
-        """Fractional row and column of scene points (n, 3) m, along the vertical there."""
+        """Fractional row and column below scene points (n, 3), m, along the local vertical."""
         latitude, longitude, _height = self.frame.reverse(position)
         return self.indices(latitude, longitude)
 
@@ -280,16 +281,16 @@ class Ground:
         return self.point(*self.geodetic(east, north))[:, 2]
 
     def sample(self, field: Array, east: ArrayLike, north: ArrayLike) -> Array:
-        """A field of the grid (apron included), bilinear at scene coordinates (m)."""
+        """Interpolate a field of the grid (apron included) at scene coordinates (m), bilinear."""
         return bilinear(field, *self.indices(*self.geodetic(east, north)))
 
     def arrival_at(self, row: ArrayLike, column: ArrayLike) -> Array:
-        """Arrival time (s) at fractional rows and columns; NEVER in islands and where most never burned."""
+        """Arrival time (s) at fractional rows and columns; NEVER in unburned islands and beyond the fire."""
         burned = bilinear(self.burned, row, column)
         return np.where(burned >= 0.5, bilinear(self.burn_time, row, column), NEVER)
 
     def spread(self, row: Array, column: Array) -> Array:
-        """Rate of spread (m/s): the inverse of the arrival time's slope over one cell."""
+        """Rate of spread (m/s): inverse of the arrival time's gradient over one cell."""
         slope = []
         for axis, size in enumerate(self.cell):
             shift = (0.5, 0.0) if axis == 0 else (0.0, 0.5)
@@ -302,14 +303,14 @@ class Ground:
 
 
 def _ascending(axis: Array, size: float) -> Array:
-    """An axis from its least value to its greatest; one value becomes two, a cell of `size` apart."""
+    """Sort an axis in ascending order; a single value becomes two, one cell of `size` apart."""
     if len(axis) == 1:
         return axis[0] + size * np.array([-0.5, 0.5])
     return axis[::-1] if axis[0] > axis[-1] else axis
 
 
 def _oriented(field: Array, latitude: Array, longitude: Array) -> Array:
-    """A field of the run as (ny, nx) on the ascending axes."""
+    """Transpose and flip a field of the run to (ny, nx) on ascending axes."""
     field = field.astype(np.float64)
     for number, axis in enumerate((latitude, longitude)):
         if len(axis) == 1:
@@ -324,7 +325,7 @@ def _fuelless(fields: apron.Fields) -> NDArray[np.bool_]:
 
 
 def _water(fields: apron.Fields) -> Array:
-    """Lakes, 0 or 1: ground without fuel that is as level as only water is, 5 cm over three cells."""
+    """Lake mask, 0 or 1: ground without fuel that is level within 5 cm over three cells."""
     if min(fields.elevation.shape) < 3:
         return np.zeros(fields.elevation.shape)
     level = widened(fields.elevation, 1) + widened(-fields.elevation, 1) < _LEVEL
@@ -334,7 +335,7 @@ def _water(fields: apron.Fields) -> Array:
 
 
 def _bare(fields: apron.Fields) -> Array:
-    """Part of the ground near each grid point without fuel, 0..1: soft, so that noise can break its edge."""
+    """Fraction of fuel-free ground near each grid point, 0..1, smoothed so that noise can break its edge."""
     bare = _fuelless(fields).astype(np.float64)
     for _ in range(2):
         bare = (bare + _neighbours(bare)) / 9.0
@@ -342,7 +343,7 @@ def _bare(fields: apron.Fields) -> Array:
 
 
 def box(chosen: NDArray[np.bool_], more: int = 0) -> tuple[slice, slice] | None:
-    """Rows and columns that hold all that is chosen (ny, nx), and `more` to each side; None: nothing is."""
+    """Bounding slices of a mask (ny, nx), widened by `more` on each side; None if it is empty."""
     slices = []
     for axis, count in enumerate(chosen.shape):
         hit = np.flatnonzero(chosen.any(axis=1 - axis))
@@ -353,7 +354,7 @@ def box(chosen: NDArray[np.bool_], more: int = 0) -> tuple[slice, slice] | None:
 
 
 def _beyond(time: Array, crossing: Array, known: NDArray[np.bool_]) -> tuple[Array, Array, NDArray[np.bool_]]:
-    """Times and crossings (s) of cells, those of `_RINGS` rings around them, and which cells these are."""
+    """Extrapolate times and crossings (s) to `_RINGS` rings of cells; also return the extended mask."""
     time, crossing, known = time.copy(), crossing.copy(), known.copy()
     for _ in range(_RINGS):
         weight = _neighbours(known.astype(np.float64))
@@ -373,13 +374,13 @@ def _neighbours(field: Array) -> Array:
 
 
 def _second_difference(field: Array, axis: int) -> Array:
-    """Of neighbours along an axis; beyond the ends the field goes on level."""
+    """Second difference along an axis; edges are extended level."""
     padded = np.pad(field, [(1, 1) if k == axis else (0, 0) for k in (0, 1)], "edge")
     return np.diff(padded, 2, axis)
 
 
 def widened(field: NDArray, reach: int) -> NDArray:
-    """The largest value within `reach` rows and columns."""
+    """Maximum filter over `reach` rows and columns."""
     for axis in (0, 1):
         padded = np.pad(field, [(reach, reach) if k == axis else (0, 0) for k in (0, 1)], "edge")
         windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1, axis)
@@ -388,6 +389,6 @@ def widened(field: NDArray, reach: int) -> NDArray:
 
 
 def bilinear(field: Array, row: ArrayLike, column: ArrayLike) -> Array:
-    """Values of `field` (ny, nx) between its points."""
+    """Interpolate `field` (ny, nx) between its points, bilinear."""
     row, column = np.broadcast_arrays(np.asarray(row, np.float64), np.asarray(column, np.float64))
     return terrain.bilinear(field, row.ravel(), column.ravel()).reshape(row.shape)

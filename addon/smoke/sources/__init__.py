@@ -1,6 +1,6 @@
-"""Sources of smoke: each module of this folder is one, unless its name begins with "_".
+"""Smoke sources: each module of this folder is one, unless its name begins with "_".
 
-It defines `SOURCE`, a class of `Source` whose name is the module's.
+A module defines `SOURCE`, a class of `Source` with the module's name.
 """
 
 from __future__ import annotations
@@ -18,34 +18,34 @@ __all__ = ["Source", "VolumeLayer", "choices", "choose", "is_integrated", "known
 
 @functools.cache
 def known() -> dict[str, type[Source]]:
-    """Every source by its name."""
+    """All sources by name."""
     names = [module.name for module in pkgutil.iter_modules(__path__) if module.name[0] != "_"]
     return {name: importlib.import_module(f"{__name__}.{name}").SOURCE for name in sorted(names)}
 
 
 def choices() -> dict[str, str]:
-    """Help of each source that `smoke.method` chooses, by its name."""
+    """Help of each source that `smoke.method` selects, by name."""
     return {name: each.help for name, each in known().items() if not each.fields}
 
 
 def preview() -> str:
-    """The source that is a quick preview of another."""
+    """Name of the source that is a quick preview of another one."""
     return next(name for name, each in known().items() if each.preview_of)
 
 
 def choose(method: str, fields: Collection[str]) -> type[Source]:
-    """The source of a run with these fields: one that draws fields of it, else that of the name `method`."""
+    """Select the source of a run: one whose fields the run has, else the one named `method`."""
     own = (each for each in known().values() if each.fields and set(each.fields) <= set(fields))
     return next(own, None) or known()[method]
 
 
 def select(shot: Shot) -> Source:
-    """The source of a shot's smoke."""
+    """Create the source of a shot's smoke."""
     return choose(shot.settings.smoke.method, shot.run.fields)(shot)
 
 
 def is_integrated(shot: Shot) -> bool:
-    """Whether frames are drawn without smoke in Cycles: rays are marched through it, or there is none."""
+    """Whether Cycles renders frames without smoke: it is ray-marched separately, or there is none."""
     smoke = shot.settings.smoke
     if shot.settings.render.engine != "cycles" or smoke.draw != "integrated":
         return False

@@ -1,4 +1,4 @@
-"""Smoke in one volume per frame, which Cycles lights."""
+"""Single-volume smoke: one volume per frame, lit by Cycles."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from ..view import Resolution, resolution
 from ._source import Source, VolumeLayer
 
 SHOWN = ("density", "dilution", "shade", "size", "glow")
-"""Grids that the material asks for."""
+"""Grids that the material uses."""
 
 
 class SingleVolume(Source):
-    """Smoke in one volume per frame, as fine as the nearest camera needs.
+    """Smoke in one volume per frame, at the resolution of the nearest camera.
 
     Attributes
     ----------
     made_from
-        A few words for the file.
+        Origin of the smoke, for the file's metadata.
     """
 
     made_from: ClassVar[str]
@@ -33,15 +33,15 @@ class SingleVolume(Source):
 
     @functools.cached_property
     def resolution(self) -> Resolution:
-        """How fine it is drawn."""
+        """Smoke resolution."""
         return resolution(self.shot)
 
     def voxels(self) -> list[Any]:
-        """The edge of a voxel, m."""
+        """Voxel size, m."""
         return [round(self.resolution.voxel, 3)]
 
     def layers(self) -> list[VolumeLayer]:
-        """One."""
+        """The single volume layer."""
         return [VolumeLayer("smoke", self.resolution.voxel, self.resolution.step, self.resolution.extinction)]
 
     def write(self, path: Path, frame: int) -> volume.VdbSummary:
@@ -63,4 +63,4 @@ class SingleVolume(Source):
 
     @abstractmethod
     def _write_volume(self, path: Path, time: float, more: dict[str, Any]) -> volume.VdbSummary:
-        """Write the smoke at a model time (s). `more` is for the core's writer."""
+        """Write the smoke at a model time (s). `more` holds further arguments of the core's writer."""

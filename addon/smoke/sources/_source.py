@@ -1,4 +1,4 @@
-"""What a source of smoke is, and what all sources share."""
+"""Interface of smoke sources, with what they share."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ Lights = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 @dataclass(frozen=True)
 class VolumeLayer:
-    """Volumes of one name, and how Cycles draws them.
+    """Volume layer: volumes of one name and their rendering in Cycles.
 
     Attributes
     ----------
     name
-        Their files are ``NAME_000001.vdb``.
+        Files are ``NAME_000001.vdb``.
     voxel, step
-        Edge of a voxel and step along rays, m.
+        Voxel size and ray step, m.
     extinction
-        Of dense smoke, 1/m.
+        Extinction of dense smoke, 1/m.
     """
 
     name: str
@@ -47,34 +47,34 @@ class VolumeLayer:
     extinction: float
 
     def file(self, folder: Path, frame: int) -> Path:
-        """Its volume of a frame."""
+        """Volume file of a frame."""
         return folder / f"{self.name}_{frame:06d}.vdb"
 
 
 class Source(ABC):
-    """Smoke of a shot from one source.
+    """A source of a shot's smoke.
 
     Attributes
     ----------
     name
-        Of its module; the value of `smoke.method` that chooses it.
+        Name of its module, and its value of `smoke.method`.
     help
-        One line.
+        Help in one line.
     fields
-        Fields of the run that it draws. It is the source of every run that has them, whatever `smoke.method`
-        says. A source without such fields is chosen by `smoke.method`.
+        Run fields that it draws. It is selected for every run that has them, for any `smoke.method`. A source
+        without such fields is selected by `smoke.method`.
     history
-        Key of [smoke] that says how long before the first frame its smoke begins, s. Empty where it needs
-        nothing of the time before.
+        Key of [smoke] with the history that its smoke needs before the first frame, s. Empty if it needs
+        none.
     preview_of
-        The source that it is a quick preview of, if any.
+        Name of the source that it previews, if any.
     illuminated
         Whether its volumes hold the light that reaches the smoke.
     unused_settings
-        Keys of [smoke] that do not change its volumes.
+        Keys of [smoke] that do not affect its volumes.
     code
-        Files and folders of the package that decide its volumes, beside its own module, this folder's helpers
-        (`_NAME.py`) and the folder ``smoke``.
+        Files and folders of the package that decide its volumes, in addition to its own module, this folder's
+        helpers (`_NAME.py`) and the folder ``smoke``.
     """
 
     name: ClassVar[str]
@@ -89,37 +89,37 @@ class Source(ABC):
     def __init__(self, shot: Shot) -> None:
         self.shot, self.times = shot, shot.frames.times
         self.progress: Progress = silent
-        """Told of preparations while frames are written."""
+        """Called during preparations while frames are written."""
         self.elsewhere: Callable[[], bool] = lambda: False
-        """Whether another process of ours prepares the shot."""
+        """Whether another of our processes prepares the shot."""
         self.stop = threading.Event()
-        """Ends preparations that still go on."""
+        """Event that stops preparations."""
 
     @classmethod
     def code_files(cls) -> list[str]:
-        """Files and folders whose code decides its volumes, beside the folder ``smoke``."""
+        """Files and folders whose code decides its volumes, in addition to the folder ``smoke``."""
         own = [Path(inspect.getfile(cls)), *sorted(Path(__file__).parent.glob("_*.py"))]
         return [_relative(path) for path in own] + list(cls.code)
 
     # what its volumes depend on, beside the run, the time and [smoke]
 
     def inputs(self) -> dict[str, Any]:
-        """What else decides its volumes, as JSON can carry it."""
+        """Further inputs of its volumes, in JSON form."""
         return {}
 
     @abstractmethod
     def voxels(self) -> list[Any]:
-        """How fine its volumes are, as JSON can carry it."""
+        """Voxel sizes of its volumes, in JSON form."""
 
     # what has to be done once, before frames are written
 
     @property
     def domains(self) -> list[Domain]:
-        """Where a flow is solved for it: the whole fire's domain, and the nested one if there is one."""
+        """Flow domains of the source: the whole fire's and the nested one if there is one."""
         return []
 
     def cost(self) -> Cost | None:
-        """What preparing the shot takes; None where that is nothing."""
+        """Cost of preparing the shot; None if there is nothing to prepare."""
         return None
 
     def is_prepared(self, frame: int) -> bool:
@@ -127,56 +127,56 @@ class Source(ABC):
         return True
 
     def prepare(self, frames: Iterable[int], progress: Progress = silent) -> None:
-        """Do once what these frames need, before several threads write them."""
+        """Prepare these frames before several threads write them."""
         _ = self.visibility
 
     def in_use(self) -> AbstractContextManager[None]:
-        """Keep others from clearing meanwhile what it has prepared."""
+        """Protect prepared files from eviction while in use."""
         return nullcontext()
 
     # what is drawn
 
     @property
     def marched(self) -> bool:
-        """Whether rays can be marched through its `bricks`."""
+        """Whether its `bricks` can be ray-marched."""
         return False
 
     @abstractmethod
     def layers(self) -> list[VolumeLayer]:
-        """The volumes of a frame, the last of which is named "smoke"."""
+        """Volume layers of a frame; the last one is named "smoke"."""
 
     @abstractmethod
     def write(self, path: Path, frame: int) -> volume.VdbSummary:
-        """Write the volumes of a frame beside `path`, and that of the layer "smoke" last, as `path`.
+        """Write a frame's volumes next to `path`, and last the layer "smoke" as `path`.
 
-        A file is there when it is complete, also where several threads or processes write it at once.
+        A file appears when it is complete, even if several threads or processes write it.
         """
 
     def bricks(self, frame: int) -> list[volume.Bricks]:
-        """The smoke of a frame for rays to be marched through. None where it is not `marched`."""
+        """Bricks of a frame for ray marching; empty if it is not `marched`."""
         return []
 
     def painted_voxels(self) -> int:
         """Voxels of the largest box that `bricks` paints."""
         return 0
 
-    # what sources share
+    # shared by all sources
 
     @property
     def visibility(self) -> Any:
-        """What the cameras see (see `visibility.Visibility`), if only that is wanted. Else None."""
+        """Visibility for culling (see `visibility.Visibility`); None if all smoke is wanted."""
         return None if self.shot.settings.smoke.complete else self.shot.visibility
 
     def sight(self, frame: int) -> lod.ViewSet | None:
-        """What the cameras see in a frame, if only that is wanted."""
+        """View set of a frame for culling; None if all smoke is wanted."""
         return self.visibility.view_set(frame) if self.visibility else None
 
     def lights(self, time: float) -> Lights:
-        """Flames that light the smoke at a model time, s."""
+        """Lights of the flames in smoke at a model time, s."""
         return flame_light.luminous(self.shot.fire, time, self.shot.scale)
 
     def metadata(self, time: float, smoke: str) -> dict[str, str]:
-        """What a volume says of itself. `smoke` are a few words about what it is made from."""
+        """Metadata of a volume. `smoke` describes its origin."""
         return {
             "run": self.shot.run.name,
             "smoke": smoke,
@@ -187,5 +187,5 @@ class Source(ABC):
 
 
 def _relative(path: Path) -> str:
-    """A file of the package, relative to it. Another as it is."""
+    """Path relative to the package; other paths stay as they are."""
     return path.relative_to(PACKAGE).as_posix() if path.is_relative_to(PACKAGE) else str(path)

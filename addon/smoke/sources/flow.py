@@ -1,4 +1,4 @@
-"""A flow of the air, solved once per shot from the model's heat."""
+"""Flow source: smoke of an air flow that is solved once per shot from the model's heat."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ from ..flow import Flow
 from ._source import Lights, Source, VolumeLayer
 
 Made = TypeVar("Made")
-_EMPTY = 100.0  # m, voxel of the volume where nothing burns
+_EMPTY = 100.0  # m, voxel of the volume without fire
 
 
 class FlowSource(Source):
-    """Smoke of a solved flow, painted with detail below its cells and with the light that reaches it."""
+    """Smoke of a solved flow, painted with subgrid detail and with the light that reaches it."""
 
     name = "flow"
     help = "flow solved once per shot"
@@ -42,24 +42,24 @@ class FlowSource(Source):
         self._close_painter: flow_frames.Painter | None = None
 
     def inputs(self) -> dict[str, Any]:
-        """Its snapshots, and the extinction that its voxels have."""
+        """Folders of its snapshots, and the extinction of its voxels."""
         return {"flow": [self.flow.key(), self.shot.settings.smoke.extinction]}
 
     def voxels(self) -> list[Any]:
-        """Layers with their voxels, and the flow's cells, m."""
+        """Layers with their voxel sizes, and the flow's cell sizes, m."""
         return [[each.name, each.voxel, self.shot.scale.cell] for each in self._painted]
 
     @property
     def domains(self) -> list[Domain]:
-        """Where the flow is solved."""
+        """Flow domains."""
         return self.flow.domains
 
     def cost(self) -> cost_estimate.Cost | None:
-        """What is still to be solved."""
+        """Cost of what is still to be solved."""
         return cost_estimate.estimate(self.flow)
 
     def is_prepared(self, frame: int) -> bool:
-        """Whether the frame's snapshots are kept."""
+        """Whether the frame's snapshots exist."""
         return self.flow.has(frame)
 
     def prepare(self, frames: Iterable[int], progress: Progress = silent) -> None:
@@ -68,16 +68,16 @@ class FlowSource(Source):
         self.flow.solve(frames, progress)
 
     def in_use(self) -> AbstractContextManager[None]:
-        """Keep others from clearing the snapshots away meanwhile."""
+        """Protect the snapshots from eviction while in use."""
         return self.flow.in_use()
 
     @property
     def marched(self) -> bool:
-        """Whether the light in it is known once per frame."""
+        """Whether light is computed once per frame and stored in the volumes."""
         return self.shot.settings.smoke.lighting == "solved"
 
     def layers(self) -> list[VolumeLayer]:
-        """The layers of both domains. One empty volume where nothing burns."""
+        """Volume layers of both domains; one empty volume without fire."""
         thickest = self.shot.settings.smoke.extinction or flow_frames.thickest(self.shot.scale)
         depth = view.SOLVED_STEP_DEPTH if self.marched else view.STEP_DEPTH
         found = [
@@ -87,11 +87,11 @@ class FlowSource(Source):
         return found or [VolumeLayer("smoke", _EMPTY, _EMPTY, thickest)]
 
     def painted_voxels(self) -> int:
-        """Voxels of the largest layer's whole domain, smoke or not."""
+        """Voxels of the largest layer's whole domain, with or without smoke."""
         return max((_voxels(each) for each in self._painted), default=0)
 
     def write(self, path: Path, frame: int) -> volume.VdbSummary:
-        """Write the volumes of a frame of the flow, which is solved up to there. `path` is written last."""
+        """Write the volumes of a solved frame; `path` is written last."""
         self.flow.ready(frame)
         time = float(self.times[frame - 1])
         metadata = self.metadata(time, "a flow of the air, solved from the model's heat")
@@ -113,7 +113,7 @@ class FlowSource(Source):
         return written
 
     def bricks(self, frame: int) -> list[volume.Bricks]:
-        """The smoke of a frame for rays to be marched through, and no file."""
+        """Bricks of a frame for ray marching, without a file."""
         self.flow.ready(frame)
         what = (frame, self._glow(float(self.times[frame - 1])), self.sight(frame))
         found: list[volume.Bricks] = []
@@ -135,24 +135,24 @@ class FlowSource(Source):
 
     @functools.cached_property
     def painters(self) -> list[flow_frames.Painter]:
-        """One for each layer."""
+        """Painters, one for each layer."""
         found = self._painted
         inner = found[-1].domain.box if len(found) > 1 else None
         return [flow_frames.Painter(self.shot, layer, None if layer.fine else inner) for layer in found]
 
     def _close(self, layer: flow_frames.Layer, window: close_up.Window) -> flow_frames.Painter:
-        """What paints a layer's part in a window."""
+        """Painter of a layer's part within a close-up window."""
         if self._close_painter is None:
             close = replace(layer, voxel=window.voxel, close=True)
             self._close_painter = flow_frames.Painter(self.shot, close, None)
         return self._close_painter
 
     def _glow(self, time: float) -> Lights | None:
-        """Flames that light the smoke, if it is so dark at a model time (s) that it shows."""
+        """Lights of the flames in smoke; None at a model time (s) of daylight that outshines them."""
         return self.lights(time) if exposure.darkness(self.shot, time) > 0.0 else None
 
     def _unbroken(self, frame: int, paint: Callable[[], Made]) -> Made:
-        """What `paint` makes of a frame's snapshots, which are solved anew where they turn out broken."""
+        """Result of `paint` on a frame's snapshots. Broken snapshots are solved again."""
         try:
             return paint()
         except snapshots.BrokenError:
@@ -161,7 +161,7 @@ class FlowSource(Source):
 
 
 def _voxels(layer: flow_frames.Layer) -> int:
-    """Voxels of a layer's whole domain, smoke or not."""
+    """Voxels of a layer's whole domain, with or without smoke."""
     box = layer.domain.box
     sides = (*(count * box.spacing for count in box.shape), box.levels[-1])
     return math.prod(math.ceil(side / layer.voxel) for side in sides)

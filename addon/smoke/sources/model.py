@@ -1,4 +1,4 @@
-"""The model's own smoke, where the run has it."""
+"""Model source: smoke of the fire model itself, if the run has it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class ModelSource(SingleVolume):
     made_from = "of the model, smoke_3d"
 
     def _write_volume(self, path: Path, time: float, more: dict[str, Any]) -> volume.VdbSummary:
-        """Outside of the model's times there is no smoke."""
+        """Write the smoke at a model time (s). Outside of the model's times there is none."""
         run = self.shot.run
         known = float(np.clip(time, run.times[0], run.times[-1]))
         smoke = run.smoke_3d_at(known)
