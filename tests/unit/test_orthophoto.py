@@ -136,7 +136,7 @@ BAD = {
         'photo = "photo.png"\nphoto_extent = [10.0, 50.0, 11.0, 51.0]', None,
         r"photo\.png: covers 50\.000 to 51\.000 N .* outside of the run, which covers",
     ),
-    "metres": ('photo = "photo.png"', "10\n0\n0\n-10\n700000\n4300000\n", r"file that is not in degrees.*gdal"),
+    "metres": ('photo = "photo.png"', "10\n0\n0\n-10\n700000\n4300000\n", r"not in degrees.*gdal"),
     "words": ('photo = "photo.png"', "ten\n", r"photo\.pgw: is no world file: it must hold six"),
     "no area": ('photo = "photo.png"', "0\n0\n0\n0\n1\n1\n", r"photo\.pgw: is no world file: its pixels"),
 }  # fmt: skip
