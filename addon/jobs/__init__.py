@@ -1,5 +1,5 @@
-"""The long jobs, for the command line and for Blender's window alike: each has a process of its own.
+"""Long jobs of the command line and of Blender's window; each runs in a worker process of its own.
 
-`build`, `bake` and `render` are called in the process where people are; the functions `in_blender` of their
-modules run in the worker process, where Blender is.
+`build`, `bake` and `render` are called in the user's process. The functions `in_blender` of their modules run
+in the worker process, which has Blender.
 """

@@ -1,4 +1,4 @@
-"""Write what an artist may use elsewhere as an asset library: a .blend file and its catalogue."""
+"""Asset library job: writes a .blend file of assets and its catalogue file."""
 
 from __future__ import annotations
 
@@ -34,19 +34,19 @@ longitude = -120.558
 height = 600.0
 target = "head"
 """
-"""A scene file beside the sample run, where none is given."""
+"""Default scene file, of the sample run."""
 
 _SPACE = uuid.UUID("6f1b2c1e-2f53-4a86-9d0c-6b9a6f0f7a11")  # names of our catalogues are unique within it
 
 
 def identifier(catalogue: str) -> str:
-    """What Blender knows a catalogue by; always the same for the same name."""
+    """UUID of a catalogue; always the same for the same name."""
     return str(uuid.uuid5(_SPACE, catalogue))
 
 
 def catalogue() -> str:
-    """Text of the file that names the catalogues."""
-    above = f"{identifier('Firetwin')}:Firetwin:Firetwin"  # else Blender makes it, and asks to save it
+    """Text of the catalogue definition file."""
+    above = f"{identifier('Firetwin')}:Firetwin:Firetwin"  # otherwise Blender adds one and asks to save
     lines = [above, *(f"{identifier(name)}:Firetwin/{name}:Firetwin-{name}" for name in CATALOGUES)]
     head = "# This is an Asset Catalog Definition file for Blender.\n\nVERSION 1\n\n"
     return head + "\n".join(lines) + "\n"
@@ -59,16 +59,16 @@ def run(
     tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
 ) -> int:
-    """Write the library into the folder `out`: trees, materials and node groups as a shot has them.
+    """Write the asset library into the folder `out`: a shot's trees, materials and node groups.
 
     Returns
     -------
-    How many assets there are.
+    Number of assets.
 
     Raises
     ------
     InputError
-        `out` holds a catalogue of somebody else, or cannot be written.
+        `out` holds the catalogue of another library, or cannot be written.
     """
     out = out.absolute()
     _refuse_strangers(out)
@@ -85,14 +85,14 @@ def run(
 
 
 def _refuse_strangers(out: Path) -> None:
-    """Keep what is there of an asset library that is not ours."""
+    """Refuse a folder that holds another asset library."""
     there = out / CATALOGUE
     if there.exists() and identifier(CATALOGUES[0]) not in there.read_text("utf-8", errors="replace"):
         raise input_error(there, 0, 0, "belongs to another asset library; choose another folder")
 
 
 def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: MessageCallback) -> int:
-    """Make the assets in an empty Blender, and save them."""
+    """Create the assets in an empty Blender, and save them."""
     import bpy
 
     from ..blender import owned

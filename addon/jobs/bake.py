@@ -1,4 +1,4 @@
-"""Write the smoke volumes of the whole shot."""
+"""Bake job: writes the smoke volumes of the whole shot."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ def run(
     stop: worker.Stop | None = None,
     together: bool = False,
 ) -> list[Path]:
-    """Write the volumes that are not there, of each camera by itself as `render` wants them.
+    """Write the missing smoke volumes, separately for each camera as `render` uses them.
 
     Parameters
     ----------
     together
-        Of all cameras at once, as one scene that holds them all wants it.
+        Write the volumes of one scene with all cameras.
 
     Returns
     -------
-    The folders that hold them; none without smoke.
+    Cache folders of the volumes; empty without smoke.
 
     Raises
     ------
     Error
-        The process that wrote them ended.
+        The worker process ended early.
     """
     with notify_if_slow(READING):
         shot = choice.shot()

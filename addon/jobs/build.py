@@ -1,4 +1,4 @@
-"""Build the scene and save it as a .blend file."""
+"""Build job: builds the scene and saves it as a .blend file."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def run(
     Raises
     ------
     InputError
-        `out` cannot be written, or what is wrong with scene file or run.
+        `out` cannot be written, or the scene file or the run is invalid.
     """
     out = out.absolute()
     _writable(out)
@@ -38,7 +38,7 @@ def run(
 
 
 def _writable(out: Path) -> None:
-    """Find out before anything is built whether a file can be written there."""
+    """Check before the build that the file can be written."""
     if out.is_dir():
         raise input_error(out, 0, 0, "is a folder; name a file in it that ends in .blend")
     try:
@@ -72,12 +72,12 @@ def in_blender(choice: dict[str, str], out: str, progress: Progress, tell: Messa
 
 
 def save(out: Path, **how: bool) -> None:
-    """Save what is open in Blender as `out`, under a temporary name that it then loses.
+    """Save Blender's current file as `out`, atomically by way of a temporary name.
 
     Parameters
     ----------
     how
-        More for Blender, as of `bpy.ops.wm.save_as_mainfile`.
+        More arguments for `bpy.ops.wm.save_as_mainfile`.
 
     Raises
     ------

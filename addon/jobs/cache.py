@@ -1,4 +1,4 @@
-"""Look at caches of smoke volumes and make room in them; needs no worker process."""
+"""Smoke cache job: lists cached smoke volumes and prunes them; needs no worker process."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from ..smoke.cache import CachedVolumes
 
 
 def folders(places: Iterable[Path]) -> list[Path]:
-    """Cache folders that scene files name, or that are named themselves; each once.
+    """Cache folders of scene files, or folders given directly; each once.
 
     Raises
     ------
     UsageError
-        A folder is not there.
+        A folder is missing.
     """
     found = [scene_file.read(place).cache if place.suffix == ".toml" else place for place in places]
     for place, named in zip(found, places, strict=True):
@@ -27,16 +27,16 @@ def folders(places: Iterable[Path]) -> list[Path]:
 
 
 def kept(places: Iterable[Path]) -> list[CachedVolumes]:
-    """Volumes in these folders, those used last first."""
+    """Volumes in these folders, most recently used first."""
     return sorted(
         (each for place in places for each in cache.list_volumes(place)), key=lambda each: -each.used
     )
 
 
 def prune(volumes: list[CachedVolumes], limit: int, dry_run: bool = False) -> list[CachedVolumes]:
-    """Remove the volumes used longest ago until the rest has at most `limit` bytes; those removed.
+    """Remove the least recently used volumes until at most `limit` bytes remain; returns those removed.
 
-    What is in use now is never removed. With `dry_run` nothing is; those are returned that would be.
+    Volumes in use are never removed. With `dry_run` nothing is removed; the result is the same.
     """
     going = cache.beyond(volumes, limit)
     if dry_run:

@@ -1,4 +1,4 @@
-"""Fire models' own files made into a run, in a process of its own, which a damaged file may end."""
+"""Converter job: converts a fire model's files into a run, in a process that a damaged file may crash."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from ..progress import MessageCallback, Progress, no_message, silent
 from . import worker
 
 PATIENCE = 600.0
-"""s without a part of a file read or written after which a conversion is ended.
+"""Timeout, s without progress in reading or writing, after which a conversion is ended.
 
-A damaged HDF5 file can keep its library busy for ever. A part has 2 GB at most, mostly one field at one time,
-so that a disk of 4 MB/s is waited for, however large the files are.
+A damaged HDF5 file can put its library into an endless loop. A read or write has 2 GB at most, mostly one
+field at one time, so a disk of 4 MB/s is fast enough for files of any size.
 """
 
 
@@ -33,17 +33,17 @@ def run(
     name: str = "",
     zone: str = "",
 ) -> Path:
-    """Write the run that these files and folders hold to the folder `out`, and return that.
+    """Convert these files and folders to a run in the folder `out`, and return that folder.
 
-    What was made before a stop is gone on with. `start`, `at`, `projection`, `interval`, `name` and
-    `zone` are the command line's.
+    A conversion that was stopped is resumed. `start`, `at`, `projection`, `interval`, `name` and `zone` are
+    the options of the command line.
 
     Raises
     ------
     InputError, Error
-        One line that says what is wrong; nothing that could be taken for a run is there then.
+        The files cannot be converted; no folder that could be taken for a run is left.
     UsageError
-        An option makes no sense.
+        An option is invalid.
     StoppedError
         `stop` was used.
     """
@@ -71,15 +71,15 @@ def run(
 def beside(
     paths: list[Path], folders: list[Path], start: str = "", at: str = "", projection: str = ""
 ) -> tuple[Path, bool]:
-    """Where a run of these goes that nobody named a place for, and whether it is there already.
+    """Default output folder of a conversion, and whether its run exists already.
 
-    It is called like the file or folder with ``_run`` after it, in the first of the `folders` that can be
-    written to; one that was made of other files, or with other words, keeps its name.
+    Its name is that of the file or folder with ``_run`` appended, in the first of the `folders` that is
+    writable. A run converted from other files, or with other options, keeps its folder.
 
     Raises
     ------
     InputError
-        There are no such files.
+        The files are missing.
     Error
         None of the folders can be written to.
     """
@@ -111,7 +111,7 @@ def _made_of(out: Path) -> str:
 def in_process(
     paths: list[str], out: str, options: list, progress: Progress = silent, tell: MessageCallback = no_message
 ) -> None:
-    """The child's side: find the reader, read and write."""
+    """Worker side: select the reader, read and write."""
     from ..run.models import heartbeat
 
     files = [Path(path) for path in paths]
@@ -146,6 +146,6 @@ def _convert(files: list[Path], out: Path, options: list, progress: Progress, te
 
 
 def _fingerprint(files: list[Path], options: list) -> str:
-    """Changes when the files, or what is said of them, do."""
+    """Hash that changes with the files or the options."""
     stamps = [(str(path), path.stat().st_size, path.stat().st_mtime_ns) for path in files]
     return hashlib.sha256(repr((stamps, options)).encode()).hexdigest()

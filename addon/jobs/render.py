@@ -1,4 +1,4 @@
-"""Render what is asked for and not finished, then the films."""
+"""Render job: renders the requested pictures that are not finished, then the films."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from . import solve, worker
 
 @dataclass(frozen=True)
 class RenderRequest:
-    """What a render shall make (see `render.plan.pictures`); `resume` keeps what is finished and matches."""
+    """A render request (see `render.plan.pictures`); `resume` keeps finished pictures of equal settings."""
 
     out: Path
     frames: str | None = None
@@ -31,9 +31,9 @@ class RenderRequest:
 
 @dataclass(frozen=True)
 class RenderResult:
-    """How many pictures a render made, and bytes of memory: the most that was expected, and the peak.
+    """Number of pictures that a render made, and its peak memory in bytes, estimated and measured.
 
-    0 where nothing was rendered, or nobody knows.
+    0 where nothing was rendered, or the value is unknown.
     """
 
     pictures: int
@@ -48,7 +48,7 @@ def run(
     tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
 ) -> RenderResult:
-    """Render what is asked for and not finished, then the films."""
+    """Render the requested pictures that are not finished, then the films."""
     from ..errors import UsageError
     from ..render import dataset, films, fingerprint, plan
     from ..render.store import Store
@@ -96,16 +96,16 @@ def make(
     tell: MessageCallback,
     stop: worker.Stop | None,
 ) -> Any:
-    """Have a process make pictures; whatever ends it, no others wait for its own and the manifest is written.
+    """Run a render job in a worker process; at its end its leases are released and the manifest is written.
 
     Parameters
     ----------
     task
-        What the job takes besides `out`, `pictures` and `owner`.
+        Arguments of the job besides `out`, `pictures` and `owner`.
 
     Returns
     -------
-    What the job returns.
+    The job's result.
     """
     from .. import leases
 
@@ -115,19 +115,19 @@ def make(
     eevee = shot.settings.render.engine == "eevee"
     follow = following(store.out, progress, tell)
     try:
-        found = worker.run(job, task, follow, eevee=eevee, stop=stop, tell=tell)
+        result = worker.run(job, task, follow, eevee=eevee, stop=stop, tell=tell)
     except BaseException:
-        with contextlib.suppress(Error):  # what stopped the work is what to tell
+        with contextlib.suppress(Error):  # the first error is the one to report
             leases.leave(store.data, owner)
             store.export()
         raise
     leases.leave(store.data, owner)
     store.export()
-    return found
+    return result
 
 
 def following(out: Path, progress: Progress, tell: MessageCallback) -> Progress:
-    """Progress whose note names a picture in the folder `out`: it shows the path, and tells of the first."""
+    """Progress whose note is a picture in the folder `out`: shows its path, and reports the first one."""
     told = False
 
     def follow(done: int, total: int, what: str = "", note: str = "") -> None:
@@ -152,11 +152,11 @@ def in_blender(
 ) -> dict[str, int]:
     """Render these pictures, each camera in a scene of its own, then films of these cameras and passes.
 
-    Pictures that other renders make at the same time are left to them.
+    Pictures that other renders lease are left to them.
 
     Returns
     -------
-    Bytes of memory, `expected` and `peak`, as of `Made`.
+    Memory in bytes, `expected` and `peak`, as in `RenderResult`.
     """
     from ..render import comparison, fingerprint, plan, sharing, video
     from ..render.picture import Picture
@@ -171,29 +171,29 @@ def in_blender(
         _check_device(shot)
     frames, expected = frames_of(todo), 0
     made_with = fingerprint.of_pairs(shot, {(camera, name) for camera, name in filmed}, progress)
-    with sharing.open_session(Path(out), made_with, owner, after) as making:
+    with sharing.open_session(Path(out), made_with, owner, after) as session:
         over = 0
         for part in plan.rounds(shot, todo):
             over += frames_of(part)
-            while free := making.free(part, tell):
+            while free := session.free(part, tell):
                 done = over - frames_of(free)
                 for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
                     wanted = list(group)
                     own = share(progress, done, frames, "rendering")
                     expected = max(
                         expected,
-                        _camera(ShotSource(**choice), for_view(shot, camera), making, wanted, own, tell),
+                        _camera(ShotSource(**choice), for_view(shot, camera), session, wanted, own, tell),
                     )
                     done += frames_of(wanted)
         if todo and shot.settings.smoke.enabled:
             tell(plume_mass.describe(shot))
-        comparison.make(shot, making, [each for each in asked if each not in drawn], progress, tell)
-        video.make(shot, making, progress)
+        comparison.make(shot, session, [each for each in asked if each not in drawn], progress, tell)
+        video.make(shot, session, progress)
     return {"expected": expected, "peak": memory.peak()}
 
 
 def _check_device(shot: Shot) -> None:
-    """Find out before anything is built whether there is what Cycles shall render on."""
+    """Check before the build that the device for Cycles exists."""
     import bpy
 
     from ..blender import devices
@@ -212,16 +212,16 @@ def _check_device(shot: Shot) -> None:
 
 
 def frames_of(pictures: list[Any]) -> int:
-    """How many frames pictures are of."""
+    """Number of frames of these pictures."""
     return len({(picture.camera, picture.frame) for picture in pictures})
 
 
 def _camera(
-    choice: ShotSource, shot: Shot, making: Any, wanted: list[Any], progress: Progress, tell: MessageCallback
+    choice: ShotSource, shot: Shot, session: Any, wanted: list[Any], progress: Progress, tell: MessageCallback
 ) -> int:
-    """Render the pictures of a shot's one camera; its smoke is made a frame ahead of them.
+    """Render the pictures of a shot's one camera; its smoke is prefetched one frame ahead.
 
-    Returns the bytes of memory that were expected for it.
+    Returns the estimated peak memory, bytes.
     """
     from ..blender import devices
     from ..render import memory_estimate as expected
@@ -246,7 +246,7 @@ def _camera(
                 most = load.bytes
                 tell(expected.describe(load))
             own = share(progress, done, frames, "rendering")
-            pictures.render(shot, stage, making, group, own, ready, tell)
+            pictures.render(shot, stage, session, group, own, ready, tell)
             done += frames_of(group)
     return most
 
@@ -255,7 +255,7 @@ def _camera(
 def _solving(
     choice: ShotSource, shot: Shot, frames: list[int], progress: Progress
 ) -> Iterator[solve.Working | None]:
-    """Have the smoke of a shot's one camera prepared meanwhile, unless it is."""
+    """Context: solve the smoke of a shot's one camera in a concurrent process, where it is missing."""
     from ..smoke import sources
 
     (camera,) = shot.settings.cameras
@@ -266,19 +266,19 @@ def _solving(
         yield None
         return
 
-    def told(*done: Any) -> None:
-        """Tell of it until the first picture can be drawn."""
+    def report(*done: Any) -> None:
+        """Report the solver's progress until the first picture can be drawn."""
         if not source.is_prepared(missing[0]):
             progress(*done)
 
-    with solve.beside(choice, camera.name, missing, told) as working:
+    with solve.beside(choice, camera.name, missing, report) as working:
         yield working
 
 
 def _parts(shot: Shot, wanted: list[Any]) -> Iterator[tuple[Shot, list[Any]]]:
-    """What is built at a time, `render.chunk` frames of the camera, with the pictures of these frames.
+    """Chunks: shots of `render.chunk` frames of the camera that are built together, with their pictures.
 
-    Which frames are built together does not hang on which of them are wanted.
+    Chunk boundaries do not depend on the requested frames.
     """
     from ..shot import frames
 

@@ -1,4 +1,4 @@
-"""Render a .blend file as it stands, with all that was changed by hand, as `render` renders settings."""
+"""Render job for a .blend file in its current state, with edits by hand, passes and resume as in `render`."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ def run(
     tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
 ) -> int:
-    """Render what is asked for of a scene in a .blend file, then the films: of the one run that it shows.
+    """Render the requested passes of a scene in a .blend file, then the films; only of the run that it shows.
 
     Parameters
     ----------
     choice
-        What the scene was built from: frames, passes, colours of thermal pictures and films are its.
+        Source of the shot that the scene was built from. It sets frames, passes, thermal colours and films.
     asked
-        With `resume`, what was made of this very file is kept.
+        With `resume`, pictures already rendered of this very file are retained.
 
     Returns
     -------
-    How many pictures were made.
+    Number of pictures that were rendered.
     """
     from ..render import plan
     from ..render.store import Store
@@ -65,7 +65,7 @@ def run(
 
 
 def _made_with(digest: str, wanted: list[Any]) -> dict[tuple[str, str], dict[str, Any]]:
-    """What says of a picture that it is of this .blend file, by camera and pass."""
+    """Fingerprint inputs of pictures of this .blend file, by camera and pass."""
     from ..render.fingerprint import versions
     from ..shot import passes
 
@@ -87,26 +87,26 @@ def in_blender(
     progress: Progress,
     tell: MessageCallback,
 ) -> None:
-    """Open the file and render these pictures of it, then films of these cameras and passes."""
+    """Open the file, render these pictures of it, then the films of these cameras and passes."""
     import bpy
 
     from ..blender import devices, owned
     from ..render import engine, layers, sharing, video
-    from ..render import pictures as making_pictures
+    from ..render import pictures as renderer
     from ..render.picture import Picture
     from ..smoke import prefetch
 
     bpy.ops.wm.open_mainfile(filepath=blend, load_ui=False)
     stage = owned.stage(bpy.data.scenes[scene])
     layers.mend(stage.scene)
-    shot = _as_it_stands(ShotSource(**choice).shot(), stage.scene)
+    shot = _with_scene_settings(ShotSource(**choice).shot(), stage.scene)
     todo = [Picture(*picture) for picture in pictures]
     if stage.scene.render.engine == "CYCLES":
         tell(f"Cycles renders on {devices.take(shot.settings.render.device, stage.scene)}")
     known = {(camera, name): values for camera, name, values in made_with}
     frames, done = frames_of(todo), 0
     with (
-        sharing.open_session(Path(out), known, owner, after) as making,
+        sharing.open_session(Path(out), known, owner, after) as session,
         prefetch.smoke(shot, smoky(shot, todo), progress, tell) as ready,
     ):
         for camera, group in itertools.groupby(todo, key=lambda picture: picture.camera):
@@ -115,13 +115,13 @@ def in_blender(
             wanted, alone = list(group), for_view(shot, camera)
             engine.size(alone.settings, stage.scene)
             part = share(progress, done, frames, "rendering")
-            making_pictures.render(alone, stage, making, wanted, part, ready, tell)
+            renderer.render(alone, stage, session, wanted, part, ready, tell)
             done += frames_of(wanted)
-        video.make(shot, making, progress)
+        video.make(shot, session, progress)
 
 
-def _as_it_stands(shot: Shot, scene: Any) -> Shot:
-    """The shot with the scene's engine and size of pictures, those of two eyes one above the other."""
+def _with_scene_settings(shot: Shot, scene: Any) -> Shot:
+    """The shot with the engine and resolution of the Blender scene; a stereo picture stacks both eyes."""
     render, part = scene.render, scene.render.resolution_percentage / 100.0
     sides = render.resolution_x, render.resolution_y * (2 if render.use_multiview else 1)
     size = tuple(2 * max(round(side * part / 2), 8) for side in sides)

@@ -1,4 +1,4 @@
-"""Write the sample run."""
+"""Sample job: writes the sample run."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def run(
     tell: MessageCallback = no_message,
     stop: worker.Stop | None = None,
 ) -> None:
-    """Write the sample run as the folder `out`, unless it is there: it gets its name when it is whole."""
+    """Write the sample run as the folder `out`, unless it exists; it is renamed into place when complete."""
     if (out / "run.toml").is_file():
         return
     part = out.with_name(f".{out.name}.part")
@@ -28,7 +28,7 @@ def run(
 
 
 def in_blender(out: str, progress: Progress, tell: MessageCallback) -> None:
-    """Write it."""
+    """Write the sample run."""
     from ..data import sample
 
     sample.write(Path(out), None, "npy", lambda done, total: progress(done, total, "writing the sample run"))

@@ -1,4 +1,4 @@
-"""Solve the flow of a shot's smoke in a process of its own, while another paints snapshots and renders."""
+"""Solver job: solves a shot's smoke flow in a process of its own, concurrently with rendering."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ Working = Callable[[], bool]
 
 @contextlib.contextmanager
 def beside(choice: ShotSource, view: str, frames: list[int], progress: Progress) -> Iterator[Working]:
-    """Solve the flow of a view up to these frames meanwhile; gives whether that goes on.
+    """Context: solve a view's flow up to these frames in parallel; yields a test of whether it runs.
 
-    The solver's half a gigabyte is another process's. What goes wrong there, who needs a snapshot meets
-    again as it solves it.
+    The solver's half a gigabyte belongs to the other process. Its errors are not raised here: the renderer
+    meets them again when it solves a missing snapshot itself.
     """
     stop = worker.Stop()
     task = {"choice": choice.plain(), "view": view, "frames": frames}
@@ -41,7 +41,7 @@ def beside(choice: ShotSource, view: str, frames: list[int], progress: Progress)
 def in_process(
     choice: dict[str, str], view: str, frames: list[int], progress: Progress, tell: MessageCallback
 ) -> None:
-    """Solve it."""
+    """Solve the flow; worker side."""
     from ..smoke import sources
 
     source = sources.select(for_view(ShotSource(**choice).shot(), view))

@@ -1,8 +1,8 @@
-"""Runs a function of this package in a process of its own, where Blender may be chatty, stop or crash.
+"""Worker process: calls a function in a child process, isolated from Blender's output and crashes.
 
-The parent writes the arguments to the child's stdin as one JSON line and keeps that pipe open; the child
-answers on its stdout with JSON lines: progress, then a result or an error. Whatever Blender prints goes to a
-log file. The child ends as soon as the parent's end of the pipe closes, whatever ended the parent.
+The parent writes the arguments to the child's stdin as one JSON line and keeps that pipe open. The child
+answers on its stdout with JSON lines: progress, then a result or an error. Blender's own output goes to a log
+file. The child ends when the parent's end of the pipe closes, even if the parent was killed.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ _signs: list[Callable[[], None]] = []
 
 
 class StoppedError(Exception):
-    """The work was ended by `Stop.now`."""
+    """The work was cancelled by `Stop.now`."""
 
 
 class EndedError(Exception):
-    """A process without Blender ended before it answered; says how."""
+    """A process without Blender ended before it answered; the message gives the reason."""
 
 
 class Stop:
-    """Ends a `run` from another thread."""
+    """Cancellation token: ends a `run` from another thread."""
 
     def __init__(self) -> None:
         self.asked = False
@@ -44,7 +44,7 @@ class Stop:
         self._lock = threading.Lock()
 
     def now(self) -> None:
-        """End the child; a `run` that has not begun ends as it begins."""
+        """Cancel: end the child; a `run` that has not begun ends as soon as it begins."""
         with self._lock:
             self.asked = True
             if self._child is not None and self._child.poll() is None:
@@ -54,7 +54,7 @@ class Stop:
                 sure.start()
 
     def watch(self, child: subprocess.Popen[str]) -> None:
-        """Know which child to end."""
+        """Register the child to end."""
         with self._lock:
             self._child = child
         if self.asked:
@@ -76,31 +76,32 @@ def run(
     Parameters
     ----------
     arguments
-        Values that JSON can carry.
+        Values that JSON can represent.
     eevee
-        The task draws with EEVEE, which needs OpenGL: without a display it gets one that needs no screen.
+        The task renders with EEVEE, which needs OpenGL; without a display it uses an off-screen one.
     stop
-        What another thread can end it by.
+        Cancellation token for use by another thread.
     blender
-        The task needs Blender; one that does not also runs where there is none.
+        The task needs Blender; a task that does not need it also runs without a Blender.
     patience
-        Seconds without a word of it, a `sign` for instance, after which it is ended; 0: it may take its time.
+        Timeout in s: the child is ended after this time without progress or heartbeat (`sign`); 0: no
+        timeout.
 
     Returns
     -------
-    What the function returned, as JSON carries it.
+    The function's result, as JSON represents it.
 
     Raises
     ------
     InputError, Error
-        What the function raised, or an Error that says how the process ended.
+        An error that the function raised, or an Error that describes how the process ended.
     StoppedError
         `stop` was used.
     EndedError
         The process of a task without Blender ended otherwise.
     """
     log = tempfile.NamedTemporaryFile(prefix="firetwin-", suffix=".log", delete=False)  # noqa: SIM115
-    forget = functools.partial(Path(log.name).unlink, missing_ok=True)  # somebody may have tidied up
+    forget = functools.partial(Path(log.name).unlink, missing_ok=True)
     package = __package__ or "firetwin"
     code = f"import importlib; importlib.import_module({package + '.worker'!r}).serve({blender})"
     with log:
@@ -111,13 +112,13 @@ def run(
             stderr=log,
             env=_environment(eevee),
             encoding="utf-8",
-            errors="replace",  # of what Blender itself says
+            errors="replace",  # Blender's own output
         )
     try:
         _end_on_sigterm()
         if stop is not None:
             stop.watch(child)
-        with _Patience(child, patience) as watch:
+        with _Watchdog(child, patience) as watch:
             answer = _converse(child, {"task": task, "arguments": arguments}, progress, tell, watch)
     finally:
         _end(child)
@@ -145,18 +146,18 @@ def run(
 
 
 def _end_on_sigterm() -> None:
-    """Let a polite kill unwind like Ctrl-C does, so that what is unfinished is cleared away."""
+    """Turn SIGTERM into an exception as Ctrl-C does, so that unfinished files are removed."""
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
 
 
-class _Patience:
-    """Ends a child that has not said anything for `seconds` (0: never).
+class _Watchdog:
+    """Watchdog: ends a child without output for `seconds` (0: never).
 
     Attributes
     ----------
     over
-        Whether it did.
+        Whether it ended the child.
     """
 
     def __init__(self, child: subprocess.Popen[str], seconds: float) -> None:
@@ -164,7 +165,7 @@ class _Patience:
         self._child, self._seconds = child, seconds
         self._heard, self._done = threading.Event(), False
 
-    def __enter__(self) -> _Patience:
+    def __enter__(self) -> _Watchdog:
         if self._seconds > 0:
             threading.Thread(target=self._wait, daemon=True).start()
         return self
@@ -174,7 +175,7 @@ class _Patience:
         self._heard.set()
 
     def heard(self) -> None:
-        """It said something."""
+        """Restart the timeout: the child sent output."""
         self._heard.set()
 
     def _wait(self) -> None:
@@ -191,18 +192,18 @@ def _converse(
     request: dict[str, Any],
     progress: Progress,
     tell: MessageCallback,
-    watch: _Patience,
+    watch: _Watchdog,
 ) -> dict[str, Any]:
-    """Send the request, pass on progress and what is told, and return the last answer (empty: none came)."""
+    """Send the request, pass on progress and messages, and return the last answer; empty without one."""
     try:
         child.stdin.write(json.dumps(request) + "\n")
         child.stdin.flush()
-    except OSError:  # a pipe without a reader: BrokenPipeError, on Windows an invalid argument
+    except OSError:  # broken pipe: BrokenPipeError, on Windows an invalid argument
         return {}
     for line in child.stdout:
         watch.heard()
         if not line.startswith("{"):
-            continue  # Blender's own executable greets before it runs anything
+            continue  # Blender's own executable prints a banner first
         answer = json.loads(line)
         if "progress" in answer:
             progress(*answer["progress"])
@@ -216,7 +217,7 @@ def _converse(
 
 
 def _end(child: subprocess.Popen[str]) -> None:
-    """Stop the child if it still runs: politely, then for certain."""
+    """End the child if it still runs: terminate, then kill."""
     child.stdout.close()
     with contextlib.suppress(OSError):
         child.stdin.close()
@@ -230,7 +231,7 @@ def _end(child: subprocess.Popen[str]) -> None:
 
 
 def _command(code: str) -> list[str]:
-    """Python with Blender as a module, or Blender itself where this runs inside it."""
+    """Command line of the child: Python with Blender as a module, or Blender's executable inside Blender."""
     blender = sys.modules["bpy"].app.binary_path if "bpy" in sys.modules else ""
     return (
         [blender, "--background", "--disable-autoexec", "--python-expr", code]
@@ -265,7 +266,7 @@ def _ending(code: int, eevee: bool) -> str:
 
 
 def _signal(number: int) -> str:
-    """Name of a signal; systems know different ones."""
+    """Name of a signal; the set of signals differs between systems."""
     try:
         return signal.Signals(number).name
     except ValueError:
@@ -273,7 +274,7 @@ def _signal(number: int) -> str:
 
 
 def serve(blender: bool = True) -> None:
-    """Do what the parent asks for: the child's side of `run`."""
+    """Worker side of `run`: executes the parent's request."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches both; the parent decides
     channel = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)
@@ -315,7 +316,7 @@ def serve(blender: bool = True) -> None:
 
 
 def sign() -> None:
-    """Say that the work goes on: the child's side of `patience`, of no effect elsewhere."""
+    """Send a heartbeat to the parent's watchdog (`patience`); no effect in other processes."""
     for say in _signs:
         say()
 

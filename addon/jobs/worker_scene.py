@@ -1,4 +1,4 @@
-"""An otherwise empty Blender with a shot's scene in it: what the worker process builds, bakes and renders."""
+"""Worker scene: an otherwise empty Blender with a shot's scene, for build, bake and render jobs."""
 
 from __future__ import annotations
 
@@ -9,22 +9,22 @@ from ..render import engine, layers
 from ..scene import build
 from ..shot.shot import Shot
 
-KEPT = 512  # MB that Blender keeps of what it has read: smoke of a frame or two, for all of its pictures
+KEPT = 512  # MB, Blender's volume cache limit: the smoke of one or two frames, for all of their pictures
 
 
 def empty() -> Stage:
-    """A scene with nothing in it, in a Blender that holds nothing else."""
+    """Create an empty scene in a Blender without any other data."""
     import bpy
 
     # Not read_factory_settings: its preferences enable no extension, and Blender then deletes their wheels.
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    # Smoke of a film is read frame by frame and not again; Blender's own limit lets it fill 4 GB.
+    # A film reads each frame's smoke once; Blender's default limit lets the cache grow to 4 GB.
     bpy.context.preferences.system.memory_cache_limit = KEPT
     return owned.adopt(bpy.context.scene)
 
 
 def build_scene(shot: Shot, progress: Progress, tell: MessageCallback) -> Stage:
-    """Build the scene of a shot, with view layers and engine, in a Blender that holds nothing else."""
+    """Build the scene of a shot, with view layers and engine, in a Blender without any other data."""
     stage = empty()
     total = len(build.PARTS) + 2
     for done, _ in enumerate(build.steps(shot, stage.scene, tell=tell)):

@@ -1,4 +1,4 @@
-"""Pictures that compare runs, made of finished ones: nothing is rendered for them."""
+"""Comparison pictures of several runs, such as split screens, composed of finished pictures."""
 
 from __future__ import annotations
 
@@ -16,39 +16,39 @@ from .sharing import RenderSession
 
 
 def make(
-    shot: Shot, making: RenderSession, wanted: list[Picture], progress: Progress, tell: MessageCallback
+    shot: Shot, session: RenderSession, wanted: list[Picture], progress: Progress, tell: MessageCallback
 ) -> None:
-    """Make those of these pictures that nobody else does, when all that they are made of is finished."""
+    """Make the comparison pictures that no other render leases, once all of their inputs are finished."""
     done = 0
-    while free := making.free(wanted, tell):
+    while free := session.free(wanted, tell):
         for camera, group in itertools.groupby(free, key=lambda picture: picture.camera):
             own = for_view(shot, camera)
-            with making.claims.part_folder() as part, making.line(list(group)) as line:
-                while line.step():
+            with session.leases.part_folder() as part, session.queue(list(group)) as queue:
+                while queue.step():
                     progress(done, len(wanted), "comparing runs")
-                    pictures = [Picture(camera, line.frame, name) for name in line.names]
+                    pictures = [Picture(camera, queue.frame, name) for name in queue.names]
                     for picture in pictures:
-                        _finish(own, making, part, picture)
-                    if line.held():
-                        publish(own, making, part, pictures)
+                        _finish(own, session, part, picture)
+                    if queue.held():
+                        publish(own, session, part, pictures)
                         done += len(pictures)
 
 
-def _finish(shot: Shot, making: RenderSession, part: Path, picture: Picture) -> None:
-    """Make the files of a picture in the temporary folder."""
-    each, out = passes.known()[picture.name], making.store.out
+def _finish(shot: Shot, session: RenderSession, part: Path, picture: Picture) -> None:
+    """Write the files of a comparison picture into the temporary folder."""
+    comparing, out = passes.known()[picture.name], session.store.out
     labels = [run.name for run in shot.settings.runs]
-    needed = {name: _files(picture, picture.camera, name, out) for name in each.made_from}
-    for name, label in itertools.product(each.needs_of_all, labels):
+    needed = {name: _files(picture, picture.camera, name, out) for name in comparing.made_from}
+    for name, label in itertools.product(comparing.needs_of_all, labels):
         needed[passes.view_of(name, label)] = _files(
             picture, passes.view_of(picture.camera, label), name, out
         )
     mine = {Path(name).suffix[1:]: part / Path(name).name for name in picture.files()}
-    with writing(mine[each.files[0]]):
-        each.finish(mine, needed, shot, picture.camera, picture.frame)
+    with writing(mine[comparing.files[0]]):
+        comparing.finish(mine, needed, shot, picture.camera, picture.frame)
 
 
 def _files(picture: Picture, view: str, name: str, out: Path) -> dict[str, Path]:
-    """Finished files, by suffix, of the same frame in a pass of a view."""
+    """Paths of finished files, by suffix, of the same frame in a pass of a view."""
     paths = Picture(view, picture.frame, name).files()
     return {Path(path).suffix[1:]: out / path for path in paths}

@@ -1,9 +1,9 @@
-"""Pictures from surfaces that Cycles drew and smoke that was marched, in linear light. Needs no Blender.
+"""Composites ray-marched smoke over surfaces that Cycles rendered, in linear light. Needs no Blender.
 
-A ray's smoke is known at taps: what it adds up to there, and the transmittance. A pixel at a silhouette shows
-a near surface and a far one: its taps are the nearest and the farthest depth of its 3 x 3 neighbours. How
-they share it is told by the mean nearness (1 / distance) of its rays, few as they are, and by its neighbours.
-Flames have a distance of their own.
+Smoke is sampled at taps along each pixel's ray: its in-scattered light up to there, and its transmittance. A
+pixel at a silhouette covers a near and a far surface. Its taps are the least and greatest depth of its 3 x 3
+neighbourhood. The coverage of the near surface is estimated from the mean nearness (1 / distance) of the
+pixel's few rays, and from its neighbours. Flames have a tap of their own.
 """
 
 from __future__ import annotations
@@ -17,35 +17,35 @@ from ..shot.cameras.pixel_rays import SKY
 
 Array = NDArray[np.float32]
 
-_EDGE = 0.02  # transmittance that differs across a silhouette
-_REACH, _ALIKE = 2, 0.1  # pixels round an edge, and how far their depth may differ, of itself
-_SURE = 15.0  # rays that tell a pixel's share as well as its neighbours do; estimated
+_EDGE = 0.02  # least difference of transmittance across a silhouette
+_REACH, _ALIKE = 2, 0.1  # pixels round an edge; relative depth tolerance of one surface
+_SURE = 15.0  # rays at which a pixel's own coverage counts as much as its neighbours'; estimated
 
 
 @dataclass(frozen=True)
 class Surfaces:
-    """What Cycles drew of a picture (h, w) without smoke.
+    """Surfaces that Cycles rendered for a picture (h, w), without smoke.
 
     Attributes
     ----------
     colour
-        (h, w, 3) radiance of all; denoised, if it is to be.
+        (h, w, 3) radiance of all light; denoised where the settings ask for it.
     noisy
-        The same before it was denoised.
+        (h, w, 3) radiance before denoising.
     fire
-        (h, w, 3) of that the light of flames, firebrands and labels.
+        (h, w, 3) share of `noisy` from flames, firebrands and labels.
     distance
-        (h, w) m along the ray through the pixel's middle; over `SKY` where there is nothing.
+        (h, w) m along the ray through the pixel's centre; over `SKY` where the ray meets no surface.
     nearness
         (h, w) mean of 1000 m over the distance of solid surfaces from the camera, 0 for the sky.
     aside
-        (h, w) m that rays begin beside the camera.
+        (h, w) m, lateral offset of the rays' origins from the camera.
     solid
-        (h, w) part of rays that met a surface that knows its distance.
+        (h, w) share of rays that met a surface whose material writes its distance.
     fire_distance
-        (h, w) m, mean over the flames by their light; 0: none.
+        (h, w) m, mean over the flames weighted by their light; 0: no flames.
     rays
-        Of a pixel.
+        Rays (samples) per pixel.
     """
 
     colour: Array
@@ -60,31 +60,31 @@ class Surfaces:
 
 
 def taps(surfaces: Surfaces) -> Array:
-    """Distances (h, w, 3), m, where the smoke before a pixel must be known: near, far and flames."""
+    """Sample distances of smoke (h, w, 3), m: near surface, far surface and flames."""
     near, far = _around(surfaces.distance, np.minimum), _around(surfaces.distance, np.maximum)
     return np.stack([near, far, surfaces.fire_distance], axis=-1)
 
 
-def picture(surfaces: Surfaces, seen: Array, marched: Array) -> Array:
+def picture(surfaces: Surfaces, distances: Array, marched: Array) -> Array:
     """Radiance (h, w, 3) of surfaces behind smoke.
 
     Parameters
     ----------
-    seen
-        (h, w, 3) m, as `taps` gave it.
+    distances
+        (h, w, 3) m, as `taps` returns them.
     marched
-        (h, w, 3, 4) at these, as `firetwin_core.volume.march` gives it.
+        (h, w, 3, 4) at these distances, as `firetwin_core.volume.march` returns it.
     """
-    share = _share(surfaces, seen)[..., None]
+    share = _share(surfaces, distances)[..., None]
     smoke, through = marched[..., :3], marched[..., 3:]
     near, far, flames = (through[:, :, k] for k in range(3))
     fire = _fire(surfaces)
     solid = surfaces.colour - fire
     behind = solid * (share * near + (1.0 - share) * far)
     edge = np.abs(near - far)[..., 0] > _EDGE
-    inner = _beside(solid, seen[..., 0], edge)
-    # The near part of an edge has its neighbours' colour: a denoiser has mixed it with what is far, such as
-    # fire that smoke hides.
+    inner = _without_edges(solid, distances[..., 0], edge)
+    # The near surface at an edge takes the colour of its neighbours: a denoiser mixes it with distant light,
+    # such as fire behind smoke.
     split = share * inner * (near - far) + solid * far
     behind = np.where(edge[..., None], split, behind)
     light = share * smoke[:, :, 0] + (1.0 - share) * smoke[:, :, 1]
@@ -101,30 +101,30 @@ def radiance(surface: Array, flames: Array, warmth: Array, sky: float) -> Array:
     warmth
         (h, w).
     sky
-        Of the clear sky, W m-2 sr-1.
+        Radiance of the clear sky, W m-2 sr-1.
     """
     emissivity = flames[..., 2]
     behind = surface[..., 2] + np.clip(1.0 - surface[..., 1], 0.0, 1.0) * sky
-    # Emissivities of flames behind one another add up past 1: such a pixel is as bright as their mean.
+    # Emissivities of overlapping flames add up past 1: such a pixel has their mean radiance.
     return warmth / np.maximum(emissivity, 1.0) + np.clip(1.0 - emissivity, 0.0, 1.0) * behind
 
 
-def _share(surfaces: Surfaces, seen: Array) -> Array:
-    """Part (h, w) of each pixel that is its near surface."""
-    near, far = (1000.0 / np.hypot(seen[..., k], surfaces.aside) for k in (0, 1))
+def _share(surfaces: Surfaces, distances: Array) -> Array:
+    """Coverage (h, w), 0 to 1, of each pixel by its near surface."""
+    near, far = (1000.0 / np.hypot(distances[..., k], surfaces.aside) for k in (0, 1))
     apart = near - far
     share = np.clip((surfaces.nearness - far) / np.where(apart > 0.0, apart, 1.0), 0.0, 1.0)
     sure = surfaces.rays / (surfaces.rays + _SURE)
-    share = sure * share + (1.0 - sure) * _nearer(surfaces.distance, seen)
-    # An artist's material says nothing of its distance: what the middle ray met is all that is known.
+    share = sure * share + (1.0 - sure) * _nearer(surfaces.distance, distances)
+    # An artist's material writes no distance: only the centre ray's depth is known.
     unknown = (surfaces.solid < 0.5) & (surfaces.distance < SKY)
-    share = np.where(unknown, surfaces.distance <= seen[..., 0] * (1.0 + _ALIKE), share)
+    share = np.where(unknown, surfaces.distance <= distances[..., 0] * (1.0 + _ALIKE), share)
     return np.where(apart > 1.0e-3 * near, share, 1.0)
 
 
-def _nearer(distance: Array, seen: Array) -> Array:
-    """Part (h, w) of the 3 x 3 round each pixel that is as near as its near tap, the middle counting most."""
-    middle = np.sqrt(seen[..., 0] * np.minimum(seen[..., 1], 1.0e10))
+def _nearer(distance: Array, distances: Array) -> Array:
+    """Share (h, w) of each 3 x 3 neighbourhood at its near tap's depth, with the centre weighted most."""
+    middle = np.sqrt(distances[..., 0] * np.minimum(distances[..., 1], 1.0e10))
     padded = np.pad(distance, 1, mode="edge")
     height, width = distance.shape
     total = np.zeros((height, width), np.float32)
@@ -136,30 +136,31 @@ def _nearer(distance: Array, seen: Array) -> Array:
 
 
 def _fire(surfaces: Surfaces) -> Array:
-    """Of the colour (h, w, 3) the light of flames: as large a part as round there, as denoisers spread it."""
+    """Flame light (h, w, 3) in the denoised colour: its share is the neighbours', as denoisers spread it."""
     part = blurred(surfaces.fire) / np.maximum(blurred(surfaces.noisy), 1.0e-6)
     alight = (surfaces.fire_distance > 0.0)[..., None]
     return np.where(alight, surfaces.colour * np.clip(part, 0.0, 1.0), 0.0)
 
 
 def blurred(values: Array) -> Array:
-    """Weighted mean (h, w, c) of each pixel's 3 x 3, the middle counting most."""
+    """Weighted mean (h, w, c) of each 3 x 3 neighbourhood, with the centre weighted most."""
     padded = np.pad(values, ((1, 1), (1, 1), (0, 0)), mode="edge")
     rows = 0.25 * padded[:-2] + 0.5 * padded[1:-1] + 0.25 * padded[2:]
     return 0.25 * rows[:, :-2] + 0.5 * rows[:, 1:-1] + 0.25 * rows[:, 2:]
 
 
 def _around(values: Array, pick: np.ufunc) -> Array:
-    """The least or greatest of each pixel's 3 x 3."""
+    """Minimum or maximum of each 3 x 3 neighbourhood."""
     padded = np.pad(values, 1, mode="edge")
     rows = pick(pick(padded[:-2], padded[1:-1]), padded[2:])
     return pick(pick(rows[:, :-2], rows[:, 1:-1]), rows[:, 2:])
 
 
-def _beside(colour: Array, near: Array, edge: NDArray[np.bool_]) -> Array:
-    """Colour (h, w, 3) with that of pixels at edges from round them: the mean of those as near that are not.
+def _without_edges(colour: Array, near: Array, edge: NDArray[np.bool_]) -> Array:
+    """Colour (h, w, 3) with edge pixels replaced by the mean of neighbours of equal depth that are no edges.
 
-    Where there are none it is the darkest of its 3 x 3: what shines there by mistake is fire behind smoke.
+    Without such neighbours the pixel takes the darkest colour of its 3 x 3: bright outliers are fire behind
+    smoke.
     """
     found = colour.copy()
     rows, columns = np.nonzero(edge)

@@ -1,8 +1,8 @@
-"""``CAMERA/transforms.json``: an index of a camera's frames as nerfstudio reads it, so that a shot trains.
+"""Training data set index ``CAMERA/transforms.json`` in nerfstudio's format.
 
-It lists the frames whose visible picture and sidecar (see `shot.passes.pose`) are finished, with their lens
-and `transform_matrix`, and under `passes` every finished file of the frame. Cameras without perspective have
-none. Written as a whole when a render ends.
+It lists the frames whose visible picture and sidecar (see `shot.passes.pose`) are finished, with intrinsics
+and `transform_matrix`. `passes` lists every finished file of the frame. Cameras without a perspective
+projection have no index. The file is replaced atomically when a render ends.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def write(store: Store) -> None:
     found: dict[tuple[str, str], dict[str, list[str]]] = defaultdict(lambda: defaultdict(list))
     for name in store.names():
         camera, kind, *rest = PurePosixPath(name).parts
-        if rest:  # films lie beside the folders of passes
+        if rest:  # films lie next to the folders of passes
             found[camera, PurePosixPath(name).stem[-6:]][kind].append(f"{kind}/{rest[0]}")
     frames: dict[str, list[dict[str, Any]]] = defaultdict(list)
     for (camera, _), passes in sorted(found.items()):
@@ -40,7 +40,7 @@ def write(store: Store) -> None:
 
 
 def _frame(folder: Path, shown: str, passes: dict[str, list[str]]) -> dict[str, Any] | None:
-    """One frame of an index; None where its projection is parallel or its sidecar has gone."""
+    """Index entry of one frame; None where its projection is parallel or its sidecar is missing."""
     try:
         sidecar = json.loads((folder / passes["pose"][0]).read_text(encoding="utf-8"))
     except (OSError, ValueError):

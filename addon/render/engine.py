@@ -1,7 +1,7 @@
-"""Engine settings: good pictures of smoke and forest for little time.
+"""Render engine settings of Cycles and EEVEE: samples, bounces, light paths and pixel filter.
 
-The values of Cycles are those under "Cost" that change the time and not the picture: light that has bounced,
-or through glass, is not worth its rays in a landscape of ash, leaves and smoke.
+The Cycles values cut render time and leave the picture unchanged: indirect and transmitted light adds little
+in a landscape of ash, leaves and smoke. "Cost" in the documentation gives the measurements.
 """
 
 from __future__ import annotations
@@ -16,20 +16,21 @@ from ..blender import compat, owned
 from ..shot.settings.settings import Settings
 
 TRANSPARENT = 256
-"""Clear surfaces that a ray may pass. In 4.5 the faces of the hull that Cycles puts round smoke, of boxes 8
-voxels wide, count for rays of light: were it the usual dozen, light across the gaps between billows would be
-lost, and smoke black in blocks with straight edges. In the sample run such a ray meets up to 35 faces."""
+"""Transparent bounces of a ray. Blender 4.5 bounds a volume by a hull of boxes 8 voxels wide. The faces of
+the hull count as transparent surfaces for light rays. The usual dozen bounces would stop light in the gaps
+between billows, and smoke would show black blocks with straight edges. A ray of the sample run meets up to 35
+faces."""
 
-_COLUMNS = 130_000  # of EEVEE's boxes of smoke, each 128 deep: 17 million boxes at most
+_COLUMNS = 130_000  # EEVEE's volume tiles, each 128 deep: 17 million voxels at most
 _CLEAR_STEPS = 4.0
-"""Times longer. The example's thermal picture (frame 4, 8 to 14 um) is then 0.17 K (root mean square) off
-one by an eighth of that, and its mean 0.001 K, where another grain of flames and trees is 9 K off; 35 cpu-s
-become 14."""
-DEPTH_FILTER = 0.01  # pixels, the narrowest filter Cycles has: one ray through the middle of the pixel
+"""Factor of the volume step size in infrared. The example's thermal picture (frame 4, 8 to 14 um) then
+differs by 0.17 K (root mean square) from one with an eighth of the step, and its mean by 0.001 K. Another
+noise seed of flames and trees changes it by 9 K. CPU time falls from 35 to 14 s."""
+DEPTH_FILTER = 0.01  # pixels, the narrowest filter of Cycles: one ray through the pixel's centre
 
 
 def apply(settings: Settings, scene: bpy.types.Scene) -> None:
-    """Set the size of the picture, the engine and its samples."""
+    """Set the picture's resolution, the engine and its samples."""
     render = scene.render
     render.pixel_aspect_x = render.pixel_aspect_y = 1.0
     render.use_border = render.film_transparent = render.use_motion_blur = False
@@ -46,7 +47,7 @@ def apply(settings: Settings, scene: bpy.types.Scene) -> None:
 
 
 def size(settings: Settings, scene: bpy.types.Scene) -> None:
-    """Set the size of the picture: of one for each eye where all cameras see all round; files hold both."""
+    """Set the picture's resolution: that of one eye for stereo panoramas, whose files hold both eyes."""
     render = scene.render
     render.resolution_x, render.resolution_y = settings.render.resolution
     render.resolution_percentage = 100
@@ -62,23 +63,23 @@ def _cycles(settings: Settings, scene: bpy.types.Scene) -> None:
     cycles = scene.cycles
     cycles.samples = settings.render.samples
     cycles.use_adaptive_sampling = False
-    cycles.sampling_pattern = "TABULATED_SOBOL"  # Blender versions start with other ones
+    cycles.sampling_pattern = "TABULATED_SOBOL"  # defaults differ between Blender versions
     cycles.seed, cycles.use_animated_seed = settings.render.seed, False
     compat.set_denoising(cycles, settings.render.denoise)
     cycles.max_bounces = 4
     cycles.glossy_bounces = cycles.transmission_bounces = 0
-    cycles.volume_bounces = 1  # the material of smoke stands in for more
+    cycles.volume_bounces = 1  # the smoke material approximates multiple scattering
     compat.march_through_volumes(cycles)
     cycles.transparent_max_bounces = TRANSPARENT
     cycles.sample_clamp_direct, cycles.sample_clamp_indirect = 0.0, 4.0
     cycles.caustics_reflective = cycles.caustics_refractive = False
     cycles.film_exposure = 1.0
-    scene.render.use_persistent_data = False  # saved nothing measurable over three frames, and keeps memory
+    scene.render.use_persistent_data = False  # guiding saved no time in three frames and takes memory
     cycles.pixel_filter_type, cycles.filter_width = "BLACKMAN_HARRIS", 1.5
-    cycles.fast_gi_method = "ADD"  # as much as our world says: `light.build`
+    cycles.fast_gi_method = "ADD"  # as often as the world's settings say: `light.build`
     filled = cycles.use_fast_gi = scene.world is not None and owned.ours(scene.world)
-    cycles.diffuse_bounces = 0 if filled else 1  # our fill stands in for the first bounce too
-    if scene.world is not None:  # the sky has no sun disc: its own, finer map takes 2 s of every frame
+    cycles.diffuse_bounces = 0 if filled else 1  # the fill light approximates the first bounce too
+    if scene.world is not None:  # the sky has no sun disc: a map of its own resolution costs 2 s a frame
         scene.world.cycles.sampling_method = "MANUAL"
         scene.world.cycles.sample_map_resolution = 256
 
@@ -94,9 +95,9 @@ def _eevee(settings: Settings, scene: bpy.types.Scene) -> None:
 
 @contextmanager
 def pixel_centres(scene: bpy.types.Scene, wanted: bool = True) -> Iterator[None]:
-    """Within, if wanted, Cycles sends its rays through the middles of pixels, as data of surfaces need it.
+    """Context: with `wanted`, Cycles sends rays through pixel centres, as depth and masks need.
 
-    None is given up by chance on its way through smoke and between flames.
+    Random termination of rays in smoke and flames (Russian roulette) is off.
     """
     if not wanted:
         yield
@@ -115,7 +116,7 @@ def pixel_centres(scene: bpy.types.Scene, wanted: bool = True) -> Iterator[None]
 
 @contextmanager
 def long_steps(scene: bpy.types.Scene, wanted: bool = True) -> Iterator[None]:
-    """Within, if wanted, Cycles goes through smoke in steps as long as infrared light allows."""
+    """Context: with `wanted`, Cycles marches smoke in the longest steps that infrared light allows."""
     before = scene.cycles.volume_step_rate
     scene.cycles.volume_step_rate = before * (_CLEAR_STEPS if wanted else 1.0)
     try:
@@ -125,7 +126,7 @@ def long_steps(scene: bpy.types.Scene, wanted: bool = True) -> Iterator[None]:
 
 
 def label(run: Run, scene: bpy.types.Scene) -> None:
-    """Have every image say in its header what it shows, and nothing that differs from render to render."""
+    """Set every image's metadata: the run that it shows, and no values that differ between renders."""
     render = scene.render
     for name in render.bl_rna.properties.keys():  # noqa: SIM118 (a Blender collection)
         if name.startswith("use_stamp"):

@@ -1,4 +1,4 @@
-"""What one eye of a camera sees: surfaces that Cycles drew, and smoke that is marched along its rays."""
+"""One eye of a camera: surfaces that Cycles rendered, and smoke that is ray-marched over them."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ from .surfaces import Channels
 
 Array = NDArray[np.float32]
 
-_STEP = 0.5  # voxels, of the march
-_SPARSE, _HIDES = 16, 3.0  # pixels between rays; optical depth that lets a twentieth through
-_PLACES = ((0.25, 0.25), (0.75, 0.75))  # in a pixel, of the rays whose mean its smoke is
+_STEP = 0.5  # voxels, step of the ray march
+_SPARSE, _HIDES = 16, 3.0  # pixels between rays; optical depth that transmits 5 % of light
+_PLACES = ((0.25, 0.25), (0.75, 0.75))  # marched rays per pixel, whose mean is the pixel's smoke
 
 
 class Eye:
-    """One eye at a frame of a scene.
+    """One eye of a camera at a frame of a scene.
 
     Parameters
     ----------
     number
-        -1 for the left and 1 for the right of two, or 0.
+        -1 for the left and 1 for the right eye of a stereo camera, or 0.
     smoke
-        The frame's layers.
+        Smoke volumes of the frame.
     """
 
     def __init__(
@@ -75,14 +75,14 @@ class Eye:
         return bare * through + light
 
     def transmittance(self) -> Array:
-        """Part (h, w) of green light that comes through smoke from what the middle rays meet."""
+        """Transmittance (h, w) of smoke in green light, from the camera to a pixel's surface."""
         if not self.smoke:
             return np.ones(self.shape, np.float32)
         depth = volume.optical_depth(self.smoke, *_lines(self.rays), self.distance.ravel(), step=_STEP)
         return np.exp(-depth * illumination.thickness(self.stage)).reshape(self.shape)
 
     def hidden_by_near_smoke(self, near: float) -> float:
-        """Part of the picture in which smoke nearer than `near` m hides what is behind it."""
+        """Share of the picture, 0 to 1, whose background is hidden by smoke nearer than `near` m."""
         if not self.smoke:
             return 0.0
         rays, every = self.rays, (slice(None, None, _SPARSE), slice(None, None, _SPARSE))
@@ -93,7 +93,7 @@ class Eye:
 
     @functools.cached_property
     def distance(self) -> Array:
-        """Distances (h, w), m, of what the middle rays meet."""
+        """Distances (h, w), m, of the surfaces at pixel centres."""
         return self.rays.of_depth(self.channels["Depth"][..., 0])
 
     def _surfaces(self) -> composite.Surfaces:
@@ -115,6 +115,6 @@ class Eye:
 
 
 def _lines(lines: rays.Rays) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Origins and directions of rays, as `firetwin_core.volume` takes them."""
+    """Origins and directions of rays, in the layout of `firetwin_core.volume`."""
     origins = lines.origins if lines.origins.ndim == 1 else lines.origins.reshape(-1, 3)
     return origins, lines.directions.reshape(-1, 3)

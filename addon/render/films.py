@@ -1,4 +1,4 @@
-"""Which films are missing or older than their frames. Needs no Blender."""
+"""Films that are missing or older than their frames. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from .picture import Picture, film
 from .store import Store
 
 Film = tuple[str, str, dict[str, Any]]
-"""Camera, pass, and what the film is made from."""
+"""Camera, pass, and the fingerprint of the film's inputs."""
 
 
 def missing(shot: Shot, store: Store, made_with: Fingerprints) -> Iterator[Film]:
-    """Films of at least two pictures that are not there, are damaged, or are not of the pictures there are.
+    """Films of two or more pictures that are missing, damaged or out of date.
 
-    Only pictures made with these settings, by camera and pass, belong in a film, and only those that are
-    still there. They are looked at one by one only where the film, or the folder of its pictures, changed.
+    A film holds the finished pictures made with these settings, by camera and pass. The pictures are checked
+    one by one only where the film or the folder of its pictures changed since the last check.
     """
     if not shot.settings.render.video:
         return
@@ -43,12 +43,12 @@ def missing(shot: Shot, store: Store, made_with: Fingerprints) -> Iterator[Film]
             if len(made_from["frames"]) > 1 and not store.intact(fingerprint(made_from), [path]):
                 yield camera, name, made_from
             else:
-                with contextlib.suppress(Error):  # a folder that is only read
+                with contextlib.suppress(Error):  # a read-only folder
                     store.write_note(path, state)
 
 
 def _made_from(shot: Shot, camera: str, name: str, pictures: list[list[Any]]) -> dict[str, Any]:
-    """What decides a film: its pictures (frame, hash), its rate and its captions."""
+    """Inputs that decide a film: its pictures (frame, hash), its frame rate and its captions."""
     time, frames = shot.settings.time, shot.frames
     return {
         "film": name,
@@ -66,7 +66,10 @@ def _made_from(shot: Shot, camera: str, name: str, pictures: list[list[Any]]) ->
 
 
 def _state(shot: Shot, store: Store, camera: str, name: str, key: str) -> str:
-    """Another one where a film may have to be made again: it costs the same for any number of pictures."""
+    """Cheap change detection: a hash of the film's stamp, its pictures' folder and the settings.
+
+    Its cost does not grow with the number of pictures.
+    """
     stamps = []
     for path in (store.out / film(camera, name), (store.out / Picture(camera, 1, name).file("png")).parent):
         try:

@@ -1,4 +1,4 @@
-"""What decides how a picture looks: its fingerprint tells whether a file still matches."""
+"""Fingerprint of a picture: hash of all inputs that decide its pixels, to find stale files on resume."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from ..smoke import sources
 from .picture import Picture
 
 Fingerprints = dict[tuple[str, str], dict[str, Any]]
-"""By camera and pass."""
+"""Inputs of the pictures, by camera and pass."""
 
 _RENDERING = (
     "render/engine.py",
@@ -38,7 +38,7 @@ _RENDERING = (
 
 
 def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) -> dict[str, Any]:
-    """What a camera's frames in one pass depend on: settings of that camera, and of the one that it follows.
+    """Inputs of a camera's frames in one pass: settings of that camera, and of the camera that it follows.
 
     Parameters
     ----------
@@ -66,23 +66,23 @@ def of_picture(settings: Settings, run: dict[str, str], camera: str, name: str) 
 
 
 def _smoke(settings: Settings, run: dict[str, str], aspects: frozenset[str]) -> list[str]:
-    """Files of the source of smoke."""
+    """Code files of the source of smoke."""
     return sources.choose(settings.smoke.method, run).code_files() if "smoke" in aspects else []
 
 
 def _built(settings: Settings, camera: Camera) -> Settings:
-    """The settings with the chunk 0, all at once, where they come to that for a camera.
+    """Settings with `render.chunk` as it takes effect for a camera: 0 where all frames are built at once.
 
-    What is built together decides the ground's mesh, which plants are there, where the lamps of the flames
-    stand and which firebrands fly: pictures of a film in parts hang on where its parts begin. Those of a film
-    that is built at once do not hang on how much longer a part might be.
+    The chunk decides the terrain mesh, the plants that pass culling, the lamps of the flames and the
+    firebrands. So the pictures of a film in chunks depend on the frames at which chunks begin. A film of one
+    chunk does not depend on the chunk's greatest length.
     """
     chunk = frames.chunk(settings, camera)
     return replace(settings, render=replace(settings.render, chunk=chunk))
 
 
 def _modules(name: str) -> list[str]:
-    """Files of a pass, of what passes are finished with, and of those that it is made from."""
+    """Code files of a pass, of its post-processing, and of the passes that it is composed from."""
     file, each = inspect.getfile(sys.modules[f"{passes.__name__}.{name}"]), passes.known()[name]
     helpers = ("imaging", *map(str, sorted(Path(passes.__file__).parent.glob("_[a-z]*.py"))))
     return [
@@ -95,7 +95,7 @@ def _modules(name: str) -> list[str]:
 
 @functools.cache
 def versions() -> dict[str, str]:
-    """Versions of Firetwin and of Blender, which need not be loaded for it."""
+    """Versions of Firetwin and Blender; Blender need not be loaded."""
     if "bpy" in sys.modules:
         blender = ".".join(str(part) for part in sys.modules["bpy"].app.version)
     else:
@@ -107,14 +107,14 @@ def versions() -> dict[str, str]:
 
 
 def of_pictures(shot: Shot, pictures: list[Picture], progress: Progress = silent) -> Fingerprints:
-    """Those of every (camera, pass) among the pictures, and of the passes that these are made from."""
+    """Fingerprints of each (camera, pass) of the pictures, and of the passes that these are made from."""
     asked = {(p.camera, p.name) for p in pictures}
     needed = {(camera, need) for camera, name in asked for need in passes.known()[name].made_from}
     return of_pairs(shot, asked | needed, progress)
 
 
 def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silent) -> Fingerprints:
-    """Those of each (camera, pass); what of the runs was never read is read now."""
+    """Fingerprints of each (camera, pass); fields of the runs that have no hash yet are read."""
     more = (
         orthophoto.inputs(shot.settings, progress)
         | land_use.inputs(shot.settings, progress)
@@ -129,12 +129,12 @@ def of_pairs(shot: Shot, pairs: set[tuple[str, str]], progress: Progress = silen
     for view, name in sorted(pairs):
         label = view.partition("@")[2]
         found[view, name] = of_picture(shots[label].settings, runs[label], view, name)
-        found[view, name] |= _beside(shots[label], name, progress)
+        found[view, name] |= _other_runs(shots[label], name, progress)
     return found
 
 
-def _beside(shot: Shot, name: str, progress: Progress) -> dict[str, Any]:
-    """What a pass shows of other runs than its own."""
+def _other_runs(shot: Shot, name: str, progress: Progress) -> dict[str, Any]:
+    """Inputs of a pass from the other runs that it compares with."""
     each = passes.known()[name]
     if not passes.compares(name) and not (shot.settings.fire.fronts and "fire" in each.all_aspects):
         return {}

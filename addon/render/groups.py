@@ -1,12 +1,12 @@
-"""Compositor node groups: what the passes make of files, for an artist's own compositor.
+"""Compositor node groups: thermal blend, thermal camera, eye-dome lighting and overlay, for artists.
 
-They are in every scene that is built (Add > Group in the compositor) and give what `firetwin_core.sensor`
-gives from files, within 1e-5. Colours are those of the display, 0..1, as in a PNG: an Image node reads them
-as Non-Color, and the scene's view transform is Raw. Depth and radiance are those of the view layers "depth"
-and "thermal", and of their EXR files.
+Every built scene has them (Add > Group in the compositor). They match `firetwin_core.sensor` within 1e-5.
+Colours are display-referred, 0..1, as in a PNG: an Image node reads them as Non-Color, and the scene's view
+transform is Raw. Depth and radiance are those of the view layers "depth" and "thermal", and of their EXR
+files.
 
-`Thermal Camera` reads temperatures off a polynomial of the band's radiance, within 3e-6 of the integral's
-inverse from 180 to 1800 K (`RANGE`); it knows the band of the scene's settings.
+`Thermal Camera` evaluates temperature as a polynomial of the band's radiance, within 3e-6 of the inverse of
+the band integral from 180 to 1800 K (`RANGE`); its band is that of the scene's settings.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _BLACK, _WHITE = (0.0, 0.0, 0.0, 1.0), (1.0, 1.0, 1.0, 1.0)
 
 
 def build(settings: Settings, stage: Stage) -> None:
-    """Make the groups that are missing, and let the camera's band be that of the settings."""
+    """Create the missing groups, and set the camera's band from the settings."""
     makers = {
         "Thermal Blend": thermal_blend,
         "Thermal Camera": thermal_camera,
@@ -45,7 +45,7 @@ def build(settings: Settings, stage: Stage) -> None:
 
 
 def thermal_blend() -> bpy.types.NodeTree:
-    """`sensor.thermal_composite`: the paper's gradient of temperatures added to a picture."""
+    """`sensor.thermal_composite`: the paper's temperature gradient added to a picture."""
     tree = nodes.compositor(
         "Firetwin Thermal Blend",
         "The FIRETWIN paper's thermal view: colours of the model's temperature added to the picture",
@@ -63,7 +63,7 @@ def thermal_blend() -> bpy.types.NodeTree:
 
 
 def thermal_camera() -> bpy.types.NodeTree:
-    """`sensor.brightness_temperature` and `sensor.colour`: what an infrared camera shows of radiance."""
+    """`sensor.brightness_temperature` and `sensor.colour`: radiance to an infrared camera's colours."""
     names = sensor.palettes()
     listed = ", ".join(f"{number} {name}" for number, name in enumerate(names, 1))
     tree = nodes.compositor(
@@ -90,7 +90,7 @@ def thermal_camera() -> bpy.types.NodeTree:
 
 
 def eye_dome() -> bpy.types.NodeTree:
-    """`sensor.eye_dome`: what lies behind its neighbours is darker."""
+    """Eye-dome lighting (`sensor.eye_dome`): darkens pixels that lie behind their neighbours."""
     tree = nodes.compositor(
         "Firetwin Eye Dome",
         "Eye-dome lighting: what lies behind its neighbours is darker, so that shapes stand out",
@@ -102,7 +102,7 @@ def eye_dome() -> bpy.types.NodeTree:
     strength = tree.input("Strength", edl.STRENGTH, "How dark", "Shade")
     radius = tree.input("Radius", edl.RADIUS, "How far away the eight neighbours are, pixels", "Shade", 1)
     depth = tree.math("MINIMUM", tree.math("MAXIMUM", depth, _NEAREST), _DEEPEST)
-    # Nearness: beyond the edge Translate gives 0, the deepest there is, which adds nothing.
+    # Nearness: outside the picture Translate gives 0, the greatest depth, which adds nothing.
     near = tree.math("LOGARITHM", _DEEPEST / depth, 2.0)
     total: Any = 0.0
     for down, across in ((-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1)):
@@ -110,7 +110,7 @@ def eye_dome() -> bpy.types.NodeTree:
         there = tree.pick(compat.whole_pixels(tree.node("CompositorNodeTranslate", moved)))
         total = total + tree.math(
             "MINIMUM", near - there, 0.0
-        )  # a node's first input says where its picture lies
+        )  # a node's first input sets the picture's offset
     shade = (total * strength * 0.125).exp()
     tree.finish({"Image": _times(tree, image, shade), "Shade": shade})
     return tree.node_tree
@@ -134,7 +134,7 @@ def overlaid() -> bpy.types.NodeTree:
 
 
 def set_band(group: bpy.types.NodeTree, band: tuple[float, float]) -> None:
-    """Make a Thermal Camera one of this band, um."""
+    """Set the band of a Thermal Camera group, um."""
     kelvin = np.geomspace(*RANGE, 2000)
     logs = np.log(sensor.radiance(kelvin, band))
     low, high = float(logs[0]), float(logs[-1])
@@ -148,7 +148,7 @@ def set_band(group: bpy.types.NodeTree, band: tuple[float, float]) -> None:
 
 
 def _kelvin(tree: Tree, radiance: Value) -> Value:
-    """1 / T by Horner's rule in the logarithm of radiance; `set_band` fills in the numbers."""
+    """Reciprocal temperature 1 / T by Horner's rule in log radiance; `set_band` sets the coefficients."""
     held = tree.math("MAXIMUM", radiance, _named(tree, "Least"))
     held = tree.math("MINIMUM", held, _named(tree, "Most"))
     x = _log(tree, held) * _named(tree, "Scale") + _named(tree, "Shift")
@@ -173,11 +173,11 @@ def _log(tree: Tree, value: Any) -> Value:
 
 
 def _times(tree: Tree, colour: Any, number: Any) -> Value:
-    """A colour times a number."""
+    """Product of a colour and a number."""
     return tree.output("ShaderNodeVectorMath", {"Vector": colour, "Scale": number}, operation="SCALE")
 
 
 def _held(tree: Tree, colour: Any) -> Value:
-    """A colour held between 0 and 1."""
+    """Colour clamped to 0 to 1."""
     above = tree.vector("MAXIMUM", colour, (0.0, 0.0, 0.0))
     return tree.vector("MINIMUM", above, (1.0, 1.0, 1.0))

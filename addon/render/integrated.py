@@ -1,8 +1,8 @@
-"""Draws a frame's pictures with one render of its surfaces, and with smoke that is marched along camera rays.
+"""Integrated renderer: one Cycles render of a frame's surfaces, with smoke ray-marched over it.
 
-Cycles sees no smoke but its shadow. The visible picture, infrared radiance and depth come from one render:
-AOVs tell it of heat and flames, and a pixel's first ray goes through its middle, where depth is taken. Other
-passes, of one ray a pixel, come from a second.
+Cycles renders only the shadow of smoke. The visible picture, infrared radiance and depth come from one
+render: AOVs give it temperature and flames, and the first ray of a pixel goes through its centre, where depth
+is sampled. Other passes, of one ray per pixel, come from a second render.
 """
 
 from __future__ import annotations
@@ -26,31 +26,31 @@ from .eye import Eye
 from .picture import Picture
 
 TOGETHER = ("rgb", "thermal", "depth")
-"""Passes of one render; what it draws is the view layer of the first that is wanted."""
+"""Passes of one render; it uses the view layer of the first of them that is requested."""
 
 _AOVS = {nodes.SURFACE: "COLOR", nodes.FLAMES: "COLOR", nodes.WARMTH: "VALUE"}
 _PICTURE = "integrated picture"
-_RIGHT_BEFORE, _HALF = 0.1, 0.5  # of the way to what a camera looks at; of its picture
+_RIGHT_BEFORE, _HALF = 0.1, 0.5  # share of the distance to the camera's target; share of the picture
 
 Array = NDArray[np.float32]
 
 
 class Drawing:
-    """A scene that is drawn so; it stays so until its Blender ends."""
+    """Integrated drawing of a scene; the scene stays set up for it until its Blender ends."""
 
     def __init__(self, shot: Shot, stage: Stage) -> None:
         self.shot, self.stage, self.scene = shot, stage, stage.scene
         self.in_smoke: list[int] = []
-        """Frames of which smoke right before the camera hides more than half."""
+        """Frames in which smoke close to the camera hides more than half of the picture."""
         self.image = _show(self.scene)
         _prepare(self.scene)
         self.shadow = _shadow(shot, stage) if shot.settings.smoke.enabled else None
-        for thing in stage.things("Smoke"):
-            thing.hide_render = True
+        for volume_object in stage.things("Smoke"):
+            volume_object.hide_render = True
         layers.exclude(self.scene, shadow.NAME.lower(), but="rgb")
 
     def of(self, smoke: Sequence[volume.Bricks], part: Path) -> Callable[[list[Picture]], None]:
-        """What draws a frame's pictures with its smoke into a folder, up to what their `finish` does."""
+        """Function that renders a frame's pictures with its smoke into a folder, before their `finish`."""
         return lambda pictures: self._draw({each.name: each for each in pictures}, smoke, part)
 
     def _draw(self, pictures: dict[str, Picture], smoke: Sequence[volume.Bricks], part: Path) -> None:
@@ -71,7 +71,7 @@ class Drawing:
         ]
         if "rgb" in pictures:
             self._develop([eye.picture() for eye in eyes], pictures["rgb"], part)
-            self._look(eyes[0], pictures["rgb"].frame)
+            self._check_view(eyes[0], pictures["rgb"].frame)
         if "thermal" in pictures:
             heat = [eye.radiance(pictures["thermal"].frame) for eye in eyes]
             _write(part, pictures["thermal"], np.concatenate(heat))
@@ -79,16 +79,16 @@ class Drawing:
             depth = [eye.channels["Depth"][..., 0] for eye in eyes]
             _write(part, pictures["depth"], np.concatenate(depth))
 
-    def _look(self, eye: Eye, frame: int) -> None:
-        """Note a frame that shows little but smoke right before the camera."""
+    def _check_view(self, eye: Eye, frame: int) -> None:
+        """Record a frame that is mostly hidden by smoke close to the camera."""
         (view,) = self.shot.paths
         if view.perspective:
             away = float(np.linalg.norm(view.target[frame - 1] - view.position[frame - 1]))
             if eye.hidden_by_near_smoke(_RIGHT_BEFORE * away) > _HALF:
                 self.in_smoke.append(frame)
 
-    def words(self) -> list[str]:
-        """What an artist should know of the pictures."""
+    def warnings(self) -> list[str]:
+        """Warnings for the user about the pictures."""
         if not self.in_smoke:
             return []
         (view,) = self.shot.paths
@@ -99,7 +99,7 @@ class Drawing:
         ]
 
     def _others(self, pictures: list[Picture], smoke: Sequence[volume.Bricks], part: Path) -> None:
-        """Passes whose rays all go through the middles of pixels."""
+        """Render passes whose rays all go through pixel centres."""
         eyes = surfaces.draw(self.scene, [each.name for each in pictures], part, centres=True)
         for picture in pictures:
             known, halves = passes.known()[picture.name], []
@@ -113,7 +113,7 @@ class Drawing:
             _write(part, picture, np.concatenate(halves))
 
     def _develop(self, eyes: list[Array], picture: Picture, part: Path) -> None:
-        """Make the pass's files of the light (h, w, 3) that eyes see."""
+        """Write the pass's files from the light (h, w, 3) of each eye."""
         files = {end: part / Path(picture.file(end)).name for end in ("png", "exr")}
         developed: dict[str, list[Array]] = {end: [] for end in files}
         two, self.scene.render.use_multiview = self.scene.render.use_multiview, False
@@ -129,7 +129,7 @@ class Drawing:
                 sensor.write_image(files[end], np.concatenate(halves), note)
 
     def _composite(self, light: Array, picture: Picture, part: Path) -> None:
-        """Give the compositor this light in place of what Cycles drew, and let it write the pass's files."""
+        """Replace Cycles' picture in the compositor by this light, and write the pass's files."""
         file = part / "light.exr"
         sensor.write_image(file, light)
         self.image.filepath = str(file)
@@ -141,18 +141,18 @@ class Drawing:
 
 
 def wanted(shot: Shot, scene: bpy.types.Scene) -> bool:
-    """Whether a scene's frames are drawn so: settings say so, and it has all that it takes."""
+    """Whether a scene's frames are rendered so: the settings ask for it, and the engine is Cycles."""
     return sources.is_integrated(shot) and scene.render.engine == "CYCLES"
 
 
 def _prepare(scene: bpy.types.Scene) -> None:
-    """Have view layers record what a picture is made of."""
+    """Set up view layers, AOVs and light groups for the integrated renderer."""
     for name in TOGETHER:
         layer = layers.of_pass(scene, name)
         layer.use_pass_z = True
-        layer.pass_alpha_threshold = 1.0  # flames are clear, whatever they add
+        layer.pass_alpha_threshold = 1.0  # flames are transparent, and emit
         if name != "depth":
-            layer.samples = 0  # the same rays for all, so that a pass does not hang on what is made with it
+            layer.samples = 0  # the same samples in all passes, so that one does not depend on the others
             known = {each.name for each in layer.aovs}
             for aov, kind in _AOVS.items():
                 if aov not in known:
@@ -166,10 +166,10 @@ def _prepare(scene: bpy.types.Scene) -> None:
 
 
 def _shadow(shot: Shot, stage: Stage) -> shadow.Shadow | None:
-    """The shadow of the shot's smoke, made anew; None where nothing burns."""
+    """Rebuild the shadow caster of the shot's smoke; None without fires."""
     for old in [each for each in stage.root.children if owned.ours(each, shadow.NAME)]:
-        for thing in list(old.objects):
-            bpy.data.objects.remove(thing)
+        for caster in list(old.objects):
+            bpy.data.objects.remove(caster)
         bpy.data.collections.remove(old)
     owned.purge()
     boxes = [each.box for each in sources.select(shot).domains]
@@ -177,7 +177,7 @@ def _shadow(shot: Shot, stage: Stage) -> shadow.Shadow | None:
 
 
 def _show(scene: bpy.types.Scene) -> bpy.types.Image:
-    """Have the compositor take an image where it took the visible picture that Cycles drew."""
+    """Replace the visible picture of Cycles in the compositor by an image node."""
     tree = compat.compositor(scene)
     image = owned.mark(bpy.data.images.new(f"Firetwin {_PICTURE}", 4, 4, float_buffer=True, is_data=True))
     image.source = "FILE"

@@ -1,8 +1,8 @@
-"""What the cameras record: a view layer for each pass, and the compositor behind them.
+"""View layers, one for each pass, and the compositor that writes their files.
 
-Data layers are never denoised: a denoiser makes 299.86 K of 300 K. The File Output nodes stay muted until a
-render asks for them, so that rendering in Blender's window writes no stray files. View layers and nodes that
-are not ours stay as they are, and so do ours once they are made: what an artist put between them is kept.
+Data layers are never denoised: a denoiser changes 300 K to 299.86 K. The File Output nodes stay muted until a
+render unmutes them, so that rendering in Blender's window writes no stray files. View layers and nodes of the
+user stay as they are. Those of Firetwin stay once they exist, so an artist's nodes between them are retained.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ SOURCE, _BETWEEN = "CompositorNodeRLayers", ("CompositorNodeGlare", "CompositorN
 
 
 def build(settings: Settings, stage: Stage) -> None:
-    """Make view layers and compositor of a scene of our own, and set the layers as the settings say.
+    """Create view layers and compositor of a scene of our own, and set the layers from the settings.
 
-    Last of all, for layers leave out what exists.
+    It runs last: layers exclude collections that exist by then.
     """
     groups.build(settings, stage)
     if not stage.own:
@@ -46,9 +46,9 @@ def build(settings: Settings, stage: Stage) -> None:
 
 
 def complete(settings: Settings, stage: Stage, parts: Collection[str]) -> None:
-    """After some parts were built again: layers leave out what they do not see of these, the rest stays.
+    """Update view layers after some parts were rebuilt: exclude the collections that a pass does not show.
 
-    Layers are made where they are missing.
+    Missing layers are created; all else stays.
     """
     groups.build(settings, stage)
     if not stage.own:
@@ -63,7 +63,7 @@ def complete(settings: Settings, stage: Stage, parts: Collection[str]) -> None:
 
 
 def remove(scene: bpy.types.Scene) -> None:
-    """Take away our view layers, as long as one is left, and what we made in the compositor."""
+    """Remove our view layers, except the last layer of the scene, and our compositor nodes."""
     mend(scene)
     for layer in [layer for layer in scene.view_layers if owned.ours(layer)]:
         if len(scene.view_layers) > 1:
@@ -81,9 +81,9 @@ def remove(scene: bpy.types.Scene) -> None:
 
 
 def mend(scene: bpy.types.Scene) -> None:
-    """Make anew what Blender has lost of our compositor when it opened a file of another version.
+    """Repair compositor nodes that Blender lost when it opened a file of another version.
 
-    These are the files of passes, and our mark on what shows our picture.
+    These are the outputs of File Output nodes, and our mark on the node that shows our picture.
     """
     compat.drop_copies()
     tree = compat.compositor(scene)
@@ -99,12 +99,12 @@ def mend(scene: bpy.types.Scene) -> None:
 
 
 def of_pass(scene: bpy.types.Scene, name: str) -> bpy.types.ViewLayer:
-    """Our view layer of a pass."""
+    """View layer of a pass."""
     return next(layer for layer in scene.view_layers if owned.ours(layer, f"pass {name}"))
 
 
 def exclude(scene: bpy.types.Scene, part: str, but: str = "") -> None:
-    """Leave a part of ours out of the view layers of all passes but one."""
+    """Exclude the collections of a part from the view layers of all passes but one."""
     for layer in scene.view_layers:
         if owned.ours(layer) and layer.get(owned.MARK) != f"pass {but}":
             for child in _parts(layer):
@@ -113,7 +113,7 @@ def exclude(scene: bpy.types.Scene, part: str, but: str = "") -> None:
 
 
 def select(scene: bpy.types.Scene, names: Iterable[str]) -> None:
-    """Render the view layers of these passes and no others."""
+    """Enable the view layers of these passes, and disable all others."""
     chosen = {f"pass {name}" for name in names}
     for layer in scene.view_layers:
         layer.use = layer.get(owned.MARK) in chosen
@@ -121,9 +121,10 @@ def select(scene: bpy.types.Scene, names: Iterable[str]) -> None:
 
 @contextmanager
 def plain(scene: bpy.types.Scene, names: Iterable[str]) -> Iterator[None]:
-    """Within, layers of passes that show geometry alone draw all in black: no material costs any time.
+    """Context: override materials by black in layers of geometry passes, so that shading costs no time.
 
-    Ours that these layers see let nothing through. Where there are materials of an artist's they stay.
+    The override is opaque where these layers' own materials are. It is off in scenes with materials of an
+    artist.
     """
     shapes = {f"pass {name}" for name in names if _geometry_only(name)}
     found = [layer for layer in scene.view_layers if layer.get(owned.MARK) in shapes]
@@ -144,7 +145,7 @@ def plain(scene: bpy.types.Scene, names: Iterable[str]) -> Iterator[None]:
 
 
 def write_exr(scene: bpy.types.Scene, folder: str, pictures: Iterable[Picture]) -> None:
-    """Let the coming render write the EXR of each of these pictures, and of no others, into a folder."""
+    """Unmute the EXR outputs of these pictures, into a folder, for the next render; mute all others."""
     stems = {f"exr {picture.name}": picture.stem() for picture in pictures}
     for node in compat.compositor(scene).nodes:
         what = node.get(owned.MARK)
@@ -155,7 +156,7 @@ def write_exr(scene: bpy.types.Scene, folder: str, pictures: Iterable[Picture]) 
 
 
 def still(each: Pass) -> bool:
-    """Whether the render itself writes this pass's PNG: the picture that the compositor shows."""
+    """Whether the render itself writes this pass's PNG: the output of the compositor."""
     return "png" in each.files and each.finish is None
 
 
@@ -170,7 +171,7 @@ def _geometry_only(name: str) -> bool:
 
 
 def _layer(scene: bpy.types.Scene, each: RenderedPass) -> bpy.types.ViewLayer:
-    """The view layer of a pass: there already, else the one that a new scene begins with, else a new one."""
+    """View layer of a pass: an existing one, else the default one of a new scene, else a new one."""
     what = f"pass {each.name}"
     for layer in scene.view_layers:
         if owned.ours(layer, what):
@@ -182,7 +183,7 @@ def _layer(scene: bpy.types.Scene, each: RenderedPass) -> bpy.types.ViewLayer:
 
 
 def _leave_out(layer: bpy.types.ViewLayer, each: RenderedPass, parts: Collection[str] | None) -> None:
-    """Exclude the collections that a pass does not see: of these parts, None: of all."""
+    """Exclude the collections that a pass does not show: those of these parts, or of all for None."""
     for child in _parts(layer):
         part = str(child.collection[owned.MARK]).lower()
         if parts is None or part in parts:
@@ -190,7 +191,7 @@ def _leave_out(layer: bpy.types.ViewLayer, each: RenderedPass, parts: Collection
 
 
 def _parts(layer: bpy.types.ViewLayer) -> Iterator[bpy.types.LayerCollection]:
-    """Our collections in a view layer, those in excluded ones left out."""
+    """Our collections in a view layer, without those below excluded ones."""
     pending = list(layer.layer_collection.children)
     while pending:
         child = pending.pop()
@@ -201,7 +202,7 @@ def _parts(layer: bpy.types.ViewLayer) -> Iterator[bpy.types.LayerCollection]:
 
 
 def _compositor(scene: bpy.types.Scene) -> None:
-    """Add to our compositor what it lacks; a compositor that is not ours is left alone."""
+    """Add missing nodes to our compositor; a compositor of the user stays as it is."""
     tree = compat.compositor(scene)
     if tree is None:
         tree = compat.new_compositor(scene)
@@ -217,7 +218,7 @@ def _compositor(scene: bpy.types.Scene) -> None:
 
 
 def _record(scene: bpy.types.Scene, tree: bpy.types.NodeTree, each: RenderedPass) -> None:
-    """From a pass's view layer to its EXR, and to the picture that is shown."""
+    """Link a pass's view layer to its EXR output and to the composite output."""
     source = tree.nodes.new(SOURCE)
     source.scene = scene
     source.layer = of_pass(scene, each.name).name
@@ -226,21 +227,21 @@ def _record(scene: bpy.types.Scene, tree: bpy.types.NodeTree, each: RenderedPass
         image = compat.bloom(tree, image, Threshold=2.0, Maximum=20.0, Strength=0.25)
         compat.composite(tree, image)
     if each.channels == "grey" and each.socket == "Image":
-        parts = tree.nodes.new("CompositorNodeSeparateColor")  # all channels hold the same number
+        parts = tree.nodes.new("CompositorNodeSeparateColor")  # all channels hold the same value
         tree.links.new(image, parts.inputs[0])
         image = parts.outputs[0]
     _file(tree, each, image)
 
 
 def _file(tree: bpy.types.NodeTree, each: RenderedPass, image: bpy.types.NodeSocket) -> None:
-    """Write this to the pass's EXR."""
+    """Link a socket to the EXR output of a pass."""
     node = compat.exr_output(tree, f"Firetwin {each.name} EXR", image, each.channels == "grey", each.bits)
     node.mute = True
     owned.mark(node, f"exr {each.name}")
 
 
 def _image(tree: bpy.types.NodeTree, each: RenderedPass) -> bpy.types.NodeSocket:
-    """What `_record` has made of a pass's view layer."""
+    """Output socket that `_record` created for a pass's view layer."""
     ours = [node for node in tree.nodes if owned.ours(node)]
     source = next(node for node in ours if node.bl_idname == SOURCE and node.layer == each.name)
     image = source.outputs[each.socket]

@@ -1,7 +1,7 @@
-"""``manifest.json``: what a store holds, for people and other programs; written when a render ends.
+"""Manifest ``manifest.json``: the store's contents for people and other programs; written when a render ends.
 
-Every finished file has its size, its SHA-256 and the fingerprint of the settings that made it, and every
-fingerprint these settings in full.
+It lists the size, the SHA-256 and the fingerprint of the settings of every finished file, and the full
+settings of every fingerprint.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ _FORMAT = 1
 
 
 def read(out: Path) -> dict[str, Any]:
-    """The manifest of an output folder, an empty one where there is none.
+    """Read the manifest of an output folder; an empty one where there is none.
 
     Raises
     ------
     InputError
-        The file is there and is not a manifest.
+        The file exists and is not a manifest.
     """
     path = out / NAME
     try:
@@ -40,6 +40,6 @@ def read(out: Path) -> dict[str, Any]:
 
 
 def write(out: Path, settings: dict[str, Any], entries: dict[str, Any]) -> None:
-    """Write the manifest as a whole; a reader finds this one or the one before."""
+    """Write the manifest atomically: a reader gets the new one or the previous one."""
     text = json.dumps({"format": _FORMAT, "settings": settings, "files": entries}, indent=1) + "\n"
     files.write(out / NAME, lambda path: path.write_text(text, encoding="utf-8"))

@@ -1,4 +1,4 @@
-"""Memory that a render takes at most, from what is known before its first frame."""
+"""Memory estimate: peak memory of a render, from the sizes known before its first frame."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from ..smoke import sources
 
 BASE, SOLVER = 0.72e9, 0.3e9
 PIXEL, PLANT, FACE, CELL, VOXEL = 790.0, 2550.0, 255.0, 175.0, 7.0
-"""Bytes of Blender, our libraries and flames, and of the solver's process; of a pixel of a picture, a plant,
-a face of a mesh, a cell of a flow that is being solved, and a voxel of the box in which smoke is painted.
+"""Bytes per pixel of a picture, plant, mesh face, cell of a flow that is being solved, and voxel of smoke.
 
-Fitted to peaks of the first frame of examples/king_fire.toml without smoke, 0.96 to 2.98 GB: all plants, a
-third and none, 640 and 1920 pixels wide, a mesh of a third. That of a voxel is the film's, of which a tenth
-of the box holds smoke; where all of it does, smoke takes several times as much.
+They cover Blender, our libraries, flames and the solver's process. Fitted to peaks of the first frame of
+examples/king_fire.toml without smoke, 0.96 to 2.98 GB: all plants, a third and none, 640 and 1920 pixels
+wide, a mesh of a third. The figure per voxel is that of the film, in which a tenth of the box holds smoke. A
+box full of smoke takes several times as much.
 """
 
 
 @dataclass(frozen=True)
 class Load:
-    """What a render holds at once; `cells` and `voxels` are those of smoke."""
+    """Sizes that decide a render's memory; `cells` and `voxels` are those of smoke."""
 
     pixels: int
     plants: int
@@ -34,20 +34,20 @@ class Load:
 
     @property
     def bytes(self) -> int:
-        """Memory at most."""
+        """Estimated peak memory, bytes."""
         of = PIXEL * self.pixels + PLANT * self.plants + FACE * self.faces
         return round(BASE + of + VOXEL * self.voxels)
 
     @property
     def solver(self) -> int:
-        """What the process takes that solves the flow meanwhile, until it is done; 0: there is none."""
+        """Memory of the concurrent flow solver's process, bytes; 0 without one."""
         return round(SOLVER + CELL * self.cells) if self.cells else 0
 
 
 def load(shot: Shot, stage: Stage, frames: Iterable[int] = ()) -> Load | None:
-    """What rendering a shot's one camera on its built stage holds; `frames` show smoke.
+    """Sizes of rendering a shot's one camera on its built stage; `frames` show smoke.
 
-    Nothing is known of smoke that is not a solved flow drawn along rays: None.
+    None for smoke that is not a solved flow with ray-marched rendering: it has no estimate.
     """
     (camera,) = shot.settings.cameras
     smoky = list(frames)
@@ -75,6 +75,6 @@ def _smoke(shot: Shot, frames: list[int]) -> dict[str, int]:
 
 
 def describe(load: Load) -> str:
-    """What to tell before a render."""
+    """Message with the memory estimate, before a render."""
     beside = f", and {size(load.solver)} while the smoke's flow is solved" if load.solver else ""
     return f"rendering takes about {size(load.bytes)} of memory at most{beside}"

@@ -1,4 +1,4 @@
-"""Blender's own render (F12, Ctrl-F12) of a built scene, and the files that it writes: named as ours are."""
+"""Blender's own render (F12, Ctrl-F12) of a built scene: file outputs with Firetwin's names."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .picture import Picture
 
 
 def exact() -> tuple[str, ...]:
-    """Passes whose files Blender's own render makes as ours: others need rays of their own, or more work."""
+    """Passes that Blender's own render writes as is: others need their own rays or post-processing."""
     known = passes.known().items()
     return tuple(name for name, each in known if _exact(each))
 
@@ -24,12 +24,12 @@ def _exact(each: passes.Pass) -> bool:
 
 
 def to_files(stage: Stage, out: Path, camera: str, names: tuple[str, ...]) -> None:
-    """Have Blender's own renders write these passes of a camera into an output folder.
+    """Set Blender's own renders to write these passes of a camera into an output folder.
 
     Parameters
     ----------
     names
-        Those that are not `exact` count for nothing.
+        Passes; those that are not `exact` are ignored.
     """
     chosen = [name for name in exact() if name in names]
     layers.mend(stage.scene)
@@ -48,14 +48,14 @@ def to_files(stage: Stage, out: Path, camera: str, names: tuple[str, ...]) -> No
 
 
 def to_none(stage: Stage) -> None:
-    """Have Blender's own renders write no files of passes."""
+    """Set Blender's own renders to write no pass files."""
     for node in compat.compositor(stage.scene).nodes:
         if str(node.get(owned.MARK, "")).startswith("exr "):
             node.mute = True
 
 
 def writes(scene: bpy.types.Scene) -> bool:
-    """Whether they do."""
+    """Whether Blender's own renders write pass files."""
     tree = compat.compositor(scene)
     nodes = tree.nodes if tree is not None else ()
     return any(str(node.get(owned.MARK, "")).startswith("exr ") and not node.mute for node in nodes)

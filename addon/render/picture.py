@@ -1,4 +1,4 @@
-"""One picture: a frame of a camera in a pass, and the files that it is."""
+"""Picture: a frame of a camera in a pass, with the paths of its files."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ class Picture:
     name: str  # of the pass
 
     def stem(self) -> str:
-        """``drone_rgb_``: what Blender puts the six digits of the frame after."""
+        """File stem such as ``drone_rgb_``; Blender appends the six digits of the frame."""
         return f"{self.camera}_{self.name}_"
 
     def files(self) -> tuple[str, ...]:
-        """Its files, relative to the output folder."""
+        """Paths of its files, relative to the output folder."""
         ends = passes.known()[self.name].files
         return tuple(passes.file_of(self.camera, self.name, self.frame, end) for end in ends)
 
     def file(self, suffix: str) -> str:
-        """Its file with this suffix."""
+        """Path of its file with this suffix."""
         return next(path for path in self.files() if path.endswith(suffix))
 
 

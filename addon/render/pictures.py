@@ -1,4 +1,4 @@
-"""Renders pictures: files are made under other names and get their own when their frame is complete."""
+"""Frame renderer: writes files under temporary names and publishes them when their frame is complete."""
 
 from __future__ import annotations
 
@@ -29,40 +29,40 @@ Ready = Callable[[int, list[int]], Smoke | None]
 def render(
     shot: Shot,
     stage: Stage,
-    making: RenderSession,
+    session: RenderSession,
     wanted: list[Picture],
     progress: Progress = silent,
     ready: Ready = lambda frame, ahead: None,
     tell: MessageCallback = no_message,
 ) -> int:
-    """Render those of these pictures of a built scene that no other render makes, and enter them.
+    """Render the pictures of a built scene that no other render leases, and enter them in the store.
 
     Parameters
     ----------
     progress
         Its note is the picture of the last frame, relative to the output folder.
     ready
-        Called before each frame, with the frames that come after it: what the frame shows has to be on the
-        disk when this returns, or is what it returns (see `smoke.prefetch`).
+        Called before each frame, with the frames that follow it. The frame's smoke is on the disk when this
+        returns, or is the returned value (see `smoke.prefetch`).
     tell
-        Told what an artist should know of the pictures.
+        Receives warnings about the pictures.
 
     Returns
     -------
-    Number of frames that were made.
+    Number of frames that this render finished.
     """
     engine.label(shot.run, stage.scene)
     total, made, note = len({(each.camera, each.frame) for each in wanted}), 0, ""
     marched = integrated.wanted(shot, stage.scene) and bool(plan.rendered(shot, wanted))
     drawing = integrated.Drawing(shot, stage) if marched else None
-    with making.claims.part_folder() as part, making.line(wanted) as line:
-        while line.step():
+    with session.leases.part_folder() as part, session.queue(wanted) as queue:
+        while queue.step():
             progress(made, total, "rendering", note)
-            if finished := _frame(shot, stage, making, part, line, ready, drawing):
-                made, note = made + 1, _shown(finished)
+            if finished := _frame(shot, stage, session, part, queue, ready, drawing):
+                made, note = made + 1, _preview(finished)
             memory.give_back()
     progress(total, total, "rendering", note)
-    for text in drawing.words() if drawing else ():
+    for text in drawing.warnings() if drawing else ():
         tell(text)
     return made
 
@@ -70,51 +70,51 @@ def render(
 def _frame(
     shot: Shot,
     stage: Stage,
-    making: RenderSession,
+    session: RenderSession,
     part: Path,
-    line: FrameQueue,
+    queue: FrameQueue,
     ready: Ready,
     drawing: integrated.Drawing | None,
 ) -> list[Picture]:
-    """Make and enter the frame that stands first in line; its pictures, none where another render took it.
+    """Render and publish the queue's current frame; empty where another render has taken its lease over.
 
-    What it took of memory is free when this returns.
+    The frame's memory is free when this returns.
     """
-    smoke = ready(line.frame, line.ahead)
+    smoke = ready(queue.frame, queue.ahead)
     memory.give_back()
     try:
-        frame = _Frame(shot, stage, making, part, line.camera, line.frame)
+        frame = _Frame(shot, stage, session, part, queue.camera, queue.frame)
         frame.draw = drawing.of(smoke or (), part) if drawing else frame.draw_layers
-        finished = frame.render(line.names)
+        finished = frame.render(queue.names)
     except Exception:
-        if line.held():
+        if queue.held():
             raise
-        return []  # with the files that were being made
-    if not line.held():
+        return []  # the temporary files go with it
+    if not queue.held():
         return []
-    publish(shot, making, part, finished)
+    publish(shot, session, part, finished)
     return finished
 
 
-def _shown(pictures: list[Picture]) -> str:
-    """Of a frame's files the one to look at first, relative to the output folder."""
+def _preview(pictures: list[Picture]) -> str:
+    """A frame's file to report as its preview, relative to the output folder: a PNG if there is one."""
     names = [name for each in pictures for name in each.files()]
     return next((name for name in names if name.endswith(".png")), names[0])
 
 
 class _Frame:
-    """One moment seen by one camera."""
+    """One frame of one camera."""
 
     def __init__(
         self,
         shot: Shot,
         stage: Stage,
-        making: RenderSession,
+        session: RenderSession,
         part: Path,
         camera: str,
         frame: int,
     ) -> None:
-        self.shot, self.scene, self.making, self.part = shot, stage.scene, making, part
+        self.shot, self.scene, self.session, self.part = shot, stage.scene, session, part
         self.camera, self.frame = camera, frame
         self.draw: Callable[[list[Picture]], None] = self.draw_layers
         self.pictures = {name: Picture(camera, frame, name) for name in passes.known()}
@@ -122,14 +122,14 @@ class _Frame:
         self.scene.frame_set(frame)
 
     def render(self, names: list[str]) -> list[Picture]:
-        """Make the files of these passes in the temporary folder, and of no others that can be spared."""
+        """Write the files of these passes, and of the passes that they need, into the temporary folder."""
         known = passes.known()
         taken = {
             name: mount.taken(self.shot.settings, self.shot.cameras, self.camera, known[name])
             for name in names
         }
         own = {name for needs in taken.values() for camera, name in needs.values() if camera == self.camera}
-        store, made_with = self.making.store, self.making.made_with
+        store, made_with = self.session.store, self.session.made_with
         lacking = {need for need in own - set(names) if plan.missing(store, [self.pictures[need]], made_with)}
         drawn = [known[name] for name in known if name in names or name in lacking]
         made = {self.pictures[each.name] for each in drawn}
@@ -146,7 +146,7 @@ class _Frame:
         return [self.pictures[name] for name in names]
 
     def draw_layers(self, pictures: list[Picture]) -> None:
-        """Render the view layers of these passes, smoke with them."""
+        """Render the view layers of these passes, with smoke."""
         kinds = defaultdict(list)
         for each in pictures:
             known = passes.known()[each.name]
@@ -163,14 +163,14 @@ class _Frame:
                 bpy.ops.render.render(write_still=still is not None, scene=self.scene.name)
 
     def files(self, picture: Picture, made: set[Picture]) -> dict[str, Path]:
-        """Files of a picture by suffix: where those that are being `made` are, or where finished ones are."""
-        out = self.making.store.out
+        """Files of a picture by suffix: temporary ones for pictures in `made`, else the published ones."""
+        out = self.session.store.out
         paths = map(Path, picture.files())
         return {path.suffix[1:]: self.part / path.name if picture in made else out / path for path in paths}
 
 
-def publish(shot: Shot, making: RenderSession, part: Path, pictures: list[Picture]) -> None:
-    """Look at the files of a complete frame, give them their names, and only then enter them in the store."""
+def publish(shot: Shot, session: RenderSession, part: Path, pictures: list[Picture]) -> None:
+    """Verify the files of a complete frame, rename them into place and enter them in the store."""
     made = {name: part / Path(name).name for each in pictures for name in each.files()}
     for picture, name in ((each, name) for each in pictures for name in each.files()):
         path, size = made[name], passes.known()[picture.name].size(shot.settings.render.resolution)
@@ -189,12 +189,12 @@ def publish(shot: Shot, making: RenderSession, part: Path, pictures: list[Pictur
                 "frame": picture.frame,
                 "time": shot.utc(picture.frame).isoformat(timespec="seconds"),
             }
-            files.publish(made[name], making.store.out / name)
-        making.store.add(making.made_with[picture.camera, picture.name], entries)
+            files.publish(made[name], session.store.out / name)
+        session.store.add(session.made_with[picture.camera, picture.name], entries)
 
 
 def _heading(shot: Shot, picture: Picture) -> float:
-    """Where the middle of a picture looks, degrees clockwise from north."""
+    """Heading of a picture's centre, degrees clockwise from north."""
     view = pixel_rays.path_of(shot, picture.camera)
     east, north, _ = compass(shot.local_frame, view.position[picture.frame - 1])
     ahead = -view.rotation[picture.frame - 1][:, 2]

@@ -1,4 +1,4 @@
-"""Which pictures are asked for, and which of them are finished already. Needs no Blender."""
+"""Render plan: which pictures are requested, and which of them are missing. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -20,24 +20,24 @@ from .store import Store
 def pictures(
     shot: Shot, frames: str | None = None, camera: str | None = None, names: str | None = None
 ) -> list[Picture]:
-    """Pictures of the scene file, or those of them that the command line picks, camera by camera, run by run.
+    """Requested pictures: those of the scene file, filtered by the command line; by camera, then run.
 
-    With them come those of other cameras that they are made from, before them (see `shot.mount`). What
-    compares runs comes last, and what it is made from before it whether or not it was named.
+    Pictures of other cameras that they are composed from are added and come first (see `shot.mount`).
+    Comparisons of runs come last. The passes that they need are added before them.
 
     Parameters
     ----------
     frames
-        Such as "1-10"; of each camera's own frames, these. None: all.
+        Frame numbers such as "1-10", intersected with each camera's own frames; None: all.
     camera
-        Only this one, in all runs; or as ``camera@run`` in that one.
+        Only this camera, in all runs; ``camera@run``: in that run.
     names
-        Such as "rgb,thermal"; in place of the passes that the scene file gives.
+        Passes such as "rgb,thermal", in place of those of the scene file.
 
     Raises
     ------
     UsageError
-        A frame, camera or pass that is not there, or nothing left to do.
+        An unknown frame, camera or pass, or an empty selection.
     """
     settings = shot.settings
     if frames is not None and not frames.strip():
@@ -47,7 +47,7 @@ def pictures(
     except ValueError as error:
         raise UsageError(f"--frames: {error}") from None
     if camera is not None:
-        shot.camera(camera)  # says which there are
+        shot.camera(camera)  # its error lists the cameras
     elif not settings.cameras:
         raise UsageError(f"{settings.path} has no [[cameras]], so there is nothing to render")
     views = [
@@ -65,16 +65,16 @@ def pictures(
         listed = _frames(shot, camera_of_view, wanted)
         asked = chosen or tuple(each.name for each in passes.of_camera(settings, camera_of_view))
         first = "@" not in view
-        made, last = _in_turn(asked) if first else (passes.in_other_runs(asked), ())
+        made, last = _split_comparisons(asked) if first else (passes.in_other_runs(asked), ())
         drawn += [Picture(view, frame, name) for frame in listed for name in made]
         compared += [Picture(view, frame, name) for frame in listed for name in last]
     if not drawn:
         raise UsageError(f"--frames {frames}: {' and '.join(views)} has none of these frames")
-    return _with_given(shot, drawn) + compared
+    return _with_inputs(shot, drawn) + compared
 
 
-def _in_turn(asked: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Passes of the first run that are made by themselves, and those that compare it with others."""
+def _split_comparisons(asked: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Split passes of the first run into those of this run alone, and comparisons with other runs."""
     known = passes.known()
     compared = tuple(name for name in asked if passes.compares(name))
     needed = {need for name in compared for need in known[name].made_from}
@@ -82,14 +82,14 @@ def _in_turn(asked: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 
 def rounds(shot: Shot, wanted: list[Picture]) -> list[list[Picture]]:
-    """Pictures in their order, up to where some are made from those of other cameras, and from there on."""
-    last = {each.camera for each in wanted if _given(shot, each.camera, each.name)}
+    """Rounds of rendering: first the pictures without inputs from other cameras, then those with them."""
+    last = {each.camera for each in wanted if _inputs_of_other_cameras(shot, each.camera, each.name)}
     parts = [[each for each in wanted if (each.camera in last) is second] for second in (False, True)]
     return [part for part in parts if part]
 
 
 def rendered(shot: Shot, wanted: list[Picture]) -> set[tuple[str, str]]:
-    """Cameras and passes that Blender renders for these pictures: some are made from others' files alone."""
+    """Cameras and passes that Blender renders for these pictures; the others are composed from files."""
     pairs = {(each.camera, each.name) for each in wanted}
     for camera, name in list(pairs):
         pairs |= set(mount.taken(shot.settings, shot.cameras, camera, passes.known()[name]).values())
@@ -98,9 +98,11 @@ def rendered(shot: Shot, wanted: list[Picture]) -> set[tuple[str, str]]:
     return {(camera, name) for camera, name in pairs if camera in own and name in rendered}
 
 
-def _with_given(shot: Shot, found: list[Picture]) -> list[Picture]:
+def _with_inputs(shot: Shot, found: list[Picture]) -> list[Picture]:
     given = [
-        Picture(c, each.frame, name) for each in found for c, name in _given(shot, each.camera, each.name)
+        Picture(c, each.frame, name)
+        for each in found
+        for c, name in _inputs_of_other_cameras(shot, each.camera, each.name)
     ]
     if not given:
         return found
@@ -111,20 +113,20 @@ def _with_given(shot: Shot, found: list[Picture]) -> list[Picture]:
     return [each for part in rounds(shot, every) for each in part]
 
 
-def _given(shot: Shot, view: str, name: str) -> list[tuple[str, str]]:
-    """Other cameras of the same run, and passes, that a pass of a camera is made from."""
+def _inputs_of_other_cameras(shot: Shot, view: str, name: str) -> list[tuple[str, str]]:
+    """Inputs of a pass from other cameras of the same run: (camera, pass)."""
     camera, mark, run = view.partition("@")
     taken = mount.taken(shot.settings, shot.cameras, camera, passes.known()[name])
     return [(c + mark + run, need) for c, need in taken.values() if c != camera]
 
 
 def missing(store: Store, wanted: list[Picture], made_with: Fingerprints, after: int = 0) -> list[Picture]:
-    """Those of the pictures whose files are not there, are damaged, or were made with other settings.
+    """Pictures whose files are missing, damaged, or made with other settings.
 
     Parameters
     ----------
     after
-        Only what was entered after this number of the store counts as there.
+        Entries of the store up to this number do not count.
     """
     keys = {which: fingerprint(values) for which, values in made_with.items()}
     return [
@@ -135,7 +137,7 @@ def missing(store: Store, wanted: list[Picture], made_with: Fingerprints, after:
 
 
 def _frames(shot: Shot, camera: Camera, asked: list[int]) -> list[int]:
-    """Those of the frames that a camera films."""
+    """Requested frames that a camera films."""
     if not camera.frames.strip():
         return asked
     own = set(shot.frames_of(camera))

@@ -1,4 +1,4 @@
-"""PNG files without what differs from render to render: Cycles notes in them how long it took."""
+"""PNG metadata: removes the render times that Cycles writes, so that equal pictures are equal files."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _TIMES = b"cycles."
 
 
 def forget_times(path: Path) -> None:
-    """Take the notes of Cycles out; what is no PNG, or is cut off, stays as it is."""
+    """Remove Cycles' text chunks; a file that is no PNG, or is truncated, stays as it is."""
     data = path.read_bytes()
     kept, place = [_SIGNATURE], len(_SIGNATURE)
     while place + 12 <= len(data):

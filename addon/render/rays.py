@@ -1,4 +1,4 @@
-"""Rays through the middles of a picture's pixels, from Blender's camera as it stands."""
+"""Camera rays through the pixels of a picture, from Blender's current camera."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ class Rays:
     Attributes
     ----------
     origins
-        (h, w, 3) m, or (3,) where all begin in one place.
+        (h, w, 3) m, or (3,) where all rays share one origin.
     directions
         (h, w, 3) unit vectors.
     aside
-        (h, w) m that rays begin beside the camera, at right angles to them.
+        (h, w) m, lateral offset of origins from the camera, at right angles to the rays.
     slant
-        (h, w) times that a place on a ray is farther than Cycles' depth of it; None: that is the distance
-        from the camera.
+        (h, w) ratio of the distance along the ray to Cycles' depth; None: depth is the distance from the
+        camera.
     """
 
     origins: Array
@@ -36,13 +36,13 @@ class Rays:
     slant: Array | None
 
     def of_depth(self, depth: NDArray[np.float32]) -> NDArray[np.float32]:
-        """Distances (h, w) along the rays of Cycles' depths, m."""
+        """Distances (h, w) along the rays for Cycles' depths, m."""
         if self.slant is None:
             return self.of_distance(depth)
         return (depth * self.slant).astype(np.float32)
 
     def of_distance(self, distance: NDArray[np.float32]) -> NDArray[np.float32]:
-        """The same of distances from the camera."""
+        """Distances (h, w) along the rays for distances from the camera, m."""
         square = distance.astype(np.float64) ** 2 - self.aside**2
         return np.sqrt(np.maximum(square, 0.0)).astype(np.float32)
 
@@ -60,9 +60,9 @@ def through(
     Parameters
     ----------
     eye
-        -1 or 1 for the left or the right of two, else 0.
+        -1 or 1 for the left or right eye of a stereo camera, else 0.
     at
-        Where in its pixel each goes through: to the right and down, 0 to 1.
+        Position of the ray in its pixel: to the right and down, 0 to 1.
     """
     placed = np.array(camera.matrix_world)
     rotation = placed[:3, :3] / np.linalg.norm(placed[:3, :3], axis=0)
@@ -83,7 +83,7 @@ def through(
 
 
 def _frame(camera: bpy.types.Object, scene: bpy.types.Scene) -> tuple[Array, Array, float]:
-    """Lower left and upper right corner of the picture in the camera's space, and how far it is away."""
+    """Image plane in camera space: lower left and upper right corner, and its distance."""
     corners = np.array(camera.data.view_frame(scene=scene))
     return corners.min(axis=0), corners.max(axis=0), float(-corners[0, 2])
 
@@ -96,7 +96,7 @@ def _around(
     eye: float,
     at: tuple[float, float],
 ) -> Rays:
-    """Rays of a picture that holds all directions."""
+    """Rays of a spherical panorama."""
     height, width = shape
     bearing, elevation = panorama.pixels(2 * height, width, at)
     bearing, elevation = bearing[:height], elevation[:height]

@@ -1,4 +1,4 @@
-"""Frames that several renders into one folder share: each is made by one of them. Needs no Blender."""
+"""Render queue of frames that several renders into one folder share by leases. Needs no Blender."""
 
 from __future__ import annotations
 
@@ -16,124 +16,123 @@ from .fingerprint import Fingerprints
 from .picture import Picture
 from .store import Store
 
-_LOOK = 1.0  # s between two looks at what others do
+_POLL_INTERVAL = 1.0  # s between two polls of other renders' leases
 Frame = tuple[str, int]
-"""Of a camera."""
+"""Camera and frame number."""
 
 
 @dataclass(frozen=True)
 class RenderSession:
-    """What a render makes, and where.
+    """A render into an output folder: its store, its leases and the fingerprints of its pictures.
 
     Attributes
     ----------
     after
-        Only what was entered after this number of the store counts as finished.
+        Entries of the store up to this number do not count as finished.
     """
 
     store: Store
-    claims: Claims
+    leases: Claims
     made_with: Fingerprints
     after: int = 0
 
     def missing(self, wanted: list[Picture]) -> list[Picture]:
-        """Those of the pictures that are not finished."""
+        """Pictures that are not finished."""
         return plan.missing(self.store, wanted, self.made_with, self.after)
 
     def free(self, wanted: list[Picture], tell: MessageCallback) -> list[Picture]:
-        """Pictures that nobody makes, as soon as there are any; none when all are finished."""
+        """Unfinished pictures without a lease; waits until there are some; none when all are finished."""
         waiting = False
         while wanted := self.missing(wanted):
-            others = self.claims.of_others()
-            if free := [each for each in wanted if _name(each.camera, each.frame) not in others]:
+            others = self.leases.of_others()
+            if free := [picture for picture in wanted if _name(picture.camera, picture.frame) not in others]:
                 return free
             if not waiting:
                 tell(f"waiting for {count(len(wanted), 'picture')} that another render makes")
             waiting = True
-            time.sleep(_LOOK)
+            time.sleep(_POLL_INTERVAL)
         return []
 
     @contextmanager
-    def line(self, wanted: list[Picture]) -> Iterator[FrameQueue]:
-        """These pictures' frames in their order."""
-        line = FrameQueue(self, wanted)
+    def queue(self, wanted: list[Picture]) -> Iterator[FrameQueue]:
+        """Frame queue of these pictures, in their order; releases its leases at the end."""
+        queue = FrameQueue(self, wanted)
         try:
-            yield line
+            yield queue
         finally:
-            line.end()
+            queue.end()
 
-    def alone(self, name: str) -> bool:
-        """Claim something; where another has it, wait until it is done with it."""
-        while not self.claims.take(name):
-            self.claims.of_others()
-            time.sleep(_LOOK)
-        return True
+    def wait_for_lease(self, name: str) -> None:
+        """Take a lease; wait while another render holds it."""
+        while not self.leases.take(name):
+            self.leases.of_others()
+            time.sleep(_POLL_INTERVAL)
 
 
 @contextmanager
 def open_session(
     out: Path, made_with: Fingerprints, owner: str | None = None, after: int = 0
 ) -> Iterator[RenderSession]:
-    """Begin to make files in a folder; the store is made where it is missing."""
-    with Store(out, create=True) as store, Claims(store.data, owner or new_owner()) as claims:
-        yield RenderSession(store, claims, made_with, after)
+    """Open a render session in an output folder; creates the store where it is missing."""
+    with Store(out, create=True) as store, Claims(store.data, owner or new_owner()) as held:
+        yield RenderSession(store, held, made_with, after)
 
 
 class FrameQueue:
-    """Frames that stand in line: at each step one is ours, and the one after it, so that it can be prepared.
+    """Queue of frames: each step leases the current frame and the next one, which can be prepared meanwhile.
 
     Attributes
     ----------
     camera, frame, names
-        What is to be made now: the passes `names` of a camera's frame.
+        The current job: the passes `names` of a camera's frame.
     """
 
-    def __init__(self, making: RenderSession, wanted: list[Picture]) -> None:
-        self.making, self.claims = making, making.claims
-        groups = itertools.groupby(wanted, key=lambda each: (each.camera, each.frame))
+    def __init__(self, session: RenderSession, wanted: list[Picture]) -> None:
+        self.session, self.leases = session, session.leases
+        groups = itertools.groupby(wanted, key=lambda picture: (picture.camera, picture.frame))
         self.waiting = {frame: list(group) for frame, group in groups}
         self.following: tuple[Frame, list[str]] | None = None
         self.camera, self.frame, self.names = "", 0, []
 
     def step(self) -> bool:
-        """Go on to the next frame that nobody has made or is making; False when there is none now."""
-        self._give()
-        now = self.following or self._next()
+        """Lease the next frame that is neither finished nor leased; False when there is none now."""
+        self._release()
+        now = self.following or self._lease_next()
         if now is None:
             return False
         (self.camera, self.frame), self.names = now
-        self.following = self._next()
+        self.following = self._lease_next()
         return True
 
     @property
     def ahead(self) -> list[int]:
-        """The frame after this one, if it is ours and of the same camera."""
+        """The next frame, if this render holds its lease and it is of the same camera; else empty."""
         return [self.following[0][1]] if self.following and self.following[0][0] == self.camera else []
 
     def held(self) -> bool:
-        """Whether the frame still is ours: who slept for long may have lost it."""
-        return self.claims.held(_name(self.camera, self.frame))
+        """Whether the lease of the current frame is still ours; it expires without heartbeats."""
+        return self.leases.held(_name(self.camera, self.frame))
 
     def end(self) -> None:
-        """Give back what was not made."""
-        self._give()
+        """Release the leases of frames that were not finished."""
+        self._release()
         if self.following:
             (self.camera, self.frame), self.names = self.following
             self.following = None
-            self._give()
+            self._release()
 
-    def _next(self) -> tuple[Frame, list[str]] | None:
-        others = self.claims.of_others() if self.waiting else set()
+    def _lease_next(self) -> tuple[Frame, list[str]] | None:
+        others = self.leases.of_others() if self.waiting else set()
         for frame in list(self.waiting):
-            if _name(*frame) not in others and self.claims.take(_name(*frame)):
-                if missing := self.making.missing(self.waiting.pop(frame)):
-                    return frame, [each.name for each in missing]
-                self.claims.give(_name(*frame))
+            if _name(*frame) not in others and self.leases.take(_name(*frame)):
+                if missing := self.session.missing(self.waiting.pop(frame)):
+                    return frame, [picture.name for picture in missing]
+                self.leases.give(_name(*frame))
         return None
 
-    def _give(self) -> None:
+    def _release(self) -> None:
         if self.camera:
-            self.claims.give(_name(self.camera, self.frame))
+            self.leases.give(_name(self.camera, self.frame))
         self.camera = ""
 
 

@@ -1,8 +1,8 @@
-"""What tells players that a picture or film is a sphere seen by two eyes, the left one's above the right's.
+"""Metadata of stereo 360-degree pictures and films (top-bottom, the left eye above), for VR players.
 
-Stills: XMP in the GPano namespace (https://developers.google.com/streetview/spherical-metadata), whose sizes
-are those of the file, and the layout of the eyes in GSpherical, as GPano knows of one eye only. Films: the
-boxes `st3d` and `sv3d` of Spherical Video V2
+Stills: XMP in the GPano namespace (https://developers.google.com/streetview/spherical-metadata), with the
+sizes of the file. GPano has no stereo, so the layout of the eyes is in GSpherical. Films: the boxes `st3d`
+and `sv3d` of Spherical Video V2
 (https://github.com/google/spatial-media/blob/master/docs/spherical-video-v2-rfc.md).
 """
 
@@ -31,13 +31,13 @@ _XMP = """\
  GSpherical:ProjectionType="equirectangular" GSpherical:StereoMode="top-bottom"/>
 </rdf:RDF></x:xmpmeta>
 <?xpacket end="r"?>"""
-_PNG_START = 8 + 25  # bytes of its signature and of the chunk that comes first, IHDR
+_PNG_START = 8 + 25  # bytes of the signature and of the first chunk, IHDR
 _CONTAINERS = frozenset({b"moov", b"trak", b"mdia", b"minf", b"stbl"})
 _ENTRY = 78  # bytes of a VisualSampleEntry before the boxes in it (ISO/IEC 14496-12)
 
 
 def still(path: Path, size: tuple[int, int], heading: float) -> None:
-    """Put XMP into a PNG of `size` (width, height) in whose middle one looks to `heading`, degrees."""
+    """Write XMP into a PNG of `size` (width, height) whose centre has this `heading`, degrees."""
     xmp = _XMP.format(width=size[0], height=size[1], heading=heading % 360.0)
     body = b"iTXt" + b"XML:com.adobe.xmp\0\0\0\0\0" + xmp.encode()
     data = path.read_bytes()
@@ -46,17 +46,17 @@ def still(path: Path, size: tuple[int, int], heading: float) -> None:
 
 
 def film(path: Path) -> None:
-    """Put the boxes into an MP4 film of H.264; what comes after its `moov` moves, and so do chunk offsets.
+    """Write the boxes into an MP4 film of H.264; data after its `moov` moves, and chunk offsets are updated.
 
     Raises
     ------
     InputError
-        It has no H.264 in it, or would be too long for its 32-bit offsets.
+        The film has no H.264 track, or would exceed its 32-bit offsets.
     """
     part = path.with_name(path.name + ".part")
     try:
         with path.open("rb") as film, part.open("wb") as made:
-            for kind, start, end in _found(film, path.stat().st_size):
+            for kind, start, end in _boxes_of_file(film, path.stat().st_size):
                 film.seek(start)
                 if kind == b"moov":
                     made.write(_moov(film.read(end - start), end))
@@ -69,7 +69,7 @@ def film(path: Path) -> None:
         part.unlink(missing_ok=True)
 
 
-def _found(film: object, size: int) -> Iterator[tuple[bytes, int, int]]:
+def _boxes_of_file(film: object, size: int) -> Iterator[tuple[bytes, int, int]]:
     """Kind, start and end of each box of a file."""
     place = 0
     while place < size:
@@ -86,7 +86,7 @@ def _copy(film: object, made: object, count: int) -> None:
 
 
 def _moov(box: bytes, end: int) -> bytes:
-    """A `moov` with our boxes in it; `end` is where it ended in the file."""
+    """A `moov` with our boxes added; `end` is its end in the file."""
     body = _edited(b"moov", box[8:], end, 0)
     if _OURS not in body:
         raise Error("it has no H.264 in it")
@@ -94,7 +94,7 @@ def _moov(box: bytes, end: int) -> bytes:
 
 
 def _edited(kind: bytes, body: bytes, end: int, growth: int) -> bytes:
-    """What is in a box, with our boxes; chunks from `end` on lie `growth` bytes farther on."""
+    """Body of a box with our boxes added; offsets of chunks from `end` on grow by `growth` bytes."""
     if kind in _CONTAINERS:
         return b"".join(_box(k, _edited(k, b, end, growth)) for k, b in _boxes(body))
     if kind == b"stsd":
@@ -107,7 +107,7 @@ def _edited(kind: bytes, body: bytes, end: int, growth: int) -> bytes:
 
 
 def _entry(body: bytes) -> bytes:
-    """An `avc1` with our boxes after its `avcC` and before the optional ones at its end."""
+    """An `avc1` with our boxes after its `avcC` and before its optional boxes."""
     inside = [(k, b) for k, b in _boxes(body[_ENTRY:]) if k not in (b"st3d", b"sv3d")]
     return body[:_ENTRY] + b"".join(_box(k, b) + _OURS * (k == b"avcC") for k, b in inside)
 
@@ -131,6 +131,6 @@ _OURS = _box(b"st3d", struct.pack(">IB", 0, 1)) + _box(  # 1: top-bottom
     + _box(
         b"proj",
         _box(b"prhd", struct.pack(">4I", 0, 0, 0, 0))  # yaw, pitch and roll
-        + _box(b"equi", struct.pack(">5I", 0, 0, 0, 0, 0)),  # nothing cut off at the four edges
+        + _box(b"equi", struct.pack(">5I", 0, 0, 0, 0, 0)),  # no crop at the four edges
     ),
 )

@@ -1,8 +1,8 @@
-"""What is finished in an output folder, and what made it.
+"""Store of an output folder: which files are finished, and the settings that produced them.
 
-``store.sqlite`` holds for every finished file its size, its SHA-256 and the fingerprint of the settings that
-made it, and for every fingerprint these settings in full. Several renders, also of several machines, may
-share a folder (see `leases`). ``manifest.json`` tells the same for people and other programs.
+``store.sqlite`` holds the size, the SHA-256 and the fingerprint of the settings of every finished file, and
+the full settings of every fingerprint. Several renders, also of several machines, may share a folder (see
+`leases`). ``manifest.json`` holds the same for people and other programs.
 """
 
 from __future__ import annotations
@@ -28,17 +28,17 @@ CREATE TABLE notes (name TEXT PRIMARY KEY, note TEXT);
 
 
 class Store:
-    """The store of an output folder; each thread has one of its own.
+    """The store of an output folder; each thread opens its own.
 
     Parameters
     ----------
     create
-        Make it where there is none; otherwise an empty one stands in for it.
+        Create it where it is missing; otherwise a missing store reads as an empty one.
 
     Raises
     ------
     InputError
-        What is there is no store, or the manifest beside it none of ours.
+        The file is no store, or the manifest next to it is not one of Firetwin.
     """
 
     def __init__(self, out: Path, create: bool = False) -> None:
@@ -54,7 +54,7 @@ class Store:
         self.data.close()
 
     def add(self, settings: dict[str, Any], entries: dict[str, dict[str, Any]]) -> None:
-        """Enter finished files (path -> what `describe` returned and more), made with these `settings`."""
+        """Enter finished files (path -> entry with the values of `describe`), made with these `settings`."""
         key = fingerprint(settings)
         with self.data.change():
             self.data.do("INSERT OR IGNORE INTO settings VALUES (?, ?)", key, json.dumps(settings))
@@ -67,22 +67,22 @@ class Store:
                 )
 
     def intact(self, key: str, paths: Iterable[str], after: int = 0) -> bool:
-        """Whether all these files were made with the settings of fingerprint `key` and are as they were then.
+        """Whether these files are unchanged since they were made with the settings of fingerprint `key`.
 
         Parameters
         ----------
         after
-            Only what was entered after this `number` counts.
+            Entries up to this `number` do not count.
         """
         query = "SELECT number, settings, stamp, entry FROM files WHERE path = ?"
         for path in paths:
             row = self.data.one(query, path)
-            if row is None or row[0] <= after or row[1] != key or not self._as_it_was(path, *row[2:]):
+            if row is None or row[0] <= after or row[1] != key or not self._is_unchanged(path, *row[2:]):
                 return False
         return True
 
     def pictures(self, camera: str, name: str, key: str, suffix: str) -> dict[int, str]:
-        """Hashes, by frame, of a camera's pictures in a pass made with these settings, if still there."""
+        """Hashes, by frame, of a camera's unchanged pictures in a pass made with these settings."""
         rows = self.data.all(
             "SELECT frame, path, stamp, entry FROM files WHERE camera = ? AND pass = ? AND settings = ? "
             "AND frame IS NOT NULL ORDER BY frame",
@@ -91,28 +91,28 @@ class Store:
         return {
             frame: json.loads(entry)["sha256"]
             for frame, path, state, entry in rows
-            if path.endswith(suffix) and self._as_it_was(path, state, entry)
+            if path.endswith(suffix) and self._is_unchanged(path, state, entry)
         }
 
     def number(self) -> int:
-        """Of what was entered last; every entry has a higher one than those before it."""
+        """Number of the latest entry; numbers increase with every entry."""
         return self.data.one("SELECT max(number) FROM files")[0] or 0
 
     def names(self) -> list[str]:
-        """Paths of everything that is finished, in order."""
+        """Paths of all finished files, sorted."""
         return [path for (path,) in self.data.all("SELECT path FROM files ORDER BY path")]
 
     def note(self, name: str) -> str | None:
-        """What was noted under a name."""
+        """The note stored under a name; None without one."""
         row = self.data.one("SELECT note FROM notes WHERE name = ?", name)
         return row[0] if row else None
 
     def write_note(self, name: str, note: str) -> None:
-        """Note something under a name."""
+        """Store a note under a name."""
         self.data.do("INSERT OR REPLACE INTO notes VALUES (?, ?)", name, note)
 
     def export(self) -> None:
-        """Write the manifest, unless it tells all already."""
+        """Write the manifest, unless it is up to date."""
         number = str(self.number())
         if self.note("exported") == number and (self.out / manifest.NAME).exists():
             return
@@ -130,8 +130,8 @@ class Store:
         except OSError:
             return None
 
-    def _as_it_was(self, path: str, state: str | None, entry: str) -> bool:
-        """By its stamp; where that changed (a copy has another) by its content."""
+    def _is_unchanged(self, path: str, state: str | None, entry: str) -> bool:
+        """Whether a file is unchanged: by its stamp; where that differs, as of a copy, by its content."""
         now = self._stamp(path)
         if now is None or now == state:
             return now is not None

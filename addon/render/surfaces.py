@@ -1,4 +1,4 @@
-"""What Cycles draws of view layers, as arrays: no compositor touches it and no picture file is left."""
+"""Rendered view layers as arrays: Cycles' passes without the compositor, and without a picture file."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ..blender import compat
 from . import engine, layers
 
 Channels = dict[str, NDArray[np.float32]]
-"""Of a view layer: (h, w, c) by the name of Cycles' pass, without alpha."""
+"""Channels of a view layer: (h, w, c) by the name of Cycles' pass, without alpha."""
 
 _ORDER = "RGBXYZVA"
 
@@ -28,18 +28,18 @@ def draw(
     Parameters
     ----------
     folder
-        For the file that it passes through, about 100 bytes a pixel.
+        For a temporary file of about 100 bytes per pixel.
     centres
-        All rays go through the middles of pixels.
+        All rays go through pixel centres.
 
     Returns
     -------
-    For each eye: -1 for the left and 1 for the right of two, or 0; and its channels by pass.
+    For each eye (-1 for the left and 1 for the right of two, or 0): its number, and its channels by pass.
     """
     layers.select(scene, names)
     file, cycles = folder / "surfaces.exr", scene.cycles
     chance = cycles.min_transparent_bounces
-    cycles.min_transparent_bounces = engine.TRANSPARENT  # AOVs do not make up for rays that end by chance
+    cycles.min_transparent_bounces = engine.TRANSPARENT  # AOVs are not corrected for Russian roulette
     try:
         with compat.raw_file(scene, file), engine.pixel_centres(scene, centres), layers.plain(scene, names):
             bpy.ops.render.render(write_still=True, scene=scene.name)
@@ -51,7 +51,7 @@ def draw(
 
 
 def _read(path: Path, names: Collection[str]) -> dict[str, Channels]:
-    """Channels of a multilayer EXR, which goes."""
+    """Read the channels of a multilayer EXR, and delete the file."""
     found: dict[str, dict[str, list[tuple[str, NDArray[np.float32]]]]] = {name: {} for name in names}
     for channel, values in sensor.read_channels(path).items():
         layer, name, *_, part = channel.split(".")

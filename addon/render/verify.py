@@ -1,4 +1,4 @@
-"""Is a file whole? What is damaged is never entered in a store."""
+"""File verification: a picture or film that is damaged is never entered in a store."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ _PNG_END = b"\0\0\0\0IEND\xaeB`\x82"
 
 
 def picture(path: Path, size: tuple[int, int]) -> None:
-    """Open a picture of `size` (width, height), or a JSON file, and read all of it.
+    """Decode a picture of `size` (width, height), or parse a JSON file, completely.
 
     Raises
     ------
     InputError
-        It is missing, cut off or of another size.
+        The file is missing, truncated or of another size.
     """
     if path.suffix == ".json":
         return _text(path)
@@ -42,12 +42,12 @@ def _text(path: Path) -> None:
 
 
 def film(path: Path) -> None:
-    """Walk through the boxes of an MP4 film.
+    """Parse all boxes of an MP4 film.
 
     Raises
     ------
     InputError
-        It is missing or cut off.
+        The file is missing or truncated.
     """
     kinds = set()
     try:

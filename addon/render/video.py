@@ -1,4 +1,4 @@
-"""Films from finished frames, by Blender's own sequencer and FFmpeg, with the model time in each frame."""
+"""Video encoding: H.264 films of finished frames by Blender's sequencer and FFmpeg, with time captions."""
 
 from __future__ import annotations
 
@@ -20,28 +20,28 @@ from .sharing import RenderSession
 from .store import describe
 
 
-def make(shot: Shot, making: RenderSession, progress: Progress = silent) -> None:
-    """Make the films of these cameras and passes that are missing or older than their pictures."""
-    wanted = list(films.missing(shot, making.store, making.made_with))
+def make(shot: Shot, session: RenderSession, progress: Progress = silent) -> None:
+    """Encode the films of these cameras and passes that are missing or older than their pictures."""
+    wanted = list(films.missing(shot, session.store, session.made_with))
     for done, (camera, name, _) in enumerate(wanted, start=1):
         path = picture.film(camera, name)
-        making.alone(path)
-        try:  # another render may have made it meanwhile
-            this = {(camera, name): making.made_with[camera, name]}
-            for film in films.missing(shot, making.store, this):
-                _film(shot, making, *film)
-            any(films.missing(shot, making.store, this))  # so that it is known to be right
+        session.wait_for_lease(path)
+        try:  # another render may have finished it meanwhile
+            this = {(camera, name): session.made_with[camera, name]}
+            for film in films.missing(shot, session.store, this):
+                _film(shot, session, *film)
+            any(films.missing(shot, session.store, this))  # notes in the store that the film is up to date
         finally:
-            making.claims.give(path)
+            session.leases.give(path)
         progress(done, len(wanted), "filming")
 
 
-def _film(shot: Shot, making: RenderSession, camera: str, name: str, made_from: dict[str, Any]) -> None:
-    out = making.store.out
+def _film(shot: Shot, session: RenderSession, camera: str, name: str, made_from: dict[str, Any]) -> None:
+    out = session.store.out
     path = out / picture.film(camera, name)
     scene = bpy.data.scenes.new("Firetwin Film")
     try:
-        with making.claims.part_folder() as part:
+        with session.leases.part_folder() as part:
             made = part / path.name
             frames = [frame for frame, _ in made_from["frames"]]
             size = passes.known()[name].size(shot.resolution(shot.camera(camera)))
@@ -55,13 +55,13 @@ def _film(shot: Shot, making: RenderSession, camera: str, name: str, made_from: 
             verify.film(made)
             entry = describe(made) | {"camera": camera, "pass": name}
             files.publish(made, path)
-            making.store.add(made_from, {picture.film(camera, name): entry})
+            session.store.add(made_from, {picture.film(camera, name): entry})
     finally:
         bpy.data.scenes.remove(scene)
 
 
 def _settings(shot: Shot, size: tuple[int, int], scene: bpy.types.Scene, path: Path, count: int) -> None:
-    """H.264 in MP4; the pictures are in display colours, so the film's view transform changes nothing."""
+    """Set H.264 in MP4; the view transform is Standard, as pictures are display-referred already."""
     render = scene.render
     render.resolution_x, render.resolution_y = size
     render.resolution_percentage = 100
@@ -85,7 +85,7 @@ def _settings(shot: Shot, size: tuple[int, int], scene: bpy.types.Scene, path: P
 def _strips(
     shot: Shot, scene: bpy.types.Scene, out: Path, camera: str, name: str, numbers: list[int]
 ) -> None:
-    """One picture after the other, and over each the model time that it shows; two eyes see it both."""
+    """Add a strip for each picture, and its model time as a caption; stereo films have one for each eye."""
     editor = scene.sequence_editor_create()
     height, around = shot.resolution(shot.camera(camera))[1], shot.camera(camera).rig.around
     size, low = (height / 60, (0.17, 0.67)) if around else (height / 20, (0.035,))

@@ -1,4 +1,4 @@
-"""Builds the scene of a shot, or some parts of it."""
+"""Scene builder: builds all parts of a shot's scene, or selected parts."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ PARTS = {
     "cameras": "setting the cameras",
     "labels": "naming the places",
 }
-"""What can be built by itself, and what is told while it is."""
+"""Parts that can be built on their own, each with its progress message."""
 
-_WITH_STAND = {"terrain", "forest", "fire"}  # parts that need to know where single trees stand
+_WITH_STAND = {"terrain", "forest", "fire"}  # parts that depend on the positions of single trees
 
 
 def build(
@@ -41,10 +41,10 @@ def build(
     parts: Sequence[str] = tuple(PARTS),
     tell: Callable[[str], None] = lambda _: None,
 ) -> bpy.types.Scene:
-    """Build parts into `scene` (the current one unless given); what was built of them before goes first.
+    """Build parts into `scene`, by default the current one; removes the parts' earlier objects first.
 
-    Of a scene that is not our own (see `owned.adopt`) nothing else is changed: engine, world, colours,
-    frames, view layers and compositor stay.
+    A scene of the user's own (see `owned.adopt`) keeps its engine, world, colour management, frame range,
+    view layers and compositor.
     """
     scene = scene or bpy.context.scene
     for _ in steps(shot, scene, parts, tell):
@@ -58,14 +58,15 @@ def steps(
     parts: Sequence[str] = tuple(PARTS),
     tell: Callable[[str], None] = lambda _: None,
 ) -> Iterator[str]:
-    """Build parts step by step, each named before it is taken.
+    """Build parts step by step; each step yields its name before it runs.
 
-    Between two steps people may rename the scene or undo something else: it is looked up for each of them.
+    The user may rename the scene or undo an operation between two steps, so each step looks the scene up
+    again.
 
     Parameters
     ----------
     tell
-        Is given every sentence that people should read: what could not be built as it should be.
+        Receives each warning for the user, such as a part that could not be built as requested.
     """
     uid, grown, shape = scene.session_uid, None, None
 
@@ -101,12 +102,12 @@ def steps(
 
 
 def _grown_and_shaped(shot: Shot) -> tuple[stand.Stand, ground.Shape]:
-    """The stand and the ground's mesh at once: each has much to do that keeps one core busy.
+    """Generate the stand and the terrain mesh in parallel threads: each keeps one core busy.
 
-    Neither asks Blender for anything, nor does the exposure, which is remembered; all are there before it
-    goes on.
+    Neither calls Blender. The exposure is computed in parallel too, and cached. All results are ready on
+    return.
     """
-    shot.visibility.distance([(0.0, 0.0, 0.0)])  # what they need of them is made now
+    shot.visibility.distance([(0.0, 0.0, 0.0)])  # the inputs that they share are computed first
     with ThreadPoolExecutor(1) as beside:
         shaping = beside.submit(ground.shape, shot)
         metering = beside.submit(exposure.at, shot, np.ones(1))
@@ -116,6 +117,6 @@ def _grown_and_shaped(shot: Shot) -> tuple[stand.Stand, ground.Shape]:
 
 
 def remove(scene: bpy.types.Scene) -> None:
-    """Take away all that was built into a scene, and no more."""
+    """Remove all objects that Firetwin built in a scene, and nothing else."""
     clock.remove(scene)
     owned.remove(scene)

@@ -24,7 +24,7 @@ def film(shot, stage, tmp_path, monkeypatch):
     class Frame:
         draw_layers = None
 
-        def __init__(self, shot, stage, making, part, camera, frame):
+        def __init__(self, shot, stage, session, part, camera, frame):
             self.camera, self.frame = camera, frame
             self.held = alive[-1]()  # as what draws it holds it
 

@@ -89,7 +89,7 @@ def test_a_scene_as_it_stands_keeps_both_eyes_and_their_size(settings, run, scen
     engine.apply(shot.settings, scene)
     for percent, across in ((100, SIZE), (50, SIZE // 2)):
         scene.render.resolution_percentage = percent
-        stands = render_blend._as_it_stands(shot, scene)
+        stands = render_blend._with_scene_settings(shot, scene)
         assert stands.settings.render.resolution == (across, across)
         engine.size(stands.settings, scene)
         size = scene.render.resolution_x, scene.render.resolution_y, scene.render.use_multiview

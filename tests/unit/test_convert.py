@@ -123,7 +123,7 @@ def test_patience_ends_with_what_is_silent_alone():
         killed = threading.Event()
         kill = killed.set
 
-    with worker._Patience(Child, 0.4) as watch:
+    with worker._Watchdog(Child, 0.4) as watch:
         for _ in range(12):
             time.sleep(0.05)
             watch.heard()

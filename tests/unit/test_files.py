@@ -226,7 +226,7 @@ def test_a_worker_that_is_gone_is_no_error_on_windows_either(monkeypatch):
     child.wait()
     child.stdin.close()
     monkeypatch.setattr(child, "stdin", Gone())
-    with worker._Patience(child, 0.0) as watch:
+    with worker._Watchdog(child, 0.0) as watch:
         assert worker._converse(child, {}, progress=None, tell=None, watch=watch) == {}
     worker._end(child)
 
