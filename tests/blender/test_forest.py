@@ -98,7 +98,7 @@ def test_far_trees_are_fewer_and_wider_and_about_the_budget(near_settings, run):
 def test_what_is_kept_goes_on_beside_what_is_seen(near_settings, run):
     shot = Shot(replace(near_settings, forest=replace(near_settings.forest, budget=200)), run)
     (own,) = plot.plots(shot, stand.TALLEST, shot.settings.forest.draw_distance)
-    mask, (kept,) = own.mask, stand._kept(shot, [own])
+    mask, (kept,) = own.mask, stand._retained(shot, [own])
     beside = np.lib.stride_tricks.sliding_window_view(np.pad(mask, 1), (3, 3)).any((2, 3)) & ~mask
     assert 0 < mask.sum() < mask.size
     assert kept[mask].max() < 1.0

@@ -1,4 +1,4 @@
-"""How a tree grows: branches from a trunk, sprays from branches, leaves (or clumps of needles) on sprays."""
+"""Procedural trees: branches on a trunk, sprays on branches, leaves (or clumps of needles) on sprays."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _DARK, _FRESH = 0.55, 1.25  # colour of leaves near the trunk and at the tips, a
 
 @dataclass(frozen=True)
 class Limbs:
-    """Limbs of a tree, b of them: foot (b, 3), length (b,), direction at the foot (b, 3), bend up (b,)."""
+    """Limbs of a tree, b of them: base (b, 3), length (b,), direction at the base (b, 3), bend up (b,)."""
 
     root: Array
     length: Array
@@ -23,7 +23,7 @@ class Limbs:
     lift: Array
 
     def at(self, s: Array) -> Array:
-        """Places (b, k, 3) at parts s (b, k) of the limbs' lengths."""
+        """Points (b, k, 3) at fractions s (b, k) of the limbs' lengths."""
         place = self.root[:, None] + self.ahead[:, None] * (s * self.length[:, None])[..., None]
         place[..., 2] += self.lift[:, None] * self.length[:, None] * s**2
         return place
@@ -31,7 +31,7 @@ class Limbs:
 
 @dataclass(frozen=True)
 class Leaves:
-    """Leaves, n of them, ordered by limb: middle, half its length, half its width (n, 3) m; colour (n, 3)."""
+    """Leaves, n of them, ordered by limb: centre, half length, half width (n, 3) m; colour (n, 3)."""
 
     middle: Array
     along: Array
@@ -40,12 +40,12 @@ class Leaves:
     limb: Array
 
     def corners(self) -> Array:
-        """Corners (n, 3, 3) of a triangle each, pointed at its foot."""
+        """Corners (n, 3, 3) of one triangle per leaf, with its tip at the base."""
         tip = self.middle + self.along
         return np.stack([self.middle - self.along, tip + self.across, tip - self.across], axis=1)
 
 
-@lru_cache(maxsize=1)  # the levels of a tree are made one after the other
+@lru_cache(maxsize=1)  # the levels of detail of a tree are generated one after the other
 def grown(habit: Habit, seed: int) -> tuple[Limbs, Leaves]:
     """Branches of a tree about a metre tall, and its leaves."""
     random = np.random.default_rng(seed)
@@ -54,7 +54,7 @@ def grown(habit: Habit, seed: int) -> tuple[Limbs, Leaves]:
 
 
 def _branches(habit: Habit, random: np.random.Generator) -> Limbs:
-    """Living branches from the crown's base to its tip, which is the last."""
+    """Living branches from the crown's base to its leader, which is the last."""
     n = habit.branches
     even = (np.arange(n) + random.uniform(0.0, 1.0, n)) / n
     rings = np.floor(even * n / 5.0) * 5.0 / n
@@ -71,7 +71,7 @@ def _branches(habit: Habit, random: np.random.Generator) -> Limbs:
     root = np.zeros((n, 3))
     root[:, 2] = habit.bare + (habit.top - habit.bare) * up
     lift = habit.lift + random.normal(0.0, 0.05, n)
-    if habit.top > 0.9:  # a leader
+    if habit.top > 0.9:  # the leader
         ahead[-1], root[-1], length[-1], lift[-1] = (0.0, 0.0, 1.0), (0.0, 0.0, 0.90), 0.10, 0.0
     return Limbs(root, length, ahead, lift)
 
@@ -112,7 +112,7 @@ def _unit(vector: Array) -> Array:
 
 
 def wood(shape: Shape, habit: Habit, limbs: Limbs, level: int, random: np.random.Generator) -> None:
-    """Trunk, branches (in levels 0 and 1) and dead branches (in level 0)."""
+    """Trunk, branches (levels of detail 0 and 1) and dead branches (level 0)."""
     chosen = [0, 1, 2, 3, 4, 5] if level < 2 else [0, 3, 5]
     heights = np.array([-0.03, 0.02, 0.25, 0.55, 0.80, 1.0])[chosen] * habit.top
     width = habit.stem * np.array([1.7, 1.05, 0.85, 0.60, 0.30, 0.08])[chosen]
@@ -128,7 +128,7 @@ def wood(shape: Shape, habit: Habit, limbs: Limbs, level: int, random: np.random
 
 
 def dead(habit: Habit, random: np.random.Generator) -> tuple[Array, Array]:
-    """Ways (n, 3, 3) and radii (n, 3) of the dead branches under the crown, which hang and break."""
+    """Polylines (n, 3, 3) and radii (n, 3) of dead branches below the crown, which hang and break."""
     n = habit.dead
     angle = 2.399963 * np.arange(n) + random.normal(0.0, 0.5, n)
     rise = np.radians(random.normal(-14.0, 12.0, n))

@@ -1,9 +1,9 @@
-"""The forest: trees, of the stand or one for each fuel cell (Algorithm 2), what is under them, and grass.
+"""Forest builder: instances of trees (a stand, or Algorithm 2 with one per fuel cell), understorey and grass.
 
-All are instances on points. A point has float attributes `scale` (height, m), `width` (how much wider than
-its model it is), `rotation`, `pitch` and `roll` (radians), `arrival_time`, `elevation`, `canopy_fuel`,
-`tint`, `dead`, `scorch`, `torched`, and the numbers of its models, `model` and `snag_model`; trees also have
-a `number` of their own (see `shot.passes.masks`). Only what a camera can see is made.
+All are instances on points. Float attributes of a point are `scale` (height, m), `width` (ratio to the
+model's width), `rotation`, `pitch` and `roll` (radians), `arrival_time`, `elevation`, `canopy_fuel`, `tint`,
+`dead`, `scorch`, `torched`, and the indices of its models, `model` and `snag_model`; trees also have an
+instance number `number` (see `shot.passes.masks`). Plants outside of all views are culled.
 """
 
 from __future__ import annotations
@@ -27,20 +27,20 @@ from .material import TORCHING
 from .stand import Stand
 
 GRASS_DISTANCE = 400.0  # m
-_ALIKE = 110.0, 70.0  # m, patches of trees that are alike in hue, and that died before; by eye
-_TALLEST, _GRASS = 31.0, 10.0  # m; as tall as any tree of Algorithm 2, and as one that would hold a clump
-_WIDER = 12.0  # than trees of their height are bushes, and logs; by FLIP from among them (skipping.py)
+_ALIKE = 110.0, 70.0  # m, patches of trees of one hue, and of trees that died earlier; by eye
+_TALLEST, _GRASS = 31.0, 10.0  # m; as tall as any tree of Algorithm 2, and as a tree that would hold a clump
+_WIDER = 12.0  # lower relative to trees: bushes and logs; by FLIP from among them (skipping.py)
 
 
 def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Object]:
-    """Build "Firetwin Trees", "Firetwin Understorey" and "Firetwin Grass", each where one sees something."""
+    """Build "Firetwin Trees", "Firetwin Understorey" and "Firetwin Grass", each if any of it is visible."""
     collection = stage.part("Forest")
     made, below, plants = [], understorey.grow(shot), {}
     if grown is not None:
         points = algorithm2(shot) if shot.settings.forest.density == "paper" else _stand(shot, grown)
         plants["Trees"] = levelled(shot, points)
     if len(below.size):
-        plants["Understorey"] = levelled(shot, _below(shot, below), _WIDER)
+        plants["Understorey"] = levelled(shot, _understorey(shot, below), _WIDER)
     if plants:
         library = tree_models(shot, stage, set().union(*map(drawn, plants.values())))
     for name, points in plants.items():
@@ -52,9 +52,10 @@ def build(shot: Shot, stage: Stage, grown: Stand | None) -> list[bpy.types.Objec
 
 
 def algorithm2(shot: Shot) -> dict[str, NDArray]:
-    """Point attributes of those trees of Algorithm 2 that a camera sees.
+    """Point attributes of the visible trees of Algorithm 2.
 
-    East and north are the core's; so is the height but near cameras, where the drawn ground has more relief.
+    East and north come from the core. So does the height, except near cameras, where the terrain mesh has
+    more relief.
     """
     run, seed, reach = shot.run, shot.settings.seed, shot.settings.forest.draw_distance
     axes = run.fuel_latitude, run.fuel_longitude
@@ -83,13 +84,19 @@ def _stand(shot: Shot, grown: Stand) -> dict[str, NDArray]:
     return {**_points(shot, *shape, *grown.key.T), "number": masks.numbers(*grown.key.T)}
 
 
-def _below(shot: Shot, things: understorey.Things) -> dict[str, NDArray]:
+def _understorey(shot: Shot, instances: understorey.Instances) -> dict[str, NDArray]:
     points = _points(
-        shot, things.position, things.height, things.width, things.rotation, things.model, *things.key.T
+        shot,
+        instances.position,
+        instances.height,
+        instances.width,
+        instances.rotation,
+        instances.model,
+        *instances.key.T,
     )
-    whole = np.ones(len(things.size))  # flames of the ground reach all of it
-    points |= {"scorch": whole, "torched": whole, "snag_model": things.burned}
-    return {**points, "pitch": things.pitch, "roll": things.roll}
+    everywhere = np.ones(len(instances.size))  # flames of the surface fire reach the whole plant
+    points |= {"scorch": everywhere, "torched": everywhere, "snag_model": instances.burned}
+    return {**points, "pitch": instances.pitch, "roll": instances.roll}
 
 
 def _grass(shot: Shot) -> dict[str, NDArray]:
@@ -118,7 +125,7 @@ def _points(
     key: NDArray,
     second: NDArray,
 ) -> dict[str, NDArray]:
-    """All attributes of n trees; random ones hang on two integers per tree."""
+    """All attributes of n trees; random ones are hashes of two integers per tree."""
     ground, seed = shot.ground, shot.settings.seed
     row, column = ground.under(position)
     tint, dead = (
@@ -153,7 +160,7 @@ def _instances(
     points: dict[str, NDArray],
     library: bpy.types.Collection,
 ) -> bpy.types.Object:
-    """Make an object of plants, and those that stand in for it in the viewport."""
+    """Create an object of plant instances, and its stand-ins for the viewport."""
     group = node_group(shot, f"Firetwin {name}", library)
     full = _object(collection, name, points, group)
     shown = []
@@ -169,7 +176,7 @@ def _instances(
 def _object(
     collection: bpy.types.Collection, name: str, points: dict[str, NDArray], group: bpy.types.NodeTree
 ) -> bpy.types.Object:
-    """Make an object of bare points with the node group that puts models on them."""
+    """Create a point cloud object with the node group that instances models on it."""
     data = bpy.data.meshes.new(f"Firetwin {name}")
     data.vertices.add(len(points["position"]))
     data.vertices.foreach_set("co", points["position"].astype(np.float32).ravel())
@@ -186,9 +193,10 @@ def _object(
 
 
 def _drawn(tree: nodes.Tree, shot: Shot) -> nodes.Value | bool:
-    """Whether plants are drawn: not for a satellite that sees none, or those for others would be a patch.
+    """Whether plants are rendered: not for a satellite that resolves none.
 
-    To it the ground's colour is the forest, as everywhere else in its picture.
+    Plants placed for other cameras would be a patch in its picture. There the ground's colour stands for the
+    forest.
     """
     if not visibility.too_far(shot):
         return True
@@ -200,7 +208,7 @@ def _drawn(tree: nodes.Tree, shot: Shot) -> nodes.Value | bool:
 def node_group(
     shot: Shot, name: str, library: bpy.types.Collection, *, burns: bool = True
 ) -> bpy.types.NodeTree:
-    """A model on every point, which becomes a snag, or bare stems, when its flames end; or never does."""
+    """Geometry nodes that instance a model on each point; with `burns` it then becomes a snag."""
     tree, given = nodes.geometry(name)
     collection = tree.node("GeometryNodeCollectionInfo", transform_space="ORIGINAL")
     compat.find_socket(collection.inputs, "Collection").default_value = library

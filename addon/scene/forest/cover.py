@@ -1,6 +1,6 @@
-"""Where open land is bushy, hollow or tilled: fields (ny, nx) of the ground's grid, without Blender.
+"""Cover of open land: shrubs, hollows and valleys, as fields (ny, nx) of the terrain grid. Without Blender.
 
-What fuel does not say is invented: hollows are the terrain's, but on level land they are noise.
+Where fuel gives no cover it is procedural. Hollows are the terrain's, and noise on level land.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ from ...shot.terrain import land_use, noise
 from ...shot.terrain.terrain import Ground, bilinear
 from . import biomes, patterns
 
-_REACH = 180.0  # m, half-width of the means that a hollow lies below (by eye)
-_DEEP = 9.0  # m below them, from which on it is a hollow altogether (by eye)
-_LEVEL = 420.0  # m, size of hollows that are noise
+_REACH = 180.0  # m, half-width of the moving means that a hollow lies below (by eye)
+_DEEP = 9.0  # m below these means at which a hollow is complete (by eye)
+_LEVEL = 420.0  # m, wavelength of noise hollows
 _BUSHY = {"grass": 0.0, "shrub": 0.85, "litter": 0.35, "slash": 0.15}
-"""Part of the ground under bushes by kind of fuel, beside the biome's own for grass (assumed)."""
-_AMONG_GRASS = 0.30  # the same of Scott and Burgan's GS, grass and shrub
+"""Shrub cover fraction by kind of fuel; grass takes the biome's (assumed)."""
+_AMONG_GRASS = 0.30  # shrub cover of Scott and Burgan's GS, grass and shrub
 
 Array = NDArray[np.float64]
 
@@ -32,7 +32,7 @@ _HOLLOWS: WeakKeyDictionary[Ground, Array] = WeakKeyDictionary()
 
 
 def shrubs(shot: Shot) -> Array:
-    """Part 0..1 of open land under bushes: by the fuel's category, else by its load."""
+    """Shrub cover 0..1 of open land: from the fuel category, else from the fuel load."""
     if shot not in _SHRUBS:
         _SHRUBS[shot] = _shrubs(shot)
     return _SHRUBS[shot]
@@ -56,7 +56,7 @@ def _beside(here: biomes.Here, shrub: Array) -> Array:
 
 
 def _by_category(shot: Shot, here: biomes.Here) -> Array:
-    """The same where the run says a category; NaN elsewhere, as on the apron."""
+    """Shrub cover 0..1 from the run's fuel category; NaN elsewhere, as on the apron."""
     number = on_ground(shot, shot.run.fuel_rows(fuel_category.FIELD, 0, len(shot.run.fuel_latitude)))
     kind = fuel_category.kinds(number)
     share = np.full(len(fuel_category.NAMES), np.nan)
@@ -68,7 +68,7 @@ def _by_category(shot: Shot, here: biomes.Here) -> Array:
 
 
 def mapped(shot: Shot) -> Array:
-    """1 where a map of land use says what there is."""
+    """Mask of land cover maps: 1 where a land use map has data."""
     if land_use.read_map(shot) is None:
         return np.zeros(shot.ground.shape)
     fields = shot.ground.fields
@@ -77,7 +77,7 @@ def mapped(shot: Shot) -> Array:
 
 
 def on_ground(shot: Shot, field: NDArray) -> Array:
-    """A field (fy, fx) of the run's fuel grid on the ground's; NaN beyond the run."""
+    """A field (fy, fx) of the run's fuel grid resampled to the terrain grid; NaN beyond the run."""
     run: Run = shot.run
     row, column = (
         np.interp(wanted, *_ascending(own), left=np.nan, right=np.nan)
@@ -94,13 +94,13 @@ def on_ground(shot: Shot, field: NDArray) -> Array:
 
 
 def _ascending(axis: Array) -> tuple[Array, Array]:
-    """An axis from low to high, and its numbers."""
+    """An axis in ascending order, and its indices."""
     order = np.argsort(axis)
     return axis[order], order.astype(np.float64)
 
 
 def hollows(ground: Ground) -> Array:
-    """How far ground lies below the means round it, -1 (crests) to 1 (hollows); on level land noise."""
+    """Hollows: depth below moving means of elevation, -1 (crests) to 1 (hollows); noise on level land."""
     if ground not in _HOLLOWS:
         _HOLLOWS[ground] = _hollows(ground)
     return _HOLLOWS[ground]
@@ -117,7 +117,7 @@ def _hollows(ground: Ground) -> Array:
 
 
 def _noise(ground: Ground) -> Array:
-    """Of the plane, -1..1; on the apron, where the grid is coarse, none."""
+    """Noise of the plane, -1..1; 0 on the apron, whose grid is coarse."""
     fields, inner = ground.fields, np.zeros(ground.shape)
     rows, columns = (np.arange(len(axis)) for axis in (fields.latitude, fields.longitude))
     made = noise.fractal(
@@ -129,7 +129,7 @@ def _noise(ground: Ground) -> Array:
 
 
 def _mean(field: Array, cells: list[int]) -> Array:
-    """Means over so many cells to each side along both axes; beyond its ends a field goes on level."""
+    """Moving means of `cells` cells to each side along both axes; edge values extend the field."""
     for axis, reach in enumerate(cells):
         pad = [(reach + 1, reach) if k == axis else (0, 0) for k in (0, 1)]
         total = np.cumsum(np.pad(field, pad, "edge"), axis=axis)
@@ -141,7 +141,7 @@ def _mean(field: Array, cells: list[int]) -> Array:
 
 
 def bushes(shot: Shot, land: biomes.OpenLand, shrub: Array, place: Array) -> Array:
-    """Part 0..1 of the ground under bushes at places (n, 2), m, where on the whole it is `shrub` (n,)."""
+    """Shrub cover 0..1 at points (n, 2), m, whose mean over patches is `shrub` (n,)."""
     if len(place) == 0:
         return np.empty(0)
     place = np.column_stack([place[:, :2], shot.ground.up(*place[:, :2].T)])
@@ -151,7 +151,7 @@ def bushes(shot: Shot, land: biomes.OpenLand, shrub: Array, place: Array) -> Arr
 
 
 def draws(land: biomes.OpenLand, place: Array) -> Array:
-    """Shallow valleys 0..1 at places (n, 3) in the scene, m."""
+    """Shallow valleys 0..1 at points (n, 3) in the scene, m."""
     if not land.draws:
         return np.zeros(len(place))
     noise_there = patterns.at(place)
@@ -159,7 +159,7 @@ def draws(land: biomes.OpenLand, place: Array) -> Array:
 
 
 def at(shot: Shot, field: Array, place: Array) -> Array:
-    """Values (n,) of a field at places (n, 2 or 3) in the scene, m."""
+    """Values (n,) of a field at points (n, 2 or 3) in the scene, m."""
     if len(place) == 0:
         return np.empty(0)
     return bilinear(field, *shot.ground.indices(*shot.ground.geodetic(*place[:, :2].T)))

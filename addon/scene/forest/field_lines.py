@@ -1,7 +1,7 @@
-"""Invented lines of tilled land: edges of fields, which hedges stand on, and tracks. Without Blender.
+"""Procedural lines of farmland: field boundaries, on which hedges stand, and tracks. Without Blender.
 
-All are functions of a place, which the ground's material and the plants work out alike: rows of fields as
-bricks lie, bent by sines. Lengths are metres.
+All are functions of position, which the ground's material and the plants evaluate alike: rows of fields in a
+brick pattern, distorted by sines. Lengths are metres.
 """
 
 from __future__ import annotations
@@ -12,19 +12,19 @@ from typing import Any
 
 import numpy as np
 
-ANGLE = 0.37  # rad from east, of the rows
+ANGLE = 0.37  # rad, direction of the rows from east
 BENDS = (
     (170.0, 3100.0, 0.4),
     (46.0, 830.0, 0.0),
     (14.0, 310.0, 1.7),
-)  # amplitude and length of the bends, their phase
-STRETCH = 0.7549  # of a field's length, by which rows differ: from 0.6 to 1.6 of it
-SHIFT = 0.618  # of a field, by which each row is shifted against the one before
+)  # amplitude and wavelength of the distortion, its phase
+STRETCH = 0.7549  # fraction of a field's length by which rows differ: lengths are 0.6 to 1.6 of it
+SHIFT = 0.618  # fraction of a field by which each row is offset against the one before
 
 
 @dataclass(frozen=True)
 class Maths:
-    """The functions that places are worked out with: NumPy's, or a node tree's."""
+    """Mathematical functions of the patterns: NumPy's, or a node tree's."""
 
     sin: Callable[[Any], Any]
     floor: Callable[[Any], Any]
@@ -35,8 +35,8 @@ class Maths:
 NUMPY = Maths(np.sin, np.floor, lambda x: x - np.floor(x), np.minimum)
 
 
-def bent(maths: Maths, x: Any, y: Any) -> tuple[Any, Any]:
-    """Along and across the rows, m."""
+def distorted(maths: Maths, x: Any, y: Any) -> tuple[Any, Any]:
+    """Distorted coordinates along and across the rows, m."""
     along = x * float(np.cos(ANGLE)) + y * float(np.sin(ANGLE))
     across = y * float(np.cos(ANGLE)) - x * float(np.sin(ANGLE))
     for reach, length, phase in BENDS:
@@ -49,8 +49,8 @@ def bent(maths: Maths, x: Any, y: Any) -> tuple[Any, Any]:
 
 
 def fields(maths: Maths, x: Any, y: Any, size: tuple[float, float]) -> tuple[Any, Any, Any]:
-    """Distance from the edge of a field (m), and the numbers of its row and of it in its row."""
-    along, across = bent(maths, x, y)
+    """Distance to the boundary of a field (m), and the indices of its row and of the field in its row."""
+    along, across = distorted(maths, x, y)
     row = maths.floor(across / size[1])
     long = (maths.fract(row * STRETCH) + 0.6) * size[0]
     shifted = along / long + row * SHIFT
@@ -59,6 +59,6 @@ def fields(maths: Maths, x: Any, y: Any, size: tuple[float, float]) -> tuple[Any
 
 
 def _edge(maths: Maths, x: Any) -> Any:
-    """Distance from the next whole number."""
+    """Distance to the nearest integer."""
     part = maths.fract(x)
     return maths.least(part, 1.0 - part)

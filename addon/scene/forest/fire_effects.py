@@ -1,4 +1,4 @@
-"""What the fire does to trees: from the fireline intensity where each stands."""
+"""Fire effects on trees: scorch height and torching from fireline intensity."""
 
 from __future__ import annotations
 
@@ -12,21 +12,22 @@ from ...shot.shot import Shot
 from ...shot.terrain import noise
 from ...shot.terrain.terrain import bilinear
 
-_UNEVEN = 0.4  # standard deviation of the logarithm of intensity from tree to tree (assumed)
-_BASE = 0.1  # of a tree's height: where branches, or young trees under it, take flames up (assumed)
-_MOISTURE = 100.0  # % of the needles' dry weight (assumed: the least of a dry autumn)
+_UNEVEN = 0.4  # standard deviation of the logarithm of intensity between trees (assumed)
+_BASE = 0.1  # canopy base height over tree height, with ladder fuels (assumed)
+_MOISTURE = 100.0  # % of the needles' dry weight, foliar moisture (assumed: dry autumn's least)
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class FireEffects:
-    """What becomes of n trees when the fire comes.
+    """Effects of the fire on n trees.
 
     Attributes
     ----------
     scorch
-        (n,) part 0..1 of the height below which heat browns the needles.
+        (n,) scorch height as a fraction 0..1 of tree height; needles below it are killed by heat and turn
+        brown.
     torched
         (n,) whether the crown burns.
     """
@@ -36,7 +37,7 @@ class FireEffects:
 
 
 def of_trees(shot: Shot, row: Array, column: Array, height: Array, key: NDArray[np.int64]) -> FireEffects:
-    """Fate of trees (n,), `height` m tall, at fractional rows and columns; chance hangs on keys (n, 2)."""
+    """Fire effects on trees (n,), `height` m tall, at fractional rows and columns; keys (n, 2) are seeds."""
     seed = shot.settings.seed
     lot = (noise.uniform(*key.T, seed + 310 + use) for use in range(2))
     intensity = surface_intensity(shot, row, column) * np.exp(_UNEVEN * noise.normal(*lot))
@@ -47,14 +48,14 @@ def of_trees(shot: Shot, row: Array, column: Array, height: Array, key: NDArray[
 
 
 def surface_intensity(shot: Shot, row: Array, column: Array) -> Array:
-    """Intensity (kW/m) of the fire on the ground: H w R with its fuel w (Byram 1959)."""
+    """Surface fireline intensity (kW/m): H w R with the surface fuel w (Byram 1959)."""
     ground = shot.ground
     fuel = bilinear(ground.fields.surface_fuel, row, column)
     return burning.HEAT / 1000.0 * fuel * ground.spread(row, column)
 
 
 def scorch_height(intensity: ArrayLike) -> Array:
-    """Height (m) to which a fire of `intensity` kW/m kills needles: 0.1483 I^(2/3).
+    """Scorch height (m) of a fire of `intensity` kW/m: 0.1483 I^(2/3).
 
     Van Wagner (1973, Can. J. For. Res. 3:373-378), in air of 25 C without wind; in SI by Alexander (1982).
     """
@@ -62,7 +63,7 @@ def scorch_height(intensity: ArrayLike) -> Array:
 
 
 def torching_intensity(base: ArrayLike) -> Array:
-    """Intensity (kW/m) from which a crown that begins `base` m up burns: (0.010 z (460 + 25.9 m))^1.5.
+    """Critical surface intensity for torching, kW/m, of base height `base` m: (0.010 z (460 + 25.9 m))^1.5.
 
     Van Wagner (1977, Can. J. For. Res. 7:23-34), with a foliar moisture content m of `_MOISTURE`.
     """

@@ -1,6 +1,7 @@
-"""What lies and grows on the forest's floor: logs, rocks, tufts of grass, fallen twigs and burned brush.
+"""Models of the forest floor: logs, rocks, tufts of grass, fallen twigs and burned brush.
 
-Models are a metre tall, as trees are; a log's height is its thickness. Shapes and numbers are chosen by eye.
+Models are a metre tall, as trees are; the height of a log is its diameter. Shapes and numbers are chosen by
+eye.
 """
 
 from __future__ import annotations
@@ -15,17 +16,17 @@ from .shape import BARK, FOLIAGE, Array, Shape
 _DEAD_WOOD = (0.085, 0.068, 0.052)  # weathered
 _STRAW = (0.150, 0.118, 0.058)
 _STONE = (0.16, 0.155, 0.145)
-_TURNS = (4, 3, 2, 1)  # of level 0 to 3: how often a rock's faces are split
+_TURNS = (4, 3, 2, 1)  # by level of detail 0 to 3: subdivisions of a rock's faces
 _GOLDEN = 2.399963  # rad
 
 
 def log(seed: int, level: int) -> Shape:
-    """A fallen trunk along x, 12 to 20 times as long as thick, a little crooked, with stubs of branches."""
+    """A fallen trunk along x, 12 to 20 times as long as thick, slightly crooked, with stubs of branches."""
     random, shape = np.random.default_rng(seed), Shape()
     length, sides = random.uniform(12.0, 20.0), (11, 9, 7, 5)[level]
     at = np.linspace(-0.5, 0.5, (9, 7, 5, 3)[level]) * length
     thick = 0.5 - 0.20 * (at / length + 0.5) + 0.03 * np.sin(5.0 * at / length + seed)
-    ends = np.array([at[0] - 0.02, *at, at[-1] + 0.02])  # closed by rings without width
+    ends = np.array([at[0] - 0.02, *at, at[-1] + 0.02])  # closed by rings of radius zero
     bend = 0.35 * np.sin(2.2 * ends / length + random.uniform(0.0, 6.0))
     up = np.interp(ends, at, thick) - 0.10 + 0.05 * np.cos(3.0 * ends / length)
     way = np.stack([ends, bend, up], axis=-1)
@@ -33,7 +34,7 @@ def log(seed: int, level: int) -> Shape:
     if level < 3:
         n = (14, 10, 6)[level]
         foot = random.uniform(-0.45, 0.45, n) * length
-        turn = random.uniform(0.1, np.pi - 0.1, n)  # none goes into the ground
+        turn = random.uniform(0.1, np.pi - 0.1, n)  # no stub goes into the ground
         ahead = np.stack([0.4 * np.ones(n), np.cos(turn), np.sin(turn)], axis=-1)
         root = np.stack([foot, np.interp(foot, ends, bend), np.interp(foot, ends, up)], axis=-1)
         reach = random.uniform(0.6, 2.0, (n, 1, 1))
@@ -47,7 +48,7 @@ def log(seed: int, level: int) -> Shape:
 
 
 def rock(seed: int, level: int) -> Shape:
-    """A boulder: a ball cut by planes, as joints cut granite; a quarter of it is in the ground."""
+    """A boulder: a sphere cut by planes, as joints cut granite; a quarter of it is below ground."""
     random, shape = np.random.default_rng(seed), Shape()
     points, faces = _ball(_TURNS[level])
     cuts = random.normal(0.0, 1.0, (9, 3))
@@ -88,7 +89,7 @@ def tuft(seed: int, level: int, burned: bool = False) -> Shape:
 
 
 def stubble(seed: int, level: int) -> Shape:
-    """What fire leaves of a tuft."""
+    """Burned remains of a tuft."""
     return tuft(seed, level, burned=True)
 
 
@@ -108,7 +109,7 @@ def twigs(seed: int, level: int) -> Shape:
 
 
 def burned_brush(habit: Habit, seed: int, level: int) -> Shape:
-    """What fire leaves of a bush: its black stems."""
+    """Burned remains of a bush: black stems."""
     limbs, leaves = grown(habit, seed)
     shape, height = Shape(), float(leaves.corners()[..., 2].max())
     kept = np.arange(0, len(limbs.root), (1, 1, 2, 4)[level])
@@ -119,7 +120,7 @@ def burned_brush(habit: Habit, seed: int, level: int) -> Shape:
 
 
 def _ball(turns: int) -> tuple[Array, NDArray[np.int64]]:
-    """Points (n, 3) and triangles (m, 3) of a ball: an octahedron, its faces split so often in four."""
+    """Points (n, 3) and triangles (m, 3) of a sphere: an octahedron subdivided `turns` times."""
     points = np.array([(1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, -1, 0), (0, 0, -1)], float)
     a, b, c, d, e, f = range(6)
     faces = np.array([(a, b, c), (b, d, c), (d, e, c), (e, a, c), (b, a, f), (d, b, f), (e, d, f), (a, e, f)])

@@ -1,8 +1,8 @@
-"""Habits of the Sierra's trees: what makes a sugar pine look unlike a white fir.
+"""Growth habits of the Sierra's tree species: crown shape, branching and colour.
 
 Lengths are in tree heights. Crowns are somewhat wider than in dense stands (crown radius 0.10 to 0.15 of the
-height there), as our trees are fewer; shapes follow the species' descriptions in Burns & Honkala, Silvics of
-North America (1990); numbers are chosen by eye.
+height there), as our trees are fewer. Shapes follow the species' descriptions in Burns & Honkala, Silvics of
+North America (1990). Numbers are chosen by eye.
 """
 
 from __future__ import annotations
@@ -16,42 +16,43 @@ Fit = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Habit:
-    """How a tree grows.
+    """Growth habit of a tree.
 
     Attributes
     ----------
     bare, top
-        Heights of the lowest living branches and of where the trunk ends.
+        Heights of the lowest living branches and of the trunk's top.
     radius
         Length of the longest branches.
     branches, sprays, leaves
         Branches, sprays on each, and leaves (clumps of needles drawn as one) on each spray.
     low, high
-        Powers of the distance from the crown's base and top that a branch's length goes with: small `low` and
-        large `high` make a spire, the reverse a flat top.
+        Exponents of branch length in the distance from the crown's base and top: small `low` and large `high`
+        make a spire, the reverse a flat top.
     irregular
-        Spread of the logarithm of branch lengths.
+        Standard deviation of the logarithm of branch length.
     whorled
-        0 where branches leave the trunk anywhere, 1 where they do in rings.
+        0: branches leave the trunk at random heights; 1: in whorls.
     rise
-        Angle of a branch over the horizontal at the crown's base and at its top, degrees.
+        Angle of a branch above the horizontal at the crown's base and at its top, degrees.
     lift
-        How far a branch's tip bends up, in its lengths; negative hangs.
+        Upward bend of a branch's tip, in branch lengths; negative: it droops.
     inner
-        Part of a branch next to the trunk without leaves.
+        Fraction of a branch next to the trunk without leaves.
     spread
-        How far leaves stand off the line of their spray, sideways and up.
+        Scatter of leaves about the line of their spray, sideways and up.
     size
         Length and width of a leaf.
     stem
-        Radius of the trunk at its foot.
+        Radius of the trunk at its base.
     dead
-        Dead branches under the living ones.
+        Number of dead branches below the living ones.
     colour, wood
         Linear reflectances of leaves and bark.
     fit
-        Of levels 1, 2 and 3: width and height of their triangles and brightness of their colour with which
-        they cover as much and look as bright as level 0 does, from the side and from above (measured).
+        Of levels of detail 1, 2 and 3: factors of the triangles' width and height and of the colour's
+        brightness that give them the cover and the brightness of level 0, from the side and from above
+        (measured).
     """
 
     bare: float

@@ -1,4 +1,4 @@
-"""Coarser levels of a crown: fewer triangles that cover as much and look as bright as all its leaves."""
+"""Level of detail of crowns: fewer triangles of equal cover and brightness."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from .habit import Fit
 from .shape import Array, Shape
 
 LEVELS = 4
-PIXELS = (40.0, 12.0, 4.0)  # a tree is drawn in level 0 if taller, in 1, in 2, and in 3 if smaller
+PIXELS = (40.0, 12.0, 4.0)  # level 0 if taller, then 1, 2, and 3 if smaller
 
 
 def level(pixels: ArrayLike) -> NDArray[np.int64]:
-    """Level (n,) in which trees so many pixels (n,) tall are drawn."""
+    """Level of detail (n,) of trees of these heights (n,) in pixels."""
     return np.sum(np.asarray(pixels)[..., None] < np.array(PIXELS), axis=-1)
 
 
 def some(shape: Shape, leaves: Leaves, count: int, fit: Fit) -> None:
-    """Add about `count` of the leaves, larger by as much that they have the area of all.
+    """Add a random subset of about `count` leaves, enlarged to the area of all leaves.
 
     Stochastic simplification: Cook, Halstead, Planck, Ryu 2007.
     """
@@ -31,14 +31,14 @@ def some(shape: Shape, leaves: Leaves, count: int, fit: Fit) -> None:
 
 
 def fans(shape: Shape, leaves: Leaves, groups: NDArray[np.int64], fit: Fit) -> None:
-    """Add two triangles for each group of leaves, with the group's middle, extent and colour.
+    """Add two triangles for each group of leaves, with the group's mean position, extent and colour.
 
-    A triangle whose corners lie twice the standard deviation from its middle has that deviation.
+    A triangle whose corners lie twice the standard deviation from its centre has that deviation.
 
     Parameters
     ----------
     groups
-        (n,) number of each leaf's group.
+        (n,) group index of each leaf.
     """
     _, number, count = np.unique(groups, return_inverse=True, return_counts=True)
 
@@ -67,9 +67,9 @@ def fans(shape: Shape, leaves: Leaves, groups: NDArray[np.int64], fit: Fit) -> N
 
 
 def slabs(leaves: Leaves) -> NDArray[np.int64]:
-    """Groups (n,) of leaves: slabs of as many each, one over the other, cut in sectors round the trunk.
+    """Groups (n,) of leaves: horizontal slabs of equal counts, divided into sectors round the trunk.
 
-    Many slabs of few sectors where a crown is tall, the reverse where it is wide.
+    A tall crown has many slabs of few sectors, a wide crown the reverse.
     """
     x, y, z = leaves.middle.T
     layers, sectors = (5, 2) if z.std() > x.std() else (2, 5)
@@ -81,7 +81,7 @@ def slabs(leaves: Leaves) -> NDArray[np.int64]:
 def _add(
     shape: Shape, corners: Array, colour: Array, fit: Fit, crown: tuple[float, float] = (-np.inf, np.inf)
 ) -> None:
-    """Add triangles (n, 3, 3) of these colours (n, 3), stretched about their middles but inside the crown."""
+    """Add triangles (n, 3, 3) of colours (n, 3), scaled about their centres and clamped to the crown."""
     middle = corners.mean(axis=1, keepdims=True)
     corners = middle + (corners - middle) * np.array([fit[0], fit[0], fit[1]])
     corners[..., 2] = np.clip(corners[..., 2], *crown)

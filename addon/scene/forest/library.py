@@ -1,21 +1,21 @@
-"""The models in Blender: ours, and an artist's in their place.
+"""Model library: Firetwin's models in Blender, and an artist's replacements.
 
 An artist's models are the objects of a collection named "Firetwin Models" with these custom properties:
 
 class
     "large", "medium", "small", "oak", "brush", "log", "rock", "tuft", "twigs", "pine", "spruce" or "birch":
-    whose place they take. All
-    models of that class and state are replaced, by each of the artist's in turn, in the order of their names.
+    the class that they replace. All models of that class and state are replaced by the artist's in turn,
+    ordered by name.
 level
-    0 (near, what is meant without it) to 3 (far). A level that is not there is drawn as the next finer one,
-    or the finest there is.
+    0 (near; the default) to 3 (far). A missing level of detail falls back to the next finer one, or the
+    finest.
 state
-    "living" (what is meant without it), or "snag": burned, without needles; of a tuft its stubble. Logs,
-    rocks and twigs are the same before the fire and after it.
+    "living" (the default), or "snag": burned, without needles; of a tuft its stubble. Logs, rocks and twigs
+    have one state.
 
-Their place and size do not matter: an object's lowest point is put on the ground, its origin on the trunk's
-axis, and its height becomes that of the tree, or the thickness of a log, which lies along x. Their materials
-stay theirs; what burns and varies is there as attributes of the instancer that `material` names.
+Position and size of an object are normalized: its lowest point is put on the ground and its origin on the
+trunk's axis. Its height becomes that of the tree, or the diameter of a log, which lies along x. Its materials
+are retained. They can read fire state and variation from the instancer attributes that `material` names.
 """
 
 from __future__ import annotations
@@ -43,12 +43,12 @@ Kind = tuple[str, str]  # class and state
 
 
 def tree_models(shot: Shot, stage: Stage, drawn: set[int] | None = None) -> bpy.types.Collection:
-    """A collection outside of the scene of all models in all levels, numbered as `models.instance` says.
+    """A collection outside of the scene: all models in all levels of detail, indexed by `models.instance`.
 
     Parameters
     ----------
     drawn
-        Numbers of those that are there to be drawn: of ours others have no mesh. None: all.
+        Indices of the models that are drawn; Firetwin's other models get no mesh. None: all.
     """
     looks = _looks(shot, stage)
     swapped, count = _artists(), defaultdict(int)
@@ -70,7 +70,7 @@ def tree_models(shot: Shot, stage: Stage, drawn: set[int] | None = None) -> bpy.
 
 
 def _looks(shot: Shot, stage: Stage) -> Callable[[models.Model], Look]:
-    """What leaves and wood of a model are made of, each material made with its first use."""
+    """Materials of leaves and wood of the models, each created on first use."""
     makers = {
         "leaf": material.foliage,
         "wood": functools.partial(material.bark, charred=False),
@@ -92,14 +92,14 @@ def _looks(shot: Shot, stage: Stage) -> Callable[[models.Model], Look]:
 
 
 def drawn(points: dict[str, NDArray]) -> set[int]:
-    """Numbers of the models of points of trees, burned or not, as renders and the viewport draw them."""
+    """Indices of the models of these points, burned or not, as renders and the viewport draw them."""
     model, level = np.divmod(np.unique(np.concatenate([points["model"], points["snag_model"]])), LEVELS)
     coarse = models.instance(model, np.maximum(level, preview.LEVEL))
     return {*models.instance(model, level).tolist(), *coarse.tolist()}
 
 
 def grass_models(shot: Shot, stage: Stage) -> bpy.types.Collection:
-    """A collection outside of the scene of all models of grass, in the order of their numbers."""
+    """A collection outside of the scene with all models of grass, in the order of their indices."""
     straw = material.grass(shot, stage)
     library = owned.library("Grass Models")
     for k, shape in enumerate(models.clumps()):
@@ -108,10 +108,10 @@ def grass_models(shot: Shot, stage: Stage) -> bpy.types.Collection:
 
 
 def levelled(shot: Shot, points: dict[str, NDArray], wider: float = 1.0) -> dict[str, NDArray]:
-    """Points of trees whose models are instances, in the level that the nearest camera of the shot asks for.
+    """Points of trees with the level of detail that the shot's nearest camera needs.
 
-    One level for the whole shot: nothing changes its shape while it is seen. Things are so much `wider` than
-    trees of their height, and drawn like trees as much taller.
+    The level is constant during the shot, so no shape changes while it is visible. Plants `wider` than trees
+    of their height take the level of trees that are taller by this factor.
     """
     lens, plain = (1.0 / size for size in shot.pixel)
     near = lens / np.maximum(shot.visibility.lod_distance(points["position"]), 1.0)
@@ -145,7 +145,7 @@ def _artists() -> dict[Kind, dict[int, list[bpy.types.Mesh]]]:
     Raises
     ------
     Error
-        An object's properties are none of those that are known.
+        An object's property has an unknown value.
     """
     found: dict[Kind, dict[int, list[bpy.types.Mesh]]] = defaultdict(lambda: defaultdict(list))
     collection = bpy.data.collections.get(ARTISTS)
@@ -169,7 +169,7 @@ def _check(name: str, key: str, value: object, known: tuple[str, ...] | range) -
 
 
 def _copy(thing: bpy.types.Object) -> bpy.types.Mesh:
-    """A mesh of ours with an artist's object as it is drawn, on the ground and a metre tall.
+    """Copy an artist's object as evaluated to a mesh on the ground, a metre tall.
 
     Raises
     ------
@@ -197,7 +197,7 @@ def _copy(thing: bpy.types.Object) -> bpy.types.Mesh:
 
 
 def _of_level(theirs: dict[int, list[bpy.types.Mesh]], level: int, turn: int) -> bpy.types.Mesh:
-    """The model whose turn it is, in this level, or the next finer one, or else the finest."""
+    """The artist's model of this turn in this level, or the next finer one, or else the finest."""
     finer = [known for known in theirs if known <= level]
     meshes = theirs[max(finer) if finer else min(theirs)]
     return meshes[turn % len(meshes)]

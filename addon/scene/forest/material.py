@@ -1,9 +1,8 @@
-"""Materials of trees: needles and leaves that live, torch, scorch and char, bark, and grass.
+"""Materials of trees: leaves that live, torch, scorch and char, bark, rock, and grass.
 
-What differs from tree to tree comes from its point, as attributes of the instancer: `arrival_time` (s),
-`tint`, `dead`, `scorch` (0..1 of the height: so far up heat browns needles), `torched` (1: the crown burns),
-`elevation` (m). What differs within a tree is the mesh's colour attribute
-`leaf`.
+Variation between trees comes from attributes of the instancer: `arrival_time` (s), `tint`, `dead`, `scorch`
+(scorch height over tree height, 0..1), `torched` (1: the crown burns), `elevation` (m). Variation within a
+tree is in the mesh's colour attribute `leaf`.
 """
 
 from __future__ import annotations
@@ -19,15 +18,15 @@ from .. import granite, haze, infrared, temperature
 from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME, brightness
 from . import biomes
 
-TORCHING = 300.0  # s that a crown is in flames; then it is gone
-_BUSH = 0.3  # of that time, a bush amid grass (assumed)
-_TORCH = 0.1, 0.9  # of the flames' radiance, at the distances CLOSE: crowns near by fill pixels
-_BETWEEN = 0.0, 0.9  # the same of flames that are seen between crowns: far away no gaps are drawn; by eye
-_TONGUES = 0.3  # of their height is how wide flames in crowns are
-_DEAD = 0.03  # part of the trees that stood dead and brown before
-_SINGED = 0.7  # how far the green tops of half scorched trees are brown: hot air and soot dull them; by eye
+TORCHING = 300.0  # s that a crown is in flames; it is gone afterwards
+_BUSH = 0.3  # fraction of that time of a bush amid grass (assumed)
+_TORCH = 0.1, 0.9  # factor of the flames' radiance at the distances CLOSE: crowns close by fill whole pixels
+_BETWEEN = 0.0, 0.9  # factor for flames between crowns: gaps are not resolved far away; by eye
+_TONGUES = 0.3  # ratio of width to height of flames in crowns
+_DEAD = 0.03  # fraction of trees that died before the fire
+_SINGED = 0.7  # browning of the green tops of partly scorched trees by hot air and soot; by eye
 _BROWN = ((0.060, 0.041, 0.026), (0.118, 0.080, 0.046))  # needles killed by drought, beetles or heat
-_BLACK = ((0.010, 0.008, 0.007), (0.030, 0.024, 0.020))  # needles that burned
+_BLACK = ((0.010, 0.008, 0.007), (0.030, 0.024, 0.020))  # charred needles
 
 
 def foliage(shot: Shot, stage: Stage) -> bpy.types.Material:
@@ -46,20 +45,22 @@ def foliage(shot: Shot, stage: Stage) -> bpy.types.Material:
         )
         varied = tree.mix_colour(1.0, varied, fallen, "MULTIPLY")
     green = tree.mix_colour(1.0, leaf, varied, "MULTIPLY")
-    brown = tree.mix_colour(tint, *_two(tree, "Scorched", _BROWN, "needles killed by drought or heat"))
+    brown = tree.mix_colour(
+        tint, *_shades(tree, "Scorched", _BROWN, "needles killed by drought or heat")
+    )
     living = tree.mix_colour(tree.attribute("dead", "INSTANCER") < lost, green, brown)
     place = _place(tree)
     torched, age = tree.attribute("torched", "INSTANCER"), _age(tree)
     killed = age.smoothstep(20.0, 200.0)
-    reach = tree.attribute("scorch", "INSTANCER") * 1.16 - 0.08  # over the whole crown where it is 1
+    reach = tree.attribute("scorch", "INSTANCER") * 1.16 - 0.08  # over the whole crown where scorch is 1
     scorched = tree.separate(place)[2].smoothstep(reach + 0.08, reach - 0.08)
-    # Not all alike: some crowns stay green beside brown ones.
+    # Scorch varies: some crowns stay green next to brown ones.
     hot = tree.attribute("scorch", "INSTANCER") - tree.attribute("dead", "INSTANCER") * 0.35
     singed = hot.smoothstep(0.05, 0.35) * tree.input(
         "Singed", _SINGED, "How brown the tops of scorched trees are", "Variety", most=1.0
     )
     spared = tree.mix_colour(tree.math("MAXIMUM", scorched, singed) * killed, living, brown)
-    charred = _two(tree, "Charred", _BLACK, "needles that burned")
+    charred = _shades(tree, "Charred", _BLACK, "needles that burned")
     black = tree.mix_colour(tree.attribute("dead", "INSTANCER"), *charred)
     browned = tree.mix_colour(age.smoothstep(0.0, 60.0), living, brown)
     burned = tree.mix_colour(age.smoothstep(40.0, 240.0), browned, black)
@@ -76,7 +77,7 @@ def bark(shot: Shot, stage: Stage, *, charred: bool) -> bpy.types.Material:
     material.cycles.emission_sampling = "NONE"
     tint = tree.attribute("tint", "INSTANCER")
     char = ((0.010, 0.009, 0.009), (0.045, 0.040, 0.036))
-    black = tree.mix_colour(tint, *_two(tree, "Charred", char, "charred bark"))
+    black = tree.mix_colour(tint, *_shades(tree, "Charred", char, "charred bark"))
     age = _age(tree)
     if charred:
         colour = black
@@ -85,7 +86,7 @@ def bark(shot: Shot, stage: Stage, *, charred: bool) -> bpy.types.Material:
         brown = tree.mix_colour(
             1.0, wood, tree.mix_colour(tint, (0.7, 0.7, 0.7), (1.2, 1.2, 1.2)), "MULTIPLY"
         )
-        low = tree.separate(_place(tree))[2].smoothstep(0.5, 0.3)  # flames of a ground fire char the foot
+        low = tree.separate(_place(tree))[2].smoothstep(0.5, 0.3)  # flames of a surface fire char the base
         whole = tree.attribute("torched", "INSTANCER")
         colour = tree.mix_colour((age > 60.0) * tree.math("MAXIMUM", low, whole), brown, black)
     matt = tree.output("ShaderNodeBsdfDiffuse", {"Color": colour})
@@ -96,7 +97,7 @@ def bark(shot: Shot, stage: Stage, *, charred: bool) -> bpy.types.Material:
 
 
 def rock(shot: Shot, stage: Stage) -> bpy.types.Material:
-    """Build "Firetwin Rock": the ground's granite, darker from rock to rock, sooty where it burned."""
+    """Build "Firetwin Rock": the ground's granite, varied between rocks, with soot where it burned."""
     material, tree = nodes.material("Firetwin Rock", (0.32, 0.31, 0.29))
     position = tree.output("ShaderNodeNewGeometry", name="Position")
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
@@ -118,7 +119,7 @@ def rock(shot: Shot, stage: Stage) -> bpy.types.Material:
 
 
 def grass(shot: Shot, stage: Stage) -> bpy.types.Material:
-    """Build "Firetwin Grass": dry in September, burned to the ground by the fire."""
+    """Build "Firetwin Grass": cured in September, burned to the ground by the fire."""
     material, tree = nodes.material("Firetwin Grass", (0.42, 0.38, 0.16))
     tint = tree.attribute("tint", "INSTANCER")
     here = biomes.choose(shot)
@@ -127,7 +128,7 @@ def grass(shot: Shot, stage: Stage) -> bpy.types.Material:
     if here.biome.open_land is not None:
         tint = (tint + 2.0 * here.green - 1.0).clamp()
     dry = tree.mix_colour(tint, straw, green)
-    black = tree.mix_colour(tint, *_two(tree, "Charred", _BLACK, "grass that burned"))
+    black = tree.mix_colour(tint, *_shades(tree, "Charred", _BLACK, "grass that burned"))
     colour = tree.mix_colour(_age(tree).smoothstep(20.0, 200.0), dry, black)
     normal = tree.output("ShaderNodeNewGeometry", name="Normal")
     _leaves(tree, shot, stage, colour, normal, 1.0)
@@ -135,8 +136,10 @@ def grass(shot: Shot, stage: Stage) -> bpy.types.Material:
     return material
 
 
-def _two(tree: nodes.Tree, name: str, colours: tuple[tuple[float, ...], ...], what: str) -> list[nodes.Value]:
-    """Inputs for the darkest and the lightest colour of something."""
+def _shades(
+    tree: nodes.Tree, name: str, colours: tuple[tuple[float, ...], ...], what: str
+) -> list[nodes.Value]:
+    """Input sockets for the darkest and the lightest colour."""
     return [
         tree.input(f"{name} {end}", colour, f"{word} of {what}", "Scar")
         for end, word, colour in zip(("Dark", "Light"), ("Darkest", "Lightest"), colours, strict=True)
@@ -148,7 +151,7 @@ def _age(tree: nodes.Tree) -> nodes.Value:
 
 
 def _place(tree: nodes.Tree) -> nodes.Value:
-    """Where in a tree, in its heights."""
+    """Position in a tree, in tree heights."""
     return tree.output(
         "ShaderNodeVectorTransform",
         [tree.output("ShaderNodeNewGeometry", name="Position")],
@@ -159,7 +162,7 @@ def _place(tree: nodes.Tree) -> nodes.Value:
 
 
 def _rounded(tree: nodes.Tree, place: nodes.Value) -> nodes.Value:
-    """Normals that point outwards from the trunk, so that a crown has a sunlit and a shaded side."""
+    """Normals that point away from the trunk, which give a crown a sunlit and a shaded side."""
     x, y, z = tree.separate(place)
     radial = tree.output(
         "ShaderNodeVectorTransform",
@@ -182,9 +185,10 @@ def _leaves(
     normal: nodes.Value,
     torched: nodes.Value | float,
 ) -> None:
-    """Finish a leaf material of this colour; it goes up in flames where `torched` is 1.
+    """Finish a leaf material of this colour; it burns where `torched` is 1.
 
-    Far away trees are few and wide and hide the ground: there others bear the flames that are between them.
+    Distant trees are few and wide and hide the ground, so they also carry the flames of the ground between
+    them.
     """
     age = _age(tree)
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
@@ -194,9 +198,7 @@ def _leaves(
     leaf = tree.mix_shader(clear, matt, through)
     x, y, z = tree.separate(tree.output("ShaderNodeNewGeometry", name="Position"))
     flicker = tree.noise(tree.combine(x, y, (z - age * 6.0) * _TONGUES), 4.0, 2.0)
-    short = min(
-        shot.fire.smoke.residence / heat_release.FLAMING, 1.0
-    )  # of what timber burns, in the time that it does
+    short = min(shot.fire.smoke.residence / heat_release.FLAMING, 1.0)  # fuel and burning time of timber
     bush = max(short, _BUSH)
     crown = (
         age.smoothstep(0.0, 40.0 * bush) * age.smoothstep(TORCHING * bush, 0.4 * TORCHING * bush) * torched
@@ -227,7 +229,7 @@ def _warmth(
     age: nodes.Value,
     burned: nodes.Value | float,
 ) -> nodes.Value:
-    """Infrared radiance of needles and wood, before the air; leaves that `burned` cool at once."""
+    """Infrared radiance of leaves and wood, before the atmosphere; leaves that have `burned` cool at once."""
     elevation = tree.attribute("elevation", "INSTANCER")
     ambient = temperature.ambient(tree, shot, stage, elevation, normal, 0.0)
     kelvin = temperature.cooled(tree, ambient, age, burned)
@@ -242,14 +244,14 @@ def _finish(
     warmth: nodes.Value,
     alight: nodes.Value | float = 0.0,
 ) -> None:
-    """Make the surface: `shader` through the haze, its infrared radiance, or its class and number.
+    """Finish the surface: `shader` through the haze, its infrared radiance, or its class and instance number.
 
-    Trees have a number; where they are `alight` they are fire, also between the tongues of their flames: from
-    afar these are smaller than pixels. What is under them counts as ground.
+    Trees have an instance number. An `alight` tree is of the class fire, also between the tongues of its
+    flames, which are smaller than pixels from afar. The understorey counts as ground.
     """
     seen = infrared.through_air(tree, shot, stage, warmth)
     shader = nodes.thermal_switch(tree, haze.apply(tree, shader, stage), seen)
-    # Not "Fac", the mean of three equal parts: it is rounded, and numbers need all 24 bits.
+    # Not "Fac", the mean of three equal components: it is rounded, and instance numbers need all 24 bits.
     number, _, _ = tree.separate(tree.attribute("number", "INSTANCER", "Vector"))
     below = (_age(tree) > 0.0) * (masks.BURNED - masks.GROUND) + masks.GROUND
     kind = tree.mix(number > 0.0, below, float(masks.TREE))

@@ -1,9 +1,7 @@
-"""Models, a metre tall: ten conifers of Algorithm 2's classes, oaks, snags, brush; what lies below; grass.
+"""Plant models, a metre tall: ten conifers of Algorithm 2, oaks, snags, brush, forest floor and grass.
 
-Trees and bushes of other biomes than the Sierra's come last.
-
-Each is made from its own seed, so a scene's trees are always the same. The levels of a model are the same
-tree drawn with fewer triangles.
+Trees and bushes of biomes other than the Sierra's come last. Each model has its own seed, so a scene's trees
+are always the same. The levels of detail of a model are the same tree with fewer triangles.
 """
 
 from __future__ import annotations
@@ -21,7 +19,7 @@ from .branching import dead, grown, wood
 from .habit import Habit
 from .shape import FOLIAGE, Shape
 
-FIRST_MODEL = {2: 0, 1: 2, 0: 6}  # Algorithm 2's size class (LARGE 2, MEDIUM 1, SMALL 0) -> its first model
+FIRST_MODEL = {2: 0, 1: 2, 0: 6}  # size class of Algorithm 2 (LARGE 2, MEDIUM 1, SMALL 0) -> its first model
 OAKS = (10, 11)
 SNAGS = (12, 13, 14)
 BRUSH = (15, 16)
@@ -59,13 +57,13 @@ KINDS = (
     "birch",
 )
 GRASS = (0, 1)
-REACH = 0.68  # of a tree's height: no part of its model is farther from its middle
+REACH = 0.68  # in tree heights: radius of a model's bounding sphere
 _LEAVES = 1500  # of level 1
 
 
 @dataclass(frozen=True)
 class Model:
-    """A model: its class, one of `KINDS`, its state ("living" or "snag"), and what makes it in a level."""
+    """A model: its class, one of `KINDS`, its state ("living" or "snag"), and its generator of levels."""
 
     kind: str
     state: str
@@ -73,7 +71,7 @@ class Model:
 
 
 def tree(habit: Habit, seed: int, level: int) -> Shape:
-    """A living tree in one of the levels."""
+    """A living tree in a level of detail."""
     limbs, leaves = grown(habit, seed)
     height = float(leaves.corners()[..., 2].max())
     shape, random = Shape(), np.random.default_rng(seed + 1)
@@ -89,7 +87,7 @@ def tree(habit: Habit, seed: int, level: int) -> Shape:
 
 
 def snag(habit: Habit, seed: int, stubs: int, top: float, level: int) -> Shape:
-    """A burned tree: a bare trunk, often broken, with what is left of its branches."""
+    """A burned tree (snag): a bare trunk, often broken, with stubs of branches."""
     random, shape = np.random.default_rng(seed), Shape()
     heights = np.array([-0.03, 0.02, 0.30 * top, 0.65 * top, top])[:: (1, 1, 2, 4)[level]]
     lean = random.normal(0.0, 0.02, 2)
@@ -105,7 +103,7 @@ def snag(habit: Habit, seed: int, stubs: int, top: float, level: int) -> Shape:
 
 
 def grass(seed: int) -> Shape:
-    """A clump of grass and low shrubs, 1.6 m tall: 0.9 m shows where it stands 0.7 m deep."""
+    """A clump of grass and low shrubs, 1.6 m tall: planted 0.7 m deep, 0.9 m of it are above ground."""
     random, shape, n = np.random.default_rng(seed), Shape(), 70
     foot = np.concatenate([random.normal(0.0, 0.8, (n, 2)), np.zeros((n, 1))], axis=1)
     tall, angle = random.uniform(0.9, 1.6, n), random.uniform(0.0, np.pi, n)
@@ -121,7 +119,7 @@ def grass(seed: int) -> Shape:
 
 
 def _conifers() -> list[tuple[str, Habit]]:
-    """In the order of Algorithm 2: two LARGE, four MEDIUM, four SMALL."""
+    """Conifers in the order of Algorithm 2: two LARGE, four MEDIUM, four SMALL."""
     return [
         ("large", habits.SUGAR_PINE),
         ("large", habits.PONDEROSA),
@@ -137,7 +135,7 @@ def _conifers() -> list[tuple[str, Habit]]:
 
 
 def trees() -> list[Model]:
-    """All kinds of trees, in the order of their numbers."""
+    """All models of trees, in the order of their indices."""
     living = [*_conifers(), ("oak", habits.BLACK_OAK), ("oak", habits.BLACK_OAK)]
     snags = [(habits.SUGAR_PINE, 34, 1.0), (habits.WHITE_FIR, 26, 0.85), (habits.INCENSE_CEDAR, 20, 0.95)]
     brush = [habits.MANZANITA, habits.CEANOTHUS]
@@ -152,8 +150,8 @@ def trees() -> list[Model]:
 
 
 def undergrowth() -> list[Model]:
-    """What lies and grows under the trees, in the order of its numbers, which go on from theirs."""
-    brush = [(habits.MANZANITA, 150), (habits.CEANOTHUS, 151)]  # the seeds of the living
+    """Models of the understorey and forest floor, in the order of their indices, which follow the trees'."""
+    brush = [(habits.MANZANITA, 150), (habits.CEANOTHUS, 151)]  # the seeds of the living ones
     return [
         *(Model("brush", "snag", partial(forest_floor.burned_brush, habit, seed)) for habit, seed in brush),
         *(Model("log", "living", partial(forest_floor.log, 160 + k)) for k in range(len(LOGS))),
@@ -165,7 +163,7 @@ def undergrowth() -> list[Model]:
 
 
 def elsewhere() -> list[Model]:
-    """Trees and bushes of other biomes than the Sierra's, in the order of their numbers, which go on."""
+    """Trees and bushes of biomes other than the Sierra's, in the order of their indices, which come last."""
     kinds = (
         *(("oak", species.HOLM_OAK), ("oak", species.LIVE_OAK), ("pine", species.STONE_PINE)),
         *(("spruce", species.SPRUCE), ("pine", species.SCOTS_PINE), ("birch", species.BIRCH)),
@@ -184,15 +182,15 @@ def elsewhere() -> list[Model]:
 
 
 def every() -> list[Model]:
-    """All of the forest's models but Algorithm 2's grass, in the order of their numbers."""
+    """All models of the forest except Algorithm 2's grass, in the order of their indices."""
     return [*trees(), *undergrowth(), *elsewhere()]
 
 
 def instance(model: NDArray[np.int64], level: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Number of what draws models (n,) in levels (n,), in the collection of all."""
+    """Index in the collection of instances of models (n,) in levels (n,)."""
     return model * levels.LEVELS + level
 
 
 def clumps() -> list[Shape]:
-    """All models of grass, in the order of their numbers."""
+    """All models of grass, in the order of their indices."""
     return [grass(140 + k) for k in GRASS]

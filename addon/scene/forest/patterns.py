@@ -1,7 +1,7 @@
-"""Where open land is wet and where its bushes stand: patterns that the ground shows and plants follow.
+"""Procedural patterns of open land: wetness, valleys and bushes, shared by the ground's material and plants.
 
-Written once for both: numbers are a node tree's `Value`s in the ground's material, and `Numbers` for plants.
-Sizes (m) and shares are by eye.
+One implementation serves both: numbers are a node tree's `Value`s in the ground's material, and `Numbers` for
+plants. Sizes (m) and shares are by eye.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from . import shader_noise
 from .biomes import OpenLand
 
 Noise = Callable[[float, float, float], Any]
-"""Of a size (m), with so many octaves and a roughness: 0..1."""
+"""Noise of a wavelength (m), with a number of octaves and a roughness: 0..1."""
 
 
 @dataclass(frozen=True)
@@ -44,11 +44,11 @@ class Numbers:
         return Numbers(shot_noise.smoothstep(low, high, self.value))
 
     def ramp(self, low: float, high: float, start: float = 0.0, end: float = 1.0) -> Numbers:
-        """`start` at `low` and below, `end` at `high` and above, straight between."""
+        """`start` at `low` and below, `end` at `high` and above, linear between."""
         return Numbers(start + (end - start) * np.clip((self.value - low) / (high - low), 0.0, 1.0))
 
     def clamp(self) -> Numbers:
-        """Not less than 0, nor more than 1."""
+        """Clamp to 0..1."""
         return Numbers(np.clip(self.value, 0.0, 1.0))
 
 
@@ -57,14 +57,14 @@ def _plain(other: Any) -> Any:
 
 
 def at(place: NDArray[np.float64]) -> Noise:
-    """Noise at places (n, 3) in the scene, m."""
+    """Noise function at points (n, 3) in the scene, m."""
     return lambda size, octaves, roughness: Numbers(
         shader_noise.fractal(place, size, int(octaves), roughness)
     )
 
 
 def wetness(noise: Noise, hollow: Any, land: OpenLand) -> tuple[Any, Any, Any]:
-    """Broad and middling patches, 0..1, and how wet it is, about -1..1.5."""
+    """Noise of large and medium patches, 0..1, and wetness, about -1..1.5."""
     broad, middling = noise(land.patch, 4.0, 0.6), noise(130.0, 4.0, 0.65)
     wet = hollow * land.hollows + (broad - 0.5) * 1.9 + (middling - 0.5) * 0.9
     if land.draws:
@@ -73,7 +73,7 @@ def wetness(noise: Noise, hollow: Any, land: OpenLand) -> tuple[Any, Any, Any]:
 
 
 def draws(noise: Noise, middling: Any, land: OpenLand) -> Any:
-    """Shallow valleys 0..1, as lines of one height in noise: they wind, meet and end."""
+    """Shallow valleys 0..1 along isolines of noise: they meander, join and end."""
     shape = noise(land.draws, 3.0, 0.45) + (middling - 0.5) * 0.12
     wide = noise(2.6 * land.draws, 2.0, 0.5).ramp(0.35, 0.65, 0.012, 0.055)
     off = (shape - 0.5) / wide
@@ -81,7 +81,7 @@ def draws(noise: Noise, middling: Any, land: OpenLand) -> Any:
 
 
 def bushes(noise: Noise, shrub: Any, wet: Any, land: OpenLand) -> tuple[Any, Any]:
-    """Groups of bushes, 0..1, and part of the ground under bushes, of which `shrub` is the mean about."""
+    """Groups of bushes, 0..1, and shrub cover, whose mean is about `shrub`."""
     groups = noise(62.0, 4.0, 0.68)
     begin = shrub * -0.33 + 0.645
     cover = (groups + wet * (0.09 * land.hollows) - begin).smoothstep(-0.05, 0.08)

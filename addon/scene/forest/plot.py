@@ -1,6 +1,6 @@
-"""Where a stand may grow: the run's fuel grid, and the invented land round it as far as cameras see trees.
+"""Plots of a stand: the run's fuel grid, and procedural land round it out to the visible distance of trees.
 
-So trees end nowhere but where `draw_distance` ends them.
+So only `draw_distance` limits the forest.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from ...shot.shot import Shot
 from ...shot.terrain.elevation import between
 from . import stand_structure, visible_cells
 
-_CELL = 74.0  # m, least size of a cell beyond the run; its fuels are invented in larger patches
-_OTHER = 7919  # added to the seed: land beyond is no copy of the run's
+_CELL = 74.0  # m, least size of a cell beyond the run; its fuels have larger patches
+_OTHER = 7919  # added to the seed, so that land beyond the run is no copy of it
 
 
 @dataclass(frozen=True)
@@ -31,11 +31,11 @@ class Plot:
     canopy_fuel, elevation
         (fy, fx) kg/m2, m.
     mask
-        (fy, fx) which of them a camera may see a tree of.
+        (fy, fx) whether a camera may see a tree of the cell.
     area
         m2 of a cell.
     seed
-        Of its trees.
+        Seed of its trees.
     """
 
     latitude: NDArray[np.float64]
@@ -47,20 +47,20 @@ class Plot:
     seed: int
 
     def places(self, frame: LocalFrame, chosen: NDArray[np.bool_]) -> NDArray[np.float64]:
-        """Middles (n, 3) of chosen (fy, fx) cells in the scene, m."""
+        """Centres (n, 3) of chosen (fy, fx) cells in the scene, m."""
         row, column = np.nonzero(chosen)
         return frame.forward(self.latitude[row], self.longitude[column], self.elevation[row, column])
 
 
 def plots(shot: Shot, height: float, reach: float) -> list[Plot]:
-    """The run's plot, and the one beyond it where cameras come near enough to see trees there.
+    """The run's plot, and the one beyond it where cameras come close enough to see trees there.
 
     Parameters
     ----------
     height
-        Of the tallest tree, m.
+        Height of the tallest tree, m.
     reach
-        How far from cameras trees stand, m.
+        Greatest distance of trees from cameras, m.
     """
     run, seed = shot.run, shot.settings.seed
     axes, elevation = (run.fuel_latitude, run.fuel_longitude), shot.relief.fuel
@@ -101,14 +101,14 @@ def _beyond(shot: Shot, height: float, reach: float) -> Plot | None:
 def _lines(
     shot: Shot, latitude: NDArray[np.float64], longitude: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Rows (fy,) and columns (fx,) of the ground, fractional, on which a grid's lines lie."""
+    """Fractional rows (fy,) and columns (fx,) of the terrain grid at a grid's lines."""
     row, _ = shot.ground.indices(latitude, np.full(len(latitude), longitude[0]))
     _, column = shot.ground.indices(np.full(len(longitude), latitude[0]), longitude)
     return row, column
 
 
 def _near_edge(shot: Shot, reach: float) -> bool:
-    """Whether any camera in perspective is as near to the run's edge as it sees trees."""
+    """Whether a perspective camera comes closer to the run's boundary than `reach`."""
     fields, cell = shot.ground.fields, shot.ground.cell
     for view in shot.perspective_paths:
         place = view.position[shot.filmed(view)]

@@ -1,9 +1,9 @@
-"""The forest as the viewport shows it: some of its trees, made wider, so that a frame change costs little.
+"""Viewport preview of the forest: fewer and wider trees, so that a frame change is fast.
 
-Blender makes all instances of an object again whenever its nodes depend on time or camera: 0.6 us of the
-processor for each tree. So a forest of more than `MOST` trees is hidden in the viewport, where others stand
-in: those that burn during the shot, which become snags, and the rest, whose nodes depend on nothing.
-Renders draw the forest and none of these.
+Blender evaluates all instances of an object again when its nodes depend on time or camera: 0.6 us of CPU time
+per tree. So the viewport hides a forest of more than `MOST` trees and shows stand-ins: one object for trees
+that burn during the shot and turn into snags, and one for the rest, whose nodes depend on nothing. Renders
+draw the full forest and no stand-ins.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ from . import models
 from .levels import LEVELS
 from .material import TORCHING
 
-MOST = 8000  # trees; what redraws in a few ms
-_WIDEST = 2.5  # times its width, that a crown stands for others
-LEVEL = 2  # coarse enough for thousands, still a tree
+MOST = 8000  # trees; a redraw takes a few ms
+_WIDEST = 2.5  # width factor of a crown that stands for several
+LEVEL = 2  # level of detail: cheap enough for thousands, still a tree
 
 Points = dict[str, NDArray]
 
 
 def parts(shot: Shot, points: Points, levelled: bool) -> Iterator[tuple[str, Points, bool]]:
-    """What stands in for plants with these attributes: a name, attributes, and whether it follows time.
+    """Stand-ins for plants with these attributes: a name, attributes, and whether they depend on time.
 
-    Nothing where there are no more than `MOST`. Of plants that are `levelled`, models have levels.
+    Empty for `MOST` plants or fewer. Models of `levelled` plants have levels of detail.
     """
     count = len(points["position"])
     if count <= MOST:
@@ -52,23 +52,23 @@ def parts(shot: Shot, points: Points, levelled: bool) -> Iterator[tuple[str, Poi
 
 
 def used(title: str, library: bpy.types.Collection, points: Points) -> bpy.types.Collection:
-    """Those models of a library that these points have, by which their numbers are changed to count.
+    """The models of a library that these points use; the points' indices are renumbered to them.
 
-    Every model of a library costs 20 us of the processor in each frame, whether it stands anywhere or not.
+    Every model of a library costs 20 us of CPU time per frame, whether or not it is instanced.
     """
     both = ("model", "snag_model")
     kept, number = np.unique(np.concatenate([points[key] for key in both]), return_inverse=True)
     for key, values in zip(both, np.split(number, 2), strict=True):
         points[key] = values
     few = owned.library(f"Models of {title}")
-    known = sorted(library.objects, key=lambda thing: thing.name)  # as the nodes number them
+    known = sorted(library.objects, key=lambda thing: thing.name)  # indices as the geometry nodes count them
     for k in kept:
         few.objects.link(known[int(k)])
     return few
 
 
 def stand_in(full: bpy.types.Object, shown: list[bpy.types.Object]) -> None:
-    """Have the viewport show these in place of an object that renders draw."""
+    """Show these objects in the viewport in place of an object that renders draw."""
     full.hide_viewport = bool(shown)
     for thing in shown:
         thing.hide_render = True

@@ -1,6 +1,6 @@
-"""Blender's noise texture in NumPy, so that plants stand where the ground's material shows them.
+"""Blender's noise texture in NumPy, so that plants match the noise of the ground's material.
 
-Gradient noise in three dimensions as ``intern/cycles/kernel/svm/noise.h`` and ``hash.h`` of Blender have it:
+Gradient noise in three dimensions as in ``intern/cycles/kernel/svm/noise.h`` and ``hash.h`` of Blender:
 Perlin's improved noise (2002) with gradients by the hash of Jenkins (lookup3, 2006).
 """
 
@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-_SCALE = 0.9820  # brings values to -1..1
+_SCALE = 0.9820  # scales values to -1..1
 _START = np.uint32(0xDEADBEEF + (3 << 2) + 13)
 _TURNS = (14, 11, 25, 16, 4, 14, 24)
 
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 def fractal(position: Array, size: float, octaves: int, roughness: float) -> Array:
-    """Values (n,) 0..1 at places (n, 3), m: as `Grain.noise` where pixels are small."""
+    """Fractal noise (n,) 0..1 at points (n, 3), m: equals `Grain.noise` where pixels are small."""
     total, weight, whole = np.zeros(len(position)), 1.0, 0.0
     for octave in range(octaves + 1):
         total += weight * _perlin(position * (2.0**octave / size))
@@ -27,7 +27,7 @@ def fractal(position: Array, size: float, octaves: int, roughness: float) -> Arr
 
 
 def _perlin(place: Array) -> Array:
-    """Signed noise (n,) of wavelength 1 at places (n, 3)."""
+    """Signed Perlin noise (n,) of wavelength 1 at points (n, 3)."""
     low = np.floor(place)
     off = place - low
     fade = off**3 * (off * (off * 6.0 - 15.0) + 10.0)
@@ -47,7 +47,7 @@ def _gradient(number: NDArray[np.uint32], x: Array, y: Array, z: Array) -> Array
 
 
 def _hash(cell: NDArray[np.int64]) -> NDArray[np.uint32]:
-    """Of lattice points (n, 3)."""
+    """Hash of lattice points (n, 3)."""
     x, y, z = (cell[:, k].astype(np.uint32) for k in range(3))
     a, b, c = _START + x, _START + y, _START + z
     for step, turn in enumerate(_TURNS):

@@ -1,4 +1,4 @@
-"""Meshes of tree models while they are made: triangles of leaf and wood, a whole level at a time."""
+"""Mesh builder of tree models: collects triangles of leaf and wood of one level of detail."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ FOLIAGE, BARK = 0, 1
 
 @dataclass
 class Shape:
-    """A mesh being collected; metres where a model is a metre tall.
+    """A mesh that is being collected; metres for a model a metre tall.
 
     Attributes
     ----------
     points, triangles, materials, colours
-        Parts of (n, 3) m, (m, 3) numbers of points, (m,) FOLIAGE or BARK, (n, 3) linear reflectance.
+        Chunks of (n, 3) m, (m, 3) point indices, (m,) FOLIAGE or BARK, (n, 3) linear reflectance.
     """
 
     points: list[Array] = field(default_factory=list)
@@ -30,7 +30,7 @@ class Shape:
     count: int = 0
 
     def add(self, points: Array, triangles: NDArray[np.int64], material: int, colour: Array | Colour) -> None:
-        """Add points (n, 3), triangles (m, 3) that count from 0, and the colour of every point."""
+        """Add points (n, 3), triangles (m, 3) with indices from 0, and the colour of every point."""
         self.points.append(points)
         self.triangles.append(triangles + self.count)
         self.materials.append(np.full(len(triangles), material))
@@ -38,21 +38,21 @@ class Shape:
         self.count += len(points)
 
     def leaves(self, corners: Array, colour: Array) -> None:
-        """Add triangles of leaf with corners (n, 3, 3), and their colours (n, 3)."""
+        """Add leaf triangles with corners (n, 3, 3), and their colours (n, 3)."""
         numbers = np.arange(3 * len(corners)).reshape(-1, 3)
         self.add(corners.reshape(-1, 3), numbers, FOLIAGE, np.repeat(colour, 3, axis=0))
 
     def limbs(self, ways: Array, thick: Array, sides: int, colour: Colour) -> None:
-        """Add tapered limbs.
+        """Add tapered tubes for limbs.
 
         Parameters
         ----------
         ways
-            (n, k, 3) places along n limbs, m.
+            (n, k, 3) polylines of n limbs, m.
         thick
-            (n, k) radius there, m.
+            (n, k) radii, m.
         sides
-            2 for a flat ribbon.
+            Sides of the tube; 2 for a flat ribbon.
         """
         n, k = thick.shape
         along = np.gradient(ways, axis=1)
@@ -75,12 +75,12 @@ class Shape:
         self.add(points.reshape(-1, 3), triangles, BARK, colour)
 
     def scaled(self, height: float) -> Shape:
-        """The same, `height` m of which become one."""
+        """A copy scaled by 1 / `height`."""
         self.points = [points / height for points in self.points]
         return self
 
     def mesh(self) -> tuple[Array, NDArray[np.int64], NDArray[np.int64], Array]:
-        """All points, triangles, materials and colours."""
+        """All points, triangles, materials and colours, concatenated."""
         parts = (self.points, self.triangles, self.materials, self.colours)
         points, triangles, materials, colours = (np.concatenate(part) for part in parts)
         return points, triangles, materials, colours

@@ -1,4 +1,4 @@
-"""Habits of trees and bushes of other lands than the Sierra, from those of the Sierra's that are most alike.
+"""Growth habits of tree and shrub species outside of the Sierra, derived from its most similar species.
 
 Shapes follow the species' descriptions in floras; numbers are chosen by eye, as in `habit`.
 """

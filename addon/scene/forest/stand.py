@@ -1,6 +1,7 @@
-"""The stand: the forest's trees, hundreds a hectare near the cameras, fewer and wider ones far away.
+"""Stand of trees: hundreds per hectare near the cameras, fewer and wider ones far away.
 
-The core plants them (`forest.stand`); here is decided where, and what part of them a shot needs.
+The core generates the trees (`forest.stand`). This module decides the area and the retained fraction for a
+shot.
 """
 
 from __future__ import annotations
@@ -19,9 +20,9 @@ from . import biomes, models, plot, stand_structure, visibility
 from .plot import Plot
 
 TALLEST = 42.0  # m; the core's largest tree
-CLEARING = 25.0  # m round the cameras where no tree stands, so that there is light and a view
+CLEARING = 25.0  # m round the cameras without trees, for light and a free view
 _PATCH = 90.0  # m, of trees of one species (by eye)
-_CROWN = 5.0  # m, width of a middling tree; where a pixel is wider, fewer trees show as much
+_CROWN = 5.0  # m, width of a medium tree; where a pixel is wider, fewer trees give the same cover
 
 
 @dataclass(frozen=True)
@@ -35,15 +36,15 @@ class Stand:
     height, rotation
         (n,) metres, radians.
     width
-        (n,) how much wider than its model each is.
+        (n,) ratio to the model's width.
     model
-        (n,) number of the model in `models`.
+        (n,) index of the model in `models`.
     key
-        (n, 2) integers that random choices for a tree hang on.
+        (n, 2) integers that seed a tree's random choices.
     distance
-        (n,) metres from the nearest camera in all that is filmed.
+        (n,) metres from the nearest camera over the whole shot.
     radius
-        Beyond this distance (m) no tree is left.
+        Distance (m) beyond which there are no trees.
     """
 
     position: NDArray[np.float64]
@@ -56,12 +57,12 @@ class Stand:
     radius: float
 
     def coverage(self, distance: NDArray) -> NDArray[np.float64]:
-        """Part 0..1 of the forest's cover that is drawn as trees at distances (m) from the cameras."""
+        """Fraction 0..1 of the forest cover that trees represent at distances (m) from the cameras."""
         return _fade(distance, self.radius)
 
 
 def grow(shot: Shot) -> Stand:
-    """Plant what the cameras see of the stand within `draw_distance`; nothing where density is "paper"."""
+    """Generate the visible trees of the stand within `draw_distance`; none where the density is "paper"."""
     settings = shot.settings
     reach = settings.forest.draw_distance
     plots = plot.plots(shot, TALLEST, reach) if settings.forest.density == "stand" else []
@@ -96,7 +97,7 @@ def grow(shot: Shot) -> Stand:
 
 
 class _Stems(NamedTuple):
-    """Of `core.Stems`, what is needed, of all plots."""
+    """Values of `core.Stems`, concatenated over all plots."""
 
     position: NDArray[np.float64]
     size_class: NDArray[np.uint8]
@@ -120,7 +121,7 @@ def _planted(shot: Shot, plots: list[Plot]) -> _Stems:
             retained=kept,
             mask=each.mask,
         )
-        for each, kept in zip(plots, _kept(shot, plots), strict=True)
+        for each, kept in zip(plots, _retained(shot, plots), strict=True)
     ]
     nothing = _Stems(np.empty((0, 3)), *(np.empty(0, kind) for kind in "BBfff"), np.empty(0, np.int64))
     fields = ([getattr(nothing, name), *(getattr(stems, name) for stems in found)] for name in _Stems._fields)
@@ -128,21 +129,22 @@ def _planted(shot: Shot, plots: list[Plot]) -> _Stems:
 
 
 def _fade(distance: NDArray, reach: float) -> NDArray[np.float64]:
-    """Part of the trees that is drawn: none beyond `reach`, where the ground's colour is the forest."""
+    """Fraction of trees drawn at a distance: 0 beyond `reach`, where the ground has the forest's colour."""
     return noise.smoothstep(reach, 0.75 * reach, distance) if reach > 0.0 else np.zeros_like(distance)
 
 
-def _kept(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
-    """Part (fy, fx) of the stems to keep: all where pixels are small, beyond as the area of their picture.
+def _retained(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
+    """Fraction (fy, fx) of the stems to retain: 1 where pixels are small, falling with their projected area.
 
-    Pixels at a place are those of the sharpest camera at the distance of the nearest. All trees are kept
-    where a pixel is smaller than a crown, or smaller than lets all be about `forest.budget`.
+    The pixel size at a point is that of the sharpest camera at the distance of the nearest. All trees are
+    retained where a pixel is smaller than a crown, or smaller than the size at which `forest.budget` trees
+    are retained in all.
     """
     if shot.visibility.unculled:
         return [np.ones(each.mask.shape, np.float32) for each in plots]
     budget, reach = shot.settings.forest.budget, shot.settings.forest.draw_distance
     near, parallel = shot.pixel
-    # Neighbours as well: what is kept is bilinear between the cells' middles.
+    # Neighbouring cells as well: the retained fraction is bilinear between cell centres.
     besides = [widened(each.mask, 1) for each in plots]
     pixels, stems = [], []
     for each, beside in zip(plots, besides, strict=True):
@@ -152,7 +154,7 @@ def _kept(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
         stems.append(core.stems(each.canopy_fuel[beside]) * each.mask[beside] * fade * each.area)
 
     def count(full: float) -> float:
-        return sum(float(np.sum(s * _part(p, full))) for s, p in zip(stems, pixels, strict=True))
+        return sum(float(np.sum(s * _retained_at(p, full))) for s, p in zip(stems, pixels, strict=True))
 
     low, high = 0.0, _CROWN
     if count(high) > budget:
@@ -162,12 +164,12 @@ def _kept(shot: Shot, plots: list[Plot]) -> list[NDArray[np.float32]]:
     made = []
     for each, beside, pixel in zip(plots, besides, pixels, strict=True):
         made.append(np.ones(each.mask.shape, np.float32))
-        made[-1][beside] = _part(pixel, high)
+        made[-1][beside] = _retained_at(pixel, high)
     return made
 
 
-def _part(pixel: NDArray[np.float64], full: float) -> NDArray[np.float64]:
-    """Part of the stems to keep where pixels are this large (m): all up to `full`."""
+def _retained_at(pixel: NDArray[np.float64], full: float) -> NDArray[np.float64]:
+    """Fraction of the stems to retain where pixels have this size (m): 1 up to `full`."""
     return np.minimum((full / np.maximum(pixel, 1.0e-6)) ** 2, 1.0)
 
 
@@ -179,7 +181,7 @@ def _of_species(
     width: NDArray,
     key: NDArray[np.int64],
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
-    """Models, heights and widths of a biome's species, which stand in patches."""
+    """Models, heights and widths of a biome's species, which grow in patches."""
     ground, seed = shot.ground, shot.settings.seed
     elevation = bilinear(ground.fields.elevation, *ground.under(position))
     share = np.array([_share(each, elevation) for each in sorts])

@@ -1,8 +1,8 @@
-"""How a stand is uneven: its ragged edges, its gaps, trees alone beyond it, and patches of trees alike.
+"""Stand structure: ragged edges, gaps, lone trees outside of the stand, and clumps of similar trees.
 
-A fuel cell says how much grows in it, not where. Sierra forests of mixed conifers are clumps and openings
-(Larson and Churchill 2012, Forest Ecology and Management 267:74-92), and end in ragged edges with single
-trees beyond them; sizes and shares here are chosen by eye. Edges stand on average where the cells' do.
+A fuel cell gives an amount, not positions. Sierra forests of mixed conifers are clumps and openings (Larson
+and Churchill 2012, Forest Ecology and Management 267:74-92), and end in ragged edges with single trees beyond
+them. Sizes and shares are chosen by eye. The mean position of an edge is that of the cells.
 """
 
 from __future__ import annotations
@@ -15,17 +15,17 @@ from ...shot.terrain import land_use, noise
 from ...shot.terrain.terrain import bilinear, box, widened
 from . import biomes, cover, field_lines
 
-LONE_FUEL = 0.02  # kg/m2; stands for the trees of cells without canopy fuel: 57 stems a hectare, up to 15 m
-_FULL = 0.06  # part of the ground that all of these cover (half-grown oaks; assumed)
-_GROUPED, _HOLLOW = 4.0, 1.2  # how much denser they are in groups and hollows; by eye
-_MEAN = 1.6  # of the logarithm of that, so that the mean is 1: half its variance
-_ALONG, _AMID = 14.0, 0.25  # times as dense are trees along hedges and draws, and amid fields; by eye
-_BESIDE = 0.35  # the same of trees that stand beside draws
-_BARE = 0.5  # part of the ground without fuel from which on nothing stands there
-_SEED = 6  # cells; so far from others trees stand alone
-_LONE = 0.5  # part of these that is there in their clumps
-_EDGE, _RAGGED = 38.0, 0.6  # m, size of an edge's bays; how far they reach, cells
-_GAP, _OPEN = 62.0, 0.88  # m, size of gaps; part of their trees that is missing
+LONE_FUEL = 0.02  # kg/m2; canopy fuel assumed for trees of cells without any: 57 stems a hectare, up to 15 m
+_FULL = 0.06  # ground cover of all of these (half-grown oaks; assumed)
+_GROUPED, _HOLLOW = 4.0, 1.2  # density factor in groups and hollows; by eye
+_MEAN = 1.6  # offset of its logarithm that gives a mean of 1: half its variance
+_ALONG, _AMID = 14.0, 0.25  # density factors of trees along hedges and draws, and in fields; by eye
+_BESIDE = 0.35  # density factor of trees next to draws
+_BARE = 0.5  # cover fraction of ground without fuel at which trees end
+_SEED = 6  # cells; greatest distance of lone trees from others
+_LONE = 0.5  # fraction of these retained in their clumps
+_EDGE, _RAGGED = 38.0, 0.6  # m, wavelength of an edge's bays; their amplitude, cells
+_GAP, _OPEN = 62.0, 0.88  # m, size of gaps; fraction of their trees that is missing
 
 Array = NDArray[np.float64]
 
@@ -33,10 +33,10 @@ Array = NDArray[np.float64]
 def with_lone(
     shot: Shot, fuel: NDArray, row: Array, column: Array, where: NDArray[np.bool_]
 ) -> NDArray[np.float32]:
-    """Canopy fuel (fy, fx) of cells at rows (fy,) and columns (fx,) of the ground, with that of lone trees.
+    """Canopy fuel (fy, fx) with lone trees added, of cells at rows (fy,) and columns (fx,) of the terrain.
 
-    They stand within `_SEED` cells of others, or everywhere where the biome has them everywhere, and not in
-    lakes or where the fuel is unknown; known they are in the chosen cells (fy, fx) and the ones beside these.
+    Lone trees stand within `_SEED` cells of others, or everywhere where the biome says so, but not in lakes
+    or where the fuel is unknown. Fuel is evaluated in the chosen cells (fy, fx) and their neighbours.
     """
     fuel = fuel.astype(np.float32)
     inside = box(where, more=1 + _SEED)
@@ -54,7 +54,7 @@ def with_lone(
 
 
 def kept(shot: Shot, position: Array) -> Array:
-    """Part (n,) 0..1 of the stems at places (n, 3) that stand."""
+    """Probability (n,) 0..1 that stems at points (n, 3) are retained."""
     ground, seed = shot.ground, shot.settings.seed
     x, y = position[:, 0], position[:, 1]
     row, column = ground.under(position)
@@ -73,7 +73,7 @@ def kept(shot: Shot, position: Array) -> Array:
 
 
 def _scattered(shot: Shot, part: float, position: Array) -> Array:
-    """Part (n,) of the trees of open land that stand so that `part` of it is under them, most in hollows."""
+    """Probability (n,) of trees of open land that gives a cover of `part`, with most trees in hollows."""
     x, y = position[:, :2].T
     groups = noise.fractal(x, y, 4.0 * _GAP, 3, shot.settings.seed + 430)
     hollow = bilinear(cover.hollows(shot.ground), *shot.ground.under(position))
@@ -89,7 +89,7 @@ def _scattered(shot: Shot, part: float, position: Array) -> Array:
 
 
 def clustered_uniform(position: Array, size: float, chance: Array, seed: int) -> Array:
-    """Numbers (n,) spread over 0..1 about as evenly as `chance` (n,), but alike in patches of `size` m."""
+    """Numbers (n,) as uniform over 0..1 as `chance` (n,), but correlated within patches of `size` m."""
     patch = noise.fractal(position[:, 0], position[:, 1], size, 2, seed) / 0.4
     own = np.log(np.maximum(chance, 1.0e-6) / np.maximum(1.0 - chance, 1.0e-6))
     return 1.0 / (1.0 + np.exp(-0.8 * 1.702 * patch - 0.6 * own))

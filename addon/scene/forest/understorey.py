@@ -1,7 +1,7 @@
-"""The understorey: brush, logs, rocks, tufts of grass and twigs near the cameras, without Blender.
+"""Understorey: brush, logs, rocks, tufts of grass and twigs near the cameras, without Blender.
 
-Each kind has a lattice of its own over the scene, and at most one thing in each of its cells. What stands
-there hangs on the cell, so it is the same for every shot; which of it is drawn, on how large it is seen.
+Each kind has a lattice of its own over the scene, with at most one plant or object per cell. It is a function
+of the cell, so it is the same in every shot. Its size in pixels decides whether it is drawn.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from ...shot.terrain import land_use, noise
 from ...shot.terrain.terrain import bilinear
 from . import biomes, cover, field_lines, models
 
-_PIXELS = 2.0  # least height of what is drawn, pixels; of half of what is as tall
-_BLOCK = 32.0  # m; blocks of the scene that are looked at together
+_PIXELS = 2.0  # least height in pixels of what is drawn; at this height a half of it is
+_BLOCK = 32.0  # m; size of blocks that are culled together
 _FARTHEST = 600.0  # m
-_STEEPEST = 1.2  # slope on which things still lie
-_HEDGE = 30.0  # times denser are bushes of a hedge than those of open land
+_STEEPEST = 1.2  # slope up to which logs and rocks stay
+_HEDGE = 30.0  # density factor of bushes in a hedge over those of open land
 _LYING = (*models.LOGS, *models.TWIGS)
 
 Array = NDArray[np.float64]
@@ -29,26 +29,26 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of thing. Numbers are assumed.
+    """A kind of understorey plant or object. Numbers are assumed.
 
     Attributes
     ----------
     models
-        Numbers of its models, and of what they are once the fire has passed, in the same order.
+        Indices of its models before the fire.
     burned
-        The same after the fire.
+        Indices of its models after the fire, in the same order.
     cells
         Cells of its lattice along a block's side.
     height, spread, limits
-        Median height, standard deviation of its logarithm, and its least and largest, m.
+        Median height, standard deviation of its logarithm, and its limits, m.
     width
-        Least and most times wider than its model.
+        Limits of the ratio to the model's width.
     density
-        Things per m2 from canopy fuel and surface fuel (kg/m2) and bare rock (0..1).
+        Number per m2 from canopy fuel and surface fuel (kg/m2) and bare rock (0..1).
     patches
-        Size of its patches, m; 0 is even.
+        Size of its patches, m; 0: uniform.
     also
-        Factor (n,) on the density at places (n, 2) in the scene, m; None: 1.
+        Factor (n,) on the density at points (n, 2) in the scene, m; None: 1.
     """
 
     models: tuple[int, ...]
@@ -126,7 +126,7 @@ KINDS = {
 
 
 def kinds(shot: Shot) -> dict[str, Kind]:
-    """Those of the shot's biome, by name."""
+    """Kinds of the shot's biome, by name."""
     biome = biomes.choose(shot).biome
     if biome.open_land is None:
         return KINDS
@@ -151,7 +151,7 @@ def _of_biome(shot: Shot, biome: biomes.Biome, name: str, kind: Kind) -> Kind:
 
 
 def _beside(shot: Shot, biome: biomes.Biome, name: str) -> Callable[[Array], Array] | None:
-    """Factor (n,) on the density at places (n, 2): bushes by their cover and along hedges, tufts between."""
+    """Density factor (n,) at points (n, 2): bushes by shrub cover and along hedges, tufts between."""
     if name not in ("brush", "tuft") or biome.open_land is None:
         return None
     covered, land = cover.shrubs(shot), biome.open_land
@@ -170,23 +170,23 @@ def _beside(shot: Shot, biome: biomes.Biome, name: str) -> Callable[[Array], Arr
 
 
 @dataclass(frozen=True)
-class Things:
-    """Things of the understorey, n of them.
+class Instances:
+    """Instances of the understorey, n of them.
 
     Attributes
     ----------
     position
         (n, 3) metres in the scene, on the ground.
     height, width, rotation
-        (n,) m; times wider than its model; radians.
+        (n,) m; ratio to the model's width; radians.
     pitch, roll
-        (n,) radians about their own y and x: along the slope, for what lies.
+        (n,) radians about their own y and x: along the slope, for logs and the like.
     model, burned
-        (n,) numbers of its models in `models`, before the fire and after it.
+        (n,) indices of its models in `models`, before and after the fire.
     key
-        (n, 2) integers that random choices for a thing hang on.
+        (n, 2) integers that seed an instance's random choices.
     size
-        (n,) how many times taller than the least that is drawn they are seen.
+        (n,) ratio of their height in pixels to the least that is drawn.
     """
 
     position: Array
@@ -200,13 +200,13 @@ class Things:
     key: NDArray[np.int64]
     size: Array
 
-    def take(self, chosen: NDArray) -> Things:
-        """Some of them."""
-        return Things(*(getattr(self, field.name)[chosen] for field in fields(self)))
+    def take(self, chosen: NDArray) -> Instances:
+        """A subset."""
+        return Instances(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
 
-def grow(shot: Shot) -> Things:
-    """What the cameras see of the understorey: at most `forest.understorey` things, the largest in view."""
+def grow(shot: Shot) -> Instances:
+    """Generate the visible understorey: at most `forest.understorey` instances, the largest in pixels."""
     budget = shot.settings.forest.understorey
     pixel, _ = shot.pixel
     if budget == 0 or not np.isfinite(pixel):
@@ -214,21 +214,21 @@ def grow(shot: Shot) -> Things:
     parts = [
         _scattered(shot, kind, number, pixel, budget) for number, kind in enumerate(kinds(shot).values())
     ]
-    every = Things(*(np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(Things)))
+    every = Instances(*(np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(Instances)))
     if len(every.size) > budget:
         every = every.take(np.sort(np.argsort(-every.size, kind="stable")[:budget]))
     return _settled(shot, every)
 
 
-def _nothing() -> Things:
+def _nothing() -> Instances:
     empty, whole = np.empty(0), np.empty(0, np.int64)
-    return Things(
+    return Instances(
         np.empty((0, 3)), *(empty for _ in range(5)), whole, whole, np.empty((0, 2), np.int64), empty
     )
 
 
-def _scattered(shot: Shot, kind: Kind, number: int, pixel: float, budget: int) -> Things:
-    """Things of a kind, level as they are."""
+def _scattered(shot: Shot, kind: Kind, number: int, pixel: float, budget: int) -> Instances:
+    """Instances of a kind, not yet aligned with the slope."""
     seed = shot.settings.seed + 600 + 20 * number
     reach = min(2.0 * kind.limits[1] / (_PIXELS * pixel), _FARTHEST)
     cells, least = _cells(shot, kind.cells, reach, budget)
@@ -239,7 +239,7 @@ def _scattered(shot: Shot, kind: Kind, number: int, pixel: float, budget: int) -
 
     height = kind.height * np.exp(kind.spread * noise.normal(lot(3), lot(4)))
     height = np.clip(height, *kind.limits)
-    # Half of what is twice as tall as the least is drawn, so that nothing begins at once.
+    # Half of those twice as tall as the least are drawn, so that density fades in.
     tall = height / (pixel * _PIXELS) / (0.5 + lot(5))
     near = np.flatnonzero(tall > least)
     cells, height, tall = cells[near], height[near], tall[near]
@@ -262,7 +262,7 @@ def _scattered(shot: Shot, kind: Kind, number: int, pixel: float, budget: int) -
     cells, height = cells[kept], height[kept]
     which = (lot(6, cells) * len(kind.models)).astype(np.int64)
     narrow, wide = kind.width
-    return Things(
+    return Instances(
         position[kept],
         height,
         narrow + (wide - narrow) * lot(7, cells),
@@ -279,8 +279,8 @@ def _scattered(shot: Shot, kind: Kind, number: int, pixel: float, budget: int) -
 def _cells(shot: Shot, count: int, reach: float, budget: int) -> tuple[NDArray[np.int64], Array]:
     """Cells (n, 2) of a lattice, east and north, in the blocks that cameras see within `reach` m.
 
-    With them comes how near (n,) a camera may be to each, m. A block has `count` along its side. Where they
-    are more than 40 for each thing of the budget, those farther away are left out.
+    Also returns the least distance (n,) of a camera to each, m. A block has `count` cells along its side.
+    Above 40 cells per instance of the budget, the farthest cells are dropped.
     """
     eyes = np.concatenate(
         [path.position[shot.filmed(path)] for path in shot.perspective_paths] or [np.empty((0, 3))]
@@ -307,30 +307,30 @@ def _cells(shot: Shot, count: int, reach: float, budget: int) -> tuple[NDArray[n
 
 
 def _ground(shot: Shot, place: Array) -> tuple[Array, Array, Array, Array]:
-    """Canopy fuel, surface fuel, bare rock and water at places (n, 2) in the scene, m."""
+    """Canopy fuel, surface fuel, bare rock and water at points (n, 2) in the scene, m."""
     ground = shot.ground
     index = ground.indices(*ground.geodetic(*place.T)) if len(place) else (np.empty(0), np.empty(0))
     known = ground.fields.canopy_fuel, ground.fields.surface_fuel, ground.bare, ground.water
     return tuple(bilinear(field, *index) for field in known)
 
 
-def _settled(shot: Shot, things: Things) -> Things:
-    """The same, what lies turned along the slope; nothing where it is too steep to lie."""
-    lies = np.flatnonzero(np.isin(things.model, _LYING))
+def _settled(shot: Shot, instances: Instances) -> Instances:
+    """Instances aligned with the slope where they lie flat; dropped where it is too steep."""
+    lies = np.flatnonzero(np.isin(instances.model, _LYING))
     if len(lies) == 0:
-        return things
-    x, y = things.position[lies, :2].T
-    reach, turn = 3.0 * things.height[lies], things.rotation[lies]
+        return instances
+    x, y = instances.position[lies, :2].T
+    reach, turn = 3.0 * instances.height[lies], instances.rotation[lies]
     east, north = reach * np.cos(turn), reach * np.sin(turn)
 
     def ends(dx: Array, dy: Array) -> tuple[Array, Array]:
         return shot.ground.up(x + dx, y + dy), shot.ground.up(x - dx, y - dy)
 
     (ahead, behind), (left, right) = ends(east, north), ends(-north, east)
-    pitch, roll, position = things.pitch.copy(), things.roll.copy(), things.position.copy()
+    pitch, roll, position = instances.pitch.copy(), instances.roll.copy(), instances.position.copy()
     pitch[lies] = -np.arctan((ahead - behind) / (2.0 * reach))
     roll[lies] = np.arctan((left - right) / (2.0 * reach))
     position[lies, 2] = np.minimum(0.5 * (ahead + behind), position[lies, 2])
     steep = np.maximum(np.abs(np.tan(pitch)), np.abs(np.tan(roll)))
-    made = replace(things, position=position, pitch=pitch, roll=roll)
+    made = replace(instances, position=position, pitch=pitch, roll=roll)
     return made.take(np.flatnonzero(steep < _STEEPEST))

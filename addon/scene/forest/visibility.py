@@ -1,4 +1,4 @@
-"""Which plants count for a shot: those that its cameras see, and those that shade what they see."""
+"""Visibility of plants: frustum and occlusion culling, with plants that shade visible ground retained."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from ...shot.shot import Shot
 from ...shot.terrain.terrain import Ground
 from . import models
 
-PIXEL = 25.0  # m; a satellite whose pixels are larger sees no tree
-_AROUND = 30.0  # m; a tree farther beside the view than it is tall takes little light of the sky from it
+PIXEL = 25.0  # m; a satellite with larger pixels resolves no tree
+_AROUND = 30.0  # m; ambient occlusion of a view by trees outside of it ends here, or at their height
 
 
 def visible(
@@ -21,12 +21,12 @@ def visible(
     wider: NDArray | float = 1.0,
     beside: NDArray | float = 0.0,
 ) -> NDArray[np.bool_]:
-    """Which plants (n,) `height` m tall with feet at (n, 3) count: seen, or throwing shadows on what is.
+    """Mask of plants (n,) `height` m tall with bases at (n, 3) that are visible or shade visible ground.
 
-    Those beside a view within `_AROUND` count too, as they take light of the sky from it; those farther away
-    than `reach` or too small for a satellite do not. `wider` than their models they reach farther from their
-    middles; feet may be so far `beside` their places, m. Shadows are as long as the sun is low in each frame
-    (`lod.visible_mask`), so no margin is guessed.
+    Plants within `_AROUND` of a view are retained too, as they occlude the sky's light. Plants beyond
+    `reach`, or too small for a satellite, are culled. `wider` scales the bounding spheres; `beside` is the
+    greatest offset of bases, m. Shadow lengths follow the sun's elevation in each frame (`lod.visible_mask`),
+    so no margin is assumed.
     """
     height = np.broadcast_to(height, len(foot))
     middle = np.column_stack([foot[:, :2], foot[:, 2] + 0.5 * height])
@@ -37,12 +37,12 @@ def visible(
 
 
 def too_far(shot: Shot) -> bool:
-    """Whether there are satellites, and none whose pixels are small enough for trees."""
+    """Whether the shot has satellites, and none with pixels small enough for trees."""
     return PIXEL <= shot.pixel[1] < np.inf
 
 
 def settled(ground: Ground, position: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Positions on the ground as it is drawn."""
+    """Positions projected vertically onto the terrain mesh."""
     position = position.copy()
     near = np.flatnonzero(ground.detail(*position.T) > 0.0)
     if len(near):

@@ -1,4 +1,4 @@
-"""Which cells of a grid a plant may count in; found in blocks first, as most are out of sight."""
+"""Visible cells of a grid by hierarchical culling: blocks first, then cells, as most are out of view."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from ...shot.shot import Shot
 from ...shot.terrain.terrain import widened
 from . import visibility
 
-_RELIEF = 30.0  # m; so far up and down the drawn ground's relief may move a tree
-_BLOCK = 8  # cells to a side
+_RELIEF = 30.0  # m; greatest vertical offset of a tree by the terrain mesh's relief
+_BLOCK = 8  # cells along a block's side
 
 Array = NDArray[np.float64]
 
@@ -25,16 +25,16 @@ def visible_cells(
     elevation: NDArray,
     among: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.bool_]:
-    """Cells (fy, fx) of a grid where a plant of at most this height (m) may count (`visibility.visible`).
+    """Cells (fy, fx) of a grid where a plant up to this height (m) may be visible (`visibility.visible`).
 
     Parameters
     ----------
     reach
-        How far from cameras in perspective such plants stand, m.
+        Greatest distance of such plants from perspective cameras, m.
     latitude, longitude, elevation
-        (fy,), (fx,) degrees and (fy, fx) m of the cells' middles; NaN where there is no ground.
+        (fy,), (fx,) degrees and (fy, fx) m of the cells' centres; NaN without terrain.
     among
-        (fy, fx) only these are looked at.
+        (fy, fx) cells to test.
     """
     counts = _blocks(shot, height, reach, latitude, longitude, elevation)
     if among is not None:
@@ -47,7 +47,7 @@ def visible_cells(
 
 
 def _size(shot: Shot, latitude: Array, longitude: Array, slope: Array) -> Array:
-    """How far (n,) m a plant of a cell with such steps to its neighbours may stand from the cell's middle."""
+    """Radius (n,) m of a cell's plants round its centre, from its elevation steps to neighbours."""
     scale = areas.metres_per_degree(shot.local_frame.latitude)
     sides = [
         metres * np.abs(np.diff(axis)).max() if len(axis) > 1 else own
@@ -57,7 +57,7 @@ def _size(shot: Shot, latitude: Array, longitude: Array, slope: Array) -> Array:
 
 
 def _slope(elevation: NDArray, row: NDArray[np.int64], column: NDArray[np.int64]) -> Array:
-    """The largest steps of cells (n,) to their neighbours along each axis, where they are known, together."""
+    """Sum of the largest finite elevation steps of cells (n,) to their neighbours along each axis."""
     here, total = elevation[row, column].astype(np.float64), np.zeros(len(row))
     rows, columns = elevation.shape
     for ahead, aside in ((1, 0), (0, 1)):
@@ -72,7 +72,7 @@ def _slope(elevation: NDArray, row: NDArray[np.int64], column: NDArray[np.int64]
 def _blocks(
     shot: Shot, height: float, reach: float, latitude: Array, longitude: Array, elevation: NDArray
 ) -> NDArray[np.bool_]:
-    """Cells (fy, fx) in blocks of which any may count; none of those is left out."""
+    """Cells (fy, fx) in blocks that may be visible; conservative: no visible cell is missing."""
     rows, columns = (np.arange(0, count, _BLOCK) for count in elevation.shape)
     low, high = (
         f.reduceat(f.reduceat(elevation, rows, axis=0), columns, axis=1).astype(np.float64)
@@ -98,5 +98,5 @@ def _blocks(
 
 
 def _last(axis: Array, first: NDArray[np.int64]) -> Array:
-    """Values of an axis at the last cells of blocks that begin at these."""
+    """Values of an axis at the last cells of blocks with these first cells."""
     return axis[np.minimum(first + _BLOCK, len(axis)) - 1]

@@ -1,6 +1,7 @@
-"""Biomes, kinds of land: each module of this folder is one, unless its name begins with "_".
+"""Biomes: each module of this folder defines one, unless its name begins with "_".
 
-It defines `BIOME`, a `Biome`, and says in the first line of its docstring what it is. Without Blender.
+It defines `BIOME`, a `Biome`, and the first line of its docstring is the biome's description. Without
+Blender.
 """
 
 from __future__ import annotations
@@ -32,24 +33,22 @@ __all__ = [
     "of",
 ]
 
-_ENOUGH = 160  # rows or columns of a grid that say what land it is
-_CANOPY, _NOTHING = 0.01, 0.02  # kg/m2: canopy from which on ground is wooded, load that is no fuel
-_SHRUB = (
-    0.9  # kg/m2 of surface fuel without canopy from which on it counts as shrub, if nothing says (assumed)
-)
+_ENOUGH = 160  # rows or columns of the grid that are sampled for the land
+_CANOPY, _NOTHING = 0.01, 0.02  # kg/m2: canopy at which ground is wooded, and load that counts as no fuel
+_SHRUB = 0.9  # kg/m2 of surface fuel without canopy at which it counts as shrub, without a category (assumed)
 _CHOSEN: WeakKeyDictionary[Run, str] = WeakKeyDictionary()
 
 
 @dataclass(frozen=True)
 class Here:
-    """A shot's biome, as the settings have it.
+    """A shot's biome, as set.
 
     Attributes
     ----------
     name
-        Of the biome.
+        Name of the biome.
     green
-        0: dry, 1: green.
+        Greenness of the season, 0: dry, 1: green.
     """
 
     name: str
@@ -59,12 +58,12 @@ class Here:
 
 @functools.cache
 def known() -> dict[str, Biome]:
-    """Every biome by name."""
+    """All biomes by name."""
     return {name: importlib.import_module(f".{name}", __name__).BIOME for name in biome_names.names()}
 
 
 def choose(shot: Shot) -> Here:
-    """The biome of a shot: the one that is set, or the one that goes best with the run's land."""
+    """Select the biome of a shot: the one in the settings, or the best match for the run's land."""
     run, forest = shot.run, shot.settings.forest
     name = forest.biome if forest.biome != "auto" else _auto(run)
     biome = known()[name]
@@ -85,12 +84,12 @@ def _auto(run: Run) -> str:
 
 
 def chosen(land: Land) -> str:
-    """Name of the biome that goes best with a land."""
+    """Name of the biome that best matches a land."""
     return max(known(), key=lambda name: known()[name].suits(land))
 
 
 def land(run: Run) -> Land:
-    """What a run says of its land: place, and what its fuel is, by category or else by its loads."""
+    """Land of a run: location, and cover of grass, shrub and wood by fuel category, or else by fuel loads."""
     count = np.zeros(3)
     step = max(min(len(run.fuel_latitude), len(run.fuel_longitude)) // _ENOUGH, 1)
     for first, end in blocks.rows(run):

@@ -1,4 +1,4 @@
-"""What a biome says: which plants stand where and how large, and the colours of land through the year.
+"""Biome definition: plants with their density and size, and the colours of land through the year.
 
 Colours are linear reflectances, chosen by eye against photographs, not measured; so are sizes and shares,
 unless a source is named.
@@ -14,20 +14,21 @@ import numpy as np
 from ....shot.terrain import noise
 
 Colour = tuple[float, float, float]
-Pair = tuple[Colour, Colour]  # the darkest and the lightest of a thing
+Pair = tuple[Colour, Colour]  # the darkest and the lightest colour
 _YEAR = 365.25  # days
 
 
 @dataclass(frozen=True)
 class Land:
-    """What a run says of its land, by which a biome is chosen.
+    """Land of a run, by which a biome is chosen.
 
     Attributes
     ----------
     latitude, longitude
-        Of its middle, degrees.
+        Of its centre, degrees.
     grass, shrub, wood
-        Parts 0..1 of the ground with fuel that is grass, shrub, and wood (timber litter, slash, any canopy).
+        Fractions 0..1 of the ground with fuel that is grass, shrub, and wood (timber litter, slash, any
+        canopy).
     """
 
     latitude: float
@@ -37,20 +38,20 @@ class Land:
     wood: float
 
     def within(self, south: float, north: float, west: float, east: float) -> bool:
-        """Whether its middle lies in a box, degrees."""
+        """Whether its centre lies in a box, degrees."""
         return south <= self.latitude <= north and west <= self.longitude <= east
 
 
 @dataclass(frozen=True)
 class Season:
-    """How green open land is: `high` on the greenest day of the year, `low` in the dry or cold season.
+    """Phenology of open land: `high` on the greenest day of the year, `low` in the dry or cold season.
 
     Attributes
     ----------
     peak
         Day of the year, in the northern hemisphere; half a year later in the southern.
     lasts
-        Days from the greenest day until nothing of the green is left, and so long before it.
+        Days from the greenest day to the end of the green season, and from its start to the greenest day.
     """
 
     peak: float
@@ -59,7 +60,7 @@ class Season:
     high: float = 1.0
 
     def greenness(self, day: float, latitude: float) -> float:
-        """0: dry, 1: green; of a day of the year at a latitude (degrees)."""
+        """Greenness, 0 (dry) to 1 (green), on a day of the year at a latitude (degrees)."""
         peak = self.peak if latitude >= 0.0 else self.peak + 0.5 * _YEAR
         off = abs((day - peak + 0.5 * _YEAR) % _YEAR - 0.5 * _YEAR)
         full = float(noise.smoothstep(self.lasts, 0.35 * self.lasts, np.array(off)))
@@ -68,21 +69,21 @@ class Season:
 
 @dataclass(frozen=True)
 class Species:
-    """Trees of a stand that are alike.
+    """A species of the stand.
 
     Attributes
     ----------
     models
-        Numbers of its models in `models`, each as often.
+        Indices of its models in `models`, of equal probability.
     share
-        Part of the trees, beside the shares of the others.
+        Weight of its number of trees against the other species.
     height
-        Times the height of a conifer of the same rank in such a stand (`forest.stand` of the core).
+        Ratio to the height of a conifer of the same rank in such a stand (`forest.stand` of the core).
     width
-        Times wider than its model.
+        Ratio to the model's width.
     low, high
-        Heights above the sea (m) between which its share goes from 0 to all, or from all to 0 where `low`
-        is the higher one; None: everywhere.
+        Elevations (m) between which its share goes from 0 to all, or from all to 0 where `low` is the higher
+        one; None: everywhere.
     """
 
     models: tuple[int, ...]
@@ -95,35 +96,35 @@ class Species:
 
 @dataclass(frozen=True)
 class OpenLand:
-    """Ground without canopy, seen as colour.
+    """Ground colour without canopy.
 
     Attributes
     ----------
     bleached, straw, stale
-        Dry grass: palest, middling and darkest.
+        Dry grass: palest, medium and darkest.
     green, lush
-        Grass that grows, and that of wet hollows.
+        Growing grass, and that of wet hollows.
     soil, shrub
         Darkest and lightest.
     bare
-        Part of the ground where soil shows between grass, in the dry season.
+        Fraction of the ground where soil shows between grass, in the dry season.
     bush
         Width of a bush, m.
     tussock
         Width of a bunch of grass, m.
     hollows
-        How much greener and bushier hollows are than crests, 0..1.
+        Excess of greenness and shrub cover in hollows over crests, 0..1.
     patch
         Size of the largest patches, m.
     tracks
-        Distance between tracks of vehicles and cattle, m; 0: none. They are invented.
+        Distance between tracks of vehicles and cattle, m; 0: none. They are procedural.
     draws
-        Distance between the shallow valleys that water has cut, m, which are green and bushy; 0: none. They
-        are invented.
+        Distance between shallow valleys cut by water, m, which are green and bushy; 0: none. They are
+        procedural.
     field
-        Sides of fields or paddocks, m; none where they are 0. They are invented, and so are hedges.
+        Side lengths of fields or paddocks, m; 0: none. They are procedural, and so are hedges.
     tilled
-        0: paddocks differ as they are grazed, 1: fields, some of them ploughed or mown.
+        0: paddocks that differ by grazing, 1: fields, some of them ploughed or mown.
     hedge
         Width of hedges round fields, m.
     """
@@ -149,18 +150,18 @@ class OpenLand:
 
 @dataclass(frozen=True)
 class Plants:
-    """Bushes, tufts and the like near cameras, by `understorey.KINDS`.
+    """Bushes, tufts and other understorey near cameras, relative to `understorey.KINDS`.
 
     Attributes
     ----------
     density
-        Times as many as there, by kind; 1 where it is not named.
+        Factor on the number, by kind; 1 where it is not named.
     height, width
-        Times as tall, and as wide for that, as there, by kind.
+        Factors on height, and on the ratio of width to height, by kind.
     finer
-        Times as many places for them along a side, by kind: there is at most one in each.
+        Factor on the lattice cells along a side, by kind; a cell holds at most one instance.
     models
-        Numbers of models in place of those there, before and after the fire, by kind.
+        Indices of models that replace those of `KINDS`, before and after the fire, by kind.
     """
 
     density: Mapping[str, float] = field(default_factory=dict)
@@ -172,42 +173,42 @@ class Plants:
 
 @dataclass(frozen=True)
 class Biome:
-    """A kind of land.
+    """A biome.
 
     Attributes
     ----------
     suits
-        How well it goes with a run's land: the one of which this is largest is chosen.
+        Score of its match with a run's land: the biome of the highest score is chosen.
     season
-        Of grass and of leaves that are shed.
+        Phenology of grass and of deciduous leaves.
     needles
-        Crowns in the sun, as the ground shows them far away.
+        Sunlit crowns, as the ground shows distant forest.
     stands
-        Colour that crowns of some stands have 0.6 of.
+        Colour that makes up 0.6 of the crowns' colour in some stands.
     shade, between
-        Of dense clumps, and between crowns.
+        Colours of dense clumps, and between crowns.
     crown
-        Width of crowns in the far forest, m.
+        Width of crowns in the distant forest, m.
     deciduous
-        Part of the crowns' green that goes with the season's.
+        Fraction of the crowns' green that follows the season.
     withered
-        Factor on the colour of such crowns when all of their green is gone.
+        Factor on the colour of such crowns after their green is gone.
     litter, scrub
-        The floor under trees: dead leaves from afar, and what is green on it.
+        Ground under trees: dead leaves from afar, and its green plants.
     grass
         Dry and green blades near cameras.
     species
         Trees of the stand; none: those of the core, with oaks in the foothills.
     tree_cover, shrub_cover
-        Part of the open land under lone trees, and under bushes where its fuel is grass.
+        Fractions of open land under lone trees, and under bushes where its fuel is grass.
     shrub_load
-        Surface fuel (kg/m2) at which bushes begin, and at which they are all of it, where no category says.
+        Surface fuel (kg/m2) at which bushes begin, and at which they cover all, without a fuel category.
     open_land
         None: meadows, soil and brush of the Sierra.
     rock, outcrops
-        Factor on the colour of granite; how common rock is that no map shows, 0..1.
+        Factor on the colour of granite; frequency of outcrops that no map shows, 0..1.
     plants
-        What is different near cameras.
+        Changes to the understorey near cameras.
     """
 
     suits: Callable[[Land], float]
