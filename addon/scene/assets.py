@@ -1,7 +1,7 @@
-"""Trees, materials, node groups and cameras of a shot as assets; trees with pictures of themselves.
+"""Asset builder: a shot's trees, materials, node groups and cameras as assets, with previews of trees.
 
-What differs from tree to tree is read from the instancer, or else from the object: so a tree that stands
-alone has these as custom properties, and an artist can burn it by its `arrival_time`.
+Variation between trees is read from the instancer, or else from the object. So a single tree has these values
+as custom properties, and an artist can burn it with its `arrival_time`.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ HEIGHTS = {
     **{"pine": 18.0, "spruce": 18.0, "birch": 15.0},
     **{"brush": 1.2, "log": 0.5, "rock": 0.8, "tuft": 0.4, "twigs": 0.15},
 }
-"""m; of one of each class, as assets are drawn."""
+"""m; heights of one model of each class in the library."""
 
-_HIGH = 5.0  # m; of classes that are trees
+_HIGH = 5.0  # m; classes that are trees
 _PICTURE = 128  # pixels
 _ALONE = {"arrival_time": NEVER, "tint": 0.5, "dead": 0.5, "scorch": 0.0, "torched": 0.0, "elevation": 1500.0}
 _KINDS = {
@@ -47,12 +47,12 @@ Identify = Callable[[str], str]
 
 
 def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
-    """Make everything in the current file, marked as assets like our node groups that are there; how many.
+    """Create all assets in the current file, with our node groups that exist; returns their number.
 
     Parameters
     ----------
     identify
-        What Blender knows a catalogue by.
+        Function that gives the UUID of a catalogue by name.
     """
     stage = owned.adopt(bpy.context.scene)
     clock.build(shot, stage)
@@ -80,7 +80,7 @@ def build(shot: Shot, identify: Identify, progress: Progress = silent) -> int:
 
 
 def _trees(made: bpy.types.Collection, identify: Identify, progress: Progress) -> None:
-    """Name and mark the finest level of every model, and draw its picture."""
+    """Name and mark the finest level of every model, and render its preview."""
     count: dict[str, int] = defaultdict(int)
     every = models.every()
     with tempfile.TemporaryDirectory() as folder:
@@ -103,7 +103,7 @@ def _trees(made: bpy.types.Collection, identify: Identify, progress: Progress) -
 
 
 def _materials(identify: Identify) -> None:
-    """Mark all materials; those of trees and the like show what has them, as much of it as can be."""
+    """Mark all materials; each gets the preview of an asset that shows it with few other materials."""
     things = [thing for thing in bpy.data.objects if thing.asset_data and thing.type == "MESH"]
     things.sort(key=lambda thing: len(thing.data.materials))
     for material in filter(owned.ours, bpy.data.materials):
@@ -116,7 +116,7 @@ def _materials(identify: Identify) -> None:
 
 
 def _show(block: bpy.types.ID, pixels: np.ndarray) -> None:
-    """Make a picture the preview of a block."""
+    """Set a picture as the preview of a data-block."""
     preview = block.preview_ensure()
     preview.image_size = (_PICTURE, _PICTURE)
     preview.image_pixels_float.foreach_set(pixels)
@@ -133,7 +133,7 @@ def _name(model: models.Model) -> str:
 
 
 def _inputs(group: bpy.types.NodeTree) -> str:
-    """What a node group is for, and what can be set of it."""
+    """Description of a node group, with its settable inputs."""
     names = [
         item.name
         for item in group.interface.items_tree
@@ -151,7 +151,7 @@ def _mark(block: bpy.types.ID, catalogue: str, about: str) -> None:
 
 
 class _Studio:
-    """A scene of its own in which Cycles draws an object before a clear background."""
+    """A scene in which Cycles renders previews of objects before a transparent background."""
 
     def __init__(self, folder: Path) -> None:
         self._path = folder / "picture.png"
@@ -174,7 +174,7 @@ class _Studio:
             scene.collection.objects.link(thing)
 
     def draw(self, thing: bpy.types.Object) -> None:
-        """Make the picture of an object its preview."""
+        """Render an object and set the picture as its preview."""
         scene = self._scene
         scene.collection.objects.link(thing)
         corners = np.array(thing.bound_box) * np.array(thing.scale)
@@ -191,6 +191,6 @@ class _Studio:
         scene.collection.objects.unlink(thing)
 
     def close(self) -> None:
-        """Take the scene away."""
+        """Remove the scene."""
         bpy.data.batch_remove([*self._scene.collection.objects, self._eye, self._sun])
         bpy.data.scenes.remove(self._scene)

@@ -1,4 +1,4 @@
-"""Scene time: the frame range, and the model time in shaders and geometry nodes."""
+"""Scene clock: frame range, and model time as a driver of shaders and geometry nodes."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from ..shot.shot import Shot
 
 
 def build(shot: Shot, stage: Stage) -> None:
-    """Animate the scene property that shaders read the model time from."""
+    """Keyframe the scene property from which shaders read the model time."""
     scene, frames = stage.scene, shot.frames
     scene[nodes.TIME] = frames.first
     if scene.animation_data is None or scene.animation_data.action is None or _ours(scene):
         _curve(shot, scene)
-    else:  # the artist's action stays as it is
+    else:  # an artist's action stays unchanged
         _driver(shot, scene)
 
 
 def frames(shot: Shot, stage: Stage) -> None:
-    """Set the frame range of our own scene, and show its first frame."""
+    """Set the frame range of our own scene, and go to its first frame."""
     if stage.own:
         scene = stage.scene
         scene.frame_start, scene.frame_end = 1, shot.frames.count
@@ -29,7 +29,7 @@ def frames(shot: Shot, stage: Stage) -> None:
 
 
 def remove(scene: bpy.types.Scene) -> None:
-    """Take the property away, and what animates it; what an artist animates in our action stays."""
+    """Remove the property and its F-curve; other curves that an artist added to our action stay."""
     data = scene.animation_data
     if data is not None:
         for driver in [driver for driver in data.drivers if driver.data_path == _PATH]:
@@ -42,11 +42,11 @@ def remove(scene: bpy.types.Scene) -> None:
 
 
 _PATH = f'["{nodes.TIME}"]'
-_OF_OUR_OWN = ("view_settings.exposure",)  # what else is animated in our own scene
+_OF_OUR_OWN = ("view_settings.exposure",)  # other curves in our own scene
 
 
 def _empty(scene: bpy.types.Scene, paths: tuple[str, ...]) -> None:
-    """Remove these curves from our action, and the action where nothing else is in it."""
+    """Remove these F-curves from our action, and the action if it is empty then."""
     action = scene.animation_data.action
     compat.remove_fcurves(scene, paths)
     if compat.fcurves(scene):
@@ -79,6 +79,6 @@ def _driver(shot: Shot, scene: bpy.types.Scene) -> None:
 
 
 def geometry_time(tree: nodes.Tree, shot: Shot) -> nodes.Value:
-    """Current model time (s) in a geometry node tree, from the frame that it is evaluated at."""
+    """Model time (s) in a geometry node tree, from the frame at evaluation."""
     frame = tree.output("GeometryNodeInputSceneTime", name="Frame")
     return (frame - 1.0) * shot.frames.step + shot.frames.first

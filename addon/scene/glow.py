@@ -1,4 +1,4 @@
-"""Colour and brightness of what glows, as flames, ground, trees and firebrands share them."""
+"""Emission of flames, embers, trees and firebrands: shared colour and radiance."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from ..shot.shot import Shot
 
 FLAME = (1.0, 0.33, 0.04)
 EMBER = (1.0, 0.11, 0.012)
-CLOSE = 200.0, 2500.0  # m from the camera: flames that fill pixels would burn out, afar they must show
-FLAMING_TIME = 100.0, 300.0  # s that the edge of timber is in flames, seen from nearby and from FAR
-FAR = 9000.0  # m; from there the edge is drawn wider, as a picture's pixels are
+CLOSE = 200.0, 2500.0  # m from the camera: overexposure limit close by, visibility far away
+FLAMING_TIME = 100.0, 300.0  # s that the front in timber flames, for distances close by and at FAR
+FAR = 9000.0  # m; from there on the drawn front is wider, as a picture's pixels are
 _LIGHT = 13.0  # radiance of flames at exposure 0
 
 
 def brightness(shot: Shot) -> float:
-    """Radiance of flames: less in a longer exposure, as a photographer stops down, else nights burn out."""
+    """Radiance of flames: lower in longer exposures, as with a smaller aperture, to limit clipping."""
     stops = exposure.at(shot, np.array([0.5 * (1 + shot.frames.count)]))[0]
     return float(_LIGHT * 2.0 ** (-0.85 * stops))

@@ -1,7 +1,7 @@
-"""Granite of the Sierra: its faces from centimetres up, and the joints that cross a whole outcrop.
+"""Granite of the Sierra: texture of its faces from centimetres up, and joints across whole outcrops.
 
-Reflectances are a picture's, chosen by eye against photographs. What is smaller than a pixel is not computed:
-octaves of noise end there, and lines fade into what they would be on average.
+Reflectances are display colours, chosen by eye against photographs. Detail below a pixel is filtered: octaves
+of noise end there, and lines fade to their mean.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from ..shot.shot import Shot
 _LIGHT, _GREY = (0.205, 0.196, 0.180), (0.090, 0.087, 0.082)
 _DARK = (0.026, 0.025, 0.022)  # joints, and streaks of water and black lichen
 _LICHEN = (0.095, 0.098, 0.062)
-_SETS = ((0.36, 13.0), (1.83, 21.0))  # of joints: direction (rad) and distance (m)
+_SETS = ((0.36, 13.0), (1.83, 21.0))  # joints: direction (rad) and distance (m)
 
 
 def pixel(tree: nodes.Tree, shot: Shot, distance: nodes.Value) -> nodes.Value:
-    """Size of a pixel (m) of the sharpest camera at a `distance` (m) from the camera."""
+    """Pixel size (m) of the sharpest camera at a `distance` (m) from the camera."""
     near, parallel = shot.pixel
     least = min(parallel, 1.0e4)
     return distance * near if np.isfinite(near) else distance * 0.0 + least
@@ -29,10 +29,10 @@ def pixel(tree: nodes.Tree, shot: Shot, distance: nodes.Value) -> nodes.Value:
 def fine(
     tree: nodes.Tree, position: Any, size: float, octaves: float, pixel: nodes.Value, roughness: float = 0.6
 ) -> nodes.Value:
-    """Noise -1..1 of `size` m whose octaves end with the pixel, as strong as what is left of them; 0 afar.
+    """Noise -1..1 of wavelength `size` m, band-limited to the pixel, with unfiltered amplitudes; 0 far away.
 
-    A sum of octaves comes divided by the sum of their weights; it is multiplied by that again, over the sum
-    of all of them.
+    Blender divides a sum of octaves by the sum of their weights. The result is multiplied by that sum again,
+    and divided by the sum of all octaves' weights.
     """
     left = tree.math("LOGARITHM", size / (pixel * 2.0), 2.0)
     detail = tree.math("MINIMUM", tree.math("MAXIMUM", left, 0.0), octaves)

@@ -1,8 +1,8 @@
-"""Distance haze in the shaders: no world volume, so it costs next to nothing.
+"""Aerial perspective (haze) in the shaders, without a world volume: it costs almost no render time.
 
-What a camera ray sees at distance d is mixed towards the light of the haze by 1 - exp(-tau) (Koschmieder, air
-lit alike all along the ray). The haze thins with height as exp(-z / H), so a ray from z0 to z1 passes
-tau = k d exp(-z0 / H) (1 - exp(-u)) / u with u = (z1 - z0) / H. Other rays are left alone: it lights nothing.
+Radiance from distance d is mixed with the airlight by 1 - exp(-tau) (Koschmieder; uniform light along the
+ray). Extinction falls with height as exp(-z / H), so a ray from z0 to z1 has the optical depth tau = k d
+exp(-z0 / H) (1 - exp(-u)) / u with u = (z1 - z0) / H. It applies to camera rays only and lights nothing.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ _WHITE = (1.0, 1.0, 1.0, 1.0)
 
 
 def _group(stage: Stage) -> bpy.types.NodeTree:
-    """Make the node group (once per scene); `settings` changes the constants in it.
+    """Create the node group once per scene; `settings` changes its constants.
 
-    Its inputs are factors on these, so that one material can differ from the scene.
+    Its inputs are factors on these constants, so that one material can differ from the scene.
     """
     if stage.root.get(_GROUP) is not None:
         return stage.root[_GROUP]
@@ -46,7 +46,7 @@ def _group(stage: Stage) -> bpy.types.NodeTree:
 
 
 def way(tree: nodes.Tree, height: float) -> nodes.Value:
-    """Metres from here to the camera, each counted as exp(-z / `height`)."""
+    """Path length (m) to the camera, weighted by exp(-z / `height`)."""
     distance = tree.output("ShaderNodeCameraData", name="View Distance")
     geometry = tree.node("ShaderNodeNewGeometry")
     low = tree.separate(tree.pick(geometry, "Position"))[2] / height
@@ -56,11 +56,11 @@ def way(tree: nodes.Tree, height: float) -> nodes.Value:
 
 
 def settings(stage: Stage, amount: float) -> tuple[bpy.types.NodeTree, str]:
-    """Set how much haze there is (1: a dry September day).
+    """Set the amount of haze (1: a dry September day).
 
     Returns
     -------
-    The node group, and the path in it of the radiance of the haze's light.
+    The node group, and the data path in it of the airlight's radiance.
     """
     group = _group(stage)
     group.nodes["Extinction"].outputs[0].default_value = sky.HAZE * amount
@@ -68,14 +68,14 @@ def settings(stage: Stage, amount: float) -> tuple[bpy.types.NodeTree, str]:
 
 
 def state(stage: Stage) -> tuple[tuple[float, ...], float]:
-    """Radiance of the haze's light and its extinction at height 0 (1/m), at the scene's frame."""
+    """Radiance of the airlight and extinction at height 0 (1/m), at the scene's frame."""
     group = stage.evaluated(_group(stage))
     colour = group.nodes["Colour"].outputs[0].default_value
     return tuple(colour[:3]), float(group.nodes["Extinction"].outputs[0].default_value)
 
 
 def fraction(tree: nodes.Tree, stage: Stage) -> tuple[nodes.Value, nodes.Value]:
-    """Part of the light that is haze (0..1, zero for other than camera rays), and the haze's colour.
+    """Fraction of airlight in a pixel (0..1, zero except for camera rays), and the airlight's colour.
 
     The group of `tree` gets inputs for both.
     """
@@ -86,7 +86,7 @@ def fraction(tree: nodes.Tree, stage: Stage) -> tuple[nodes.Value, nodes.Value]:
 
 
 def before_sky(tree: nodes.Tree, stage: Stage, light: nodes.Value, up: nodes.Value) -> nodes.Value:
-    """The sky's radiance through haze, for rays of slope sine `up`; a dry day's is in the sky as it is."""
+    """The sky's radiance through haze, for rays of slope sine `up`; its texture includes a dry day's haze."""
     group = _group(stage)
     more = (group.nodes["Extinction"].outputs[0].default_value - sky.HAZE) * sky.HAZE_HEIGHT
     if more <= 1.0e-3:
@@ -97,6 +97,6 @@ def before_sky(tree: nodes.Tree, stage: Stage, light: nodes.Value, up: nodes.Val
 
 
 def apply(tree: nodes.Tree, shader: Any, stage: Stage) -> nodes.Value:
-    """`shader` as it is seen through the haze between it and the camera."""
+    """Apply the haze between surface and camera to `shader`."""
     part, colour = fraction(tree, stage)
     return tree.mix_shader(part, shader, tree.emission(colour, 1.0))

@@ -1,19 +1,19 @@
-"""What an infrared camera sees: surfaces, air and smoke give off radiance over its band, in W m-2 sr-1.
+"""Infrared radiance of surfaces, air and smoke over a camera's band, in W m-2 sr-1.
 
-A surface of emissivity e gives e L(T), and mirrors (1 - e) of the sky. L is Planck's law over the band by
-Gauss and Legendre's rule with five wavelengths: off the integral by 0.3 mK (8 to 14 um) and 0.2 mK (3.4 to
+A surface of emissivity e emits e L(T), and reflects (1 - e) of the sky. L is Planck's law integrated over the
+band by Gauss-Legendre quadrature with five wavelengths: its error is 0.3 mK (8 to 14 um) and 0.2 mK (3.4 to
 4.1 um) at most between 180 and 1600 K, in the shaders' float32. Pixels are means of radiance.
 
-Over d km of air with w g/m3 of water vapour exp(-0.03 w d^0.75) of it comes through, and the air adds its
-own light: for 7 g/m3 that is the transmission of G. J. Tattersall's Thermimage (after FLIR Systems: 0.81 over
-1 km, 0.31 over 10 km) within 0.01. The vapour thins to 1/e in 2 km of height. The middle infrared is taken
-alike.
+Over d km of air with w g/m3 of water vapour the transmittance is exp(-0.03 w d^0.75), and the air adds its
+own emission. For 7 g/m3 that is the transmission of G. J. Tattersall's Thermimage (after FLIR Systems: 0.81
+over 1 km, 0.31 over 10 km) within 0.01. The scale height of vapour is 2 km. The same formula serves the
+middle infrared.
 
-Smoke is nearly clear in the infrared: its particles, 0.1 to 0.3 um in diameter (Radke et al. 1990), absorb as
-1 / wavelength and scatter next to nothing (C. F. Bohren and D. R. Huffman 1983, 5.1). Of extinction in green
-light a sixth is absorption (single-scattering albedo 0.84, Reid et al. 2005), and a twentieth of that is left
-at 11 um, a seventh at 3.75 um. Ash, whose pieces are larger, and cloud water in smoke, which hides the fire
-in the infrared too, are left out.
+Smoke is nearly transparent in the infrared: its particles, 0.1 to 0.3 um in diameter (Radke et al. 1990),
+absorb as 1 / wavelength and scatter almost nothing (C. F. Bohren and D. R. Huffman 1983, 5.1). A sixth of the
+extinction in green light is absorption (single-scattering albedo 0.84, Reid et al. 2005). A twentieth of that
+is left at 11 um, a seventh at 3.75 um. Not modelled: ash, whose particles are larger, and cloud water in
+smoke, which hides the fire in the infrared too.
 """
 
 from __future__ import annotations
@@ -31,36 +31,36 @@ from ..shot.settings.settings import BANDS
 from ..shot.shot import Shot
 from . import haze, temperature
 
-SKY, STONE = model.SKY, model.STONE  # the palette of the thermal picture goes by them too
+SKY, STONE = model.SKY, model.STONE  # the thermal picture's palette uses them too
 GREEN = 0.55  # um
-SOOT = 0.16  # part of smoke's extinction in green light that is absorption
+SOOT = 0.16  # absorption as a fraction of smoke's extinction in green light
 NEEDLES, GROUND, CHAR, LAKE = 0.98, 0.96, 0.97, 0.985  # emissivities, 8 to 14 um (assumed)
 FLAME = 0.6  # 1/m: emissivity of a flame of depth D is 1 - exp(-0.6 D) (assumed)
-_DIM = 0.03  # of air, per g/m3, at 1 km
+_DIM = 0.03  # extinction of air, per g/m3, at 1 km
 _BEND = 0.75
-_HALF = 2000.0  # m in which vapour thins to 1/e
+_HALF = 2000.0  # m, scale height of water vapour
 _GROUP, _NODES = "infrared", 5
 _FIRST = 2.0 * 6.62607015e-34 * 299792458.0**2 * 1e24  # W m-2 sr-1 um4
 _SECOND = 14387.768775  # um K
 
 
 def emitted(tree: nodes.Tree, shot: Shot, stage: Stage, kelvin: Any, emissivity: Any = 1.0) -> nodes.Value:
-    """Radiance that a surface gives off and mirrors."""
+    """Radiance that a surface emits and reflects."""
     inputs = {"Kelvin": kelvin, "Emissivity": emissivity}
     return tree.output("ShaderNodeGroup", inputs, "Radiance", node_tree=_group(shot, stage))
 
 
 def through_air(tree: nodes.Tree, shot: Shot, stage: Stage, radiance: Any) -> nodes.Value:
-    """Radiance as it comes to the camera from this point."""
+    """Radiance at the camera from this point: attenuated by air, with the air's own emission."""
     clear = tree.output("ShaderNodeGroup", (), "Clear", node_tree=_group(shot, stage))
     own = emitted(tree, shot, stage, temperature.air(tree, shot, stage))
     return tree.mix(clear, own, radiance)
 
 
 def smoke(tree: nodes.Tree, shot: Shot, stage: Stage, visible: Any, density: nodes.Value) -> nodes.Value:
-    """`visible`, the shader of smoke with this extinction (1/m) in green light; its warmth in data layers.
+    """`visible`, the shader of smoke with this extinction (1/m) in green light; in data layers its emission.
 
-    In masks it dims as it does in green light, and no more.
+    In masks it absorbs as in green light, and emits nothing.
     """
     absorbed = density * absorption(BANDS[shot.settings.thermal.band])
     black = tree.output("ShaderNodeVolumeAbsorption", {"Color": (0.0, 0.0, 0.0), "Density": absorbed})
@@ -72,12 +72,12 @@ def smoke(tree: nodes.Tree, shot: Shot, stage: Stage, visible: Any, density: nod
 
 
 def absorption(band: tuple[float, float]) -> float:
-    """Of smoke in a band (um), times its extinction in green light."""
+    """Absorption of smoke in a band (um), as a ratio to its extinction in green light."""
     return SOOT * 2.0 * GREEN / sum(band)
 
 
 def build(shot: Shot, stage: Stage) -> None:
-    """Make band and air those of this shot, for materials that are there and to come."""
+    """Set the band and the air of this shot, for existing and later materials."""
     _fill(_group(shot, stage), shot)
 
 
@@ -87,7 +87,7 @@ def sky(shot: Shot) -> float:
 
 
 def _group(shot: Shot, stage: Stage) -> bpy.types.NodeTree:
-    """The node group (made once per scene): kelvin and emissivity -> radiance; part that air lets through."""
+    """Node group, once per scene: kelvin and emissivity -> radiance; and the transmittance of air."""
     if stage.root.get(_GROUP) is not None:
         return stage.root[_GROUP]
     group = owned.mark(bpy.data.node_groups.new("Firetwin Infrared", "ShaderNodeTree"))
@@ -109,7 +109,7 @@ def _group(shot: Shot, stage: Stage) -> bpy.types.NodeTree:
 
 
 def _clear(tree: nodes.Tree) -> nodes.Value:
-    """Part of the radiance that air between here and the camera lets through."""
+    """Transmittance of air between this point and the camera."""
     path = haze.way(tree, _HALF) * 1.0e-3
     return (-(path.power(_BEND) * _value(tree, "Dim"))).exp()
 
@@ -121,7 +121,7 @@ def _value(tree: nodes.Tree, name: str) -> nodes.Value:
 
 
 def _fill(group: bpy.types.NodeTree, shot: Shot) -> None:
-    """Set what depends on the band and the air."""
+    """Set the values that depend on the band and the air."""
     low, high = BANDS[shot.settings.thermal.band]
     places, weights = np.polynomial.legendre.leggauss(_NODES)
     waves = 0.5 * (low + high) + 0.5 * (high - low) * places

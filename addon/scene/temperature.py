@@ -1,15 +1,15 @@
-"""Temperatures (K) of all that the thermal view shows, as outputs of shader nodes.
+"""Temperatures (K) of all surfaces in the thermal view, as outputs of shader nodes.
 
-Air has the temperature of the run at the place, and 6.5 K less for each kilometre above the model's ground
-there. Unburned ground is warmer than the air by what it takes in over what it passes on, (a S - loss) / h:
-the direct sun S (`shot.sun.direct`) on a surface that faces it, less 70 W/m2 of net long-wave radiation into
-a clear sky; h is 30 W m-2 K-1 for bare ground and 80 for crowns, which stay within some kelvin of the air
-(both assumed). Shadows of ridges and trees do not cool the ground.
+Air has the temperature of the run at the point, with a lapse rate of 6.5 K per kilometre above the model's
+terrain. Unburned ground is warmer than the air by (a S - loss) / h: absorbed direct sun S (`shot.sun.direct`)
+on the inclined surface, less 70 W/m2 of net long-wave radiation into a clear sky. h is 30 W m-2 K-1 for bare
+ground and 80 for crowns, which stay within some kelvin of the air (both assumed). Shadows of ridges and trees
+do not cool the ground.
 
-Burned ground cools by `shot.air_temperature.cooling`: 97 K above the rest after ten minutes, 38 K after
-an hour, 19 K after four, where timber burned for two minutes; 12 K after ten minutes where grass burned for a
-quarter of one. Flames are 1000-1500 K (Frankman et al. 2008); a pixel of the burning
-edge mixes flames with gaps, so they are drawn at 1000-1200 K.
+Burned ground cools by `shot.air_temperature.cooling`: 97 K above the rest after ten minutes, 38 K after an
+hour, 19 K after four, where timber burned for two minutes; 12 K after ten minutes where grass burned for a
+quarter of one. Flames are 1000-1500 K (Frankman et al. 2008). A pixel of the front mixes flames with gaps, so
+they are drawn at 1000-1200 K.
 """
 
 from __future__ import annotations
@@ -31,14 +31,14 @@ EMBER = 850.0  # K, ground full of glowing embers (assumed)
 WATER = 292.0  # K, a lake in September (assumed)
 _NEEDLES = 80.0  # W m-2 K-1
 _GROUP, _IMAGE = "temperature", "Firetwin Air Temperature"
-_SIDE = 128  # pixels of a moment's field
-_MOMENTS = 25  # at most
+_SIDE = 128  # pixels along a side of a field at one time
+_MOMENTS = 25  # number of times, at most
 
 
 def ambient(
     tree: nodes.Tree, shot: Shot, stage: Stage, elevation: Any, normal: Any, bare: Any
 ) -> nodes.Value:
-    """Temperature of unburned ground (`bare` 1) or crowns (0) at an elevation (m), facing along `normal`."""
+    """Temperature of unburned ground (`bare` 1) or crowns (0) at an elevation (m), with this normal."""
     node = tree.node("ShaderNodeGroup", {"Elevation": elevation}, node_tree=_group(shot, stage))
     lit = tree.math("MAXIMUM", tree.vector("DOT_PRODUCT", normal, tree.pick(node, "Sun"), name="Value"), 0.0)
     gain = lit * air_temperature.ABSORBED - air_temperature.LOSS
@@ -54,7 +54,7 @@ def air(tree: nodes.Tree, shot: Shot, stage: Stage) -> nodes.Value:
 def cooled(
     tree: nodes.Tree, background: Any, age: nodes.Value, burned: Any, pulse: Any = air_temperature.PULSE
 ) -> nodes.Value:
-    """Temperature of what has burned and was heated for `pulse` (s), without flames or embers of its own."""
+    """Temperature of burned ground that was heated for `pulse` (s), without its flames and embers."""
     age = tree.math("MAXIMUM", age, 0.0)
     before = tree.math("MAXIMUM", age - pulse, 0.0)
     above = (tree.math("SQRT", age) - tree.math("SQRT", before)) * burned
@@ -62,12 +62,12 @@ def cooled(
 
 
 def build(shot: Shot, stage: Stage) -> None:
-    """Make the air's temperature and the sun those of this shot, for materials that are there and to come."""
+    """Set the air temperature and the sun of this shot, for existing and later materials."""
     _fill(_group(shot, stage, fill=False), shot)
 
 
 def _group(shot: Shot, stage: Stage, fill: bool = True) -> bpy.types.NodeTree:
-    """The node group (made once per scene): elevation (m) -> kelvin of the air, and W/m2 towards the sun."""
+    """Node group, once per scene: elevation (m) -> air temperature (K), and W/m2 towards the sun."""
     if stage.root.get(_GROUP) is not None:
         return stage.root[_GROUP]
     group = owned.mark(bpy.data.node_groups.new("Firetwin Temperature", "ShaderNodeTree"))
@@ -112,7 +112,7 @@ def _named(tree: nodes.Tree, kind: str, name: str) -> nodes.Value:
 
 
 def _fill(group: bpy.types.NodeTree, shot: Shot) -> None:
-    """Write the run's temperatures over a square grid of the scene, its moments above one another."""
+    """Write the run's temperatures on a square grid of the scene, with its times stacked in one image."""
     frames = shot.frames
     moving = frames.last > frames.first
     count = min(_MOMENTS, max(frames.count, 2)) if moving else 1
@@ -144,14 +144,14 @@ def _fill(group: bpy.types.NodeTree, shot: Shot) -> None:
 
 
 class Field(NamedTuple):
-    """Air of a moment on a square grid of the scene, rows to the north.
+    """Air at one time on a square grid of the scene, rows to the north.
 
     Attributes
     ----------
     kelvin, elevation
         (n, n) K at the model's ground, and that ground's elevation, m.
     corner, spacing
-        (2,) x and y of the first value, and between values, m.
+        (2,) x and y of the first value, and grid spacing, m.
     """
 
     kelvin: NDArray[np.float64]
@@ -185,7 +185,7 @@ def _extent(shot: Shot) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def _sun(group: bpy.types.NodeTree, shot: Shot, count: int) -> None:
-    """Animate the vector towards the sun, as long as its light is strong."""
+    """Keyframe the vector towards the sun, of the length of its direct irradiance."""
     frames = np.linspace(1.0, shot.frames.count, count)
     vectors = []
     for frame in frames:

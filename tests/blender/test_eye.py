@@ -48,11 +48,11 @@ def test_a_camera_in_smoke_is_told_of(looking):
         camera=SimpleNamespace(name="drone"),
     )
     drawing.in_smoke, drawing.shot = [], SimpleNamespace(paths=[view])
-    drawing._look(looking(-500.0, -200.0), 1)
+    drawing._check_view(looking(-500.0, -200.0), 1)
     assert drawing.warnings() == []
-    drawing._look(looking(100.0, -200.0), 2)
+    drawing._check_view(looking(100.0, -200.0), 2)
     (text,) = drawing.warnings()
     assert text.startswith('camera "drone" stands in smoke')
     assert "in frame 2; move it" in text
-    drawing._look(looking(100.0, -200.0), 3)
+    drawing._check_view(looking(100.0, -200.0), 3)
     assert "in 2 frames" in "".join(drawing.warnings())

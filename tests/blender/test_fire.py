@@ -37,8 +37,8 @@ def test_flame_lengths_are_those_of_the_formulas():
 
 def test_low_flames_leave_gaps_and_tall_ones_none(shot):
     place = np.stack([np.linspace(0.0, 4000.0, 4000), np.zeros(4000), np.zeros(4000)], axis=-1)
-    assert flames._whole(place, np.full(4000, 10.0), shot).all()
-    kept = [flames._whole(place, np.full(4000, length), shot).mean() for length in (0.4, 2.0, 4.0)]
+    assert flames._unbroken(place, np.full(4000, 10.0), shot).all()
+    kept = [flames._unbroken(place, np.full(4000, length), shot).mean() for length in (0.4, 2.0, 4.0)]
     assert 0.3 < kept[0] < kept[1] < kept[2] < 1.0
 
 

@@ -1,7 +1,7 @@
-"""Camera objects with as few keyframes as their paths allow, each with handles that people can move.
+"""Camera objects with few keyframes: F-curves fitted to camera paths, with handles that artists can move.
 
-An object that is there already is set anew and stays itself: what it is called, what hangs on it, and what an
-artist gave it beside what is set here (depth of field, say) is kept.
+An existing object is updated in place: it retains its name, its children, and an artist's other properties
+(depth of field, say).
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ from ...shot.cameras.path import Path, clip
 from ...shot.shot import Shot
 from . import edit_detection, read_edits
 
-# How far a picture may be off between keys: turned, zoomed, or moved as the nearest ground sees it, pixels.
+# Tolerance of the fit between keyframes, in pixels: of rotation, zoom, and parallax of the nearest ground.
 _PIXELS = 0.05
-_LEAST = 0.005  # m that a camera may be off its path in any case
+_LEAST = 0.005  # m, tolerance of a camera's position in any case
 
 
 def build(shot: Shot, stage: Stage) -> list[bpy.types.Object]:
     """Build "Firetwin Camera <name>" for every path; the scene's camera stays, or is the first.
 
-    Blender may cut the name short: `stage.camera(name)` finds the object.
+    Blender may truncate the name: `stage.camera(name)` finds the object.
     """
     names = [view.camera.name for view in shot.paths]
     there = {name: thing for name in names if (thing := stage.camera(name)) is not None}
@@ -38,7 +38,7 @@ def build(shot: Shot, stage: Stage) -> list[bpy.types.Object]:
 
 
 def _tolerance(view: Path, shot: Shot) -> tuple[float, float, float]:
-    """How far a camera may be off its path: m, radians, and parts of its focal length."""
+    """Tolerance of a camera's keyframes: m, radians, and fractions of its focal length."""
     pixel = view.pixel
     near = 1.0
     if view.perspective:
@@ -63,7 +63,7 @@ def _camera(
 
 
 def _see_around(data: bpy.types.Camera, apart: float) -> None:
-    """Equirectangular, with eyes on a circle (spherical stereo) that come together towards the poles."""
+    """Set an equirectangular camera with spherical stereo: the eyes' distance shrinks towards the poles."""
     data.type, data.panorama_type = "PANO", "EQUIRECTANGULAR"
     stereo = data.stereo
     stereo.use_spherical_stereo = stereo.use_pole_merge = True
@@ -71,7 +71,7 @@ def _see_around(data: bpy.types.Camera, apart: float) -> None:
 
 
 def _set(view: Path, shot: Shot, thing: bpy.types.Object) -> None:
-    """Give an object the way and the lens of a path."""
+    """Set the animation and the lens of a camera object from a path."""
     data = thing.data
     moved, turned, zoomed = _tolerance(view, shot)
     compat.remove_fcurves(data, edit_detection.LENS)
@@ -88,11 +88,11 @@ def _set(view: Path, shot: Shot, thing: bpy.types.Object) -> None:
     thing.rotation_mode, thing.scale = "QUATERNION", (1.0, 1.0, 1.0)
     _animate(thing, "location", view.position, moved)
     quaternions = rotation.quaternions(view.rotation)
-    _animate(thing, "rotation_quaternion", quaternions, 0.5 * turned)  # half the angle is in them
+    _animate(thing, "rotation_quaternion", quaternions, 0.5 * turned)  # unit quaternions hold half the angle
 
 
 def _animate(block: bpy.types.ID, what: str, values: NDArray[np.float64], tolerance: float) -> None:
-    """Set a property to values (frames, channels) in keys as few as that allows; one that stays has none."""
+    """Animate a property by values (frames, channels) with as few keyframes as possible; none if constant."""
     setattr(block, what, values[0] if values.shape[1] > 1 else values[0, 0])
     if np.linalg.norm(values - values[0], axis=1).max() > 0.1 * tolerance:
         kept, slopes = sparse_keys.keys(values, tolerance)

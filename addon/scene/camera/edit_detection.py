@@ -1,4 +1,4 @@
-"""What camera objects were like when they were made, so that what an artist did to them since is known."""
+"""Edit detection: the state of camera objects when they were built, to find what an artist changed since."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from ...blender import compat, owned
 
 POSE = ("location", "rotation_quaternion", "rotation_euler", "rotation_axis_angle", "scale")
 LENS = ("lens", "sensor_width", "sensor_height", "ortho_scale")
-_MADE = "firetwin_made"  # of an object: what it was like when it was made
+_MADE = "firetwin_made"  # property of an object: its state when it was built
 
 
 def remember(thing: bpy.types.Object) -> None:
-    """Keep what an object is like now, so that `changed` can tell what an artist does to it."""
+    """Store the current state of an object, for a later `changed`."""
     thing[owned.NAME] = thing.name
     thing[_MADE] = json.dumps(_state(thing))
 
 
 def changed(thing: bpy.types.Object) -> set[str]:
-    """What of "name", "pose" and "lens" an artist changed since an object was made."""
+    """Which of "name", "pose" and "lens" an artist changed since an object was built."""
     if _MADE not in thing:
         return set()
     before, now = json.loads(thing[_MADE]), _state(thing)
@@ -31,7 +31,7 @@ def changed(thing: bpy.types.Object) -> set[str]:
 
 
 def _state(thing: bpy.types.Object) -> dict[str, str]:
-    """A few letters for each part of an object that stand for what it is like in every frame."""
+    """Hash of each part of an object over all frames."""
     hangs = [thing.parent.name if thing.parent else "", [_constraint(each) for each in thing.constraints]]
     return {
         "name": thing.name,
@@ -46,7 +46,7 @@ def _constraint(each: bpy.types.Constraint) -> list[Any]:
 
 
 def _values(block: bpy.types.ID, names: Sequence[str]) -> list[Any]:
-    """The values of properties, or where they are animated the curves."""
+    """Values of properties, or their F-curves where they are animated."""
     animated: dict[str, list[Any]] = {}
     for curve in compat.fcurves(block):
         if curve.data_path in names:

@@ -1,4 +1,4 @@
-"""The ground that is built, as cameras meet it: how high it is under them, and where they look at it."""
+"""Ground raycast: terrain height below cameras, and the point that they look at, on the built mesh."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from numpy.typing import ArrayLike
 from ...blender import owned
 from ...blender.owned import Stage
 
-_SKY = 50_000.0  # m, over any ground
+_SKY = 50_000.0  # m, over any terrain
 
 
 def up(stage: Stage, place: ArrayLike) -> float | None:
-    """Scene z of the ground at a place (2 or 3,); None where there is none."""
+    """Scene z of the terrain at a place (2 or 3,); None without terrain there."""
     east, north = float(place[0]), float(place[1])
     met = hit(stage, (east, north, _SKY), (0.0, 0.0, -1.0))
     return None if met is None else met.z
 
 
 def height(stage: Stage, places: ArrayLike) -> float:
-    """The least height (m) of places (n, 3) above the ground, at least 0; 0 where there is no ground."""
+    """Least height (m) of points (n, 3) above the terrain, at least 0; 0 without terrain."""
     found = [place[2] - z for place in places if (z := up(stage, place)) is not None]
     return max(min(found), 0.0) if len(found) else 0.0
 
 
 def hit(stage: Stage, origin: ArrayLike, direction: ArrayLike) -> Vector | None:
-    """Where a ray in the scene meets the ground; None where it does not."""
+    """Intersection of a ray in the scene with the terrain; None without one."""
     ground = next((thing for thing in stage.root.all_objects if _ground(thing)), None)
     if ground is None:
         return None
@@ -41,14 +41,15 @@ def hit(stage: Stage, origin: ArrayLike, direction: ArrayLike) -> Vector | None:
 
     try:
         found, where = meet()
-    except (TypeError, RuntimeError):  # a window may show another view layer alone, or has not drawn yet
+    # a window may show another view layer, or has not evaluated the scene yet
+    except (TypeError, RuntimeError):
         layer.update()
         found, where = meet()
     return ground.matrix_world @ where if found else None
 
 
 def lift(stage: Stage, place: ArrayLike, clearance: float) -> float:
-    """How much higher (m) a place (3,) must be for the ground to stay `clearance` away."""
+    """Upward offset (m) that keeps a point (3,) `clearance` above the terrain."""
     ground = up(stage, place)
     return 0.0 if ground is None else float(max(ground + clearance - np.asarray(place)[2], 0.0))
 

@@ -1,4 +1,4 @@
-"""What an artist did to camera objects, and back into the settings: pose, lens, name."""
+"""Read edits: camera objects that an artist changed, back into the settings: pose, lens, name."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from ...shot.cameras.rigs import _lens, poses
 from ...shot.settings.settings import Camera
 from . import edit_detection, ground_raycast
 
-_PLACE = "firetwin_place"  # of the root: latitude and longitude of the scene's origin
-_PIXEL = 0.25  # how far a picture may be off between poses; at keys that people set it is not
-_LEAST = 0.02  # m that a camera may be off in any case
+_PLACE = "firetwin_place"  # property of the root: latitude and longitude of the scene's origin
+_PIXEL = 0.25  # tolerance in pixels of the fit between poses; at an artist's keyframes it is not zero
+_LEAST = 0.02  # m, tolerance of a camera's position in any case
 _PREFIX = f"{owned.ROOT} Camera "
 
 
 def place(stage: Stage, frame: geo.LocalFrame) -> None:
-    """Keep where on the Earth the scene's origin is."""
+    """Store the geographic position of the scene's origin."""
     stage.root[_PLACE] = [frame.latitude, frame.longitude]
 
 
@@ -38,7 +38,7 @@ def local_frame(stage: Stage) -> geo.LocalFrame | None:
 
 
 def rigged(thing: bpy.types.Object) -> bool:
-    """Whether something of an artist's moves an object: then its own place and turn are left alone."""
+    """Whether a rig of the artist (parent, constraint, driver) moves an object; its pose then stays."""
     data = thing.animation_data
     return bool(
         thing.parent
@@ -50,7 +50,7 @@ def rigged(thing: bpy.types.Object) -> bool:
 
 @dataclass(frozen=True)
 class Flown:
-    """What a camera object does in every frame of the shot.
+    """Evaluated path of a camera object over all frames of the shot.
 
     Attributes
     ----------
@@ -59,9 +59,9 @@ class Flown:
     lens
         (frames,) focal length, mm.
     sensor
-        Width of the chip that pictures are as wide as, mm.
+        Width of the sensor that corresponds to the picture's width, mm.
     keyed
-        Frames, from 0, that the artist set keys at.
+        Frames, from 0, at which the artist set keyframes.
     """
 
     place: NDArray[np.float64]
@@ -72,7 +72,7 @@ class Flown:
 
 
 def flown(scene: bpy.types.Scene, thing: bpy.types.Object, frames: int, size: tuple[int, int]) -> Flown:
-    """Where the object is in each frame, whatever moves it.
+    """Evaluate an object's path in each frame, however it is animated.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def flown(scene: bpy.types.Scene, thing: bpy.types.Object, frames: int, size: tu
 
 
 def _by_curves(thing: bpy.types.Object, frames: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Places (frames, 3) and quaternions (frames, 4) of an object that nothing but its own curves moves."""
+    """Positions (frames, 3) and quaternions (frames, 4) of an object that only its own F-curves move."""
     place = _curves(thing, "location", frames)
     if thing.rotation_mode == "QUATERNION":
         return place, _curves(thing, "rotation_quaternion", frames)
@@ -110,7 +110,7 @@ def _curves(block: bpy.types.ID, name: str, frames: int) -> NDArray[np.float64]:
 def _through_frames(
     scene: bpy.types.Scene, thing: bpy.types.Object, frames: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Places (frames, 3) and quaternions (frames, 4) of an object on which something else acts."""
+    """Positions (frames, 3) and quaternions (frames, 4) of an object that a rig moves, by stepping frames."""
     before, layer = (scene.frame_current, scene.frame_subframe), scene.view_layers[0]
     found = []
     try:
@@ -130,7 +130,7 @@ def _keyed(thing: bpy.types.Object, frames: int) -> tuple[int, ...]:
 
 
 def _sensor(data: bpy.types.Camera, size: tuple[int, int]) -> float:
-    """Width of the chip (mm) with which this focal length shows as much from left to right."""
+    """Sensor width (mm) that gives this focal length the same horizontal field of view."""
     width, height = size
     if data.sensor_fit == "VERTICAL":
         return data.sensor_height * width / height
@@ -140,20 +140,21 @@ def _sensor(data: bpy.types.Camera, size: tuple[int, int]) -> float:
 
 
 def poses_of(seen: Flown, frame: geo.LocalFrame, width: int, near: float = 0.0) -> poses.Poses:
-    """The kind of camera that goes as a camera object was seen to go, in as few poses as that allows.
+    """Rig of few poses that reproduces the path of a camera object within the tolerance.
 
     Parameters
     ----------
     width
-        Of its pictures, pixels.
+        Width of its pictures, pixels.
     near
-        How far away the nearest ground is, m: what it may be off hangs on that.
+        Distance of the nearest terrain, m, which decides the tolerance.
     """
     pixel = seen.sensor / seen.lens.max() / width
     values = np.hstack(
         [
             seen.place / max(_PIXEL * pixel * near, _LEAST),
-            turning.quaternions(seen.rotation) / (0.5 * _PIXEL * pixel),  # half the angle is in them
+            # unit quaternions hold half the angle
+            turning.quaternions(seen.rotation) / (0.5 * _PIXEL * pixel),
             np.log(seen.lens)[:, None] / (_PIXEL * 2.0 / width),
         ]
     )
@@ -166,7 +167,7 @@ def poses_of(seen: Flown, frame: geo.LocalFrame, width: int, near: float = 0.0) 
 
 
 def _short(value: float) -> float:
-    """The shortest number that is the same float32: 17.3, not 17.299999237."""
+    """The shortest decimal number that is the same float32: 17.3, not 17.299999237."""
     return float(str(np.float32(value)))
 
 
@@ -177,16 +178,16 @@ def pull(
     frames: int,
     tell: Callable[[str], None] = lambda text: None,
 ) -> tuple[Camera, ...]:
-    """The cameras of the settings with what an artist did to their objects in a scene.
+    """The cameras of the settings, updated by an artist's edits of their objects in a scene.
 
     Parameters
     ----------
     size
-        Width and height of pictures whose camera does not say it.
+        Width and height of pictures of cameras without a resolution of their own.
     frames
-        Of the shot.
+        Frames of the shot.
     tell
-        Is given what settings cannot say.
+        Receives a message for each edit that settings cannot express.
     """
     found = list(cameras)
     if not owned.built(scene):
@@ -222,7 +223,7 @@ def _pulled(
     frames: int,
     size: tuple[int, int],
 ) -> tuple[Camera, str]:
-    """The camera with what was changed, and what cannot be said."""
+    """The camera with its edits, and the edits that settings cannot express."""
     data, size = thing.data, before.resolution or size
     if not what & {"pose", "lens"}:
         return before, ""
@@ -242,14 +243,14 @@ def _pulled(
 
 
 def _following(camera: Camera, old: str, new: str) -> Camera:
-    """A camera that follows one that was renamed."""
+    """The camera, with the new name of a renamed camera that it follows."""
     if old == new or getattr(camera.rig, "follows", None) != old:
         return camera
     return replace(camera, rig=replace(camera.rig, follows=new))
 
 
 def _name(text: str, before: str, taken: set[str]) -> str:
-    """A camera's name that an object's name gives: letters, digits, - and _, and no other camera's."""
+    """Valid camera name from an object's name: letters, digits, - and _; unique among the cameras."""
     given = re.sub(r"[^A-Za-z0-9_-]+", "-", text.removeprefix(_PREFIX)).strip("-_") or before
     found, number = given, 2
     while found in taken:
@@ -258,6 +259,6 @@ def _name(text: str, before: str, taken: set[str]) -> str:
 
 
 def pose_of(matrix: Matrix) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Place (3,) and matrix (3, 3) of a Blender matrix, without scale."""
+    """Position (3,) and rotation matrix (3, 3) of a Blender matrix, without scale."""
     found = np.array(matrix, np.float64)
     return found[:3, 3], found[:3, :3] / np.linalg.norm(found[:3, :3], axis=0)

@@ -1,4 +1,4 @@
-"""Flames in the scene: one mesh of points whose geometry nodes stand cards on the front of the moment."""
+"""Flames in the scene: a point mesh on which geometry nodes instance billboards along the current front."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _NAMES = {"length": "flame_length", "width": "flame_width"}
 
 
 def build(shot: Shot, stage: Stage, grown: Stand | None = None) -> bpy.types.Object | None:
-    """Build "Firetwin Flames", "Firetwin Firebrands" and the lamps, where flames are on, and lines.
+    """Build "Firetwin Flames", "Firetwin Firebrands" and the lamps, where flames are on, and front lines.
 
     The points carry the attributes of `flames.Points` (`length` as `flame_length`, `width` as `flame_width`).
     """
@@ -54,13 +54,13 @@ def _mesh(points: flames.Points) -> bpy.types.Mesh:
 
 
 def _light_only(thing: bpy.types.Object) -> None:
-    """Flames are seen, but cast no shadow and are not lit or looked up by other light paths."""
+    """Restrict flames to camera rays: they cast no shadow and do not appear in other light paths."""
     thing.visible_shadow = thing.visible_diffuse = thing.visible_volume_scatter = False
     thing.lightgroup = nodes.FIRE
 
 
 def cards(shot: Shot, stage: Stage) -> bpy.types.Collection:
-    """Cards one metre high and wide on z = 0: flat, bowed either way and crossed; linked to no scene."""
+    """Billboards one metre high and wide on z = 0: flat, curved and crossed ones; linked to no scene."""
     collection, flame = owned.library("Flame Cards"), material.build(shot, stage)
     for index in range(CARDS):
         mesh = bpy.data.meshes.new(f"Firetwin Flame Card {index}")
@@ -75,10 +75,10 @@ def cards(shot: Shot, stage: Stage) -> bpy.types.Collection:
 
 
 def _card(index: int) -> tuple[list, list, list]:
-    """Vertices, faces and card coordinates of one card."""
+    """Vertices, faces and card coordinates of one billboard."""
     sheets = [(0.0, 0.0)] if index == 0 else [(0.0, 0.25)] if index == 1 else [(0.0, -0.25)]
     if index == 3:
-        sheets = [(-0.5, 0.0), (0.7, 0.1)]  # turned about the vertical, bow
+        sheets = [(-0.5, 0.0), (0.7, 0.1)]  # rotation about the vertical, curvature
     vertices, faces, cards = [], [], []
     steps = 4
     for turn, bow in sheets:
@@ -100,7 +100,7 @@ def _card(index: int) -> tuple[list, list, list]:
 
 
 def node_group(shot: Shot, shapes: bpy.types.Collection) -> bpy.types.NodeTree:
-    """Points that are lit -> cards facing the camera, leaning downwind, growing and dying away."""
+    """Geometry nodes: flaming points -> billboards that face the camera, lean downwind, grow and decay."""
     tree, entry = nodes.geometry("Firetwin Flames")
 
     def named(name: str) -> nodes.Value:

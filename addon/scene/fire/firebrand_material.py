@@ -1,4 +1,4 @@
-"""Material of firebrands: glowing wood, dimmed where it is drawn larger than it is."""
+"""Material of firebrands: glowing wood, dimmed where its streak is drawn larger than the firebrand."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ COLD, FRESH = 900.0, 1300.0  # K
 def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     """Build "Firetwin Firebrand", whose instances carry `kelvin`, `shine` (0..1) and `cover`.
 
-    `cover` is the part 0..1 of the shape drawn that the piece itself would fill.
+    `cover` is the firebrand's area over that of the drawn streak, 0..1.
     """
     material, tree = nodes.material("Firetwin Firebrand")
     kelvin, shine, cover = (tree.attribute(name, "INSTANCER") for name in ("kelvin", "shine", "cover"))

@@ -1,4 +1,4 @@
-"""Firebrands in the scene: a mesh of path points whose geometry nodes draw a streak for each one alive."""
+"""Firebrands in the scene: a mesh of trajectory points; geometry nodes draw a streak for each live one."""
 
 from __future__ import annotations
 
@@ -10,20 +10,21 @@ from ...blender.owned import Stage
 from ...shot.shot import Shot
 from . import firebrand_material, firebrands, flames
 
-_SHUTTER = 0.1  # s of the piece's way that a streak shows
-_PIXELS = 0.8  # a streak is no narrower than this, and dimmer instead
+_SHUTTER = 0.1  # s, exposure time of a streak
+_PIXELS = 0.8  # least width of a streak in pixels; narrower ones are dimmer instead
 _FAR = 2.0 * firebrands.REACH
-"""m from the camera; there a piece adds less than 0.1 K to a pixel. From a satellite hundreds of wide streaks
-would lie one over the other, more clear surfaces than Cycles lets a ray pass: black pixels."""
+"""m from the camera beyond which no streak is drawn: a firebrand there adds less than 0.1 K to a pixel. In a
+satellite's picture hundreds of wide streaks would overlap, more transparent surfaces than Cycles traces:
+black pixels."""
 
 
 def build(
     shot: Shot, stage: Stage, points: flames.Points, collection: bpy.types.Collection
 ) -> bpy.types.Object | None:
-    """Build "Firetwin Firebrands" from what `firebrands.fly` finds; nothing where no camera is near.
+    """Build "Firetwin Firebrands" from the result of `firebrands.fly`; nothing without a camera close by.
 
-    Vertex i k + j is point j of the path of piece i. All have the float attributes `start`, `birth`, `life`
-    (s after the first frame, s) and `size` (m).
+    Vertex i k + j is point j of the trajectory of firebrand i. All have the float attributes `start`,
+    `birth`, `life` (s after the first frame, s) and `size` (m).
     """
     found = firebrands.fly(shot, points)
     if found is None:
@@ -44,14 +45,14 @@ def build(
 
 
 def _seen_only(thing: bpy.types.Object) -> None:
-    """Streaks are seen and nothing more."""
+    """Make streaks visible to camera rays only."""
     thing.visible_shadow = thing.visible_diffuse = thing.visible_glossy = False
     thing.visible_volume_scatter = False
     thing.lightgroup = nodes.FIRE
 
 
 def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: float) -> bpy.types.NodeTree:
-    """Path points -> a streak for each piece that is alive, as wide as `pixel` (radians) at least."""
+    """Geometry nodes: trajectory points -> a streak per live firebrand, at least `pixel` (radians) wide."""
     count, each = found.place.shape[:2]
     tree, entry = nodes.geometry("Firetwin Firebrands")
     paths = tree.pick(entry, "Geometry")
@@ -65,7 +66,7 @@ def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: floa
         value = tree.output("GeometryNodeInputNamedAttribute", {"Name": name}, data_type="FLOAT")
         return sampled(value, index)
 
-    # Times count from the first frame: seconds since the run began would be too long for floats.
+    # Times count from the first frame: seconds since the run began would exceed float precision.
     time = (tree.output("GeometryNodeInputSceneTime", name="Frame") - 1.0) * shot.frames.step
     after = (time - named("start")) / found.step
     part = (time - named("birth")) / named("life")

@@ -1,7 +1,7 @@
-"""Firebrands: glowing pieces that the fire throws up, carried by plume and wind, falling, cooling.
+"""Firebrands: glowing pieces lofted by the plume and carried by the wind, which fall and cool.
 
-Each one's path comes from the core's integrator and is kept in the mesh as points a step apart. Geometry
-nodes put a small streak between the two points round the moment shown: nothing else is needed to move them.
+The core's integrator computes each trajectory; the mesh stores it as points at equal time steps. Geometry
+nodes draw a streak between the two points round the current time, so no other animation data are needed.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ from ...shot.terrain import noise
 from ...shot.terrain.terrain import Ground
 from . import flames
 
-REACH = 1800.0  # m from a camera; sparks farther away than this are below what a picture shows
-PER_MEGAJOULE = 0.02  # large pieces for each MJ that the flames release; chosen by eye
-_LIFE = (2.0, 16.0)  # s that a piece glows
+REACH = 1800.0  # m from a camera; firebrands farther away are too faint for a picture
+PER_MEGAJOULE = 0.02  # large pieces per MJ of heat released; chosen by eye
+_LIFE = (2.0, 16.0)  # s, life of a glowing piece
 _MEAN_LIFE = 7.0  # s
 _SIZE, _SIZES, _SIZE_RANGE = 0.04, 0.5, (0.01, 0.12)  # m, deviation of the logarithm, m (bark and twigs)
-_FALL = (1.0, 4.0)  # m/s, terminal speed of the smallest and largest (assumed)
-_STEP = 0.5  # s between the points of a path
-_MOMENT = 0.4  # s; in a shot whose frames are further apart than lives this much of a path is kept
-_PLUME = 90.0, 6.0  # m of height and s after which the updraft is down to 1/e: pieces fall out of the plume
+_FALL = (1.0, 4.0)  # m/s, terminal velocity of the smallest and largest (assumed)
+_STEP = 0.5  # s between the points of a trajectory
+_MOMENT = 0.4  # s; part of a trajectory that is stored when frames are further apart than lives
+_PLUME = 90.0, 6.0  # m of height and s in which the updraft falls to 1/e: pieces fall out of the plume
 _AIR = 1.2 * 1005.0 * 300.0  # J/m3, density times heat capacity times temperature
 
 Array = NDArray[np.float64]
@@ -34,7 +34,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Flights:
-    """Firebrands of the shot, n of them, with k points of each path.
+    """Trajectories of the shot's firebrands, n of them, with k points each.
 
     Attributes
     ----------
@@ -58,14 +58,14 @@ class Flights:
     step: float
 
     def alive(self, time: float) -> NDArray[np.int64]:
-        """Those in the air or glowing on the ground `time` s after the first frame."""
+        """Firebrands in the air or glowing on the ground `time` s after the first frame."""
         age = time - self.birth
         return np.flatnonzero((age >= 0.0) & (age < self.life))
 
 
 @dataclass(frozen=True)
 class Launches:
-    """n pieces as they leave the flames: time (s), place (n, 3), life (s), size (m), updraft (m/s), key."""
+    """n firebrands at launch: time (s), place (n, 3), life (s), size (m), updraft (m/s), key."""
 
     time: Array
     place: Array
@@ -73,26 +73,26 @@ class Launches:
     size: Array
     updraft: Array
     key: NDArray[np.int64]
-    rank: Array  # those with the lowest are kept
+    rank: Array  # those with the lowest are retained
 
     def take(self, chosen: NDArray) -> Launches:
-        """Some of them."""
+        """A subset."""
         return Launches(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
 
 def updraft(intensity: Array) -> Array:
-    """Speed (m/s) of the gas over a line fire of `intensity` kW/m: (g I / (rho cp T))^(1/3).
+    """Updraft (m/s) over a line fire of `intensity` kW/m: (g I / (rho cp T))^(1/3).
 
-    That does not depend on height (Yokoi 1960; Lee and Emmons 1961, J. Fluid Mech. 11, 353). On the axis of
-    the plume it is about twice that (assumed).
+    It does not depend on height (Yokoi 1960; Lee and Emmons 1961, J. Fluid Mech. 11, 353). On the axis of the
+    plume it is about twice that (assumed).
     """
     return np.cbrt(particles.GRAVITY * np.asarray(intensity, np.float64) * 1000.0 / _AIR)
 
 
 def fly(shot: Shot, points: flames.Points) -> Flights | None:
-    """Launch, follow and thin out the firebrands of flames near the cameras; None where there are none.
+    """Launch, integrate and thin out the firebrands of flames near the cameras; None without any.
 
-    At no frame are there more than `fire.firebrands`; the nearest stay.
+    No frame has more than `fire.firebrands`; the nearest are retained.
     """
     most_shown = shot.settings.fire.firebrands
     if not shot.perspective_paths or most_shown == 0 or len(points.seed) == 0:
@@ -130,7 +130,7 @@ def fly(shot: Shot, points: flames.Points) -> Flights | None:
 def _launched(
     seed: int, points: flames.Points, rate: Array, distance: Array, span: tuple[float, float]
 ) -> Launches:
-    """Pieces launched within `span` (s), evenly over the time that their flame burns in it."""
+    """Firebrands launched within `span` (s), uniformly over the time that their flame burns in it."""
     begin = np.maximum(points.arrival_time, span[0])
     during = np.maximum(np.minimum(points.arrival_time + points.residence, span[1]) - begin, 0.0)
     index = np.arange(len(rate))
@@ -163,7 +163,7 @@ def _launched(
 
 
 def _fewer(launched: Launches, times: Array, most: int) -> Launches:
-    """Those that live at one of `times`, so few of them that at none of these live more than `most`."""
+    """Firebrands alive at one of `times`, thinned so that at most `most` are alive at any of these."""
     shown = np.zeros(len(launched.time), bool)
     limit = np.inf
     for time in times:
@@ -176,7 +176,7 @@ def _fewer(launched: Launches, times: Array, most: int) -> Launches:
 
 
 def _paths(launched: Launches, wind: Array, floor: geo.HeightField) -> NDArray[np.float32]:
-    """Places (n, k, 3) of pieces, _STEP apart from launch on."""
+    """Positions (n, k, 3) along trajectories, _STEP apart from launch on."""
     count = int(np.ceil(_LIFE[1] / _STEP)) + 1
     n = len(launched.time)
     path = np.empty((n, count, 3), np.float32)
@@ -202,10 +202,10 @@ def _paths(launched: Launches, wind: Array, floor: geo.HeightField) -> NDArray[n
 
 
 def _air(launched: Launches, wind: Array, base: Array) -> object:
-    """The air's velocity (n, 3) round each piece at places (n, 3) and an age (s).
+    """Velocity function of the air (n, 3) at positions (n, 3) and an age (s).
 
-    The wind grows with height as h^(1/7) and carries eddies of two to seven seconds, as strong as a quarter
-    of the updraft and a seventh of the wind (assumed); the updraft dies away as pieces leave the plume.
+    The wind grows with height as h^(1/7) and carries eddies of two to seven seconds, of a quarter of the
+    updraft and a seventh of the wind (assumed). The updraft decays as pieces leave the plume.
     """
     random = [
         noise.uniform(launched.key, use, 31) for use in range(12)
@@ -232,7 +232,7 @@ def _air(launched: Launches, wind: Array, base: Array) -> object:
 
 
 def _flights(launched: Launches, path: NDArray[np.float32], zero: float, moment: float | None) -> Flights:
-    """Paths as they are, or only the part round a moment (model time, s) of each."""
+    """Complete trajectories, or only their part round a model time (s)."""
     birth = launched.time - zero
     if moment is None:
         return Flights(path, birth, birth, launched.life, launched.size, _STEP)
@@ -255,7 +255,7 @@ def _flights(launched: Launches, path: NDArray[np.float32], zero: float, moment:
 
 
 def _floor(ground: Ground, position: Array) -> geo.HeightField:
-    """The ground round the flames, where pieces land."""
+    """The terrain round the flames, where firebrands land."""
     if len(position) == 0:
         position = np.zeros((1, 3))
     axes = [np.linspace(position[:, k].min() - 400.0, position[:, k].max() + 400.0, 120) for k in (0, 1)]

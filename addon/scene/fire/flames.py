@@ -1,7 +1,7 @@
-"""Where flames stand and how tall they are: points along the fire front, without Blender.
+"""Flames: position, flame length and tilt of points along the fire front, without Blender.
 
-The front is where the arrival time (fuel grid, bilinear between cells) equals the model time. A point flames
-for as long as the front takes to pass it, so at any moment the points in flames form a thin line.
+The front is the isoline where the arrival time (fuel grid, bilinear between cells) equals the model time. A
+point flames while the front passes it, so at any time the flaming points form a thin line.
 """
 
 from __future__ import annotations
@@ -20,27 +20,27 @@ from ...shot.terrain.terrain import bilinear
 from ..forest import fire_effects
 from ..forest.stand import Stand
 
-SIGHT = 12_000.0  # m; fronts farther than this are the ground's glowing edge alone
+SIGHT = 12_000.0  # m; fronts farther away are only the ground's glowing edge
 _SPACING = ((2500.0, 8.0), (5000.0, 12.0), (SIGHT, 24.0))
-"""m from the camera -> m between points of a front whose flames are as long as `_TALL`, or longer."""
+"""m from the camera -> m between points of a front whose flames are at least as long as `_TALL`."""
 _TALL = 12.0  # m
-_FINEST = 0.25  # of these spacings, where flames are low
-_FINE = 400_000  # points, in the nearest cells, that stand as near by wherever they are; more are slow
-_LINE = 1.5  # points abreast: a point flames while the front moves on by this many spacings
-_LEADING = 1.0 / 3.0  # of the time that flames stand over a spot: so long they are tall, s
+_FINEST = 0.25  # ratio to these spacings, where flames are low
+_FINE = 400_000  # points, in the nearest cells, with the closest spacing at any distance; more are slow
+_LINE = 1.5  # rows of points: a point flames while the front moves on by this many spacings
+_LEADING = 1.0 / 3.0  # fraction of the residence time at full height, s
 _LONGEST = 900.0  # s
-_BROKEN = (0.5, 6.0)  # m, flame lengths at which a front has gaps, most and none
-_GAPS = 0.5  # part of the front that gaps are where flames are lowest
-_BURST, _FLARES = 160.0, 1.6  # m, in a crown fire; of the logarithm of lengths, where flames are low (by eye)
-_EVEN = (5.0, 12.0)  # m, flame lengths between which they become even
-_GAP = 25.0  # m, of a gap and what lies between two, in a crown fire
+_BROKEN = (0.5, 6.0)  # m, flame lengths of a front with most gaps and with none
+_GAPS = 0.5  # fraction of the front that is gaps where flames are lowest
+_BURST, _FLARES = 160.0, 1.6  # m, in a crown fire; log deviation of lengths, low flames (by eye)
+_EVEN = (5.0, 12.0)  # m, flame lengths between which they become uniform
+_GAP = 25.0  # m, of a gap and of the distance between two, in a crown fire
 _SIZES = 0.45  # standard deviation of the logarithm of flame lengths
 _LENGTHS = (0.3, 75.0)  # m
-_CROWNS = 0.1  # kg/m2 of canopy from which a front is a crown fire's (assumed)
+_CROWNS = 0.1  # kg/m2 of canopy fuel from which a front is a crown fire (assumed)
 _KELVIN = (1000.0, 1500.0)  # flames (Frankman et al. 2008)
 _TORCH_SIGHT = 2500.0  # m
-_TORCHES = 0.8  # part of the burning crowns that flare up where the canopy is dense
-_AROUND = 250.0  # m round a cell to where its flames, and the firebrands that they throw up, reach
+_TORCHES = 0.8  # fraction of the burning crowns that torch where the canopy is dense
+_AROUND = 250.0  # m round a cell that its flames and firebrands reach
 _CELL_FLAME = 40.0  # m; flame of a cell's emitter at scale 100
 
 Array = NDArray[np.float64]
@@ -48,7 +48,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Points:
-    """Flames over the whole shot, n of them; one is lit while 0 <= t - arrival_time < residence.
+    """Flames of the whole shot, n of them; one is lit while 0 <= t - arrival_time < residence.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ class Points:
     seed: Array
 
     def take(self, chosen: NDArray) -> Points:
-        """Some of the points."""
+        """A subset of the points."""
         return Points(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
     def lit(self, time: float) -> NDArray[np.int64]:
@@ -100,7 +100,7 @@ def flame_length(intensity: Array, formula: str = "thomas", crowns: NDArray[np.b
 
 
 def tilt(wind: float, length: Array) -> Array:
-    """Angle of flames from the vertical (radians): tan A = 1.22 U / sqrt(g L) (Albini 1981), 60 at most."""
+    """Flame tilt from the vertical (radians): tan A = 1.22 U / sqrt(g L) (Albini 1981), at most 60."""
     return np.minimum(
         np.arctan(1.22 * wind / np.sqrt(particles.GRAVITY * np.maximum(length, 0.1))), np.pi / 3.0
     )
@@ -113,11 +113,11 @@ def kelvin(intensity: Array) -> Array:
 
 
 def front(shot: Shot, grown: Stand | None = None) -> Points:
-    """Flames along the front for every moment of the shot, at most `fire.budget` of them lit at once.
+    """Flames along the front at every time of the shot; at most `fire.budget` of them are lit at once.
 
-    Fireline intensity is H w R (Byram 1959), with the cell's fuel w and the rate of spread R from the slope
-    of the arrival time. Crowns of the stand flare up besides, where it is given. Where flames stand farther
-    apart they are as much wider, so that the front is as bright.
+    Fireline intensity is H w R (Byram 1959), with the cell's fuel w and the rate of spread R from the
+    gradient of the arrival time. With a stand its torching crowns are added. Flames farther apart are wider
+    in proportion, so that the front's radiance stays the same.
     """
     settings, ground, near = shot.settings, shot.ground, shot.perspective_paths
     first, last = shot.built_times[[0, -1]]
@@ -158,22 +158,22 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
         kelvin(intensity),
         random[2],
     )
-    points = points.take(np.flatnonzero((random[0] * 0.999 < thin) & _whole(place, even, shot)))
+    points = points.take(np.flatnonzero((random[0] * 0.999 < thin) & _unbroken(place, even, shot)))
     if grown is not None and settings.fire.torches:
         points = _joined([points, torches(shot, grown)])
     return _within_budget(points, shot, near)
 
 
 def _residence(spacing: Array | float, speed: Array, stands: Array) -> Array:
-    """How long (s) flames last that stand so far apart (m) where the front has a `speed` (m/s).
+    """Residence (s) of points at a spacing (m) where the front has a rate of spread `speed` (m/s).
 
-    That is while they are tall, of the time (s) that they stand over a spot (`stands`).
+    It is the time at full height, a part of the residence time (s) over a spot (`stands`).
     """
     return np.clip(_LINE * spacing / speed, _LEADING * stands, _LONGEST)
 
 
 def _closeness(shot: Shot) -> float:
-    """How close points stand in a shot, beside a crown fire's front: as its flames are long."""
+    """Point spacing in a shot over that of a crown fire's front: proportional to flame length."""
     ground, front = shot.bare_ground, shot.front
     passed = (ground.burned >= 0.5) & (np.abs(ground.arrival - shot.full.frames.middle) < _LONGEST + 900.0)
     if not passed.any():
@@ -185,14 +185,14 @@ def _closeness(shot: Shot) -> float:
 
 
 def _bursts(place: Array, length: Array, shot: Shot) -> Array:
-    """Factor (n,) on low flames (m) at places (n, 3): here they flare up, there they creep."""
+    """Factor (n,) on low flames (m) at points (n, 3): patches flare up or creep."""
     size = _BURST * max(shot.front_scale, 0.3)
     wave = noise.fractal(place[:, 0], place[:, 1], size, 3, shot.settings.seed + 530)
     return np.exp(_FLARES * wave * (1.0 - noise.smoothstep(*_EVEN, length)))
 
 
-def _whole(place: Array, length: Array, shot: Shot) -> NDArray[np.bool_]:
-    """Where (n, 3) a front is not broken: low flames (m) leave gaps."""
+def _unbroken(place: Array, length: Array, shot: Shot) -> NDArray[np.bool_]:
+    """Mask (n,) of points (n, 3) outside of gaps: low flames (m) leave gaps in a front."""
     size = _GAP * max(shot.front_scale, 0.3)
     broken = noise.fractal(place[:, 0], place[:, 1], size, 2, shot.settings.seed + 520)  # 0.4 deviate
     gaps = _GAPS * (1.0 - noise.smoothstep(*_BROKEN, length))
@@ -200,10 +200,10 @@ def _whole(place: Array, length: Array, shot: Shot) -> NDArray[np.bool_]:
 
 
 def torches(shot: Shot, grown: Stand) -> Points:
-    """Crowns of the stand that flare up when the front reaches them: tall, thin and short-lived.
+    """Torching crowns of the stand when the front reaches them: tall, thin and short-lived flames.
 
-    Of the crowns that burn (`fire_effects`) the denser the canopy the more flare up, for half a minute
-    to a minute and up to twice the tree's height (assumed).
+    The fraction of burning crowns (`fire_effects`) that torch grows with canopy density. They flame for half
+    a minute to a minute and up to twice the tree's height (assumed).
     """
     ground, (first, last) = shot.ground, shot.built_times[[0, -1]]
     near = np.flatnonzero((grown.distance < _TORCH_SIGHT) & (grown.height > 6.0))
@@ -235,7 +235,7 @@ def torches(shot: Shot, grown: Stand) -> Points:
 
 
 def cells(shot: Shot) -> Points:
-    """Algorithm 1's emitters (`flux.emitters`) of every frame, each lit during its own frame alone.
+    """Algorithm 1's emitters (`flux.emitters`) of every frame, each lit during its own frame only.
 
     An emitter is drawn as a flame of 40 m at scale 100 (assumed: the paper gives scales, no sizes).
     """
@@ -274,8 +274,8 @@ def _joined(parts: list[Points]) -> Points:
 def _candidates(shot: Shot) -> tuple[Array, Array, Array, Array, NDArray[np.int64]]:
     """Rows, columns and spacing (m) of jittered points in the cells that the front crosses in the shot.
 
-    With them come the distance (n,) that they are drawn for, m, and integers (n, 2) that random choices for a
-    point hang on: cell and number in it. So a point is the same whatever else is seen.
+    Also returns the distance (n,), m, that decides their spacing, and integers (n, 2) that seed a point's
+    random choices: its cell and its number in it. So a point does not depend on what else is visible.
     """
     ground, near, (first, last) = shot.ground, shot.perspective_paths, shot.built_times[[0, -1]]
     arrival = ground.arrival
@@ -318,15 +318,15 @@ def _candidates(shot: Shot) -> tuple[Array, Array, Array, Array, NDArray[np.int6
 
 
 def _spaced(cell: tuple[float, float], wanted: float) -> tuple[int, float]:
-    """How many points stand along a side of a cell, and how far apart (m), where so much (m) is wanted."""
+    """Number of points along a cell's side, and their spacing (m), for a wanted spacing (m)."""
     count = max(round(max(cell) / wanted), 1)
     return count, max(cell) / count
 
 
 def _drawn_for(shot: Shot, centre: Array) -> Array:
-    """Distance (n,) that flames of cells (n, 3) are drawn for, m: 0 in the nearest, of `_FINE` points.
+    """Distance (n,), m, for the spacing of flames in cells (n, 3): 0 in the nearest, up to `_FINE` points.
 
-    So those in sight are mostly the same whatever else is built, and in each part of a film.
+    So visible flames are mostly the same in each chunk of a film and whatever else is built.
     """
     distance = shot.visibility.lod_distance(centre)
     count, _ = _spaced(shot.ground.cell, _SPACING[0][1] * _closeness(shot))
@@ -335,7 +335,7 @@ def _drawn_for(shot: Shot, centre: Array) -> Array:
 
 
 def _within_budget(points: Points, shot: Shot, views: list[Path]) -> Points:
-    """Drop the farthest flames until no frame lights more than `fire.budget`, unless nothing is skipped."""
+    """Drop the farthest flames until no frame lights more than `fire.budget`, unless culling is off."""
     if shot.visibility.unculled:
         return points
     budget = max(shot.settings.fire.budget, 0)

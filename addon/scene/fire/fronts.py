@@ -1,4 +1,4 @@
-"""Fronts of the other runs in the scene: flat ribbons on the ground that glow, one for each moment."""
+"""Fire fronts of comparison runs in the scene: glowing flat ribbons on the ground, one for each time."""
 
 from __future__ import annotations
 
@@ -15,9 +15,10 @@ from . import observed
 
 
 def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> None:
-    """Build "Firetwin Front NAME" for each of the runs that the shot's stands beside, if the settings ask.
+    """Build "Firetwin Front NAME" for each of the shot's comparison runs, if the settings ask for it.
 
-    Corners carry `seen_start` and `seen_end`, model times in s; geometry nodes leave those of the moment.
+    Corners carry `seen_start` and `seen_end`, model times in s; geometry nodes retain the ribbon of the
+    current time.
     """
     if not shot.settings.fire.fronts:
         return
@@ -25,7 +26,7 @@ def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> None:
     for name, run in shot.full.other_runs().items():
         thing = owned.add(collection, f"Front {name}", _mesh(shot, name, run))
         thing.data.materials.append(_material(shot, stage, name, colours[name]))
-        thing.modifiers.new("Firetwin Front", "NODES").node_group = _of_the_moment(shot, name)
+        thing.modifiers.new("Firetwin Front", "NODES").node_group = _at_current_time(shot, name)
         observed.seen_only(thing)
 
 
@@ -51,8 +52,8 @@ def _mesh(shot: Shot, name: str, run: Run) -> bpy.types.Mesh:
     return mesh
 
 
-def _of_the_moment(shot: Shot, name: str) -> bpy.types.NodeTree:
-    """Ribbons of all moments -> that of this one."""
+def _at_current_time(shot: Shot, name: str) -> bpy.types.NodeTree:
+    """Geometry nodes: ribbons of all times -> that of the current time."""
     tree, entry = nodes.geometry(f"Firetwin Front {name}")
     time = clock.geometry_time(tree, shot)
     start, end = (

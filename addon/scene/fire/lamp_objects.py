@@ -1,4 +1,4 @@
-"""Lamps in the scene: point lights whose energies follow the heat that they stand for."""
+"""Lamps in the scene: point lights with keyframed energies, which stand for the heat released."""
 
 from __future__ import annotations
 
@@ -24,7 +24,8 @@ def build(shot: Shot, parent: bpy.types.Collection) -> list[bpy.types.Object]:
     made = []
     for i, (position, radius) in enumerate(zip(found.position, found.radius, strict=True)):
         thing = _lamp(collection, f"Lamp {i:02d}", position, radius, frames, strength * found.heat[:, i])
-        thing.data.use_shadow = shot.settings.render.engine == "cycles"  # EEVEE would draw six maps for each
+        # EEVEE would render six shadow maps for each
+        thing.data.use_shadow = shot.settings.render.engine == "cycles"
         made.append(thing)
     return made
 

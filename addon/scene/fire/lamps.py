@@ -1,7 +1,7 @@
-"""Where lamps stand for the light of the flames on ground and trees: a few dozen for the whole shot.
+"""Lamp positions for the light of flames on ground and trees: a few dozen for the whole shot.
 
-They stay where they are and change their energy by F-curves, as the heat near them comes and goes. Smoke gets
-its light from the glow in its volume, so they leave smoke alone.
+Lamps are static; F-curves change their energies with the heat released near them. They do not light smoke,
+which gets its light from the emission in its volume.
 """
 
 from __future__ import annotations
@@ -16,22 +16,22 @@ from ...shot.fire import heat_release
 from ...shot.light import exposure
 from ...shot.shot import Shot
 
-LIGHT = 6.0e-4  # W of light for each luminous W of heat by night; chosen by eye
-_REACH = 9000.0  # m from a camera; light on ground farther away is not seen
-_NEAR = 150.0  # m; nearer than this the distance from the camera does not make lamps closer to each other
-_KEYS = 13  # at most this many moments of the shot
-_BLOCK = 120.0  # m; heat this close together belongs to one lamp in any case
+LIGHT = 6.0e-4  # W of light per luminous W of heat by night; chosen by eye
+_REACH = 9000.0  # m from a camera; light on ground farther away is not visible
+_NEAR = 150.0  # m; below this distance from the camera lamps do not get closer to each other
+_KEYS = 13  # greatest number of keyframes in the shot
+_BLOCK = 120.0  # m; heat within this distance belongs to one lamp
 _ROUNDS = 12
 _HEIGHTS, _RADII, _SHARED = (12.0, 60.0), (6.0, 60.0), 25.0  # m
-_LOWEST = 3.0  # m, of heights, where a fire is small
-# Lengths but `_REACH` and `_LOWEST` are those at a fire of 15 km.
+_LOWEST = 3.0  # m, height of lamps, where a fire is small
+# Lengths except `_REACH` and `_LOWEST` are those for a fire of 15 km.
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Lamps:
-    """n lamps at k moments.
+    """n lamps at k keyframes.
 
     Attributes
     ----------
@@ -52,16 +52,16 @@ class Lamps:
 
 
 def darkness(shot: Shot, times: Array) -> Array:
-    """0 by day to 1 where it is dark at model times (n,), s; it begins too gently to be seen."""
+    """Darkness at model times (n,), s: 0 by day to 1 by night, with a smooth start."""
     return exposure.darkness(shot, times) ** 2
 
 
 def place(shot: Shot) -> Lamps:
-    """Group the luminous heat of all moments near the cameras by weighted k-means (Lloyd 1982).
+    """Cluster the luminous heat of all times near the cameras by weighted k-means (Lloyd 1982).
 
-    Heat counts the more the nearer it is to a camera, so lamps stand close together where their places
-    show. Each bit of heat is shared between the lamps near it, so that a passing front fades from one to
-    the next. Without any heat near a camera there are no lamps.
+    The weight of heat falls with its distance from a camera, so lamps are dense where their positions are
+    visible. Heat is shared between the lamps near it, so that a passing front fades from one to the next.
+    Without heat near a camera there are no lamps.
     """
     times, near = moments(shot), shot.perspective_paths
     none = Lamps(times, np.empty((0, 3)), np.empty(0), np.empty((len(times), 0)))
@@ -99,7 +99,7 @@ def place(shot: Shot) -> Lamps:
 
 
 def _around(sources: heat_release.Sources, near: list[Path], block: float) -> heat_release.Sources:
-    """Sources near the cameras, those close together merged."""
+    """Heat sources near the cameras, merged within blocks."""
     kept = np.zeros(len(sources.power), bool)
     for view in near:
         low, high = view.position[:, :2].min(0) - _REACH, view.position[:, :2].max(0) + _REACH
@@ -108,7 +108,7 @@ def _around(sources: heat_release.Sources, near: list[Path], block: float) -> he
 
 
 def moments(shot: Shot) -> Array:
-    """Model times that the lamps' energies are worked out for: model times of the run, and both ends."""
+    """Model times of the lamps' keyframes: model times of the run, and both ends."""
     first, last, times = shot.frames.first, shot.frames.last, shot.run.times
     inside = times[(times > first) & (times < last)]
     if len(inside) > _KEYS - 2:
@@ -117,7 +117,7 @@ def moments(shot: Shot) -> Array:
 
 
 def _centres(position: Array, weight: Array, count: int, seed: int) -> Array:
-    """At most `count` centres (n, 3) of weighted points, begun as k-means++ (Arthur, Vassilvitskii 2007)."""
+    """At most `count` initial centres (n, 3) of weighted points: k-means++ (Arthur, Vassilvitskii 2007)."""
     random = np.random.default_rng(seed)
     centre = position[[int(np.argmax(weight))]]
     nearest = _gaps(position, centre)[:, 0]
@@ -139,5 +139,5 @@ def _centres(position: Array, weight: Array, count: int, seed: int) -> Array:
 
 
 def _gaps(position: Array, centre: Array) -> Array:
-    """Squared distances (n, m) on the map, m2."""
+    """Squared horizontal distances (n, m), m2."""
     return (position[:, None, 0] - centre[None, :, 0]) ** 2 + (position[:, None, 1] - centre[None, :, 1]) ** 2

@@ -1,4 +1,4 @@
-"""Lines of what was seen, in the scene: flat ribbons that glow by the dates of what they show."""
+"""Observed perimeters and detections in the scene: flat ribbons that glow by observation date."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _HEAT = {
     "possible": (0.25, 0.40, 0.60),
 }  # nor magenta, violet or white
 LIGHT = 0.14  # radiance over that of flames
-_DIM = 0.3  # of it that is left when the next perimeter is there
+_DIM = 0.3  # fraction of it that is left when the next perimeter appears
 
 
 def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> bpy.types.Object | None:
@@ -39,7 +39,7 @@ def build(shot: Shot, stage: Stage, collection: bpy.types.Collection) -> bpy.typ
 
 
 def seen_only(thing: bpy.types.Object) -> None:
-    """Lines are seen and nothing more."""
+    """Make lines visible to camera rays only."""
     thing.visible_shadow = thing.visible_diffuse = thing.visible_glossy = thing.visible_volume_scatter = False
 
 
@@ -63,7 +63,7 @@ def _mesh(lines: list[Line], width: float) -> bpy.types.Mesh:
 
 
 def ribbon(points: NDArray[np.float64], width: float) -> NDArray[np.float32]:
-    """Corners (2 n, 3) of a flat band along a closed line (n, 3): its left ones, then its right ones."""
+    """Corners (2 n, 3) of a flat ribbon along a closed line (n, 3): its left ones, then its right ones."""
     here = np.arange(len(points))
     return band(points, np.roll(here, 1), np.roll(here, -1), width)
 
@@ -71,7 +71,7 @@ def ribbon(points: NDArray[np.float64], width: float) -> NDArray[np.float32]:
 def band(
     points: NDArray[np.float64], before: NDArray[np.int64], after: NDArray[np.int64], width: float
 ) -> NDArray[np.float32]:
-    """The same of points (n, 3) on closed lines, given which point is before and after each (n,)."""
+    """Ribbon corners for points (n, 3) on closed lines, given the points before and after each (n,)."""
     along = (points[after] - points[before])[:, :2]
     length = np.maximum(np.hypot(*along.T), 1e-6)
     aside = np.column_stack([-along[:, 1], along[:, 0], np.zeros(len(along))]) / length[:, None]

@@ -45,9 +45,7 @@ def foliage(shot: Shot, stage: Stage) -> bpy.types.Material:
         )
         varied = tree.mix_colour(1.0, varied, fallen, "MULTIPLY")
     green = tree.mix_colour(1.0, leaf, varied, "MULTIPLY")
-    brown = tree.mix_colour(
-        tint, *_shades(tree, "Scorched", _BROWN, "needles killed by drought or heat")
-    )
+    brown = tree.mix_colour(tint, *_shades(tree, "Scorched", _BROWN, "needles killed by drought or heat"))
     living = tree.mix_colour(tree.attribute("dead", "INSTANCER") < lost, green, brown)
     place = _place(tree)
     torched, age = tree.attribute("torched", "INSTANCER"), _age(tree)

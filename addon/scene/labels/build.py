@@ -1,7 +1,7 @@
-"""Names of places as labels that face the camera, as large in every picture, and fade with distance.
+"""Labels of place names: text that faces the camera, of equal size in every picture, faded with distance.
 
-A label is a mesh one unit high, of the letters, a rim that sets them off from what is behind, and a stem down
-to the place. Each is an instance on a point there: so what stands before the place hides it, as it should.
+A label is a mesh one unit high, of letters, an outline for contrast, and a stem down to the place. It is an
+instance on a point there: objects in front of the place occlude it.
 """
 
 from __future__ import annotations
@@ -19,10 +19,11 @@ from ...shot import labels
 from ...shot.shot import Shot
 from . import material
 
-_STEM, _TIER, _TIERS = 2.2, 1.3, 3  # letters' heights from the ground to the letters; from row to row; rows
-_RIM = 0.035  # of the height of letters
+# height of the letters over the ground, in letter heights; from row to row; rows
+_STEM, _TIER, _TIERS = 2.2, 1.3, 3
+_RIM = 0.035  # in letter heights
 _THIN = 0.045  # half-width of the stem
-_FULL = 0.5  # of the distance at which labels are gone, to where they show fully
+_FULL = 0.5  # fraction of the distance at which labels vanish, up to which they are opaque
 
 
 def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
@@ -49,7 +50,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
 
 
 def _tiers(shot: Shot, position: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Row (n,) of each label: those side by side from where the first camera is stand at other heights."""
+    """Row (n,) of each label: neighbours from the first camera's view are put at different heights."""
     eye = shot.paths[0].position.mean(axis=0) if shot.paths else np.zeros(3)
     off = position - eye
     order = np.argsort(np.arctan2(off[:, 0], off[:, 1]))
@@ -59,14 +60,14 @@ def _tiers(shot: Shot, position: NDArray[np.float64]) -> NDArray[np.int64]:
 
 
 def _seen_only(thing: bpy.types.Object) -> None:
-    """Labels are seen and nothing more."""
+    """Make labels visible to camera rays only."""
     thing.visible_shadow = thing.visible_diffuse = thing.visible_glossy = False
     thing.visible_volume_scatter = thing.visible_transmission = False
 
 
 @contextmanager
 def _typeface() -> Iterator[bpy.types.VectorFont | None]:
-    """Blender's typeface, which is in the file no longer than before."""
+    """Blender's typeface; it stays in the file no longer than before."""
     before, font = set(bpy.data.fonts), compat.typeface()
     try:
         yield font
@@ -76,7 +77,7 @@ def _typeface() -> Iterator[bpy.types.VectorFont | None]:
 
 
 def _label(name: str, text: str, stem: float, font: bpy.types.VectorFont | None) -> bpy.types.Mesh:
-    """Letters (material 0) over their rim and the stem (1), one unit high, in the plane of x and y."""
+    """Letters (material 0) over their outline and the stem (1), one unit high, in the plane of x and y."""
     letters = (_letters(text, stem, *way, font) for way in ((0.0, 0.02), (_RIM, 0.0)))
     parts = [*letters, _stem(stem - 0.3)]
     mesh = owned.mark(bpy.data.meshes.new(name))
@@ -94,7 +95,7 @@ def _label(name: str, text: str, stem: float, font: bpy.types.VectorFont | None)
 def _letters(
     text: str, stem: float, offset: float, front: float, font: bpy.types.VectorFont | None
 ) -> tuple[list, list]:
-    """Points and faces of a line of text over the stem, its outline moved out by `offset`."""
+    """Points and faces of a line of text over the stem, its outline expanded by `offset`."""
     curve = bpy.data.curves.new("Firetwin Letters", "FONT")
     curve.body, curve.align_x, curve.offset, curve.resolution_u = text, "CENTER", offset, 3
     if font is not None:
@@ -113,7 +114,7 @@ def _stem(top: float) -> tuple[list, list]:
 
 
 def _node_group(shot: Shot, library: bpy.types.Collection) -> bpy.types.NodeTree:
-    """A label on every point, turned to the camera, its letters a share of the picture's height."""
+    """Geometry nodes: a label on each point, facing the camera, its size a fraction of the picture's."""
     settings = shot.settings.labels
     width, height = shot.settings.render.resolution
     tree, entry = nodes.geometry("Firetwin Labels")

@@ -1,4 +1,4 @@
-"""Materials of labels: even light for letters, darkness for their rim, both clear as they fade."""
+"""Materials of labels: uniform emission for letters, dark for their outline, both fading to transparent."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from ...shot.shot import Shot
 FADE = "fade"
 COLOURS = {"Letters": (0.95, 0.95, 0.92), "Rim": (0.004, 0.004, 0.005)}
 _LIGHT = 4.0  # radiance of white at exposure 0, which AgX shows nearly white
-_SOLID = 0.999  # part of letters that hides; what is all solid would be a surface to depth
-_CLEAR = 0.15  # part of the rim that one sees through
+_SOLID = 0.999  # opacity of letters; a fully opaque one would count as a surface in depth
+_CLEAR = 0.15  # transparency of the outline
 
 
 def build(shot: Shot, name: str, colour: tuple[float, float, float]) -> bpy.types.Material:
@@ -24,8 +24,8 @@ def build(shot: Shot, name: str, colour: tuple[float, float, float]) -> bpy.type
     bright = tree.input("Brightness", _LIGHT * 2.0**-stops, "Against the exposure of the picture", "Label")
     solid = _SOLID if name == "Letters" else 1.0 - _CLEAR
     part = tree.attribute(FADE, "INSTANCER") * solid
-    nodes.flames(tree, tree.separate(shown)[0] * bright * part, 0.0, 0.0)  # smoke is before or behind them
-    left = 1.0 - part  # a sum, not a mix of shaders, of which rays would choose one: that is grain
+    nodes.flames(tree, tree.separate(shown)[0] * bright * part, 0.0, 0.0)  # smoke is in front or behind
+    left = 1.0 - part  # a sum, not a mix of shaders, of which rays would sample one: that is noise
     clear = tree.output("ShaderNodeBsdfTransparent", {"Color": tree.combine(left, left, left)})
     tree.surface(tree.add_shader(tree.emission(shown, bright * part), clear))
     material.cycles.emission_sampling = "NONE"

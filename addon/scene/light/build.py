@@ -1,4 +1,4 @@
-"""Sun, moon, sky, haze and exposure for the shot's place, date and time."""
+"""Light builder: sun, moon, sky, haze and exposure for the shot's place, date and time."""
 
 from __future__ import annotations
 
@@ -15,31 +15,29 @@ from ...shot.passes import masks
 from ...shot.shot import Shot
 from .. import haze, infrared
 
-_KEYS = 25  # the sky changes at this many moments of the shot
-_SKY = 0.12  # strength of the sky texture; more drowns the sunlit side of smoke
-_DUST = 0.3  # of the sky texture; 1 makes it pale and greenish
-_FILL = 0.44  # of the sky's mean radiance, added wherever what is near leaves a place open; by eye
+_KEYS = 25  # number of keyframes of the sky
+_SKY = 0.12  # strength of the sky texture; more hides the sunlit side of smoke
+_DUST = 0.3  # parameter of the sky texture; 1 makes it pale and greenish
+_FILL = 0.44  # factor on the sky's mean radiance for ambient light in open places; by eye
 _NEAR = 15.0  # m
-_NIGHT_FILL = (
-    0.06  # of that mean radiance, the least: eyes and films that see by night see the ground; by eye
-)
+_NIGHT_FILL = 0.06  # least fraction of that mean radiance: eyes and films adapt to the night; by eye
 _TRANSFORM, _LOOK = "AgX", "AgX - Medium High Contrast"
-_INSTEAD = ("Filmic", "Standard")  # view transforms where there is no AgX, the better first
+_INSTEAD = ("Filmic", "Standard")  # view transforms without AgX, the better first
 
 
 def build(shot: Shot, stage: Stage) -> list[str]:
-    """Build the lamp "Firetwin Sun" and the haze; in our own scene also world, colours and exposure.
+    """Build the lamp "Firetwin Sun" and haze; in our own scene also world, colour management and exposure.
 
-    All are animated over the shot. A world that is not ours stays, and ours is not built.
+    All have keyframes over the shot. A world of the user stays, and ours is not built.
 
     Returns
     -------
     list of str
-        Sentences for people: what is not as it should be.
+        Warnings for the user.
     """
     frames, states = moments(shot)
     if stage.own and stage.scene.world is not None and owned.ours(stage.scene.world):
-        stage.scene.world = None  # so that it goes with the rest of ours
+        stage.scene.world = None  # so that it is removed with our other objects
     _lamp(stage.part("Light"), frames, states)
     group, colour = haze.settings(stage, shot.settings.light.haze)
     key(group, colour, frames, np.array([(*each.haze, 1.0) for each in states]))
@@ -53,7 +51,7 @@ def build(shot: Shot, stage: Stage) -> list[str]:
 
 
 def moments(shot: Shot) -> tuple[NDArray[np.float64], list[State]]:
-    """Frames at which light is worked out, and the light there."""
+    """Keyframes of light: frames, and the state of the light there."""
     moving = shot.frames.count > 1 and shot.frames.last > shot.frames.first
     frames = np.linspace(1.0, shot.frames.count, _KEYS if moving else 1)
     return frames, [state(shot, shot.frames.time(frame)) for frame in frames]
@@ -75,16 +73,17 @@ def _facing(direction: NDArray[np.float64]) -> tuple[float, ...]:
 
 
 def _airglow(tree: nodes.Tree, up: nodes.Value) -> nodes.Value:
-    """The night sky's light over that at the zenith, for rays of slope sine `up`: a layer 100 km high.
+    """Airglow relative to the zenith, for rays of slope sine `up`: a layer 100 km high.
 
-    Van Rhijn (1921, "On the brightness of the sky at night", Publ. Astr. Lab. Groningen 31), and the mean 1.
+    Van Rhijn (1921, "On the brightness of the sky at night", Publ. Astr. Lab. Groningen 31), with a mean of
+    1.
     """
     across = (1.0 - up * up) * (6371.0 / 6471.0) ** 2
     return tree.math("POWER", 1.0 - across, -0.5) * 0.3
 
 
 def _world(stage: Stage, frames: NDArray[np.float64], states: list[State]) -> None:
-    """Make the world: sky texture and a little night sky; constant and cold in thermal view layers."""
+    """Build the world: sky texture and airglow; a uniform cold sky in thermal view layers."""
     world = stage.scene.world = owned.mark(bpy.data.worlds.new("Firetwin Sky"))
     tree = nodes.Tree(compat.node_tree(world))
     sky = tree.node("ShaderNodeTexSky")
@@ -110,9 +109,10 @@ def _world(stage: Stage, frames: NDArray[np.float64], states: list[State]) -> No
 
 
 def _fill(world: bpy.types.World, frames: NDArray[np.float64], states: list[State]) -> None:
-    """Light in the shade between trees, in place of what goes from crown to crown and from the ground.
+    """Ambient light in the shade between trees, for light that crowns and ground reflect to each other.
 
-    Cycles adds it as ambient occlusion ("Fast GI"): as much as the sky is bright, at night a little.
+    Cycles adds it as ambient occlusion ("Fast GI"), in proportion to the sky's radiance, with a minimum by
+    night.
     """
     world.light_settings.distance = _NEAR
     key(
@@ -124,14 +124,14 @@ def _fill(world: bpy.types.World, frames: NDArray[np.float64], states: list[Stat
 
 
 def _thermal_sky(world: bpy.types.World, radiance: float) -> None:
-    """Set what the sky gives off in thermal view layers; worlds that are not ours stay."""
+    """Set the sky's infrared emission in thermal view layers; worlds of the user stay."""
     node = world.node_tree.nodes.get("Thermal Sky") if world.node_tree and owned.ours(world) else None
     if node is not None:
         compat.find_socket(node.inputs, "Strength").default_value = radiance
 
 
 def _expose(scene: bpy.types.Scene, frames: NDArray[np.float64], exposures: NDArray[np.float64]) -> None:
-    """Animate the exposure; where the artist animates the scene it is that of the middle and stays."""
+    """Keyframe the exposure; constant, of the middle of the shot, in a scene that the artist animates."""
     action = scene.animation_data.action if scene.animation_data else None
     if action is not None and not owned.ours(action):
         frames, exposures = frames[:1], exposures[len(exposures) // 2 :][:1]
@@ -139,7 +139,7 @@ def _expose(scene: bpy.types.Scene, frames: NDArray[np.float64], exposures: NDAr
 
 
 def _colours(view: bpy.types.ColorManagedViewSettings) -> list[str]:
-    """Choose how light becomes the picture's colours; a sentence where it cannot be as the picture wants."""
+    """Set the view transform; returns a warning if Blender lacks the one for the picture."""
     chosen = next((name for name in (_TRANSFORM, *_INSTEAD) if _set(view, "view_transform", name)), None)
     if chosen == _TRANSFORM and _set(view, "look", _LOOK):
         return []
@@ -152,7 +152,7 @@ def _colours(view: bpy.types.ColorManagedViewSettings) -> list[str]:
 
 
 def _set(thing: bpy.types.bpy_struct, name: str, choice: str) -> bool:
-    """Set a property to one of its choices; whether it has that choice."""
+    """Set a property to one of its choices; False where that choice is missing."""
     try:
         setattr(thing, name, choice)
     except TypeError:
@@ -161,7 +161,7 @@ def _set(thing: bpy.types.bpy_struct, name: str, choice: str) -> bool:
 
 
 def key(thing: bpy.types.ID, data_path: str, frames: NDArray[np.float64], values: NDArray) -> None:
-    """Animate a property (or set it, where there is one moment): values (n,) or (n, channels)."""
+    """Keyframe a property (or set it, for a single keyframe): values (n,) or (n, channels)."""
     columns = values.reshape(len(frames), -1)
     owner, _, name = data_path.rpartition(".")
     target = thing.path_resolve(owner) if owner else thing

@@ -1,4 +1,4 @@
-"""The smoke of the shot as volume objects that show the baked files of each frame."""
+"""Smoke builder: volume objects that load the baked OpenVDB files of each frame."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from ...shot.shot import Shot
 from ...smoke import bake, flow_frames, sources, view
 from . import flow_material, layers, material
 
-_MAX_STEPS = 8192  # Cycles lengthens steps of rays that would need more; 1024 of them are 12 km
+_MAX_STEPS = 8192  # Cycles lengthens the steps of rays that would need more; 1024 of them are 12 km
 
 
 def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
-    """Build "Firetwin Smoke", which reads what `bake.bake` writes; nothing where smoke is off.
+    """Build "Firetwin Smoke", which reads the files of `bake.bake`; nothing where smoke is off.
 
-    The step along rays is set in metres. Left alone it would be the voxel size, and longer steps do not
-    just blur smoke, they lose it.
+    The step size along rays is set in metres. The default is the voxel size. Longer steps would not only blur
+    smoke but lose it.
     """
     collection = stage.part("Smoke")
     if not shot.settings.smoke.enabled:
@@ -43,7 +43,7 @@ def _hang(
     place: Path,
     look: bpy.types.Material,
 ) -> bpy.types.Object:
-    """The object of a layer, whose files lie in the folder `place`."""
+    """Volume object of a layer, whose files lie in the folder `place`."""
     name = "Smoke" if layer.name == "smoke" else f"{layer.name.title()} Smoke"
     volume = bpy.data.volumes.new(f"Firetwin {name}")
     volume.filepath = str(layer.file(place, 1))
@@ -52,9 +52,7 @@ def _hang(
     volume.sequence_mode = "CLIP"
     volume.render.space = "WORLD"
     volume.render.step_size = layer.step
-    volume.render.clipping = flow_frames.thinnest(
-        shot.scale
-    )  # Cycles leaves out what is thinner, in blocks that show
+    volume.render.clipping = flow_frames.thinnest(shot.scale)  # Cycles culls thinner smoke, in visible blocks
     volume.display.density = layer.extinction  # in the solid view, like the render's
     volume.display.wireframe_type = "NONE"
     volume.materials.append(look)
@@ -65,10 +63,10 @@ def _hang(
 
 
 def relative(blend: Path) -> None:
-    """Make the paths of our volumes start at the folder of the .blend file that is about to be saved there.
+    """Make our volumes' paths relative to the folder where the .blend file is about to be saved.
 
-    So smoke is found again when both are moved together. What lies on another drive stays where it is.
-    Blender must not change the paths once more: save with ``relative_remap=False``.
+    So smoke stays linked when both are moved together. Paths on another drive stay absolute. Blender must not
+    remap the paths again: save with ``relative_remap=False``.
     """
     for volume in bpy.data.volumes:
         if owned.ours(volume):
@@ -78,7 +76,7 @@ def relative(blend: Path) -> None:
 def _beside(blend: Path, path: str) -> str:
     try:
         return "//" + Path(os.path.relpath(path, blend.absolute().parent)).as_posix()
-    except ValueError:  # no way leads from one drive to another
+    except ValueError:  # no relative path leads to another drive
         return path
 
 
@@ -88,8 +86,8 @@ def _march(cycles: bpy.types.PropertyGroup) -> None:
 
 
 def _slices(eevee: bpy.types.SceneEEVEE, near: float, far: float) -> None:
-    """Have EEVEE, which cuts the view into slices of smoke, use them all where smoke is, and shade them."""
-    eevee.use_volume_custom_range = True  # at its own 100 m, smoke kilometres away is silently absent
+    """Set EEVEE's volume slices to the depth range of smoke, with shadows."""
+    eevee.use_volume_custom_range = True  # at its own 100 m, distant smoke is missing
     eevee.volumetric_start, eevee.volumetric_end = near, far
     eevee.volumetric_sample_distribution = 0.5
     eevee.use_volumetric_shadows = True

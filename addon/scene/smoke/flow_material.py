@@ -1,10 +1,10 @@
-"""Material of smoke that was solved: its files hold the extinction itself; here it gets colour and light.
+"""Material of solved smoke: the grids hold extinction; the material adds colour and light.
 
-Smoke scatters light mostly forwards, so light goes on through it much as if it were thinner and scattered
-more evenly (Joseph, Wiscombe and Weinman 1976, "The delta-Eddington approximation for radiative flux
-transfer"). So one bounce does for many: of a ball 16 deep in the sun it is off 24 bounces by 11 to 16 % of
-the light, and one bounce of nearly even scattering by 13 to 54 %. Camera's rays, which draw outlines, meet
-all of the smoke.
+Smoke scatters light mostly forwards, so it attenuates about as much as thinner smoke with more isotropic
+scattering (Joseph, Wiscombe and Weinman 1976, "The delta-Eddington approximation for radiative flux
+transfer"). So one bounce replaces many: for a ball of optical depth 16 in the sun its error is 11 to 16 % of
+the light against 24 bounces. One bounce of nearly isotropic scattering has 13 to 54 %. Camera rays, which
+decide outlines, use the full extinction.
 """
 
 from __future__ import annotations
@@ -26,19 +26,18 @@ _PALE, _FRESH = (
     (0.80, 0.77, 0.73),
     (0.44, 0.36, 0.29),
 )  # albedo: of a grass fire; of a crown fire's soot and char
-_OLD = np.array([1.005, 1.0, 0.995])  # of aged haze and cloud, over its albedo in green light
-_MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
+_OLD = np.array([1.005, 1.0, 0.995])  # albedo of aged haze and cloud, over its value in green light
+_MIDDLE = (0.86, 0.83, 0.79)  # factor on light that reaches smoke through other smoke
 FORWARD = 0.6  # anisotropy of smoke (Reid et al. 2005: 0.5 to 0.65 in green light)
-_ANISOTROPY = FORWARD / (1.0 + FORWARD)  # of what is left when light that goes on counts as not scattered
-_HIDDEN = (
-    30.0  # times that hidden smoke counts besides, so that camera's rays, which go on to 1e-6, end there
-)
-_LIGHT = 0.5  # of extinction counts for light: 0.7 by theory, less for the bounces that are left out
+# anisotropy that is left after forward-scattered light counts as not scattered
+_ANISOTROPY = FORWARD / (1.0 + FORWARD)
+_HIDDEN = 30.0  # factor of extinction in hidden smoke, where camera rays, which go on to 1e-6, can end
+_LIGHT = 0.5  # fraction of extinction for light rays: 0.7 by theory, less for the bounces left out
 
 
 @dataclass(frozen=True)
 class _Smoke:
-    """Extinction (1/m) for camera's rays and for those of light, albedo and anisotropy."""
+    """Extinction (1/m) for camera rays and for light rays, albedo and anisotropy."""
 
     density: nodes.Value
     thinner: nodes.Value
@@ -63,7 +62,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     lit = _solved if shot.settings.smoke.lighting == "solved" else _traced
     visible = lit(tree, shot, stage, _Smoke(seen, thinner, albedo, even))
     shader = infrared.smoke(tree, shot, stage, visible, density)
-    # A mix by 0 or 1 evaluates one side only, and more than half of all steps find no smoke.
+    # A mix by 0 or 1 evaluates one side only, and more than half of all steps are outside of smoke.
     clear = tree.output("ShaderNodeVolumeAbsorption", {"Density": 0.0})
     tree.volume(tree.mix_shader(density > 0.5 * flow_frames.thinnest(shot.scale), clear, shader))
     made.cycles.volume_sampling = "DISTANCE"
@@ -72,7 +71,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
 
 
 def _solved(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.Value:
-    """Smoke that shines by itself, as much as the light in its grids makes it."""
+    """Smoke as emission: radiance from the light in its grids."""
     part, air = haze.fraction(tree, stage)
     light = sunlit.source(tree, shot, smoke.albedo, smoke.even)
     if glow := _glow(tree, shot, smoke.density):
@@ -80,14 +79,14 @@ def _solved(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.
     seen = tree.add_shader(
         _black(tree, smoke.density), tree.emission(tree.mix_colour(part, light, air), smoke.density)
     )
-    # What lakes mirror is seen too. Of what shines, other rays gather 0.02/255 of a picture of the example.
+    # Reflections in lakes count too. Other rays gather 0.02/255 of the example's picture from emission.
     path = tree.node("ShaderNodeLightPath")
     looks = tree.math("MAXIMUM", *(tree.pick(path, name) for name in ("Is Camera Ray", "Is Glossy Ray")))
     return tree.mix_shader(looks, _black(tree, smoke.thinner), seen)
 
 
 def _traced(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.Value:
-    """Smoke whose light Cycles traces."""
+    """Smoke whose scattering Cycles traces."""
     middle = tree.input("Inner Colour", _MIDDLE, "Albedo for light by way of other smoke", "Colour")
     part, air = haze.fraction(tree, stage)
     light = tree.emission(air, part * smoke.density)
@@ -96,13 +95,13 @@ def _traced(tree: nodes.Tree, shot: Shot, stage: Stage, smoke: _Smoke) -> nodes.
         light = tree.add_shader(light, tree.emission(shine, bright * (1.0 - part) * smoke.density))
     scattered = tree.mix_colour(part, smoke.albedo, (0.0, 0.0, 0.0))
     detailed = tree.add_shader(material.smoke(tree, smoke.density, scattered, smoke.even), light)
-    # Most steps belong to rays of light through the smoke; one grid is enough for them.
+    # Most steps belong to light rays through the smoke; one grid is enough for them.
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     return tree.mix_shader(camera, material.smoke(tree, smoke.thinner, middle, smoke.even), detailed)
 
 
 def _hiding(tree: nodes.Tree, thick: nodes.Value) -> nodes.Value:
-    """Times that hidden smoke counts besides; 0 where smoke is drawn thinner than it is, and hides less."""
+    """Factor on the extinction of hidden smoke; 0 where smoke is drawn thinner than it is, and hides less."""
     factor = tree.input(
         "Hidden Density", _HIDDEN, "Times that smoke no camera sees counts besides", "Density"
     )
@@ -115,7 +114,7 @@ def _black(tree: nodes.Tree, density: nodes.Value) -> nodes.Value:
 
 
 def _glow(tree: nodes.Tree, shot: Shot, density: nodes.Value) -> tuple[nodes.Value, nodes.Value] | None:
-    """Colour and brightness of the flames' light in smoke, where it is dark enough to see it."""
+    """Colour and strength of the flames' light in smoke, where it is dark enough to be visible."""
     if exposure.darkness(shot, shot.frames.middle) <= 0.0:
         return None
     shine, bright = material.glow_inputs(tree, shot)

@@ -1,4 +1,4 @@
-"""What rays that are marched through smoke need to know of the scene: the numbers its materials have."""
+"""Illumination for the ray march: sun, sky, flames and infrared, read from the scene's materials."""
 
 from __future__ import annotations
 
@@ -17,23 +17,23 @@ from .. import haze, infrared
 from .. import temperature as airs
 from . import sunlit
 
-_TABLE = 180.0, 360.0, 0.5  # K, of the air; and between the temperatures whose radiance is told
+_TABLE = 180.0, 360.0, 0.5  # K, of the air; and step of the radiance table's temperatures
 
 
 def material(stage: Stage) -> bpy.types.Material | None:
-    """The material of the scene's smoke."""
+    """Material of the scene's smoke."""
     objects = stage.root.all_objects
     volumes = [thing.data for thing in objects if thing.type == "VOLUME" and ours(thing)]
     return next((each.materials[0] for each in volumes if len(each.materials) and each.materials[0]), None)
 
 
 def visible(stage: Stage) -> volume.Illumination:
-    """Light in smoke, at the scene's frame.
+    """Visible light in smoke, at the scene's frame.
 
     Raises
     ------
     KeyError
-        The material of the smoke is another than `flow_material` makes.
+        The material of the smoke is not that of `flow_material`.
     """
     group, tree = _group(stage)
     sun, around, toward = (tree.nodes[name] for name in sunlit.NODES)
@@ -67,7 +67,7 @@ def toward_sun(stage: Stage) -> list[float]:
 
 
 def shading(stage: Stage) -> float:
-    """How much of the smoke's extinction dims light that goes through it."""
+    """Fraction of the smoke's extinction that attenuates light rays."""
     group, _ = _group(stage)
     return _number(group, "Density") * _number(group, "Light Density")
 
@@ -78,7 +78,7 @@ def thickness(stage: Stage) -> float:
 
 
 def warm(shot: Shot, stage: Stage, frame: int) -> dict[str, Any]:
-    """What `volume.march_infrared` needs of the air, and of smoke in the band."""
+    """Arguments of `volume.march_infrared` for the air, and for smoke in the band."""
     low, high = BANDS[shot.settings.thermal.band]
     kelvin, elevation, corner, spacing = airs.field(shot, float(shot.frames.times[frame - 1]))
     first, last, step = _TABLE
@@ -97,7 +97,7 @@ def warm(shot: Shot, stage: Stage, frame: int) -> dict[str, Any]:
 
 
 def _group(stage: Stage) -> tuple[bpy.types.Node, bpy.types.NodeTree]:
-    """The group node of the smoke's material, and what is in it."""
+    """Group node of the smoke's material, and its node tree."""
     found = material(stage)
     if found is None:
         raise KeyError("no smoke")

@@ -1,7 +1,7 @@
-"""Material of smoke: sharp cauliflower edges with detail below the voxel size, lit by sun and flames.
+"""Material of puff smoke: sharp cauliflower edges with detail below the voxel size, lit by sun and flames.
 
-The grids are those of `firetwin_core.volume.write_smoke`. Where smoke ends is decided here: the clipped
-distance field plus billow noise, through a narrow step. How thick it is comes from its mass.
+The grids are those of `firetwin_core.volume.write_smoke`. The outline is the clipped distance field plus
+billow noise, through a narrow step. Extinction comes from the smoke's mass.
 """
 
 from __future__ import annotations
@@ -19,18 +19,19 @@ from ...smoke import view
 from .. import haze, infrared
 
 EXTINCTION_PER_DILUTION = 0.04  # 1/m: 4 m2/g (fresh biomass smoke, Reid et al. 2005) times 10 mg/m3
-OPACITY = 5.0, 16.0  # times that, for ash near the ground and for cloud water aloft; chosen by eye
+OPACITY = 5.0, 16.0  # factors on it, for ash near the ground and for cloud water aloft; chosen by eye
 _CLOUD = (700.0, 2600.0)  # m above the ground between which cloud water condenses in it
-ANISOTROPY = 0.1  # single scattering has about 0.6; few bounces of much less brighten thick smoke as many do
-_EDGE = (0.46, 0.55)  # of the clipped distance: 54 m from clear to full
-_AMPLITUDE = 0.5  # of the noise in the distance, 1 = 600 m
+# single scattering has about 0.6; few bounces of a much lower value brighten thick smoke as many do
+ANISOTROPY = 0.1
+_EDGE = (0.46, 0.55)  # of the clipped distance: 54 m from transparent to full extinction
+_AMPLITUDE = 0.5  # amplitude of the noise in the distance, 1 = 600 m
 _MEAN_BILLOW = 0.4
-_ALOFT = 1.55  # wind where smoke is over that at 10 m: (h / 10 m)^0.1 at 800 m
+_ALOFT = 1.55  # wind at the height of smoke over that at 10 m: (h / 10 m)^0.1 at 800 m
 _CLIMB = 1.0  # m/s
 _VEIL = (0.002, 0.005)  # dilution between which thin smoke fades; volumes end at the lower one
 _PALE, _LOW = (0.84, 0.81, 0.77), (0.62, 0.53, 0.44)  # albedo near the ground: of a grass and of a crown fire
-_HIGH = np.array([1.005, 1.0, 0.995])  # far up, over the albedo in green light
-_MIDDLE = (0.86, 0.83, 0.79)  # what light that reaches smoke by way of other smoke meets
+_HIGH = np.array([1.005, 1.0, 0.995])  # albedo aloft, over its value in green light
+_MIDDLE = (0.86, 0.83, 0.79)  # factor on light that reaches smoke through other smoke
 
 
 Colour = tuple[float, float, float]
@@ -38,14 +39,14 @@ Colour = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Flow:
-    """What carries the noise: wind 10 m over the ground (m/s), and the height of that ground (m)."""
+    """Advection of the noise: wind 10 m over the ground (m/s), and the elevation of that ground (m)."""
 
     wind: tuple[float, float]
     ground: float
 
 
 def flow(shot: Shot) -> Flow:
-    """Wind of the middle of the shot and the mean height of the ground that burns."""
+    """Wind in the middle of the shot, and the mean elevation of the burning ground."""
     cells = shot.fire.cells(shot.frames.first - 3600.0, shot.frames.last)
     height = float(np.mean(cells.position[:, 2])) if len(cells.arrival) else 1000.0
     return Flow(shot.wind, height)
@@ -68,7 +69,8 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
     full = _extinction(tree.attribute("dilution"), opacity, drawn.extinction)
     albedo = tree.mix_colour(above.smoothstep(-200.0, 3200.0), fresh, old)
     noise = _billow(tree, position, carried, float(np.clip(6.0 * drawn.voxel, 260.0, 1000.0)))
-    reach = tree.math("MINIMUM", tree.attribute("size") * 0.8, _AMPLITUDE)  # small puffs must not be eaten up
+    # keeps small puffs from vanishing in the noise
+    reach = tree.math("MINIMUM", tree.attribute("size") * 0.8, _AMPLITUDE)
     depth = tree.attribute("density")
     density = (depth + reach * (noise - _MEAN_BILLOW)).smoothstep(*_EDGE) * full
     part, air = haze.fraction(tree, stage)
@@ -81,10 +83,10 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
         light = tree.add_shader(tree.emission(air, part * density), tree.emission(shine, lit))
         return tree.add_shader(smoke(tree, density, scattered, even), light)
 
-    # A mix by 0 or 1 evaluates one side only: deep inside, the noise changes nothing and is left out.
+    # A mix by 0 or 1 evaluates one side only: deep inside, noise has no effect and is not evaluated.
     deep = depth > _EDGE[1] + _AMPLITUDE * _MEAN_BILLOW
     detailed = tree.mix_shader(deep, seen(density), seen(full))
-    # Most steps belong to rays of light through the smoke. They need no detail: one grid is enough.
+    # Most steps belong to light rays through the smoke. They need no detail: one grid is enough.
     plain = smoke(tree, _extinction(tree.attribute("shade"), opacity, drawn.extinction), middle, even)
     camera = tree.output("ShaderNodeLightPath", name="Is Camera Ray")
     tree.volume(infrared.smoke(tree, shot, stage, tree.mix_shader(camera, plain, detailed), density))
@@ -94,7 +96,7 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Material:
 
 
 def between(pale: Colour, dark: Colour, part: float) -> Colour:
-    """A colour between two."""
+    """Linear interpolation of two colours."""
     return tuple((1.0 - part) * np.array(pale) + part * np.array(dark))
 
 
@@ -104,35 +106,35 @@ def glow_light(shot: Shot) -> float:
 
 
 def _extinction(dilution: nodes.Value, opacity: nodes.Value, most: float) -> nodes.Value:
-    """Extinction (1/m) of smoke, levelling off at `most`: thick smoke is opaque with less than it has."""
+    """Extinction (1/m) of smoke, saturating at `most`, where thick smoke is opaque already."""
     thickness = dilution * dilution.smoothstep(*_VEIL) * opacity * (EXTINCTION_PER_DILUTION / most)
     return (1.0 - (-thickness).exp()) * most
 
 
 def glow_inputs(tree: nodes.Tree, shot: Shot) -> tuple[nodes.Value, nodes.Value]:
-    """Colour and brightness of the flames' light on smoke."""
+    """Colour and strength of the flames' light on smoke."""
     colour = tree.input("Glow Colour", tuple(sky.GLOW), "Of the flames' light on smoke", "Light")
     return colour, tree.input("Glow", glow_light(shot), "Brightness of the flames' light on smoke", "Light")
 
 
 def glowing(density: nodes.Value) -> nodes.Value:
-    """Part of the flames' light that smoke of this extinction (1/m) gives on, also to the exposure meter."""
+    """Fraction of flame light that smoke of this extinction (1/m) scatters; exposure metering uses it too."""
     return density.ramp(*sky.THICK, sky.THIN, 1.0)
 
 
 def smoke(
     tree: nodes.Tree, density: nodes.Value, albedo: nodes.Value, anisotropy: nodes.Value
 ) -> nodes.Value:
-    """Scattering and absorption that make `density` (1/m) the extinction and `albedo` its scattered part."""
+    """Scattering and absorption coefficients that give the extinction `density` (1/m) and the `albedo`."""
     inputs = {"Color": albedo, "Density": density}
     scatter = tree.output("ShaderNodeVolumeScatter", inputs | {"Anisotropy": anisotropy})
     return tree.add_shader(scatter, tree.output("ShaderNodeVolumeAbsorption", inputs))
 
 
 def _billow(tree: nodes.Tree, position: nodes.Value, carried: Flow, size: float) -> nodes.Value:
-    """Billow noise, about 0..1 with mean 0.4, that is carried along with the smoke.
+    """Billow noise, about 0..1 with mean 0.4, that is advected with the smoke.
 
-    It moves with the wind some hundred metres up; between there and the top of the smoke the wind of the
+    It moves with the wind some hundred metres up. Between there and the top of the smoke the wind of the
     puffs changes by an eighth.
     """
     shift = [speed * _ALOFT for speed in carried.wind]

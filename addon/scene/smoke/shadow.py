@@ -1,8 +1,8 @@
-"""The shadow of smoke that Cycles does not draw: a surface over the ground that shadow rays alone meet.
+"""Shadow of ray-marched smoke: a surface over the ground that is visible to shadow rays only.
 
-It lets as much light through as the smoke over it: of the sun's where a ray goes to the sun, and the mean of
-five ways up, each for a fifth of the sky, for all others. What is taller than it (`_OVER`) gets no shade from
-smoke, nor does a ray know of smoke that lies beside it: next to a column the ground is a little too bright.
+Its transmittance is that of the smoke over it: along the sun's direction for rays to the sun, and for others
+the mean of five directions, each for a fifth of the sky. Objects taller than it (`_OVER`) get no shadow of
+smoke. Smoke at its sides is ignored: next to a column the ground is a little too bright.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ _OVER = 45.0  # m over the ground, as tall as all but the tallest trees
 _TREES = 12.0  # m, where the fire is small
 _MESH = 3  # texels along a side of the mesh
 _TEXEL, _TEXELS = 40.0, 1200  # m at the least; along a side at the most
-_SUN_EVERY, _SKY_EVERY = 2, 8  # texels between places whose light is found
-_MARGIN, _TOP = (2000.0, 20_000.0), 0.64  # m round the smoke; of the box's height that shadows come from
+_SUN_EVERY, _SKY_EVERY = 2, 8  # texels between points whose transmittance is computed
+_MARGIN, _TOP = (2000.0, 20_000.0), 0.64  # m round the smoke; range of shadows over the box's height
 _SUN_CONE = np.radians(0.6)  # the sun's disc has 0.27
-_RING = 0.4  # sine of the middle of four fifths of the sky
+_RING = 0.4  # sine of the mean elevation of the lower four fifths of the sky
 _STEP = 2.0  # voxels
 _ENDLESS = np.float32(1.0e9)  # m
 
@@ -39,12 +39,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Shadow:
-    """The surface in a scene.
+    """The shadow surface in a scene.
 
     Attributes
     ----------
     image
-        Red: the part of the sun's light that comes through, green: of the sky's.
+        Red: transmittance of sunlight, green: of skylight.
     places
         (rows, columns, 3) m, of the image's texels.
     """
@@ -54,7 +54,7 @@ class Shadow:
     places: Array
 
     def cast(self, stage: Stage, layers: Sequence[volume.Bricks]) -> None:
-        """Make it the shadow of these layers in the light of the scene's frame."""
+        """Update the shadow to that of these layers, with the sun of the scene's frame."""
         toward = illumination.toward_sun(stage)
         part = illumination.shading(stage)
         direct = _through(layers, self.places[::_SUN_EVERY, ::_SUN_EVERY], [toward], part)
@@ -70,7 +70,7 @@ class Shadow:
 
 
 def build(shot: Shot, stage: Stage, boxes: Sequence[Box]) -> Shadow:
-    """Build "Firetwin Smoke Shadow" over all that smoke in these boxes casts shadows on."""
+    """Build "Firetwin Smoke Shadow" over all ground that smoke in these boxes can shade."""
     low, high = _extent(shot, boxes)
     length = shot.scale.length
     texel = max(length(_TEXEL), float(max(high - low)) / _TEXELS)
@@ -91,7 +91,7 @@ def build(shot: Shot, stage: Stage, boxes: Sequence[Box]) -> Shadow:
 
 
 def _extent(shot: Shot, boxes: Sequence[Box]) -> tuple[Array, Array]:
-    """Corners (x, y), m, of what the smoke's shadow can lie on."""
+    """Corners (x, y), m, of the ground that the smoke can shade."""
     heights = [sun.position(shot.run, float(shot.frames.times[k]))[1] for k in (0, -1)]
     steep = np.tan(np.radians(max(min(heights), 1.0)))
     top = _TOP * max(box.levels[-1] for box in boxes)
@@ -103,7 +103,7 @@ def _extent(shot: Shot, boxes: Sequence[Box]) -> tuple[Array, Array]:
 def _through(
     layers: Sequence[volume.Bricks], places: Array, ways: Sequence[Sequence[float]], part: float
 ) -> NDArray[np.float32]:
-    """Mean over ways of the light that comes through to places (rows, columns, 3)."""
+    """Mean transmittance over directions, to points (rows, columns, 3)."""
     flat = places.reshape(-1, 3)
     end = np.full(len(flat), _ENDLESS)
     total = np.zeros(len(flat), np.float32)
@@ -114,13 +114,13 @@ def _through(
 
 
 def _ways() -> list[tuple[float, float, float]]:
-    """Unit vectors to the middles of five equal parts of the sky."""
+    """Unit vectors to the centres of five equal solid angles of the sky."""
     flat = float(np.sqrt(1.0 - _RING**2))
     return [(0.0, 0.0, 1.0), *((flat * c, flat * s, _RING) for c, s in ((1, 0), (-1, 0), (0, 1), (0, -1)))]
 
 
 def _repeated(values: NDArray[np.float32], times: int, shape: tuple[int, ...]) -> NDArray[np.float32]:
-    """Values for every texel, linear between those that were found."""
+    """Values for every texel, linear between the computed ones."""
     rows, columns = (np.arange(count) / times for count in shape[:2])
     low, right = (
         np.minimum(at.astype(int), count - 1) for at, count in zip((rows, columns), values.shape, strict=True)
@@ -149,7 +149,7 @@ def _mesh(places: Array, material: bpy.types.Material) -> bpy.types.Mesh:
 
 
 def _material(image: bpy.types.Image, low: Array, size: Array) -> bpy.types.Material:
-    """Clear, but darkened by the image over the ground from its corner `low` on."""
+    """Transparent material, darkened by the image over the ground from its corner `low` on."""
     material, tree = nodes.material(f"Firetwin {NAME}")
     geometry = tree.node("ShaderNodeNewGeometry")
     place = tree.vector("SUBTRACT", tree.pick(geometry, "Position"), (*low, 0.0))

@@ -1,9 +1,9 @@
-"""Light of sun and sky in smoke, as the material of a solved flow has it from the grids `sun` and `sky`.
+"""Sunlit smoke: in-scattered light of sun and sky from the grids `sun` and `sky` of a solved flow.
 
-Light that was scattered once comes from the sun along its way, spread after L. G. Henyey and J. L. Greenstein
-(1941, "Diffuse radiation in the galaxy"). Light that was scattered oftener comes as if smoke were thinner,
-evenly from all round and dimmed by the albedo each time, after M. Wrenninge, C. Kulla and V. Lundqvist (2013,
-"Oz: The Great and Volumetric"): a half and a quarter of the optical depth count.
+Single-scattered sunlight follows the phase function of L. G. Henyey and J. L. Greenstein (1941, "Diffuse
+radiation in the galaxy"). Multiple scattering is isotropic, with reduced extinction and a factor of albedo
+per order, after M. Wrenninge, C. Kulla and V. Lundqvist (2013, "Oz: The Great and Volumetric"): a half and a
+quarter of the optical depth count.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from ...shot.light.sky import State
 from ...shot.shot import Shot
 from ..light.build import key, moments
 
-OFTENER = 0.5, 0.3  # weights beside light scattered once, of a ball and a plume beside 24 and 32 bounces
+OFTENER = 0.5, 0.3  # weights relative to single scattering, from a ball and a plume against 24 and 32 bounces
 _GROUND = 0.07  # albedo of forest and ash, which light smoke from below (assumed)
 NODES = _SUN, _SKY, _TOWARDS = "Sunlight", "Skylight", "Towards the Sun"
 
 
 def source(tree: nodes.Tree, shot: Shot, albedo: nodes.Value, even: nodes.Value) -> nodes.Value:
-    """Radiance that smoke gives off per optical depth of it that a camera looks through."""
+    """Source function: radiance that smoke adds per optical depth along the camera ray."""
     sun, sky = (tree.attribute(name) for name in ("sun", "sky"))
     thinner = sun * sun
     brighter = tree.input("Sunlight", 1.0, "Factor on sunlight that smoke scatters", "Light")
@@ -42,7 +42,7 @@ def source(tree: nodes.Tree, shot: Shot, albedo: nodes.Value, even: nodes.Value)
 
 
 def _spread(tree: nodes.Tree, even: nodes.Value) -> nodes.Value:
-    """Light that goes from the sun to the camera, 1 where it goes everywhere alike."""
+    """Phase function for light from the sun to the camera, 1 for isotropic scattering."""
     towards = tree.node("ShaderNodeCombineXYZ", name=_TOWARDS)
     cosine = tree.vector(
         "DOT_PRODUCT", towards, tree.output("ShaderNodeNewGeometry", name="Incoming"), name="Value"
@@ -52,7 +52,7 @@ def _spread(tree: nodes.Tree, even: nodes.Value) -> nodes.Value:
 
 
 def _animate(shot: Shot, tree: bpy.types.NodeTree) -> None:
-    """Set the sun's and the sky's light over the shot."""
+    """Keyframe the sun's and the sky's light over the shot."""
     frames, states = moments(shot)
     sun = np.array([s.power * np.array(s.colour) for s in states])
     sky = np.array([_around(s) for s in states])
@@ -65,6 +65,6 @@ def _animate(shot: Shot, tree: bpy.types.NodeTree) -> None:
 
 
 def _around(state: State) -> NDArray[np.float64]:
-    """Mean radiance from all round, half of it the sky's and half the ground's."""
+    """Mean radiance over the sphere, half of it the sky's and half the ground's."""
     sun = state.power * np.array(state.colour) * max(state.direction[2], 0.0) / np.pi
     return 0.5 * (state.around + _GROUND * (sun + state.sky_mean))

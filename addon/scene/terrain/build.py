@@ -1,4 +1,4 @@
-"""The ground: one continuous mesh, as fine as cameras see it, with its fields as images."""
+"""Terrain builder: one continuous mesh with view-dependent level of detail, and its fields as images."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ Shape = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]
 
 
 def build(shot: Shot, stage: Stage, grown: Stand | None, shaped: Shape | None = None) -> bpy.types.Object:
-    """Build "Firetwin Ground", of its `shape` where that is known.
+    """Build "Firetwin Ground", from its `shape` where that is known.
 
-    Its mesh carries point attributes: `elevation` (m) and `grid`, where each point is in the images of the
-    ground's fields (see `fields`); and `solid_view`, its colours in Blender's solid view.
+    Its mesh carries point attributes: `elevation` (m); `grid`, the texture coordinates in the images of the
+    terrain's fields (see `fields`); and `solid_view`, its colours in Blender's solid view.
     """
     collection, ground = stage.part("Terrain"), shot.ground
     row, column, triangles = shaped or shape(shot)
@@ -42,7 +42,7 @@ def build(shot: Shot, stage: Stage, grown: Stand | None, shaped: Shape | None = 
 
 
 def shape(shot: Shot) -> Shape:
-    """Vertices by fractional row and column (n,), and triangles (m, 3): no finer than cameras can tell."""
+    """Vertices by fractional row and column (n,), and triangles (m, 3): as fine as the cameras resolve."""
     ground, wanted = shot.ground, mesh_tolerance.wanted(shot)
     return terrain.mesh(
         wanted.place,
@@ -58,7 +58,7 @@ def shape(shot: Shot) -> Shape:
 def _fill(data: bpy.types.Mesh, positions: NDArray[np.float64], triangles: NDArray[np.int32]) -> None:
     """Write vertices and triangles into an empty mesh, smooth shaded.
 
-    By attributes: Blender copies these at once, but looks at vertices and corners one by one.
+    By attributes: Blender copies these in bulk, but loops over vertices and corners one by one.
     """
     data.vertices.add(len(positions))
     data.attributes["position"].data.foreach_set("vector", positions.astype(np.float32).ravel())

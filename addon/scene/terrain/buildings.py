@@ -1,4 +1,4 @@
-"""Buildings of the user's map of land use: walls and flat roofs on their outlines, one mesh for all."""
+"""Buildings of the user's land use map: walls and flat roofs extruded from footprints, one mesh for all."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .. import haze, infrared, temperature
 
 _WALL = (0.24, 0.22, 0.19)  # linear reflectances; by eye
 _ROOFS = ((0.125, 0.048, 0.030), (0.150, 0.068, 0.043), (0.075, 0.072, 0.070), (0.110, 0.100, 0.088))
-_DEEP = 4.0  # m that walls go on below the ground's middle, so that none hangs over a slope
+_DEEP = 4.0  # m of the walls below the terrain at the centre, so that no wall ends above a slope
 
 Array = NDArray[np.float64]
 
@@ -47,7 +47,7 @@ def _add(
     shot: Shot, ring: Array, height: float, colour: tuple[float, float, float],
     points: list[Array], faces: list[tuple[int, ...]], colours: list[tuple[float, float, float]],
 ) -> None:  # fmt: skip
-    """Append the walls and the roof over a ring (n, 2), m."""
+    """Append the walls and the roof over a footprint (n, 2), m."""
     ground = shot.ground.up(*ring.T)
     first, count = len(points), len(ring)
     low, high = float(ground.min()) - _DEEP, float(ground.mean()) + height

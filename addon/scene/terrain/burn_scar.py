@@ -1,4 +1,4 @@
-"""What the fire has made of the ground: char and ash, and the flames and embers in it."""
+"""Burn scar: char and ash of burned ground, and its flames and embers."""
 
 from __future__ import annotations
 
@@ -7,18 +7,20 @@ from ...shot.shot import Shot
 from ..glow import CLOSE, EMBER, FAR, FLAME, FLAMING_TIME
 from .shading_inputs import Place
 
-EMBER_TIME = 3600.0  # s in which embers of timber fade to 1/e
+EMBER_TIME = 3600.0  # s, decay time of embers of timber, to 1/e
 _BENT = 1.75
-"""Embers fade in 3600 (r / 120)^1.75 s where flames stand r s: 95 s in grass, 650 s in shrubs (assumed)."""
+"""Exponent of the decay time of embers in the residence time: 3600 (r / 120)^1.75 s, so 95 s in grass and 650
+s in shrubs (assumed).
+"""
 _TIMBER = 120.0  # s
-_WIDE = 0.8  # pixels that the flames of the edge are wide at least; fewer of them then
-_PALE = 0.55  # part of their light that flames of grass, low and thin, have
+_WIDE = 0.8  # least width of the flaming front, pixels; its coverage is lower in proportion
+_PALE = 0.55  # factor on the emission of grass flames, which are low and thin
 _FLAME_LIGHT, _EMBER_LIGHT = 10.0, 1.8  # radiance at exposure 0
-_DIMMED = 0.3  # part of their light that flames of the edge have near by
+_DIMMED = 0.3  # factor on the emission of the flaming front close by
 
 
 def charred(tree: nodes.Tree, place: Place) -> nodes.Value:
-    """Colour: char, white ash in streaks, brown scorched crowns where it burned mildly."""
+    """Colour of the scar: char, white ash in streaks, brown scorched crowns where fire severity was low."""
     tone = place.grain.noise(90.0 * place.scale, 4.0, 0.62)
     dark = tree.input("Char Dark", (0.009, 0.008, 0.008), "Blackest char", "Scar")
     pale = tree.input("Char Light", (0.052, 0.046, 0.041), "Char mixed with soil", "Scar")
@@ -37,7 +39,7 @@ def charred(tree: nodes.Tree, place: Place) -> nodes.Value:
 
 
 def _stubble(tree: nodes.Tree, place: Place, tone: nodes.Value, ash: nodes.Value) -> nodes.Value:
-    """Colour of burned grass: black at first, then brown as its thin ash blows away, with tufts left over."""
+    """Colour of burned grass: black first, then brown as its thin ash is blown off, with unburned tufts."""
     broad = place.grain.noise(420.0 * place.scale, 3.0, 0.6)
     worn = place.age.smoothstep(120.0, 3600.0)
     pale = (tone * 0.7 + broad * 0.6 + worn * 0.08).smoothstep(0.52, 0.86)
@@ -49,10 +51,10 @@ def _stubble(tree: nodes.Tree, place: Place, tone: nodes.Value, ash: nodes.Value
 
 
 def glow(tree: nodes.Tree, place: Place) -> tuple[nodes.Value, nodes.Value]:
-    """Flames of the edge and embers behind it, each 0..1, where there is fuel that has burned."""
+    """Coverage 0..1 of the flaming front, and of embers behind it, on ground with burned fuel."""
     part, size = place.residence / _TIMBER, place.scale
     clusters = place.grain.noise(420.0 * size, 2.0).smoothstep(0.42, 0.66)
-    weak = place.speed.ramp(0.03, 0.4, 0.09, 0.0) + (1.0 - clusters) * 0.08  # where low flames leave gaps
+    weak = place.speed.ramp(0.03, 0.4, 0.09, 0.0) + (1.0 - clusters) * 0.08  # gaps of low flames
     weak = weak * (1.0 - place.woody)
     tongues = (place.grain.noise(40.0 * size, 4.0, 0.68) - weak).smoothstep(0.46, 0.60)
     lasts = place.distance.ramp(1500.0, FAR, *FLAMING_TIME) * part
@@ -68,7 +70,7 @@ def glow(tree: nodes.Tree, place: Place) -> tuple[nodes.Value, nodes.Value]:
 
 
 def light(tree: nodes.Tree, shot: Shot, place: Place, fuel: nodes.Value) -> nodes.Value:
-    """What flames and embers give off to the camera, by how much burned `fuel` (0..1) there is."""
+    """Emission of flames and embers to the camera, scaled by the amount of burned `fuel` (0..1)."""
     flaming, embers = glow(tree, place)
     flame = tree.input("Flame Colour", FLAME, "Light of the burning edge", "Fire")
     ember = tree.input("Ember Colour", EMBER, "Light of the spots that glow in the ash", "Fire")
@@ -82,5 +84,5 @@ def light(tree: nodes.Tree, shot: Shot, place: Place, fuel: nodes.Value) -> node
     colour = tree.mix_colour(flaming / (flaming + embers + 1.0e-4), ember, flame)
     bright = bright * place.woody.ramp(0.0, 1.0, _PALE, 1.0)
     power = flaming * bright * place.distance.ramp(*CLOSE, _DIMMED, 1.0) + embers * glowing
-    shining = {0: fuel, 2: tree.emission(colour, power)}  # nothing is worked out where there is no fuel
+    shining = {0: fuel, 2: tree.emission(colour, power)}  # nodes are not evaluated without fuel
     return tree.output("ShaderNodeMixShader", shining)

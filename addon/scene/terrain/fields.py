@@ -1,7 +1,7 @@
-"""Fields of the ground's grid for its material: images, as exact wherever the mesh has few points.
+"""Terrain fields as textures of the ground's material: full resolution also where the mesh is coarse.
 
-A mesh carries `grid`, the place in the images; a pixel is a point of the grid, and between them values are
-bilinear.
+A mesh carries `grid`, its texture coordinates. A pixel is a point of the terrain grid, and values are
+bilinear between pixels.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from ..forest import biomes, cover
 from ..forest.stand import Stand
 
 GRID = "grid"
-_OUT = 40.0  # rows beyond the run, from which on an apron's cells are large: seven times the run's
-_SOFT = 12.0  # rows beyond the run within which the apron's edges of forest become soft
+_OUT = 40.0  # rows beyond the run at which the apron's cells reach their full size: seven times the run's
+_SOFT = 12.0  # rows beyond the run over which the apron's forest edges become soft
 _EDGE = 0.35  # kg/m2 of canopy fuel at which the shader has half forest and half open land
-_LARGEST = 2048  # pixels of an image's side; of larger grids the means of some points
+_LARGEST = 2048  # pixels of an image's side; larger grids are downsampled by means
 _FUEL, _FIRE, _FRONT, _COVER = (f"Firetwin Ground {name}" for name in ("Fuel", "Fire", "Front", "Cover"))
 NAMES = {
     "canopy_fuel": (_FUEL, 0),
@@ -37,17 +37,17 @@ NAMES = {
     "hollow": (_COVER, 1),
     "mapped": (_COVER, 2),
 }
-"""In which image and channel each field is."""
+"""Image and channel of each field."""
 
 
 def images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]:
-    """Make the images, by name: `canopy_fuel` (kg/m2), `bare` (part without fuel), `water` (1 on lakes).
+    """Create images, by name: `canopy_fuel` (kg/m2), `bare` (fraction without fuel), `water` (1 on lakes).
 
-    And `burn_time` (arrival in s, continued a little past the last perimeter), `burned` (1 inside it) and
-    `stand` (part of the forest that is drawn tree by tree). And of the front its `speed` (m/s), how long
-    flames stand over a spot (`residence`, s), and how pale what is left is (`ash`). Where the biome's open
-    land asks for them also `shrub` (part of it under bushes), `hollow` (-1 on crests, 1 in hollows) and
-    `mapped` (1 where a map says what there is, so that nothing is invented).
+    Also `burn_time` (arrival time in s, extrapolated a little past the last perimeter), `burned` (1 inside
+    it) and `stand` (fraction of the forest that is instanced trees). Of the front its rate of spread `speed`
+    (m/s), the residence time of flames over a spot (`residence`, s), and the brightness of the residue
+    (`ash`). Where the biome's open land uses them also `shrub` (shrub cover), `hollow` (-1 on crests, 1 in
+    hollows) and `mapped` (1 where a map has data, so that nothing is procedural).
     """
     ground = shot.ground
     size = -(-max(ground.shape) // _LARGEST)
@@ -75,9 +75,10 @@ def images(shot: Shot, grown: Stand | None) -> dict[str, bpy.types.Image]:
 
 
 def place(shape: tuple[int, int], row: NDArray, column: NDArray, margin: int = 0) -> NDArray[np.float32]:
-    """`grid` of fractional rows and columns (n,) of a grid of this shape: (n, 3).
+    """Texture coordinates `grid` (n, 3) of fractional rows and columns (n,) of a grid of this shape.
 
-    The last of them is 0 within the run, and 1 where on an apron of `margin` rows its cells are large.
+    The last of them is 0 within the run, and 1 on an apron of `margin` rows where its cells have their full
+    size.
     """
     size = -(-max(shape) // _LARGEST)
     rows, columns = (size * -(-count // size) for count in shape)
@@ -87,10 +88,11 @@ def place(shape: tuple[int, int], row: NDArray, column: NDArray, margin: int = 0
 
 
 def _softened(ground: Ground) -> NDArray[np.float64]:
-    """Canopy fuel (ny, nx) kg/m2, on the apron with edges of forest as soft as its cells are large.
+    """Canopy fuel (ny, nx) kg/m2, with the apron's forest edges blurred in proportion to its cell size.
 
-    So the shader's noise makes edges of all sizes of them, and not the steps of cells. Where half of what is
-    near is wooded it is `_EDGE`, at which the shader has half forest: as much ground stays wooded.
+    The shader's noise turns soft edges into edges of all sizes, without the steps of cells. Where half of a
+    neighbourhood is wooded the value is `_EDGE`, at which the shader has half forest: the wooded area stays
+    the same.
     """
     canopy, margin = ground.fields.canopy_fuel, ground.fields.margin
     if not margin:
@@ -107,18 +109,18 @@ def _softened(ground: Ground) -> NDArray[np.float64]:
 
 
 def _beyond(count: int, margin: int) -> NDArray[np.float32]:
-    """How far (count,) lines are on the apron, 0 within the run and 1 from `_SOFT` lines beyond on."""
+    """Position of lines (count,) on the apron: 0 within the run, and 1 from `_SOFT` lines beyond it."""
     at = np.arange(count, dtype=np.float32)
     return np.clip(_lines_beyond(at, count, margin) / np.float32(_SOFT), 0.0, 1.0)
 
 
 def _lines_beyond(at: NDArray, count: int, margin: int) -> NDArray:
-    """How many lines beyond the run places `at` are: of `count` lines `margin` on each side are apron."""
+    """Lines from positions `at` to the run; `margin` of `count` lines on each side are apron."""
     return np.maximum(margin - at, at - (count - 1 - margin))
 
 
 def _blurred(field: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Means with the neighbours, twice; beyond its ends a field goes on level."""
+    """Means with the neighbours, twice; edge values extend the field."""
     for _ in range(2):
         for axis in (0, 1):
             padded = np.pad(field, [(1, 1) if k == axis else (0, 0) for k in (0, 1)], "edge")
@@ -131,12 +133,12 @@ def _blurred(field: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 class Fields:
-    """The fields as outputs of a material's nodes."""
+    """Terrain fields as outputs of a material's nodes."""
 
     def __init__(self, tree: nodes.Tree, made: dict[str, bpy.types.Image]) -> None:
         at = tree.attribute(GRID, output="Vector")
         self.beyond = tree.separate(at)[2]
-        self._none = at  # what no image has nobody asks for
+        self._none = at  # fields without an image have no users
         self._channels = {
             name: tree.separate(
                 tree.output("ShaderNodeTexImage", {"Vector": at}, image=image, extension="EXTEND")
@@ -152,7 +154,7 @@ class Fields:
 
 
 def _thinned(field: NDArray[np.float64], size: int) -> NDArray[np.float64]:
-    """Means of size x size points each; beyond its ends a field goes on level."""
+    """Means of size x size points each; edge values extend the field."""
     if size == 1:
         return field
     field = np.pad(field, [(0, -count % size) for count in field.shape], "edge")
@@ -163,7 +165,7 @@ def _thinned(field: NDArray[np.float64], size: int) -> NDArray[np.float64]:
 
 
 def _image(name: str, channels: list[NDArray[np.float64]]) -> bpy.types.Image:
-    """An image of numbers, which is saved with the scene."""
+    """A float image without colour management, packed into the .blend file."""
     rows, columns = channels[0].shape
     image = bpy.data.images.new(name, columns, rows, alpha=False, float_buffer=True, is_data=True)
     pixels = np.ones((rows, columns, 4), np.float32)
@@ -175,7 +177,7 @@ def _image(name: str, channels: list[NDArray[np.float64]]) -> bpy.types.Image:
 
 
 def photos(shot: Shot) -> list[tuple[orthophoto.Picture, bpy.types.Image]]:
-    """The user's orthophoto as images, which are saved with the scene; a finer one after a coarser."""
+    """The user's orthophotos as images, packed into the .blend file; finer ones after coarser ones."""
     return [
         (picture, _coloured(f"Firetwin Photo {number}", picture))
         for number, picture in enumerate(orthophoto.pictures(shot), 1)
@@ -183,7 +185,7 @@ def photos(shot: Shot) -> list[tuple[orthophoto.Picture, bpy.types.Image]]:
 
 
 def maps(shot: Shot) -> dict[str, list[tuple[orthophoto.Picture, bpy.types.Image]]]:
-    """The user's land use as images, by `land_use.LAYERS`; a finer one after a coarser."""
+    """The user's land use as images, by `land_use.LAYERS`; finer ones after coarser ones."""
     return {
         layer: [
             (picture, _coloured(f"Firetwin Land Use {layer.title()} {number}", picture))
@@ -194,7 +196,7 @@ def maps(shot: Shot) -> dict[str, list[tuple[orthophoto.Picture, bpy.types.Image
 
 
 def _coloured(name: str, picture: orthophoto.Picture) -> bpy.types.Image:
-    """An image of colours, which is saved with the scene."""
+    """A colour image, packed into the .blend file."""
     rows, columns = picture.pixels.shape[:2]
     image = bpy.data.images.new(name, columns, rows, alpha=True)
     image.alpha_mode = "CHANNEL_PACKED"
@@ -204,7 +206,7 @@ def _coloured(name: str, picture: orthophoto.Picture) -> bpy.types.Image:
 
 
 def _stand_cover(shot: Shot, grown: Stand | None, size: int) -> NDArray[np.float64]:
-    """Part of the forest's trees that stands there one by one, so that the ground need not draw it."""
+    """Fraction of the forest cover that is instanced trees, which the ground's material leaves out."""
     fields = shot.ground.fields
     latitude, longitude = (_thinned(axis[None], size)[0] for axis in (fields.latitude, fields.longitude))
     elevation = _thinned(fields.elevation, size)

@@ -1,4 +1,4 @@
-"""Infrared radiance of the ground: unburned, cooling, glowing and in flames, by the area of each."""
+"""Infrared radiance of the ground: area-weighted mean of unburned, cooling, glowing and flaming ground."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def radiance(
     normal: nodes.Value,
     burning: tuple[nodes.Value, nodes.Value],
 ) -> nodes.Value:
-    """Radiance at the camera; `burning` is how much of the ground is flames and embers, each 0..1."""
+    """Radiance at the camera; `burning` are the area fractions 0..1 of flames and embers."""
     flaming, embers = burning
     bare = tree.math("MAXIMUM", rock, place.canopy.ramp(0.0, 1.2, 1.0, 0.1))
     bare = tree.math("MAXIMUM", bare, place.burned)

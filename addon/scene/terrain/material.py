@@ -1,7 +1,7 @@
-"""Material of the ground: what grows on it, and what the fire has made of it, as a function of time.
+"""Material of the ground: vegetation and fire effects as a function of time.
 
-age = model time - arrival, so one static mesh shows every minute: flames at the edge, embers, char and ash.
-Reflectances are a picture's, chosen by eye against photographs, not measured.
+age = model time - arrival time, so one static mesh shows every time: flaming front, embers, char and ash.
+Reflectances are display colours, chosen by eye against photographs, not measured.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from ..forest.biomes import Here
 from . import burn_scar, fields, infrared_radiance, open_land, rock_outcrops, shading_inputs, vegetation_cover
 from .shading_inputs import Place
 
-_FAR, _ON_ROCK = 1.5, 2.0  # pixels, the least size of noise where trees are part of the ground
+_FAR, _ON_ROCK = 1.5, 2.0  # pixels, the least wavelength of noise where trees are part of the ground
 
-_WAVES = (500.0, 4000.0)  # m from the camera between which waves grow smaller than pixels (by eye)
-_BLUR = 0.12  # roughness of a mirror of waves that are not drawn (by eye)
+_WAVES = (500.0, 4000.0)  # m from the camera between which waves fall below the pixel size (by eye)
+_BLUR = 0.12  # roughness that stands for unresolved waves (by eye)
 
 
 def build(
@@ -34,7 +34,7 @@ def build(
     photos: Sequence[tuple[orthophoto.Picture, bpy.types.Image]] = (),
     maps: Mapping[str, Sequence[tuple[orthophoto.Picture, bpy.types.Image]]] | None = None,
 ) -> bpy.types.Material:
-    """Build "Firetwin Ground", which reads the fields of these images and is coloured by these photos.
+    """Build "Firetwin Ground" from the images of fields, coloured by these orthophotos.
 
     `maps` are the user's land use by `land_use.LAYERS`.
     """
@@ -46,7 +46,7 @@ def build(
     seen = _seen(tree, shot, stage, known, lake, photos, biome, maps or {})
     warmth, kind = _data(tree, shot, stage, known, lake)
     tree.surface(nodes.mask_switch(tree, nodes.thermal_switch(tree, seen, warmth), kind))
-    material.cycles.emission_sampling = "NONE"  # as lamps, its small lights would be noise
+    material.cycles.emission_sampling = "NONE"  # sampled as a lamp, its small emitters would be noise
     return material
 
 
@@ -60,7 +60,7 @@ def _seen(
     biome: Here,
     maps: Mapping[str, Sequence[tuple[orthophoto.Picture, bpy.types.Image]]],
 ) -> nodes.Value:
-    """Shader of the picture. Shaders are mixed, not colours: Cycles leaves out one that has no part."""
+    """Visible shader. Shaders are mixed, not colours: Cycles does not evaluate a shader of weight 0."""
     outcrops = biome.biome.outcrops
     with tree.frame("Place and time"):
         here = shading_inputs.gather(tree, known, shot, whole=False)
@@ -90,7 +90,7 @@ def _seen(
 def _data(
     tree: nodes.Tree, shot: Shot, stage: Stage, known: fields.Fields, lake: nodes.Value
 ) -> tuple[nodes.Value, nodes.Value]:
-    """Infrared radiance, and the class of the masks: of all octaves of noise, however large pixels are."""
+    """Infrared radiance, and the class of the masks: all octaves of noise, at any pixel size."""
     outcrops = biomes.choose(shot).biome.outcrops
     with tree.frame("Place and time of data"):
         here = shading_inputs.gather(tree, known, shot, whole=True)
@@ -112,12 +112,12 @@ def _matt(tree: nodes.Tree, colour: nodes.Value, normal: nodes.Value | None) -> 
 
 
 def _bump(tree: nodes.Tree, height: nodes.Value, strength: float = 0.9) -> nodes.Value:
-    """Normal of a surface of this height (m), which Cycles works out three times."""
+    """Normal from a bump map of this height (m), which Cycles evaluates three times."""
     return tree.output("ShaderNodeBump", {"Strength": strength, "Distance": 1.0, "Height": height})
 
 
 def _soil(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
-    """What is not rock: seen from afar, and where trees are drawn one by one."""
+    """Ground without rock: vegetation as texture from afar, and the floor below instanced trees close by."""
     made = []
     for grown, there in ((vegetation_cover.far, here.coarser(_FAR)), (vegetation_cover.close, here)):
         colour, height = grown(tree, there, biome)
@@ -129,7 +129,7 @@ def _soil(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
 
 
 def _grained(tree: nodes.Tree, here: Place, colour: nodes.Value) -> nodes.Value:
-    """Colour of the floor with needles, soil and shadows between them, on average the same."""
+    """Colour of the floor with needles, soil and shadows, with the same mean."""
     grain = tree.mix_colour(here.duff.ramp(-0.5, 0.5), (0.22, 0.20, 0.18), (1.78, 1.80, 1.82))
     return tree.mix_colour(1.0, colour, grain, "MULTIPLY")
 
@@ -148,7 +148,7 @@ def _rock(tree: nodes.Tree, here: Place, biome: Here) -> nodes.Value:
 def _weathered(
     tree: nodes.Tree, here: Place, biome: Here, colour: nodes.Value, height: nodes.Value
 ) -> tuple[nodes.Value, nodes.Value]:
-    """Rock of another land than the Sierra, and soil in its place where it is not steep."""
+    """Rock of biomes outside of the Sierra, with soil in its place where it is not steep."""
     colour = tree.mix_colour(1.0, colour, biome.biome.rock, "MULTIPLY")
     flat = here.slope.smoothstep(0.14, 0.05)
     soil = tree.mix_colour(here.burned * 0.6, open_land.bare(tree, here, biome), (0.045, 0.042, 0.040))
@@ -156,7 +156,7 @@ def _weathered(
 
 
 def _plain(tree: nodes.Tree, known: fields.Fields, biome: Here) -> nodes.Value:
-    """The ground as it lights what is near: nobody sees its detail there."""
+    """Simplified ground for indirect light, where detail is not visible."""
     canopy = known["canopy_fuel"].smoothstep(0.0, 0.7)
     land = biome.biome.open_land
     grass = (
@@ -178,7 +178,7 @@ def _photographed(
     image: bpy.types.Image,
     ground: nodes.Value,
 ) -> nodes.Value:
-    """The ground with the photo's colour where it has any and nothing burned: heights are in its light."""
+    """The ground in the orthophoto's colour, where it has data and nothing burned; no bumps, as it has shading."""
     shown = _picture(tree, here, picture, image)
     counts = tree.pick(shown, "Alpha") * (1.0 - here.burned)
     return tree.mix_shader(counts, ground, _matt(tree, tree.pick(shown, "Color"), None))
@@ -192,7 +192,7 @@ def _mapped(
     image: bpy.types.Image,
     ground: nodes.Value,
 ) -> nodes.Value:
-    """The ground with a layer of the user's land use: its colour, with grain; what is soft burns."""
+    """The ground with a layer of the user's land use: its colour, with texture; layers with fuel burn."""
     shown = _picture(tree, here, picture, image)
     counts = tree.pick(shown, "Alpha")
     if layer == "water":
@@ -209,7 +209,7 @@ def _mapped(
 def _picture(
     tree: nodes.Tree, here: Place, picture: orthophoto.Picture, image: bpy.types.Image
 ) -> bpy.types.Node:
-    """The node of a picture that lies on the ground."""
+    """Image texture node of a picture draped on the ground."""
     scale = 1.0 / (picture.high - picture.low)
     across = tree.vector("SUBTRACT", here.position, (*picture.low, 0.0))
     at = tree.vector("MULTIPLY", across, (*scale, 0.0))
@@ -217,9 +217,9 @@ def _picture(
 
 
 def _water(tree: nodes.Tree, here: Place) -> nodes.Value:
-    """Dark water that mirrors the sky, more at grazing angles, ruffled by the wind.
+    """Dark water that reflects the sky by Fresnel's law, with waves from the wind.
 
-    Waves that a picture cannot show blur the mirror instead (Cox and Munk 1954: slopes as a distribution).
+    Roughness stands for waves below the pixel size (Cox and Munk 1954: distribution of slopes).
     """
     shown = here.distance.ramp(*_WAVES, 1.0, 0.0)
     normal = _bump(tree, here.grain.noise(7.0, 2.0) * shown * 0.05, 0.5)

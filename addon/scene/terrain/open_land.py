@@ -1,6 +1,6 @@
-"""Open land that is no Sierra meadow: grass in patches of all sizes, tussocks, bushes, fields and tracks.
+"""Open land of biomes outside of the Sierra: grass patches of all sizes, tussocks, bushes, fields and tracks.
 
-Colours are a biome's. What is finer than a pixel is not worked out: it fades into its mean.
+Colours are those of the biome. Detail below a pixel is filtered to its mean.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from .shading_inputs import Place
 
 _MARK = "firetwin_biome"
 _RUT, _TRACK = 0.45, 2.6  # m: width of a wheel's rut, and of a track with grass between (by eye)
-_STREAK = (1.0, 0.45, 1.0)  # grass lies in streaks with the wind
+_STREAK = (1.0, 0.45, 1.0)  # grass forms streaks along the wind
 _SEEN = (400.0, 9000.0)  # m from the camera at which single bushes are sharp, and a mean tone
 
 
 @dataclass
 class Spot:
-    """A place within the group, as in `Place`."""
+    """A point within the node group, as in `Place`."""
 
     grain: Grain
     position: nodes.Value
@@ -36,7 +36,7 @@ class Spot:
 
 
 def look(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
-    """Colour and height (m): of a node group that is made once, as Blender is slow with many nodes in one."""
+    """Colour and height (m), from a shared node group: Blender is slow with many nodes in one tree."""
     inputs = {
         "Pixel": place.pixel,
         "Least": place.grain.least,
@@ -49,7 +49,7 @@ def look(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes
 
 
 def _group(tree: nodes.Tree, here: Here) -> bpy.types.NodeTree:
-    """The group of this biome, which the ground's tree may have already."""
+    """Node group of this biome; an existing one is reused."""
     for node in tree.node_tree.nodes:
         if node.bl_idname == "ShaderNodeGroup" and node.node_tree and node.node_tree.get(_MARK) == here.name:
             return node.node_tree
@@ -65,7 +65,7 @@ def _group(tree: nodes.Tree, here: Here) -> bpy.types.NodeTree:
 
 
 def _spot(tree: nodes.Tree) -> Spot:
-    """What the group knows of a place."""
+    """Inputs of the group at a point."""
     pixel = tree.input("Pixel", 1.0, "Size of a pixel, m", "Place")
     least = tree.input("Least", 1.0, "Pixels of the finest noise", "Place")
     shrub = tree.input("Shrub", 0.0, "Part of the land under bushes", "Place", most=1.0)
@@ -86,7 +86,7 @@ def _look(tree: nodes.Tree, place: Spot, here: Here) -> tuple[nodes.Value, nodes
         colour = _fields(tree, place, here, colour, small)
     fine = tree.cells(place.position, land.tussock)
     shown = place.pixel.ramp(0.25 * land.tussock, 1.2 * land.tussock, 1.0, 0.0)
-    shade = place.pixel.ramp(0.02, 0.15, 0.70, 1.0)  # between bunches that stand there one by one
+    shade = place.pixel.ramp(0.02, 0.15, 0.70, 1.0)  # between tufts that are instanced
     rough = (1.0 + (0.42 - fine) * 0.9 * shown) * shade
     colour = _times(tree, colour, rough)
     there = _bushes(tree, place, land, wet, middling)
@@ -116,7 +116,7 @@ def bare(tree: nodes.Tree, place: Place, here: Here) -> nodes.Value:
 def _grass(
     tree: nodes.Tree, place: Spot, here: Here, wet: nodes.Value, middling: nodes.Value, small: nodes.Value
 ) -> nodes.Value:
-    """Colour of grass by how wet it is and by the season, with soil between."""
+    """Colour of grass from wetness and season, with soil between."""
     land = here.biome.open_land
     assert land is not None
     streaks = place.grain.at(tree.vector("MULTIPLY", place.position, _STREAK)).noise(9.0, 3.0, 0.6)
@@ -124,7 +124,7 @@ def _grass(
     dry = tree.mix_colour(kind.smoothstep(0.30, 0.52), land.stale, land.straw)
     dry = tree.mix_colour((kind - wet * 0.10).smoothstep(0.50, 0.72), dry, land.bleached)
     lush = tree.mix_colour((wet + (small - 0.5) * 0.5).smoothstep(0.1, 0.9), land.green, land.lush)
-    # Of a dry land hollows alone are green, of a green one crests alone are dry.
+    # In a dry season only hollows are green; in a green one only crests are dry.
     dries = 0.95 - 1.9 * here.green
     green = (wet + (small - 0.5) * 0.7).smoothstep(dries - 0.35, dries + 0.45) * (0.55 + 0.45 * here.green)
     grass = tree.mix_colour(green, dry, lush)
@@ -137,14 +137,14 @@ def _grass(
 
 @dataclass
 class Bushes:
-    """Bushes at a place.
+    """Bushes at a point.
 
     Attributes
     ----------
     part, cover
-        0..1: whether a bush is there, and how much of the ground about it is under bushes.
+        0..1: coverage by a bush at the point, and shrub cover round it.
     tone, dome
-        Of each bush, 0..1; how high of it the place is, from its rim (0) to its top.
+        0..1: tone of the bush, and height of the point on its dome, from the rim (0) to the top.
     groups
         Noise of the groups that they stand in.
     """
@@ -157,7 +157,7 @@ class Bushes:
 
 
 def _bushes(tree: nodes.Tree, place: Spot, land: OpenLand, wet: nodes.Value, middling: nodes.Value) -> Bushes:
-    """From afar a bush is less than a pixel: there it is a mean, in the groups that they stand in."""
+    """Bushes; from afar a bush is below the pixel size, so it is filtered to a mean within its group."""
     groups, cover = patterns.bushes(place.grain.noise, place.shrub, wet, land)
     cells = tree.node("ShaderNodeTexVoronoi", {"Vector": place.position, "Scale": 1.0 / land.bush})
     near = tree.pick(cells, "Distance")
@@ -169,7 +169,7 @@ def _bushes(tree: nodes.Tree, place: Spot, land: OpenLand, wet: nodes.Value, mid
         0.5 * land.bush, 1.5 * land.bush, 1.0, 0.0
     )
     part = tree.mix(sharp, (cover + (middling - 0.5) * 0.25 * cover) * 0.88, alone)
-    # Near by they stand there one by one, on what they shed.
+    # Close by bushes are instanced; the ground shows their litter.
     far = place.pixel.ramp(0.10, 0.60)
     shed = (place.grain.noise(2.2, 5.0, 0.7) + cover - 0.95).smoothstep(-0.14, 0.14) * 0.8
     tones = tree.mix(sharp, 0.40, tone), tree.mix(sharp, 0.38, dome.clamp())
@@ -179,7 +179,7 @@ def _bushes(tree: nodes.Tree, place: Spot, land: OpenLand, wet: nodes.Value, mid
 def _brush(
     tree: nodes.Tree, place: Spot, land: OpenLand, there: Bushes, broad: nodes.Value, middling: nodes.Value
 ) -> nodes.Value:
-    """Colour of bushes: sorts in patches, clumps in their own shade, dark below where they are dense."""
+    """Colour of bushes: species in patches, self-shadowed clumps, dark below where they are dense."""
     sorts = (broad * 0.6 + middling * 0.7).smoothstep(0.48, 0.86)
     green = tree.mix_colour(there.tone, *land.shrub)
     green = tree.mix_colour(
@@ -203,7 +203,7 @@ def _maths(tree: nodes.Tree) -> field_lines.Maths:
 def _fields(
     tree: nodes.Tree, place: Spot, here: Here, colour: nodes.Value, small: nodes.Value
 ) -> nodes.Value:
-    """Fields, each of another green: grazed, mown, hay, and some of them ploughed or stubble."""
+    """Fields in different greens: grazed, mown, hay, and some of them ploughed or stubble."""
     land = here.biome.open_land
     assert land is not None
     x, y, _ = tree.separate(place.position)
@@ -219,7 +219,7 @@ def _fields(
     colour = tree.mix_colour((kind > 0.84) * place.free * 0.6, colour, hay)
     soil = tree.mix_colour(small, *land.soil)
     colour = tree.mix_colour((kind < 0.06) * place.free * 0.85, colour, soil)
-    # Rows of the mower or the plough, which end with the pixel.
+    # Rows of the mower or the plough, filtered at the pixel size.
     along = tree.mix(turn > 0.5, x, y)
     lines = tree.math("PINGPONG", along, 2.4) / 2.4
     shown = place.pixel.ramp(0.8, 2.4, 0.30, 0.0) * place.free * (tone > 0.35)
@@ -229,7 +229,7 @@ def _fields(
 
 
 def _hedges(tree: nodes.Tree, place: Spot, land: OpenLand) -> tuple[nodes.Value, nodes.Value]:
-    """Hedges 0..1 along fields, with gaps, and how high they are, m."""
+    """Hedges 0..1 along fields, with gaps, and their height, m."""
     x, y, _ = tree.separate(place.position)
     off = field_lines.fields(_maths(tree), x, y, land.field)[0]
     ragged = place.grain.noise(9.0, 3.0, 0.65)
@@ -241,7 +241,7 @@ def _hedges(tree: nodes.Tree, place: Spot, land: OpenLand) -> tuple[nodes.Value,
 
 
 def _tracks(tree: nodes.Tree, place: Spot, land: OpenLand, colour: nodes.Value) -> nodes.Value:
-    """Tracks with two ruts, wandering, and paths of cattle across them."""
+    """Winding tracks with two ruts, and cattle paths across them."""
     x, y, _ = tree.separate(place.position)
     wander = place.grain.noise(1600.0, 4.0, 0.42) - 0.5
     soil = tree.mix_colour(0.5, *land.soil)

@@ -1,4 +1,4 @@
-"""Granite of the ground: slabs with joints, blocks of talus below them, sand and brush in the hollows."""
+"""Granite outcrops: slabs with joints, blocks of talus below them, sand and brush in the hollows."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def look(tree: nodes.Tree, place: Place) -> tuple[nodes.Value, nodes.Value]:
     block = tree.cells(place.position, 2.4, "Color")
     bright = place.pixel.ramp(0.6, 2.4, tree.separate(block)[0], 0.5)
     debris = tree.mix_colour(bright, (0.055, 0.053, 0.050), (0.205, 0.195, 0.180))
-    afar = place.pixel.ramp(0.05, 0.40)  # near by blocks and brush stand there one by one
+    afar = place.pixel.ramp(0.05, 0.40)  # blocks and brush close by are instanced
     talus = place.slope.smoothstep(0.03, 0.10) * broad.smoothstep(0.49, 0.56) * afar
     stone = tree.mix_colour(talus, stone, debris)
     hollow = noise(26.0, 5.0, 0.68)

@@ -1,4 +1,4 @@
-"""What the ground's material knows about a point: its place, its fields, and what the fire did there."""
+"""Shading inputs of the ground's material at a point: position, fields, and fire effects."""
 
 from __future__ import annotations
 
@@ -14,56 +14,56 @@ from .. import granite
 from ..band_limited_noise import Grain
 from . import fields
 
-_OWN = 1.25  # times the distance to which trees are drawn: from there on the canopy is the ground's
-_HILLS = 0.5  # of the deviation of the run's heights, are hills finer than the apron's mesh (by eye)
-_JITTER = 130.0  # s, at most; breaks the straight edges of the mesh's triangles
-_STRAY = 0.7  # cells of the fuel grid that the front strays from their arrival times, at most
-_RAGGED = 74.0  # m, cells whose edges noise of its full size breaks
-_SOME = 0.02  # of the smoke, from which grass and shrubs are drawn in ways of their own
-_TIMBER = 120.0  # s that flames stand over a spot of timber
+_OWN = 1.25  # factor on the tree drawing distance, beyond which the ground's material shows the canopy
+_HILLS = 0.5  # factor on the deviation of the run's terrain: hills finer than the apron's mesh (by eye)
+_JITTER = 130.0  # s, at most; breaks up the straight edges of the mesh's triangles
+_STRAY = 0.7  # cells of the fuel grid, greatest displacement of the front by noise
+_RAGGED = 74.0  # m, cell size at which noise displaces the front in full
+_SOME = 0.02  # seed offsets, so that grass and shrubs have patterns of their own
+_TIMBER = 120.0  # s, residence time of flames over a spot of timber
 
 
 @dataclass
 class Place:
-    """A point of the ground; what is noise in it is as fine as `grain`."""
+    """A point of the ground; its noise is band-limited by `grain`."""
 
     grain: Grain
     position: nodes.Value
     slope: nodes.Value  # 0 flat, 1 vertical
     canopy: nodes.Value  # kg/m2
-    bare: nodes.Value  # 0..1, part of the ground nearby without fuel
+    bare: nodes.Value  # 0..1, fraction of the ground nearby without fuel
     elevation: nodes.Value  # m
     distance: nodes.Value  # m from the camera
-    near: nodes.Value  # 1 where trees are drawn one by one
-    age: nodes.Value  # s since the fire came, negative before
+    near: nodes.Value  # 1 where trees are instanced
+    age: nodes.Value  # s since arrival, negative before
     burned: nodes.Value  # 0 or 1
     pixel: nodes.Value  # m
     speed: nodes.Value  # m/s, of the front
-    residence: nodes.Value  # s that flames stood there
+    residence: nodes.Value  # s, residence time of flames
     woody: nodes.Value  # 0 grass .. 1 timber
-    ash: nodes.Value  # 0..1, how pale what is left is
+    ash: nodes.Value  # 0..1, brightness of the residue
     scale: float  # of the front's and the scar's patterns, 1 in a crown fire
-    mixed: bool  # whether grass or shrubs burn, and not timber alone
-    beyond: nodes.Value  # 0 within the run, 1 where the cells of the apron are large
-    relief: float  # m, of hills that the apron's mesh is too coarse for
-    shrub: nodes.Value  # 0..1, part of open land under bushes; 0 in the Sierra, where all of it is noise
-    hollow: nodes.Value  # -1 crests to 1 hollows; as well
-    free: nodes.Value  # 1 where no map says what there is, so that fields and tracks may be invented
-    duff: nodes.Value  # -1..1, grain of the soil, of needles and of ash; 0 where pixels are larger
+    mixed: bool  # whether grass or shrubs burn, and not only timber
+    beyond: nodes.Value  # 0 within the run, 1 where the apron's cells have their full size
+    relief: float  # m, height of hills that the apron's mesh does not resolve
+    shrub: nodes.Value  # 0..1, shrub cover of open land; 0 in the Sierra, where it is noise
+    hollow: nodes.Value  # -1 crests to 1 hollows; 0 in the Sierra too
+    free: nodes.Value  # 1 where no map has data, so fields and tracks may be procedural
+    duff: nodes.Value  # -1..1, texture of soil, needles and ash; 0 where pixels are larger
 
     def coarser(self, least: float) -> Place:
-        """The same with noise of at least so many pixels, for other branches of the shader.
+        """The same point with noise of at least `least` pixels, for other branches of the shader.
 
-        Cycles works out what branches share before it knows which of them it needs. Noise whose octaves
+        Cycles evaluates nodes that branches share before it knows which branch it needs. Noise whose octaves
         differ is not shared.
         """
         return replace(self, grain=self.grain.coarser(least))
 
 
 def gather(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -> Place:
-    """A point, with noise in all of its octaves (`whole`) or in those that a picture can show.
+    """Shading inputs at a point, with noise in all octaves (`whole`) or band-limited to the picture.
 
-    Both in one material cost no more than one of them, as long as they are in different branches of it.
+    Both in one material cost no more than one of them, while they are in different branches of it.
     """
     radius = shot.settings.forest.draw_distance
     geometry = tree.node("ShaderNodeNewGeometry")
@@ -111,14 +111,14 @@ def gather(tree: nodes.Tree, known: fields.Fields, shot: Shot, *, whole: bool) -
 
 
 def _left_out(grain: Grain, speed: nodes.Value, woody: nodes.Value, scale: float) -> nodes.Value:
-    """More than 0 in tufts and strips of grass and shrubs that a front leaves out, most where it is slow."""
+    """Unburned islands: above 0 in tufts and strips of grass and shrubs, most where the front is slow."""
     tufts = grain.noise(45.0 * scale, 5.0, 0.66)
     weak = speed.ramp(0.03, 0.5, 0.08, 0.0)
     return (tufts + weak).smoothstep(0.66, 0.74) * (1.0 - woody).smoothstep(0.0, 0.4)
 
 
 def rock(tree: nodes.Tree, place: Place, outcrops: float = 1.0) -> nodes.Value:
-    """Bare rock 0..1: where nothing grows, on cliffs, and in outcrops that grow commoner with height."""
+    """Bare rock 0..1: without vegetation, on cliffs, and in outcrops whose frequency grows with elevation."""
     ragged = place.grain.noise(260.0, 6.0, 0.66)
     bare = (place.bare + (ragged - 0.5) * 1.7).smoothstep(0.42, 0.58) * (place.bare > 0.02)
     cliff = (place.slope + (ragged - 0.5) * 0.35).smoothstep(0.27, 0.36)

@@ -1,4 +1,4 @@
-"""What grows on the ground where it has not burned: canopy seen from afar, and the floor between trees."""
+"""Vegetation cover of unburned ground: canopy from afar, and the floor between trees close by."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from ..forest.biomes import Biome, Colour, Here
 from . import open_land as lands
 from .shading_inputs import Place
 
-_CROWNS_SEEN = (5000.0, 15_000.0)  # m from the camera at which crowns are full and gone
-_MEADOW = ((0.070, 0.070, 0.040), (0.110, 0.092, 0.052))  # of high and of low meadows in the dry season
-_SPRING = (0.062, 0.090, 0.030)  # of all of them when they are green
-_ON_ROCK = 0.5  # m that crowns on rock are farther apart
+_CROWNS_SEEN = (5000.0, 15_000.0)  # m from the camera at which crowns have full contrast and none
+_MEADOW = ((0.070, 0.070, 0.040), (0.110, 0.092, 0.052))  # high and low meadows in the dry season
+_SPRING = (0.062, 0.090, 0.030)  # all meadows when they are green
+_ON_ROCK = 0.5  # m between crowns on rock
 
 
 @dataclass
 class Crowns:
-    """Crowns that are drawn by the ground, by cells some metres wide."""
+    """Crowns in the ground's material, in cells some metres wide."""
 
-    dark: nodes.Value  # 0..1, how deep between crowns
-    tint: nodes.Value  # 0..1, from crown to crown
-    alone: nodes.Value  # 1 where one stands amid brush or on rock
+    dark: nodes.Value  # 0..1, depth between crowns
+    tint: nodes.Value  # 0..1, variation between crowns
+    alone: nodes.Value  # 1 for a crown amid brush or on rock
 
 
 def crowns(tree: nodes.Tree, place: Place, size: float, groups: nodes.Value) -> Crowns:
-    """Crowns in cells of `size` m. From afar one is less than a pixel: its mean is shown, without grain."""
+    """Crowns in cells of `size` m. From afar they are below the pixel size and filtered to their mean."""
     sharp = place.distance.ramp(*_CROWNS_SEEN, 1.0, 0.2)
     deep = tree.cells(place.position, size).smoothstep(0.34, 0.70)
     tint, lone, _ = tree.separate(tree.cells(place.position, size, "Color"))
@@ -42,13 +42,13 @@ def far(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.
     fine, patch, groups = _fine(grain), _patch(grain), _groups(grain)
     seen = crowns(tree, place, here.biome.crown, groups)
     cover = place.canopy + (patch - 0.5) * 0.9 + (groups - 0.5) * 1.6 + (fine - 0.5) * 0.6
-    # On the apron fuel's patches are as large as its cells: noise makes edges of all sizes of them. It is
-    # noise that is there already, as each is worked out three times for the bumps.
+    # Fuel patches on the apron are as large as its cells: noise turns them into edges of all sizes. Existing
+    # noise is reused, as bump mapping evaluates each noise three times.
     cover = cover + (patch - 0.5) * (place.beyond * place.canopy.smoothstep(0.0, 0.2)) * 3.6
-    hills = (patch - 0.5) * (place.beyond * place.relief)  # too fine for its mesh
+    hills = (patch - 0.5) * (place.beyond * place.relief)  # finer than its mesh
     if here.biome.open_land is None:
         cover = tree.math("MAXIMUM", cover.smoothstep(0.0, 0.7), seen.alone * 0.85)
-    else:  # lone trees are too few to be seen
+    else:  # lone trees are too sparse to be visible
         cover = cover.smoothstep(0.0, 0.7) * place.canopy.smoothstep(0.01, 0.1)
     canopy = tree.mix_colour(seen.dark, _canopy(tree, grain, seen.tint, here), here.biome.between)
     if here.biome.open_land is not None:
@@ -62,9 +62,9 @@ def far(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.
 
 
 def on_rock(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
-    """Colour of lone trees on rock, and where they stand (0..1).
+    """Colour of lone trees on rock, and their coverage (0..1).
 
-    They have cells of their own, so that these are worked out on rock alone.
+    They have cells of their own, so that these are evaluated on rock only.
     """
     biome = here.biome
     seen = crowns(tree, place, biome.crown + _ON_ROCK, _groups(place.grain))
@@ -74,7 +74,7 @@ def on_rock(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, no
 
 
 def close(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, nodes.Value]:
-    """Colour and height (m) where trees and brush stand there one by one."""
+    """Colour and height (m) of the ground where trees and brush are instanced."""
     fine, patch = _fine(place.grain), _patch(place.grain)
     height: nodes.Value | None = None
     if here.biome.open_land is None:
@@ -85,7 +85,7 @@ def close(tree: nodes.Tree, place: Place, here: Here) -> tuple[nodes.Value, node
     floor = (place.canopy + (patch - 0.5) * 0.5 + (fine - 0.5) * 0.4).smoothstep(0.0, 0.35)
     litter = tree.mix_colour(fine.smoothstep(0.3, 0.7), *here.biome.litter)
     needles = tree.mix_colour(fine, (0.036, 0.025, 0.015), (0.078, 0.054, 0.033))
-    beside = place.pixel.ramp(0.02, 0.20, 1.0, 0.0)  # brush is a colour but where it stands one by one
+    beside = place.pixel.ramp(0.02, 0.20, 1.0, 0.0)  # brush is a colour where it is not instanced
     litter = tree.mix_colour(beside, litter, needles)
     green = place.grain.noise(5.0, 4.0, 0.65).smoothstep(0.47, 0.60) * (1.0 - beside * 0.85)
     scrub = tree.mix_colour(green, litter, here.biome.scrub)
@@ -103,7 +103,7 @@ def _patch(grain: Grain) -> nodes.Value:
 
 
 def _needles(tree: nodes.Tree, tint: nodes.Value, here: Here) -> nodes.Value:
-    """Colour of crowns in the sun."""
+    """Colour of sunlit crowns."""
     dark, light = (seasonal(here.biome, colour, here.green) for colour in here.biome.needles)
     deep = tree.input("Forest Dark", dark, "Darkest crowns of the far forest", "Forest")
     pale = tree.input("Forest Light", light, "Lightest crowns of the far forest", "Forest")
@@ -119,7 +119,7 @@ def _stands(grain: Grain) -> nodes.Value:
 
 
 def _canopy(tree: nodes.Tree, grain: Grain, tint: nodes.Value, here: Here) -> nodes.Value:
-    """Colour of crowns in the sun, stand by stand."""
+    """Colour of sunlit crowns, varied by stand."""
     dark = _needles(tree, tint, here)
     stands = _stands(grain)
     dark = tree.mix_colour(stands.smoothstep(0.40, 0.62), dark, tree.mix_colour(0.6, dark, here.biome.stands))
@@ -141,11 +141,11 @@ def _open_ground(
 
 
 def between(part: float, first: Colour, second: Colour) -> Colour:
-    """A colour so far between two others."""
+    """Linear interpolation of two colours."""
     return tuple(np.add(first, part * np.subtract(second, first)).tolist())
 
 
 def seasonal(biome: Biome, colour: Colour, green: float) -> Colour:
-    """Colour of crowns, of which some shed their leaves."""
+    """Colour of crowns, the deciduous ones by season."""
     part = biome.deciduous * (1.0 - green)
     return tuple(np.multiply(colour, 1.0 + part * (np.array(biome.withered) - 1.0)).tolist())
