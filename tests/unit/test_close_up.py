@@ -18,7 +18,7 @@ def shot(distance=200.0, place=(500.0, -300.0, 80.0), **smoke):
     path = SimpleNamespace(position=np.array([place]), rotation=turn[None])
     settings = SimpleNamespace(smoke=SimpleNamespace(**({"voxel_size": 0.0} | smoke)))
     return SimpleNamespace(
-        near=[path], settings=settings, fire_distance=distance, filmed=lambda path: np.array([0])
+        perspective_paths=[path], settings=settings, fire_distance=distance, filmed=lambda path: np.array([0])
     )
 
 

@@ -242,7 +242,7 @@ def test_ends_of_scales_are_those_of_the_shot_and_read_once(make_run, monkeypatc
 
 def test_the_thermal_scale_follows_the_moment_alone(make_run, monkeypatch):
     """A dawn and a noon 20 K warmer: each frame's palette begins at its own air, in whatever shot it is."""
-    monkeypatch.setattr(air_temperature.sun, "at", lambda run, time: (180.0, 40.0))
+    monkeypatch.setattr(air_temperature.sun, "position", lambda run, time: (180.0, 40.0))
     night = np.full((3, 4, 5), 285.0, np.float32)
     run = runs.open(make_run(temperature=night + np.array([0.0, 10.0, 20.0], np.float32)[:, None, None]))
     made = Shot(Settings(time=Time(frames=3)), run)
