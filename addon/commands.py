@@ -98,7 +98,7 @@ def score(arguments: argparse.Namespace) -> None:
     seen = observations.read(each for each in named if observations.is_one(each))
     if seen.heat and not (seen.perimeters or seen.detections or runs):
         raise input_error(named[0], 0, 0, "holds heat but no perimeter, so there is nothing to compare with")
-    found = scores.score(run, seen, *runs, zone=zone.time_zone(run))
+    found = scores.score(run, seen, runs[0] if runs else None, zone=zone.time_zone(run))
     result(json.dumps(found, indent=1) if arguments.json else page.page(found))
     if arguments.report:
         from .run.score import report

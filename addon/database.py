@@ -94,7 +94,8 @@ class Database:
             raise input_error(self.path, 0, 0, BROKEN.format("a store"))
 
     def _format(self) -> int:
-        return self.one("PRAGMA user_version")[0]
+        (number,) = self.one("PRAGMA user_version") or (0,)
+        return number
 
     @contextlib.contextmanager
     def _told(self) -> Iterator[None]:

@@ -7,8 +7,12 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
 
 from .escaped import escaped, message
+
+if TYPE_CHECKING:
+    from tqdm import tqdm
 
 Progress = Callable[..., None]
 """Called as ``progress(done, total, "what is done", "a note")`` while work goes on; texts may be left out."""
@@ -79,7 +83,7 @@ class Reporter:
 class _Bar:
     def __init__(self, what: str) -> None:
         self.what = what
-        self.bar = None
+        self.bar: tqdm | None = None
 
     def update(self, done: int, total: int, note: str = "") -> None:
         if self.bar is None:

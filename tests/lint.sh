@@ -33,6 +33,7 @@ if ((${#python[@]})); then
   .venv/bin/ruff format --check "${python[@]}"
   .venv/bin/ruff check "${python[@]}"
   check_floors
+  .venv/bin/mypy --no-error-summary # type hints, of the whole package
 fi
 if ((${#cpp[@]})); then
   printf '%s\0' "${cpp[@]}" | xargs -0 -n 40 -P "$(nproc)" .venv/bin/clang-format --dry-run --Werror

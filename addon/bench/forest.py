@@ -32,9 +32,12 @@ def fuel_grid(side: int) -> Grid:
 
 def planted(grid: Grid) -> tuple[forest.Trees, forest.Grass]:
     """A plant of each cell."""
-    canopy, surface, *place = grid
+    canopy, surface, latitude, longitude, elevation = grid
     frame = LocalFrame(*ORIGIN)
-    return forest.trees(canopy, *place, frame, seed=5), forest.grass(surface, *place, frame, seed=5)
+    return (
+        forest.trees(canopy, latitude, longitude, elevation, frame, seed=5),
+        forest.grass(surface, latitude, longitude, elevation, frame, seed=5),
+    )
 
 
 def drone() -> lod.ViewSet:
@@ -54,8 +57,9 @@ def part(grid: Grid, stems: int) -> NDArray[np.float32]:
 
 def stand(grid: Grid, kept: NDArray, views: lod.ViewSet) -> tuple[forest.Stems, NDArray]:
     """The stems, and the distance level of each that is seen."""
-    canopy, _, *place = grid
-    stems = forest.stand(canopy, *place, LocalFrame(*ORIGIN), seed=5, retained=kept)
+    canopy, _, latitude, longitude, elevation = grid
+    frame = LocalFrame(*ORIGIN)
+    stems = forest.stand(canopy, latitude, longitude, elevation, frame, seed=5, retained=kept)
     seen = lod.visible_mask(stems.position, 0.6 * stems.scale, views)
     return stems, lod.levels(lod.distance(stems.position[seen], views))
 
@@ -63,8 +67,9 @@ def stand(grid: Grid, kept: NDArray, views: lod.ViewSet) -> tuple[forest.Stems, 
 def run(bench: Bench) -> None:
     """The King Fire's fuel: a plant a cell, then a stand, on one and two threads."""
     grid, views = fuel_grid(SIDE), drone()
-    plants, call = sum(map(len, planted(grid))), partial(planted, grid)
+    trees, grass = planted(grid)
+    plants, call = len(trees) + len(grass), partial(planted, grid)
     bench.race(f"{SIDE} x {SIDE}", [Runner(OURS, call), Runner(OURS, call, threads=2)], plants, "plant")
-    call = partial(stand, grid, part(grid, STEMS), views)
-    tools = [Runner(OURS, call), Runner(OURS, call, threads=2)]
+    grow = partial(stand, grid, part(grid, STEMS), views)
+    tools = [Runner(OURS, grow), Runner(OURS, grow, threads=2)]
     bench.race(f"a stand of {STEMS:,} stems", tools, len(call()[0]), "stem")

@@ -39,7 +39,7 @@ def ours_on_files(exr: Path, png: Path, table: sensor.PlanckTable) -> None:
     sensor.write_image(png, sensor.colour(kelvin, LOW, HIGH, "ironbow", KNEE))
 
 
-def numpy_on_files(exr: Path, png: Path, stops: NDArray[np.float32]) -> None:
+def numpy_on_files(exr: Path, png: Path, stops: NDArray[np.float64]) -> None:
     """The same with NumPy between the same reader and writer."""
     kelvin = with_numpy(sensor.read_image(exr)[..., 0])
     above = np.clip(kelvin - LOW, 0.0, HIGH - LOW)
@@ -58,6 +58,7 @@ def run(bench: Bench) -> None:
     ours = _runner(OURS, partial(sensor.PlanckTable(BAND).brightness_temperature, radiance), exact)
     tools += [ours, _runner("NumPy", partial(with_numpy, radiance), exact)]
     bench.race("radiance to kelvin", tools, pixels, "pixel", "mK")
+    assert ours.error is not None
     bench.target("brightness temperature by the table is off by", ours.error, 1.0, "mK", most=True)
     with tempfile.TemporaryDirectory() as folder:
         exr, png = Path(folder) / "in.exr", Path(folder) / "out.png"

@@ -138,8 +138,7 @@ def _rows(rows: list[Row]) -> Iterator[str]:
         key = row.subject, row.case
         if row.tool.startswith(OURS) and row.seconds:
             ours.setdefault(key, row.seconds)
-        comparable = key in ours and row.seconds
-        beside = f"{number(row.seconds / ours[key])}x" if comparable else ""
+        beside = f"{number(row.seconds / ours[key])}x" if key in ours and row.seconds else ""
         error = f"{number(row.error)} {row.error_unit}" if row.error is not None else ""
         yield (
             f"| {row.subject} | {row.case} | {row.label} | {times(row)} | {time(row.processor_seconds)} "

@@ -13,8 +13,12 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+import numpy as np
+from numpy.typing import NDArray
 
 from . import owned
+
+Numbers = Sequence[float] | NDArray[np.int64] | NDArray[np.floating]
 
 _SOCKET_ALIASES = {"Fac": "Factor", "Factor": "Fac"}
 
@@ -42,9 +46,7 @@ def _action_name(datablock: bpy.types.ID) -> str:
     return f"Firetwin {datablock.name.removeprefix('Firetwin ')} Action"
 
 
-def animate(
-    datablock: bpy.types.ID, data_path: str, index: int, frames: Sequence[float], values: Sequence[float]
-) -> None:
+def animate(datablock: bpy.types.ID, data_path: str, index: int, frames: Numbers, values: Numbers) -> None:
     """Make a property go through `values` at `frames`, both (n,), in straight lines."""
     curve = new_fcurve(datablock, data_path, index)
     curve.keyframe_points.add(len(frames))
@@ -59,9 +61,9 @@ def animate_smoothly(
     datablock: bpy.types.ID,
     data_path: str,
     index: int,
-    frames: Sequence[float],
-    values: Sequence[float],
-    slopes: Sequence[float],
+    frames: Numbers,
+    values: Numbers,
+    slopes: Numbers,
 ) -> None:
     """Make a property go through `values` at `frames` with `slopes` (per frame), all (n,), in smooth curves.
 

@@ -34,6 +34,7 @@ def take(wanted: str, scene: bpy.types.Scene) -> str:
     if not names:
         return "the processor" + ("" if wanted == "cpu" else " (no GPU found)")
     preferences = _preferences()
+    assert preferences is not None  # or there were no names
     preferences.compute_device_type = kind
     for device in preferences.devices:
         device.use = device.type == kind
@@ -54,7 +55,9 @@ def _preferences() -> bpy.types.AddonPreferences | None:
 def _gpus() -> tuple[str, list[str]]:
     """The first kind of device that there are GPUs of, and their names."""
     preferences = _preferences()
-    known = {entry[0] for entry in preferences.get_device_types(bpy.context)} if preferences else ()
+    if preferences is None:
+        return "NONE", []
+    known = {entry[0] for entry in preferences.get_device_types(bpy.context)}
     for kind in KINDS:
         if kind in known:
             names = [d.name for d in preferences.get_devices_for_type(kind) or () if d.type == kind]

@@ -18,8 +18,12 @@ from contextlib import contextmanager
 from typing import Any
 
 import bpy
+import numpy as np
+from numpy.typing import NDArray
 
 from . import compat, layout, owned
+
+Inputs = Mapping[str, Any] | Mapping[int, Any] | Mapping[str | int, Any] | Sequence[Any]
 
 TIME = "firetwin_time"
 THERMAL = "firetwin_thermal"
@@ -146,20 +150,18 @@ class Tree:
             parent = next((item for item in interface.items_tree if _is_panel(item, panel)), None)
             if panel and parent is None:
                 parent = interface.new_panel(panel)
-            colour = isinstance(default, Sequence)
-            kind = "Color" if colour else "Int" if isinstance(default, int) else "Float"
+            shade = (*default, 1.0)[:4] if isinstance(default, Sequence) else None
+            kind = "Color" if shade else "Int" if isinstance(default, int) else "Float"
             made = interface.new_socket(
                 name, description=help, in_out="INPUT", socket_type=f"NodeSocket{kind}", parent=parent
             )
-            made.default_value = (*default, 1.0)[:4] if colour else default
+            made.default_value = shade or default
             for bound, value in (("min_value", least), ("max_value", most)):
-                if value is not None and not colour:
+                if value is not None and not shade:
                     setattr(made, bound, value)
         return self.output("NodeGroupInput", name=name)
 
-    def node(
-        self, kind: str, inputs: Mapping[str | int, Any] | Sequence[Any] = (), **properties: Any
-    ) -> bpy.types.Node:
+    def node(self, kind: str, inputs: Inputs = (), **properties: Any) -> bpy.types.Node:
         """Add a node: first its properties, then its inputs by name (or in order)."""
         node = self.node_tree.nodes.new(kind)
         if self._frame is not None:
@@ -168,14 +170,14 @@ class Tree:
             if getattr(node, name) != value:  # Blender looks over the whole tree after every change
                 setattr(node, name, value)
         pairs = inputs.items() if isinstance(inputs, Mapping) else enumerate(inputs)
-        for name, value in pairs:
-            self.connect(value, compat.find_socket(node.inputs, name))
+        for socket, value in pairs:
+            self.connect(value, compat.find_socket(node.inputs, socket))
         return node
 
     def output(
         self,
         kind: str,
-        inputs: Mapping[str | int, Any] | Sequence[Any] = (),
+        inputs: Inputs = (),
         name: str | int = 0,
         **properties: Any,
     ) -> Value:
@@ -240,7 +242,7 @@ class Tree:
         """A glowing surface or volume."""
         return self.output("ShaderNodeEmission", {"Color": colour, "Strength": strength})
 
-    def colours(self, place: Any, stops: Sequence[Sequence[float]]) -> Value:
+    def colours(self, place: Any, stops: Sequence[Sequence[float]] | NDArray[np.float64]) -> Value:
         """Colours at equal steps of `place` from 0 to 1, linear between and held outside.
 
         A Color Ramp looks them up in 257 steps in some releases, off by 0.003 at its stops.
@@ -264,7 +266,7 @@ class Tree:
         return self.output("ShaderNodeAttribute", (), output, attribute_name=name, attribute_type=kind)
 
     def noise(
-        self, position: Any, size: float, octaves: float = 2.0, roughness: float = 0.55, name: str = "Fac"
+        self, position: Any, size: float, octaves: Any = 2.0, roughness: float = 0.55, name: str = "Fac"
     ) -> Value:
         """Perlin noise 0..1 about 0.5 with features of `size` (units of `position`)."""
         inputs = {"Vector": position, "Scale": 1.0 / size, "Detail": octaves, "Roughness": roughness}

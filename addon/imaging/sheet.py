@@ -6,6 +6,7 @@ Sizes are in units of a hundredth of the picture's height (of 16:9), so a sheet 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -14,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
-from matplotlib.patheffects import withStroke
+from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.text import Text
 from numpy.typing import NDArray
 
@@ -36,7 +37,9 @@ class Sheet:
     def __init__(self, width: int, height: int) -> None:
         self.width, self.height = width, height
         self.unit = min(width / 178.0, height / 100.0)
-        self.shadow = [withStroke(linewidth=0.5 * self.points(1.0), foreground="#000000b0")]
+        self.shadow: list[AbstractPathEffect] = [
+            withStroke(linewidth=0.5 * self.points(1.0), foreground="#000000b0")
+        ]
         across = (width / self.unit - _SIDE - 3.0 * _GAP) / 2.0
         up = (height / self.unit - 8.0 - 3.0 * _GAP) / 2.0
         self.wide = min(across, up * width / height)
@@ -97,9 +100,16 @@ class Sheet:
         axes.set_ylim(-1.0, 1.0)
         for (wide, high), what in (outlined or {}).items():
             if min(wide, high) < 1.0:
-                corner, edge = (-wide, -high), {"edgecolor": INK, "linewidth": self.points(0.25)}
-                axes.add_patch(Rectangle(corner, 2.0 * wide, 2.0 * high, fill=False, **edge))
-                said = {"size": self.points(1.5), "family": "DejaVu Sans", "color": INK, "va": "bottom"}
+                corner, line = (-wide, -high), self.points(0.25)
+                axes.add_patch(
+                    Rectangle(corner, 2.0 * wide, 2.0 * high, fill=False, edgecolor=INK, linewidth=line)
+                )
+                said: dict[str, Any] = {
+                    "size": self.points(1.5),
+                    "family": "DejaVu Sans",
+                    "color": INK,
+                    "va": "bottom",
+                }
                 axes.text(0.015 - wide, 0.02 - high, what, path_effects=self.shadow, **said)
 
     def thermal(
@@ -133,7 +143,7 @@ class Sheet:
         bar = _DEPTHS(np.linspace(1.0, 0.0, 256))[:, None, :3]
         self._scale(place, bar, list(zip(names, places, strict=True)), "")
 
-    def text(self, x: float, y: float, text: str, size: float, colour: str = INK, **more: object) -> Text:
+    def text(self, x: float, y: float, text: str, size: float, colour: str = INK, **more: Any) -> Text:
         """Text at (x, y) units from the upper left corner, `size` units high."""
         at = x * self.unit / self.width, 1.0 - y * self.unit / self.height
         return self.figure.text(*at, text, size=self.points(size), color=colour, family="DejaVu Sans", **more)
@@ -146,7 +156,7 @@ class Sheet:
         """Make a text smaller that is wider than its room, units."""
         wide = self.length(text)
         if wide > room:
-            text.set_size(text.get_size() * room / wide)
+            text.set_fontsize(float(text.get_fontsize()) * room / wide)
 
     def points(self, units: float) -> float:
         """Units as typographic points."""

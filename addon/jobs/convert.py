@@ -95,6 +95,7 @@ def beside(
             return out, False
         if _made_of(out) == inputs:
             return out, True
+    raise AssertionError  # numbers do not end
 
 
 def _existing(folder: Path) -> Path:
@@ -125,7 +126,8 @@ def _convert(files: list[Path], out: Path, options: list, progress: Progress, te
     from ..run.models.model import Options
 
     try:
-        said = Options.of(*options[:4], files, *options[4:])
+        start, at, projection, interval, *more = options
+        said = Options.of(start, at, projection, interval, files, *more)
         reader = readers.reader(files)
         tell(f"{files[0].name} is {reader.NAME}")
         model = reader.read(files, said)

@@ -195,6 +195,8 @@ def _converse(
     watch: _Watchdog,
 ) -> dict[str, Any]:
     """Send the request, pass on progress and messages, and return the last answer; empty without one."""
+    assert child.stdin is not None
+    assert child.stdout is not None
     try:
         child.stdin.write(json.dumps(request) + "\n")
         child.stdin.flush()
@@ -218,6 +220,8 @@ def _converse(
 
 def _end(child: subprocess.Popen[str]) -> None:
     """End the child if it still runs: terminate, then kill."""
+    assert child.stdin is not None
+    assert child.stdout is not None
     child.stdout.close()
     with contextlib.suppress(OSError):
         child.stdin.close()

@@ -37,6 +37,8 @@ def make(
 def _finish(shot: Shot, session: RenderSession, part: Path, picture: Picture) -> None:
     """Write the files of a comparison picture into the temporary folder."""
     comparing, out = passes.known()[picture.name], session.store.out
+    assert isinstance(comparing, passes.ComparisonPass)
+    assert comparing.finish
     labels = [run.name for run in shot.settings.runs]
     needed = {name: _files(picture, picture.camera, name, out) for name in comparing.made_from}
     for name, label in itertools.product(comparing.needs_of_all, labels):

@@ -53,7 +53,7 @@ class Surfaces:
     fire: Array
     distance: Array
     nearness: Array
-    aside: Array
+    aside: NDArray[np.float64]
     solid: Array
     fire_distance: Array
     rays: int

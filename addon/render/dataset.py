@@ -7,6 +7,7 @@ projection have no index. The file is replaced atomically when a render ends.
 
 from __future__ import annotations
 
+import functools
 import json
 from collections import defaultdict
 from pathlib import Path, PurePosixPath
@@ -36,7 +37,11 @@ def write(store: Store) -> None:
         index = {"camera_model": "OPENCV", "classes": dict(enumerate(masks.NAMES)), "frames": listed}
         text = json.dumps(index, indent=1) + "\n"
         path = store.out / camera / NAME
-        files.write(path, lambda part, text=text: part.write_text(text, encoding="utf-8"))
+        files.write(path, functools.partial(_put, text))
+
+
+def _put(text: str, part: Path) -> None:
+    part.write_text(text, encoding="utf-8")
 
 
 def _frame(folder: Path, shown: str, passes: dict[str, list[str]]) -> dict[str, Any] | None:

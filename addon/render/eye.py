@@ -39,9 +39,9 @@ class Eye:
         self, shot: Shot, stage: Stage, channels: Channels, number: int, smoke: Sequence[volume.Bricks]
     ) -> None:
         self.shot, self.stage, self.channels, self.smoke = shot, stage, channels, smoke
-        self.shape = next(iter(channels.values())).shape[:2]
+        height, width = self.shape = next(iter(channels.values())).shape[:2]
         self._through = functools.partial(
-            rays.through, stage.evaluated(stage.scene.camera), stage.scene, *self.shape, number
+            rays.through, stage.evaluated(stage.scene.camera), stage.scene, height, width, number
         )
         self.rays = self._through()
 

@@ -102,7 +102,7 @@ class Drawing:
         """Render passes whose rays all go through pixel centres."""
         eyes = surfaces.draw(self.scene, [each.name for each in pictures], part, centres=True)
         for picture in pictures:
-            known, halves = passes.known()[picture.name], []
+            known, halves = layers.rendered(picture.name), []
             for number, found in eyes:
                 channels = found[picture.name]
                 pixels = channels["Combined" if known.socket == "Image" else known.socket]
@@ -179,6 +179,7 @@ def _shadow(shot: Shot, stage: Stage) -> shadow.Shadow | None:
 def _show(scene: bpy.types.Scene) -> bpy.types.Image:
     """Replace the visible picture of Cycles in the compositor by an image node."""
     tree = compat.compositor(scene)
+    assert tree is not None  # `layers.build` has made it
     image = owned.mark(bpy.data.images.new(f"Firetwin {_PICTURE}", 4, 4, float_buffer=True, is_data=True))
     image.source = "FILE"
     node = next((each for each in tree.nodes if owned.ours(each, _PICTURE)), None)

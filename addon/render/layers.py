@@ -90,7 +90,7 @@ def mend(scene: bpy.types.Scene) -> None:
     if tree is None or not owned.ours(tree):
         return
     for node in [node for node in tree.nodes if owned.ours(node) and compat.lost_files(node)]:
-        each = passes.known()[node[owned.MARK].removeprefix("exr ")]
+        each = rendered(node[owned.MARK].removeprefix("exr "))
         tree.nodes.remove(node)
         _file(tree, each, _image(tree, each))
     for link in list(tree.links):
@@ -147,7 +147,9 @@ def plain(scene: bpy.types.Scene, names: Iterable[str]) -> Iterator[None]:
 def write_exr(scene: bpy.types.Scene, folder: str, pictures: Iterable[Picture]) -> None:
     """Unmute the EXR outputs of these pictures, into a folder, for the next render; mute all others."""
     stems = {f"exr {picture.name}": picture.stem() for picture in pictures}
-    for node in compat.compositor(scene).nodes:
+    tree = compat.compositor(scene)
+    assert tree is not None  # `build` has made it
+    for node in tree.nodes:
         what = node.get(owned.MARK)
         if isinstance(what, str) and what.startswith("exr "):
             node.mute = what not in stems
@@ -158,6 +160,13 @@ def write_exr(scene: bpy.types.Scene, folder: str, pictures: Iterable[Picture]) 
 def still(each: Pass) -> bool:
     """Whether the render itself writes this pass's PNG: the output of the compositor."""
     return "png" in each.files and each.finish is None
+
+
+def rendered(name: str) -> RenderedPass:
+    """A pass with a view layer."""
+    each = passes.known()[name]
+    assert isinstance(each, RenderedPass)
+    return each
 
 
 def _rendered() -> list[RenderedPass]:

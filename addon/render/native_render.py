@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import bpy
@@ -35,7 +36,7 @@ def to_files(stage: Stage, out: Path, camera: str, names: tuple[str, ...]) -> No
     layers.mend(stage.scene)
     layers.select(stage.scene, chosen)
     pictures = {name: Picture(camera, 1, name) for name in chosen}
-    for node in compat.compositor(stage.scene).nodes:
+    for node in _nodes(stage.scene):
         what = str(node.get(owned.MARK, ""))
         if what.startswith("exr "):
             picture = pictures.get(what.removeprefix("exr "))
@@ -49,13 +50,17 @@ def to_files(stage: Stage, out: Path, camera: str, names: tuple[str, ...]) -> No
 
 def to_none(stage: Stage) -> None:
     """Set Blender's own renders to write no pass files."""
-    for node in compat.compositor(stage.scene).nodes:
+    for node in _nodes(stage.scene):
         if str(node.get(owned.MARK, "")).startswith("exr "):
             node.mute = True
 
 
 def writes(scene: bpy.types.Scene) -> bool:
     """Whether Blender's own renders write pass files."""
+    return any(str(node.get(owned.MARK, "")).startswith("exr ") and not node.mute for node in _nodes(scene))
+
+
+def _nodes(scene: bpy.types.Scene) -> Iterable[bpy.types.Node]:
+    """Of the compositor, which an artist may have taken away."""
     tree = compat.compositor(scene)
-    nodes = tree.nodes if tree is not None else ()
-    return any(str(node.get(owned.MARK, "")).startswith("exr ") and not node.mute for node in nodes)
+    return tree.nodes if tree is not None else ()

@@ -149,7 +149,7 @@ class _Frame:
         """Render the view layers of these passes, with smoke."""
         kinds = defaultdict(list)
         for each in pictures:
-            known = passes.known()[each.name]
+            known = layers.rendered(each.name)
             kinds[known.pixel_centres, known.through_smoke].append(each)
         for (centres, through_smoke), group in sorted(kinds.items()):
             names = [each.name for each in group]

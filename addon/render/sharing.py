@@ -92,7 +92,8 @@ class FrameQueue:
         groups = itertools.groupby(wanted, key=lambda picture: (picture.camera, picture.frame))
         self.waiting = {frame: list(group) for frame, group in groups}
         self.following: tuple[Frame, list[str]] | None = None
-        self.camera, self.frame, self.names = "", 0, []
+        self.camera, self.frame = "", 0
+        self.names: list[str] = []
 
     def step(self) -> bool:
         """Lease the next frame that is neither finished nor leased; False when there is none now."""

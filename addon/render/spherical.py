@@ -13,6 +13,7 @@ import struct
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
+from typing import BinaryIO
 
 from ..errors import Error, input_error
 
@@ -69,7 +70,7 @@ def film(path: Path) -> None:
         part.unlink(missing_ok=True)
 
 
-def _boxes_of_file(film: object, size: int) -> Iterator[tuple[bytes, int, int]]:
+def _boxes_of_file(film: BinaryIO, size: int) -> Iterator[tuple[bytes, int, int]]:
     """Kind, start and end of each box of a file."""
     place = 0
     while place < size:
@@ -80,7 +81,7 @@ def _boxes_of_file(film: object, size: int) -> Iterator[tuple[bytes, int, int]]:
         place += max(length, 8)
 
 
-def _copy(film: object, made: object, count: int) -> None:
+def _copy(film: BinaryIO, made: BinaryIO, count: int) -> None:
     while count > 0:
         count -= made.write(film.read(min(count, 2**20)))
 

@@ -96,7 +96,8 @@ class Store:
 
     def number(self) -> int:
         """Number of the latest entry; numbers increase with every entry."""
-        return self.data.one("SELECT max(number) FROM files")[0] or 0
+        (last,) = self.data.one("SELECT max(number) FROM files") or (None,)
+        return last or 0
 
     def names(self) -> list[str]:
         """Paths of all finished files, sorted."""

@@ -27,7 +27,9 @@ def at(run: Run, time: float) -> NDArray[np.float32]:
     return (1 - part) * _frame(run, after - 1) + part * _frame(run, after)
 
 
-def areas(run: Run, moments: Sequence[float], strip: NDArray, width: NDArray) -> list[float]:
+def areas(
+    run: Run, moments: Sequence[float] | NDArray[np.float64], strip: NDArray, width: NDArray
+) -> list[float]:
     """Burned area (m2) by each of these model times (s), linear between the run's times.
 
     Parameters

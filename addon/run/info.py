@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 from firetwin_core.run import Run
+from numpy.typing import NDArray
 
 from ..data import history
 from ..escaped import escaped
@@ -73,7 +74,7 @@ def _find(run: Run, zone: str) -> dict[str, Any]:
     }
 
 
-def burned(run: Run, moments: Sequence[float]) -> list[float]:
+def burned(run: Run, moments: Sequence[float] | NDArray[np.float64]) -> list[float]:
     """Area (m2) burned by each of these model times (s).
 
     Burned shares of cells where the run has them (`burned_fraction`), linear between its times; else the fuel

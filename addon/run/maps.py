@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import matplotlib
 import numpy as np
@@ -84,7 +84,8 @@ def _seen(axes: Axes, run: Run, zone: str, seen: Observations) -> None:
     """Outline what was seen burned, each date in a blue of its own, and infrared flights' heat by class."""
     if not seen.perimeters and not seen.heat:
         return
-    before, bounds, lines = axes.get_legend(), (axes.get_xlim(), axes.get_ylim()), []
+    before, bounds = axes.get_legend(), (axes.get_xlim(), axes.get_ylim())
+    lines: list[Artist] = []
     for i, each in enumerate(seen.perimeters):
         style = {"edgecolor": SEEN((i + 1) / len(seen.perimeters)), "linewidth": 1.1, "zorder": 4}
         lines.append(_outline(axes, run, each.polygons, style))
@@ -110,23 +111,24 @@ def _outline(axes: Axes, run: Run, polygons: Sequence[Polygons], style: dict) ->
             left = np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) > 0  # turns; holes have to the other way
             corners = corners if left == (place == 0) else corners[::-1]
             paths.append(Outline([*corners, corners[0]], closed=True))
-    return axes.add_patch(PathPatch(Outline.make_compound_path(*paths), facecolor="none", **style))
+    patch = PathPatch(Outline.make_compound_path(*paths), facecolor="none", **style)
+    axes.add_patch(patch)
+    return patch
 
 
 def _heat(axes: Axes, run: Run, kind: str, found: Sequence[Heat]) -> Artist:
     """One class of heat of all flights: hatched as the map symbols of the NWCG are, or dots."""
-    drawn: Artist | None = None
     polygons = [polygon for each in found for polygon in each.polygons]
     if polygons:
         hatch = {"intense": "////", "scattered": "...."}.get(kind)
         style = {"edgecolor": HEAT[kind], "linewidth": 0.7, "hatch": hatch, "zorder": 4}
-        drawn = _outline(axes, run, polygons, style)
+        drawn: Artist = _outline(axes, run, polygons, style)
     points = np.concatenate([each.points for each in found])
     if len(points):
         middle = float(run.longitude[0] + run.longitude[-1]) / 2
         x, y = areas.turned(points[:, 0], middle), points[:, 1]
-        style = {"color": HEAT[kind], "marker": "o", "linestyle": "none", "zorder": 5}
-        (drawn,) = axes.plot(x, y, markersize=2.6, **style)
+        colour = HEAT[kind]
+        (drawn,) = axes.plot(x, y, color=colour, marker="o", markersize=2.6, linestyle="none", zorder=5)
     drawn.set_label(f"{kind} heat")
     return drawn
 
@@ -168,7 +170,7 @@ def _places(axes: Axes, run: Run) -> None:
         )
         if place.kind not in marks or place.approximate or corner or not inside:  # the scale bar is there
             continue
-        style = {"color": "#2166ac" if place.kind == "lake" else "black", "zorder": 8}
+        style: dict[str, Any] = {"color": "#2166ac" if place.kind == "lake" else "black", "zorder": 8}
         axes.plot(place.longitude, place.latitude, marks[place.kind], markersize=3.2, **style)
         text = axes.annotate(
             place.name,
@@ -195,8 +197,8 @@ def _page(run: Run, title: str, subtitle: str) -> tuple[Figure, Axes]:
     figure.text(0.09, 0.915, f"{name}: {subtitle}", size=9.5, va="center", color="#444444")
     west, east = areas.edges(run.longitude)[[0, -1]]
     south, north = areas.edges(run.latitude)[[0, -1]]
-    axes.set_xlim(sorted((west, east)) if west != east else (west - 0.01, east + 0.01))
-    axes.set_ylim(sorted((south, north)) if south != north else (south - 0.01, north + 0.01))
+    axes.set_xlim((min(west, east), max(west, east)) if west != east else (west - 0.01, east + 0.01))
+    axes.set_ylim((min(south, north), max(south, north)) if south != north else (south - 0.01, north + 0.01))
     axes.set_aspect(1 / np.cos(np.radians(np.mean(axes.get_ylim()))), adjustable="box", anchor="SW")
     axes.locator_params(nbins=6)
     for axis, (negative, positive) in ((axes.xaxis, "WE"), (axes.yaxis, "SN")):
@@ -333,7 +335,7 @@ def _north_arrow(axes: Axes) -> None:
         )
 
 
-_PLATE = {"facecolor": "white", "alpha": 0.78, "edgecolor": "none"}
+_PLATE: dict[str, Any] = {"facecolor": "white", "alpha": 0.78, "edgecolor": "none"}
 
 
 def _save(figure: Figure, path: Path) -> None:

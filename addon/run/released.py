@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from firetwin_core.run import Run
+from numpy.typing import NDArray
 
 from . import areas, blocks, burned_fraction
 from .models.fuels import HEAT
@@ -23,13 +26,20 @@ def of_fuel(run: Run) -> float:
     """
     strip, width = areas.area_factors(run.fuel_latitude, run.fuel_longitude)
     last, total = float(run.times[-1]), 0.0
-    share = burned_fraction.at(run, last) if run.has(burned_fraction.FIELD) else None
-    arrival = None if share is not None else blocks.arrival(run)
+    burned = _burned(run, last)
     for first, end in blocks.rows(run):
         load = sum(np.nan_to_num(run.fuel_rows(f"{each}_fuel", first, end)) for each in ("surface", "canopy"))
-        burned = share[first:end] if arrival is None else arrival(first, end) <= last
-        total += float(strip[first:end] @ ((load * burned) @ width))
+        total += float(strip[first:end] @ ((load * burned(first, end)) @ width))
     return HEAT * total
+
+
+def _burned(run: Run, time: float) -> Callable[[int, int], NDArray]:
+    """What reads how far some rows of cells have burned by a time (s), 0 to 1."""
+    if run.has(burned_fraction.FIELD):
+        share = burned_fraction.at(run, time)
+        return lambda first, end: share[first:end]
+    arrival = blocks.arrival(run)
+    return lambda first, end: arrival(first, end) <= time
 
 
 def warnings(released: float, fuel: float) -> list[str]:

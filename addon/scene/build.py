@@ -86,12 +86,17 @@ def steps(
             grown, shape = _grown_and_shaped(shot)
         else:
             grown = stand.grow(shot)
-    builders = {
+
+    def lit() -> None:
+        for sentence in light.build(shot.full, stage()):
+            tell(sentence)
+
+    builders: dict[str, Callable[[], object]] = {
         "terrain": lambda: ground.build(shot, stage(), grown, shape),
         "forest": lambda: forest.build(shot, stage(), grown),
         "fire": lambda: fire.build(shot, stage(), grown),
         "smoke": lambda: smoke.build(shot.full, stage()),
-        "light": lambda: [tell(text) for text in light.build(shot.full, stage())],
+        "light": lit,
         "cameras": lambda: camera.build(shot, stage()),
         "labels": lambda: labels.build(shot, stage()),
     }

@@ -139,7 +139,9 @@ def indices(run: Run, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array,
 def index(axis: NDArray, value: ArrayLike) -> Array:
     """Fractional index of values on an axis that rises or falls, held inside it."""
     order = slice(None, None, -1) if axis[0] > axis[-1] else slice(None)
-    return np.interp(value, axis[order], np.arange(len(axis), dtype=np.float64)[order])
+    return np.interp(
+        np.asarray(value, np.float64), axis[order], np.arange(len(axis), dtype=np.float64)[order]
+    )
 
 
 def _filled(field: NDArray) -> Array:

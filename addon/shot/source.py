@@ -51,10 +51,17 @@ class ShotSource:
             found = scene_file.read(self.scene)
         else:
             found = auto_framing.fit_folder(Path(self.run), Path(self.run), Path("cache")).settings
-        folders = {name: Path(text) for name in ("run", "cache") if (text := getattr(self, name))}
-        render = {name: text for name in ("engine", "device") if (text := getattr(self, name))}
-        smoke = replace(found.smoke, method=self.smoke or found.smoke.method)
-        return replace(found, render=replace(found.render, **render), smoke=smoke, **folders)
+        return replace(
+            found,
+            run=Path(self.run) if self.run else found.run,
+            cache=Path(self.cache) if self.cache else found.cache,
+            render=replace(
+                found.render,
+                engine=self.engine or found.render.engine,
+                device=self.device or found.render.device,
+            ),
+            smoke=replace(found.smoke, method=self.smoke or found.smoke.method),
+        )
 
     def shot(self) -> Shot:
         """The settings and their run, which fit each other.

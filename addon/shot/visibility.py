@@ -67,7 +67,7 @@ class Visibility:
         showing = self._showing(pixel, perspective)
         if self.unculled:
             flat = any(not self.shot.paths[number].perspective for number in showing)
-            near = perspective and self.distance(position) - radius <= reach
+            near = perspective and self.distance(position) - np.asarray(radius) <= reach
             return np.broadcast_to(near | flat, len(np.asarray(position)))
         views = self._of(showing)
         return lod.visible_mask(position, radius, views, max_distance=reach, margin=margin, shadows=shadows)
@@ -78,7 +78,7 @@ class Visibility:
 
     def lod_distance(self, position: ArrayLike) -> NDArray[np.float64]:
         """Distance (n,) that sets the level of detail of objects at points (n, 3), m; 0 with culling off."""
-        return np.zeros(len(position)) if self.unculled else self.distance(position)
+        return np.zeros(len(np.asarray(position))) if self.unculled else self.distance(position)
 
     def distance_from(self, path: Path, position: ArrayLike) -> NDArray[np.float64]:
         """Smallest distance (n,) from points (n, 3) to the path of one perspective camera, m."""

@@ -60,7 +60,7 @@ def _pressure(height: Array | float) -> Array | float:
     return 101325.0 * np.maximum(1.0 - 2.25577e-5 * np.asarray(height), 0.0) ** 5.25588
 
 
-def _held(potential_temperature: Array, pressure: Array) -> Array:
+def _held(potential_temperature: Array, pressure: Array | float) -> Array:
     """Saturation mixing ratio of water vapour, kg/kg, by Magnus' formula (cpp/flow/thermodynamics.hpp)."""
     celsius = potential_temperature * (pressure / 1e5) ** 0.2857 - 273.15
     vapour = 610.94 * np.exp(17.625 * celsius / (celsius + 243.04))

@@ -55,15 +55,17 @@ class Box:
 
     def middles(self) -> tuple[Array, Array]:
         """Cell centres: x (nx,) of columns and y (ny,) of rows, m."""
-        return tuple(
+        x, y = (
             low + (np.arange(n) + 0.5) * self.spacing
             for low, n in zip(self.corner, self.shape[::-1], strict=True)
         )
+        return x, y
 
     @property
     def high(self) -> tuple[float, float]:
         """Corner of greatest x and y."""
-        return tuple(low + n * self.spacing for low, n in zip(self.corner, self.shape[::-1], strict=True))
+        x, y = (low + n * self.spacing for low, n in zip(self.corner, self.shape[::-1], strict=True))
+        return x, y
 
 
 @dataclass(frozen=True)
@@ -117,8 +119,8 @@ def whole(shot: Shot) -> Box | None:
     speed = float(np.hypot(*middle))
     if speed > 0.0:
         time = shot.spin_up + shot.frames.last - shot.frames.first
-        most = [length(way) for way in _DOWNWIND]
-        way = np.clip(1.5 * atmosphere.WIND * speed * time, *most) * middle / speed
+        least, most = (length(way) for way in _DOWNWIND)
+        way = np.clip(1.5 * atmosphere.WIND * speed * time, least, most) * middle / speed
         low, high = low + np.minimum(way, 0.0), high + np.maximum(way, 0.0)
     middle, half = 0.5 * (low + high), np.minimum(0.5 * (high - low), 0.5 * length(_WIDEST))
     low, high = middle - half, middle + half

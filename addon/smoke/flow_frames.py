@@ -104,7 +104,8 @@ def layers(shot: Shot, solved: Flow) -> list[Layer]:
     if len(found) == 1:
         near = min(max(_PIXELS * _pixel(shot), length(_ALONE)), far)
         return [Layer("smoke", found[0], wanted or near, False)]
-    near = float(np.clip(_PIXELS * _pixel(shot), *map(length, _NEAR)))
+    least, most = map(length, _NEAR)
+    near = float(np.clip(_PIXELS * _pixel(shot), least, most))
     return [Layer("far", found[0], max(wanted, far), False), Layer("smoke", found[1], wanted or near, True)]
 
 
@@ -219,7 +220,7 @@ class Painter:
             origin, voxel, surface, end, count, wanted, self._thin
         )
         toward = sun.toward_light(self.shot.run, float(self.shot.frames.times[frame - 1]))
-        lit = volume.LitSmoke(smoke, toward, *LIGHT, beyond.depths if beyond else None)
+        lit = volume.LitSmoke(smoke, toward.tolist(), *LIGHT, beyond.depths if beyond else None)
         return _Painted(lit, share, origin, snapshot.mass)
 
     @functools.cached_property
@@ -293,7 +294,7 @@ class Painter:
         nz, rows, columns = snapshot.fields["smoke"].shape
         west, south = snapshot.low
         heights = self._heights[: nz + 1, south : south + rows, west : west + columns]
-        corner = tuple(low + at * box.spacing for low, at in zip(box.corner, snapshot.low, strict=True))
+        corner = box.corner[0] + west * box.spacing, box.corner[1] + south * box.spacing
         size, blur = _LUMPS[self.layer.fine]
         mix = shot.fire.smoke
         # Thresholds apply to a crown fire's smoke; they are lower for thinner smoke of equal temperature.
@@ -326,7 +327,7 @@ class Painter:
 def _wanted(
     views: lod.ViewSet | None,
     origin: tuple[float, float, float],
-    shape: tuple[int, int, int],
+    shape: tuple[int, ...],
     voxel: float,
     around: float,
 ) -> NDArray[np.bool_] | None:
@@ -335,7 +336,8 @@ def _wanted(
         return None
     side = _BLOCK * voxel
     blocks = tuple(-(-count // _BLOCK) for count in shape)
-    place = np.stack(np.indices(blocks), axis=-1).reshape(-1, 3) * side + origin + 0.5 * (side - voxel)
+    number = np.moveaxis(np.indices(blocks), 0, -1).reshape(-1, 3)
+    place = number * side + origin + 0.5 * (side - voxel)
     radius = 0.5 * np.sqrt(3.0) * side + around
     return lod.visible_mask(place, np.full(len(place), radius), views, shadows=True).reshape(blocks)
 

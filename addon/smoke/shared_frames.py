@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import shutil
 from collections import Counter
@@ -35,7 +36,7 @@ def frames(shot: Shot, wanted: Iterable[int]) -> list[tuple[Shot, list[int]]]:
 def link(source: Path, place: Path, listed: Iterable[int]) -> None:
     """Hard-link volumes into another cache folder; copy where the file system has no links."""
     for path in (path for frame in listed for path in sorted(source.glob(f"*_{frame:06d}.vdb"))):
-        files.write(place / path.name, lambda part, path=path: _same(path, part))
+        files.write(place / path.name, functools.partial(_same, path))
 
 
 def _same(path: Path, part: Path) -> None:

@@ -208,10 +208,10 @@ class FIRETWIN_PT_queue(bpy.types.Panel):
                 box.progress(factor=item.factor, text=item.text)
             else:
                 paragraph(context, box, item.text)
-            shown = queue.thumbnails(item)
-            if shown:
+            icons = queue.thumbnails(item)
+            if icons:
                 grid = box.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
-                for _name, icon in shown:
+                for _name, icon in icons:
                     grid.template_icon(icon, scale=4.0)
 
     def button(self, row: bpy.types.UILayout, index: int, what: str, icon: str) -> None:

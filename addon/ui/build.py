@@ -38,6 +38,14 @@ _CHOICES = (
 )
 
 
+def _ready(operator: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
+    """Whether a scene can be built; else its tooltip says why not."""
+    if context.mode != "OBJECT":
+        operator.poll_message_set("Leave the edit mode first")
+        return False
+    return run.ready(operator, context)
+
+
 class FIRETWIN_OT_build(Working, bpy.types.Operator):
     """Build the scene of the run and replace the previous build"""
 
@@ -61,10 +69,7 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if context.mode != "OBJECT":
-            cls.poll_message_set("Leave the edit mode first")
-            return False
-        return run.ready(cls, context)
+        return _ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """The smoke in a worker process, then everything else here."""
@@ -86,7 +91,7 @@ class FIRETWIN_OT_solve(Working, bpy.types.Operator):
         if not solve.replacement(context.scene.firetwin):
             cls.poll_message_set("The smoke is solved already, or Build scene solves it")
             return False
-        return FIRETWIN_OT_build.poll.__func__(cls, context)
+        return _ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """Choose it, and build the smoke, or all where nothing is built."""

@@ -10,7 +10,8 @@ from . import camera_list
 
 def pull(scene: bpy.types.Scene) -> list[str]:
     """Take it over; sentences about what settings cannot say."""
-    panel, told = scene.firetwin, []
+    panel = scene.firetwin
+    told: list[str] = []
     if not panel.frames:  # nothing is built
         return told
     before = camera_list.cameras(panel)

@@ -71,7 +71,10 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
         _unhook(thing, AIM)
         if target == "none":
             return f"{name} looks in the direction of its keys"
-        empty = other if target == "object" else _empty(scene, at if target == "station" else target, way)
+        empty = other
+        if target != "object":
+            assert way is not None
+            empty = _empty(scene, at if target == "station" else target, way)
         if empty is None or empty == thing:
             return "Select another object as the target first"
         hook = thing.constraints.new("TRACK_TO")

@@ -38,8 +38,8 @@ def parse_time(panel: bpy.types.PropertyGroup, text: str) -> datetime | None:
         zone = UTC if found[3] else zoneinfo.ZoneInfo(panel.zone)
         return datetime.fromisoformat(f"{found[1]} {found[2]:0>5}").replace(tzinfo=zone).astimezone(UTC)
     wanted, moments = text.strip().lower(), run.read(panel.facts)["moments"] if panel.facts else []
-    found = (time for time, words in moments if wanted and wanted in words.lower())
-    return next(map(datetime.fromisoformat, found), None)
+    reported = (time for time, words in moments if wanted and wanted in words.lower())
+    return next(map(datetime.fromisoformat, reported), None)
 
 
 def frame_of(panel: bpy.types.PropertyGroup, when: datetime) -> int:
@@ -55,7 +55,7 @@ def place(scene: bpy.types.Scene, text: str) -> Vector | None:
     if pair is None and (label := place_names.find(scene.firetwin, text)):
         pair = label.latitude, label.longitude
     if pair:
-        east, north, _ = read_edits.local_frame(stage).forward([pair[0]], [pair[1]], [0.0])[0]
+        east, north, _ = read_edits.built_frame(stage).forward([pair[0]], [pair[1]], [0.0])[0]
         ground = ground_raycast.up(stage, (east, north))
         return None if ground is None else Vector((east, north, ground))
     wanted = text.strip().lower()

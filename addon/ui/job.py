@@ -147,9 +147,9 @@ class Job:
             return True
         self.what, self.done, self.total, self._since = _label(step), 0, 1, time.monotonic()
         if isinstance(step, InThread):
-            self._send_away(step.function)
+            thread = self._send_away(step.function)
             if wait:
-                self._thread.join()
+                thread.join()
         else:
             self.touched = True
         return False
@@ -164,7 +164,7 @@ class Job:
             step = next(self.steps)
         return step
 
-    def _send_away(self, function: Callable[..., Any]) -> None:
+    def _send_away(self, function: Callable[..., Any]) -> threading.Thread:
         outcome: dict[str, Any] = {}
 
         def work() -> None:
@@ -176,6 +176,7 @@ class Job:
         self._outcome = outcome
         self._thread = threading.Thread(target=work, name="Firetwin", daemon=True)
         self._thread.start()
+        return self._thread
 
 
 def _label(step: str | InThread) -> str:

@@ -179,8 +179,8 @@ def _number(part: Field, value: float) -> float:
     if isinstance(value, int):
         return min(max(value, low if low is not None else -_LARGEST - 1), min(high or _LARGEST, _LARGEST))
     limit = float(np.finfo(np.float32).max)
-    value = min(max(value, np.float32(-limit if low is None else low)), limit if high is None else high)
-    return float(np.float32(value))
+    least = float(np.float32(-limit if low is None else low))
+    return float(np.float32(min(max(value, least), limit if high is None else high)))
 
 
 def _value(group: bpy.types.PropertyGroup, part: Field) -> Any:

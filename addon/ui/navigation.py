@@ -34,7 +34,7 @@ def eye(context: bpy.types.Context) -> tuple[Matrix, float, float]:
     """Where the 3D view looks from, as a camera's matrix, and a lens and a chip (mm) that show as much."""
     shown, camera = space(context), context.scene.camera
     region = shown.region_3d if shown is not None else None  # the sidebar's own region has none
-    if region is None or (region.view_perspective == "CAMERA" and camera is not None):
+    if shown is None or region is None or (region.view_perspective == "CAMERA" and camera is not None):
         return camera.matrix_world.copy(), camera.data.lens, camera.data.sensor_width
     matrix = region.view_matrix.inverted()
     if region.view_perspective == "ORTHO":
@@ -45,7 +45,7 @@ def eye(context: bpy.types.Context) -> tuple[Matrix, float, float]:
 
 def view(stage: owned.Stage, matrix: Matrix, lens: float, sensor: float) -> View:
     """What is seen from there, for kinds of camera to be made of."""
-    frame = read_edits.local_frame(stage)
+    frame = read_edits.built_frame(stage)
     place, turn = read_edits.pose_of(matrix)
     met = ground_raycast.hit(stage, place, -turn[:, 2])
     flat = Vector((-turn[0, 2], -turn[1, 2], 0.0))

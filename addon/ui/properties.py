@@ -11,7 +11,10 @@ _BLEND_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
 _SETTINGS = sections.properties(sections.single() + sections.sections(), Settings)
 
 
-class FIRETWIN_PG_scene(bpy.types.PropertyGroup, type("Settings", (), {"__annotations__": _SETTINGS})):
+_Settings: type = type("Settings", (), {"__annotations__": _SETTINGS})
+
+
+class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):
     """Settings of the scene, choices of the panel, and facts about the run"""
 
     run: bpy.props.StringProperty(

@@ -30,8 +30,8 @@ def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Setting
     panel = scene.firetwin
     cache = panel.cache or output(panel, "cache") or own_folder() / "cache"
     run, cache = (Path(bpy.path.abspath(str(path))) for path in (panel.run, cache))
-    listed = {"cameras": camera_list.cameras(panel), "runs": other_runs.runs(panel)}
-    whole = Settings(path=path, run=run, cache=cache, **listed)
+    cameras, runs = camera_list.cameras(panel), other_runs.runs(panel)
+    whole = Settings(path=path, run=run, cache=cache, cameras=cameras, runs=runs)
     whole = sections.take(panel, sections.single() + sections.sections(), whole)
     if found := validate(whole):
         raise Error(keys.sentence(found[1]))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import bpy
 
 from ..scene.build import PARTS
@@ -34,7 +36,7 @@ def _panel(section: Field, place: int) -> type[bpy.types.Panel]:
     def again(self: bpy.types.Panel, context: bpy.types.Context) -> None:
         build.again(self.layout, name, name in context.scene.firetwin.changed.split())
 
-    own = {
+    own: dict[str, Any] = {
         "__doc__": keys.sentence(section.key.help),
         "bl_idname": f"FIRETWIN_PT_section_{name}",
         "bl_label": "Settings" if name in _BELOW else panel_order.title(name),

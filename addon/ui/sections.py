@@ -75,7 +75,8 @@ def groups() -> Iterator[type[bpy.types.PropertyGroup]]:
         yield group(kind)
 
     for section in sections():
-        yield from inner(section.table)
+        if section.table:
+            yield from inner(section.table)
 
 
 def put(group: bpy.types.PropertyGroup, known: tuple[Field, ...], values: Any) -> None:

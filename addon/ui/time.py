@@ -199,8 +199,9 @@ class FIRETWIN_PT_time(bpy.types.Panel):
         for part in fields(Time):
             if part.name not in ("start", "end"):
                 rows.key(layout, settings.time, part, "time")
-        if None not in ends and settings.time.frames > 1:
-            step = (ends[1] - ends[0]).total_seconds() / (settings.time.frames - 1)
+        first, last = ends
+        if first and last and settings.time.frames > 1:
+            step = (last - first).total_seconds() / (settings.time.frames - 1)
             speed = step * settings.time.fps
             layout.label(text=f"{step:,.7g} s per frame, {speed:,.0f} times real time")
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import bpy
 
@@ -97,6 +98,13 @@ class Working:
     """An operator whose `steps(context)` are taken one by one while its window stays usable."""
 
     _timer: bpy.types.Timer | None = None
+
+    if TYPE_CHECKING:  # what bpy.types.Operator has
+        bl_label: str
+        bl_options: set[str]
+
+        def report(self, type: set[str], message: str) -> None:
+            """Tell the user."""
 
     def steps(self, context: bpy.types.Context) -> Steps:
         """The work."""
@@ -242,8 +250,9 @@ def copy_button(layout: bpy.types.UILayout, message: str) -> None:
 def last_messages(operator: type[bpy.types.Operator]) -> tuple[Message, ...]:
     """What the last work had to tell, if it was this operator's and in this file."""
     last = Job.last
-    here = last is not None and last.name == operator.bl_label and last.file in (None, bpy.data.filepath)
-    return last.told if here else ()
+    if last is None or last.name != operator.bl_label or last.file not in (None, bpy.data.filepath):
+        return ()
+    return last.told
 
 
 class FIRETWIN_OT_stop(bpy.types.Operator):
@@ -261,7 +270,8 @@ class FIRETWIN_OT_stop(bpy.types.Operator):
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        Job.current.stop.now()
+        if Job.current is not None:
+            Job.current.stop.now()
         return {"FINISHED"}
 
 

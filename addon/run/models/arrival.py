@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 
 def from_levels(
-    times: NDArray[np.float64], level: Callable[[int], NDArray], shape: tuple[int, int]
+    times: NDArray[np.float64], level: Callable[[int], NDArray], shape: tuple[int, ...]
 ) -> NDArray[np.float64]:
     """Time (s) at which a level function falls below 0, NaN where never.
 
@@ -35,7 +35,7 @@ def from_levels(
 
 
 def from_share(
-    times: NDArray[np.float64], share: Callable[[int], NDArray], shape: tuple[int, int]
+    times: NDArray[np.float64], share: Callable[[int], NDArray], shape: tuple[int, ...]
 ) -> NDArray[np.float64]:
     """Time (s) at which half of a cell is burned, linear between two maps; NaN where never."""
     return from_levels(times, lambda index: 0.5 - share(index), shape)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -91,8 +92,7 @@ class Land:
             ("canopy_fuel", self.canopy, fuel_grid),
         ):
             if name not in still:
-                values = find(where, projection)
-                still[name] = lambda values=values: values
+                still[name] = partial(np.asarray, find(where, projection))
         number = self.category(fuel_grid, projection)
         if "fuel_category" not in still and number is not None:
             still["fuel_category"] = lambda: number

@@ -55,7 +55,8 @@ class Grid:
     def shape(self) -> tuple[int, int]:
         """Rows and columns."""
         if self.latitude.ndim == 2:
-            return self.latitude.shape
+            rows, columns = self.latitude.shape
+            return rows, columns
         return len(self.latitude), len(self.longitude)
 
     @cached_property

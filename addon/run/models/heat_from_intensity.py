@@ -59,8 +59,9 @@ class Release:
         if count > _MOST:
             raise Error(f"--interval: {count} times would be made, {_MOST} at most are; take a longer one")
         times = np.floor(first / step) * step + step * np.arange(count + 1)
+        rows, columns = np.shape(arrival)
         return cls(
-            np.shape(arrival),
+            (rows, columns),
             times,
             cell,
             flat[cell],

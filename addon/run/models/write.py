@@ -172,7 +172,7 @@ def _open(path: Path, shape: tuple[int, ...], done: int) -> BinaryIO:
 
 
 def _all(file: BinaryIO, values: NDArray[np.float32]) -> None:
-    file.write(memoryview(np.ascontiguousarray(values, "<f4")).cast("B"))
+    file.write(np.ascontiguousarray(values, "<f4").data.cast("B"))
 
 
 def _journal(part: Path, inputs: str, done: int, open_files: dict[str, BinaryIO]) -> None:

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -192,7 +193,7 @@ def read(paths: Iterable[str | Path]) -> Observations:
     return Observations(tuple(perimeters), tuple(detections), tuple(assumptions), tuple(warm))
 
 
-def _reader(path: Path) -> object:
+def _reader(path: Path) -> ModuleType:
     name = _READERS.get(path.suffix.lower())
     if name is None:
         known = ", ".join(sorted(_READERS))

@@ -148,7 +148,8 @@ def _of_name(stem: str) -> tuple[datetime, bool] | None:
     if not found:
         return None
     try:
-        moment = datetime(*(int(part or 0) for part in found.groups()[:6]), tzinfo=UTC)
+        year, month, day, hour, minute, second = (int(part or 0) for part in found.groups()[:6])
+        moment = datetime(year, month, day, hour, minute, second, tzinfo=UTC)
         return moment - (_offset(found[7]) if found[7] else timedelta(0)), found[7] is not None
     except (ValueError, OverflowError):
         return None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -36,7 +37,7 @@ def read(path: Path) -> list[Feature]:
         return [_feature(path, system, i, each) for i, each in enumerate(reader.iterShapeRecords(), 1)]
 
 
-def _feature(path: Path, system: str, number: int, found: object) -> Feature:
+def _feature(path: Path, system: str, number: int, found: Any) -> Feature:
     place = f"shape {number}"
     shape = found.shape.__geo_interface__ if found.shape.shapeTypeName.startswith("POLYGON") else None
     polygons: list[Polygon] = []
@@ -47,6 +48,6 @@ def _feature(path: Path, system: str, number: int, found: object) -> Feature:
             polygons.append(tuple(ring(path, place, to_degrees(path, system, each)) for each in flat))
     points = np.empty((0, 2))
     if found.shape.shapeTypeName.startswith(("POINT", "MULTIPOINT")):
-        flat = np.array([point[:2] for point in found.shape.points], np.float64).reshape(-1, 2)
-        points = degrees(path, place, to_degrees(path, system, flat))
+        single = np.array([point[:2] for point in found.shape.points], np.float64).reshape(-1, 2)
+        points = degrees(path, place, to_degrees(path, system, single))
     return Feature(tuple(polygons), found.record.as_dict() if found.record else {}, place, points)

@@ -104,7 +104,8 @@ def read(paths: list[Path], options: Options) -> Model:
 def _moment(path: Path) -> datetime:
     found = _TIME.search(path.name)
     try:
-        return datetime(*map(int, found.groups()), tzinfo=UTC)  # type: ignore[union-attr]
-    except (AttributeError, ValueError):
+        year, month, day, hour, minute, second = map(int, found.groups() if found else ())
+        return datetime(year, month, day, hour, minute, second, tzinfo=UTC)
+    except ValueError:
         reason = "its time is in its name only: call it fire_output_YYYY-MM-DD_HH:MM:SS.nc, as the model does"
         raise input_error(path, 0, 0, reason) from None

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import tomllib
 from datetime import UTC, datetime, timedelta
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -46,7 +47,8 @@ def read(paths: list[Path], options: Options) -> Model:
         )
         raise first.error(reason)
     grid, projection = _grid(first, axes, options, next(iter(fields.values()))["variable"])
-    land, told = companion_rasters.find(paths), []
+    land = companion_rasters.find(paths)
+    told: list[str] = []
 
     def get(name: str, path: Path, *index: int) -> NDArray:
         entry = fields[name]
@@ -58,6 +60,9 @@ def read(paths: list[Path], options: Options) -> Model:
     def still(name: str) -> NDArray:
         shape = files(ours[0]).shape(fields[name]["variable"])
         return get(name, ours[0], *[0] * (len(shape) - 2))
+
+    def moved(name: str, i: int) -> NDArray:
+        return get(name, frames[i][1], frames[i][2])
 
     if "heat_flux" not in fields:
         maps = from_arrival_time.Maps(still("fuel_arrival_time").astype(np.float64))
@@ -80,12 +85,8 @@ def read(paths: list[Path], options: Options) -> Model:
         times=np.array([(moment - start).total_seconds() for moment, _, _ in frames]),
         grid=grid,
         fuel_grid=grid,
-        still={name: (lambda name=name: still(name)) for name in _STILL if name in fields},
-        moving={
-            name: (lambda i, name=name: get(name, frames[i][1], frames[i][2]))
-            for name in (*_MOVING, *_LEVELS)
-            if name in fields
-        },
+        still={name: partial(still, name) for name in _STILL if name in fields},
+        moving={name: partial(moved, name) for name in (*_MOVING, *_LEVELS) if name in fields},
         files=ours,
         projection=projection,
         close=files.close,
@@ -130,7 +131,8 @@ def _grid(file: netcdf.File, axes: dict[str, str], options: Options, of: str) ->
             "has no latitude and longitude by their units (degrees_north, degrees_east), nor x and y of a "
             'projection; [axes] latitude = "NAME" in a TOML file says which they are'
         )
-    return Grid.projected(*(file.read(name).astype(np.float64) for name in (x, y)), projection), projection
+    across, up = (file.read(name).astype(np.float64) for name in (x, y))
+    return Grid.projected(across, up, projection), projection
 
 
 def _crs(file: netcdf.File, of: str) -> str:
@@ -178,7 +180,17 @@ def _moments(file: netcdf.File, axes: dict[str, str], options: Options) -> list[
             values, units, calendar, only_use_cftime_datetimes=False
         )
         return [
-            datetime(*each.timetuple()[:6], each.microsecond, tzinfo=UTC) for each in np.atleast_1d(dates)
+            datetime(
+                each.year,
+                each.month,
+                each.day,
+                each.hour,
+                each.minute,
+                each.second,
+                each.microsecond,
+                tzinfo=UTC,
+            )
+            for each in np.atleast_1d(dates)
         ]
 
 

@@ -107,7 +107,7 @@ def _grid(path: Path, found: dict[str, NDArray], options: Options, told: list[st
 
 
 def _arrays(path: Path) -> dict[str, NDArray]:
-    wanted = (
+    wanted: tuple[str, ...] = (
         "time_of_arrival",
         "fireline_intensity",
         "spread_rate",

@@ -101,7 +101,7 @@ def read(paths: list[Path], options: Options) -> Model:
     """The series as a model."""
     wrf = _Wrf([path for path in paths if sniff(path)])
     land = companion_rasters.find(paths)
-    told = []
+    told: list[str] = []
     moments = [frame.moment for frame in wrf.frames]
     start, said = _start(wrf.first, moments[0])
     times = np.array([(moment - start).total_seconds() for moment in moments])

@@ -146,8 +146,8 @@ def _both(polygons: Overlap, cells: Overlap) -> dict[str, Any]:
     """Scores on polygons, on cells, and the larger less the smaller: how far they can be known."""
     one, two = polygons.scores(), cells.scores()
     error = {
-        name: abs(one[name] - two[name]) if one[name] is not None and two[name] is not None else None
-        for name in one
+        name: abs(a - b) if a is not None and (b := two[name]) is not None else None
+        for name, a in one.items()
     }
     return {"polygons": one, "cells": two, "error": error}
 
@@ -156,7 +156,9 @@ def _arrival(run: Run, grid: Grid, seen: Sequence[Seen], other: Run | None) -> d
     if other is not None:
         theirs = Grid.of(other)
         shift = times.seconds(run, times.utc(other, 0.0))
-        return arrival.between(grid.arrival, arrival.sampled(theirs, grid) + shift, run.times[[0, -1]])
+        return arrival.between(
+            grid.arrival, arrival.sampled(theirs, grid) + shift, (float(run.times[0]), float(run.times[-1]))
+        )
     if len(seen) < 2:
         return None
     masks = [grid.inside(each.shape) for each in seen]

@@ -80,13 +80,15 @@ def growth(run: Run, found: dict[str, Any], other: Run | None = None) -> str:
         )
         for name, colour, mark, points in marks if other is None else marks[:1]:
             if points:
-                when = [datetime.fromisoformat(time).astimezone(zone) for time, _ in points]
+                when = np.array([datetime.fromisoformat(time).astimezone(zone) for time, _ in points], object)
                 area = [each / acre for _, each in points]
                 axes.plot(when, area, mark, color=colour, markersize=7, markeredgecolor="white", label=name)
         axes.set_ylabel("burned area, acres")
         axes.set_ylim(bottom=0)
         axes.yaxis.set_major_formatter(lambda value, _: f"{value:,.0f}")
-        right = axes.secondary_yaxis("right", functions=(lambda a: a * acre / 1e4, lambda h: h * 1e4 / acre))
+        right = axes.secondary_yaxis(
+            "right", functions=(lambda a: np.asarray(a) * acre / 1e4, lambda h: np.asarray(h) * 1e4 / acre)
+        )
         right.set_ylabel("ha")
         right.yaxis.set_major_formatter(lambda value, _: f"{value:,.0f}")
         axes.xaxis.set_major_formatter(ConciseDateFormatter(axes.xaxis.get_major_locator(), tz=zone))
@@ -108,8 +110,8 @@ def own_times(run: Run) -> NDArray[np.float64]:
 def _curve(axes: Axes, run: Run, zone: ZoneInfo, **style: Any) -> None:
     """Acres at times of the run, straight between them: what it does not say has no steps. Few are marked."""
     moments = own_times(run)
-    when = [times.utc(run, float(each)).astimezone(zone) for each in moments]
-    area = np.array(info.burned(run, moments)) / history.SQUARE_METRES_PER_ACRE
+    when = np.array([times.utc(run, float(each)).astimezone(zone) for each in moments], object)
+    area = np.array(info.burned(run, moments), np.float64) / history.SQUARE_METRES_PER_ACRE
     axes.plot(when, area, linewidth=2, marker="o" if len(moments) <= _MARKED else "", markersize=4, **style)
 
 

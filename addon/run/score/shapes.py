@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import sys
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,7 +53,7 @@ class Projection:
         way = "INVERSE" if back else "FORWARD"
 
         def move(points: NDArray[np.float64]) -> NDArray[np.float64]:
-            return np.column_stack(self._there.transform(*points.T, direction=way))
+            return np.column_stack(self._there.transform(points[:, 0], points[:, 1], direction=way))
 
         return clean(shapely.transform(shape, move))
 
@@ -140,7 +140,7 @@ def of_front(
     field = mirrored(np.pad(since, 1, constant_values=np.nan))
     x, y = (wider(axis) for axis in (longitude, latitude))
     front = contourpy.contour_generator(x, y, field, fill_type=contourpy.FillType.OuterOffset)
-    polygons, offsets = front.filled(-_NEVER, 0.0)
+    polygons, offsets = cast(tuple[list[NDArray], list[NDArray]], front.filled(-_NEVER, 0.0))
     found = []
     for points, starts in zip(polygons, offsets, strict=True):
         rings = [points[a:b] for a, b in itertools.pairwise(starts)]

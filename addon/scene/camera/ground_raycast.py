@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import bpy
 import numpy as np
 from mathutils import Vector
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ...blender import owned
 from ...blender.owned import Stage
@@ -13,16 +15,16 @@ from ...blender.owned import Stage
 _SKY = 50_000.0  # m, over any terrain
 
 
-def up(stage: Stage, place: ArrayLike) -> float | None:
+def up(stage: Stage, place: Sequence[float] | NDArray[np.float64]) -> float | None:
     """Scene z of the terrain at a place (2 or 3,); None without terrain there."""
     east, north = float(place[0]), float(place[1])
     met = hit(stage, (east, north, _SKY), (0.0, 0.0, -1.0))
     return None if met is None else met.z
 
 
-def height(stage: Stage, places: ArrayLike) -> float:
+def height(stage: Stage, places: NDArray[np.float64]) -> float:
     """Least height (m) of points (n, 3) above the terrain, at least 0; 0 without terrain."""
-    found = [place[2] - z for place in places if (z := up(stage, place)) is not None]
+    found = [float(place[2]) - z for place in places if (z := up(stage, place)) is not None]
     return max(min(found), 0.0) if len(found) else 0.0
 
 
@@ -48,7 +50,7 @@ def hit(stage: Stage, origin: ArrayLike, direction: ArrayLike) -> Vector | None:
     return ground.matrix_world @ where if found else None
 
 
-def lift(stage: Stage, place: ArrayLike, clearance: float) -> float:
+def lift(stage: Stage, place: Sequence[float] | NDArray[np.float64], clearance: float) -> float:
     """Upward offset (m) that keeps a point (3,) `clearance` above the terrain."""
     ground = up(stage, place)
     return 0.0 if ground is None else float(max(ground + clearance - np.asarray(place)[2], 0.0))

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ...blender import compat, owned
 from ...blender.owned import Stage
+from ...errors import Error
 from ...shot.cameras import rotation as turning
 from ...shot.cameras import sparse_keys
 from ...shot.cameras.rigs import _lens, poses
@@ -34,7 +35,21 @@ def place(stage: Stage, frame: geo.LocalFrame) -> None:
 def local_frame(stage: Stage) -> geo.LocalFrame | None:
     """East, north and up of the scene; None before cameras are built."""
     where = stage.root.get(_PLACE)
-    return None if where is None else geo.LocalFrame(*where, 0.0)
+    return None if where is None else geo.LocalFrame(where[0], where[1], 0.0)
+
+
+def built_frame(stage: Stage) -> geo.LocalFrame:
+    """The same, which has to be there.
+
+    Raises
+    ------
+    Error
+        Cameras are not built.
+    """
+    frame = local_frame(stage)
+    if frame is None:
+        raise Error("the scene has no cameras of a run; build the scene first")
+    return frame
 
 
 def rigged(thing: bpy.types.Object) -> bool:
@@ -238,7 +253,7 @@ def _pulled(
         return replace(before, rig=replace(before.rig, **lens)), words
     seen = flown(stage.scene, thing, frames, size)
     near = 0.5 * ground_raycast.height(stage, seen.place[:: max(len(seen.place) // 50, 1)])
-    rig = poses_of(seen, local_frame(stage), size[0], near)
+    rig = poses_of(seen, built_frame(stage), size[0], near)
     return replace(before, rig=rig), words
 
 

@@ -79,7 +79,9 @@ def _card(index: int) -> tuple[list, list, list]:
     sheets = [(0.0, 0.0)] if index == 0 else [(0.0, 0.25)] if index == 1 else [(0.0, -0.25)]
     if index == 3:
         sheets = [(-0.5, 0.0), (0.7, 0.1)]  # rotation about the vertical, curvature
-    vertices, faces, cards = [], [], []
+    vertices: list[tuple[float, float, float]] = []
+    faces: list[tuple[int, int, int, int]] = []
+    cards: list[tuple[float, float, float]] = []
     steps = 4
     for turn, bow in sheets:
         start = len(vertices)

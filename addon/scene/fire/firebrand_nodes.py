@@ -122,7 +122,8 @@ def _node_group(shot: Shot, stage: Stage, found: firebrands.Flights, pixel: floa
 
 
 def _scaled(tree: nodes.Tree, vector: nodes.Value, by: nodes.Value) -> nodes.Value:
-    node = tree.node("ShaderNodeVectorMath", {0: vector, "Scale": by}, operation="SCALE")
+    inputs: dict[str | int, nodes.Value] = {0: vector, "Scale": by}
+    node = tree.node("ShaderNodeVectorMath", inputs, operation="SCALE")
     return tree.pick(node)
 
 

@@ -6,6 +6,7 @@ nodes draw a streak between the two points round the current time, so no other a
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -119,10 +120,11 @@ def fly(shot: Shot, points: flames.Points) -> Flights | None:
     if not parts:
         return None
     return Flights(
-        *(
-            np.concatenate([getattr(p, name) for p in parts])
-            for name in ("place", "start", "birth", "life", "size")
-        ),
+        np.concatenate([part.place for part in parts]),
+        np.concatenate([part.start for part in parts]),
+        np.concatenate([part.birth for part in parts]),
+        np.concatenate([part.life for part in parts]),
+        np.concatenate([part.size for part in parts]),
         parts[0].step,
     )
 
@@ -201,7 +203,7 @@ def _paths(launched: Launches, wind: Array, floor: geo.HeightField) -> NDArray[n
     return path
 
 
-def _air(launched: Launches, wind: Array, base: Array) -> object:
+def _air(launched: Launches, wind: Array, base: Array) -> Callable[[Array, float], Array]:
     """Velocity function of the air (n, 3) at positions (n, 3) and an age (s).
 
     The wind grows with height as h^(1/7) and carries eddies of two to seven seconds, of a quarter of the
@@ -258,6 +260,6 @@ def _floor(ground: Ground, position: Array) -> geo.HeightField:
     """The terrain round the flames, where firebrands land."""
     if len(position) == 0:
         position = np.zeros((1, 3))
-    axes = [np.linspace(position[:, k].min() - 400.0, position[:, k].max() + 400.0, 120) for k in (0, 1)]
-    east, north = np.meshgrid(*axes)
-    return geo.HeightField(*axes, ground.up(east.ravel(), north.ravel()).reshape(east.shape))
+    x, y = (np.linspace(position[:, k].min() - 400.0, position[:, k].max() + 400.0, 120) for k in (0, 1))
+    east, north = np.meshgrid(x, y)
+    return geo.HeightField(x, y, ground.up(east.ravel(), north.ravel()).reshape(east.shape))

@@ -130,7 +130,7 @@ def front(shot: Shot, grown: Stand | None = None) -> Points:
     speed = ground.spread(row, column)
     stands = shot.front.residence[np.rint(row).astype(np.int64), np.rint(column).astype(np.int64)]
     residence = _residence(spacing, speed, stands)
-    random = np.array([noise.uniform(*key.T, settings.seed + 500 + use) for use in range(3)])
+    random = np.array([noise.uniform(key[:, 0], key[:, 1], settings.seed + 500 + use) for use in range(3)])
     fuel = bilinear(ground.fields.canopy_fuel + ground.fields.surface_fuel, row, column)
     lit = (arrival + residence > first) & (fuel > 0.05)
     row, column, arrival, speed, residence, stands, fuel, spacing, distance = (
@@ -210,8 +210,10 @@ def torches(shot: Shot, grown: Stand) -> Points:
     row, column = ground.under(grown.position[near])
     arrival = ground.arrival_at(row, column)
     canopy = bilinear(ground.fields.canopy_fuel, row, column)
-    key = grown.key[near].T
-    luck, size, late, seed = (noise.uniform(*key, shot.settings.seed + 400 + k) for k in range(4))
+    key = grown.key[near]
+    luck, size, late, seed = (
+        noise.uniform(key[:, 0], key[:, 1], shot.settings.seed + 400 + k) for k in range(4)
+    )
     lit = (luck < _TORCHES * canopy / (canopy + 1.0)) & (arrival <= last)
     lit &= fire_effects.of_trees(shot, row, column, grown.height[near], grown.key[near]).torched
     residence = 30.0 + 30.0 * size

@@ -91,11 +91,11 @@ def place(shot: Shot) -> Lamps:
     spread = np.sqrt(
         (share * gap * weight[:, None]).sum(0) / np.maximum((share * weight[:, None]).sum(0), 1e-300)
     )
-    above = np.clip(0.5 * spread, *(max(size(each), _LOWEST) for each in _HEIGHTS))
+    low, high = (max(size(each), _LOWEST) for each in _HEIGHTS)
+    above = np.clip(0.5 * spread, low, high)
     up = np.maximum(shot.ground.up(centre[:, 0], centre[:, 1]), centre[:, 2]) + above
-    return Lamps(
-        times, np.column_stack([centre[:, :2], up]), np.clip(0.4 * spread, *map(size, _RADII)), total
-    )
+    small, large = map(size, _RADII)
+    return Lamps(times, np.column_stack([centre[:, :2], up]), np.clip(0.4 * spread, small, large), total)
 
 
 def _around(sources: heat_release.Sources, near: list[Path], block: float) -> heat_release.Sources:

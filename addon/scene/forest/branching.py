@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .habit import Habit
 from .shape import Array, Shape
@@ -37,7 +38,7 @@ class Leaves:
     along: Array
     across: Array
     colour: Array
-    limb: Array
+    limb: NDArray[np.int64]
 
     def corners(self) -> Array:
         """Corners (n, 3, 3) of one triangle per leaf, with its tip at the base."""
@@ -103,7 +104,11 @@ def _leaves(habit: Habit, limbs: Limbs, random: np.random.Generator) -> Leaves:
     colour = np.array(habit.colour) * np.maximum(bright, 0.2)[..., None]
     limb = np.broadcast_to(np.arange(b)[:, None, None], (b, k, m))
     return Leaves(
-        *(v.reshape(-1, 3) for v in (middle, 0.5 * size * along, across, colour)), limb=limb.ravel()
+        middle.reshape(-1, 3),
+        (0.5 * size * along).reshape(-1, 3),
+        across.reshape(-1, 3),
+        colour.reshape(-1, 3),
+        limb.ravel(),
     )
 
 
@@ -124,7 +129,8 @@ def wood(shape: Shape, habit: Habit, limbs: Limbs, level: int, random: np.random
     thick = (0.09 * habit.stem + 0.009 * limbs.length[:, None]) * (1.08 - steps)
     shape.limbs(limbs.at(steps), thick, 3 - level, habit.wood)
     if habit.dead and level == 0:
-        shape.limbs(*dead(habit, random), 3, tuple(0.9 * c for c in habit.wood))
+        red, green, blue = habit.wood
+        shape.limbs(*dead(habit, random), 3, (0.9 * red, 0.9 * green, 0.9 * blue))
 
 
 def dead(habit: Habit, random: np.random.Generator) -> tuple[Array, Array]:

@@ -39,7 +39,7 @@ class FireEffects:
 def of_trees(shot: Shot, row: Array, column: Array, height: Array, key: NDArray[np.int64]) -> FireEffects:
     """Fire effects on trees (n,), `height` m tall, at fractional rows and columns; keys (n, 2) are seeds."""
     seed = shot.settings.seed
-    lot = (noise.uniform(*key.T, seed + 310 + use) for use in range(2))
+    lot = (noise.uniform(key[:, 0], key[:, 1], seed + 310 + use) for use in range(2))
     intensity = surface_intensity(shot, row, column) * np.exp(_UNEVEN * noise.normal(*lot))
     return FireEffects(
         np.clip(scorch_height(intensity) / np.maximum(height, 0.1), 0.0, 1.0),

@@ -51,7 +51,8 @@ def tree_models(shot: Shot, stage: Stage, drawn: set[int] | None = None) -> bpy.
         Indices of the models that are drawn; Firetwin's other models get no mesh. None: all.
     """
     looks = _looks(shot, stage)
-    swapped, count = _artists(), defaultdict(int)
+    swapped = _artists()
+    count: dict[Kind, int] = defaultdict(int)
     library = owned.library("Tree Models")
     nothing: bpy.types.Mesh | None = None
     for k, model in enumerate(models.every()):
@@ -61,7 +62,7 @@ def tree_models(shot: Shot, stage: Stage, drawn: set[int] | None = None) -> bpy.
             name = f"Tree {k:02d} {level}"
             if theirs:
                 data = _of_level(theirs, level, turn)
-            elif drawn is None or int(models.instance(k, level)) in drawn:
+            elif drawn is None or int(models.instance(np.array(k), np.array(level))) in drawn:
                 data = _mesh(name, model.make(level), looks(model))
             else:
                 data = nothing = nothing or bpy.data.meshes.new("Firetwin No Tree")
@@ -71,7 +72,7 @@ def tree_models(shot: Shot, stage: Stage, drawn: set[int] | None = None) -> bpy.
 
 def _looks(shot: Shot, stage: Stage) -> Callable[[models.Model], Look]:
     """Materials of leaves and wood of the models, each created on first use."""
-    makers = {
+    makers: dict[str, Callable[[Shot, Stage], bpy.types.Material]] = {
         "leaf": material.foliage,
         "wood": functools.partial(material.bark, charred=False),
         "char": functools.partial(material.bark, charred=True),

@@ -136,12 +136,13 @@ def grass(shot: Shot, stage: Stage) -> bpy.types.Material:
 
 def _shades(
     tree: nodes.Tree, name: str, colours: tuple[tuple[float, ...], ...], what: str
-) -> list[nodes.Value]:
+) -> tuple[nodes.Value, nodes.Value]:
     """Input sockets for the darkest and the lightest colour."""
-    return [
-        tree.input(f"{name} {end}", colour, f"{word} of {what}", "Scar")
-        for end, word, colour in zip(("Dark", "Light"), ("Darkest", "Lightest"), colours, strict=True)
-    ]
+    dark, light = colours
+    return (
+        tree.input(f"{name} Dark", dark, f"Darkest of {what}", "Scar"),
+        tree.input(f"{name} Light", light, f"Lightest of {what}", "Scar"),
+    )
 
 
 def _age(tree: nodes.Tree) -> nodes.Value:

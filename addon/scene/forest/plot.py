@@ -85,17 +85,19 @@ def _beyond(shot: Shot, height: float, reach: float) -> Plot | None:
         rim = np.arange(1, more + 1) * step
         within = np.linspace(low, high, max(round((high - low) / step), 1) + 1)
         axes.append(np.concatenate([low - rim[::-1], within, high + rim]))
-        inside.append(np.arange(len(axes[-1])) - more)
-        inside[-1] = (inside[-1] >= 0) & (inside[-1] < len(within))
-    row, column = _lines(shot, *axes)
+        number = np.arange(len(axes[-1])) - more
+        inside.append((number >= 0) & (number < len(within)))
+    latitude, longitude = axes
+    row, column = _lines(shot, latitude, longitude)
     fuel, elevation = (
         between(field, row, column).astype(np.float32) for field in (fields.canopy_fuel, fields.elevation)
     )
     out = ~(inside[0][:, None] & inside[1][None, :])
-    mask = visible_cells.visible_cells(shot, height, reach, *axes, elevation, out)
+    mask = visible_cells.visible_cells(shot, height, reach, latitude, longitude, elevation, out)
     fuel = stand_structure.with_lone(shot, fuel, row, column, mask)
     area = max(ground.cell[0], _CELL) * max(ground.cell[1], _CELL)
-    return Plot(*axes, fuel, elevation, mask & (fuel > 0.0), area, shot.settings.seed + _OTHER)
+    shown = mask & (fuel > 0.0)
+    return Plot(latitude, longitude, fuel, elevation, shown, area, shot.settings.seed + _OTHER)
 
 
 def _lines(

@@ -81,6 +81,9 @@ class Shape:
 
     def mesh(self) -> tuple[Array, NDArray[np.int64], NDArray[np.int64], Array]:
         """All points, triangles, materials and colours, concatenated."""
-        parts = (self.points, self.triangles, self.materials, self.colours)
-        points, triangles, materials, colours = (np.concatenate(part) for part in parts)
-        return points, triangles, materials, colours
+        return (
+            np.concatenate(self.points),
+            np.concatenate(self.triangles),
+            np.concatenate(self.materials),
+            np.concatenate(self.colours),
+        )

@@ -49,8 +49,8 @@ class Stand:
 
     position: NDArray[np.float64]
     height: NDArray[np.float64]
-    width: NDArray[np.float64]
-    rotation: NDArray[np.float64]
+    width: NDArray[np.floating]
+    rotation: NDArray[np.float32]
     model: NDArray[np.int64]
     key: NDArray[np.int64]
     distance: NDArray[np.float64]
@@ -71,15 +71,14 @@ def grow(shot: Shot) -> Stand:
     key = np.stack([found.key >> 32, found.key & 0xFFFFFFFF], axis=-1)
     distance = shot.visibility.distance(position)
     fade = _fade(distance, reach) if shot.pixel[1] > visibility.PIXEL else 1.0
-    chosen = (noise.uniform(*key.T, settings.seed + 202) < fade) & (distance > CLEARING)
-    stands = noise.uniform(*key[chosen].T, settings.seed + 203)
-    chosen[chosen] = stands < stand_structure.kept(shot, position[chosen])
-    chosen[chosen] = visibility.visible(
-        shot, position[chosen], found.scale[chosen], reach, found.width[chosen]
-    )
-    chosen = np.flatnonzero(chosen)
+    there = (noise.uniform(key[:, 0], key[:, 1], settings.seed + 202) < fade) & (distance > CLEARING)
+    stands = noise.uniform(key[there, 0], key[there, 1], settings.seed + 203)
+    there[there] = stands < stand_structure.kept(shot, position[there])
+    there[there] = visibility.visible(shot, position[there], found.scale[there], reach, found.width[there])
+    chosen = np.flatnonzero(there)
     model = np.array([models.FIRST_MODEL[k] for k in (0, 1, 2)])[found.size_class[chosen]]
-    height, width = found.scale[chosen].astype(float), found.width[chosen]
+    height = found.scale[chosen].astype(float)
+    width: NDArray[np.floating] = found.width[chosen]
     if sorts := biomes.choose(shot).biome.species:
         model, height, width = _of_species(shot, sorts, position[chosen], height, width, key[chosen])
     else:
@@ -123,7 +122,8 @@ def _planted(shot: Shot, plots: list[Plot]) -> _Stems:
         )
         for each, kept in zip(plots, _retained(shot, plots), strict=True)
     ]
-    nothing = _Stems(np.empty((0, 3)), *(np.empty(0, kind) for kind in "BBfff"), np.empty(0, np.int64))
+    whole, number = np.empty(0, np.uint8), np.empty(0, np.float32)
+    nothing = _Stems(np.empty((0, 3)), whole, whole, number, number, number, np.empty(0, np.int64))
     fields = ([getattr(nothing, name), *(getattr(stems, name) for stems in found)] for name in _Stems._fields)
     return _Stems(*(np.concatenate(parts) for parts in fields))
 
@@ -186,9 +186,10 @@ def _of_species(
     elevation = bilinear(ground.fields.elevation, *ground.under(position))
     share = np.array([_share(each, elevation) for each in sorts])
     part = np.cumsum(share, axis=0) / np.maximum(share.sum(axis=0), 1.0e-9)
-    lot = stand_structure.clustered_uniform(position, _PATCH, noise.uniform(*key.T, seed + 222), seed + 340)
+    own = noise.uniform(key[:, 0], key[:, 1], seed + 222)
+    lot = stand_structure.clustered_uniform(position, _PATCH, own, seed + 340)
     number = np.minimum((lot > part).sum(axis=0), len(sorts) - 1)
-    which = noise.uniform(*key.T, seed + 223)
+    which = noise.uniform(key[:, 0], key[:, 1], seed + 223)
     model = np.array(
         [sorts[k].models[int(u * len(sorts[k].models))] for k, u in zip(number, which, strict=True)], np.int64
     )
@@ -210,6 +211,6 @@ def _with_oaks(
     """Models and heights with oaks among the trees of the foothills, half as tall."""
     ground, seed = shot.ground, shot.settings.seed
     elevation = bilinear(ground.fields.elevation, *ground.under(position))
-    lot, kind = (noise.uniform(*key.T, seed + 220 + use) for use in range(2))
+    lot, kind = (noise.uniform(key[:, 0], key[:, 1], seed + 220 + use) for use in range(2))
     oak = lot < 0.75 * noise.smoothstep(1100.0, 600.0, elevation)
     return np.where(oak, models.OAKS[0] + (kind < 0.5), model), np.where(oak, 0.5 * height, height)

@@ -69,7 +69,8 @@ def kept(shot: Shot, position: Array) -> Array:
         lone = _scattered(shot, biome.tree_cover, position) * (empty > 0.0)
     if shot.settings.terrain.land_use is not None:
         wet = np.where(land_use.keeps_out(shot, position), 1.0, wet)
-    return np.maximum(stand, lone) * (wet < 0.3)
+    part: Array = np.maximum(stand, lone)
+    return part * (wet < 0.3)
 
 
 def _scattered(shot: Shot, part: float, position: Array) -> Array:

@@ -163,7 +163,7 @@ def _beside(shot: Shot, biome: biomes.Biome, name: str) -> Callable[[Array], Arr
         thick = 1.4 * cover.bushes(shot, land, part, place)
         if land.hedge <= 0.0:
             return thick
-        off = field_lines.fields(field_lines.NUMPY, *place.T, land.field)[0]
+        off = field_lines.fields(field_lines.NUMPY, place[:, 0], place[:, 1], land.field)[0]
         return thick + _HEDGE * (off < 0.5 * land.hedge) * ~land_use.mapped(shot, place)
 
     return factor
@@ -222,9 +222,8 @@ def grow(shot: Shot) -> Instances:
 
 def _nothing() -> Instances:
     empty, whole = np.empty(0), np.empty(0, np.int64)
-    return Instances(
-        np.empty((0, 3)), *(empty for _ in range(5)), whole, whole, np.empty((0, 2), np.int64), empty
-    )
+    key = np.empty((0, 2), np.int64)
+    return Instances(np.empty((0, 3)), empty, empty, empty, empty, empty, whole, whole, key, empty)
 
 
 def _scattered(shot: Shot, kind: Kind, number: int, pixel: float, budget: int) -> Instances:
@@ -235,7 +234,7 @@ def _scattered(shot: Shot, kind: Kind, number: int, pixel: float, budget: int) -
     width = _BLOCK / kind.cells
 
     def lot(use: int, cells: NDArray = cells) -> Array:
-        return noise.uniform(*cells.T, seed + use)
+        return noise.uniform(cells[:, 0], cells[:, 1], seed + use)
 
     height = kind.height * np.exp(kind.spread * noise.normal(lot(3), lot(4)))
     height = np.clip(height, *kind.limits)
@@ -310,8 +309,12 @@ def _ground(shot: Shot, place: Array) -> tuple[Array, Array, Array, Array]:
     """Canopy fuel, surface fuel, bare rock and water at points (n, 2) in the scene, m."""
     ground = shot.ground
     index = ground.indices(*ground.geodetic(*place.T)) if len(place) else (np.empty(0), np.empty(0))
-    known = ground.fields.canopy_fuel, ground.fields.surface_fuel, ground.bare, ground.water
-    return tuple(bilinear(field, *index) for field in known)
+    return (
+        bilinear(ground.fields.canopy_fuel, *index),
+        bilinear(ground.fields.surface_fuel, *index),
+        bilinear(ground.bare, *index),
+        bilinear(ground.water, *index),
+    )
 
 
 def _settled(shot: Shot, instances: Instances) -> Instances:

@@ -49,11 +49,11 @@ def visible_cells(
 def _size(shot: Shot, latitude: Array, longitude: Array, slope: Array) -> Array:
     """Radius (n,) m of a cell's plants round its centre, from its elevation steps to neighbours."""
     scale = areas.metres_per_degree(shot.local_frame.latitude)
-    sides = [
+    north, east = (
         metres * np.abs(np.diff(axis)).max() if len(axis) > 1 else own
         for own, metres, axis in zip(shot.ground.cell, scale, (latitude, longitude), strict=True)
-    ]
-    return np.hypot(0.5 * np.hypot(*sides), slope) + max(_RELIEF, shot.ground.rough)
+    )
+    return np.hypot(0.5 * np.hypot(north, east), slope) + max(_RELIEF, shot.ground.rough)
 
 
 def _slope(elevation: NDArray, row: NDArray[np.int64], column: NDArray[np.int64]) -> Array:
@@ -78,10 +78,10 @@ def _blocks(
         f.reduceat(f.reduceat(elevation, rows, axis=0), columns, axis=1).astype(np.float64)
         for f in (np.fmin, np.fmax)
     )
-    middle = shot.local_frame.forward_grid(
-        *(0.5 * (axis[at] + _last(axis, at)) for axis, at in ((latitude, rows), (longitude, columns))),
-        0.5 * (low + high),
+    north, east = (
+        0.5 * (axis[at] + _last(axis, at)) for axis, at in ((latitude, rows), (longitude, columns))
     )
+    middle = shot.local_frame.forward_grid(north, east, 0.5 * (low + high))
     corners = (
         shot.local_frame.forward_grid(y, x, 0.5 * (low + high))
         for y in (latitude[rows], _last(latitude, rows))

@@ -38,17 +38,14 @@ def visible(stage: Stage) -> volume.Illumination:
     group, tree = _group(stage)
     sun, around, toward = (tree.nodes[name] for name in sunlit.NODES)
     air, extinction = haze.state(stage)
-    glow = (
-        np.array(_colour(group, "Glow Colour")) * _number(group, "Glow")
-        if "Glow" in group.inputs
-        else 3 * [0.0]
-    )
+    strength = _number(group, "Glow") if "Glow" in group.inputs else 0.0
+    glow = [part * strength for part in _colour(group, "Glow Colour")] if strength else 3 * [0.0]
     return volume.Illumination(
         density=_number(group, "Density"),
         fresh=_colour(group, "Fresh Colour"),
         old=_colour(group, "Old Colour"),
-        sun=np.array(sun.outputs[0].default_value[:3]) * _number(group, "Sunlight"),
-        sky=np.array(around.outputs[0].default_value[:3]) * _number(group, "Skylight"),
+        sun=[part * _number(group, "Sunlight") for part in sun.outputs[0].default_value[:3]],
+        sky=[part * _number(group, "Skylight") for part in around.outputs[0].default_value[:3]],
         sun_direction=[socket.default_value for socket in toward.inputs],
         anisotropy=_number(group, "Anisotropy"),
         multiple_scattering=sunlit.OFTENER,

@@ -26,7 +26,9 @@ def build(shot: Shot, stage: Stage) -> bpy.types.Object | None:
     """Build "Firetwin Roofs"; None where the map has no buildings."""
     known = land_use.read_map(shot)
     houses = [each for each in known.things if each.kind == "building"] if known else []
-    points, faces, colours = [], [], []
+    points: list[Array] = []
+    faces: list[tuple[int, ...]] = []
+    colours: list[tuple[float, float, float]] = []
     for house in houses:
         for number, polygon in enumerate(house.polygons):
             lot = float(noise.uniform([house.number], 20 + number, shot.settings.seed)[0])

@@ -132,7 +132,8 @@ def _open_ground(
 ) -> nodes.Value:
     """Colour of the Sierra's meadows, soil and brush."""
     dry = place.elevation.ramp(500.0, 1500.0, 1.0, 0.0)
-    meadow = tree.mix_colour(dry, *(between(here.green, colour, _SPRING) for colour in _MEADOW))
+    high, low = (between(here.green, colour, _SPRING) for colour in _MEADOW)
+    meadow = tree.mix_colour(dry, high, low)
     soil = tree.mix_colour(fine, (0.115, 0.080, 0.050), (0.190, 0.140, 0.095))
     brush = place.grain.noise(34.0, 5.0, 0.7) + (patch - 0.5) * 0.7 + dry * -0.12
     shrub = tree.mix_colour(tint, (0.030, 0.038, 0.017), (0.052, 0.058, 0.028))

@@ -85,6 +85,8 @@ class Front:
         """The smoke of each moment."""
         ground, frames = self.ground, self.shot.frames
         near = box(ground.arrival < NEVER, more=2)
+        if near is None:
+            return []
         crossing = np.zeros(ground.arrival[near].shape)
         row, column = np.nonzero(ground.arrival[near] < NEVER)
         known = np.where(ground.arrival[near] < NEVER, ground.arrival[near], np.nan)
@@ -111,10 +113,10 @@ class Front:
     def crowns(self) -> bool:
         """Whether trees stand where it burns or round it."""
         fields = self.ground.fields
-        row, column = (
-            (v.astype(np.int64) for v in self.ground.under(self.point)) if len(self.point) else ([], [])
-        )
-        return bool(len(row)) and float(np.mean(fields.canopy_fuel[row, column] > 0.01)) > 0.05
+        if len(self.point) == 0:
+            return False
+        row, column = (v.astype(np.int64) for v in self.ground.under(self.point))
+        return float(np.mean(fields.canopy_fuel[row, column] > 0.01)) > 0.05
 
 
 def some(chosen: NDArray[np.int64], most: int) -> NDArray[np.int64]:
@@ -136,10 +138,12 @@ def find_front(shot: Shot) -> Front:
     found = [_at(ground, near, float(time)) for time in times]
     moment = np.repeat(np.arange(len(times)), [len(part[0]) for part in found])
     index = np.clip(np.round((times - frames.first) / max(frames.step, 1.0e-9)), 0, frames.count - 1)
+    point, velocity = (np.concatenate(parts) for parts in zip(*found, strict=True))
     return Front(
         shot,
         index.astype(np.int64),
-        *(np.concatenate(parts) for parts in zip(*found, strict=True)),
+        point,
+        velocity,
         moment,
         *_corners(ground, *within),
         extent.largest(burned[within], ground.cell),
@@ -188,7 +192,7 @@ def _at(ground: Ground, near: tuple[slice, slice], time: float) -> tuple[Array, 
     return point, velocity
 
 
-def _slope(time: Array, row: Array, column: Array, axis: int, size: float) -> Array:
+def _slope(time: Array, row: NDArray[np.int64], column: NDArray[np.int64], axis: int, size: float) -> Array:
     """Slope (n,) of arrival times along an axis, s/m: central differences, one-sided where one is unknown."""
     ends = []
     for step in (-1, 1):

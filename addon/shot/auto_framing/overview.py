@@ -129,7 +129,8 @@ def _room(front: Front, middle: Array, side: Array) -> float:
     reach = 0.95 * front.shot.settings.terrain.apron
     here = middle[:2]  # from the middle of the run, where the scene's origin is
     along = float(here @ side[:2])
-    return max(-along + float(np.sqrt(max(along**2 - here @ here + reach**2, 0.0))), _LEAST * reach)
+    beside = max(along**2 - float(here @ here) + reach**2, 0.0)
+    return max(-along + float(np.sqrt(beside)), _LEAST * reach)
 
 
 def _whole(front: Front) -> Array:

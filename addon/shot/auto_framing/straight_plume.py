@@ -117,7 +117,7 @@ def _merged(point: Array, rate: Array) -> tuple[Array, Array]:
         return np.empty((0, 3)), np.empty(0)
     size = max(float(np.ptp(point[:, :2], axis=0).max()) / _BLOCKS, 1.0)
     _, block = np.unique(np.floor(point[:, :2] / size), axis=0, return_inverse=True)
-    total = np.bincount(block.ravel(), rate)
+    total = np.bincount(block.ravel(), rate).astype(np.float64, copy=False)
     centre = np.stack([np.bincount(block.ravel(), rate * point[:, k]) for k in range(3)], axis=-1)
     some = total > 0.0
     return centre[some] / total[some, None], total[some]

@@ -70,14 +70,12 @@ def most_active(arrival: ArrayLike, fuel: ArrayLike, first: float, last: float, 
     order = np.argsort(arrival)
     total = np.concatenate([[0.0], np.cumsum(fuel[order])])
     begin = np.append(np.arange(first, last - length, _STEP), max(last - length, first))
-    before, by = (
-        np.searchsorted(arrival[order], begin + more, side)
-        for more, side in ((0.0, "left"), (length, "right"))
-    )
+    before = np.searchsorted(arrival[order], begin, "left")
+    by = np.searchsorted(arrival[order], begin + length, "right")
     return float(begin[np.argmax(total[by] - total[before])])
 
 
-def _burned(run: Run, arrival: Array) -> tuple[Array, Array, Array]:
+def _burned(run: Run, arrival: Array) -> tuple[NDArray[np.int64], NDArray[np.int64], Array]:
     """Row and column of the fuel cells that burn during the run, and the fuel of each, kg/m2.
 
     Where the run knows of no fuel every cell counts alike.
@@ -85,9 +83,10 @@ def _burned(run: Run, arrival: Array) -> tuple[Array, Array, Array]:
     first, last = float(run.times[0]), float(run.times[-1])
     with np.errstate(invalid="ignore"):
         row, column = np.nonzero((arrival >= first) & (arrival <= last))
-    fuel = sum(
+    surface, canopy = (
         np.nan_to_num(field[row, column].astype(np.float64)) for field in (run.surface_fuel, run.canopy_fuel)
     )
+    fuel = surface + canopy
     return row, column, fuel if np.any(fuel > 0.0) else np.ones(len(row))
 
 

@@ -23,7 +23,8 @@ def pixels(height: int, width: int, at: tuple[float, float] = (0.5, 0.5)) -> tup
     """Bearings to the right and elevations (h, w), rad, at offsets `at` in pixels; the same for both eyes."""
     bearing = ((np.arange(width) + at[0]) / width * 2.0 - 1.0) * np.pi
     eye = 0.5 * np.pi - (np.arange(height // 2) + at[1]) / (height // 2) * np.pi
-    return np.meshgrid(bearing, np.tile(eye, 2))
+    bearings, elevations = np.meshgrid(bearing, np.tile(eye, 2))
+    return bearings, elevations
 
 
 def right(bearing: Array) -> Array:
@@ -36,7 +37,8 @@ def points(view: Path, frame: int, far: Array) -> Array:
 
     Each ray leaves its eye at a right angle to the baseline.
     """
-    bearing, elevation = pixels(*far.shape)
+    height, width = far.shape
+    bearing, elevation = pixels(height, width)
     side = np.where(np.arange(far.shape[0])[:, None] < far.shape[0] // 2, -0.5, 0.5)
     eye = side * view.apart * merged(elevation)
     along = np.sqrt(np.maximum(far**2 - eye**2, 0.0))

@@ -88,10 +88,11 @@ class Path:
 
 def finest(paths: list[Path]) -> tuple[float, float]:
     """Smallest pixel sizes of perspective and orthographic paths (see `Path.pixel`); infinite if none."""
-    return tuple(
-        min((path.pixel for path in paths if path.perspective == near), default=np.inf)
-        for near in (True, False)
+    near, far = (
+        min((path.pixel for path in paths if path.perspective == kind), default=np.inf)
+        for kind in (True, False)
     )
+    return near, far
 
 
 def eyes(ways: list[Array], radius: float) -> Array:

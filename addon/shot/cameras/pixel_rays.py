@@ -26,7 +26,8 @@ def plane(view: Path, frame: int, height: int, width: int) -> tuple[NDArray[np.f
     across, up = view.halves[frame - 1]
     x = ((np.arange(width) + 0.5) / width * 2.0 - 1.0) * across
     y = (1.0 - (np.arange(height) + 0.5) / height * 2.0) * up
-    return np.meshgrid(x, y)
+    right, above = np.meshgrid(x, y)
+    return right, above
 
 
 def ranges(view: Path, frame: int, planar: NDArray) -> NDArray[np.float32]:

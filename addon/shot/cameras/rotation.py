@@ -64,9 +64,9 @@ def angles(frame: geo.LocalFrame, place: Array, rotation: Array) -> tuple[float,
     """
     east, north, up = compass(frame, place)
     ahead = -rotation[:, 2]
-    tilt = np.arctan2(-ahead @ up, np.hypot(ahead @ east, ahead @ north))
+    tilt = float(np.arctan2(-ahead @ up, np.hypot(ahead @ east, ahead @ north)))
     edge = ahead if np.cos(tilt) > _UPRIGHT else rotation[:, 1] * np.sign(tilt)
-    heading = np.arctan2(edge @ east, edge @ north)
+    heading = float(np.arctan2(edge @ east, edge @ north))
     right, above, _ = _level(frame, place, heading, tilt)
     roll = np.arctan2(-rotation[:, 0] @ above, rotation[:, 0] @ right)
     return float(np.degrees(heading)) % 360.0, float(np.degrees(tilt)), float(np.degrees(roll))

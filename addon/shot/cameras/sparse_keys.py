@@ -20,7 +20,7 @@ def keys(values: Array, tolerance: float) -> tuple[NDArray[np.int64], Array]:
     last = len(values) - 1
     if last < 1:
         return np.arange(len(values)), np.zeros(values.shape)
-    slope = np.gradient(values, axis=0, edge_order=min(last, 2))
+    slope = np.gradient(values, axis=0, edge_order=1 if last < 2 else 2)
     kept = np.array([0, last])
     while True:
         error = np.linalg.norm(curve(kept, values[kept], slope[kept], last + 1) - values, axis=1)
@@ -61,7 +61,7 @@ def through(at: Array, values: Array, moments: Array) -> Array:
     """
     if len(at) == 1:
         return np.repeat(values, len(moments), axis=0)
-    slopes = np.gradient(values, at, axis=0, edge_order=min(len(at) - 1, 2))
+    slopes = np.gradient(values, at, axis=0, edge_order=1 if len(at) < 3 else 2)
     return _cubics(at, values, slopes, np.clip(moments, at[0], at[-1]))
 
 

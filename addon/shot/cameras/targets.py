@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -70,15 +73,17 @@ def _burned(ground: Ground) -> tuple[Array, Array, Array, Array]:
     return point[:, 0], point[:, 1], arrival[burned], np.minimum(speed, 5.0)
 
 
-def _follow(times: Array, place: object) -> tuple[Array, Array]:
+def _follow(times: Array, place: Callable[[float, Any], Any]) -> tuple[Array, Array]:
     """Track of a target: sampled at a few times, interpolated and smoothed over the shot."""
     knots = np.linspace(times[0], times[-1], min(len(times), _KNOTS))
-    last, found = None, []
+    last: Any = None
+    found = []
     for time in knots:
         last = place(time, last)
         found.append(last)
     track = np.array(found)
-    return tuple(smoothed(np.interp(times, knots, track[:, axis])) for axis in (0, 1))
+    x, y = (smoothed(np.interp(times, knots, track[:, axis])) for axis in (0, 1))
+    return x, y
 
 
 def _scale(ground: Ground, speed: Array, time: float) -> tuple[float, float]:
@@ -98,7 +103,7 @@ def _scale(ground: Ground, speed: Array, time: float) -> tuple[float, float]:
     return max(part * _BLOCK, cells), min(max(part * _RECENT, cells / float(np.median(speed))), _RECENT)
 
 
-def _front(time: float, arrival: Array, recent: float) -> Array:
+def _front(time: float, arrival: Array, recent: float) -> NDArray[np.int64]:
     """Indices of the cells that burned within `recent` s before `time`; else those nearest in time."""
     found = np.flatnonzero((arrival <= time) & (arrival > time - recent))
     if len(found) or len(arrival) == 0:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...errors import input_error
 from ...run import times
@@ -50,7 +51,7 @@ class Track:
     latitude: Array
     longitude: Array
     height: Array
-    over_ground: Array
+    over_ground: NDArray[np.bool_]
     utc: Array | None = None
     part: Array | None = None
 
@@ -61,8 +62,7 @@ class Track:
         follows in recorded time. "shot": the first point is at the first frame and the last point at the last
         frame. Fractions of the shot apply as recorded. A track with neither spans the shot at constant speed.
         """
-        own = self.utc is not None and moments != "shot"
-        if own:
+        if self.utc is not None and moments != "shot":
             first = times.utc(run, 0.0).timestamp() if moments == "own" else self.utc[0] - frames.first
             at, shown = self.utc - first, frames.times
         else:
@@ -136,11 +136,8 @@ def _made(path: Path, points: Sequence[Point]) -> Track:
     utc = part = None
     if with_moment:
         points = _rising(path, points)
-        moments = [point.moment for point in points]
-        if isinstance(moments[0], datetime):
-            utc = np.array([moment.timestamp() for moment in moments])
-        else:
-            part = np.array(moments)
+        moments = np.array([_number(point.moment) for point in points])
+        utc, part = (moments, None) if isinstance(points[0].moment, datetime) else (None, moments)
     latitude, longitude = (np.array([p[k] for p in points]) for k in (1, 2))
     height = np.array([p.height if with_height else 0.0 for p in points])
     over = np.array([p.over_ground or not with_height for p in points])
@@ -163,12 +160,16 @@ def _all_or_none(path: Path, points: Iterable[Point], name: str, what: str, reme
 
 def _rising(path: Path, points: Sequence[Point]) -> list[Point]:
     """Points with ascending times; duplicate points are merged."""
+    dated = isinstance(points[0].moment, datetime)
     kept = [points[0]]
     for point in points[1:]:
+        if isinstance(point.moment, datetime) != dated:
+            reason = "a point with a time among others with a part of the shot (at); give all points the same"
+            raise input_error(path, point.line, 0, reason)
         last = kept[-1]
-        if point.moment > last.moment:
+        if _number(point.moment) > _number(last.moment):
             kept.append(point)
-        elif point.moment < last.moment or point[1:4] != last[1:4]:
+        elif point.moment != last.moment or point[1:4] != last[1:4]:
             reason = (
                 f"is at {_said(point.moment)}, not later than the point before it; put the points in order"
             )
@@ -176,9 +177,13 @@ def _rising(path: Path, points: Sequence[Point]) -> list[Point]:
     return kept
 
 
-def _said(moment: datetime | float) -> str:
-    return (
-        f"{moment:g}"
-        if isinstance(moment, float)
-        else moment.astimezone(UTC).isoformat().replace("+00:00", "Z")
-    )
+def _number(moment: datetime | float | None) -> float:
+    """Seconds since 1970 of a time, a part of the shot as it is."""
+    assert moment is not None
+    return moment.timestamp() if isinstance(moment, datetime) else moment
+
+
+def _said(moment: datetime | float | None) -> str:
+    if isinstance(moment, datetime):
+        return moment.astimezone(UTC).isoformat().replace("+00:00", "Z")
+    return f"{moment:g}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from datetime import datetime
 from pathlib import Path
 
 from ...errors import input_error
@@ -30,12 +31,12 @@ def points(path: Path) -> Iterator[Point]:
 
 
 def _point(path: Path, line: int, value: dict[str, str]) -> Point:
-    place = (number(path, line, value[name], name) for name in ("latitude", "longitude"))
+    latitude, longitude = (number(path, line, value[name], name) for name in ("latitude", "longitude"))
     height = number(path, line, value["height"], "height") if value.get("height", "").strip() else None
-    return Point(line, *place, height, moment=_moment(path, line, value))
+    return Point(line, latitude, longitude, height, moment=_moment(path, line, value))
 
 
-def _moment(path: Path, line: int, value: dict[str, str]) -> object:
+def _moment(path: Path, line: int, value: dict[str, str]) -> datetime | float | None:
     """Time of a point: UTC, fraction of the shot, or None."""
     if value.get("time", "").strip():
         return moment(path, line, value["time"], zone=True)

@@ -38,11 +38,14 @@ def gpx(path: Path) -> Iterator[Point]:
         if each.name in ("ele", "time"):
             inside |= {each.name: each} if each.parent == wanted else {}
         elif each.name == wanted:
-            place = (number(path, each.line, each.attributes.get(name), name) for name in ("lat", "lon"))
+            latitude, longitude = (
+                number(path, each.line, each.attributes.get(name), name) for name in ("lat", "lon")
+            )
             ele, time = inside.get("ele"), inside.get("time")
             yield Point(
                 each.line,
-                *place,
+                latitude,
+                longitude,
                 number(path, ele.line, ele.text, "height <ele>") if ele else None,
                 moment=moment(path, time.line, time.text) if time else None,
             )
@@ -59,7 +62,9 @@ def kml(path: Path) -> Iterator[Point]:
 
 
 def _tracks(path: Path, found: list[_Element]) -> Iterator[Point]:
-    when, coord, mode = [], [], "clampToGround"
+    when: list[_Element] = []
+    coord: list[_Element] = []
+    mode = "clampToGround"
     for each in found:
         if each.name == "Track":
             if when and len(when) != len(coord):

@@ -111,7 +111,7 @@ def surroundings(run: Run, arrival: Array) -> tuple[slice, slice]:
         ((run.fuel_latitude, run.latitude), (run.fuel_longitude, run.longitude))
     ):
         hit = np.asarray(fine)[burned.any(axis=1 - axis)]
-        inside = np.flatnonzero((coarse >= hit.min()) & (coarse <= hit.max())) if len(hit) else []
+        inside = np.flatnonzero((coarse >= hit.min()) & (coarse <= hit.max())) if len(hit) else np.empty(0)
         whole = len(inside) == 0
         slices.append(slice(None) if whole else slice(int(inside[0]), int(inside[-1]) + 1))
     return slices[0], slices[1]

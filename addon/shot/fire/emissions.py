@@ -136,6 +136,7 @@ def column(name: str, part: int | None = None) -> Array:
 
 def burn_out(surface: ArrayLike, kinds: ArrayLike) -> Array:
     """Burn-out time of a surface fuel load (kg/m2) of these kinds, s."""
+    kinds = np.asarray(kinds)
     return column("burn_out", 0)[kinds] + column("burn_out", 1)[kinds] * np.asarray(surface, np.float64)
 
 

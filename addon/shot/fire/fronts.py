@@ -70,7 +70,7 @@ class Reach:
         """Burned state of points (degrees) at a model time (s): 1 burned, 0 not, NaN outside of the grid."""
         longitude = areas.turned(longitude, self._middle)
         row, column = (
-            np.interp(at, axis, np.arange(len(axis)), left=np.nan, right=np.nan)
+            np.interp(np.asarray(at, np.float64), axis, np.arange(len(axis)), left=np.nan, right=np.nan)
             for at, axis in ((latitude, self.latitude), (longitude, self.longitude))
         )
         inside = np.isfinite(row) & np.isfinite(column)
@@ -91,14 +91,14 @@ class Reach:
         if self.divided > 1:
             since = bilinear(since, *np.meshgrid(row, column, indexing="ij"))
         y, x, after = contour(since)
-        places = (
+        latitude, longitude = (
             np.interp(at, np.arange(len(fine)), np.interp(fine, np.arange(axis[part].size), axis[part]))
             for at, fine, axis, part in (
                 (y, row, self.latitude, box[0]),
                 (x, column, self.longitude, box[1]),
             )
         )
-        return (*places, after)
+        return latitude, longitude, after
 
 
 @functools.lru_cache(maxsize=len(COLOURS))
@@ -119,17 +119,20 @@ def contour(field: Array) -> tuple[Array, Array, NDArray[np.int64]]:
     sides = [number[:-1, :-1], number[:-1, 1:] + field.size, number[1:, :-1], number[:-1, :-1] + field.size]
     leaves = [corners[k] & ~corners[(k + 1) % 4] for k in range(4)]
     enters = [~corners[k] & corners[(k + 1) % 4] for k in range(4)]
-    crossed = sum(leave.astype(np.int8) for leave in leaves) == 2
+    crossed = np.sum(leaves, axis=0) == 2
     joined = 0.25 * (field[:-1, :-1] + field[:-1, 1:] + field[1:, 1:] + field[1:, :-1]) <= 0.0
-    here, there = [], []
+    from_sides, to_sides = [], []
     for k in range(4):
         for step in (1, 2, 3):
             other = (k + step) % 4
             mask = leaves[k] & enters[other]
-            mask &= ~crossed | ((joined if step == 1 else ~joined) if step != 2 else False)
-            here.append(sides[k][mask])
-            there.append(sides[other][mask])
-    here, there = np.concatenate(here), np.concatenate(there)
+            if step == 2:
+                mask &= ~crossed
+            else:
+                mask &= ~crossed | (joined if step == 1 else ~joined)
+            from_sides.append(sides[k][mask])
+            to_sides.append(sides[other][mask])
+    here, there = np.concatenate(from_sides), np.concatenate(to_sides)
     points = np.unique(here)
     after = np.empty(len(points), np.int64)
     after[np.searchsorted(points, here)] = np.searchsorted(points, there)

@@ -211,7 +211,7 @@ def _pieces(run: Run, fuel: Fuel, row: Index, column: Index, detail: float) -> F
     if len(first) == len(row):
         return fuel
     weight = fuel.surface + fuel.canopy
-    surface = np.bincount(group, fuel.surface)
+    surface = np.bincount(group, fuel.surface).astype(np.float64, copy=False)
 
     def mean(values: Array, weight: Array = weight) -> Array:
         whole = np.bincount(group, weight)
@@ -229,7 +229,7 @@ def _pieces(run: Run, fuel: Fuel, row: Index, column: Index, detail: float) -> F
         leave - begin,
         over,
         surface,
-        np.bincount(group, fuel.canopy),
+        np.bincount(group, fuel.canopy).astype(np.float64, copy=False),
         fuel.kind[first],
         np.where(surface > 0.0, mean(fuel.slow, fuel.surface), fuel.slow[first]),
         np.stack([mean(fuel.position[:, axis]) for axis in range(3)], axis=-1),

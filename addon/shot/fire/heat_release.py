@@ -116,16 +116,20 @@ def _gathered(
     member: NDArray | slice = slice(None),
 ) -> Sources:
     """Sum sources in each `group`: fractions `weight` of the sources `member`, at their centres of power."""
+
+    def total_of(values: Array) -> Array:
+        return np.bincount(group, values).astype(np.float64, copy=False)
+
     power = sources.power[member] * weight
-    total = np.bincount(group, power)
-    place = np.stack([np.bincount(group, power * sources.position[member, k]) for k in range(3)], axis=-1)
+    total = total_of(power)
+    place = np.stack([total_of(power * sources.position[member, k]) for k in range(3)], axis=-1)
     some = total > 0.0
     nowhere = np.full(int(some.sum()), -1)
     return Sources(
         place[some] / total[some, None],
         total[some],
-        np.bincount(group, sources.flaming[member] * weight)[some],
-        np.bincount(group, sources.smoke[member] * weight)[some],
+        total_of(sources.flaming[member] * weight)[some],
+        total_of(sources.smoke[member] * weight)[some],
         nowhere,
         nowhere,
     )

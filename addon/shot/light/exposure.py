@@ -53,7 +53,7 @@ def at(shot: Shot, frames: NDArray) -> Array:
     return np.interp(frames, found.frame, found.stops)
 
 
-def darkness(shot: Shot, times: NDArray) -> Array:
+def darkness(shot: Shot, times: NDArray | float) -> Array:
     """How dark (n,) it is without flames at model times (n,), s, for the camera that has least light.
 
     0 by day, where sunlight drowns theirs, to 1 by night; under smoke by day little.
@@ -74,13 +74,18 @@ def _metered(shot: Shot) -> _Metered:
 def _smooth(shot: Shot, frames: Array) -> _Metered:
     """Meter frames (k,), smooth over time."""
     if not shot.paths:
-        found = [exposure_meter.clear(sky.state(shot, shot.frames.time(frame))) for frame in frames]
-        stops = np.array([_stops(each, np.zeros(2)) for each in found])
+        clear = [exposure_meter.clear(sky.state(shot, shot.frames.time(frame))) for frame in frames]
+        stops = np.array([_stops(each, np.zeros(2)) for each in clear])
         return _Metered(frames, stops, noise.smoothstep(*_DARK, stops))
     found = [[exposure_meter.measure(shot, view, int(frame)) for frame in frames] for view in shot.paths]
     suns = [_sun(shot, frame) for frame in frames]
     dark = np.array([[_dark(each[1], sun) for each, sun in zip(view, suns, strict=True)] for view in found])
-    stops = np.array([_stops(*_with_flames(*each, sun)) for each, sun in zip(found[0], suns, strict=True)])
+    stops = np.array(
+        [
+            _stops(*_with_flames(all_light, level, shine, sun))
+            for (all_light, level, shine), sun in zip(found[0], suns, strict=True)
+        ]
+    )
     return _Metered(frames, targets.smoothed(stops), targets.smoothed(dark.max(axis=0)))
 
 

@@ -7,7 +7,7 @@ minimap's picture does not hide them.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -125,12 +125,18 @@ def _scale(axes: Axes, reach: float, tall: float, height: float) -> None:
     length = max(step * unit for step in (1, 2, 5) if step * unit <= 0.5 * reach)
     size = 0.036 * height * 0.72
     x, y = -0.97 * reach, -0.92 * tall
-    edge = {"edgecolor": "black", "linewidth": 0.6, "zorder": 8}
+    edge: dict[str, Any] = {"edgecolor": "black", "linewidth": 0.6, "zorder": 8}
     for part, colour in ((0, "black"), (1, "white")):
         corner = x + 0.5 * part * length, y
         axes.add_patch(Rectangle(corner, 0.5 * length, 0.025 * tall, facecolor=colour, **edge))
     name = f"{length / 1e3:g} km" if length >= 1000.0 else f"{length:g} m"
-    said = {"size": size, "family": "DejaVu Sans", "color": "black", "path_effects": _EDGE, "zorder": 9}
+    said: dict[str, Any] = {
+        "size": size,
+        "family": "DejaVu Sans",
+        "color": "black",
+        "path_effects": _EDGE,
+        "zorder": 9,
+    }
     axes.text(x, y + 0.05 * tall, name, va="bottom", **said)
     axes.annotate(
         "N",

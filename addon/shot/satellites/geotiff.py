@@ -7,6 +7,7 @@ from pathlib import Path
 from types import ModuleType
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ... import files
 from ...errors import Error
@@ -22,7 +23,7 @@ def write(path: Path, picture: Picture, instrument: Instrument, run: str, moment
         rasterio is not installed.
     """
     rasterio = _rasterio()
-    layers = {
+    layers: dict[str, NDArray] = {
         f"brightness temperature at {instrument.short:g} um, K": picture.short,
         f"brightness temperature at {instrument.long:g} um, K": picture.long,
         "fire radiative power, W": picture.power,

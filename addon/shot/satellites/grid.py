@@ -20,8 +20,13 @@ PIXEL = 56e-6  # rad, 2 km under the satellite
 class Grid(Protocol):
     """Rows (north to south) and columns (west to east) of pixels, of unbounded number."""
 
-    crs: str
-    step: tuple[float, float]  # of columns and rows, in units of `crs`
+    @property
+    def crs(self) -> str:
+        """As PROJ reads it."""
+
+    @property
+    def step(self) -> tuple[float, float]:
+        """Of columns and rows, in units of `crs`."""
 
     def forward(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
         """Fractional row and column of places (degrees); pixel i reaches from i to i + 1. NaN: not seen."""
@@ -112,7 +117,10 @@ class EvenGrid:
     def reverse(self, row: ArrayLike, column: ArrayLike) -> tuple[Array, Array]:
         """Latitude and longitude of fractional rows and columns."""
         east, south = self.step
-        return np.broadcast_arrays(np.asarray(row, np.float64) * south, np.asarray(column, np.float64) * east)
+        latitude, longitude = np.broadcast_arrays(
+            np.asarray(row, np.float64) * south, np.asarray(column, np.float64) * east
+        )
+        return latitude, longitude
 
     def corner(self, row: int, column: int) -> tuple[float, float]:
         """Longitude and latitude."""

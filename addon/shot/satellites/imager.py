@@ -193,7 +193,7 @@ def _power(
     """Fire radiative power (W) of each pixel, and how many pixels of the band are saturated."""
 
     def total(values: NDArray) -> Array:
-        return np.bincount(blocks.ravel(), values.ravel())
+        return np.bincount(blocks.ravel(), values.ravel()).astype(np.float64, copy=False)
 
     background = sensor.spectral_radiance(kelvin, band.wave).mean(axis=-1)
     radiance = (1.0 - part) * background + part * sensor.spectral_radiance(FIRE, band.wave)

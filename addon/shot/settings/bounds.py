@@ -3,17 +3,28 @@
 from __future__ import annotations
 
 import re
+from typing import TypedDict
 
 HIGHEST = 1_000_000  # m; satellites in low orbits fly there, and scenes are numbers of 32 bits (0.06 m there)
 LONGEST_NAME = 40  # letters: with run, pass and frame a file's name stays under 255, and Blender's under 64
 
-HEIGHT = {"unit": "m", "above": 0, "at_most": HIGHEST}
-AIM = {"unit": "m", "at_least": -12_000, "at_most": HIGHEST}
-LENGTH = {"unit": "m", "at_least": 1, "at_most": HIGHEST}
-CLEARANCE = {"unit": "m", "at_least": 0, "at_most": 100_000}
-SWATH = {"unit": "m", "at_least": 1, "at_most": 10_000_000}
-ANGLE = {"unit": "degrees", "at_least": -3600, "at_most": 3600}
-SENSOR = {"unit": "mm", "at_least": 1, "at_most": 1000}  # Blender has none below 1
+
+class Bounds(TypedDict, total=False):
+    """What such keys hand to `schema.key`."""
+
+    unit: str
+    at_least: float
+    above: float
+    at_most: float
+
+
+HEIGHT: Bounds = {"unit": "m", "above": 0, "at_most": HIGHEST}
+AIM: Bounds = {"unit": "m", "at_least": -12_000, "at_most": HIGHEST}
+LENGTH: Bounds = {"unit": "m", "at_least": 1, "at_most": HIGHEST}
+CLEARANCE: Bounds = {"unit": "m", "at_least": 0, "at_most": 100_000}
+SWATH: Bounds = {"unit": "m", "at_least": 1, "at_most": 10_000_000}
+ANGLE: Bounds = {"unit": "degrees", "at_least": -3600, "at_most": 3600}
+SENSOR: Bounds = {"unit": "mm", "at_least": 1, "at_most": 1000}  # Blender has none below 1
 
 _DEVICES = re.compile(r"con|prn|aux|nul|com\d|lpt\d", re.IGNORECASE)  # no files' names on Windows
 

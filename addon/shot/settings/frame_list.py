@@ -28,8 +28,9 @@ def _frames(part: str, last: int) -> range:
     found = _PART.fullmatch(part)
     if not found:
         raise ValueError(f'"{part}" is not a list of frames; write it like 7, 1-10, 3,5-9 or 1-48:4')
-    first, end, step = (int(number) if number else None for number in found.groups())
-    end = first if end is None else end
+    first = int(found[1])
+    end = int(found[2]) if found[2] else first
+    step = int(found[3]) if found[3] else None
     if end < first:
         turned = f"{end}-{first}" + (f":{step}" if step is not None else "")
         raise ValueError(f'"{part}" runs backwards; frames are listed from low to high: {turned}')

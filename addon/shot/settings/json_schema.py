@@ -30,7 +30,9 @@ def _table(kind: type) -> dict[str, Any]:
     if not rig:
         return _object([part for part in fields(kind)], {}, [])
     return {
-        "oneOf": [_of_kind(kind, rig.key, name, rig_kind) for name, rig_kind in rig.key.variants().items()]
+        "oneOf": [
+            _of_kind(kind, rig.key, name, rig_kind) for name, rig_kind in rig.key.all_variants().items()
+        ]
     }
 
 
@@ -49,10 +51,9 @@ def _object(known: list[Field], more: dict[str, Any], required: list[str]) -> di
 
 def _property(part: Field) -> dict[str, Any]:
     found: dict[str, Any] = {"description": part.key.described()}
-    if part.tables:
-        return found | {"type": "array", "items": _table(part.table)}
     if part.table:
-        return found | _table(part.table)
+        table = _table(part.table)
+        return found | ({"type": "array", "items": table} if part.tables else table)
     if part.default is not None:
         found["default"] = plain(part.type, part.default)
     inner = typing.get_args(part.type)
@@ -60,7 +61,7 @@ def _property(part: Field) -> dict[str, Any]:
 
 
 def _list(inner: tuple[Any, ...], key: Key) -> dict[str, Any]:
-    found = {"type": "array", "items": _one(inner[0], key)}
+    found: dict[str, Any] = {"type": "array", "items": _one(inner[0], key)}
     if inner[-1] is not Ellipsis:
         found |= {"minItems": len(inner), "maxItems": len(inner)}
     return found | ({"uniqueItems": True} if key.choices else {})

@@ -109,13 +109,14 @@ class _Reader:
     def current(self, values: dict[str, Any]) -> dict[str, Any]:
         """Sections and their keys under the names that they have now; former ones are noted."""
         found = self.renamed(values, {(name,): now for name, now in FORMER.items()}, (), "[{}]")
+        keys: dict[Where, str] = {(*where,): now for where, now in FORMER_KEYS.items()}
         for section in {section for section, _ in FORMER_KEYS}:
             if isinstance(found.get(section), dict):
-                found[section] = self.renamed(found[section], FORMER_KEYS, (section,), f"{section}.{{}}")
+                found[section] = self.renamed(found[section], keys, (section,), f"{section}.{{}}")
         return found
 
     def renamed(
-        self, values: dict[str, Any], former: dict[tuple[str, ...], str], where: Where, shown: str
+        self, values: dict[str, Any], former: dict[Where, str], where: Where, shown: str
     ) -> dict[str, Any]:
         """A table with the present names of keys that it has under `former` ones."""
         names = {name: former.get((*where, name), name) for name in values}
@@ -141,25 +142,26 @@ class _Reader:
             if name not in own and name not in flat and name not in tag:
                 raise self.error((*where, name), self.unknown(name, [*tag, *own, *flat], rig, where))
         known = {name: self.part(part, values, where) for name, part in own.items()}
-        if rig:
+        if rig and rig_kind:
             known[rig.name] = rig_kind(
                 **{name: self.part(part, values, where) for name, part in flat.items()}
             )
-        own = {"path": self.path, "notes": tuple(self.former)} if kind is Settings else {}
-        return kind(**known, **own)
+        if kind is Settings:
+            known |= {"path": self.path, "notes": tuple(self.former)}
+        return kind(**known)
 
     def kind(self, key: Key, values: dict[str, Any], where: Where) -> tuple[type, tuple[str]]:
         """The dataclass that the key `tag` of a table chooses, and the tag."""
         here, name = (*where, key.tag), values.get(key.tag, key.default_kind)
         if reason := key.invalid(self.expect(str, name, here)):
             raise self.error(here, f"{_dotted(here)} {reason}")
-        return key.variants()[name], (key.tag,)
+        return key.all_variants()[name], (key.tag,)
 
     def unknown(self, name: str, known: list[str], rig: Field | None, where: Where) -> str:
         """What to say of a key that is none."""
-        kinds = rig.key.variants() if rig else {}
+        kinds = rig.key.all_variants() if rig else {}
         having = [kind for kind, made in kinds.items() if name in (part.name for part in fields(made))]
-        if having:
+        if rig and having:
             return f"{name} belongs to {rig.key.tag} {either(having)}; known here: {', '.join(known)}"
         place = f"in [{_dotted(where)}]" if where else "in a scene file"
         return f'unknown key "{name}" {place}' + (
@@ -177,7 +179,7 @@ class _Reader:
         """A value of the file as the type that its dataclass field declares."""
         if isinstance(value, int) and abs(value) >= 2**63:
             raise self.error(where, f"{_dotted(where)} is larger than a number in TOML may be")
-        if dataclasses.is_dataclass(kind):
+        if isinstance(kind, type) and dataclasses.is_dataclass(kind):
             return self.table(kind, self.expect(dict, value, where), where)
         if typing.get_origin(kind) is tuple:
             return self.tuple(kind, self.expect(list, value, where), where)
@@ -230,7 +232,9 @@ def _current(where: Where) -> Where:
     if not where:
         return where
     section, *inner = FORMER.get(str(where[0]), where[0]), *where[1:]
-    return (section, FORMER_KEYS.get((section, inner[0]), inner[0]), *inner[1:]) if inner else (section,)
+    if not inner:
+        return (section,)
+    return (section, FORMER_KEYS.get((str(section), str(inner[0])), inner[0]), *inner[1:])
 
 
 _TYPES = {
@@ -248,7 +252,7 @@ def _shown(value: object) -> str:
         return str(value).lower()
     if isinstance(value, str):
         return f'"{value}"'
-    return {dict: "a table", list: "a list"}.get(type(value), str(value))
+    return "a table" if isinstance(value, dict) else "a list" if isinstance(value, list) else str(value)
 
 
 def _dotted(where: Where) -> str:

@@ -66,6 +66,10 @@ class Key:
         names = self.choices() if callable(self.choices) else self.choices or ()
         return dict(names) if isinstance(names, Mapping) else dict.fromkeys(names, "")
 
+    def all_variants(self) -> Mapping[str, type]:
+        """The variants by name; none where no variants may stand."""
+        return self.variants() if self.variants else {}
+
     def described(self) -> str:
         """Help with its unit: ``how far it is filled, m; 0 leaves it empty``."""
         head, mark, remark = self.help.partition(";")
@@ -84,12 +88,12 @@ class Key:
 
     def _bounds(self, value: Any) -> str | None:
         low, above, high = self.at_least, self.above, self.at_most
-        rules = (
+        rules: tuple[tuple[float | None, Callable[[Any, Any], bool], str], ...] = (
             (low, operator.ge, "at least"),
             (above, operator.gt, "above"),
             (high, operator.le, "at most"),
         )
-        known = [rule for rule in rules if rule[0] is not None]
+        known = [(bound, holds, word) for bound, holds, word in rules if bound is not None]
         if all(holds(value, bound) for bound, holds, _ in known):
             return None
         words = " and ".join(f"{word} {_number(bound)}" for bound, _, word in known)
@@ -184,7 +188,7 @@ def _declared(hint: Any) -> Any:
 
 def kind_of(known: Key, value: Any) -> str:
     """Name of the kind that `value` is one of."""
-    return next(name for name, kind in known.variants().items() if type(value) is kind)
+    return next(name for name, kind in known.all_variants().items() if type(value) is kind)
 
 
 def summary(kind: type) -> str:
@@ -200,7 +204,7 @@ def walk(kind: type, section: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str,
     """
     for part in fields(kind):
         yield section, part
-        for inner in part.key.variants().values() if part.key.variants else ():
+        for inner in part.key.all_variants().values():
             yield from walk(inner, section)
         if part.table:
             yield from walk(part.table, (*section, part.name))
@@ -217,7 +221,7 @@ def validate(settings: Any, section: tuple[str, ...] = ()) -> tuple[Where, str] 
 
 
 def _wrong_key(settings: Any, section: tuple[str, ...]) -> tuple[Where, str] | None:
-    for part in fields(type(settings)):
+    for part in fields(settings.__class__):
         value, here = getattr(settings, part.name), (*section, part.name)
         if part.key.variants:
             if found := _wrong_key(value, section):
@@ -253,7 +257,7 @@ def _chosen(
     settings: Any, affects: frozenset[str], camera: str | None, inherited: tuple[str, ...]
 ) -> dict[str, Any]:
     found: dict[str, Any] = {}
-    for part in fields(type(settings)):
+    for part in fields(settings.__class__):
         value = getattr(settings, part.name)
         aspects = part.key.affects if part.key.affects is not None else inherited
         if part.key.variants:

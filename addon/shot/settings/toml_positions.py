@@ -41,10 +41,11 @@ class _Scan:
             self._skip()
 
     def _skip(self) -> None:
-        self.at = _GAP.match(self.text, self.at).end()
+        self._take(_GAP)
 
     def _take(self, pattern: re.Pattern[str]) -> str:
         found = pattern.match(self.text, self.at)
+        assert found
         self.at = found.end()
         return found.group()
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 import re
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -126,16 +126,18 @@ def _with_lists(blocks: list[Block], made: list[Block], path: Path, was: Values,
         here = (*path, name)
         size = len(here)
         if any(block.path[:size] == here and len(block.path) > size for block in blocks + made):
-            blocks = _with_list(blocks, made, here, was, now)
+            blocks = _with_list(blocks, made, here, name, was, now)
             for i, (old, new) in enumerate(zip(was.get(name, []), now.get(name, []), strict=False)):
                 if any(block.path == (*here, i) for block in blocks):  # else it is inline
                     blocks = _with_lists(blocks, made, (*here, i), old, new)
     return blocks
 
 
-def _with_list(blocks: list[Block], made: list[Block], path: Path, was: Values, now: Values) -> list[Block]:
+def _with_list(
+    blocks: list[Block], made: list[Block], path: Path, name: str, was: Values, now: Values
+) -> list[Block]:
     """With the tables of a list in their new order and number; `was` follows."""
-    name, size = path[-1], len(path)
+    size = len(path)
     old, new = was.get(name, []), now.get(name, [])
     mine = [i for i, block in enumerate(blocks) if block.path[:size] == path]
     sources = _sources(old, new)
@@ -177,19 +179,21 @@ def _edited(block: Block, blocks: list[Block], was: Values, now: Values) -> str:
     """Header and keys of a block with the keys that changed."""
     document: Any = tomlkit.parse(block.body)
     table = document
+    before: Any = was
+    after: Any = now
     for step in block.path:
         if isinstance(step, str):
             table = table[step]
             table = table[0] if isinstance(table, AoT) else table
-        was, now = was[step], now[step]
+        before, after = before[step], after[step]
     size = len(block.path)
     apart = {
         other.path[size] for other in blocks if len(other.path) > size and other.path[:size] == block.path
     }
-    return tomlkit.dumps(document) if _put(table, was, now, apart) else block.body
+    return tomlkit.dumps(document) if _put(table, before, after, apart) else block.body
 
 
-def _put(table: Any, was: Values, now: Values, apart: set[str | int] = frozenset()) -> bool:
+def _put(table: Any, was: Any, now: Any, apart: Set[str | int] = frozenset()) -> bool:
     """Change keys of a table of tomlkit, but those `apart`; whether there was anything to change."""
     changed = [name for name in {**was, **now} if name not in apart and was.get(name) != now.get(name)]
     for name in changed:

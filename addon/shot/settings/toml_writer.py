@@ -6,7 +6,7 @@ import json
 import os
 import zoneinfo
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from datetime import UTC, datetime, tzinfo
+from datetime import UTC, datetime, timedelta, tzinfo
 from pathlib import Path
 from typing import Any
 
@@ -147,7 +147,7 @@ def quoted(text: str) -> str:
 
 def _flat(table: Any) -> Iterator[tuple[Field, Any]]:
     """Keys of a dataclass with their values; those of a kind follow the key that names it."""
-    for part in fields(type(table)):
+    for part in fields(table.__class__):
         value = getattr(table, part.name)
         yield part, value
         if part.key.variants:
@@ -186,6 +186,6 @@ def _moment(moment: datetime, zone: tzinfo) -> str:
         local = moment.astimezone(zone)
     except OverflowError:
         local = moment.astimezone(UTC)
-    if local.utcoffset().total_seconds() % 60:
+    if (local.utcoffset() or timedelta()).total_seconds() % 60:
         local = moment.astimezone(UTC)
     return local.isoformat().replace("+00:00", "Z")

@@ -102,13 +102,12 @@ def extend(
     if sea is not None:
         sea &= elevation[row, column] == invented  # an elevation model overrides it
         elevation[row[sea], column[sea]] = _level(fields)
-    fuels = []
-    for fuel in (fields.canopy_fuel, fields.surface_fuel):
-        fuels.append(np.pad(fuel, count))
-        fuels[-1][row, column] = _fuel(fields.elevation, fuel, elevation[row, column], points, ranks)
+    canopy, surface = np.pad(fields.canopy_fuel, count), np.pad(fields.surface_fuel, count)
+    for fuel, whole in ((fields.canopy_fuel, canopy), (fields.surface_fuel, surface)):
+        whole[row, column] = _fuel(fields.elevation, fuel, elevation[row, column], points, ranks)
         if sea is not None:
-            fuels[-1][row[sea], column[sea]] = 0.0
-    return Fields(latitude, longitude, elevation, *fuels, count)
+            whole[row[sea], column[sea]] = 0.0
+    return Fields(latitude, longitude, elevation, canopy, surface, count)
 
 
 def _wet(fields: Fields) -> NDArray[np.bool_]:

@@ -57,6 +57,7 @@ def patch(
     share
         Weight of the elevation model in the grid's heights (ny, nx), 0..1.
     """
+    assert relief.model
     place = tuple(_inner(part, side, fields.margin) for part, side in zip(near, share.shape, strict=True))
     if min(part.stop - part.start for part in place) < 2 or not share[place].any():
         return None

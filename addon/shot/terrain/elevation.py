@@ -95,7 +95,8 @@ class Elevation:
 
     def read(self, latitude: Array, longitude: Array) -> NDArray[np.float32]:
         """Model heights (ny, nx), m, NaN without data; axes may be uneven or descending."""
-        even = [_even(axis) for axis in (latitude, longitude)]
+        assert self.model is not None
+        even = _even(latitude), _even(longitude)
         found = self.model.on_grid(*even)[0] * unit(self.model)
         found[(found < _POSSIBLE[0]) | (found > _POSSIBLE[1])] = np.nan
         row, column = (
@@ -215,7 +216,7 @@ def _even(axis: Array) -> Array:
     return np.linspace(low, high, count)
 
 
-def between(field: NDArray[np.float32], row: Array, column: Array) -> NDArray[np.float32]:
+def between(field: NDArray, row: Array, column: Array) -> NDArray:
     """Bilinear values at all crossings of fractional rows and columns; NaN beside what is not known."""
     for axis, at in enumerate((row, column)):
         low = np.clip(np.floor(at).astype(int), 0, field.shape[axis] - 2)

@@ -246,6 +246,7 @@ def _read(settings: Settings) -> list[tuple[str, Feature]]:
     if not path.is_file():
         raise scene_file.error_at(settings.path, where, f"terrain.land_use: there is no file {path}")
     every = features(path)
+    assert isinstance(every, list)  # of these formats
     found = [(kind, each) for each in every if (kind := kind_of(each.properties)) and _rings((kind, each))]
     if not found:
         reason = f"has no polygon or line with OpenStreetMap's tags or a kind of {', '.join(KINDS)}"
@@ -311,7 +312,7 @@ def _drawn(shot: ShotView, known: Map, layer: str, low: Array, high: Array) -> P
         lot, bright = noise.uniform([thing.number] * 2, [7, 8], shot.settings.seed)
         colour = np.array(kind.colours[int(lot * len(kind.colours))])
         tone = 0.92 + 0.16 * float(bright)
-        for window, cover in _covers(thing, low, pixel, pixels.shape[:2]):
+        for window, cover in _covers(thing, low, pixel, (pixels.shape[0], pixels.shape[1])):
             part = pixels[window]
             over = np.maximum(cover * kind.strength, part[..., 3] / 255.0)
             part[..., :3] = np.where(

@@ -85,18 +85,17 @@ def _blocks(
     z = place[..., 2]
     least, most = z.copy(), z.copy()
     for axis, (first, last) in enumerate(zip((rows, columns), ends, strict=True)):
-        inner = (np.minimum.reduceat(least, first, axis), np.maximum.reduceat(most, first, axis))
-        least, most = (
-            f(part, np.take(whole, last, axis))
-            for f, part, whole in zip((np.minimum, np.maximum), inner, (least, most), strict=True)
-        )
+        least = np.minimum(np.minimum.reduceat(least, first, axis), np.take(least, last, axis))
+        most = np.maximum(np.maximum.reduceat(most, first, axis), np.take(most, last, axis))
     centre = np.stack([*(0.5 * (low[..., k] + high[..., k]) for k in (0, 1)), 0.5 * (least + most)], axis=-1)
     across = np.hypot(*(0.5 * np.abs(high[..., k] - low[..., k]) for k in (0, 1)))
     radius = np.hypot(1.05 * across, 0.5 * (most - least)) + more
     rise = 0.5 * (most - least) + more
     return (
-        *(v.astype(np.float64) for v in (centre.reshape(-1, 3), radius.ravel(), rise.ravel())),
-        least.shape,
+        centre.reshape(-1, 3).astype(np.float64),
+        radius.ravel().astype(np.float64),
+        rise.ravel().astype(np.float64),
+        (len(rows), len(columns)),
     )
 
 

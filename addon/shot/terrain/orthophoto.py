@@ -128,7 +128,8 @@ def _picture(shot: ShotView, source: _Source, low: Array, high: Array, step: flo
     place = _Places(shot, low, high)
     for first in range(0, size[1], _STRIP):
         rows = north[first : first + _STRIP]
-        found = source.colours(*place(east, rows), float(np.min((high - low) / size)))
+        latitude, longitude = place(east, rows)
+        found = source.colours(latitude, longitude, float(np.min((high - low) / size)))
         found[..., 3] = np.nan_to_num(found[..., 3])
         pixels[first : first + len(rows)] = np.rint(255.0 * np.clip(np.nan_to_num(found), 0.0, 1.0))
     known = pixels[..., 3] > 0
@@ -148,10 +149,10 @@ class _Places:
         east, north = (v.ravel() for v in np.meshgrid(*axes))
         self.fields = [v.reshape(counts[::-1]) for v in shot.ground.geodetic(east, north)]
 
-    def __call__(self, east: Array, north: Array) -> tuple[Array, Array]:
+    def __call__(self, east: Array, north: Array) -> list[Array]:
         """Degrees (n, m) at n norths and m easts."""
         row, column = (north - self.low[1]) / self.step[1], (east - self.low[0]) / self.step[0]
-        return tuple(between(field, row, column) for field in self.fields)
+        return [between(field, row, column) for field in self.fields]
 
 
 class _Source:
@@ -171,13 +172,14 @@ class _Source:
 
 def _source(settings: Settings) -> _Source:
     path = settings.terrain.photo
+    assert path is not None
     try:
         with path.open("rb") as stream:
             start = stream.read(8)
     except OSError as error:
         reason = f"terrain.photo: {path} cannot be read: {error.strerror}"
         raise scene_file.error_at(settings.path, ("terrain", "photo"), reason) from None
-    return _Tiff(settings) if start.startswith(_TIFF) else _Plain(settings)
+    return _Tiff(settings) if start.startswith(_TIFF) else _Plain(settings, path)
 
 
 class _Tiff(_Source):
@@ -196,7 +198,7 @@ class _Tiff(_Source):
 
     def colours(self, latitude: Array, longitude: Array, step: float) -> NDArray[np.float32]:
         scale = areas.metres_per_degree(float(latitude.mean()))
-        axes = [_axis(v, step / metres) for v, metres in zip((latitude, longitude), scale, strict=True)]
+        axes = _axis(latitude, step / scale[0]), _axis(longitude, step / scale[1])
         found = self.raster.on_grid(*axes, bands=self.bands) / np.float32(255.0)
         row, column = (
             (v - axis[0]) / (axis[1] - axis[0]) for v, axis in zip((latitude, longitude), axes, strict=True)
@@ -205,8 +207,8 @@ class _Tiff(_Source):
 
 
 class _Plain(_Source):
-    def __init__(self, settings: Settings) -> None:
-        self.path = settings.terrain.photo
+    def __init__(self, settings: Settings, path: Path) -> None:
+        self.path = path
         try:
             pixels = sensor.read_image(self.path)
         except InputError as error:

@@ -152,9 +152,8 @@ class Raster:
                 tolerance=_OFF,
             )
             scales, offsets = source.scales[:bands], source.offsets[:bands]
-        whole[:, rows, columns] = (
-            found * np.float32(scales)[:, None, None] + np.float32(offsets)[:, None, None]
-        )
+        scale, offset = (np.array(each, np.float32)[:, None, None] for each in (scales, offsets))
+        whole[:, rows, columns] = found * scale + offset
         return whole
 
     def glimpse(self, within: Bounds) -> tuple[NDArray[np.float32], Array, Array]:

@@ -65,13 +65,16 @@ class Ground:
             latitude, longitude, self.frame.latitude, (run.latitude, run.longitude)
         )
         north, east = areas.metres_per_degree(self.frame.latitude)
+        elevation, canopy, surface = (
+            np.nan_to_num(_oriented(field, latitude, longitude), copy=False)
+            for field in (self._relief.fuel, fuel_category.canopy(run), run.surface_fuel)
+        )
         known = apron.Fields(
             _ascending(latitude, height / north),
             _ascending(longitude, width / east),
-            *(
-                np.nan_to_num(_oriented(field, latitude, longitude), copy=False)
-                for field in (self._relief.fuel, fuel_category.canopy(run), run.surface_fuel)
-            ),
+            elevation,
+            canopy,
+            surface,
         )
         self.cell = (
             north * float(np.mean(np.diff(known.latitude))),
@@ -96,7 +99,8 @@ class Ground:
             self.water = np.maximum(self.water, np.pad(said, self.fields.margin))
         slope = np.hypot(*np.gradient(self.fields.elevation, *self._metres()))
         self._slope = np.minimum(slope, 1.0)
-        self.surface, self.patch, self.rough = self._surface(), None, RELIEF
+        self.surface, self.rough = self._surface(), RELIEF
+        self.patch: dem_patch.Patch | None = None
 
     def _surface(self, patch: dem_patch.Patch | None = None) -> terrain.Surface:
         return terrain.Surface(
@@ -135,7 +139,8 @@ class Ground:
     @property
     def shape(self) -> tuple[int, int]:
         """Rows and columns of the grid, apron included."""
-        return self.fields.elevation.shape
+        rows, columns = self.fields.elevation.shape
+        return rows, columns
 
     def _metres(self) -> tuple[Array, Array]:
         """Approximate coordinates along both axes, m, for gradients."""
@@ -159,7 +164,8 @@ class Ground:
         arrival, reached = arrival[near], reached[near]
         crossing = np.zeros(arrival.shape)
         least = burning.least_crossing(max(self.cell))
-        crossing[reached] = burning.crossing(arrival, *np.nonzero(reached), least)
+        row, column = np.nonzero(reached)
+        crossing[reached] = burning.crossing(arrival, row, column, least)
         time, crossing, known = _beyond(np.where(reached, arrival, 0.0), crossing, reached)
         part = np.clip(0.5 + (end - time) / np.where(known, crossing, 1.0), 0.0, 1.0)
         burned = np.where(known & (reached | (time > end)), part, 0.0)
@@ -179,15 +185,16 @@ class Ground:
     def indices(self, latitude: ArrayLike, longitude: ArrayLike) -> tuple[Array, Array]:
         """Fractional row and column of points (degrees), clamped to the grid."""
         fields = self.fields
-        row = np.interp(latitude, fields.latitude, np.arange(len(fields.latitude)))
+        row = np.interp(np.asarray(latitude), fields.latitude, np.arange(len(fields.latitude)))
         longitude = areas.turned(longitude, 0.5 * (fields.longitude[0] + fields.longitude[-1]))
         return row, np.interp(longitude, fields.longitude, np.arange(len(fields.longitude)))
 
     def places(self, row: ArrayLike, column: ArrayLike) -> tuple[Array, Array]:
         """Latitude and longitude of fractional rows and columns."""
         fields = self.fields
-        latitude = np.interp(row, np.arange(len(fields.latitude)), fields.latitude)
-        return latitude, np.interp(column, np.arange(len(fields.longitude)), fields.longitude)
+        latitude = np.interp(np.asarray(row), np.arange(len(fields.latitude)), fields.latitude)
+        longitude = np.interp(np.asarray(column), np.arange(len(fields.longitude)), fields.longitude)
+        return latitude, longitude
 
     def detail(self, east: ArrayLike, north: ArrayLike, up: ArrayLike = 0.0) -> Array:
         """Weight 0..1 of the near-camera surface: 1 within 0.6 of an eye's near radius, 0 beyond it."""
@@ -226,7 +233,7 @@ class Ground:
         if near is None or self.near_radius <= 0.0:
             return place
         height = self.fields.elevation[near]
-        bend = sum(np.abs(_second_difference(height, axis)) for axis in (0, 1)) * (1.25 / 8.0)
+        bend = (np.abs(_second_difference(height, 0)) + np.abs(_second_difference(height, 1))) * (1.25 / 8.0)
         relief = RELIEF * (_RELIEF_LEVEL + self._slope[near]) * (_RELIEF_MEAN - _LEAST_SHAPE)
         place[near] = self.frame.forward_grid(
             self.fields.latitude[near[0]],
@@ -309,7 +316,7 @@ def _ascending(axis: Array, size: float) -> Array:
     return axis[::-1] if axis[0] > axis[-1] else axis
 
 
-def _oriented(field: Array, latitude: Array, longitude: Array) -> Array:
+def _oriented(field: NDArray, latitude: Array, longitude: Array) -> Array:
     """Transpose and flip a field of the run to (ny, nx) on ascending axes."""
     field = field.astype(np.float64)
     for number, axis in enumerate((latitude, longitude)):

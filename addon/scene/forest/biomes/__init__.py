@@ -102,5 +102,5 @@ def land(run: Run) -> Land:
             kind = np.where(said == fuel_category.UNKNOWN, kind, np.where(canopy, 2, by_kind))
         count += np.bincount(kind[kind >= 0], minlength=3)
     grass, shrub, wood = count / max(count.sum(), 1.0)
-    middle = (0.5 * float(axis[0] + axis[-1]) for axis in (run.latitude, run.longitude))
-    return Land(*middle, grass, shrub, wood)
+    latitude, longitude = (0.5 * float(axis[0] + axis[-1]) for axis in (run.latitude, run.longitude))
+    return Land(latitude, longitude, grass, shrub, wood)

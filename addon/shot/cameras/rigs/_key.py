@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 from ...settings.bounds import AIM, HEIGHT
 from ...settings.schema import Where, key
@@ -38,7 +40,12 @@ class CameraKey:
     tilt: float = key(15.0, 'depression angle of the view "ahead"', unit="degrees", at_least=-90, at_most=90)
 
 
-def rising(keys: tuple[CameraKey, ...]) -> tuple[Where, str] | None:
+class _Timed(Protocol):
+    @property
+    def at(self) -> float: ...
+
+
+def rising(keys: Sequence[_Timed]) -> tuple[Where, str] | None:
     """What is wrong with keys whose moments do not rise."""
     for i, (before, after) in enumerate(itertools.pairwise(keys), start=1):
         if after.at <= before.at:

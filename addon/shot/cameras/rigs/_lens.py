@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ...settings.bounds import SENSOR as WIDTH
+from ...settings.bounds import Bounds
 from ...settings.schema import key
 from ..path import SENSOR
 from . import Rig
@@ -13,7 +14,7 @@ from . import Rig
 if TYPE_CHECKING:
     from ...settings.protocols import CameraSettings, ShotView
 
-FOCAL_LENGTH = {"unit": "mm", "at_least": 1, "at_most": 5000}
+FOCAL_LENGTH: Bounds = {"unit": "mm", "at_least": 1, "at_most": 5000}
 
 
 @dataclass(frozen=True)

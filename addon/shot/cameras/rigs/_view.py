@@ -3,6 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypedDict
+
+
+class LensKeys(TypedDict):
+    """The keys of a lens, mm."""
+
+    focal_length: float
+    sensor_width: float
 
 
 @dataclass(frozen=True)
@@ -40,7 +48,7 @@ class View:
     sensor_width: float
 
     @property
-    def lens(self) -> dict[str, float]:
+    def lens(self) -> LensKeys:
         """The keys of a lens."""
         return {"focal_length": self.focal_length, "sensor_width": self.sensor_width}
 

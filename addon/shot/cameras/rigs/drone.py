@@ -136,9 +136,9 @@ class Drone(Lens):
 
 
 def _waypoints(keys: list[CameraKey]) -> Waypoints:
-    columns = ("at", "latitude", "longitude", "height")
-    values = (np.array([getattr(each, name) for each in keys], np.float64) for name in columns)
-    return Waypoints(*values, np.array([each.above == "ground" for each in keys]))
+    values = np.array([(each.at, each.latitude, each.longitude, each.height) for each in keys], np.float64)
+    at, latitude, longitude, height = values.T
+    return Waypoints(at, latitude, longitude, height, np.array([each.above == "ground" for each in keys]))
 
 
 def _moving(keys: list[CameraKey], shot: ShotView, ground: Ground) -> dict[tuple[str, float], Array]:

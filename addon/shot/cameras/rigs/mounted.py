@@ -42,6 +42,7 @@ class Mounted(Rig):
     def path(self, camera: CameraSettings, shot: ShotView, ground: Ground) -> Path:
         """The way of the camera that it follows, seen by its own lens."""
         leader = self.followed(shot.cameras)
+        assert leader  # the settings see to it
         way = self.through(leader.rig.path(leader, shot, ground))
         width, height = shot.resolution(camera)
         half = way.half[0], way.half[0] * height / width

@@ -68,7 +68,7 @@ class Satellite(Rig):
         frame = local_frame(run)
         first = self.keys[0] if self.keys else frame
         place = frame.forward([first.latitude], [first.longitude], [0.0])[0]
-        over = _over_horizon(place, self._eye(frame), frame)
+        over = _over_horizon(place, _eye(frame, self.geostationary), frame)
         if over >= _LOWEST:
             return None
         where = f"{over:.0f} degrees over the horizon of" if over > 0.0 else "under the horizon of"
@@ -83,16 +83,17 @@ class Satellite(Rig):
         place = np.repeat(ground.point(first.latitude, first.longitude), shot.frames.count, axis=0)
         if self.geostationary is None:
             return down(camera, shot, place, self.swath)
-        position = np.repeat(self._eye(ground.frame)[None], len(place), axis=0)
+        position = np.repeat(_eye(ground.frame, self.geostationary)[None], len(place), axis=0)
         tilt = np.radians(ground.frame.latitude)
         axis = np.array([0.0, np.cos(tilt), np.sin(tilt)])  # the Earth's: rows of its pictures are parallels
         rotation = path.look(position, place, axis)
         distance = float(np.linalg.norm(position[0] - place[0]))
         return Path(camera, position, rotation, place, half(camera, shot, self.swath), False, meet=distance)
 
-    def _eye(self, frame: geo.LocalFrame) -> Array:
-        """Its place (3,) in the scene as Blender can hold it, to 2 or 4 m: pose and picture are then one."""
-        return frame.forward([0.0], [self.geostationary], [ORBIT])[0].astype(np.float32).astype(np.float64)
+
+def _eye(frame: geo.LocalFrame, longitude: float) -> Array:
+    """Its place (3,) in the scene as Blender can hold it, to 2 or 4 m: pose and picture are then one."""
+    return frame.forward([0.0], [longitude], [ORBIT])[0].astype(np.float32).astype(np.float64)
 
 
 def _over_horizon(place: Array, eye: Array, frame: geo.LocalFrame) -> float:
