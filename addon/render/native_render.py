@@ -9,6 +9,7 @@ import bpy
 
 from ..blender import compat, owned
 from ..blender.owned import Stage
+from ..errors import Error
 from ..shot import passes
 from . import layers
 from .picture import Picture
@@ -31,8 +32,15 @@ def to_files(stage: Stage, out: Path, camera: str, names: tuple[str, ...]) -> No
     ----------
     names
         Passes; those that are not `exact` are ignored.
+
+    Raises
+    ------
+    Error
+        The scene has no compositor.
     """
     chosen = [name for name in exact() if name in names]
+    if compat.compositor(stage.scene) is None:
+        raise Error("the scene's compositor is gone, which writes the passes; build the scene again")
     layers.mend(stage.scene)
     layers.select(stage.scene, chosen)
     pictures = {name: Picture(camera, 1, name) for name in chosen}

@@ -6,6 +6,7 @@ import numpy as np
 import panel_scene
 import pytest
 from firetwin.blender import owned
+from firetwin.errors import Error
 from firetwin.scene.camera import ground_raycast, read_edits
 from firetwin.shot.cameras import rigs
 from firetwin.shot.cameras.lenses import LENSES
@@ -169,6 +170,9 @@ def test_one_goes_to_places_names_and_moments(panel):
     assert (latitude[0], longitude[0]) == (pytest.approx(38.84, abs=1e-3), pytest.approx(-120.55, abs=1e-3))
     assert (go_to.place(scene, "camera drone") - scene.camera.matrix_world.translation).length < 1e-3
     assert go_to.place(scene, "nowhere at all") is None
+    del owned.stage(scene).root[read_edits._PLACE]  # as before cameras are built
+    with pytest.raises(Error, match="build the scene first"):
+        go_to.place(scene, "38.84 -120.55")
     assert bpy.ops.firetwin.go(text="2014-09-17 13:30") == {"FINISHED"}  # by longitude UTC-8
     assert scene.frame_current == 2
     assert bpy.ops.firetwin.go(text="2014-09-17 21:58 UTC") == {"FINISHED"}

@@ -185,6 +185,12 @@ BAD = {
     "short": ("a.csv", CSV + "\n" + TIMES[2], 5, "the latitude is"),
     "zone": ("a.csv", CSV.replace(":46:00Z", ":46:00"), 3, "is no time such as"),
     "at": ("a.csv", "at,lat,lon\n0,38.9,-120.6\n2,38.9,-120.5", 3, "from 0 (first frame) to 1"),
+    "mixed": (
+        "a.csv",
+        f"time,at,lat,lon\n{TIMES[0]},,38.9,-120.6\n,1,38.9,-120.5",
+        3,
+        "some points have a time and others a part of the shot",
+    ),
     "latin": ("a.csv", CSV.replace("(m)", "(\xe9)").encode("latin-1"), 0, "UTF-8"),
     "kind": ("a.fit", "", 0, ".gpx, .kml or .csv"),
 }

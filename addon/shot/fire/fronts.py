@@ -119,7 +119,7 @@ def contour(field: Array) -> tuple[Array, Array, NDArray[np.int64]]:
     sides = [number[:-1, :-1], number[:-1, 1:] + field.size, number[1:, :-1], number[:-1, :-1] + field.size]
     leaves = [corners[k] & ~corners[(k + 1) % 4] for k in range(4)]
     enters = [~corners[k] & corners[(k + 1) % 4] for k in range(4)]
-    crossed = np.sum(leaves, axis=0) == 2
+    crossed = np.sum(leaves, axis=0, dtype=np.int8) == 2
     joined = 0.25 * (field[:-1, :-1] + field[:-1, 1:] + field[1:, 1:] + field[1:, :-1]) <= 0.0
     from_sides, to_sides = [], []
     for k in range(4):
