@@ -1,4 +1,4 @@
-"""Operators, panels and properties; each file lists its classes."""
+"""Add-on user interface: operators, panels and properties; each file lists its classes."""
 
 import bpy
 
@@ -66,7 +66,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Undo `register` in reverse order; work that still goes on is ended."""
+    """Undo `register` in reverse order; running tasks are cancelled."""
     working.abandon()
     queue.clear()
     maps.forget()

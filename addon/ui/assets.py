@@ -1,4 +1,4 @@
-"""Write the asset library of the run's shot."""
+"""Asset library operator: writes the library of the run's shot."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class FIRETWIN_OT_assets(Working, bpy.types.Operator):
         return run.ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """All of it in a worker process."""
+        """Run the job in a worker process."""
         from ..jobs import assets
 
         settings = context.scene.firetwin

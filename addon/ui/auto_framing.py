@@ -1,4 +1,4 @@
-"""Window and cameras that fit the run, in the panel, as long as nobody chose others."""
+"""Automatic framing: time window and cameras that fit the run, until the user sets others."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ _WINDOW = ("start", "end")
 
 
 def found(run: Run, start: datetime | None = None, end: datetime | None = None) -> dict[str, Any]:
-    """What fits a run, as JSON can hold it: cameras, values of [time], and lines about both.
+    """Framing of a run, as JSON: cameras, values of [time], and messages about both.
 
     Parameters
     ----------
     start, end
-        When the shot starts and ends; left out, its most active part is looked for.
+        Start and end of the shot; without them its most active period is selected.
     """
     from ..run import content
 
@@ -40,7 +40,7 @@ def found(run: Run, start: datetime | None = None, end: datetime | None = None) 
 
 @functools.lru_cache(maxsize=8)
 def _found(folder: str, stamps: str, start: datetime | None, end: datetime | None) -> dict[str, Any]:
-    """The same of the run in a folder as it is now."""
+    """Framing of the run in a folder, in its current state."""
     from ..run import readers
     from ..shot import auto_framing
 
@@ -51,7 +51,7 @@ def _found(folder: str, stamps: str, start: datetime | None, end: datetime | Non
 
 
 def put(panel: bpy.types.PropertyGroup, fits: dict[str, Any]) -> None:
-    """Let the panel show what fits its run, where it shows defaults or what fitted before."""
+    """Set the panel to the framing of its run, where it shows defaults or an earlier framing."""
     before = _usual(panel)
     here = camera_list.text(camera_list.cameras(panel))
     if not panel.scene_file:
@@ -60,13 +60,13 @@ def put(panel: bpy.types.PropertyGroup, fits: dict[str, Any]) -> None:
         if not here and not panel.scene_file:
             from ..smoke import sources
 
-            panel.smoke.method = sources.preview()  # what more takes is told first
+            panel.smoke.method = sources.preview()  # the slower steps are announced first
         camera_list.fill(panel, camera_list.listed(fits["cameras"]))
     panel.usual = json.dumps(fits | {"placed_for": [fits["time"][name] for name in _WINDOW]})
 
 
 def again(uid: int) -> Steps:
-    """Place cameras that nobody chose anew, where somebody chose other moments than they were placed for."""
+    """Place automatic cameras again, after the user changed the time window."""
     from ..run import readers, times
 
     panel = owned.scene(uid).firetwin
@@ -78,7 +78,7 @@ def again(uid: int) -> Steps:
     run = readers.open(bpy.path.abspath(panel.run))
     first, last = (times.utc(run, float(run.times[i])) for i in (0, -1))
     if time.validate() or any(moment and not first <= moment <= last for moment in (time.start, time.end)):
-        return ""  # which is told by what reads the settings
+        return ""  # what reads the settings reports it
     fits = yield InThread("placing the cameras", lambda **_: found(run, time.start, time.end))
     panel = owned.scene(uid).firetwin
     camera_list.fill(panel, camera_list.listed(fits["cameras"]))
@@ -88,14 +88,14 @@ def again(uid: int) -> Steps:
 
 
 def lines(panel: bpy.types.PropertyGroup) -> list[str]:
-    """What is said of them, as long as they are the panel's cameras."""
+    """Messages about the framing, while its cameras are the panel's."""
     told, names = _told(panel.usual)
     return told if [item.name for item in panel.cameras] == names else []
 
 
 @functools.lru_cache(maxsize=8)
 def _told(usual: str) -> tuple[list[str], list[str]]:
-    """Lines, and names of the cameras, as drawing wants them: at once."""
+    """Messages, and names of the cameras, cached for drawing."""
     kept = json.loads(usual or "{}")
     return kept.get("lines", []), [each.name for each in camera_list.listed(kept.get("cameras", ""))]
 
@@ -109,13 +109,13 @@ def _time_of(panel: bpy.types.PropertyGroup) -> Time:
 
 
 def _put_time(group: bpy.types.PropertyGroup, before: dict[str, Any], now: dict[str, Any]) -> None:
-    """Let keys of [time] that show their default, or what fitted the run before, show what fits this one."""
+    """Update keys of [time] that show their default, or the earlier framing, to the new framing."""
     for part in fields(Time):
         if not keys.differs(group, part) or keys.shows(group, part, _values(before)[part.name]):
             keys.put(group, part, _values(now)[part.name])
 
 
 def _values(kept: dict[str, Any]) -> dict[str, Any]:
-    """Values of [time] from what JSON holds of them; defaults where it holds nothing."""
+    """Values of [time] from their JSON; defaults where it has none."""
     moments = {name: datetime.fromisoformat(kept[name]) for name in _WINDOW if kept.get(name)}
     return asdict(Time()) | kept | moments

@@ -1,4 +1,4 @@
-"""The queue of renders beside the window: buttons, panel, and Esc over it."""
+"""Background render queue: operators, panel, and Esc over the panel."""
 
 from __future__ import annotations
 
@@ -172,7 +172,7 @@ class FIRETWIN_OT_queue(bpy.types.Operator):
             return {"CANCELLED"}
         item = queue.items[self.index]
         {"pause": queue.pause, "go_on": queue.go_on, "remove": queue.remove}[self.what](item)
-        queue.wake()
+        queue.start_timer()
         return {"FINISHED"}
 
 
@@ -215,7 +215,7 @@ class FIRETWIN_PT_queue(bpy.types.Panel):
                     grid.template_icon(icon, scale=4.0)
 
     def button(self, row: bpy.types.UILayout, index: int, what: str, icon: str) -> None:
-        """A button of one render."""
+        """A button for one render of the queue."""
         pressed = row.operator(FIRETWIN_OT_queue.bl_idname, text="", icon=icon)
         pressed.index, pressed.what = index, what
 

@@ -1,4 +1,4 @@
-"""Build the scene in the window, parts of it again, and take it away."""
+"""Build operators: build the scene, rebuild parts of it, and remove it."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class FIRETWIN_OT_build(Working, bpy.types.Operator):
         return _ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """The smoke in a worker process, then everything else here."""
+        """Smoke in a worker process, then all other parts in this one."""
         return (yield from steps(context, self.part))
 
 
@@ -94,7 +94,7 @@ class FIRETWIN_OT_solve(Working, bpy.types.Operator):
         return _ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Choose it, and build the smoke, or all where nothing is built."""
+        """Select the solver, and build the smoke, or all parts of an empty scene."""
         panel = context.scene.firetwin
         panel.smoke.method, panel.bake_smoke = solve.replacement(panel), True
         return (yield from steps(context, "smoke" if owned.built(context.scene) else ALL))
@@ -134,7 +134,7 @@ def steps(context: bpy.types.Context, part: str) -> Steps:
 
 
 def _finish(scene: bpy.types.Scene, shot: Shot, parts: tuple[str, ...], new: bool) -> None:
-    """Set what renders it, if the scene is ours; what the panel knows; and how far views see."""
+    """Set engine and layers of our own scene, the panel's state, and the clipping of the 3D views."""
     from ..blender import devices
     from ..render import engine, layers
 
@@ -208,7 +208,7 @@ class FIRETWIN_MT_parts(bpy.types.Menu):
 
 
 def again(layout: bpy.types.UILayout, part: str, due: bool = False) -> None:
-    """A button, for the head of a panel, that builds a part again; it stands out where that is due."""
+    """Rebuild button for a panel's header; highlighted where a part is out of date."""
     row = layout.row(align=True)
     row.enabled, row.alert = job.Job.current is None, due
     row.operator(FIRETWIN_OT_build.bl_idname, text="", icon="FILE_REFRESH", emboss=due).part = part

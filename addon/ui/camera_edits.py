@@ -1,4 +1,4 @@
-"""What was done to camera objects by hand, taken over into the panel's cameras."""
+"""Camera edits: an artist's changes to camera objects, read into the panel's cameras."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from . import camera_list
 
 
 def pull(scene: bpy.types.Scene) -> list[str]:
-    """Take it over; sentences about what settings cannot say."""
+    """Read the edits; returns messages about edits that settings cannot express."""
     panel = scene.firetwin
     told: list[str] = []
     if not panel.frames:  # nothing is built

@@ -1,18 +1,18 @@
-"""The cameras of the scene file in the .blend file: `scene.firetwin.cameras`, an item for each.
+"""Camera list of the scene file in the .blend file: `scene.firetwin.cameras`, an item for each camera.
 
-An item has a name and the camera's table as the text of a scene file (`[[cameras]]` with its keys, paths
-absolute). `get` makes the dataclass `shot.settings.Camera` of an item and `put` writes one into it, whole and
-without loss::
+An item has a name, and the camera's table as the text of a scene file (`[[cameras]]` with its keys, paths
+absolute). `get` parses the dataclass `shot.settings.Camera` of an item and `put` writes one into it, without
+loss::
 
     camera = camera_list.get(item)
     camera_list.put(item, replace(camera, rig=replace(camera.rig, focal_length=50.0)))
     camera_list.add(scene.firetwin, Camera("mine", Drone(keys=(...))))
     camera_list.cameras(scene.firetwin)  # all of them, in their order
 
-The name of the item counts, so that a list in a panel renames a camera. What is built, rendered and exported
-has these cameras and no others (see `scene_file.settings`); the object of a built camera is
-`owned.stage(scene).camera(item.name)`. `scene.firetwin.camera_index` is the item chosen in the list, which
-the panel FIRETWIN_PT_cameras shows (see `cameras_panel`): panels of a camera name it as their `bl_parent_id`.
+The item's name overrides that of the table, so that a list in a panel renames a camera. Build, render and
+export use these cameras and no others (see `scene_file.settings`). The object of a built camera is
+`owned.stage(scene).camera(item.name)`. `scene.firetwin.camera_index` is the selected item, which the panel
+FIRETWIN_PT_cameras shows (see `cameras_panel`). Panels of a camera use it as their `bl_parent_id`.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class FIRETWIN_PG_camera(bpy.types.PropertyGroup):
 
 
 def get(item: FIRETWIN_PG_camera) -> Camera:
-    """The camera of an item.
+    """Parse the camera of an item.
 
     Raises
     ------
@@ -55,12 +55,12 @@ def get(item: FIRETWIN_PG_camera) -> Camera:
 
 
 def put(item: FIRETWIN_PG_camera, camera: Camera) -> None:
-    """Let an item hold a camera."""
+    """Store a camera in an item."""
     item.name, item.table = camera.name, tables.to_text(_part(), (camera,))
 
 
 def add(panel: bpy.types.PropertyGroup, camera: Camera) -> FIRETWIN_PG_camera:
-    """A new item at the end of the list, which is chosen in it."""
+    """Append an item to the list, and select it."""
     item = panel.cameras.add()
     put(item, camera)
     panel.camera_index = len(panel.cameras) - 1
@@ -68,7 +68,7 @@ def add(panel: bpy.types.PropertyGroup, camera: Camera) -> FIRETWIN_PG_camera:
 
 
 def renamed(panel: bpy.types.PropertyGroup, camera: Camera) -> Camera:
-    """A camera under a name that no other of the list has: ``drone``, ``drone-2``."""
+    """The camera under a name that is unique in the list: ``drone``, ``drone-2``."""
     taken = {item.name for item in panel.cameras}
     name = next(
         name
@@ -84,7 +84,7 @@ def cameras(panel: bpy.types.PropertyGroup) -> tuple[Camera, ...]:
 
 
 def fill(panel: bpy.types.PropertyGroup, cameras: Iterable[Camera]) -> None:
-    """Let the list hold these cameras alone; the chosen one is the first."""
+    """Replace the list by these cameras; selects the first."""
     panel.cameras.clear()
     for camera in cameras:
         add(panel, camera)
@@ -92,12 +92,12 @@ def fill(panel: bpy.types.PropertyGroup, cameras: Iterable[Camera]) -> None:
 
 
 def text(cameras: Iterable[Camera]) -> str:
-    """Cameras as one text, equal where they are."""
+    """Canonical text of cameras, for comparison."""
     return tables.to_text(_part(), tuple(cameras))
 
 
 def listed(text: str) -> tuple[Camera, ...]:
-    """The cameras of `text`."""
+    """Parse the cameras of `text`."""
     return tables.from_text(_part(), text)
 
 

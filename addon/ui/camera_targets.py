@@ -1,4 +1,4 @@
-"""What cameras look at, as empties, and what they fly along, as curves: both an artist's to move."""
+"""Camera targets: look-at empties and path curves, which artists can edit."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ _TARGETS = (
     ("object", "Active object", "Active object, such as a label"),
     ("none", "Nothing", "Remove the target; the camera's own keys set its direction"),
 )
-_ABOVE = 100.0  # m, of an aim over the ground that burns
-_CLOSE = 1.0  # m that an aim may be off the way of what moves
+_ABOVE = 100.0  # m, height of a target over burning ground
+_CLOSE = 1.0  # m, tolerance of a target's keyframes
 
 
 class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
@@ -46,7 +46,7 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
         return navigation.flown(cls, context) and navigation.filming(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Find the place, then make the empty and the constraint."""
+        """Find the target, then create the empty and the constraint."""
         scene, target, at = context.scene, self.target, self.place or context.scene.firetwin.go_to
         uid, name, other = scene.session_uid, scene.camera.name, context.active_object
         way = None
@@ -84,7 +84,7 @@ class FIRETWIN_OT_camera_aim(Working, bpy.types.Operator):
 
 
 def _empty(scene: bpy.types.Scene, target: str, way: np.ndarray) -> bpy.types.Object:
-    """A new empty of the artist's that goes a way (frames, 3) in few keys."""
+    """A new empty that follows a path (frames, 3) in few keyframes."""
     empty = bpy.data.objects.new(f"Aim at {target}", None)
     empty.empty_display_type, empty.empty_display_size = "SPHERE", 100.0
     scene.collection.objects.link(empty)
@@ -146,7 +146,7 @@ class FIRETWIN_OT_camera_path(bpy.types.Operator):
 
 
 def _keyed(scene: bpy.types.Scene, thing: bpy.types.Object) -> dict[int, Vector]:
-    """Where a camera is at the frames that its place is keyed at."""
+    """Positions of a camera at the frames of its location keyframes."""
     curves = [curve for curve in compat.fcurves(thing) if curve.data_path == "location"]
     frames = sorted({round(point.co[0]) for curve in curves for point in curve.keyframe_points})
     at = {curve.array_index: curve for curve in curves}
@@ -156,7 +156,7 @@ def _keyed(scene: bpy.types.Scene, thing: bpy.types.Object) -> dict[int, Vector]
 def _drawn(
     scene: bpy.types.Scene, thing: bpy.types.Object, keyed: dict[int, Vector]
 ) -> tuple[bpy.types.Object, dict[int, float]]:
-    """A curve of the artist's through places, and how far along it the camera is at their frames."""
+    """A new curve through points, and the camera's offset along it at their frames."""
     data = bpy.data.curves.new(f"Path of {thing.name}", "CURVE")
     data.dimensions, data.resolution_u = "3D", 32
     spline = data.splines.new("BEZIER")

@@ -1,4 +1,4 @@
-"""The list of cameras in the sidebar; panels of single cameras stand below it."""
+"""Camera list panel in the sidebar; panels of single cameras stand below it."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Which settings are no longer those that the scene was built from.
+"""Change tracking: settings that differ from those of the last build.
 
-Digests of what the panel shows, one for each section, are kept in the .blend file when something is built
-and compared whenever a setting changes: drawing shows a text, and undo takes that back too.
+Digests of each section's values are stored in the .blend file at a build, and compared whenever a setting
+changes. The panel draws a stored text, and undo restores it too.
 """
 
 from __future__ import annotations
@@ -16,14 +16,16 @@ from ..shot.settings.settings import Settings
 from . import keys
 
 ALONE = ("terrain", "forest", "fire", "smoke", "light", "labels")
-"""Parts whose settings are the scene's once the part is built. What is seen in the world hangs on the moments
-and on the cameras, so those are the scene's only when all of it is built."""
+"""Parts that depend on their own settings only, once they are built.
+
+The other parts depend on the time window and on the cameras, so they are up to date only when all parts were
+built."""
 
 _ELSEWHERE = ("path", "cache")
 
 
 def digests(panel: bpy.types.PropertyGroup) -> dict[str, str]:
-    """A digest of what the panel shows of every section, of the run and of the cameras."""
+    """Digests of the panel's values of every section, of the run and of the cameras."""
     found = {part.name: _seen(panel, part) for part in fields(Settings) if part.name not in _ELSEWHERE}
     return {name: hashlib.sha256(repr(value).encode()).hexdigest()[:16] for name, value in found.items()}
 
@@ -41,7 +43,7 @@ def _seen(panel: bpy.types.PropertyGroup, part: Field) -> object:
 
 
 def remember(panel: bpy.types.PropertyGroup, then: dict[str, str], built: tuple[str, ...]) -> None:
-    """Keep what `seen` said when these parts began to be built."""
+    """Store the digests of the time when a build of these parts began."""
     if set(built) > set(ALONE):
         panel.built = json.dumps(then)
     else:
@@ -51,12 +53,12 @@ def remember(panel: bpy.types.PropertyGroup, then: dict[str, str], built: tuple[
 
 
 def forget(panel: bpy.types.PropertyGroup) -> None:
-    """Nothing is built any more."""
+    """Delete the digests: nothing is built."""
     panel.built = panel.changed = ""
 
 
 def compare(panel: bpy.types.PropertyGroup) -> None:
-    """Write down which sections differ from what was built."""
+    """Store the names of sections that differ from the build."""
     if not panel.built:
         return
     built, now = json.loads(panel.built), digests(panel)
@@ -64,7 +66,7 @@ def compare(panel: bpy.types.PropertyGroup) -> None:
 
 
 def note(group: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """A setting of a panel has changed."""
+    """Update callback of a setting in a panel."""
     panel = getattr(group.id_data, "firetwin", None)
     if panel is not None:
         compare(panel)

@@ -1,4 +1,4 @@
-"""The scene that the panel and the preferences choose."""
+"""Shot source from the panel and the preferences."""
 
 from __future__ import annotations
 
@@ -9,6 +9,6 @@ from . import camera_edits, preferences, scene_file
 
 
 def from_panel(settings: bpy.types.PropertyGroup) -> ShotSource:
-    """What the panel and the preferences choose, with what was done to cameras by hand."""
+    """Shot source of the panel and the preferences, with manual edits of cameras."""
     camera_edits.pull(settings.id_data)
     return ShotSource(str(scene_file.written(settings.id_data)), device=preferences.device())

@@ -1,4 +1,4 @@
-"""`blender --command firetwin ...`: the same command line inside Blender's own executable."""
+"""Command ``blender --command firetwin ...``: the same command line inside Blender's own executable."""
 
 import bpy
 
@@ -6,7 +6,7 @@ _handles: list[object] = []
 
 
 def run(arguments: list[str]) -> int:
-    """Run the command line; returns its exit code, also for --help and bad usage, which argparse raises."""
+    """Run the command line; returns its exit code, also where argparse exits, as for --help."""
     from .. import cli
 
     try:
@@ -16,11 +16,11 @@ def run(arguments: list[str]) -> int:
 
 
 def register() -> None:
-    """Make the command known to Blender."""
+    """Register the command with Blender."""
     _handles.append(bpy.utils.register_cli_command("firetwin", run))
 
 
 def unregister() -> None:
-    """Take the command back."""
+    """Unregister the command."""
     while _handles:
         bpy.utils.unregister_cli_command(_handles.pop())

@@ -1,4 +1,4 @@
-"""Open a fire model's own files: a process of its own makes a run of them, which is opened then."""
+"""Import of a fire model's own files: a worker process converts them to a run, which is opened then."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .working import Working
 
 
 class Said:
-    """What files do not always say, as properties of an operator."""
+    """Import options that files may lack, as properties of an operator."""
 
     start: bpy.props.StringProperty(
         name="Start",
@@ -51,7 +51,7 @@ class FIRETWIN_OT_convert(Said, Working, bpy.types.Operator):
         return working.editable(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Read and write in a worker process, unless that was done before; then look into the run."""
+        """Convert in a worker process, unless the run exists already; then inspect the run."""
         from ..jobs import convert
 
         uid, paths = context.scene.session_uid, chosen(self)
@@ -74,7 +74,7 @@ class FIRETWIN_OT_convert(Said, Working, bpy.types.Operator):
 
 
 def _words(error: Exception) -> str:
-    """Options of the command line are fields beside the list of files here."""
+    """Error text with the operator's fields in place of the command line's options."""
     option = r"--(start|at|projection)\b"
     return re.sub(
         option,
@@ -84,7 +84,7 @@ def _words(error: Exception) -> str:
 
 
 def chosen(operator: bpy.types.Operator) -> list[Path]:
-    """The files that were chosen, or the one, or the folder."""
+    """The selected files, file or folder."""
     names = [each.name for each in operator.files if each.name]
     if names and operator.directory:
         return [Path(operator.directory, name) for name in names]
@@ -92,7 +92,7 @@ def chosen(operator: bpy.types.Operator) -> list[Path]:
 
 
 def begin(panel: bpy.types.PropertyGroup, folder: str) -> None:
-    """Choose a run; where it is another one, time window and cameras of the one before go."""
+    """Select a run; the time window and cameras of another run are reset."""
     if bpy.path.abspath(panel.run) != folder:
         panel.scene_file = panel.time.start = panel.time.end = panel.facts = panel.smoke_cost = ""
         panel.cameras.clear()

@@ -1,4 +1,4 @@
-"""Settings of .blend files that were saved while sections or keys had other names."""
+"""Migration of .blend files with former names of sections or keys."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..shot.settings.settings import FORMER, FORMER_KEYS
 
 @bpy.app.handlers.persistent
 def adopt(*_: object) -> None:
-    """Give settings and collections of sections that had other names to the sections."""
+    """Move settings and collections of renamed sections to their current names."""
     for former, name in FORMER.items():
         for collection in bpy.data.collections:
             if owned.ours(collection, former.title()):
@@ -31,10 +31,10 @@ def adopt(*_: object) -> None:
 
 
 def register() -> None:
-    """Adopt them whenever a file has been read."""
+    """Migrate each file after it was loaded."""
     bpy.app.handlers.load_post.append(adopt)
 
 
 def unregister() -> None:
-    """No longer."""
+    """Stop the migration of loaded files."""
     bpy.app.handlers.load_post.remove(adopt)

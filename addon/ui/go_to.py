@@ -1,4 +1,4 @@
-"""Go to a place or a moment: by coordinates, by a name, by a date, smoothly or at once."""
+"""Go-to operator: moves the view to coordinates, a name or a date, smoothly or at once."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from .navigation import flown, space
 _NUMBER = r"\s*(-?\d+(?:\.\d*)?)\s*°?\s*"
 _PAIR = re.compile(rf"{_NUMBER}([NS]?)[\s,;]*(?<=[\sNSns,;]){_NUMBER}([EW]?)\s*", re.IGNORECASE)
 _DATE = re.compile(r"\s*(\d{4}-\d\d-\d\d)[ T](\d\d?:\d\d)\s*(Z|UTC)?\s*", re.IGNORECASE)
-_SECONDS, _STEP = 1.5, 1.0 / 30.0  # of the flight, and between its pictures
+_SECONDS, _STEP = 1.5, 1.0 / 30.0  # s of the flight, and between its redraws
 
 
 def coordinates(text: str) -> tuple[float, float] | None:
-    """Latitude and longitude, degrees north and east, that a text says; None where it says none."""
+    """Parse latitude and longitude, degrees north and east; None if the text has none."""
     found = _PAIR.fullmatch(text)
     if found is None:
         return None
@@ -33,7 +33,7 @@ def coordinates(text: str) -> tuple[float, float] | None:
 
 
 def parse_time(panel: bpy.types.PropertyGroup, text: str) -> datetime | None:
-    """The moment that a text says: a date and time, or words of something reported."""
+    """Parse a time: date and time, or words of a reported event."""
     if found := _DATE.fullmatch(text):
         zone = UTC if found[3] else zoneinfo.ZoneInfo(panel.zone)
         return datetime.fromisoformat(f"{found[1]} {found[2]:0>5}").replace(tzinfo=zone).astimezone(UTC)
@@ -43,14 +43,14 @@ def parse_time(panel: bpy.types.PropertyGroup, text: str) -> datetime | None:
 
 
 def frame_of(panel: bpy.types.PropertyGroup, when: datetime) -> int:
-    """The frame that shows a moment, or the nearest one."""
+    """The frame of a time, or the nearest one."""
     passed = (when - datetime.fromisoformat(panel.first_time)).total_seconds()
     frame = 1 + round(passed / panel.seconds_per_frame) if panel.seconds_per_frame else 1
     return min(max(frame, 1), panel.frames)
 
 
 def place(scene: bpy.types.Scene, text: str) -> Vector | None:
-    """Where in the scene a text says: coordinates on the ground, a known place, or an object by its name."""
+    """Position in the scene of a text: coordinates on the terrain, a place name, or an object's name."""
     stage, pair = owned.stage(scene), coordinates(text)
     if pair is None and (label := place_names.find(scene.firetwin, text)):
         pair = label.latitude, label.longitude
@@ -107,7 +107,7 @@ def _fly(
     distance: float,
     smooth: bool,
 ) -> None:
-    """Turn the view to a place, from as far and from the side that it looks from."""
+    """Move the view to a point, with the same distance and direction."""
     if region.view_perspective == "CAMERA":
         camera = context.scene.camera.matrix_world
         region.view_perspective, region.view_distance = "PERSP", distance
@@ -117,14 +117,14 @@ def _fly(
     bearing = region.view_rotation.to_euler().z
     end = where, Euler((1.05, 0.0, bearing)).to_quaternion(), distance
     if not smooth:
-        _stand(region, start, end, 1.0)
+        _flight_point(region, start, end, 1.0)
         return
-    began = time.monotonic()  # a slow window shows fewer pictures, and is there as soon
+    began = time.monotonic()  # a slow window draws fewer frames in the same time
 
     def step() -> float | None:
         part = min((time.monotonic() - began) / _SECONDS, 1.0)
         try:
-            _stand(region, start, end, part * part * (3.0 - 2.0 * part))
+            _flight_point(region, start, end, part * part * (3.0 - 2.0 * part))
         except ReferenceError:  # the window or the file is another one
             return None
         return _STEP if part < 1.0 else None
@@ -132,13 +132,13 @@ def _fly(
     bpy.app.timers.register(step)
 
 
-def _stand(
+def _flight_point(
     region: bpy.types.RegionView3D,
     start: tuple[Vector, Quaternion, float],
     end: tuple[Vector, Quaternion, float],
     part: float,
 ) -> None:
-    """Part of the way, high enough in the middle to see where one flies."""
+    """Point of the flight at a fraction of its path, with an arc upwards in the middle for orientation."""
     region.view_location = start[0].lerp(end[0], part)
     region.view_rotation = start[1].slerp(end[1], part)
     over = 0.5 * (end[0] - start[0]).length * 4.0 * part * (1.0 - part)

@@ -1,11 +1,11 @@
-"""Long work in steps.
+"""Task runner: long tasks as generators of steps.
 
-The work is a generator. It yields a text before each step that has to be taken in Blender itself;
-`Message(...)`, a sentence for people; or `InThread(...)`, a function for a thread, which most often waits for
-a worker process, and gets back what that returned.
+A generator yields one of three values. A text comes before each step that runs in Blender itself.
+`Message(...)` is a message for the user. `InThread(...)` is a function for a thread, which most often waits
+for a worker process; its result is sent back.
 
-At every yield people may rename, delete or undo anything, so no data-block is held across one: `owned.scene`
-finds the scene again.
+At every yield the user may rename, delete or undo anything, so no data-block is referenced across one:
+`owned.scene` looks the scene up again.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _UNDONE = "undo was used during the build, so the scene is incomplete; build it 
 
 @dataclass(frozen=True)
 class InThread:
-    """Work that needs no Blender data: ``function(progress=..., tell=..., stop=...)``, called in a thread."""
+    """A call without Blender data: ``function(progress=..., tell=..., stop=...)``, run in a thread."""
 
     what: str
     function: Callable[..., Any]
@@ -37,7 +37,7 @@ class InThread:
 
 @dataclass(frozen=True)
 class Message:
-    """A sentence for people: "INFO", "WARNING" or "ERROR"."""
+    """A message for the user: "INFO", "WARNING" or "ERROR"."""
 
     text: str
     level: str = "INFO"
@@ -47,12 +47,12 @@ class Message:
 
 
 Steps = Generator["str | InThread | Message", Any, str]
-"""The steps of a work; it returns what to tell when it is done."""
+"""Steps of a task; it returns its final message."""
 
 
 @dataclass(frozen=True)
 class JobResult:
-    """What the last work that ended had to tell, and the file that was open then (None: whichever)."""
+    """Messages of the last finished task, and the file that was open then (None: any file)."""
 
     name: str
     told: tuple[Message, ...]
@@ -60,18 +60,18 @@ class JobResult:
 
 
 class Job:
-    """The work that goes on; there is at most one.
+    """The running task; there is at most one.
 
     Attributes
     ----------
     last
-        What the one before had to tell.
+        Messages of the previous task.
     touched
-        Whether a step in Blender has been taken, so that there is something to undo.
+        Whether a step in Blender has run, so that there are changes to undo.
     undone
         Whether undo or redo was used after that.
     said
-        Sentences for people so far.
+        Messages so far.
     """
 
     current: ClassVar[Job | None] = None
@@ -89,39 +89,39 @@ class Job:
         self._shown = False
 
     def run(self) -> str:
-        """Take all steps at once; what there is to tell."""
+        """Run all steps at once; returns the messages."""
         while not self._step(wait=True):
             pass
         return self.told
 
     def advance(self) -> bool:
-        """Take a step or see how far the thread is, without waiting; whether the work is over."""
+        """Run a step or poll the thread, without blocking; returns whether the task has finished."""
         if self._thread is not None and self._thread.is_alive():
             return False
         if self._thread is None and not self._shown:
-            self._shown = True  # so that the coming step is on the screen while it is taken
+            self._shown = True  # so that the next step is on the screen while it runs
             return False
         self._shown = False
         return self._step(wait=False)
 
     def progress(self, done: int, total: int, what: str = "", note: str = "") -> None:
-        """How far the thread is."""
+        """Progress callback of the thread."""
         if what and what != self.what:
             self.what, self._since = what, time.monotonic()
         self.done, self.total = done, total
 
     def tell(self, text: str) -> None:
-        """A sentence for people, from the thread."""
+        """Message callback of the thread."""
         self.said.append(Message(text))
 
     @property
     def factor(self) -> float:
-        """How much of the present step is done, 0 to 1."""
+        """Completed fraction of the current step, 0 to 1."""
         return self.done / self.total if self.total > 0 else 0.0
 
     @property
     def text(self) -> str:
-        """What is done, how far it is, and how long it will take."""
+        """Status text: step, progress and remaining time."""
         words = self.what[:1].upper() + self.what[1:]
         if self.total <= 1:
             return words
@@ -184,11 +184,11 @@ def _label(step: str | InThread) -> str:
 
 
 unexpected: list[str] = []
-"""The traceback of the last error that nobody foresaw."""
+"""Traceback of the last unexpected error."""
 
 
 def describe_error(error: BaseException) -> str:
-    """What to tell about an error in one line: where it is and what to do, never a traceback."""
+    """One-line message of an error: location and remedy, without a traceback."""
     return message(_words(error))
 
 
@@ -197,7 +197,7 @@ def _words(error: BaseException) -> str:
         option, _, rest = str(error).partition(": ")
         return f"{option[2:].capitalize()}: {rest}" if option.startswith("--") else str(error)
     if isinstance(error, InputError) and Path(error.path).parent == scene_file.folder():
-        return keys.sentence(error.reason)  # nobody has seen this file
+        return keys.sentence(error.reason)  # a temporary file that the user does not know
     if isinstance(error, Error):
         return str(error)
     if isinstance(error, OSError) and error.filename:

@@ -1,8 +1,8 @@
-"""Blender properties made from the settings' schema, which says all that there is to say of a key.
+"""Blender properties generated from the settings' schema, with its names, units, bounds and help.
 
-Blender keeps numbers in single precision, lists of choices without order, and no property that is "left
-out". `put` and `take` carry a value there and back: what does not come back as it went is remembered by the
-group's `exact` text, for as long as the panel shows what it was shown as.
+Blender stores numbers in single precision, lists of choices without order, and has no property without a
+value. `put` and `take` convert a value there and back. A value that does not survive the conversion is stored
+in the group's `exact` text, and is used while the panel shows the same.
 """
 
 from __future__ import annotations
@@ -22,24 +22,24 @@ from ..shot.settings.schema import Field, Key, fields, plain
 Items = tuple[tuple[str, str, str], ...]
 
 USE = "use_"
-"""Before the name of a property, that of the switch of a number that may be left out."""
+"""Prefix of the property that switches an optional number on."""
 
-_SHORT = {"cpu", "edl", "eevee", "fps", "gpu", "lwir", "mwir", "rgb"}  # names that are written in capitals
-_LARGEST = 2**31 - 1  # what Blender keeps as a whole number
+_SHORT = {"cpu", "edl", "eevee", "fps", "gpu", "lwir", "mwir", "rgb"}  # names in capitals
+_LARGEST = 2**31 - 1  # stored by Blender as an integer
 _NUMBERS = (int, float)
-_UNITS = {"m": "LENGTH", "s": "TIME_ABSOLUTE"}  # those that Blender shows itself
+_UNITS = {"m": "LENGTH", "s": "TIME_ABSOLUTE"}  # units that Blender displays
 _RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"}
 
 
 def prop(kind: type, name: str, first: tuple[str, str, str] | None = None, **options: Any) -> Any:
-    """The Blender property of the key `name` of a dataclass of settings.
+    """Blender property of the key `name` of a settings dataclass.
 
     Parameters
     ----------
     first
         A further choice (identifier, name, description) before the schema's, which becomes the default.
     options
-        Given on to `bpy.props`, in place of what the schema says.
+        Arguments for `bpy.props` that override those of the schema.
     """
     part = next(part for part in fields(kind) if part.name == name)
     about = {"name": label(name), "description": sentence(part.key.described())}
@@ -50,18 +50,18 @@ def prop(kind: type, name: str, first: tuple[str, str, str] | None = None, **opt
 
 
 def switch(part: Field, **options: Any) -> Any:
-    """The Blender property that says whether a number stands at all; `options` as those of `prop`."""
+    """Blender property that switches an optional number on; `options` as in `prop`."""
     text = f"Set this value: {part.key.described()}"
     return bpy.props.BoolProperty(name=label(part.name), description=text, default=False, **options)
 
 
 def switched(part: Field) -> bool:
-    """Whether a number may be left out; empty texts say so themselves."""
+    """Whether a number is optional and needs a switch; an empty text needs none."""
     return part.default is None and (part.type in _NUMBERS or typing.get_origin(part.type) is tuple)
 
 
 def items(key: Key) -> Items:
-    """The choices of a key as those of an enumeration."""
+    """Choices of a key as enumeration items."""
     return tuple((name, label(name), sentence(words)) for name, words in key.names().items())
 
 
@@ -71,18 +71,18 @@ def label(name: str) -> str:
 
 
 def heading(part: Field) -> str:
-    """The label of a key in a panel, with the unit where Blender does not show it behind the number."""
+    """Label of a key in a panel, with the unit where Blender does not display it after the number."""
     unit = "UTC" if part.type is datetime else part.key.unit
     return f"{label(part.name)} ({unit})" if unit and unit not in _UNITS else label(part.name)
 
 
 def sentence(text: str) -> str:
-    """Text with a capital first letter; Blender wants no period at its end."""
+    """Text with a capital first letter; Blender tooltips have no final period."""
     return text[:1].upper() + text[1:]
 
 
 def put(group: bpy.types.PropertyGroup, part: Field, value: Any) -> None:
-    """Let a group's property show a value of the key."""
+    """Set a group's property to a value of the key."""
     exact = json.loads(group.exact or "{}")
     exact.pop(part.name, None)
     _show(group, part, value)
@@ -97,7 +97,7 @@ def take(group: bpy.types.PropertyGroup, part: Field, exact: dict[str, Any] | No
     Raises
     ------
     Error
-        A text that is typed in is no such value.
+        A typed text is no valid value.
     """
     exact = json.loads(group.exact or "{}") if exact is None else exact
     kept = _restored(part, exact[part.name]) if part.name in exact else _ABSENT
@@ -111,7 +111,7 @@ def shows(group: bpy.types.PropertyGroup, part: Field, value: Any) -> bool:
 
 
 def differs(group: bpy.types.PropertyGroup, part: Field) -> bool:
-    """Whether a property shows something else than the default."""
+    """Whether a property differs from the default."""
     return not shows(group, part, part.default)
 
 
@@ -119,14 +119,14 @@ _ABSENT = object()
 
 
 def _stored(value: Any) -> Any:
-    """A value as JSON keeps it whole."""
+    """JSON of a value, without loss."""
     if isinstance(value, datetime):
         return value.isoformat()
     return list(value) if isinstance(value, tuple) else str(value) if isinstance(value, Path) else value
 
 
 def _restored(part: Field, stored: Any) -> Any:
-    """The value that `_stored` has kept, if the key still has its type."""
+    """Value from `_stored` JSON, if it is valid for the key."""
     try:
         if part.type is datetime:
             return datetime.fromisoformat(stored)
@@ -146,7 +146,7 @@ def _show(group: bpy.types.PropertyGroup, part: Field, value: Any) -> None:
 
 
 def stored_value(group: bpy.types.PropertyGroup, part: Field) -> tuple[bool, Any]:
-    """What the panel shows: whether the value stands, and the value as Blender keeps it."""
+    """The panel's value: whether it is switched on, and the value as stored by Blender."""
     if switched(part) and not getattr(group, USE + part.name):
         return False, None
     value = getattr(group, part.name)
@@ -154,7 +154,7 @@ def stored_value(group: bpy.types.PropertyGroup, part: Field) -> tuple[bool, Any
 
 
 def _as_shown(part: Field, value: Any) -> tuple[bool, Any]:
-    """What `shown` says where the property shows `value`."""
+    """Result of `shown` for a property set to `value`."""
     if value is None:
         return (False, None) if switched(part) else (True, "")
     if isinstance(value, datetime):
@@ -174,7 +174,7 @@ def _as_shown(part: Field, value: Any) -> tuple[bool, Any]:
 
 
 def _number(part: Field, value: float) -> float:
-    """A number as Blender keeps it: within bounds, of 32 bits."""
+    """A number as stored by Blender: clamped, in single precision."""
     low, high = _bounds(part)
     if isinstance(value, int):
         return min(max(value, low if low is not None else -_LARGEST - 1), min(high or _LARGEST, _LARGEST))
@@ -184,7 +184,7 @@ def _number(part: Field, value: float) -> float:
 
 
 def _value(group: bpy.types.PropertyGroup, part: Field) -> Any:
-    """The value of the key as a property alone tells it: of numbers the shortest that looks the same."""
+    """Value of the key from its property only: for numbers the shortest decimal of equal single precision."""
     use, value = stored_value(group, part)
     if not use:
         return None
@@ -207,7 +207,7 @@ def _shortest(value: Any) -> Any:
 
 
 def _listed(part: Field, text: str) -> tuple[Any, ...]:
-    """A list that is typed in as ``1, 2.5``."""
+    """Parse a typed list such as ``1, 2.5``."""
     try:
         found = json.loads(f"[{text}]")
     except ValueError:
@@ -219,7 +219,7 @@ def _listed(part: Field, text: str) -> tuple[Any, ...]:
 
 
 def _moment(part: Field, text: str) -> datetime:
-    """A time that is typed in, in UTC where it names no zone."""
+    """Parse a typed time; UTC without a zone."""
     try:
         found = datetime.fromisoformat(text.strip())
     except ValueError:
@@ -236,14 +236,14 @@ def _choice(part: Field, first: tuple[str, str, str] | None) -> dict[str, Any]:
 
 
 def _bounds(part: Field) -> tuple[float | None, float | None]:
-    """The least and the largest number that the property takes; what must be above 0 begins close by."""
+    """Bounds of the number property; an exclusive bound of 0 becomes a small positive number."""
     key = part.key
     above = None if key.above is None else key.above + (1 if part.type is int else 1.0e-4)
     return key.at_least if key.at_least is not None else above, key.at_most
 
 
 def _plain(part: Field) -> tuple[Any, dict[str, Any]]:
-    """What makes the property of a key without choices, and what it is given."""
+    """Property type and arguments of a key without choices."""
     kind, inner = part.type, typing.get_args(part.type)
     default = None if part.default is None else _as_shown(part, part.default)[1]
     if kind is bool:

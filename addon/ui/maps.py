@@ -1,4 +1,4 @@
-"""Thumbnails of the run's fuel and fire in the sidebar; drawn when a run is read, kept till the next."""
+"""Thumbnail maps of the run's fuel and fire in the sidebar; drawn when a run is read, then cached."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _kept: dict[str, bpy.utils.previews.ImagePreviewCollection] = {}
 
 
 def show(run: str, images: Images) -> None:
-    """Let these maps be those of a run folder, in place of all others."""
+    """Replace all maps by those of a run folder."""
     forget()
     kept = _kept[run] = bpy.utils.previews.new()
     for name, pixels in images.items():
@@ -24,19 +24,19 @@ def show(run: str, images: Images) -> None:
 
 
 def icon(run: str, name: str) -> int:
-    """Number of the icon that shows a map of a run folder; 0: none is drawn."""
+    """Icon number of a map of a run folder; 0: none is drawn."""
     kept = _kept.get(run)
     return kept[name].icon_id if kept is not None and name in kept else 0
 
 
 def forget() -> None:
-    """Let go of all maps."""
+    """Free all maps."""
     while _kept:
         bpy.utils.previews.remove(_kept.popitem()[1])
 
 
 def draw(layout: bpy.types.UILayout, run: str) -> None:
-    """Both maps side by side, with what they are."""
+    """Draw both maps side by side, with captions."""
     if not icon(run, "fuel"):
         return
     row = layout.row()

@@ -1,4 +1,4 @@
-"""Cameras from what is seen in the window: new ones, keys where one has flown to, and lenses."""
+"""Cameras from the 3D view: new cameras, keyframes at the view's position, and lenses."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from . import camera_edits, camera_list, choice, job, keys, run, working
 from .job import InThread, Message, Steps
 from .working import Working
 
-_AHEAD = 2000.0  # m, where a view looks that meets no ground
-_SENSOR = 36.0  # mm, of the lens that stands in for a view
+_AHEAD = 2000.0  # m, distance of the view's target where its ray misses the terrain
+_SENSOR = 36.0  # mm, focal length that stands in for a view
 
-_kinds: list[tuple[str, str, str]] = []  # Blender keeps no reference of its own to these texts
+_kinds: list[tuple[str, str, str]] = []  # Blender holds no reference of its own to these texts
 
 
 def space(context: bpy.types.Context) -> bpy.types.SpaceView3D | None:
@@ -31,7 +31,7 @@ def space(context: bpy.types.Context) -> bpy.types.SpaceView3D | None:
 
 
 def eye(context: bpy.types.Context) -> tuple[Matrix, float, float]:
-    """Where the 3D view looks from, as a camera's matrix, and a lens and a chip (mm) that show as much."""
+    """The 3D view as a camera: matrix, and a focal length and sensor (mm) of equal field of view."""
     shown, camera = space(context), context.scene.camera
     region = shown.region_3d if shown is not None else None  # the sidebar's own region has none
     if shown is None or region is None or (region.view_perspective == "CAMERA" and camera is not None):
@@ -44,7 +44,7 @@ def eye(context: bpy.types.Context) -> tuple[Matrix, float, float]:
 
 
 def view(stage: owned.Stage, matrix: Matrix, lens: float, sensor: float) -> View:
-    """What is seen from there, for kinds of camera to be made of."""
+    """View from this camera, from which rigs are created."""
     frame = read_edits.built_frame(stage)
     place, turn = read_edits.pose_of(matrix)
     met = ground_raycast.hit(stage, place, -turn[:, 2])
@@ -68,7 +68,7 @@ def view(stage: owned.Stage, matrix: Matrix, lens: float, sensor: float) -> View
 
 
 def flown(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
-    """Whether there is a scene of ours to fly in; says what is missing."""
+    """Whether there is a built scene to navigate; otherwise sets the poll message."""
     if not working.editable(cls, context):
         return False
     if not context.scene.firetwin.first_time:
@@ -77,7 +77,7 @@ def flown(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
 
 
 def filming(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
-    """Whether the scene has a camera that can be changed; says what is missing."""
+    """Whether the scene has an editable camera; otherwise sets the poll message."""
     if not working.editable(cls, context):
         return False
     thing = context.scene.camera
@@ -91,7 +91,7 @@ def filming(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
 
 
 def kind_items(self: object, context: bpy.types.Context) -> list[tuple[str, str, str]]:
-    """Kinds of camera, what is put exactly where one looks from first."""
+    """Kinds of camera; the one with exactly the view's pose comes first."""
     names = sorted(rigs.kinds(), key=lambda name: name != "poses")
     _kinds[:] = [(name, keys.label(name), _first_line(rigs.kinds()[name])) for name in names]
     return _kinds
@@ -115,7 +115,7 @@ class FIRETWIN_OT_camera_add(Working, bpy.types.Operator):
         return flown(cls, context) and run.ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Write its table, then build the cameras again."""
+        """Write its table, then rebuild the cameras."""
         from ..scene import build
 
         scene, kind = context.scene, self.kind
@@ -181,7 +181,7 @@ class FIRETWIN_OT_camera_key(bpy.types.Operator):
             thing.rotation_mode = "QUATERNION"
         thing.location = matrix.translation + Vector((0.0, 0.0, lifted))
         thing.rotation_quaternion = turn
-        turned = () if thing.constraints else ("rotation_quaternion",)  # an aim turns it
+        turned = () if thing.constraints else ("rotation_quaternion",)  # the target constraint rotates it
         for name in ("location", *turned):
             thing.keyframe_insert(name, frame=scene.frame_current)
         if self.lens:
@@ -192,7 +192,7 @@ class FIRETWIN_OT_camera_key(bpy.types.Operator):
         return {"FINISHED"}
 
     def _warn(self, stage: owned.Stage, thing: bpy.types.Object) -> None:
-        """Say where between keys the ground comes too near."""
+        """Warn of frames between keyframes at which the terrain is too close."""
         frames = stage.scene.firetwin.frames
         size = stage.scene.render.resolution_x, stage.scene.render.resolution_y
         places = read_edits.flown(stage.scene, thing, frames, size).place

@@ -1,4 +1,4 @@
-"""Ways to a first scene: open a run or a scene file, drop it on the view, or take the sample run."""
+"""Open operators: open a run or a scene file, drop it on the view, or create the sample run."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class FIRETWIN_OT_open(foreign.Said, bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
     def _convert(self, panel: bpy.types.PropertyGroup) -> set[str]:
-        """Make a run of a model's own files."""
+        """Convert a fire model's own files to a run."""
         words = {name: getattr(self, name) for name in ("filepath", "directory", "start", "at", "projection")}
         files = [{"name": each.name} for each in self.files]
         try:
@@ -126,7 +126,7 @@ class FIRETWIN_OT_sample(Working, bpy.types.Operator):
         return working.editable(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Write it in a worker process, unless it is there; then look into it."""
+        """Write it in a worker process, unless it exists; then inspect it."""
         from ..jobs import sample
 
         uid = context.scene.session_uid
@@ -149,7 +149,7 @@ class FIRETWIN_MT_add(bpy.types.Menu):
 
 
 def entries(layout: bpy.types.UILayout) -> None:
-    """Buttons that open a run."""
+    """Menu entries that open a run."""
     layout.operator_context = "INVOKE_DEFAULT"
     layout.operator(FIRETWIN_OT_open.bl_idname, text="Open run...", icon="FILEBROWSER")
     layout.operator(FIRETWIN_OT_sample.bl_idname, icon="LIGHT_SUN")
@@ -171,13 +171,13 @@ _MENUS = (("TOPBAR_MT_file_import", _import), ("TOPBAR_MT_file_export", _export)
 
 
 def register() -> None:
-    """Put the entries into Blender's menus."""
+    """Add the entries to Blender's menus."""
     for name, draw in _MENUS:
         getattr(bpy.types, name).append(draw)
 
 
 def unregister() -> None:
-    """Take them out again."""
+    """Remove the entries from Blender's menus."""
     for name, draw in _MENUS:
         getattr(bpy.types, name).remove(draw)
 

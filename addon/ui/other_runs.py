@@ -1,4 +1,4 @@
-"""The other runs of the scene file in the .blend file: `scene.firetwin.runs`, an item for each."""
+"""Comparison runs of the scene file in the .blend file: `scene.firetwin.runs`, an item for each."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ FIRETWIN_PG_otherrun = sections.group(OtherRun)
 
 
 def runs(panel: bpy.types.PropertyGroup) -> tuple[OtherRun, ...]:
-    """All of them in their order."""
+    """All comparison runs in their order."""
     return tuple(sections.take(item, fields(OtherRun), OtherRun()) for item in panel.runs)
 
 
 def fill(panel: bpy.types.PropertyGroup, found: Iterable[OtherRun]) -> None:
-    """Let the list hold these runs alone."""
+    """Replace the list by these runs."""
     panel.runs.clear()
     for each in found:
         sections.put(panel.runs.add(), fields(OtherRun), each)

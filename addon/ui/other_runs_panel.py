@@ -1,4 +1,4 @@
-"""The other runs of the scene file in the sidebar."""
+"""Panel of comparison runs in the sidebar."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Places of the panels in the sidebar, after Run, Scene and Time, and titles of those made of the schema."""
+"""Order of the sidebar's panels after Run, Scene and Time, and titles of those generated from the schema."""
 
 from . import keys
 
@@ -6,5 +6,5 @@ SECTIONS, CAMERAS, SENSORS, RENDER, REPORT = 3, 30, 31, 40, 50
 
 
 def title(section: str) -> str:
-    """What the panel of a section of a scene file is called."""
+    """Title of the panel for a section of a scene file."""
     return {"thermal": "Sensors"}.get(section, keys.label(section))

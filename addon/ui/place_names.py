@@ -1,4 +1,4 @@
-"""Places with names: the user's list of [labels], or else those that are known of the run's fire."""
+"""Place names: the user's list of [labels], or else the known places of the run's fire."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from . import run
 
 
 def known(panel: bpy.types.PropertyGroup) -> tuple[labels.Label, ...]:
-    """All of them; none where the user's list cannot be read, which building the places says."""
+    """All place names; empty if the user's list cannot be read, which building the labels reports."""
     if not panel.labels.file:
         found = run.read(panel.facts).get("places", ()) if panel.facts else ()
         return tuple(labels.Label(*each) for each in found)
@@ -30,7 +30,7 @@ def _read(path: Path, changed: int) -> tuple[labels.Label, ...]:
 
 
 def find(panel: bpy.types.PropertyGroup, text: str) -> labels.Label | None:
-    """The place with this name, or the first whose name has it."""
+    """The place of this name, or the first whose name contains it."""
     wanted = text.strip().lower()
     found = [place for place in known(panel) if wanted and wanted in place.name.lower()]
     return min(found, key=lambda place: place.name.lower() != wanted, default=None)

@@ -1,4 +1,4 @@
-"""What an artist chooses once for all files."""
+"""Add-on preferences, for all files of this machine."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from . import keys
 
 _PACKAGE = __package__.rpartition(".")[0]
 AS_FILE = ("scene", "As in the scene", "Device of the scene's settings")
-"""The choice that leaves the scene file its word."""
+"""Choice of the scene file's own value."""
 
 
 class FIRETWIN_AP_preferences(bpy.types.AddonPreferences):
@@ -26,7 +26,7 @@ class FIRETWIN_AP_preferences(bpy.types.AddonPreferences):
 
 
 def device() -> str:
-    """What Cycles renders on, as `source.ShotSource` takes it: empty as the scene file says."""
+    """Render device of Cycles for `source.ShotSource`: empty for the scene file's."""
     addon = bpy.context.preferences.addons.get(_PACKAGE)
     chosen = addon.preferences.device if addon is not None and addon.preferences is not None else AS_FILE[0]
     return "" if chosen == AS_FILE[0] else chosen

@@ -1,4 +1,4 @@
-"""What the panel remembers in the .blend file: the settings of a scene file, and what is its own."""
+"""Scene properties in the .blend file: the settings of a scene file, and the panel's own state."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ class FIRETWIN_PG_scene(bpy.types.PropertyGroup, _Settings):
 
 
 def copy(source: bpy.types.Scene, target: bpy.types.Scene) -> None:
-    """Give another scene's panel the same settings, choices and facts, while a work goes on."""
+    """Copy settings, choices and facts to another scene's panel, during a running task."""
     scene_file.fill(target, scene_file.settings(source))
     own = (
         name for name in FIRETWIN_PG_scene.__annotations__ if name not in ("runs", "cameras", "model_time")

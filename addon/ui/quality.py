@@ -1,4 +1,4 @@
-"""How much work goes into a picture: many settings at once, by three steps or by presets that people save."""
+"""Quality levels and presets: many settings at once, by three levels or by presets that users save."""
 
 from __future__ import annotations
 
@@ -38,23 +38,23 @@ _STEPS: dict[str, tuple[str, tuple[Any, ...]]] = {
     ),
 }
 LEVELS = {name: dict(zip(_MOVED, values, strict=True)) for name, (_, values) in _STEPS.items()}
-"""Settings by section and key, of each step of quality."""
+"""Settings by section and key, of each level of quality."""
 
 _ITEMS = [(name, keys.label(name), words) for name, (words, _) in _STEPS.items()]
 
 _NOT_SAVED = {"time": ("start", "end"), "terrain": ("elevation", "photo", "photo_extent", "land_use")}
-"""What belongs to a run, and so into no preset."""
+"""Settings of a run, which presets leave out."""
 
 
 def apply(panel: bpy.types.PropertyGroup, level: str) -> None:
-    """Set everything that a step of quality names."""
+    """Apply all settings of a quality level."""
     for (section, name), value in LEVELS[level].items():
         group, part = _found(panel, section, name)
         keys.put(group, part, value)
 
 
 def level(panel: bpy.types.PropertyGroup) -> str:
-    """The step of quality that the panel has; empty: none."""
+    """Current quality level of the panel; empty: none."""
     for each, values in LEVELS.items():
         if all(keys.shows(*_found(panel, *place), value) for place, value in values.items()):
             return each
@@ -111,7 +111,7 @@ class FIRETWIN_OT_preset(AddPresetBase, bpy.types.Operator):
 
     @property
     def preset_values(self) -> list[str]:
-        """What is saved: every setting but those that belong to a run."""
+        """Values of a preset: every setting except those of a run."""
         found = ["firetwin.seed"]
         for section in sections.sections():
             names = [
@@ -143,7 +143,7 @@ class FIRETWIN_MT_presets(bpy.types.Menu):
 
 
 def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup) -> None:
-    """Steps of quality, the present one pressed, and the presets."""
+    """Draw the quality levels, the current one pressed, and the presets."""
     row = layout.row(align=True)
     row.enabled = job.Job.current is None
     here = level(panel)

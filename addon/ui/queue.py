@@ -1,4 +1,4 @@
-"""What renders beside the window, one after the other: the file as it stood when each was asked for."""
+"""Render queue: background renders one after the other, each of a copy of the file when it was queued."""
 
 from __future__ import annotations
 
@@ -19,25 +19,25 @@ from ..shot.source import ShotSource
 from . import job
 
 WAITING, RENDERING, PAUSED, DONE, FAILED = "waiting", "rendering", "paused", "done", "failed"
-_TICK = 0.5  # s between two looks
+_TICK = 0.5  # s between two polls
 _SHOWN = 6  # thumbnails
 
 Run = Callable[..., int]
-"""What renders: `render_blend.run`."""
+"""Render function: `render_blend.run`."""
 
 
 @dataclass
 class Item:
-    """One .blend file to render.
+    """One queued .blend file.
 
     Attributes
     ----------
     folder
         Temporary, with the copy of the file in it.
     resume
-        Whether something of it is finished already.
+        Whether some of it is finished already.
     finished
-        Pictures to show, those finished last at the end.
+        Pictures to show, in order of completion.
     """
 
     title: str
@@ -65,12 +65,12 @@ class Item:
 
     @property
     def factor(self) -> float:
-        """How much of it is done, 0 to 1."""
+        """Completed fraction, 0 to 1."""
         return self.done / self.total if self.total else float(self.state == DONE)
 
     @property
     def text(self) -> str:
-        """How far it is and how long it will take."""
+        """Status text: progress and remaining time."""
         if self.state != RENDERING:
             return f"{self.state.capitalize()}{f': {self.told}' if self.told else ''}"
         if not self.total:
@@ -82,7 +82,7 @@ class Item:
         return f"{words}, {duration(left)} left"
 
     def start(self) -> None:
-        """Render in a thread of its own, which waits for the worker process."""
+        """Start rendering in a thread, which waits for the worker process."""
         self.state, self.told, self.stop = RENDERING, "", worker.Stop()
         self.began = self.began or time.time()
         asked = RenderRequest(**{**vars(self.asked), "resume": self.resume})
@@ -116,8 +116,8 @@ class Item:
     def _tell(self, text: str) -> None:
         self.told = text
 
-    def look(self) -> None:
-        """See which pictures have been finished."""
+    def poll(self) -> None:
+        """Poll for finished pictures."""
         known = set(self.finished)
         new = [
             path
@@ -127,7 +127,7 @@ class Item:
         self.finished += sorted(new, key=lambda path: path.stat().st_mtime)
 
     def drop(self) -> None:
-        """End it, and remove the copy of the file."""
+        """Cancel it, and remove the copy of the file."""
         self.stop.now()
         if self._thread is not None:
             self._thread.join(timeout=5.0)
@@ -139,7 +139,7 @@ _pictures: dict[str, bpy.utils.previews.ImagePreviewCollection] = {}
 
 
 def add(title: str, scene: bpy.types.Scene, choice: ShotSource, asked: RenderRequest, render: Run) -> Item:
-    """Save a copy of the open file as it is, and let it stand in line.
+    """Save a copy of the open file in its current state, and append it to the queue.
 
     Raises
     ------
@@ -149,7 +149,7 @@ def add(title: str, scene: bpy.types.Scene, choice: ShotSource, asked: RenderReq
     folder = Path(tempfile.mkdtemp(prefix="firetwin-render-"))
     item = Item(title, folder, scene.name, choice, asked, render)
     try:
-        if choice.scene:  # written for this session alone
+        if choice.scene:  # written for this session only
             kept = folder / "scene.toml"
             shutil.copyfile(choice.scene, kept)
             item.choice = ShotSource(**{**choice.plain(), "scene": str(kept)})
@@ -158,29 +158,29 @@ def add(title: str, scene: bpy.types.Scene, choice: ShotSource, asked: RenderReq
         shutil.rmtree(folder, ignore_errors=True)
         raise
     items.append(item)
-    wake()
+    start_timer()
     return item
 
 
-def wake() -> None:
-    """Look after the queue again."""
+def start_timer() -> None:
+    """Restart the queue's timer."""
     if not bpy.app.timers.is_registered(_tick):
         bpy.app.timers.register(_tick, first_interval=0.0, persistent=True)
 
 
 def current() -> Item | None:
-    """What is rendered now."""
+    """The item being rendered."""
     return next((item for item in items if item.state == RENDERING), None)
 
 
 def advance() -> None:
-    """Begin with the next one where nothing is rendered."""
+    """Start the next item if none is rendered."""
     if current() is None and (waiting := next((item for item in items if item.state == WAITING), None)):
         waiting.start()
 
 
 def pause(item: Item) -> None:
-    """Stop it; what is finished is kept, and `go_on` renders the rest."""
+    """Pause it; finished pictures are retained, and `go_on` renders the rest."""
     if item.state == RENDERING:
         item.stop.now()
     elif item.state == WAITING:
@@ -188,19 +188,19 @@ def pause(item: Item) -> None:
 
 
 def go_on(item: Item) -> None:
-    """Let it stand in line again."""
+    """Resume: put it back into the queue."""
     if item.state in (PAUSED, FAILED):
         item.state = WAITING
 
 
 def remove(item: Item) -> None:
-    """Take it out of the line."""
+    """Remove it from the queue."""
     items.remove(item)
     item.drop()
 
 
 def clear() -> None:
-    """End everything."""
+    """Cancel and remove all items."""
     if bpy.app.timers.is_registered(_tick):
         bpy.app.timers.unregister(_tick)
     while items:
@@ -211,7 +211,7 @@ def clear() -> None:
 
 
 def thumbnails(item: Item) -> list[tuple[str, int]]:
-    """Names and icons of the pictures finished last."""
+    """Names and icons of the last finished pictures."""
     from bpy.utils import previews
 
     if "" not in _pictures:
@@ -231,6 +231,6 @@ def _tick() -> float | None:
     advance()
     busy = current()
     if busy is not None:
-        busy.look()
+        busy.poll()
     working.redraw()
     return _TICK if busy is not None or any(item.state == WAITING for item in items) else None

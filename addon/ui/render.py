@@ -1,4 +1,4 @@
-"""Render frames and films, exactly as the command line does."""
+"""Render operator: pictures and films, as the command line renders them."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from .text import paragraph
 from .working import Working
 
 NO_OUTPUT = "Save the .blend file or choose an output folder first"
-_items: list[tuple[str, str, str]] = []  # Blender keeps no reference of its own to these texts
+_items: list[tuple[str, str, str]] = []  # Blender holds no reference of its own to these texts
 
 
 def camera_items(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> list[tuple[str, str, str]]:
-    """All cameras, or one of the list."""
+    """Enumeration items: all cameras, or one of the list."""
     _items[:] = [
         ("*", "All cameras", "Every camera of the scene"),
         *((item.name, item.name, f"The camera {item.name}") for item in settings.cameras),
@@ -46,7 +46,7 @@ class FIRETWIN_OT_render(Working, bpy.types.Operator):
         return run.ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """All of it in a worker process."""
+        """Run the job in a worker process."""
         from ..jobs import render
 
         settings = context.scene.firetwin

@@ -1,4 +1,4 @@
-"""What there is to tell of the run and of the last work."""
+"""Report panel: facts of the run and messages of the last task."""
 
 from __future__ import annotations
 

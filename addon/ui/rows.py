@@ -1,4 +1,4 @@
-"""A setting in the sidebar: its label, its value, and a mark where it differs from its default."""
+"""Setting row in the sidebar: label, value, and a reset button where it differs from its default."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from ..shot.settings.schema import Field, fields
 from . import keys, sections, working
 from .text import labelled
 
-_LABEL = 0.48  # of the width
-_LETTERS = 17  # of a label that has room in it, in a sidebar of the usual width
+_LABEL = 0.48  # fraction of the width
+_LETTERS = 17  # characters of a label that fits into it, in a sidebar of the default width
 
 
 def key(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field, section: str) -> None:
@@ -26,7 +26,7 @@ def key(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field,
 
 
 def _value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field) -> bpy.types.UILayout:
-    """Draw the label and the value; where its mark comes."""
+    """Draw the label and the value; returns the row for the reset button."""
     text = keys.heading(part)
     if part.type is bool:
         row.prop(group, part.name, text=text)
@@ -52,7 +52,7 @@ def _value(row: bpy.types.UILayout, group: bpy.types.PropertyGroup, part: Field)
 
 
 def _long(part: Field) -> bool:
-    """Whether a key wants the width of the sidebar: paths, moments, lists, and labels that need it."""
+    """Whether a key needs the width of the sidebar: paths, times, lists, and labels that need it."""
     if part.type in (int, float):
         return len(keys.heading(part)) > _LETTERS and not keys.switched(part)
     return part.type is not str or part.key.choices is None

@@ -1,4 +1,4 @@
-"""Choose a run or a scene file, and see what is in it."""
+"""Run panel: select a run or a scene file, and inspect it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .working import Working
 
 
 def chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """Another run folder: look into it."""
+    """Update callback: inspect another run folder."""
     changed_settings.compare(settings)
     if job.Job.current is not None:
         return
@@ -32,7 +32,7 @@ def chosen(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> Non
 
 
 def imported(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    """Another scene file: fill the panel from it."""
+    """Update callback: fill the panel from another scene file."""
     if job.Job.current is not None or not settings.scene_file:
         return
     try:
@@ -43,7 +43,7 @@ def imported(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> N
 
 
 def _inspect(settings: bpy.types.PropertyGroup) -> None:
-    """Look into a run, or make one of a model's own files; what fails is in `problem`, and no error here."""
+    """Inspect a run, or convert a model's own files; errors go into `problem` and are not raised."""
     folder = Path(bpy.path.abspath(settings.run))
     try:
         with bpy.context.temp_override(scene=settings.id_data):
@@ -56,7 +56,7 @@ def _inspect(settings: bpy.types.PropertyGroup) -> None:
 
 
 def ready(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
-    """Whether there is a run and nothing else goes on; says what is missing."""
+    """Whether there is a run and no task is running; otherwise sets the poll message."""
     settings = context.scene.firetwin
     if not settings.run:
         cls.poll_message_set("Open a run or a scene file first")
@@ -76,12 +76,12 @@ class FIRETWIN_OT_inspect(Working, bpy.types.Operator):
         return ready(cls, context)
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """Gather, and see whether the settings fit the run."""
+        """Inspect the run, and check whether the settings fit it."""
         return (yield from look(context.scene.session_uid))
 
 
 def look(uid: int) -> Steps:
-    """Gather in a thread, then write down in the scene with this `session_uid`."""
+    """Inspect in a thread, then store the facts in the scene with this `session_uid`."""
     settings = owned.scene(uid).firetwin
     settings.problem = ""
     folder = Path(bpy.path.abspath(settings.run))
@@ -104,7 +104,7 @@ def look(uid: int) -> Steps:
 
 
 def facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
-    """What the panel shows of a run: name, rows, warnings, dated moments, and what fits it; and its maps."""
+    """Facts of a run for the panel: name, rows, warnings, dated events, framing; and its maps."""
     from ..run import info, labels, thumbnails, zone
 
     run = readers.open(folder)
@@ -126,7 +126,7 @@ def facts(folder: Path) -> tuple[dict[str, Any], maps.Images]:
 
 
 def _moments(found: dict[str, Any]) -> list[tuple[str, str]]:
-    """Dated moments: where the run begins and ends, and what was reported between."""
+    """Dated events: start and end of the run, and reports between."""
     from ..run import info
 
     reports = (
@@ -139,7 +139,7 @@ def _moments(found: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def _burned(found: dict[str, Any]) -> list[tuple[str, str, str]]:
-    """Burned areas: when, what was reported, and the run's with its difference."""
+    """Burned areas: date, reported area, and the run's area with its difference."""
     from ..run import info, times
 
     return [
@@ -155,7 +155,7 @@ def _burned(found: dict[str, Any]) -> list[tuple[str, str, str]]:
 
 @functools.lru_cache(maxsize=8)
 def read(text: str) -> dict[str, Any]:
-    """`facts` from the text that the .blend file keeps."""
+    """Facts from the text stored in the .blend file."""
     return json.loads(text)
 
 
@@ -189,7 +189,7 @@ class FIRETWIN_PT_run(bpy.types.Panel):
 
 
 def _hint(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
-    """What to do first."""
+    """Hint for the first step."""
     paragraph(context, layout.column(align=True), "Open a run, or try the synthetic King Fire.", "INFO")
     row = layout.column(align=True)
     row.operator("firetwin.open", text="Open run...", icon="FILEBROWSER")

@@ -1,7 +1,7 @@
-"""What the panel says as settings, and scene files in and out of it.
+"""Scene file of the panel: its values as settings, import and export.
 
-What is built and rendered is always the scene file that the panel would export: `written` writes it, and the
-jobs are given its name.
+Build and render always use the scene file that the panel would export: `written` writes it, and the jobs get
+its path.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from . import camera_edits, camera_list, keys, other_runs, sections
 
 
 def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Settings:
-    """What the panel of a scene says, checked, as the settings of the file `path`.
+    """Validated settings of a scene's panel, as those of the file `path`.
 
     Raises
     ------
     Error
-        Says what is wrong, in the panel's words.
+        What is wrong, in the terms of the panel.
     """
     panel = scene.firetwin
     cache = panel.cache or output(panel, "cache") or own_folder() / "cache"
@@ -39,7 +39,7 @@ def settings(scene: bpy.types.Scene, path: Path = Path("scene.toml")) -> Setting
 
 
 def fill(scene: bpy.types.Scene, whole: Settings) -> None:
-    """Let the panel of a scene say these settings; the run is looked into."""
+    """Set the panel of a scene to these settings, and inspect the run."""
     panel = scene.firetwin
     sections.put(panel, sections.single() + sections.sections(), whole)
     camera_list.fill(panel, whole.cameras)
@@ -49,14 +49,14 @@ def fill(scene: bpy.types.Scene, whole: Settings) -> None:
 
 
 def output(panel: bpy.types.PropertyGroup, *inside: str) -> str:
-    """The output folder, or what is in it; empty while it hangs on a .blend file that is not saved."""
+    """The output folder, or its default; empty while it depends on an unsaved .blend file."""
     if panel.output.startswith("//") and not bpy.data.filepath:
         return ""
     return str(Path(bpy.path.abspath(panel.output), *inside)) if panel.output else ""
 
 
 def own_folder() -> Path:
-    """Where Firetwin keeps files of its own on this computer; they go with the extension."""
+    """Folder of Firetwin's own files on this computer, which is removed with the extension."""
     try:
         return Path(bpy.utils.extension_path_user(__package__.rpartition(".")[0]))
     except ValueError:  # not installed as an extension
@@ -64,28 +64,28 @@ def own_folder() -> Path:
 
 
 def export(scene: bpy.types.Scene, path: Path) -> None:
-    """Write what the panel says, with what was done to cameras by hand, as a scene file.
+    """Write the panel's settings, with manual edits of cameras, as a scene file.
 
-    In a file that is there only what changed is written; its comments and layout stay.
+    In an existing file only changed values are written; its comments and layout stay.
 
     Raises
     ------
     Error
-        The panel holds what no scene file may.
+        The panel holds a value that is invalid in a scene file.
     InputError
-        It cannot be written.
+        The file cannot be written.
     """
     camera_edits.pull(scene)
     toml_update.save(settings(scene, path))
 
 
 def folder() -> Path:
-    """Where scene files lie that are written for the jobs alone, until Blender ends."""
+    """Temporary folder of scene files for jobs, until Blender ends."""
     return Path(bpy.app.tempdir) / "firetwin"
 
 
 def written(scene: bpy.types.Scene) -> Path:
-    """The panel's scene file, written for a job; another text gets another name."""
+    """Path of the panel's scene file, written for a job; its name changes with its text."""
     text = scene_file.text(settings(scene, folder() / "scene.toml"))
     path = folder() / f"{hashlib.sha256(text.encode()).hexdigest()[:16]}.toml"
     if not path.is_file():

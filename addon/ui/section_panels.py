@@ -1,4 +1,4 @@
-"""Panels of the sidebar made from the settings' schema, in the order of work: one for each section."""
+"""Section panels of the sidebar, generated from the settings' schema: one for each section."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from ..shot.settings.schema import Field, fields
 from . import build, job, keys, panel_order, rows, sections
 
 _OWN = ("time",)  # drawn by a panel of its own
-_BELOW = {"render": "FIRETWIN_PT_render"}  # sections that stand in another panel
+_BELOW = {"render": "FIRETWIN_PT_render"}  # sections inside another panel
 _LATE = ("thermal",)  # after the cameras
 
 
 def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup, name: str) -> None:
-    """Every key of a section, those that differ from their default marked by a button that resets them."""
+    """Draw every key of a section; those that differ from their default have a reset button."""
     section = next(part for part in sections.sections() if part.name == name)
     group = getattr(panel, name)
     column = layout.column(align=False)
@@ -27,7 +27,7 @@ def draw(layout: bpy.types.UILayout, panel: bpy.types.PropertyGroup, name: str) 
 
 
 def _panel(section: Field, place: int) -> type[bpy.types.Panel]:
-    """The panel of a section; that of a part that can be built alone has a button for it in its head."""
+    """Panel class of a section; a part that can be built on its own has a rebuild button in its header."""
     name = section.name
 
     def drawn(self: bpy.types.Panel, context: bpy.types.Context) -> None:

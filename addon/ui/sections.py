@@ -1,7 +1,7 @@
-"""The settings in the .blend file: a group of properties per section of a scene file, made of the schema.
+"""Settings in the .blend file: a property group per section of a scene file, generated from the schema.
 
 `scene.firetwin.forest.budget` is the key `budget` of [forest]. A list of tables other than the cameras and
-the other runs is kept as the text of its tables.
+the comparison runs is stored as the text of its tables.
 """
 
 from __future__ import annotations
@@ -19,23 +19,23 @@ from . import changed_settings, keys
 from .tables import from_text, to_text
 
 NOT_HERE = ("path", "run", "cache", "runs", "cameras")
-"""Of `Settings`, what is no section: the panel keeps it in its own way."""
+"""Fields of `Settings` that are no sections: the panel stores them in its own way."""
 
 
 @functools.cache
 def sections() -> tuple[Field, ...]:
-    """The sections of a scene file in their order."""
+    """Sections of a scene file in their order."""
     return tuple(part for part in fields(Settings) if part.table and not part.tables)
 
 
 def single() -> tuple[Field, ...]:
-    """Keys before all sections, and lists of tables, less those that the panel keeps otherwise."""
+    """Keys before all sections, and lists of tables, without those that the panel stores in its own way."""
     found = (part for part in fields(Settings) if not part.table or part.tables)
     return tuple(part for part in found if part.name not in NOT_HERE)
 
 
 def properties(known: tuple[Field, ...], kind: type) -> dict[str, Any]:
-    """Annotations of a group for keys of a dataclass."""
+    """Property annotations of a group for keys of a dataclass."""
     found: dict[str, Any] = {"exact": bpy.props.StringProperty(options={"HIDDEN"})}
     for part in known:
         if part.tables:
@@ -55,7 +55,7 @@ _groups: dict[type, type[bpy.types.PropertyGroup]] = {}
 
 
 def group(kind: type) -> type[bpy.types.PropertyGroup]:
-    """The group of properties of a dataclass of settings; always the same one."""
+    """Property group class of a settings dataclass; always the same one."""
     if kind not in _groups:
         _groups[kind] = type(
             f"FIRETWIN_PG_{kind.__name__.lower()}",
@@ -66,7 +66,7 @@ def group(kind: type) -> type[bpy.types.PropertyGroup]:
 
 
 def groups() -> Iterator[type[bpy.types.PropertyGroup]]:
-    """All groups, those in others first, as Blender wants them registered."""
+    """All property groups, nested ones first, in Blender's order of registration."""
 
     def inner(kind: type) -> Iterator[type[bpy.types.PropertyGroup]]:
         for part in fields(kind):
@@ -80,7 +80,7 @@ def groups() -> Iterator[type[bpy.types.PropertyGroup]]:
 
 
 def put(group: bpy.types.PropertyGroup, known: tuple[Field, ...], values: Any) -> None:
-    """Let a group show the values of a dataclass."""
+    """Set a group to the values of a dataclass."""
     for part in known:
         value = getattr(values, part.name)
         if part.tables:
@@ -92,12 +92,12 @@ def put(group: bpy.types.PropertyGroup, known: tuple[Field, ...], values: Any) -
 
 
 def take(group: bpy.types.PropertyGroup, known: tuple[Field, ...], values: Any) -> Any:
-    """The values of a dataclass with those in it that a group shows.
+    """The dataclass with the values that a group shows.
 
     Raises
     ------
     Error
-        A text that is typed in is not what it should be.
+        A typed text is invalid.
     """
     found: dict[str, Any] = {}
     for part in known:

@@ -1,4 +1,4 @@
-"""Tables of a scene file, such as that of a camera, as text that a property of Blender can keep."""
+"""Tables of a scene file, such as that of a camera, as text in a Blender property."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from ..shot.settings.schema import Field
 
 
 def to_text(part: Field, tables: tuple[Any, ...]) -> str:
-    """A list of tables as the lines of a scene file; paths are absolute, nothing is explained."""
+    """Serialize a list of tables as lines of a scene file; paths are absolute, without comments."""
     return toml_writer.tables(part.name, tables)
 
 
 def from_text(part: Field, text: str) -> tuple[Any, ...]:
-    """The tables that `to_text` has written, or that were typed in.
+    """Parse tables from `to_text`, or typed ones.
 
     Raises
     ------
     InputError
-        Names line and column of what is wrong in the text.
+        Line and column of the mistake in the text.
     """
     return getattr(scene_file.parse(text, Path("scene.toml")), part.name)

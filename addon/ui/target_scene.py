@@ -1,4 +1,4 @@
-"""Which scene the window builds into: one that nobody uses yet, ours, or a new one."""
+"""Target scene of a build: an unused one, our own, or a new one."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ _STARTUP_GREY = (0.05087609,) * 3
 
 
 def prepare(scene: bpy.types.Scene, part: bool) -> tuple[int, str]:
-    """Make ready the scene to build into.
+    """Prepare the scene to build into.
 
     Parameters
     ----------
     part
-        Only a part is built again: where there is something of ours, that is the place.
+        Only a part is rebuilt: a scene that has objects of ours is the target.
 
     Returns
     -------
-    `session_uid` of the scene, what to tell
+    `session_uid` of the scene, message for the user
     """
     if owned.ours(scene) or (part and owned.built(scene)):
         return scene.session_uid, ""
@@ -41,7 +41,7 @@ def prepare(scene: bpy.types.Scene, part: bool) -> tuple[int, str]:
 
 
 def vacant(scene: bpy.types.Scene) -> bool:
-    """Whether a scene holds nothing, or what Blender starts with, untouched."""
+    """Whether a scene is empty, or has only Blender's unchanged startup objects."""
     tree, editor = compat.compositor(scene), scene.sequence_editor
     return (
         (not scene.collection.all_objects or _startup(scene))
@@ -54,7 +54,7 @@ def vacant(scene: bpy.types.Scene) -> bool:
 
 
 def _startup(scene: bpy.types.Scene) -> bool:
-    """Whether there are just the cube, light and camera that a new file begins with."""
+    """Whether there are only the startup file's cube, light and camera."""
     cube = scene.objects.get("Cube")
     return (
         not bpy.data.filepath
@@ -66,7 +66,7 @@ def _startup(scene: bpy.types.Scene) -> bool:
 
 
 def _plain(world: bpy.types.World | None) -> bool:
-    """Whether a world is none, or the grey one that a new file begins with."""
+    """Whether a world is missing, or the grey one of the startup file."""
     if world is None:
         return True
     if world.library is not None or world.animation_data is not None or world.node_tree is None:
@@ -80,7 +80,7 @@ def _plain(world: bpy.types.World | None) -> bool:
 
 
 def _clear(scene: bpy.types.Scene) -> bool:
-    """Remove the startup objects and world of a vacant scene; whether there were such objects."""
+    """Remove the startup objects and world of a vacant scene; returns whether there were such objects."""
     things = list(scene.collection.all_objects)
     bpy.data.batch_remove(things)
     world, scene.world = scene.world, None
@@ -90,14 +90,14 @@ def _clear(scene: bpy.types.Scene) -> bool:
 
 
 def _show(before: bpy.types.Scene, after: bpy.types.Scene) -> None:
-    """Have the present window show another scene."""
+    """Show another scene in the current window."""
     window = bpy.context.window
     if window is not None and window.scene == before:
         window.scene = after
 
 
 def remove(scene: bpy.types.Scene) -> None:
-    """Take away what is ours in a scene; one that was made for it goes too, unless something was added."""
+    """Remove our objects from a scene; a scene created for them is deleted, unless others were added."""
     from ..render import layers
     from ..scene import build
 

@@ -1,4 +1,4 @@
-"""Which moments of the run the frames show, and the one that is shown now."""
+"""Time panel: model times of the frames, and the current time."""
 
 from __future__ import annotations
 
@@ -17,31 +17,31 @@ from .text import labelled
 
 
 def position(settings: bpy.types.PropertyGroup) -> float:
-    """Where between the first frame (0) and the last (1) the scene is."""
+    """Position of the current frame between the first (0) and the last (1)."""
     frame = settings.id_data.frame_current
     return min(max((frame - 1) / max(settings.frames - 1, 1), 0.0), 1.0)
 
 
 def go_to(settings: bpy.types.PropertyGroup, value: float) -> None:
-    """Show the frame nearest to a position."""
+    """Go to the frame nearest to a position."""
     settings.id_data.frame_current = 1 + round(value * max(settings.frames - 1, 0))
 
 
 def remember(settings: bpy.types.PropertyGroup, shot: Shot) -> None:
-    """Keep how frames and model time belong together."""
+    """Store the mapping between frames and model time."""
     settings.first_time = shot.utc(1).isoformat()
     settings.seconds_per_frame = shot.frames.step
     settings.frames, settings.zone = shot.frames.count, shot.settings.time.zone
 
 
 def forget(settings: bpy.types.PropertyGroup) -> None:
-    """Nothing is built any more."""
+    """Delete the mapping: nothing is built."""
     for name in ("first_time", "seconds_per_frame", "frames", "zone"):
         settings.property_unset(name)
 
 
 def shown_time(settings: bpy.types.PropertyGroup) -> datetime:
-    """Moment of the frame that is shown, UTC."""
+    """Time of the current frame, UTC."""
     frame = settings.id_data.frame_current
     return datetime.fromisoformat(settings.first_time) + timedelta(
         seconds=(frame - 1) * settings.seconds_per_frame
@@ -96,13 +96,13 @@ class FIRETWIN_OT_window(bpy.types.Operator):
 
 
 def frame_of(settings: bpy.types.PropertyGroup, moment: datetime) -> float:
-    """Frame that shows a moment, also before the first and after the last."""
+    """Frame of a time, also before the first and after the last frame."""
     since = (moment - datetime.fromisoformat(settings.first_time)).total_seconds()
     return 1 + since / (settings.seconds_per_frame or 1.0)
 
 
 def moments(settings: bpy.types.PropertyGroup) -> list[list[str]]:
-    """Dated moments of the run: each as ISO text and as what it is."""
+    """Dated events of the run: ISO text and description of each."""
     return run.read(settings.facts)["moments"] if settings.facts else []
 
 
@@ -140,7 +140,7 @@ class FIRETWIN_MT_end(bpy.types.Menu):
 
 
 def _ends(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, key: str) -> None:
-    """Dated moments, each as a button that lets the window begin or end there."""
+    """Draw dated events as buttons that set the start or end of the time window."""
     for moment, words in moments(settings):
         text = f"{_local(datetime.fromisoformat(moment), _zone(settings))}, {words}"
         button = layout.operator(FIRETWIN_OT_window.bl_idname, text=text)
@@ -148,20 +148,20 @@ def _ends(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, key: st
 
 
 def _zone(settings: bpy.types.PropertyGroup) -> str:
-    """Zone of the clock: what is chosen, else the run's."""
+    """Time zone of the clock: that of the settings, else the run's."""
     return settings.time.zone or (run.read(settings.facts).get("zone", "") if settings.facts else "")
 
 
 def _local(moment: datetime, zone: str) -> str:
     try:
         return times.text(moment, zone)
-    except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):  # typed in, and not yet right
+    except (zoneinfo.ZoneInfoNotFoundError, ValueError, OSError):  # typed in, and incomplete
         return f"{moment.day} {moment:%b %Y %H:%M} UTC"
 
 
 @functools.lru_cache(maxsize=32)
 def _end(text: str, other: str) -> datetime | None:
-    """A moment of the window: what is typed in, else the run's own; None where neither is one."""
+    """Start or end of the time window: the typed time, else the run's; None without either."""
     try:
         found = datetime.fromisoformat((text or other).strip())
     except ValueError:
@@ -207,7 +207,7 @@ class FIRETWIN_PT_time(bpy.types.Panel):
 
 
 def _clock(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
-    """The moment that is shown, in local time and UTC, and where to go from it."""
+    """Draw the current time, local and UTC, with buttons to go to other times."""
     now = shown_time(settings)
     local = times.text(now, settings.zone)
     layout.prop(settings, "model_time", text=local.split(maxsplit=3)[-1], slider=True)

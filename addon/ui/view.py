@@ -1,4 +1,4 @@
-"""The 3D views of a world of a hundred kilometres: how far they see, and where from."""
+"""Clipping and orientation of 3D views, in a scene a hundred kilometres wide."""
 
 from __future__ import annotations
 
@@ -26,20 +26,20 @@ def spaces(scene: bpy.types.Scene) -> Iterator[bpy.types.SpaceView3D]:
 
 
 def widen(scene: bpy.types.Scene) -> None:
-    """Let the views of a scene see the whole distance, but those whose clipping an artist has set."""
+    """Extend the clipping range of a scene's views to its size, except where an artist has set it."""
     for space in spaces(scene):
         viewport.clip(space, viewport.usual(), (viewport.NEAR, viewport.FAR))
         viewport.coloured(space)
 
 
 def narrow(scene: bpy.types.Scene) -> None:
-    """Give views that `widen` widened the clipping that they had."""
+    """Restore the clipping range of views that `widen` changed."""
     for space in spaces(scene):
         viewport.clip(space, (viewport.NEAR, viewport.FAR), viewport.usual())
 
 
 def look(scene: bpy.types.Scene, whole: bool = False) -> None:
-    """Turn the views of a scene to its camera, or let them see the whole run from the south."""
+    """Align the views of a scene with its camera, or show the whole run from the south."""
     widen(scene)
     for space in spaces(scene):
         region = space.region_3d
@@ -56,7 +56,7 @@ def look(scene: bpy.types.Scene, whole: bool = False) -> None:
 
 
 def remember(settings: bpy.types.PropertyGroup, run: Run) -> None:
-    """Keep how large the run is."""
+    """Store the size of the run."""
     dx, dy = areas.spacing(run.latitude, run.longitude)
     settings.extent = max(dx * len(run.longitude), dy * len(run.latitude))
     settings.height = float(np.nanmean(run.elevation))

@@ -1,9 +1,9 @@
-"""Long work in the window: it shows how far it is, lets people go on looking, and can be stopped.
+"""Modal task operator: shows progress, keeps the window usable, and can be cancelled.
 
-In the background, and when called by a script, the steps of a work follow one another at once. In the
-window they are taken by a modal operator. Esc stops it with the pointer over the sidebar alone: elsewhere it
-belongs to something else. While steps are taken in Blender only the mouse in the sidebar does anything.
-A work that ends in the middle is undone in the window, so that a scene is whole or as it was.
+In the background, and when called by a script, the steps of a task run one after the other at once. In the
+window a modal operator runs them. Esc cancels the task only with the pointer over the sidebar: elsewhere it
+has other meanings. While a step runs in Blender only the mouse in the sidebar is handled. A task that ends
+early is undone in the window, so that a scene is complete or unchanged.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ _ICONS = {"INFO": "INFO", "WARNING": "ERROR", "ERROR": "CANCEL"}
 
 
 def free(cls: type[bpy.types.Operator]) -> bool:
-    """Whether no work goes on; says so where it does."""
+    """Whether no task is running; otherwise sets the poll message."""
     if Job.current is not None:
         cls.poll_message_set(f"{Job.current.name} is not finished; Stop in Firetwin's sidebar ends it")
     return Job.current is None
 
 
 def editable(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
-    """Whether no work goes on and the scene is of this file; says what is in the way."""
+    """Whether no task is running and the scene is editable; otherwise sets the poll message."""
     if context.scene.library is not None:
         cls.poll_message_set("This scene is linked from another file: change it there, or make it local")
         return False
@@ -39,7 +39,7 @@ def editable(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
 
 
 def reported(execute: Callable[..., set[str]]) -> Callable[..., set[str]]:
-    """An operator's `execute` whose errors are reports."""
+    """Decorator of an operator's `execute`: errors become reports."""
 
     @functools.wraps(execute)
     def told(self: bpy.types.Operator, context: bpy.types.Context) -> set[str]:
@@ -60,7 +60,7 @@ def take_back() -> None:
 
 
 def abandon() -> None:
-    """End whatever goes on, without a word: its operator goes away."""
+    """Cancel the running task without a message: its operator ends."""
     if Job.current is not None:
         Job.current.stop.now()
         Job.current = None
@@ -69,7 +69,7 @@ def abandon() -> None:
 
 
 def _watch(on: bool) -> None:
-    """Notice undo and redo, or no longer."""
+    """Start or stop watching for undo and redo."""
     for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
         if _undone in handlers:
             handlers.remove(_undone)
@@ -95,7 +95,7 @@ def over_sidebar(window: bpy.types.Window, event: bpy.types.Event) -> bool:
 
 
 class Working:
-    """An operator whose `steps(context)` are taken one by one while its window stays usable."""
+    """An operator whose `steps(context)` run one by one while its window stays usable."""
 
     _timer: bpy.types.Timer | None = None
 
@@ -107,7 +107,7 @@ class Working:
             """Tell the user."""
 
     def steps(self, context: bpy.types.Context) -> Steps:
-        """The work."""
+        """Steps of the task."""
         raise NotImplementedError
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -127,7 +127,7 @@ class Working:
         return self.begin(context)
 
     def begin(self, context: bpy.types.Context) -> set[str]:
-        """Take the first step when the window is next idle."""
+        """Run the first step when the window is next idle."""
         self.job = Job.current = Job(self.bl_label, self.steps(context))
         self._timer = context.window_manager.event_timer_add(_TICK, window=context.window)
         context.window_manager.modal_handler_add(self)
@@ -136,7 +136,7 @@ class Working:
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if Job.current is not self.job:  # the add-on was switched off
+        if Job.current is not self.job:  # the add-on was disabled
             self._end(context)
             return {"CANCELLED"}
         here = over_sidebar(context.window, event)
@@ -156,7 +156,7 @@ class Working:
             return self._failed(self.job, error, self._goes_back())
         if not over:
             _show(context, self.job)
-            return {"PASS_THROUGH"}  # others wait for timers too
+            return {"PASS_THROUGH"}  # other timers of the window
         self._end(context)
         self._tell(self.job, Message(self.job.told))
         return {"FINISHED"}
@@ -169,7 +169,7 @@ class Working:
         Job.last = JobResult(self.job.name, (gone,), None)
 
     def _tell(self, work: Job, last: Message) -> None:
-        """Report what was told, and keep it for the panel."""
+        """Report the messages, and store them for the panel."""
         told = tuple({each.text: each for each in (*work.said, last) if each.text}.values())  # each once
         Job.last = JobResult(work.name, told, bpy.data.filepath)
         for each in told:
@@ -183,11 +183,11 @@ class Working:
         else:
             self._tell(work, Message(describe_error(error), "ERROR"))
         if back:
-            bpy.app.timers.register(take_back, first_interval=0.0)  # after Blender has kept this step
-        return {"FINISHED"} if work.touched else {"CANCELLED"}  # what is half made can then be undone
+            bpy.app.timers.register(take_back, first_interval=0.0)  # after Blender has pushed this undo step
+        return {"FINISHED"} if work.touched else {"CANCELLED"}  # an incomplete result can be undone then
 
     def _goes_back(self) -> bool:
-        """Whether what is half made can be undone, and nobody has done that."""
+        """Whether an incomplete result can be undone, and was not undone yet."""
         able = not bpy.app.background and bpy.context.preferences.edit.use_global_undo
         return able and self.job.touched and not self.job.undone and "UNDO" in self.bl_options
 
@@ -202,7 +202,7 @@ class Working:
 
 
 def _show(context: bpy.types.Context, work: Job | None) -> None:
-    """Draw the sidebars and the status bar anew."""
+    """Redraw the sidebars and the status bar."""
     if context.workspace is not None:
         how = "Stop in the sidebar, or Esc over it, ends the task"
         context.workspace.status_text_set(f"{work.name}: {work.text}    {how}" if work else None)
@@ -210,7 +210,7 @@ def _show(context: bpy.types.Context, work: Job | None) -> None:
 
 
 def redraw() -> None:
-    """Draw the sidebars anew; the 3D views themselves may take long."""
+    """Redraw the sidebars; the 3D views themselves may be slow."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
@@ -220,7 +220,7 @@ def redraw() -> None:
 
 
 def button(layout: bpy.types.UILayout, operator: type[bpy.types.Operator], icon: str) -> None:
-    """The button of a work; while it goes on, how far it is and a button to stop it, in the same place."""
+    """Button of a task; while it runs, its progress and a stop button in the same place."""
     if Job.current is not None and Job.current.name == operator.bl_label:
         layout.progress(factor=Job.current.factor, text=Job.current.text)
         layout.operator(FIRETWIN_OT_stop.bl_idname, text="", icon="CANCEL")
@@ -231,7 +231,7 @@ def button(layout: bpy.types.UILayout, operator: type[bpy.types.Operator], icon:
 def messages(
     context: bpy.types.Context, layout: bpy.types.UILayout, operator: type[bpy.types.Operator]
 ) -> None:
-    """What the operator's last work had to tell; while it goes on, how it is stopped."""
+    """Draw the messages of the operator's last task; while it runs, the hint how to stop it."""
     column = layout.column(align=True)
     if Job.current is not None and Job.current.name == operator.bl_label:
         text.paragraph(context, column, "Stop, or Esc with the pointer here, ends the task")
@@ -243,12 +243,12 @@ def messages(
 
 
 def copy_button(layout: bpy.types.UILayout, message: str) -> None:
-    """A button that copies what went wrong, with what a helper has to know."""
+    """A button that copies an error message with the details for a support request."""
     layout.operator(FIRETWIN_OT_copy.bl_idname, icon="COPYDOWN").message = message
 
 
 def last_messages(operator: type[bpy.types.Operator]) -> tuple[Message, ...]:
-    """What the last work had to tell, if it was this operator's and in this file."""
+    """Messages of the last task, if it was this operator's and in this file."""
     last = Job.last
     if last is None or last.name != operator.bl_label or last.file not in (None, bpy.data.filepath):
         return ()
@@ -292,7 +292,7 @@ class FIRETWIN_OT_copy(bpy.types.Operator):
 
 
 def details(message: str) -> str:
-    """A message with the versions of what runs here, and the traceback of what was not expected."""
+    """A message with the versions of the software, and the traceback of an unexpected error."""
     import platform
 
     import firetwin_core

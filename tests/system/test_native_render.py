@@ -97,7 +97,7 @@ def test_f12_the_queue_and_the_command_line_render_the_same(panel, tmp_path):
     for path in written:
         assert np.array_equal(_pixels(tmp_path / "f12" / path), _pixels(out / path)), path
     bpy.ops.firetwin.f12_files(on=False)
-    item.look()
+    item.poll()
     assert {path.name for path in item.finished} == {f"Mine_{w}_{FRAME:06d}.png" for w in ("rgb", "thermal")}
     assert not list((tmp_path / "background").rglob(".part-*"))
     queue.remove(item)

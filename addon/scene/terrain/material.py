@@ -178,7 +178,7 @@ def _photographed(
     image: bpy.types.Image,
     ground: nodes.Value,
 ) -> nodes.Value:
-    """Ground in the orthophoto's colour where it has data and nothing burned; no bumps: it has shading."""
+    """The ground in the orthophoto's colour, where it has data and nothing burned. It needs no bumps."""
     shown = _picture(tree, here, picture, image)
     counts = tree.pick(shown, "Alpha") * (1.0 - here.burned)
     return tree.mix_shader(counts, ground, _matt(tree, tree.pick(shown, "Color"), None))
